@@ -24,6 +24,7 @@ pub mod measure;
 mod names;
 pub mod oracle;
 pub mod output;
+pub mod page;
 pub mod registry;
 pub mod render;
 pub mod report;

@@ -17,6 +17,7 @@ mod plan;
 mod progress;
 mod rays;
 mod render;
+mod report;
 mod study;
 mod terminal;
 mod validate;
@@ -109,6 +110,7 @@ enum Command {
     /// Record, import and show files of rays; write rays with exact answers
     Rays(rays::Args),
     /// Write what runs have measured as a page, Markdown and tidy data
+    Report(report::Args),
     /// Answer for one structure and one hard case; what `validate --hard` runs in a process of its own
     #[command(name = validate::CHILD, hide = true)]
     HardAnswer(validate::ChildArgs),
@@ -251,6 +253,7 @@ fn dispatch(session: &Session, matches: &ArgMatches, global: &Global) -> anyhow:
         Command::Diff(args) => diff::run(&args, terminal),
         Command::Validate(args) => validate::run(registry, &args, terminal),
         Command::Rays(args) => rays::run(registry, &args, terminal),
+        Command::Report(args) => report::run(suite, &args, terminal),
         Command::HardAnswer(args) => validate::run_child(registry, &args),
         Command::Fetch(args) => fetch::run(&args, terminal),
         Command::Render(args) => render::run(registry, &args, terminal),

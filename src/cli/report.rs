@@ -10,21 +10,21 @@ use super::terminal::Terminal;
 use crate::output::{OutputFile, OutputFolder};
 use crate::page::results::{self, Results};
 use crate::page::{Runs, document, draw, files, left_out};
-use crate::study::{Status, Studies, sources};
+use crate::study::{Status, Studies};
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// Files of `--export-json`, and folders of them and of journals, of however many machines [default: runs]
+    /// Files of `--export-json`, and folders of them and of journals [default: runs]
     #[arg(value_name = "RUN")]
     runs: Vec<PathBuf>,
     /// Folder for the page, Markdown, figures and data; an older report there is replaced
     #[arg(long, short, value_name = "DIR", required_unless_present = "results")]
     output: Option<PathBuf>,
-    /// Write the findings of one run as a short paper into this folder, RESULTS.md, its figures and results.json, and fill in
-    /// the numbers of the README.md beside the folder, where that has marks for them
+    /// Write the findings of one run as a short paper into this folder, RESULTS.md, its figures and results.json, and
+    /// fill in the numbers of the README.md beside the folder, where that has marks for them
     #[arg(long, value_name = "DIR", num_args = 0..=1, require_equals = true, default_missing_value = "papers")]
     results: Option<PathBuf>,
-    /// Leave out what must be drawn first: thumbnails of the scenes, and heat maps
+    /// Leave out what must be drawn first: pictures of the scenes, heat maps and wrong answers
     #[arg(long)]
     no_pictures: bool,
 }
@@ -38,15 +38,14 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
     let mut pictures = left_out();
     if folder.is_some() && !args.no_pictures {
         let waiting = Waiting::show("loads scenes".into(), terminal);
-        let find = |name: &str| sources::scene(name).ok();
-        pictures = draw(&runs, (&suite.registry, &suite.studies), &find, &mut |what| waiting.says(what));
+        pictures = draw(&runs, &suite.registry, &mut |what| waiting.says(what));
     }
     let document = document(&runs, &suite.studies, if folder.is_some() { pictures } else { vec![] });
     if let Some(results) = &results {
-        results.write(Results::new(&document, &runs, &suite.studies)?, &suite.studies)?;
+        results.write(Results::new(&document, &runs)?, &suite.studies)?;
     }
     if let Some(folder) = &folder {
-        folder.write(&files(&document, &runs, &suite.studies))?;
+        folder.write(&files(&document, &runs))?;
     }
 
     if !document.answer.banner.is_empty() {
@@ -63,7 +62,8 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
         [] => {}
         [one] => terminal.print(&format!("not measured: {}: {}\n", one.what, one.command))?,
         all => terminal.print(&format!(
-            "not measured: {} other questions, which the end of the page names with their commands; `sahara study all` measures all\n",
+            "not measured: {} other questions, which the end of the page names with their commands; `sahara study all` \
+             measures all\n",
             all.len()
         ))?,
     }

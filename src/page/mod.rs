@@ -1,12 +1,11 @@
 //! `report`: what runs have measured as a page, Markdown and tidy data.
 //!
-//! Runs become a document of text, tables and figures by pure functions; every form is written from that. What no run
-//! has measured is named with its command.
+//! Each study makes its [`Report`](crate::report::Report) of what was measured; a [`Document`] frames the reports, and
+//! every form is written from that. What no run has measured is named with its command.
 
-mod content;
+mod document;
 mod files;
 mod html;
-mod machines;
 mod markdown;
 mod pictures;
 mod planned;
@@ -17,10 +16,10 @@ mod sections;
 #[cfg(test)]
 mod tests;
 
+pub use document::{Answer, Document, Headline, Section};
 pub use files::files;
 pub use html::page;
-pub use machines::{Machine, OfMachine};
 pub use pictures::{draw, left_out};
 pub use run_error::RunError;
-pub use runs::{Runs, Source};
+pub use runs::{Runs, Source, StudyRun};
 pub use sections::document;

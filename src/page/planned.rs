@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::report::number::plural;
-use crate::study::job::OUT;
+use crate::study::process::OUT;
 
 /// What the plan is called in the folder of its results, if it is kept there.
 const FILE: &str = "plan.txt";
@@ -43,12 +43,13 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path();
         assert_eq!(without_result(path), None, "there is no plan");
-        let plan = "sahara study costs 'my mesh.ply' --out 'far away/costs/a.json'\nsahara study costs b --out runs/costs/b.json\n\nsee notes/of/may\n";
+        let plan = "sahara --level avx2 '--case={\"study\":\"scaling\"}' --out 'far away/scaling/a.json'\n\
+                    sahara '--case={\"scene\":\"it'\\''s\"}' --out runs/scaling/b.json\n\nsee notes/of/may\n";
         fs::write(path.join(FILE), plan).unwrap();
-        fs::create_dir(path.join("costs")).unwrap();
-        fs::write(path.join("costs/a.json"), "").unwrap();
+        fs::create_dir(path.join("scaling")).unwrap();
+        fs::write(path.join("scaling/a.json"), "").unwrap();
         let sentence = without_result(path).unwrap();
-        let first = path.join("costs/b.json");
+        let first = path.join("scaling/b.json");
         assert!(sentence.starts_with("1 of 2 jobs of ") && sentence.contains(first.to_str().unwrap()), "{sentence}");
         fs::write(first, "").unwrap();
         assert_eq!(without_result(path), None, "all are there");

@@ -10,15 +10,17 @@ pub enum RunError {
     Read { path: PathBuf, cause: io::Error },
     #[error("{} is torn or no JSON ({cause}): make it again with its command", path.display())]
     Torn { path: PathBuf, cause: serde_json::Error },
-    #[error("{} holds an export of {study} of another version of sahara ({cause}): make it again with its command", path.display())]
-    Form { path: PathBuf, study: &'static str, cause: serde_json::Error },
     #[error("{} is JSON but no run of sahara: name files of `--export-json`, or of a study", path.display())]
     Foreign { path: PathBuf },
-    #[error("{} is a case of the study {study:?}, which this sahara does not know: leave it out", path.display())]
+    #[error("{} is of the study {study:?}, which this sahara does not know: leave it out", path.display())]
     Unknown { path: PathBuf, study: String },
     #[error(transparent)]
     Journal(#[from] JournalError),
-    #[error("there is no run in {}: `sahara study all` makes a whole one, `sahara compare --export-json {}/compare.json` a small one",
-        path.display(), path.display())]
+    #[error(
+        "there is no run in {}: `sahara study all` makes a whole one, `sahara compare --export-json {}/compare.json` a \
+         small one",
+        path.display(),
+        path.display()
+    )]
     Empty { path: PathBuf },
 }

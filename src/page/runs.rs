@@ -1,303 +1,226 @@
-//! What was measured: cases and exports of studies, found out by their content.
+//! What was measured: cases of journals and exports, found out by their content.
 
-use std::any::Any;
-use std::collections::BTreeMap;
+use std::fs;
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
 
 use serde_json::Value;
 
-use super::content::{Content, content, folder, modified};
-use super::machines::{Machine, OfMachine};
 use super::planned::without_result;
 use super::run_error::RunError;
 use crate::measure::Provenance;
-use crate::report::Record;
+use crate::report::Report;
 use crate::report::number::plural;
-use crate::report::words::{command_line, distinct};
-use crate::study::compare::{CompareStudy, Compared};
-use crate::study::journal::{CaseFile, Group, groups};
-use crate::study::{Answers, AnyAnswer, AnyStudy, Found, SceneId, Studies, Study};
+use crate::report::words::{command_line, each_once, listed};
+use crate::request::SceneRequest;
+use crate::study::journal::{self, CaseFile};
+use crate::study::{Dataset, Studies, Study};
 
-/// Everything that a report is made of.
+/// Everything that a page is made of.
 #[derive(Default)]
-pub struct Runs {
-    /// What was read, oldest first.
+pub struct Runs<'a> {
+    /// What was read, by name.
     pub sources: Vec<Source>,
-    /// What studies say; of `compare` what it says of the first machine.
-    pub answers: Answers,
-    /// What was compared, machine by machine, on each by one build: the one with the most times first, or the newest of these, then
-    /// those measured last at the end.
-    pub machines: Vec<OfMachine>,
-    /// The machines that the other answers are of, where files tell.
-    measured_on: BTreeMap<&'static str, Machine>,
-    /// What is missing of it, or left out, a sentence each.
+    /// What was measured of each study, in the order of the studies; those that were not measured are not there.
+    pub studies: Vec<StudyRun<'a>>,
+    /// What is missing, or left out, a sentence each.
     pub notes: Vec<String>,
-    /// The commands that measured what a study says.
-    commands: BTreeMap<&'static str, Vec<String>>,
-    /// Where the numbers come from, one for each command.
-    pub provenances: Vec<Provenance>,
 }
 
-/// A file that was read, or a folder of cases.
+/// What was measured of a study, and what it says of that.
+pub struct StudyRun<'a> {
+    pub study: &'a Study,
+    /// What is shown: of several settings, builds or machines the one with the most cases.
+    pub dataset: Dataset,
+    /// The others.
+    pub others: Vec<Dataset>,
+    pub report: Report,
+}
+
+/// A file that was read, or the cases of a folder.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Source {
     /// As named on the command line, or found in a folder that was.
     pub path: PathBuf,
     /// What it holds.
     pub kind: String,
-    /// The command that made it; empty where it does not say.
-    pub command: String,
-    /// What of it a newer file replaces; empty where all of it is used.
-    pub replaced: String,
+    /// The commands that made it; none where it does not say.
+    pub commands: Vec<String>,
 }
 
 /// The kind of a file of a folder that is passed over.
-const NO_RUN: &str = "no run";
+pub const NO_RUN: &str = "no run: left out";
 
-/// What is said of a file whose measurements were made again.
-const REPLACED: &str = "what a newer file of this kind holds as well";
-
-/// A file of a folder, or one that was named itself.
-struct File {
-    path: PathBuf,
-    is_named: bool,
-}
-
-/// What is said of cases of which another build or machine has measured more.
-const LESS: &str = "all of it: another build or machine has measured as many cases or more";
-
-/// What is said of a comparison where another build has measured more on the same machine.
-const OTHER_BUILD: &str = "times of one build: another one has as many or more on the same machine";
-
-/// What one answer is made of, and when it was last written: the newest counts where two measured the same.
-struct Part<'a> {
-    modified: SystemTime,
-    path: PathBuf,
-    study: &'a dyn AnyStudy,
-    holds: Holds,
-}
-
-enum Holds {
-    Export(Box<AnyAnswer>),
-    /// Cases of one build and machine.
-    Cases(Box<Group<Value>>),
-    /// Likewise, where another set of them counts in its place.
-    FewerCases(Box<Group<Value>>),
-}
-
-impl Runs {
-    /// Reads files, and of folders all `.json` files and those of journals in them.
+impl<'a> Runs<'a> {
+    /// Reads files, and of folders all `.json` files and those of journals in them. An export counts as the cases that
+    /// it holds; of each scene the cases that were measured last count.
     ///
     /// # Errors
-    /// If there is nothing, a file is torn, foreign or of another version, or cases of a study are of different settings.
-    pub fn read(paths: &[PathBuf], studies: &Studies) -> Result<Self, RunError> {
-        let mut files: Vec<File> = vec![];
-        let mut left = vec![];
+    /// If there is nothing, or a file is torn, foreign or of another version.
+    pub fn read(paths: &[PathBuf], studies: &'a Studies) -> Result<Self, RunError> {
+        let mut runs = Self::default();
+        let mut cases = vec![];
         for path in paths {
-            if path.is_dir() {
-                left.extend(without_result(path));
-            }
             let is_folder = path.is_dir();
-            let found = if is_folder { folder(path, studies)? } else { vec![path.clone()] };
-            if found.is_empty() {
+            let files = if is_folder { folder(path, studies)? } else { vec![path.clone()] };
+            if files.is_empty() {
                 return Err(RunError::Empty { path: path.clone() });
             }
-            files.extend(found.into_iter().map(|path| File { path, is_named: !is_folder }));
-        }
-        left.dedup();
-        files.sort_by(|a, b| a.path.cmp(&b.path));
-        files.dedup_by(|a, b| a.path == b.path);
-
-        let mut runs = Self { notes: left, ..Self::default() };
-        let mut parts = vec![];
-        let mut cases: BTreeMap<&'static str, Vec<CaseFile<Value>>> = BTreeMap::new();
-        for file in files {
-            match content(&file.path, studies) {
-                Ok(Content::Export(study, answer)) => {
-                    let (modified, holds) = (modified(&file.path)?, Holds::Export(Box::new(answer)));
-                    parts.push(Part { modified, path: file.path, study, holds });
+            if is_folder {
+                runs.notes.extend(without_result(path));
+            }
+            for file in files {
+                match read(&file, studies) {
+                    Ok(File { kind, cases: own, notes }) => {
+                        runs.add_source(&file, kind, &own);
+                        runs.notes.extend(notes);
+                        cases.extend(own);
+                    }
+                    // A folder may hold what others have written.
+                    Err(RunError::Foreign { .. } | RunError::Unknown { .. }) if is_folder => {
+                        runs.sources.push(Source { path: file, kind: NO_RUN.into(), commands: vec![] });
+                    }
+                    Err(error) => return Err(error),
                 }
-                Ok(Content::Case(study, case)) => cases.entry(study.name()).or_default().push(*case),
-                // A folder may hold what studies export besides.
-                Err(RunError::Foreign { path } | RunError::Unknown { path, .. }) if !file.is_named => {
-                    runs.note(&path, NO_RUN, "", "all of it");
-                }
-                Err(error) => return Err(error),
             }
         }
-        for (study, cases) in cases {
-            let study = studies.find(study).expect("it was found before");
-            let groups = groups(cases)?;
-            let machines: Vec<Machine> = groups.iter().map(|group| Machine::of(&group.provenance)).collect();
-            for (place, group) in groups.into_iter().enumerate() {
-                let of = |file: &CaseFile<Value>| modified(&file.path);
-                let times = group.files.iter().map(of).collect::<Result<Vec<SystemTime>, RunError>>()?;
-                let modified = times.into_iter().max().expect("a group has a case");
-                let path = group.files[0].path.parent().unwrap_or(Path::new(".")).into();
-                // The set with the most cases comes last. Of comparisons all machines are shown and of other studies one, of a machine
-                // one build.
-                let replaces = |more: &Machine| study.name() != CompareStudy::NAME || *more == machines[place];
-                let is_replaced = machines[place + 1..].iter().any(replaces);
-                let holds = if is_replaced { Holds::FewerCases } else { Holds::Cases };
-                parts.push(Part { modified, path, study, holds: holds(Box::new(group)) });
-            }
-        }
-        parts.sort_by(|a, b| (a.modified, &a.path).cmp(&(b.modified, &b.path)));
-        if let (true, Some(path)) = (parts.is_empty(), paths.first()) {
+        if let (true, Some(path)) = (cases.is_empty(), paths.first()) {
             return Err(RunError::Empty { path: path.clone() });
         }
-        // What is made from the others comes after them.
-        let (last, first): (Vec<Part>, Vec<Part>) = parts.into_iter().partition(|part| part.study.is_last());
-        first.into_iter().try_for_each(|part| runs.add(part))?;
-        runs.leave_one_build();
-        runs.lead(studies);
-        let made = studies.iter().filter(|study| study.is_last()).map(|study| {
-            let answer = study.answer(&[], &Provenance::capture(1), &runs.answers, None);
-            (study, answer)
-        });
-        let made: Vec<(&dyn AnyStudy, AnyAnswer)> = made.collect();
-        last.into_iter().try_for_each(|part| runs.add(part))?;
-        for (study, answer) in made {
-            if runs.answers.get(study.name()).is_none() {
-                study.add(&mut runs.answers, answer);
-            }
+        let mut datasets = journal::datasets(each_measured_once(cases));
+        for study in studies.iter() {
+            let (own, rest): (Vec<Dataset>, _) = datasets.into_iter().partition(|own| own.study() == Some(study.name));
+            datasets = rest;
+            runs.add(study, own);
         }
+        runs.notes = each_once(std::mem::take(&mut runs.notes));
         Ok(runs)
     }
 
-    /// Adds an answer.
-    fn add(&mut self, part: Part) -> Result<(), RunError> {
-        let Part { path, study, holds, .. } = part;
-        match holds {
-            Holds::Export(answer) => self.take(&path, study, *answer, None),
-            Holds::FewerCases(group) => self.note(&path, study.name(), &group.provenance.command, LESS),
-            Holds::Cases(group) => {
-                let Found { answer, notes } = study.read_cases(&group, &self.answers)?;
-                self.take(&path, study, answer, Some(&group.provenance));
-                let again = group.replaced.first().map(|path| {
-                    let count = plural(group.replaced.len(), "case");
-                    format!("{count} measured again since, as in {}.", path.display())
-                });
-                let notes = notes.into_iter().chain(again);
-                self.notes.extend(notes.map(|note| format!("{}: {note}", study.name())));
-            }
-        }
-        Ok(())
-    }
-
-    /// Adds the answer of a file.
-    fn take(&mut self, path: &Path, study: &dyn AnyStudy, answer: AnyAnswer, provenance: Option<&Provenance>) {
-        let mut provenances: Vec<Provenance> = provenance.cloned().into_iter().collect();
-        if study.name() == CompareStudy::NAME && (*answer).is::<Compared>() {
-            let compared = (answer as Box<dyn Any>).downcast().expect("it is one");
-            self.compare(*compared, &mut provenances);
-        } else {
-            self.measured_on.remove(study.name());
-            self.measured_on.extend(provenance.map(|provenance| (study.name(), Machine::of(provenance))));
-            if study.add(&mut self.answers, answer) {
-                let older = self.sources.iter_mut().filter(|source| source.kind == study.name());
-                older.for_each(|source| source.replaced = REPLACED.into());
-            }
-        }
-        let command = provenances.first().map_or("", |provenance| &provenance.command).to_owned();
-        let commands = self.commands.entry(study.name()).or_default();
-        if !commands.contains(&command_line(&command)) {
-            commands.push(command_line(&command));
-        }
-        for provenance in provenances {
-            if !self.provenances.contains(&provenance) {
-                self.provenances.push(provenance);
-            }
-        }
-        self.note(path, study.name(), &command, "");
-    }
-
-    /// Adds a comparison to those of its machine and build. Where the file does not tell `provenances` the records do.
-    fn compare(&mut self, compared: Compared, provenances: &mut Vec<Provenance>) {
-        let parts = OfMachine::parts(compared, provenances.first(), self.sources.len());
-        if provenances.is_empty() {
-            let first = |part: &OfMachine| Some(part.compared.records.first()?.provenance.clone());
-            provenances.extend(parts.iter().filter_map(first));
-        }
-        for part in parts {
-            let known = self.machines.iter().position(|older| older.is_like(&part));
-            let Some(mut older) = known.map(|place| self.machines.remove(place)) else {
-                self.machines.push(part);
-                continue;
-            };
-            let sources = older.sources.clone();
-            if older.merge(part) {
-                sources.into_iter().for_each(|source| self.sources[source].replaced = REPLACED.into());
-            }
-            self.machines.push(older);
+    /// Adds what was measured of a study, and has it report.
+    fn add(&mut self, study: &'a Study, datasets: Vec<Dataset>) {
+        let notes = datasets.iter().flat_map(|dataset| &dataset.notes);
+        self.notes.extend(notes.map(|note| format!("{}: {note}", study.name)));
+        let mut datasets = datasets.into_iter();
+        if let Some(dataset) = datasets.next() {
+            let report = (study.report)(&dataset, &study.defaults());
+            self.studies.push(StudyRun { study, dataset, others: datasets.collect(), report });
         }
     }
 
-    /// Leaves of each machine the build with the most times, the newest of these.
-    fn leave_one_build(&mut self) {
-        let counts = |own: &OfMachine| {
-            let of_machine = self.machines.iter().filter(|one| one.machine == own.machine);
-            of_machine.max_by_key(|one| one.timed()).is_some_and(|most| most.is_like(own))
+    /// Notes a file: cases of one folder are one source.
+    fn add_source(&mut self, file: &Path, kind: Kind, cases: &[CaseFile]) {
+        let commands = || cases.iter().map(|own| command_line(&own.case.command));
+        let (path, kind) = match kind {
+            Kind::Export(study) => (file.to_path_buf(), format!("{study}: {}", plural(cases.len(), "case"))),
+            Kind::Case(study) => (file.parent().unwrap_or(Path::new(".")).to_path_buf(), format!("{study}: journal")),
         };
-        let counts: Vec<bool> = self.machines.iter().map(counts).collect();
-        for (own, counts) in std::mem::take(&mut self.machines).into_iter().zip(counts) {
-            if counts {
-                self.machines.push(own);
-            } else {
-                own.sources.iter().for_each(|&source| self.sources[source].replaced = OTHER_BUILD.into());
-            }
+        match self.sources.iter_mut().find(|source| source.path == path && source.kind == kind) {
+            Some(source) => source.commands = each_once(source.commands.drain(..).chain(commands())),
+            None => self.sources.push(Source { path, kind, commands: each_once(commands()) }),
         }
     }
 
-    /// Makes the machine with the most times the one that the whole page speaks of, the newest of these.
-    fn lead(&mut self, studies: &Studies) {
-        let most = (0..self.machines.len()).max_by_key(|&place| self.machines[place].timed());
-        let (Some(place), Some(study)) = (most, studies.find(CompareStudy::NAME)) else { return };
-        let leading = self.machines.remove(place);
-        let commands = leading.sources.iter().map(|&source| &self.sources[source].command);
-        self.commands.insert(study.name(), distinct(commands.filter(|command| !command.is_empty())));
-        study.add(&mut self.answers, Box::new(leading.compared.clone()));
-        self.machines.insert(0, leading);
+    /// What was measured of the study of this name.
+    pub fn of(&self, study: &str) -> Option<&StudyRun<'a>> {
+        self.studies.iter().find(|run| run.study.name == study)
     }
 
-    /// The machine that a study was measured on and the one that was compared on, where these differ.
-    pub fn elsewhere(&self, study: &str) -> Option<[&Machine; 2]> {
-        let (own, leading) = (self.measured_on.get(study)?, &self.machines.first()?.machine);
-        (own != leading).then_some([own, leading])
+    /// Where the numbers that are shown come from.
+    pub fn provenances(&self) -> Vec<&Provenance> {
+        self.studies.iter().map(|run| &run.dataset.provenance).collect()
     }
 
-    /// The commands that measured a study; the one that would where none has.
-    pub fn command(&self, study: &dyn AnyStudy) -> String {
-        let commands = self.commands.get(study.name()).map(|commands| commands.join("\n"));
-        commands.filter(|commands| !commands.is_empty()).unwrap_or_else(|| study.command())
+    /// The commands that measured what is shown.
+    pub fn commands(&self) -> Vec<String> {
+        each_once(self.studies.iter().flat_map(StudyRun::commands))
     }
 
-    /// Of `compare`.
-    pub fn records(&self) -> &[Record] {
-        self.answers.of::<CompareStudy>().map_or(&[], |compared| &compared.records)
+    /// Each scene of what is shown.
+    pub fn scenes(&self) -> Vec<SceneRequest> {
+        let measured = self.studies.iter().flat_map(|run| &run.dataset.measured);
+        each_once(measured.map(|measured| measured.case.scene.clone()))
     }
+}
 
-    /// The scenes, each with the command that named it.
-    pub fn scenes(&self, studies: &Studies) -> Vec<(SceneId, String)> {
-        let mut found: Vec<(SceneId, String)> = vec![];
-        for study in studies.iter() {
-            let Some(answer) = self.answers.get(study.name()) else { continue };
-            for scene in study.scenes(answer) {
-                if found.iter().all(|(known, _)| known.name != scene.name) {
-                    found.push((scene, self.command(study)));
-                }
-            }
+impl StudyRun<'_> {
+    /// The commands that measured what is shown.
+    pub fn commands(&self) -> Vec<String> {
+        each_once(self.dataset.commands().into_iter().map(command_line))
+    }
+}
+
+/// The scenes of a dataset as tables name them.
+pub fn scene_titles(dataset: &Dataset) -> Vec<String> {
+    each_once(dataset.measured.iter().map(|measured| measured.case.scene_title()))
+}
+
+/// In one line what was measured and is not shown.
+pub fn also_measured(dataset: &Dataset) -> String {
+    let Provenance { cpu, commit, date, .. } = &dataset.provenance;
+    let commands: Vec<String> =
+        dataset.commands().into_iter().map(|line| format!("`{}`", command_line(line))).collect();
+    let (scenes, day) = (listed(&scene_titles(dataset)), date.split('T').next().unwrap_or(date));
+    format!("Also measured, and not shown: {scenes} on {cpu}, commit {commit}, {day} ({}).", listed(&commands))
+}
+
+/// What a file holds.
+struct File {
+    kind: Kind,
+    cases: Vec<CaseFile>,
+    notes: Vec<String>,
+}
+
+/// Of which study.
+enum Kind {
+    Export(&'static str),
+    Case(&'static str),
+}
+
+/// What the file `path` holds.
+fn read(path: &Path, studies: &Studies) -> Result<File, RunError> {
+    let text = fs::read_to_string(path).map_err(|cause| RunError::Read { path: path.into(), cause })?;
+    let value: Value = serde_json::from_str(&text).map_err(|cause| RunError::Torn { path: path.into(), cause })?;
+    let known = |name: &str| match studies.find(name) {
+        Some(study) => Ok(study.name),
+        None => Err(RunError::Unknown { path: path.into(), study: name.into() }),
+    };
+    if CaseFile::is_case(&value) {
+        let case = CaseFile::of(path, value)?;
+        return Ok(File { kind: Kind::Case(known(&case.case.study)?), cases: vec![case], notes: vec![] });
+    }
+    if !Dataset::is_dataset(&value) {
+        return Err(RunError::Foreign { path: path.into() });
+    }
+    let Dataset { provenance, measured, notes, .. } = Dataset::read(path, value)?;
+    let study = measured.first().map(|own| own.case.study.clone());
+    let study = known(&study.ok_or_else(|| RunError::Foreign { path: path.into() })?)?;
+    let cases = measured.into_iter().map(|own| CaseFile {
+        path: path.into(),
+        provenance: provenance.clone(),
+        case: own.case,
+        epoch: own.epoch,
+    });
+    let notes = notes.iter().map(|note| format!("{study}: {note}")).collect();
+    Ok(File { kind: Kind::Export(study), cases: cases.collect(), notes })
+}
+
+/// The files of a folder that may be runs, by name: its own, and those of the journals in it.
+fn folder(path: &Path, studies: &Studies) -> Result<Vec<PathBuf>, RunError> {
+    let journals = studies.iter().map(|study| path.join(study.name)).filter(|journal| journal.is_dir());
+    let files = std::iter::once(path.to_path_buf()).chain(journals).map(|folder| journal::files(&folder));
+    Ok(files.collect::<Result<Vec<_>, _>>()?.concat())
+}
+
+/// Without the cases of an export that its journal holds as well.
+fn each_measured_once(cases: Vec<CaseFile>) -> Vec<CaseFile> {
+    let mut kept: Vec<CaseFile> = vec![];
+    for file in cases {
+        let is_same = |own: &CaseFile| {
+            own.epoch == file.epoch && own.case == file.case && own.provenance.machine() == file.provenance.machine()
+        };
+        if !kept.iter().any(is_same) {
+            kept.push(file);
         }
-        found
     }
-
-    fn note(&mut self, path: &Path, kind: &str, command: &str, replaced: &str) {
-        self.sources.push(Source {
-            path: path.into(),
-            kind: kind.into(),
-            command: command_line(command),
-            replaced: replaced.into(),
-        });
-    }
+    kept
 }

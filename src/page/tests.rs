@@ -1,28 +1,28 @@
+//! What a page says must be true of the runs that it is made from, and it has the form that it ought to have.
+
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::PathBuf;
-use std::time::{Duration, SystemTime};
 
-use super::{Runs, files, page};
-use crate::report::document::{Art, Document, Section};
+use super::{Document, Runs, Section, files, page};
+use crate::measure::Provenance;
+use crate::registry::Registry;
 use crate::report::plot::Chart;
-use crate::report::{Record, to_json};
-use crate::study::history::{self, Entry};
-use crate::study::{Studies, attribution};
-use example::{Files, accuracy, comparison, exported, refused, scaling, whole};
+use crate::report::{Art, Block};
+use crate::request::{SceneRequest, ViewArgs};
+use crate::scene::Builtin;
+use crate::study::Dataset;
+use example::{Files, STUDIES, cube, export, folder, journal, measured, provenance, read, refused, runs, whole};
 
-pub use example::{attribution as attribution_files, compared, cube, provenance, read, records_of, runs_folder};
+pub mod example;
 
-mod example;
-mod machines;
-mod statements;
-
-fn document(runs: &Runs, pictures: Vec<Section>) -> Document {
-    super::document(runs, &Studies::builtin(), pictures)
+fn document(runs: &Runs) -> Document {
+    super::document(runs, &STUDIES, vec![])
 }
 
-/// The three forms of a document.
-fn forms(document: &Document) -> [String; 3] {
-    [page(document), super::markdown::markdown(document), super::latex::latex(document)]
+/// Both forms of a document.
+fn forms(document: &Document) -> [String; 2] {
+    [page(document), super::markdown::markdown(document)]
 }
 
 /// What a user may call a scene.
@@ -34,25 +34,28 @@ fn what_users_name_is_text_in_every_form() {
     let page = page(&document);
     assert!(!page.contains("<script>alert"), "a name became markup");
     assert!(page.contains("&lt;script&gt;alert(&quot;&amp;&#x27;1&#x27;&quot;)"), "the name is there as text");
-    let files = files(&document, &runs, &Studies::builtin());
-    let text = |name: &str| {
-        let (_, bytes) = files.iter().find(|(path, _)| path == name).unwrap_or_else(|| panic!("no {name}"));
-        String::from_utf8(bytes.clone()).unwrap()
-    };
-    assert!(!text("report.md").replace("\\<", "").contains("<script>"));
-    let outside_math = text("report.tex").replace("\\&", "").replace("\\_", "").replace("\\#", "").replace("\\%", "");
-    let body = outside_math.split("\\begin{document}").nth(1).unwrap();
-    for line in body.lines().filter(|line| !line.ends_with("\\\\") && !line.ends_with("{%")) {
-        assert!(!line.contains(['&', '#', '%', '<']), "{line}");
-    }
+    let files = files(&document, &runs);
+    let (_, markdown) = files.iter().find(|(path, _)| path == "report.md").unwrap();
+    assert!(!String::from_utf8(markdown.clone()).unwrap().replace("\\<", "").contains("<script>"));
     // What a figure is called in the file system is no path.
     assert!(files.iter().all(|(path, _)| !path.contains("..") && !path.contains(['<', '"', '&'])), "{files:?}");
+
+    // An inspector is data that no name can end.
+    let json = page.split("<script type=\"application/json\">").nth(1).unwrap().split("</script>").next().unwrap();
+    let data: serde_json::Value = serde_json::from_str(json).unwrap();
+    assert_eq!(data["command"], format!("sahara validate {EVIL} --ray"));
+    let hit = "[[0.1,7,0.25,0.333333333],[\"missed\"]]";
+    assert_eq!(data["answers"][0].to_string(), hit, "t as short as it reads back");
+    assert_eq!((data["truths"][1].to_string(), data["pixels"].to_string()), ("[]".into(), "[0,3]".into()));
+    assert_eq!(
+        data["structures"][1].to_string(),
+        r#"{"label":"b","nodes":[3,4],"leaves":[],"tests":[12,0],"answers":[1,0]}"#
+    );
 }
 
 #[test]
 fn the_page_asks_for_nothing_from_elsewhere() {
-    let (document, _) = cube();
-    let page = page(document);
+    let page = page(&cube().0);
     for attribute in ["src=", "href=", "url(", "@import", "srcset=", "action="] {
         for (at, _) in page.match_indices(attribute) {
             let value = page[at + attribute.len()..].trim_start_matches(['"', '\'']);
@@ -63,50 +66,36 @@ fn the_page_asks_for_nothing_from_elsewhere() {
 }
 
 #[test]
-fn an_inspector_is_data_that_no_name_can_end() {
-    let (document, _) = whole(EVIL);
-    let page = page(&document);
-    let json = page.split("<script type=\"application/json\">").nth(1).unwrap().split("</script>").next().unwrap();
-    let data: serde_json::Value = serde_json::from_str(json).unwrap();
-    assert_eq!(data["command"], format!("sahara validate {EVIL} --ray"));
-    assert_eq!(
-        data["answers"][0].to_string(),
-        "[[0.1,7,0.25,0.333333333],[\"missed\"]]",
-        "t as short as it reads back"
-    );
-    assert_eq!((data["truths"][1].to_string(), data["pixels"].to_string()), ("[]".into(), "[0,3]".into()));
-    assert_eq!(
-        data["structures"][1].to_string(),
-        r#"{"label":"b","nodes":[3,4],"leaves":[],"tests":[12,0],"answers":[1,0]}"#
-    );
-}
-
-#[test]
-fn every_figure_has_a_caption_a_command_and_words_for_those_who_do_not_see() {
+fn every_figure_has_a_name_of_its_own_a_caption_and_words_for_those_who_do_not_see() {
     let (document, _) = cube();
     let figures = document.figures();
-    assert!(figures.len() >= 12, "{}", figures.len());
-    let mut ids: Vec<&str> = figures.iter().map(|figure| figure.id.as_str()).collect();
-    for figure in &figures {
-        assert!(!figure.caption.is_empty() && figure.command.starts_with("sahara "), "{}", figure.id);
-        assert!(!figure.alt.is_empty() || !matches!(figure.art, Art::Chart(_)), "{}", figure.id);
-    }
-    let page = page(document);
+    let ids: BTreeSet<&str> = figures.iter().map(|figure| figure.id.as_str()).collect();
+    assert!(ids.len() == figures.len() && ids.contains("overlay") && ids.contains("overlay-v2"), "{ids:?}");
+    let [page, markdown] = forms(document);
     assert_eq!(page.matches("<figcaption>").count(), figures.len());
     assert_eq!(page.matches("<figure ").count(), figures.len());
     let pictures = page.matches("<img src").count();
-    assert_eq!(pictures, page.matches("<img src=\"data:image/png;base64,").count());
-    ids.sort_unstable();
-    ids.dedup();
-    assert_eq!(ids.len(), figures.len(), "every figure has a name of its own");
+    assert!(pictures > 0 && pictures == page.matches("<img src=\"data:image/png;base64,").count());
+    let charts = figures.iter().filter(|figure| matches!(figure.art, Art::Chart(_)));
+    assert_eq!(page.matches("aria-label=\"A picture\"").count(), charts.count());
+    // The command of a section stands there once, without the folder of the program; of what is folded both forms tell.
+    assert_eq!(page.matches("<code>sahara study compare --dir runs</code>").count(), 1);
+    assert!(markdown.contains("```console\nsahara study compare --dir runs\n```"));
+    assert!(page.contains("<summary>More</summary>") && markdown.contains("**More**"));
+    assert!(page.contains("the slider moves") && !markdown.contains("slider"));
 }
 
 #[test]
-fn scenes_of_much_the_same_name_have_figures_of_their_own() {
-    let both = [records_of("a b"), records_of("a-b")].concat();
-    let document = document(&compared(&both), vec![]);
-    let ids: Vec<&str> = document.figures().into_iter().map(|figure| figure.id.as_str()).collect();
-    assert_eq!(ids, ["tradeoff", "speed-a-b", "speed-a-b-v2"]);
+fn numbers_stand_to_the_right_and_sort_by_their_value() {
+    let page = page(&cube().0);
+    for cell in [
+        "<th scope=\"row\" class=\"word\">sah-kd</th>",
+        "<td class=\"best\" data-key=\"8.0\">8.00 [7.00, 9.00]</td>",
+        "<td class=\"wrong\" data-key=\"0.3333333333333333\">3&#x2f;9 wrong</td>",
+        "<td class=\"word\">right</td>",
+    ] {
+        assert!(page.contains(cell), "{cell}");
+    }
 }
 
 #[test]
@@ -120,244 +109,188 @@ fn the_same_runs_give_the_same_page() {
 }
 
 #[test]
-fn a_part_that_is_not_there_is_named_with_its_command() {
-    let runs = compared(&records_of("Dragon"));
-    let whole = document(&runs, vec![]);
-    assert_eq!(whole.answer.verdict, "Yes, on Dragon");
-    assert_eq!(whole.answer.numbers[0].number, "8.00 ×");
-    let missing: Vec<&str> = whole.missing().iter().map(|missing| missing.command.as_str()).collect();
-    assert!(missing.iter().any(|command| command.starts_with("sahara replicate")), "{missing:?}");
-    assert!(missing.iter().any(|command| command.starts_with("sahara study attribution")), "{missing:?}");
-    assert!(missing.iter().all(|command| !command.starts_with("sahara compare")), "{missing:?}");
-    // What is asked ends with its own sign.
-    let forms = forms(&whole);
-    assert!(forms.iter().all(|text| text.contains("Not measured") && !text.contains("?.")));
-    let [page, ..] = forms;
-    assert!(missing.iter().all(|command| page.contains(&command.replace('/', "&#x2f;"))));
-
-    let attributed = runs_folder(&attribution_files("Lucy"));
-    let answer = document(&read(attributed.path()), vec![]).answer;
-    assert_eq!((answer.verdict.as_str(), answer.numbers.len()), ("Yes, on Lucy", 1));
-
-    let nothing = document(&read(runs_folder(&accuracy("Cube")).path()), vec![]);
-    assert_eq!(nothing.answer.verdict, "Not measured");
-    assert_eq!(nothing.sections.len(), 2, "the study that was measured, and where its numbers come from");
-
-    // A comparison of other scenes leads with what it has measured.
-    let own = document(&compared(&records_of("Cube")), vec![]);
-    assert_eq!(own.title, "Which structure is the fastest on Cube?");
-    assert!(own.answer.sentences[0].contains(own.answer.verdict.split(' ').next().unwrap()), "{:?}", own.answer);
-    assert!(own.answer.sentences.last().unwrap().contains("sahara replicate"), "{:?}", own.answer);
-    assert_eq!(own.sections[0].id, "compare");
+fn the_answer_goes_by_what_is_measured() {
+    const HARD: [&str; 3] = ["Dragon", "Lucy", "Sponza"];
+    const SAH: &str = "Would a SAH tree have been much faster on the hard scenes?";
+    // Studies with their scenes; question, verdict, numbers, sentences, and parts of the bars.
+    type Case<'a> = (&'a [(&'a str, &'a [&'a str])], &'a str, &'a str, usize, &'a [&'a str], usize);
+    let tally = "0 of 24 claims confirmed, 1 refuted, 0 undecided, 23 not measured";
+    let own = "Of all structures sah-kd is the fastest.";
+    let cases: [Case; 6] = [
+        (&[("replicate", &HARD)], SAH, "Yes", 4, &["Primary rays are 8.00 times", tally], 1),
+        (
+            &[("replicate", &HARD), ("attribution", &HARD)],
+            SAH,
+            "Yes",
+            4,
+            &["Primary rays are 8.00 times", "On Dragon the plane", "On Lucy", "On Sponza", tally],
+            2,
+        ),
+        (&[("replicate", &HARD), ("attribution", &["Lucy"])], SAH, "Yes", 4, &["Primary", "On Lucy", tally], 1),
+        (&[("attribution", &["Lucy"])], SAH, "Yes, on Lucy", 1, &["8.00 [7.00, 9.00] times on Lucy", "On Lucy"], 2),
+        (&[("compare", &["Cube"])], "Which structure is the fastest on Cube?", "sah-kd", 0, &[own, "replicate"], 0),
+        (&[("attribution", &["Cube"])], SAH, "Not measured", 0, &["`sahara replicate` measures it"], 0),
+    ];
+    for (studies, title, verdict, numbers, sentences, parts) in cases {
+        let document = document(&runs(studies));
+        let answer = &document.answer;
+        assert_eq!((document.title.as_str(), answer.verdict.as_str(), answer.numbers.len()), (title, verdict, numbers));
+        assert_eq!(answer.sentences.len(), sentences.len(), "{:?}", answer.sentences);
+        for (found, part) in answer.sentences.iter().zip(sentences) {
+            assert!(found.contains(part), "{found}: {part}");
+        }
+        let found = answer.chart.as_ref().map_or(0, |chart| match chart {
+            Chart::Bars(bars) => bars.parts.len(),
+            _ => panic!("the answer has no bars"),
+        });
+        assert_eq!(found, parts, "{studies:?}");
+        // What is asked ends with its own sign; what is missing is named with its command.
+        let missing: Vec<&str> = document.missing().iter().map(|missing| missing.command.as_str()).collect();
+        assert_eq!(missing.len(), 3 - studies.len());
+        for form in forms(&document) {
+            assert!(form.contains("Not measured") && !form.contains("?."));
+            assert!(missing.iter().all(|command| form.contains(*command)), "{missing:?}");
+        }
+    }
 }
 
 #[test]
-fn the_newest_run_of_a_scene_counts_and_the_older_one_is_said_to_be_replaced() {
-    let older = runs_folder(&[("old.json", to_json(&[records_of("Dragon"), records_of("Cube")].concat()))]);
-    let mut newer = records_of("Dragon");
-    newer.iter_mut().for_each(|record| record.build_ns = 77);
-    let newer = runs_folder(&[("new.json", to_json(&newer))]);
-    let file = fs::File::options().append(true).open(newer.path().join("new.json")).unwrap();
-    file.set_modified(SystemTime::now() + Duration::from_secs(60)).unwrap();
-    // In whatever order they are named.
-    for order in [[&older, &newer], [&newer, &older]] {
-        let runs = Runs::read(&order.map(|folder| folder.path().to_path_buf()), &Studies::builtin()).unwrap();
-        assert_eq!(runs.records().len(), 12);
-        assert!(runs.records().iter().all(|r| (r.build_ns == 77) == (r.scene == "Dragon")));
-        let replaced: Vec<bool> = runs.sources.iter().map(|source| !source.replaced.is_empty()).collect();
-        assert_eq!(replaced, [true, false]);
+fn a_section_says_what_is_found_judged_and_amiss_and_no_bare_name() {
+    let (document, _) = cube();
+    let blocks = |id: &str| &document.sections.iter().find(|section| section.id == id).unwrap().blocks;
+    let texts: Vec<&str> = blocks("compare")
+        .iter()
+        .filter_map(|block| if let Block::Text(text) | Block::Note(text) = block { Some(text.as_str()) } else { None })
+        .collect();
+    assert_eq!(texts, ["Of all structures sah-kd is the fastest.", "None is wrong", "the clock was slow."]);
+    let [Block::Text(_), Block::Table(verdicts)] = &blocks("replicate")[..] else { panic!("no verdicts") };
+    assert_eq!(verdicts.rows[0][3].text(), "refuted");
+}
+
+#[test]
+fn a_quick_look_says_so_before_its_verdict() {
+    let of = |command: &str| {
+        let files = journal("compare", &["Cube"], &provenance("x"));
+        let text = String::from_utf8(files[0].1.clone()).unwrap().replace("study compare", command);
+        forms(&document(&read(folder(&[("case.json", text.into_bytes())]).path())))
+    };
+    for form in of("study all --quick") {
+        let (banner, verdict) = (form.find("A quick look").unwrap(), form.find("sah-kd.").unwrap());
+        assert!(banner < verdict, "{}", &form[..verdict.min(2000)]);
+    }
+    assert!(of("study all").iter().all(|form| !form.contains("A quick look")));
+}
+
+#[test]
+fn of_two_runs_the_newest_cases_count_and_what_is_not_shown_is_said() {
+    let [old, new] = ["2026-01-01T00:00:00Z", "2026-01-02T00:00:00Z"].map(provenance);
+    let other_cpu = Provenance { cpu: "another".into(), ..new.clone() };
+    let other_commit = Provenance { commit: "decade".into(), ..new.clone() };
+    let three = ["Cube", "Dragon", "Lucy"];
+    let again: Files = journal("compare", &["Cube"], &new);
+    let again = again.into_iter().map(|(name, text)| (name, String::from_utf8(text).unwrap().replace("8000", "8001")));
+    let again: Files = again.map(|(name, text)| (name, text.into_bytes())).collect();
+    // What else lies beside three scenes; which scenes are shown and which are not, and what is noted.
+    type Case<'a> = (Files, &'a [&'a str], &'a [&'a str], &'a str);
+    let cases: [Case; 6] = [
+        (export("compare", &three, &old), &three, &[], ""),
+        (again, &three, &[], "compare: 1 case measured again since"),
+        (journal("compare", &["Torus"], &new), &["Cube", "Dragon", "Lucy", "Torus"], &[], ""),
+        (journal("compare", &["Torus"], &other_cpu), &three, &["Torus"], ""),
+        (export("compare", &["Torus"], &other_commit), &three, &["Torus"], ""),
+        (export("compare", &["Cube"], &other_commit), &["Dragon", "Lucy"], &["Cube"], "measured Cube later"),
+    ];
+    for (beside, shown, others, note) in cases {
+        let [one, other] = [&journal("compare", &three, &old), &beside].map(|files| folder(files));
+        // In whatever order they are named.
+        for order in [[&one, &other], [&other, &one]] {
+            let runs = Runs::read(&order.map(|folder| folder.path().to_path_buf()), &STUDIES).unwrap();
+            let run = runs.of("compare").unwrap();
+            let titles = |dataset: &Dataset| super::runs::scene_titles(dataset);
+            assert_eq!(titles(&run.dataset), shown);
+            assert_eq!(run.others.iter().flat_map(titles).collect::<Vec<String>>(), others);
+            assert_eq!(runs.notes.len(), usize::from(!note.is_empty()), "{:?}", runs.notes);
+            assert!(runs.notes.iter().all(|own| own.contains(note)), "{:?}", runs.notes);
+            for form in forms(&document(&runs)) {
+                let said =
+                    others.iter().all(|scene| form.contains(&format!("Also measured, and not shown: {scene} on ")));
+                assert!(said && form.contains(note));
+            }
+        }
     }
 }
 
 #[test]
 fn what_cannot_be_read_is_one_sentence() {
-    let whole = to_json(&records_of("Cube"));
-    let torn = whole[..whole.len() / 2].to_vec();
-    let case = String::from_utf8(attribution_files("Cube").swap_remove(0).1).unwrap();
-    let other = case.replacen("\"attribution\"", "\"astrology\"", 1);
-    let broken = case.replacen("\"epoch\":", "\"epic\":", 1);
-    let newer = case.replacen("\"schema\":3", "\"schema\":4", 1);
+    let export = export("compare", &["Cube"], &provenance("x")).remove(0).1;
+    let case = String::from_utf8(journal("compare", &["Cube"], &provenance("x")).remove(0).1).unwrap();
+    let changed = |from: &str, to: &str| case.replacen(from, to, 1).into_bytes();
+    let newer = String::from_utf8(export.clone()).unwrap().replacen("\"schema\":4", "\"schema\":5", 1);
     let cases: [(&str, Vec<u8>, &str); 10] = [
-        ("torn.json", torn, "torn"),
+        ("torn.json", export[..export.len() / 2].to_vec(), "torn"),
         ("empty.json", vec![], "torn"),
         ("text.json", b"hello".to_vec(), "torn"),
         ("other.json", b"{\"a\": 1}".to_vec(), "no run of sahara"),
         ("list.json", b"[1, 2]".to_vec(), "no run of sahara"),
-        ("old.json", b"[{\"workload_hash\": \"1\"}]".to_vec(), "another version"),
         ("half.json", case.as_bytes()[..case.len() / 2].to_vec(), "torn"),
-        ("astrology.json", other.into_bytes(), "astrology"),
-        ("broken.json", broken.into_bytes(), "missing field `epoch`"),
-        ("newer.json", newer.into_bytes(), "has version 4"),
+        ("astrology.json", changed("\"study\":\"compare\"", "\"study\":\"astrology\""), "astrology"),
+        ("broken.json", changed("\"scene_hash\":", "\"scene_hush\":"), "missing field `scene_hash`"),
+        ("old.json", changed("\"schema\":4", "\"schema\":3"), "has version 3"),
+        ("newer.json", newer.into_bytes(), "has version 5"),
     ];
     for (name, bytes, part) in cases {
-        let folder = runs_folder(&[(name, bytes)]);
-        let error = refused(&[folder.path().join(name)]).to_string();
+        let folder = folder(&[(name, bytes)]);
+        let error = refused(folder.path().join(name)).to_string();
         assert!(error.contains(name) && error.contains(part) && error.lines().count() == 1, "{error}");
     }
-    let missing = refused(&[PathBuf::from("no/such/file.json")]).to_string();
+    let missing = refused(PathBuf::from("no/such/file.json")).to_string();
     assert!(missing.contains("no/such/file.json"), "{missing}");
     let empty = tempfile::tempdir().unwrap();
-    assert!(refused(&[empty.path().into()]).to_string().contains("sahara study all"));
+    assert!(refused(empty.path().into()).to_string().contains("sahara study all"));
 }
 
 #[test]
 fn what_is_no_run_is_left_out_of_a_folder_and_named() {
-    let folder = runs_folder(&[
-        ("compare.json", to_json(&records_of("Cube"))),
-        ("notes.json", b"[{\"claim\": \"x\"}]".to_vec()),
-    ]);
+    let mut files = export("compare", &["Cube"], &provenance("x"));
+    files.push(("notes.json".into(), b"[{\"claim\": \"x\"}]".to_vec()));
+    let (folder, run) = (folder(&files), files[0].0.clone());
     let runs = read(folder.path());
-    assert_eq!(runs.records().len(), 6);
-    let mut left_out: Vec<&str> =
-        runs.sources.iter().filter(|s| !s.replaced.is_empty()).map(|s| s.kind.as_str()).collect();
-    left_out.sort_unstable();
-    assert_eq!(left_out, ["no run"]);
-    fs::remove_file(folder.path().join("compare.json")).unwrap();
-    assert!(refused(&[folder.path().into()]).to_string().contains("there is no run"));
-}
-
-/// What is changed in the text of a case, and what it becomes.
-const OTHER_CPU: [&str; 2] = ["\"cpu\":\"a processor\"", "\"cpu\":\"another\""];
-const OTHER_COMMIT: [&str; 2] = ["\"commit\":\"c0ffee\"", "\"commit\":\"decade\""];
-
-/// Two folders with these files, the text of every file of the second changed so, read together.
-fn both([one, other]: [&Files; 2], change: impl Fn(&str) -> String) -> Runs {
-    let of = |bytes: &[u8]| change(str::from_utf8(bytes).unwrap()).into_bytes();
-    let changed: Files = other.iter().map(|(name, bytes)| (name.clone(), of(bytes))).collect();
-    let [one, other] = [one, &changed].map(|files| runs_folder(files));
-    Runs::read(&[one.path().into(), other.path().into()], &Studies::builtin()).unwrap()
+    let kinds: Vec<&str> = runs.sources.iter().map(|source| source.kind.as_str()).collect();
+    assert_eq!(kinds, ["compare: 1 case", super::runs::NO_RUN]);
+    fs::remove_file(folder.path().join(run)).unwrap();
+    assert!(refused(folder.path().into()).to_string().contains("there is no run"));
 }
 
 #[test]
-fn cases_of_other_machines_and_builds_are_never_of_one_answer() {
-    let files = attribution_files("Cube");
-    for change in [OTHER_CPU, OTHER_COMMIT] {
-        let runs = both([&files; 2], |text| text.replacen(change[0], change[1], 1));
-        let answer = runs.answers.of::<attribution::AttributionStudy>().unwrap();
-        assert_eq!(answer.len(), 1);
-        assert_eq!(runs.sources.len(), 2, "each is an answer of its own: {:?}", runs.sources);
-        assert_eq!(runs.sources.iter().filter(|source| !source.replaced.is_empty()).count(), 1);
-    }
-    // A case that was measured twice by one build on one machine counts once.
-    let of_hosts = |files: [&Files; 2]| {
-        let mut runs = both(files, |text| text.replacen("\"host\":\"", "\"host\":\"b", 1));
-        assert_eq!((runs.sources.len(), runs.notes.len()), (1, 1), "{:?}", runs.notes);
-        runs.notes.remove(0)
-    };
-    let note = of_hosts([&files; 2]);
-    assert!(note.contains("attribution: 2 cases measured again since"), "{note}");
-    // Hosts of one processor are one machine, and are named.
-    let note = of_hosts([&files[..1].to_vec(), &files[1..].to_vec()]);
-    assert!(note.starts_with("attribution: cases of 2 hosts: "), "{note}");
-}
-
-#[test]
-fn a_comparison_is_of_one_build_and_another_machine_stands_beside_it() {
-    // One of them measured a scene that the other lacks.
-    let files = [comparison(&["Dragon", "Cube", "Lucy"]), comparison(&["Dragon", "Torus"])];
-    for (change, machines) in [(OTHER_COMMIT, 1), (OTHER_CPU, 2)] {
-        let runs = both(files.each_ref(), |text| text.replacen(change[0], change[1], 1));
-        assert_eq!(runs.records().len(), 6);
-        for record in runs.records() {
-            assert_eq!((&*record.provenance.commit, &*record.provenance.cpu), ("c0ffee", "a processor"));
-        }
-        let left_out = runs.sources.iter().filter(|source| !source.replaced.is_empty()).count();
-        assert_eq!((runs.machines.len(), left_out), (machines, 2 - machines), "{:?}", runs.sources);
-    }
-}
-
-#[test]
-fn epochs_that_no_plan_has_are_not_missing() {
-    // Of the larger ones `scaling` measures three.
-    let notes = |epochs: usize| read(runs_folder(&scaling(&[(1280, 4), (20 << 18, epochs)])).path()).notes;
-    assert_eq!(notes(3), [""; 0]);
-    assert_eq!(notes(2), ["scaling: sphere 5242880: epoch 2 is not measured."]);
-}
-
-#[test]
-fn the_picture_of_a_history_names_commits_and_marks_changes() {
-    let run = |(commit, slower): (&str, f64)| {
-        let of = |mut record: Record| {
-            record.provenance.commit = commit.into();
-            if record.label == "sah-kd" {
-                record.samples_ns.iter_mut().for_each(|ns| *ns *= slower);
-            }
-            record
-        };
-        let records: Vec<Record> = records_of("Cube").into_iter().map(of).collect();
-        serde_json::to_string(&Entry::new("nightly", &records).unwrap()).unwrap()
-    };
-    let lines = [("0123456789ab", 1.0), ("decade", 1.0), ("decade+changes", 2.0)].map(run).join("\n");
-    let folder = runs_folder(&[(format!("baselines/{}", history::FILE), lines.into_bytes())]);
-    let document = document(&read(folder.path()), vec![]);
-    let figure = document.figures().into_iter().find(|figure| figure.id == "history-nightly").unwrap();
-    let Art::Chart(Chart::Curves(curves)) = &figure.art else { panic!("no curves") };
-    assert_eq!(curves.x_names, ["0123456", "decade", "decade+"]);
-    let points = curves.lines.iter().flat_map(|line| line.points.iter().map(move |point| (&*line.label, point)));
-    let marked: Vec<(&str, f64)> = points.filter(|(_, point)| point.is_marked).map(|(label, p)| (label, p.x)).collect();
-    assert_eq!(marked, [("sah-kd", 3.0)]);
-    assert!(figure.caption.contains("Rings"), "{}", figure.caption);
-}
-
-#[test]
-fn runs_of_several_histories_are_in_order_of_time_and_only_those_of_the_same_rays_are_compared() {
-    let lines = |runs: &[(&str, &str)]| {
-        let line = |(scene, date): &(&str, &str)| {
-            let mut records = records_of(scene);
-            for record in &mut records {
-                record.provenance.date = format!("{date}T00:00:00Z");
-                record.scene_hash = (*scene).into();
-            }
-            serde_json::to_string(&Entry::new("nightly", &records).unwrap()).unwrap() + "\n"
-        };
-        let text: String = runs.iter().map(line).collect();
-        runs_folder(&[(format!("baselines/{}", history::FILE), text.into_bytes())])
-    };
-    // The first run of the second folder was made again, and keeps its place there.
-    let (tenth, second) = (
-        lines(&[("Cube", "2026-03-10")]),
-        lines(&[("Cube", "2026-03-12"), ("Cube", "2026-03-02"), ("Torus", "2026-03-11")]),
-    );
-    let paths = [&tenth, &second, &tenth, &second].map(|folder| folder.path().to_path_buf());
-    let of = |paths: &[PathBuf]| Runs::read(paths, &Studies::builtin()).unwrap();
-    let runs = of(&paths);
-    let days: Vec<&str> = runs.history.iter().map(|run| &run.provenance.date[8..10]).collect();
-    assert_eq!(days, ["12", "02", "10", "11"]);
-    assert!(page(&document(&runs, vec![])).contains("of 2026-03-11, is of other scenes or rays than the one before"));
-    let same = lines(&[("Cube", "2026-03-02"), ("Cube", "2026-03-10")]);
-    let text = page(&document(&of(&[same.path().to_path_buf()]), vec![]));
-    assert!(text.contains("of 2026-03-10, is not distinguishable from the one before"));
-}
-
-#[test]
-fn a_scene_that_was_not_checked_is_left_out_and_named() {
-    let mut files = attribution_files("Cube");
-    files.remove(0);
-    let runs = read(runs_folder(&files).path());
-    assert!(runs.answers.of::<attribution::AttributionStudy>().unwrap().is_empty());
-    assert!(runs.notes[0].starts_with("attribution: Cube (stand-in): epoch 0 is not measured"), "{:?}", runs.notes);
-    let document = document(&runs, vec![]);
-    assert!(page(&document).contains("epoch 0 is not measured"));
-}
-
-#[test]
-fn tidy_data_reads_back() {
+fn the_folder_of_a_report_has_all_numbers_for_programs() {
     let (document, runs) = cube();
-    let files = files(document, runs, &Studies::builtin());
-    let bytes = |name: &str| &files.iter().find(|(path, _)| path == name).unwrap_or_else(|| panic!("no {name}")).1;
-    let lines = String::from_utf8(bytes("data/records.jsonl").clone()).unwrap();
-    let back: Vec<Record> = lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
-    assert_eq!(back, runs.records());
-    let mut csv = csv::Reader::from_reader(&bytes("data/records.csv")[..]);
-    let names = csv.headers().unwrap().clone();
-    let rows: Vec<csv::StringRecord> = csv.records().map(Result::unwrap).collect();
-    assert_eq!(rows.len(), runs.records().len());
-    let column =
-        |name: &str| names.iter().position(|n| n == name).unwrap_or_else(|| panic!("no column {name} in {names:?}"));
-    assert_eq!(&rows[1][column("label")], "sah-kd");
-    assert_eq!(&rows[0][column("counts.leaves")], "7");
-    for figure in document.figures().into_iter().filter(|figure| !figure.data.columns.is_empty()) {
-        let mut csv = csv::Reader::from_reader(&bytes(&format!("figures/{}.csv", figure.id))[..]);
-        assert_eq!(csv.records().map(Result::unwrap).count(), figure.data.rows.len());
+    let files = files(document, runs);
+    let rows = |name: &str| -> Vec<Vec<String>> {
+        let (_, bytes) = files.iter().find(|(path, _)| path == name).unwrap_or_else(|| panic!("no {name}"));
+        let csv = csv::ReaderBuilder::new().has_headers(false).from_reader(&bytes[..]);
+        csv.into_records().map(|row| row.unwrap().iter().map(String::from).collect()).collect()
+    };
+    let data = rows("data/compare.csv");
+    assert_eq!(data[0], ["scene", "label", "mrays_per_s", "leaves"]);
+    assert_eq!((data.len(), &data[2][..2], &*data[2][3]), (3, &["Cube".to_owned(), "sah-kd".into()][..], "8"));
+    for figure in document.figures() {
+        assert_eq!(rows(&format!("figures/{}.csv", figure.id)).len(), 1 + figure.data.rows.len());
     }
+}
+
+#[test]
+fn scenes_are_drawn_as_they_were_measured_and_those_that_are_gone_are_named() {
+    let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
+    let mut all = ["Cube", "gone"].map(|name| measured("compare", name));
+    all[0].case.scene = SceneRequest::new("cube", &ViewArgs::default(), &scene);
+    let dataset = Dataset::new(provenance("x"), all.into());
+    let runs = read(folder(&[("compare.json", dataset.to_json())]).path());
+    let sections = super::draw(&runs, &Registry::builtin(), &mut |_| ());
+    let [scenes, heat, errors]: &[Section; 3] = sections.as_slice().try_into().unwrap();
+    let [Block::Figure(pictures), Block::Missing(gone)] = &scenes.blocks[..] else { panic!("{:?}", scenes.blocks) };
+    assert!(pictures.pictures()[0].note == "12 triangles" && gone.what.contains("gone"));
+    let Block::Figure(figure) = &heat.blocks[1] else { panic!("no heat") };
+    assert_eq!((figure.id.as_str(), figure.pictures().len()), ("heat-cube", 2));
+    assert!(heat.command.starts_with("sahara render cube --view heat --hottest "), "{}", heat.command);
+    assert!(matches!(&errors.blocks[1], Block::Text(text) if text.contains("answered right by median-kd and sah-kd")));
 }

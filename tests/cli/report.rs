@@ -92,13 +92,17 @@ fn results_are_written_with_the_numbers_of_the_readme_beside_them() {
     refuses_in_a_line(&["report", text(runs.path()), &results], &["no folder", "papers"]);
 
     fs::create_dir(&papers).unwrap();
-    let marked = "# Mine\n\nIt is: <!-- sahara: compare.checked -->?<!-- / --> And: <!-- sahara: replicate.hard -->?<!-- / -->\n";
+    let marked = "# Mine\n\nIt is: <!-- sahara: compare.checked -->?<!-- / --> \
+                  And: <!-- sahara: replicate.hard -->?<!-- / -->\n";
     fs::write(&readme, marked).unwrap();
     prints(&["report", text(runs.path()), &results]);
     let filled = fs::read_to_string(&readme).unwrap();
     // Lines are wrapped anywhere.
     let words = filled.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(words.contains("held against brute force") && words.contains("(`sahara replicate`)"), "{filled}");
+    assert!(
+        words.contains("held against brute force") && words.contains("(`sahara study replicate --dir runs`)"),
+        "{filled}"
+    );
     let paper = fs::read_to_string(papers.join("RESULTS.md")).unwrap();
     assert!(paper.starts_with("# Results\n") && paper.contains("Not measured in this run: "), "{paper}");
     assert!(!paper.contains(text(runs.path())), "no path of this machine");

@@ -1,14 +1,13 @@
 //! The report as one page that needs nothing else.
 
 mod scatter;
-mod sort_key;
 mod style;
 mod view;
 
 use minijinja::{AutoEscape, Environment, UndefinedBehavior};
 use serde::Serialize;
 
-use crate::report::document::Document;
+use crate::page::document::Document;
 
 /// The page.
 ///

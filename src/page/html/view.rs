@@ -2,14 +2,11 @@
 
 use minijinja::{Value, context};
 
-use super::sort_key::sort_key;
 use super::{in_script, scatter};
-use crate::report::document::{
-    Answer, Art, Block, Colours, Document, Figure, Headline, Overlay, Section, Tabular, Thumbnail,
-};
+use crate::page::document::{Answer, Document, Headline, Section};
 use crate::report::plot::Chart;
 use crate::report::words::ended;
-use crate::report::{Cell, Table, Tone};
+use crate::report::{Art, Block, Cell, Colours, Figure, Overlay, Picture, Table, Tone};
 
 /// Widths of drawings: on a desk, and on a telephone.
 pub const WIDE: f64 = 900.0;
@@ -17,8 +14,10 @@ const NARROW: f64 = 360.0;
 
 /// The page: what the template may ask of each part stands where the part is made.
 pub fn page(document: &Document, css: String) -> Value {
-    let section =
-        |section: &Section| context! { id => section.id, title => section.title, blocks => blocks(&section.blocks) };
+    let section = |section: &Section| {
+        let Section { id, title, command, blocks: own } = section;
+        context! { id => *id, title => *title, command => command, blocks => blocks(own) }
+    };
     context! {
         title => &document.title,
         answer => answer(&document.answer),
@@ -54,9 +53,7 @@ fn blocks(list: &[Block]) -> Vec<Value> {
     let block = |block: &Block| match block {
         Block::Text(text) => context! { kind => "text", spans => spans(text) },
         Block::Note(text) => context! { kind => "note", spans => spans(text) },
-        Block::Table(tabular) => {
-            context! { kind => "table", table => table(&tabular.table, Some(tabular)), command => &tabular.command }
-        }
+        Block::Table(own) => context! { kind => "table", table => table(own) },
         Block::Figure(f) => context! { kind => "figure", figure => figure(f) },
         Block::Missing(missing) => {
             context! { kind => "missing", text => ended(&missing.what), command => &missing.command }
@@ -66,39 +63,31 @@ fn blocks(list: &[Block]) -> Vec<Value> {
     values(list, block)
 }
 
-fn table(table: &Table, shaded: Option<&Tabular>) -> Value {
+fn table(table: &Table) -> Value {
     // Numbers stand to the right, words to the left.
-    let column_of = |column: usize| table.rows.iter().filter_map(move |row| row.get(column));
     let class_of = |column: usize| {
-        let said: Vec<&str> =
-            column_of(column).map(|cell| cell.text.as_str()).filter(|text| !text.is_empty()).collect();
+        let cells = || table.rows.iter().map(move |row| &row[column]).filter(|cell| !cell.is_empty());
         match () {
-            () if said.is_empty() || said.iter().any(|text| sort_key(text).is_some()) => "",
-            () if said.iter().any(|text| text.chars().count() > 30) => "text",
+            () if cells().next().is_none() || cells().any(|cell| !cell.is_text()) => "",
+            () if cells().any(|cell| cell.text().chars().count() > 30) => "text",
             () => "word",
         }
     };
-    let words: Vec<&str> = (0..table.columns.len()).map(class_of).collect();
-    let cell = |row: usize, column: usize, cell: &Cell| {
-        let shade = shaded.and_then(|s| *s.shades.get(row)?.get(column)?);
-        let tone = match (shade, cell.tone) {
-            (Some(shade), _) if shade > 0 => ["", "f1", "f2", "f3"][shade.min(3) as usize],
-            (Some(shade), _) => ["", "w1", "w2", "w3"][shade.unsigned_abs().min(3) as usize],
-            (None, Tone::Best) => "best",
-            (None, Tone::Wrong) => "wrong",
-            (None, Tone::Plain) => "",
+    let classes: Vec<&str> = (0..table.columns.len()).map(class_of).collect();
+    let cell = |(cell, class): (&Cell, &&str)| {
+        let tone = match cell.tone {
+            Tone::Best => "best",
+            Tone::Wrong => "wrong",
+            Tone::Plain => "",
         };
-        let class = [words[column], tone].join(" ").trim().to_owned();
-        context! { text => &cell.text, class => class, key => sort_key(&cell.text) }
+        context! { text => cell.text(), class => [class, tone].join(" ").trim(), key => cell.sort_key() }
     };
-    let row = |(i, cells): (usize, &Vec<Cell>)| -> Vec<Value> {
-        cells.iter().enumerate().map(|(column, c)| cell(i, column, c)).collect()
-    };
+    let row = |cells: &Vec<Cell>| -> Value { cells.iter().zip(&classes).map(cell).collect() };
     let column = |(name, class): (&String, &&str)| context! { name => name, class => *class };
     context! {
         title => &table.title,
-        columns => table.columns.iter().zip(&words).map(column).collect::<Vec<_>>(),
-        rows => table.rows.iter().enumerate().map(row).collect::<Vec<_>>(),
+        columns => table.columns.iter().zip(&classes).map(column).collect::<Vec<_>>(),
+        rows => values(&table.rows, row),
         notes => &table.notes,
     }
 }
@@ -121,13 +110,12 @@ fn figure(figure: &Figure) -> Value {
         id => &figure.id,
         caption => &figure.caption,
         alt => &figure.alt,
-        command => &figure.command,
         wide => wide,
         narrow => narrow,
         scatter => scatter,
         overlay => laid,
-        thumbnails => values(figure.pictures(), thumbnail),
-        data => table(&figure.data, None),
+        pictures => values(figure.pictures(), picture),
+        data => table(&figure.data),
     }
 }
 
@@ -148,14 +136,14 @@ fn overlay(overlay: &Overlay) -> Value {
     context! { heading => &overlay.heading, inspector => inspector, ..colours }
 }
 
-fn thumbnail(thumbnail: &Thumbnail) -> Value {
+fn picture(picture: &Picture) -> Value {
     context! {
-        name => &thumbnail.name,
-        note => &thumbnail.note,
-        alt => &thumbnail.alt,
-        base64 => base64::encode(&thumbnail.png),
-        width => thumbnail.size[0],
-        height => thumbnail.size[1],
+        name => &picture.name,
+        note => &picture.note,
+        alt => &picture.alt,
+        base64 => base64::encode(&picture.png),
+        width => picture.size[0],
+        height => picture.size[1],
     }
 }
 

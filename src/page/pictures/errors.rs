@@ -1,77 +1,82 @@
 //! Where answers are wrong, pixel by pixel, by exact arithmetic.
 
+use super::camera_rays::{CameraRays, StructureWork};
 use super::inspect::{inspector, most_rays};
-use super::seen::{Seen, SeenStructure};
-use super::{hex, told};
+use super::{hex, introduced};
+use crate::page::document::Section;
 use crate::render::ErrorMap;
-use crate::report::Table;
-use crate::report::document::{Art, Block, Colours, Figure, Overlay, Section, Thumbnail};
 use crate::report::inspector::Inspector;
 use crate::report::number::{count, plural};
 use crate::report::words::{listed, slug};
+use crate::report::{Art, Block, Colours, Figure, Overlay, Picture, Table};
 
 pub const TITLE: &str = "Where are answers wrong?";
 
-/// The pictures of all structures with a wrong answer; a sentence where none has one. Nothing without structures.
-pub fn block(seen: &Seen) -> Option<Block> {
-    let maps: Vec<(&SeenStructure, ErrorMap)> = seen.structures.iter().map(|s| (s, seen.errors(s))).collect();
+/// The pictures of all structures with a wrong answer, with the command that draws one; a sentence where none has one.
+/// Nothing without structures.
+pub fn block(camera: &CameraRays) -> Option<(Block, String)> {
+    let maps: Vec<(&StructureWork, ErrorMap)> = camera.structures.iter().map(|s| (s, camera.errors(s))).collect();
     let (wrong, right): (Vec<_>, Vec<_>) = maps.into_iter().partition(|(_, map)| map.errors().next().is_some());
-    let rays = plural(seen.exact.rays.len(), "camera ray");
+    let rays = plural(camera.exact.rays.len(), "camera ray");
     let right: Vec<&str> = right.iter().map(|(structure, _)| structure.label.as_str()).collect();
     match (wrong.is_empty(), right.is_empty()) {
         (true, true) => None,
         (true, false) => {
-            Some(Block::Text(format!("{}: all {rays} are answered right by {}.", seen.name, listed(&right))))
+            let text = format!("{}: all {rays} are answered right by {}.", camera.name, listed(&right));
+            Some((Block::Text(text), String::new()))
         }
-        (false, _) => Some(Block::figure(figure(seen, &wrong, &right))),
+        (false, _) => {
+            let words = camera.loaded.words();
+            let command = format!("sahara render {words} --view error --structure NAME -o NAME.png");
+            Some((Block::figure(figure(camera, &wrong, &right)), command))
+        }
     }
 }
 
-fn figure(seen: &Seen, wrong: &[(&SeenStructure, ErrorMap)], right: &[&str]) -> Figure {
-    let picture = |(structure, map): &(&SeenStructure, ErrorMap)| {
+fn figure(camera: &CameraRays, wrong: &[(&StructureWork, ErrorMap)], right: &[&str]) -> Figure {
+    let picture = |(structure, map): &(&StructureWork, ErrorMap)| {
         let errors = map.colours().into_iter().filter(|(_, n, _)| *n > 0);
         let errors = errors.map(|(name, n, _)| format!("{name}: {}", count(n as u64))).collect::<Vec<_>>().join(", ");
-        Thumbnail {
+        Picture {
             name: structure.label.clone(),
-            alt: format!("Wrong answers of {} on {}: {errors}", structure.label, seen.name),
+            alt: format!("Wrong answers of {} on {}: {errors}", structure.label, camera.name),
             note: errors,
             png: map.picture().png(),
-            size: seen.exact.size,
+            size: camera.exact.size,
         }
     };
     let names = wrong[0].1.colours().map(|(name, _, colour)| (hex(colour), name.to_owned()));
     let columns = ["structure".to_owned()].into_iter().chain(names.iter().map(|(_, name)| name.clone())).collect();
-    let row = |(structure, map): &(&SeenStructure, ErrorMap)| {
-        let numbers = map.colours().map(|(_, n, _)| count(n as u64).into());
+    let row = |(structure, map): &(&StructureWork, ErrorMap)| {
+        let numbers = map.colours().map(|(_, n, _)| n.into());
         [structure.label.as_str().into()].into_iter().chain(numbers).collect()
     };
-    let rays = plural(seen.exact.rays.len(), "camera ray");
+    let rays = plural(camera.exact.rays.len(), "camera ray");
     let right = if right.is_empty() { String::new() } else { format!(" Without an error: {}.", listed(right)) };
     Figure {
-        id: format!("errors-{}", slug(&seen.shown.scene.name)),
+        id: format!("errors-{}", slug(&camera.loaded.scene.name)),
         caption: format!(
-            "{}: answers to {rays} that exact arithmetic finds wrong, drawn three pixels wide; right ones are grey, brighter where \
-             nearer.{right}",
-            seen.name
+            "{}: answers to {rays} that exact arithmetic finds wrong, drawn three pixels wide; right ones are grey, \
+             brighter where nearer.{right}",
+            camera.name
         ),
         alt: String::new(),
-        command: format!("sahara render {} --view error --structure NAME -o NAME.png", seen.shown.quoted()),
         art: Art::Overlay(Overlay {
-            heading: seen.name.clone(),
+            heading: camera.name.clone(),
             pictures: wrong.iter().map(picture).collect(),
             colours: Colours::Key(names.into()),
-            inspector: Some(Box::new(pixels(seen, wrong))),
+            inspector: Some(Box::new(pixels(camera, wrong))),
         }),
         data: Table { columns, rows: wrong.iter().map(row).collect(), ..Table::default() },
     }
 }
 
 /// The rays of all pixels that some structure answers wrong; evenly chosen ones where they are too many.
-fn pixels(seen: &Seen, wrong: &[(&SeenStructure, ErrorMap)]) -> Inspector {
+fn pixels(camera: &CameraRays, wrong: &[(&StructureWork, ErrorMap)]) -> Inspector {
     let mut pixels: Vec<usize> = wrong.iter().flat_map(|(_, map)| map.errors()).collect();
     pixels.sort_unstable();
     pixels.dedup();
-    let (all, most) = (pixels.len(), most_rays(seen.structures.len()));
+    let (all, most) = (pixels.len(), most_rays(camera.structures.len()));
     let chosen: Vec<usize> = pixels.into_iter().step_by(all.div_ceil(most).max(1)).collect();
     let which = match chosen.len() {
         n if n == all => format!("{} that some structure answers wrong can be asked for.", plural(n, "pixel")),
@@ -81,11 +86,12 @@ fn pixels(seen: &Seen, wrong: &[(&SeenStructure, ErrorMap)]) -> Inspector {
             plural(all, "pixel")
         ),
     };
-    inspector(seen, chosen, which)
+    inspector(camera, chosen, which)
 }
 
 /// The section with what is known of all scenes, and what is said of those without a picture.
-pub fn section(found: Vec<Block>, left_out: Vec<Block>) -> Section {
+pub fn section(found: Vec<(Block, String)>, left_out: Vec<Block>) -> Section {
     let what = "The camera rays of a picture, each held against exact arithmetic.";
-    Section { id: "errors", title: TITLE, blocks: told("Pictures of wrong answers", what, found, left_out) }
+    let (blocks, command) = introduced("Pictures of wrong answers", what, found, left_out);
+    Section { id: "errors", title: TITLE, command, blocks }
 }

@@ -1,16 +1,17 @@
 //! Heat maps: the work of every structure, pixel by pixel.
 
+use super::camera_rays::{CameraRays, StructureWork};
 use super::inspect::{inspector, most_rays};
-use super::seen::{Seen, SeenStructure};
-use super::{hex, told};
+use super::{hex, introduced};
 use crate::accel::Observed;
-use crate::render::{Picture, Work, heat_colour, hottest};
-use crate::report::Table;
-use crate::report::document::{Art, Block, Colours, Figure, Overlay, Section, Thumbnail};
+use crate::page::document::Section;
+use crate::render;
+use crate::render::{Work, heat_colour, hottest};
 use crate::report::inspector::Inspector;
 use crate::report::number::{count, figures};
 use crate::report::plot::tick_text;
 use crate::report::words::slug;
+use crate::report::{Art, Block, Colours, Figure, Overlay, Picture, Table};
 
 pub const TITLE: &str = "Where is the work?";
 
@@ -21,7 +22,7 @@ struct Heat<'a> {
 }
 
 impl<'a> Heat<'a> {
-    fn of(structure: &'a SeenStructure) -> Option<Self> {
+    fn of(structure: &'a StructureWork) -> Option<Self> {
         let costs = || structure.work.iter().map(Work::cost).collect();
         (structure.observed == Observed::ALL).then(|| Self { label: &structure.label, costs: costs() })
     }
@@ -31,58 +32,57 @@ impl<'a> Heat<'a> {
     }
 }
 
-/// The maps of all structures that tell their work. Nothing where none does.
-pub fn figure(seen: &Seen) -> Option<Figure> {
-    let maps: Vec<Heat> = seen.structures.iter().filter_map(Heat::of).collect();
+/// The maps of all structures that tell their work, with the command that draws one. Nothing where none does.
+pub fn block(camera: &CameraRays) -> Option<(Block, String)> {
+    let maps: Vec<Heat> = camera.structures.iter().filter_map(Heat::of).collect();
     // One scale for all: a structure is as bright as its work.
     let scale = maps.iter().map(|heat| hottest(&heat.costs)).max()?;
-    let (name, size) = (&seen.name, seen.exact.size);
+    let (name, size) = (&camera.name, camera.exact.size);
     let picture = |heat: &Heat| {
         let colours = heat.costs.iter().map(|&cost| heat_colour(stepped(cost, scale), scale));
         let mean = figures(heat.mean());
-        Thumbnail {
+        Picture {
             name: heat.label.into(),
             note: format!("{mean} a ray"),
             alt: format!("Heat map of {} on {name}: {mean} tests and steps a ray on average", heat.label),
-            png: Picture::new(size, colours.collect()).png(),
+            png: render::Picture::new(size, colours.collect()).png(),
             size,
         }
     };
     let rows = maps.iter().map(|heat| {
         let most = heat.costs.iter().max().copied().unwrap_or(0);
-        [heat.label.into(), figures(heat.mean()), count(hottest(&heat.costs)), count(most)]
+        vec![heat.label.into(), heat.mean().into(), hottest(&heat.costs).into(), most.into()]
     });
-    Some(Figure {
-        id: format!("heat-{}", slug(&seen.shown.scene.name)),
+    let figure = Figure {
+        id: format!("heat-{}", slug(&camera.loaded.scene.name)),
         caption: format!(
-            "{name}: triangle tests and steps of each camera ray, all structures on one logarithmic scale from 0 to {}, which \
-             all but one in two hundred pixels stay below. Brute force, which tests every triangle for every ray, would \
-             darken all of them and is left out.",
+            "{name}: triangle tests and steps of each camera ray, all structures on one logarithmic scale from 0 to \
+             {}, which all but one in two hundred pixels stay below. Brute force, which tests every triangle for every \
+             ray, would darken all of them and is left out.",
             count(scale)
         ),
         alt: String::new(),
-        command: format!(
-            "sahara render {} --view heat --hottest {scale} --structure NAME -o NAME.png",
-            seen.shown.quoted()
-        ),
         art: Art::Overlay(Overlay {
             heading: name.clone(),
             pictures: maps.iter().map(picture).collect(),
             colours: ramp(scale),
-            inspector: Some(Box::new(grid(seen))),
+            inspector: Some(Box::new(grid(camera))),
         }),
-        data: Table::of_texts("", ["structure", "mean", "99.5 % below", "most"], rows.collect()),
-    })
+        data: Table::new("", ["structure", "mean", "99.5 % below", "most"], rows),
+    };
+    let words = camera.loaded.words();
+    let command = format!("sahara render {words} --view heat --hottest {scale} --structure NAME -o NAME.png");
+    Some((Block::figure(figure), command))
 }
 
 /// The rays of a coarse grid of pixels.
-fn grid(seen: &Seen) -> Inspector {
-    let [width, height] = seen.exact.size.map(|side| side as usize);
+fn grid(camera: &CameraRays) -> Inspector {
+    let [width, height] = camera.exact.size.map(|side| side as usize);
     let of = |stride: usize| {
         let places = |side: usize| (stride / 2..side).step_by(stride);
         places(height).flat_map(|y| places(width).map(move |x| y * width + x)).collect::<Vec<_>>()
     };
-    let most = most_rays(seen.structures.len());
+    let most = most_rays(camera.structures.len());
     let strides = (1..).map(|stride| (stride, of(stride)));
     let found = strides.into_iter().find(|(_, pixels)| pixels.len() <= most);
     let (stride, pixels) = found.expect("no pixel is few enough");
@@ -90,7 +90,7 @@ fn grid(seen: &Seen) -> Inspector {
         1 => "Every pixel can be asked for.".into(),
         _ => format!("One pixel in {stride} of one row in {stride} can be asked for."),
     };
-    inspector(seen, pixels, which)
+    inspector(camera, pixels, which)
 }
 
 fn ramp(scale: u64) -> Colours {
@@ -114,8 +114,8 @@ fn stepped(cost: u64, scale: u64) -> u64 {
 }
 
 /// The section with the figures of all scenes, and what is said of those without one.
-pub fn section(figures: Vec<Figure>, left_out: Vec<Block>) -> Section {
+pub fn section(found: Vec<(Block, String)>, left_out: Vec<Block>) -> Section {
     let what = "Where the work is: brighter pixels cost more triangle tests and steps.";
-    let found = figures.into_iter().map(Block::figure).collect();
-    Section { id: "heat", title: TITLE, blocks: told("Heat maps of the structures", what, found, left_out) }
+    let (blocks, command) = introduced("Heat maps of the structures", what, found, left_out);
+    Section { id: "heat", title: TITLE, command, blocks }
 }

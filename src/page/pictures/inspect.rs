@@ -1,6 +1,6 @@
 //! The rays of some pixels, and what every structure does for them.
 
-use super::seen::{Seen, SeenStructure};
+use super::camera_rays::{CameraRays, StructureWork};
 use crate::geometry::{Hit, Ray};
 use crate::render::{Work, error_name};
 use crate::report::inspector::{Answer, InspectedHit, InspectedStructure, Inspector};
@@ -18,17 +18,18 @@ pub fn most_rays(structures: usize) -> usize {
     NUMBERS / (structures + OF_RAY)
 }
 
-/// Everything about `pixels`, which are numbers of pixels in ascending order. `which` says in a sentence which ones they are.
-pub fn inspector(seen: &Seen, pixels: Vec<usize>, which: String) -> Inspector {
-    let options: Vec<String> = seen.structures.iter().map(|s| format!("-s {}", s.label)).collect();
-    let answers: Vec<Vec<Answer>> = pixels.iter().map(|&pixel| answers(seen, pixel)).collect();
-    let of_structure = |structure: &SeenStructure| {
+/// Everything about `pixels`, which are numbers of pixels in ascending order. `which` says in a sentence which ones
+/// they are.
+pub fn inspector(camera: &CameraRays, pixels: Vec<usize>, which: String) -> Inspector {
+    let options: Vec<String> = camera.structures.iter().map(|s| format!("-s {}", s.label)).collect();
+    let answers: Vec<Vec<Answer>> = pixels.iter().map(|&pixel| answers(camera, pixel)).collect();
+    let of_structure = |structure: &StructureWork| {
         let numbers = |known: bool, number: fn(&Work) -> u64| {
             let asked = pixels.iter().map(|&pixel| number(&structure.work[pixel]));
             if known { asked.collect() } else { vec![] }
         };
         let own = |(answers, &pixel): (&Vec<Answer>, &usize)| {
-            let answer = answer(seen, pixel, structure.work[pixel].hit);
+            let answer = answer(camera, pixel, structure.work[pixel].hit);
             answers.iter().position(|other| *other == answer).expect("the ray has the answers of all structures")
         };
         InspectedStructure {
@@ -39,42 +40,42 @@ pub fn inspector(seen: &Seen, pixels: Vec<usize>, which: String) -> Inspector {
             answers: answers.iter().zip(&pixels).map(own).collect(),
         }
     };
-    let structures = seen.structures.iter().map(of_structure).collect();
+    let structures = camera.structures.iter().map(of_structure).collect();
     Inspector {
-        size: seen.exact.size,
+        size: camera.exact.size,
         which,
-        command: format!("sahara validate {} {} --ray", seen.shown.quoted(), options.join(" ")),
+        command: format!("sahara validate {} {} --ray", camera.loaded.words(), options.join(" ")),
         pixels: pixels.iter().map(|&pixel| pixel as u32).collect(),
-        rays: pixels.iter().map(|&pixel| seen.exact.rays[pixel].to_string()).collect(),
-        truths: pixels.iter().map(|&pixel| truth(seen, pixel)).collect(),
+        rays: pixels.iter().map(|&pixel| camera.exact.rays[pixel].to_string()).collect(),
+        truths: pixels.iter().map(|&pixel| truth(camera, pixel)).collect(),
         answers,
         structures,
     }
 }
 
 /// Whoever tests triangles has entered a leaf, if leaves are counted: in some trees they are no nodes of their own.
-fn sees_leaves(structure: &SeenStructure) -> bool {
+fn sees_leaves(structure: &StructureWork) -> bool {
     let any = |number: fn(&Work) -> u64| structure.work.iter().any(|work| number(work) > 0);
     structure.observed.steps && (any(|work| work.counts.leaves) || !any(|work| work.counts.tests))
 }
 
-fn truth(seen: &Seen, pixel: usize) -> Answer {
-    let truth = seen.exact.truths[pixel].as_ref().map(|truth| Hit::new(truth.rounded(), truth.ids[0]));
-    Answer { hit: truth.map(|hit| of_hit(seen, &seen.exact.rays[pixel], hit)), wrong: "" }
+fn truth(camera: &CameraRays, pixel: usize) -> Answer {
+    let truth = camera.exact.truths[pixel].as_ref().map(|truth| Hit::new(truth.rounded(), truth.ids[0]));
+    Answer { hit: truth.map(|hit| of_hit(camera, &camera.exact.rays[pixel], hit)), wrong: "" }
 }
 
 /// The different answers of all structures.
-fn answers(seen: &Seen, pixel: usize) -> Vec<Answer> {
-    each_once(seen.structures.iter().map(|structure| answer(seen, pixel, structure.work[pixel].hit)))
+fn answers(camera: &CameraRays, pixel: usize) -> Vec<Answer> {
+    each_once(camera.structures.iter().map(|structure| answer(camera, pixel, structure.work[pixel].hit)))
 }
 
-fn answer(seen: &Seen, pixel: usize, hit: Option<Hit>) -> Answer {
-    let wrong = error_name(seen.exact.outcome(pixel, hit)).unwrap_or("");
-    Answer { hit: hit.map(|hit| of_hit(seen, &seen.exact.rays[pixel], hit)), wrong }
+fn answer(camera: &CameraRays, pixel: usize, hit: Option<Hit>) -> Answer {
+    let wrong = error_name(camera.exact.outcome(pixel, hit)).unwrap_or("");
+    Answer { hit: hit.map(|hit| of_hit(camera, &camera.exact.rays[pixel], hit)), wrong }
 }
 
-fn of_hit(seen: &Seen, ray: &Ray, hit: Hit) -> InspectedHit {
+fn of_hit(camera: &CameraRays, ray: &Ray, hit: Hit) -> InspectedHit {
     let triangle = hit.prim.index();
-    let weights = barycentrics(ray, seen.shown.scene.mesh.corners(triangle));
+    let weights = barycentrics(ray, camera.loaded.scene.mesh.corners(triangle));
     InspectedHit { t: hit.t, triangle, weights: [weights.y, weights.z] }
 }

@@ -1,68 +1,87 @@
-//! Pictures of the scenes, of the work that structures do on them and of their wrong answers: drawn when the report is made.
+//! Pictures of the scenes, of the work that structures do on them and of their wrong answers: drawn when the report is
+//! made.
 
+mod camera_rays;
 mod errors;
 mod heat;
 mod inspect;
 mod scenes;
-mod seen;
-mod shown;
 
-use crate::page::runs::Runs;
+use super::document::Section;
+use super::runs::Runs;
+use crate::measure::quoted;
 use crate::registry::Registry;
-use crate::report::document::{Block, Section};
-use crate::study::{Studies, is_large};
+use crate::report::Block;
+use crate::request::{SceneRequest, is_large};
+use crate::scene::Scene;
 
-use seen::Seen;
-use shown::{Find, Shown, found_again};
+use camera_rays::CameraRays;
 
 /// Scenes with heat maps and pictures of errors: the largest.
 const LARGEST: usize = 3;
 
+/// A scene of the runs, as it was measured.
+struct LoadedScene {
+    scene: Scene,
+    request: SceneRequest,
+}
+
+impl LoadedScene {
+    /// The scene and its view as a shell reads them.
+    fn words(&self) -> String {
+        let view = self.request.view.words();
+        [quoted(&self.request.word), view].into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
+    }
+}
+
 /// The sections of scenes, heat maps and errors. `progress` is told what is done.
-pub fn draw(runs: &Runs, suite: (&Registry, &Studies), find: Find, progress: &mut dyn FnMut(String)) -> Vec<Section> {
-    let (registry, studies) = suite;
-    let (mut shown, mut lost): (Vec<Shown>, Vec<String>) = (vec![], vec![]);
-    for (scene, command) in runs.scenes(studies) {
-        progress(format!("loads {}", scene.name));
-        match found_again(&scene, &command, find) {
-            Some(found) => shown.push(found),
-            None => lost.push(scene.name),
+pub fn draw(runs: &Runs, registry: &Registry, progress: &mut dyn FnMut(String)) -> Vec<Section> {
+    let (mut loaded, mut lost): (Vec<LoadedScene>, Vec<String>) = (vec![], vec![]);
+    // The scenes of a generator are many, and look alike.
+    let is_generated = |word: &str| word.split_once(':').is_some_and(|(name, _)| registry.has_generator(name));
+    for request in runs.scenes().into_iter().filter(|request| !is_generated(&request.word)) {
+        progress(format!("loads {}", request.name));
+        match request.load(registry) {
+            Ok(scene) => loaded.push(LoadedScene { scene, request }),
+            Err(_) => lost.push(request.name),
         }
     }
-    let mut thumbnails = vec![];
-    for one in &shown {
-        progress(format!("draws {}", one.scene.name));
-        match scenes::thumbnail(one, registry) {
-            Some(thumbnail) => thumbnails.push(thumbnail),
-            None => lost.push(one.scene.name.clone()),
+    let mut pictures = vec![];
+    for own in &loaded {
+        progress(format!("draws {}", own.scene.name));
+        match scenes::picture(own, registry) {
+            Some(picture) => pictures.push(picture),
+            None => lost.push(own.scene.name.clone()),
         }
     }
-    let mut largest: Vec<&Shown> = shown.iter().collect();
-    largest.sort_by_key(|one| std::cmp::Reverse(one.scene.mesh.len()));
-    let (too_large, largest): (Vec<&Shown>, Vec<_>) =
-        largest.into_iter().partition(|one| is_large(one.scene.mesh.len()));
+    let mut largest: Vec<&LoadedScene> = loaded.iter().collect();
+    largest.sort_by_key(|own| std::cmp::Reverse(own.scene.mesh.len()));
+    let (too_large, largest): (Vec<&LoadedScene>, Vec<_>) =
+        largest.into_iter().partition(|own| is_large(own.scene.mesh.len()));
     let (mut heat, mut errors) = (vec![], vec![]);
-    for one in largest.into_iter().take(LARGEST) {
-        progress(format!("draws heat and errors of {}", one.scene.name));
-        let seen = Seen::new(one, runs, registry);
-        heat.extend(heat::figure(&seen));
-        errors.extend(errors::block(&seen));
+    for own in largest.into_iter().take(LARGEST) {
+        progress(format!("draws heat and errors of {}", own.scene.name));
+        let rays = CameraRays::new(own, runs, registry);
+        heat.extend(heat::block(&rays));
+        errors.extend(errors::block(&rays));
     }
     vec![
-        scenes::section(thumbnails, &shown, &lost),
+        scenes::section(pictures, &loaded, &lost),
         heat::section(heat, without(&too_large, "heat")),
         errors::section(errors, without(&too_large, "error")),
     ]
 }
 
-/// What is said of scenes with so many triangles that it would take minutes to build all structures again for a picture.
-fn without(too_large: &[&Shown], view: &str) -> Vec<Block> {
-    let block = |one: &&Shown| {
+/// What is said of scenes with so many triangles that it would take minutes to build all structures again for a
+/// picture.
+fn without(too_large: &[&LoadedScene], view: &str) -> Vec<Block> {
+    let block = |own: &&LoadedScene| {
         let what = format!(
-            "A picture of the {view} view of {}: to build all structures again among so many triangles would take minutes",
-            one.scene.name
+            "A picture of the {view} view of {}: to build all structures again among so many triangles would take \
+             minutes",
+            own.scene.name
         );
-        Block::missing(&what, &format!("sahara render {} --view {view} --structure NAME -o NAME.png", one.quoted()))
+        Block::missing(&what, &format!("sahara render {} --view {view} --structure NAME -o NAME.png", own.words()))
     };
     too_large.iter().map(block).collect()
 }
@@ -72,49 +91,57 @@ fn hex([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// What was `found`, introduced by a sentence, then what was left out; where there is neither, that these pictures are missing.
-fn told(pictures: &str, sentence: &str, found: Vec<Block>, left_out: Vec<Block>) -> Vec<Block> {
+/// What was `found`, introduced by a sentence, then what was left out; where there is neither, that these pictures are
+/// missing. With the commands of what was found.
+fn introduced(
+    pictures: &str,
+    sentence: &str,
+    found: Vec<(Block, String)>,
+    left_out: Vec<Block>,
+) -> (Vec<Block>, String) {
     let first = match (found.is_empty(), left_out.is_empty()) {
         (true, true) => Some(Block::missing(pictures, "sahara compare --dir runs")),
         (true, false) => None,
         (false, _) => Some(Block::Text(sentence.into())),
     };
-    first.into_iter().chain(found).chain(left_out).collect()
+    let (found, mut commands): (Vec<Block>, Vec<String>) = found.into_iter().unzip();
+    commands.retain(|command| !command.is_empty());
+    (first.into_iter().chain(found).chain(left_out).collect(), commands.join("\n"))
 }
 
 /// The sections of a report without pictures, which say so.
 pub fn left_out() -> Vec<Section> {
-    let command = "sahara report, without --no-pictures";
-    let missing = |what| vec![Block::missing(what, command)];
+    let section = |id, title, what| {
+        let blocks = vec![Block::missing(what, "sahara report, without --no-pictures")];
+        Section { id, title, blocks, ..Section::default() }
+    };
     vec![
-        Section { id: "scenes", title: scenes::TITLE, blocks: missing("Pictures of the scenes") },
-        Section { id: "heat", title: heat::TITLE, blocks: missing("Heat maps of the structures") },
-        Section { id: "errors", title: errors::TITLE, blocks: missing("Pictures of wrong answers") },
+        section("scenes", scenes::TITLE, "Pictures of the scenes"),
+        section("heat", heat::TITLE, "Heat maps of the structures"),
+        section("errors", errors::TITLE, "Pictures of wrong answers"),
     ]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::request::ViewArgs;
     use crate::scene::Builtin;
-    use crate::study::ViewArgs;
 
     #[test]
     fn a_scene_that_is_too_large_to_be_built_again_is_named_with_a_command() {
         let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
-        let view = ViewArgs::of_command(&["--inside".into()]);
-        let shown = Shown { scene, argument: "cube".into(), view, differs: false };
+        let view: ViewArgs = serde_json::from_str(r#"{"inside":true}"#).unwrap();
+        let request = SceneRequest::new("cube", &view, &scene);
+        let loaded = LoadedScene { scene, request };
         for (section, view) in [
-            (heat::section(vec![], without(&[&shown], "heat")), "heat"),
-            (errors::section(vec![], without(&[&shown], "error")), "error"),
+            (heat::section(vec![], without(&[&loaded], "heat")), "heat"),
+            (errors::section(vec![], without(&[&loaded], "error")), "error"),
         ] {
             let [Block::Missing(missing)] = &section.blocks[..] else { panic!("{:?}", section.blocks) };
             assert!(missing.what.contains(&format!("{view} view of Cube")), "{}", missing.what);
-            assert!(
-                missing.command.starts_with(&format!("sahara render cube --inside --view {view} ")),
-                "{}",
-                missing.command
-            );
+            let command = format!("sahara render cube --inside --view {view} ");
+            assert!(missing.command.starts_with(&command), "{}", missing.command);
         }
     }
 }

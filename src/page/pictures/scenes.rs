@@ -1,41 +1,40 @@
 //! The scenes, as the report's course shades them.
 
-use super::shown::Shown;
+use super::LoadedScene;
+use crate::page::document::Section;
 use crate::registry::Registry;
-use crate::render::{Picture, ViewKind, draw, size_of};
-use crate::report::Table;
-use crate::report::document::{Art, Block, Figure, Section, Thumbnail};
+use crate::render::{self, ViewKind, draw, size_of};
 use crate::report::number::count;
 use crate::report::words::{listed, scene_name};
+use crate::report::{Art, Block, Cell, Figure, Picture, Table};
+use crate::request::guide;
 use crate::scene::Builtin;
-use crate::study::{guarded, sources};
+use crate::study::measure::guarded;
 
-/// Longest side of a thumbnail, in pixels.
-const THUMBNAIL: u32 = 208;
+/// Longest side of a picture, in pixels.
+const SIDE: u32 = 208;
 
 pub const TITLE: &str = "The scenes";
 
 /// The scene as the report's course shades it, four rays a pixel.
-pub fn thumbnail(shown: &Shown, registry: &Registry) -> Option<Thumbnail> {
-    let scene = &shown.scene;
-    let accel = sources::guide(registry).ok()?.build(&scene.mesh).ok()?;
-    let size = size_of(scene, THUMBNAIL);
+pub fn picture(loaded: &LoadedScene, registry: &Registry) -> Option<Picture> {
+    let scene = &loaded.scene;
+    let accel = guide(registry).ok()?.build(&scene.mesh).ok()?;
+    let size = size_of(scene, SIDE);
     let fine =
         guarded(|| draw(scene, accel.as_ref(), ViewKind::Shaded, size.map(|side| 2 * side), 1)).and_then(Result::ok)?;
-    let picture = halved(&fine);
-    let differs = if shown.differs { "; another mesh or view than the one measured" } else { "" };
     let name = scene_name(&scene.name, !scene.stand_ins.is_empty());
-    Some(Thumbnail {
+    Some(Picture {
         alt: format!("{name}, rendered"),
-        note: format!("{} triangles{differs}", count(scene.mesh.len() as u64)),
+        note: format!("{} triangles", count(scene.mesh.len() as u64)),
         name,
-        png: picture.png(),
+        png: halved(&fine).png(),
         size,
     })
 }
 
 /// The mean of each two by two pixels.
-fn halved(fine: &Picture) -> Picture {
+fn halved(fine: &render::Picture) -> render::Picture {
     let [width, height] = fine.size().map(|side| side / 2);
     let pixel = |x: u32, y: u32| fine.pixels()[(y * fine.size()[0] + x) as usize];
     let mean = |x: u32, y: u32| {
@@ -43,22 +42,23 @@ fn halved(fine: &Picture) -> Picture {
         std::array::from_fn(|c| (four.iter().map(|p| u32::from(p[c])).sum::<u32>().div_ceil(4)).min(255) as u8)
     };
     let pixels = (0..height).flat_map(|y| (0..width).map(move |x| mean(2 * x, 2 * y)));
-    Picture::new([width, height], pixels.collect())
+    render::Picture::new([width, height], pixels.collect())
 }
 
 /// From where the scenes are seen.
-fn caption(shown: &[Shown]) -> String {
-    let all_builtin = shown.iter().all(|one| Builtin::find(&one.argument).is_ok());
+fn caption(loaded: &[LoadedScene]) -> String {
+    let is_builtin = |own: &LoadedScene| Builtin::find(own.request.word.split(':').next().unwrap_or_default()).is_ok();
+    let all_builtin = loaded.iter().all(is_builtin);
     let cameras = if all_builtin {
         "with the source report's cameras, lights and materials"
     } else {
-        "the built-in ones with the source report's cameras, lights and materials, those of scene files with their own, and meshes with \
-         a camera that has them whole in view"
+        "the built-in ones with the source report's cameras, lights and materials, those of scene files with their \
+         own, and meshes with a camera that has them whole in view"
     };
-    let asked = shown.iter().filter_map(|one| {
-        let view = one.view.looks_from()?;
+    let asked = loaded.iter().filter_map(|own| {
+        let view = own.request.view.looks_from()?;
         let from = if view == "--inside" { "within" } else { "where its command says" };
-        Some(format!("{} is seen from {from} ({view})", one.scene.name))
+        Some(format!("{} is seen from {from} ({view})", own.scene.name))
     });
     let asked: Vec<String> = asked.collect();
     let asked = if asked.is_empty() { String::new() } else { format!("; {}", listed(&asked)) };
@@ -67,22 +67,52 @@ fn caption(shown: &[Shown]) -> String {
 }
 
 /// `lost` are the scenes without a picture.
-pub fn section(thumbnails: Vec<Thumbnail>, shown: &[Shown], lost: &[String]) -> Section {
-    let mut blocks = vec![];
-    if !thumbnails.is_empty() {
-        let rows = thumbnails.iter().map(|t| [t.name.clone(), t.note.clone()]).collect();
+pub fn section(pictures: Vec<Picture>, loaded: &[LoadedScene], lost: &[String]) -> Section {
+    let (mut blocks, mut command) = (vec![], String::new());
+    if !pictures.is_empty() {
+        let name = |own: &LoadedScene| scene_name(&own.scene.name, own.request.stand_in);
+        let rows = loaded.iter().map(|own| vec![name(own).into(), Cell::from(own.scene.mesh.len())]);
+        command = "sahara render SCENE -o SCENE.png".into();
         blocks.push(Block::figure(Figure {
             id: "scenes".into(),
-            caption: caption(shown),
+            caption: caption(loaded),
             alt: String::new(),
-            command: "sahara render SCENE -o SCENE.png".into(),
-            art: Art::Gallery(thumbnails),
-            data: Table::of_texts("", ["scene", "triangles"], rows),
+            data: Table::new("", ["scene", "triangles"], rows),
+            art: Art::Gallery(pictures),
         }));
     }
     for name in lost {
-        blocks
-            .push(Block::missing(&format!("A picture of {name}: its file is not here"), "sahara render FILE -o F.png"));
+        let what = format!("A picture of {name}: it is not here, or is not what was measured");
+        blocks.push(Block::missing(&what, "sahara render FILE -o F.png"));
     }
-    Section { id: "scenes", title: TITLE, blocks }
+    Section { id: "scenes", title: TITLE, command, blocks }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::request::{SceneRequest, ViewArgs};
+    use crate::scene::Scene;
+
+    #[test]
+    fn only_built_in_scenes_have_the_cameras_of_the_source_report() {
+        let caption = |word: &str, name: &str, view: &str| {
+            let scene = Scene { name: name.into(), ..Builtin::find("cube").unwrap().scene(None).unwrap() };
+            let view: ViewArgs = serde_json::from_str(view).unwrap();
+            let request = SceneRequest::new(word, &view, &scene);
+            super::caption(&[LoadedScene { scene, request }])
+        };
+        let cube = caption("cube", "Cube", "{}");
+        assert!(cube.contains("rendered by sahara with the source report's cameras") && !cube.contains("--"), "{cube}");
+        assert_eq!(caption("cube:stand-in", "Cube", "{}"), cube);
+        let mine = caption("mine.ply", "mine", "{}");
+        assert!(
+            mine.contains("the built-in ones with the source report's") && mine.contains("whole in view"),
+            "{mine}"
+        );
+        let inside = caption("mine.ply", "mine", r#"{"inside":true}"#);
+        assert!(inside.ends_with("whole in view; mine is seen from within (--inside)."), "{inside}");
+        let looked = caption("cube", "Cube", r#"{"camera":"0,0,9 0,0,0"}"#);
+        assert!(looked.ends_with("; Cube is seen from where its command says (--camera)."), "{looked}");
+    }
 }

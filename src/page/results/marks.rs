@@ -48,8 +48,8 @@ pub fn marked(text: &str) -> Result<Vec<(String, String)>, MarkError> {
     Ok(places(text)?.iter().map(|place| (place.key.to_owned(), plain(place))).collect())
 }
 
-/// The file with what `of` says in the marked places; what it does not know stays. Paragraphs with marks are wrapped anew, tables
-/// stand in lines of their own.
+/// The file with what `of` says in the marked places; what it does not know stays. Paragraphs with marks are wrapped
+/// anew, tables stand in lines of their own.
 ///
 /// # Errors
 /// If a mark is not closed.
@@ -104,8 +104,8 @@ fn flush(paragraph: &mut Vec<&str>, out: &mut String) {
     *out += &format!("{line}\n");
 }
 
-/// What may stand at the end of a line: a comment is one word with what is before it, for a line that begins with one is no Markdown; so is
-/// a piece of code.
+/// What may stand at the end of a line: a comment is one word with what is before it, for a line that begins with one
+/// is no Markdown; so is a piece of code.
 fn words(text: &str) -> Vec<String> {
     let (mut words, mut word, mut is_code): (Vec<String>, String, bool) = (vec![], String::new(), false);
     for piece in text.split_whitespace() {

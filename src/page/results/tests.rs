@@ -4,15 +4,15 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use super::{COMMAND, DATA, MarkError, Results, ResultsData, ResultsError, counts, digest, fill, marked, work};
+use super::{COMMAND, DATA, MarkError, Results, ResultsData, ResultsError, counts, digest, fill, marked};
 use crate::accel::Counts;
-use crate::measure::spread;
-use crate::page::tests::{attribution_files, compared, cube, provenance, read, records_of, runs_folder};
+use crate::measure::{Provenance, spread};
+use crate::page::tests::example::{STUDIES, cube, folder, journal, provenance, read, runs};
 use crate::page::{Runs, document};
 use crate::registry::Registry;
-use crate::report::{Record, to_json};
 use crate::scene::{Builtin, Sampling, Scene, Workload, WorkloadKind};
-use crate::study::Studies;
+use crate::study::measurement::Measurement;
+use crate::study::measurement::tests::example;
 
 /// A file of the repository.
 fn file(path: &str) -> Vec<u8> {
@@ -39,8 +39,8 @@ fn readme_and_paper_are_those_of_the_data_file() {
         );
     }
     for (key, text) in marked(&readme()).unwrap() {
-        let told = data.statements.get(&key).map(|told| told.text.split_whitespace().collect::<Vec<_>>().join(" "));
-        assert_eq!(Some(text), told, "README.md, {key}: `{COMMAND}` writes it anew");
+        let known = data.statements.get(&key).map(|known| known.text.split_whitespace().collect::<Vec<_>>().join(" "));
+        assert_eq!(Some(text), known, "README.md, {key}: `{COMMAND}` writes it anew");
     }
 }
 
@@ -80,7 +80,7 @@ fn recounted(scene: &Scene, label: &str, rays: usize) -> String {
     accel.closest_hits_counted(&rays, &mut hits, &mut counts);
     let observed = accel.observed();
     let [tests, steps] = [observed.tests.then_some(counts.tests), observed.steps.then_some(counts.steps())];
-    work(rays.len(), hits.iter().flatten().count(), tests, steps)
+    counts::text(rays.len(), hits.iter().flatten().count(), tests, steps)
 }
 
 #[test]
@@ -96,7 +96,8 @@ fn trees_and_searches_are_those_of_the_data_file() {
             assert_eq!(
                 recounted(&scene, label, rays),
                 *known,
-                "{label} on {name}: the numbers are of other trees or searches, those of commit {}; `{COMMAND}` makes them anew",
+                "{label} on {name}: the numbers are of other trees or searches, those of commit {}; `{COMMAND}` \
+                 makes them anew",
                 data.run.commit
             );
         }
@@ -106,25 +107,24 @@ fn trees_and_searches_are_those_of_the_data_file() {
 #[test]
 fn counts_are_kept_of_small_scenes_that_anybody_has() {
     let scene = Builtin::find("torus").unwrap().scene(None).unwrap();
-    let told = recounted(&scene, "sah-bvh", 1000);
+    let text = recounted(&scene, "sah-bvh", 1000);
     let number = |what: &str| -> f64 {
-        let before = told.split(what).next().unwrap().trim();
+        let before = text.split(what).next().unwrap().trim();
         before.rsplit(' ').next().unwrap().parse().unwrap()
     };
-    let record = Record {
+    let own = Measurement {
         scene: "Torus".into(),
         scene_hash: scene.hash(),
         triangles: scene.mesh.len(),
-        label: "sah-bvh".into(),
         counted_rays: 1000,
         hits: number("hits") as usize,
         tests_per_ray: Some(number("tests") / 1000.0),
         steps_per_ray: Some(number("steps") / 1000.0),
-        ..records_of("Torus").swap_remove(0)
+        ..example("sah-bvh", "primary", &[1.0], 1)
     };
-    assert!(told.starts_with("1000 rays: ") && number("tests") > 100.0, "{told}");
-    assert_eq!(counts(std::slice::from_ref(&record))["Torus"]["sah-bvh"], told);
-    assert!(counts(&[Record { scene_hash: "another mesh".into(), ..record }]).is_empty());
+    assert!(text.starts_with("1000 rays: ") && number("tests") > 100.0, "{text}");
+    assert_eq!(counts::of(std::slice::from_ref(&own))["Torus"]["sah-bvh"], text);
+    assert!(counts::of(&[Measurement { scene_hash: "another mesh".into(), ..own }]).is_empty());
 }
 
 /// Structures of features that are off by default.
@@ -190,7 +190,8 @@ fn readme_is_short() {
 
 #[test]
 fn marked_places_are_filled_in_and_wrapped() {
-    let text = "# A\n\n- **Fast.** <!-- sahara: a.b -->old\nold<!-- / --> and more.\n- Next\n\n<!-- sahara: t -->x<!-- / -->\n";
+    let text = "# A\n\n- **Fast.** <!-- sahara: a.b -->old\nold<!-- / --> and more.\n- Next\n\n\
+                <!-- sahara: t -->x<!-- / -->\n";
     assert_eq!(marked(text).unwrap()[0], ("a.b".to_owned(), "old old".to_owned()));
     let long = "word ".repeat(30);
     let filled = fill(text, |key| Some(if key == "t" { "| a |\n| - |".into() } else { long.trim().into() })).unwrap();
@@ -206,8 +207,7 @@ fn marked_places_are_filled_in_and_wrapped() {
 
 /// The results of runs without pictures.
 fn results(runs: &Runs) -> Result<Results, ResultsError> {
-    let studies = Studies::builtin();
-    Results::new(&document(runs, &studies, vec![]), runs, &studies)
+    Results::new(&document(runs, &STUDIES, vec![]), runs)
 }
 
 /// Each figure that the paper shows is written, no other one, and none twice.
@@ -222,51 +222,48 @@ fn are_shown(results: &Results) {
 
 #[test]
 fn a_figure_that_is_the_answer_is_kept_once() {
-    let runs = read(runs_folder(&attribution_files("Dragon")).path());
-    let results = results(&runs).unwrap();
+    let results = results(&runs(&[("attribution", &["Dragon"])])).unwrap();
     are_shown(&results);
     assert_eq!(results.paper.matches("](figures/answer.svg)").count(), 2, "{}", results.paper);
 }
 
 #[test]
 fn every_statement_is_in_the_paper_and_in_the_data() {
-    let (document, runs) = cube();
-    let studies = Studies::builtin();
-    let mut results = Results::new(document, runs, &studies).unwrap();
+    let results = results(&cube().1).unwrap();
     let plain = |text: &str| text.replace(['\\', '`'], "").split_whitespace().collect::<Vec<_>>().join(" ");
     let paper = plain(&results.paper);
-    assert!(results.data.statements.len() >= 8, "{:?}", results.data.statements.keys());
-    for (key, told) in &results.data.statements {
-        assert!(paper.contains(&plain(&told.text)) || key == "compare.rank", "{key}: {}", told.text);
+    for key in ["answer.verdict", "claims.tally", "run.machine", "compare.right", "replicate.hard"] {
+        assert!(results.data.statements.contains_key(key), "{key}");
     }
-    for heading in ["Question", "Answer", "Method", "Results", "Threats to validity", "What would change our mind"] {
-        assert!(results.paper.contains(&format!("\n## {heading}\n")), "{heading}");
+    for (key, statement) in results.data.statements.iter().filter(|(key, _)| *key != "claims.tally") {
+        assert!(paper.contains(&plain(&statement.text)), "{key}: {}", statement.text);
     }
+    assert_eq!(results.data.tests["sah-kd"], "exact");
+    assert!(!results.paper.contains("{{") && results.paper.lines().all(|line| line.trim_end() == line));
     are_shown(&results);
 
-    let text = "A <!-- sahara: attribution.parts -->?<!-- / --> b <!-- sahara: replicate.hard -->?<!-- / -->\n";
-    let filled = results.fill(text, &studies).unwrap();
-    assert!(filled.contains("Not measured in this run (`sahara replicate`)"), "{filled}");
+    let mut results = self::results(&runs(&[("compare", &["Cube"])])).unwrap();
+    let text = "A <!-- sahara: compare.right -->?<!-- / --> b <!-- sahara: replicate.hard -->?<!-- / -->\n";
+    let filled = results.fill(text, &STUDIES).unwrap();
+    let not = "Not measured in this run (`sahara study replicate --dir runs`)";
+    assert!(filled.contains("sah-kd is the fastest.") && plain(&filled).contains(&plain(not)), "{filled}");
     assert!(results.data.statements.contains_key("replicate.hard"), "the data file says so as well");
-    let unknown = results.fill("<!-- sahara: no.such -->?<!-- / -->", &studies).unwrap_err().to_string();
+    let unknown = results.fill("<!-- sahara: no.such -->?<!-- / -->", &STUDIES).unwrap_err().to_string();
     assert!(unknown.contains("no.such") && unknown.lines().count() == 1, "{unknown}");
 }
 
 #[test]
-fn threads_are_told_as_they_were() {
-    let mut records = records_of("Cube");
-    let told = |records: &Vec<Record>| results(&compared(records)).unwrap().data.run.sentence();
-    assert!(told(&records).contains("on one thread ("), "{}", told(&records));
-    records[0].provenance.threads = 2;
-    assert!(told(&records).contains("where no other number is named"), "{}", told(&records));
-}
-
-#[test]
-fn results_are_of_one_commit_and_one_machine() {
-    let mut other = records_of("Torus");
-    other.iter_mut().for_each(|record| record.provenance.commit = "0ther".into());
-    let folder = runs_folder(&[("a.json", to_json(&records_of("Cube"))), ("b.json", to_json(&other))]);
-    let Err(error) = results(&read(folder.path())) else { panic!("two commits are one run") };
+fn results_are_of_one_commit_and_one_machine_and_tell_its_threads() {
+    let two = |changed: Provenance| {
+        let files = [journal("compare", &["Cube"], &provenance("x")), journal("replicate", &["Cube"], &changed)];
+        results(&read(folder(&files.concat()).path()))
+    };
+    let other = Provenance { commit: "0ther".into(), ..provenance("x") };
+    let Err(error) = two(other) else { panic!("two commits are one run") };
     assert!(matches!(error, ResultsError::Mixed { what: "commit", .. }), "{error}");
-    assert!(error.to_string().contains(&provenance("x").commit), "{error}");
+    assert!(error.to_string().contains("c0ffee"), "{error}");
+    for (threads, part) in [(1, "on one thread ("), (2, "where no other number is named")] {
+        let sentence = two(Provenance { threads, ..provenance("x") }).unwrap().data.run.sentence();
+        assert!(sentence.contains(part), "{sentence}");
+    }
 }

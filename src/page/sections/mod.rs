@@ -3,37 +3,40 @@
 mod answer;
 mod provenance;
 
-use super::runs::Runs;
-use crate::report::document::{Block, Document, Section};
+use super::document::{Document, Section};
+use super::runs::{Runs, StudyRun, also_measured};
+use crate::report::Block;
+use crate::report::words::ended;
 use crate::study::Studies;
 
-/// The whole report; `pictures` are the sections that are drawn and not measured. Studies whose answers have no data are named at
-/// the end, with the commands that measure them.
+pub use answer::tally;
+
+/// The whole report; `pictures` are the sections that are drawn and not measured. Studies that no run has measured are
+/// named at the end, with the commands that measure them.
 pub fn document(runs: &Runs, studies: &Studies, pictures: Vec<Section>) -> Document {
-    let (mut sections, mut missing) = (pictures, vec![]);
     let (title, answer) = answer::answer(runs);
-    // Runs on somebody's own scenes are not about what was expected of the report's.
-    let studies = if answer.chart.is_some() { studies.iter().collect() } else { studies.in_order_of_measuring() };
-    for study in studies {
-        let answer = runs.answers.get(study.name());
-        let answer = answer.filter(|answer| study.data(*answer).iter().any(|data| !data.rows.is_empty()));
-        match answer {
-            Some(answer) => {
-                let found = study.statements(answer).into_iter().map(|statement| Block::Text(statement.sentence));
-                let elsewhere = runs.elsewhere(study.name()).map(|[own, leading]| {
-                    Block::Note(format!("Measured on {own}; the comparison of all structures is of {leading}."))
-                });
-                let blocks = found.chain(elsewhere).chain(study.section(answer, &runs.command(study))).collect();
-                sections.push(Section { id: study.name(), title: study.question(), blocks });
-            }
-            None => missing.push(Block::missing(study.question(), &study.command())),
-        }
-    }
+    let sections = pictures.into_iter().chain(runs.studies.iter().map(section)).collect();
     let mut document = Document { title, answer, sections };
     let mut known = vec![];
     document.sections.iter_mut().for_each(|section| name_apart(&mut section.blocks, &mut known));
+    let missing = studies.iter().filter(|study| runs.of(study.name).is_none());
+    let missing = missing.map(|study| Block::missing(study.question, &study.command_line())).collect();
     document.sections.push(provenance::section(runs, missing));
     document
+}
+
+/// What a study found, which claims that judges, and its blocks.
+fn section(run: &StudyRun) -> Section {
+    let StudyRun { study, others, report, .. } = run;
+    // The name of the fastest structure is the verdict of the page, and no sentence.
+    let found = report.findings.iter().filter(|own| !own.sentence.is_empty());
+    let mut blocks: Vec<Block> = found.map(|finding| Block::Text(finding.sentence.clone())).collect();
+    blocks.extend(report.verdict_table().map(Block::Table));
+    blocks.extend(report.blocks.iter().cloned());
+    let failures = report.failures.iter().map(|failure| &failure.sentence).filter(|sentence| !sentence.is_empty());
+    blocks.extend(failures.chain(&report.warnings).map(|sentence| Block::Note(ended(sentence))));
+    blocks.extend(others.iter().map(|other| Block::Note(also_measured(other))));
+    Section { id: study.name, title: study.question, command: run.commands().join("\n"), blocks }
 }
 
 /// Gives figures of one name, as scenes of much the same name have, names of their own.

@@ -1,44 +1,47 @@
 //! Where the numbers come from.
 
 use crate::measure::Provenance;
-use crate::page::runs::Runs;
-use crate::report::Table;
-use crate::report::document::{Block, Section};
+use crate::page::document::Section;
+use crate::page::runs::{Runs, Source, scene_titles};
 use crate::report::number::plural;
-use crate::report::words::{command_line, each_once};
+use crate::report::words::{command_line, each_once, listed};
+use crate::report::{Block, Table};
+use crate::study::Dataset;
 
 /// Every file and every machine; `missing` is what no run has measured.
 pub fn section(runs: &Runs, missing: Vec<Block>) -> Section {
-    let sources = runs.sources.iter().map(|source| {
-        let path = source.path.display().to_string();
-        [path, source.kind.clone(), source.command.clone(), source.replaced.clone()]
-    });
-    let mut files = Table::of_texts(
-        "Files that this report was made from, oldest first",
-        ["file or folder", "holds", "made by", "left out"],
-        sources.collect(),
+    let source = |source: &Source| {
+        let Source { path, kind, commands } = source;
+        [path.display().to_string(), kind.clone(), commands.join("; ")]
+    };
+    let files = Table::of_texts(
+        "Files that this report was made from",
+        ["file or folder", "holds", "made by"],
+        runs.sources.iter().map(source).collect(),
     );
-    files.notes.push(
-        "Where several files measured the same scene with the same command, the one last written counts: samples of \
-         different runs are no pairs. Comparisons on different machines stand side by side; of several builds on one machine \
-         the one with the most times counts."
+    let files = files.noted(vec![
+        "Of each scene of a study the cases count that were measured last, with the same settings by one build on one \
+         machine. Of several settings, builds or machines the one with the most cases of a study is shown."
             .into(),
-    );
-    let mut blocks = vec![Block::table(files, ""), Block::table(machines(&runs.provenances), "")];
-    blocks.extend(warnings(&runs.provenances).map(|table| Block::table(table, "")));
+    ]);
+    let mut blocks = vec![Block::Table(files), Block::Table(machines(runs))];
+    blocks.extend(warnings(&runs.provenances()).map(Block::Table));
     blocks.extend(runs.notes.iter().map(|note| Block::Note(note.clone())));
     if !missing.is_empty() {
         blocks.push(Block::Fold(format!("Not measured: {}", plural(missing.len(), "part")), missing));
     }
-    Section { id: "provenance", title: "Where the numbers come from", blocks }
+    Section { id: "provenance", title: "Where the numbers come from", blocks, ..Section::default() }
 }
 
-/// One row for each machine and build.
-fn machines(all: &[Provenance]) -> Table {
-    let row = |p: &Provenance| {
+/// One row for each dataset.
+fn machines(runs: &Runs) -> Table {
+    let row = |study: &str, dataset: &Dataset, shown: &str| {
+        let p = &dataset.provenance;
         let pinned = if p.pinned.is_some() { ", pinned" } else { "" };
         let governor = p.governor.as_ref().map_or(String::new(), |governor| format!("; governor {governor}"));
         [
+            format!("{study}{shown}"),
+            listed(&scene_titles(dataset)),
             p.cpu.clone(),
             p.simd.clone(),
             format!("{} of {} processors{pinned}; denormals {}{governor}", p.threads, p.cores, p.denormals),
@@ -47,16 +50,20 @@ fn machines(all: &[Provenance]) -> Table {
             p.target.clone(),
         ]
     };
+    let rows = runs.studies.iter().flat_map(|run| {
+        let others = run.others.iter().map(|other| row(run.study.name, other, ", also measured"));
+        std::iter::once(row(run.study.name, &run.dataset, "")).chain(others)
+    });
     Table::of_texts(
         "Machines and builds",
-        ["processor", "instructions", "threads", "sahara", "compiler", "target"],
-        each_once(all.iter().map(row)),
+        ["study", "scenes", "processor", "instructions", "threads", "sahara", "compiler", "target"],
+        rows.collect(),
     )
 }
 
 /// What spoilt runs, as they say themselves.
-fn warnings(all: &[Provenance]) -> Option<Table> {
+fn warnings(all: &[&Provenance]) -> Option<Table> {
     let rows = all.iter().flat_map(|p| p.warnings.iter().map(|warning| [command_line(&p.command), warning.clone()]));
-    let rows: Vec<[String; 2]> = rows.collect();
+    let rows: Vec<[String; 2]> = each_once(rows);
     (!rows.is_empty()).then(|| Table::of_texts("What spoilt these runs", ["command", "warning"], rows))
 }

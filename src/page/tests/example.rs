@@ -1,147 +1,166 @@
-//! Runs, pages and folders that the tests of the page share.
+//! Studies, runs and folders that the tests of the page share.
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
+use std::sync::{LazyLock, OnceLock};
 
-use crate::measure::Provenance;
-use crate::page::{RunError, Runs, document};
-use crate::report::document::{Art, Block, Colours, Document, Figure, Overlay, Section, Thumbnail};
+use clap::{ArgMatches, Command};
+
+use crate::measure::{Estimate, Provenance};
+use crate::page::{Document, RunError, Runs, Section, document};
 use crate::report::inspector::{Answer, InspectedHit, InspectedStructure, Inspector};
-use crate::report::plot::{Chart, Curves, Line};
-use crate::report::{CaseCounts, Record, Table, example_record, to_json};
-use crate::study::epoch::{Epoch, RayDetails, StructureDetails, tests as epoch};
-use crate::study::journal::{self, Header};
-use crate::study::{Studies, attribution as study};
+use crate::report::plot::{Bar, BarGroup, Bars, Chart, Curves, Line, Tradeoff, TradeoffCase, TradeoffPoint};
+use crate::report::words::slug;
+use crate::report::{
+    Art, Block, Cell, Colours, Figure, Finding, Outcome, Overlay, Picture, Report, Table, Tone, Value, Verdict,
+};
+use crate::study::case::tests as case;
+use crate::study::epoch::tests as epoch;
+use crate::study::measurement::measurements;
+use crate::study::{Case, Dataset, Measured, Plan, Presets, Studies, Study};
 
-pub fn provenance(command: &str) -> Provenance {
+/// Studies of these names, which report on whatever was measured.
+pub static STUDIES: LazyLock<Studies> = LazyLock::new(|| {
+    Studies::empty()
+        .with(study("attribution", "What is it due to?", attribution))
+        .with(study("compare", "How fast is every structure?", compare))
+        .with(study("replicate", "Is the conclusion true?", replicate))
+});
+
+fn study(name: &'static str, question: &'static str, report: fn(&Dataset, &ArgMatches) -> Report) -> Study {
+    let (presets, options) = (Presets::default(), || Command::new("options"));
+    Study { name, question, presets, options, plan: |_, _| Ok(Plan::default()), report }
+}
+
+/// How much faster the SAH tree is on every scene.
+pub const RATIO: f64 = 8.0;
+
+fn ratio() -> Estimate {
+    Estimate::between(RATIO, 7.0, 9.0)
+}
+
+fn titles(dataset: &Dataset) -> Vec<String> {
+    dataset.scenes().iter().map(|scene| scene.case.scene_title()).collect()
+}
+
+fn attribution(dataset: &Dataset, _: &ArgMatches) -> Report {
+    let titles = titles(dataset);
+    let bar = |title: &String| (title.clone(), Bar::Product(vec![4.0, 2.0], ratio()));
+    let parts = vec!["plane".into(), "traversal".into()];
+    let bars = Bars::of_products("times as fast", parts, titles.iter().map(bar));
+    let findings = titles.iter().flat_map(|title| {
+        let sentence = format!("On {title} the plane gives 4, the traversal 2.");
+        [
+            Finding::number(format!("whole-{}", slug(title)), ratio()),
+            Finding::new(format!("split-{}", slug(title)), sentence),
+        ]
+    });
+    let blocks = vec![Block::figure(figure("attribution", Art::Chart(Chart::Bars(bars))))];
+    Report { findings: findings.collect(), blocks, ..Report::default() }
+}
+
+fn compare(dataset: &Dataset, _: &ArgMatches) -> Report {
+    let measured = measurements(dataset);
+    let row = |own: &crate::study::measurement::Measurement| {
+        vec![own.scene.clone().into(), own.label.clone().into(), own.mrays_per_s.into(), own.shape.leaves.into()]
+    };
+    let data = Table::new("", ["scene", "label", "mrays_per_s", "leaves"], measured.iter().map(row));
+    let mut blocks = vec![];
+    for title in titles(dataset) {
+        let bars = Bars {
+            x_title: "times as fast".into(),
+            labels: vec!["sah-kd".into()],
+            parts: vec![],
+            groups: vec![BarGroup { title: title.clone(), bars: vec![Bar::Of(ratio())] }],
+        };
+        let rows = [
+            vec!["sah-kd".into(), Cell::ratio(ratio()).with(Tone::Best), "right".into()],
+            vec!["median-kd".into(), Cell::from(Value::Errors { wrong: 3, of: 9 }).with(Tone::Wrong), Cell::empty()],
+        ];
+        let table = Table::new(title.clone(), ["structure", "x", "verdict"], rows).of_one_scene();
+        blocks.push(Block::Table(table.noted(vec![title.clone()])));
+        let id = format!("speed-{}", slug(&title));
+        blocks.push(Block::figure(figure(&id, Art::Chart(Chart::Bars(bars)))));
+    }
+    let point = |label: &str, build_ns: f64| TradeoffPoint {
+        label: label.into(),
+        bytes: 4096.0 * build_ns,
+        build_ns,
+        ns_per_ray: 500.0 / build_ns,
+        ratio: String::new(),
+    };
+    let points = vec![point("sah-kd", 9.0), point("median-kd", 5.0)];
+    let cases = vec![TradeoffCase { scene: titles(dataset).remove(0), workload: "primary".into(), points }];
+    blocks.push(Block::figure(figure("tradeoff", Art::Chart(Chart::Tradeoff(Tradeoff { cases })))));
+    blocks.push(Block::Fold("More".into(), vec![Block::Note(titles(dataset).join(" "))]));
+    let findings = vec![
+        Finding::new("right", "Of all structures sah-kd is the fastest.").of(ratio()),
+        Finding::named("fastest", "sah-kd"),
+        Finding::new("checked", "None is wrong"),
+    ];
+    Report { findings, blocks, data, warnings: vec!["the clock was slow".into()], ..Report::default() }
+}
+
+fn replicate(dataset: &Dataset, _: &ArgMatches) -> Report {
+    let of = |title: String| Finding::number(format!("hard-{}", slug(&title)), ratio());
+    let findings = titles(dataset).into_iter().map(of);
+    let hard = Finding::new("hard", "Primary rays are 8.00 times as fast.").of(ratio());
+    let verdict = Verdict {
+        prediction: 1,
+        claim: "Cube: rays".into(),
+        expected: "at least 20".into(),
+        value: Some(ratio()),
+        outcome: Outcome::Refuted,
+    };
+    Report { findings: std::iter::once(hard).chain(findings).collect(), verdicts: vec![verdict], ..Report::default() }
+}
+
+pub fn figure(id: &str, art: Art) -> Figure {
+    let data = Table::new("", ["structure", "x"], [vec!["sah-kd".into(), Cell::from(ratio())]]);
+    Figure { id: id.into(), caption: "A caption".into(), alt: "A picture".into(), art, data }
+}
+
+pub fn provenance(date: &str) -> Provenance {
     Provenance {
-        command: command.into(),
         commit: "c0ffee".into(),
         cpu: "a processor".into(),
         load: None,
-        ..example_record().provenance
+        date: date.into(),
+        ..Provenance::capture(1)
     }
 }
 
-fn record(scene: &str, label: &str, workload: &str, ns: f64) -> Record {
-    Record {
-        scene: scene.into(),
-        scene_hash: scene.into(),
-        label: label.into(),
-        structure: label.split(':').next().unwrap().into(),
-        workload: workload.into(),
-        trace_ns: Some(ns),
-        mrays_per_s: Some(500.0 * 1e3 / ns),
-        samples_ns: [1.0, 1.1, 0.9, 1.05, 1.0].map(|f| f * ns).into(),
-        runs: 5,
-        epochs: 5,
-        noise_floor: Some(0.01),
-        provenance: provenance("/opt/somewhere/sahara compare --export-json compare.json"),
-        ..example_record()
-    }
-}
-
-pub fn records_of(scene: &str) -> Vec<Record> {
-    ["primary", "shadow"]
-        .iter()
-        .flat_map(|workload| {
-            [("median-kd", 8e6), ("sah-kd", 1e6), ("obvhs-bvh2", 9e5)]
-                .map(|(label, ns)| record(scene, label, workload, ns))
-        })
-        .collect()
+/// The first epoch of a scene.
+pub fn measured(study: &str, scene: &str) -> Measured {
+    let structures: [(&str, u64, &[u64]); 2] = [("median-kd", 1000, &[8000, 8100]), ("sah-kd", 5000, &[1000, 1100])];
+    let case = case::example(scene, 0, &structures.map(|own| own.0));
+    let command = format!("/opt/somewhere/sahara study {study} --dir runs");
+    let case = Case { study: study.into(), epochs: 1, command, ..case };
+    Measured { case, epoch: epoch::example(scene, 12, 0, &structures) }
 }
 
 /// Files by their paths in a folder.
 pub type Files = Vec<(String, Vec<u8>)>;
 
-/// A journal with one scene.
-pub fn accuracy(scene: &str) -> Files {
-    let of = |(label, ns, error): (&str, f64, f64)| {
-        serde_json::json!({
-            "schema": 1, "scene": scene, "scene_hash": "aa", "triangles": 12, "stand_in": false, "structure": "sah-kd", "label": label,
-            "config": {}, "triangle_test": "exact", "rays": "uniform", "seed": 1, "judged": 1000, "sampled": false, "hits": 500,
-            "missed": 0, "false_hits": 0, "wrong_depth": 0, "wrong_primitive": 0, "error": error, "error_bound": error + 0.003,
-            "miss_rate": null, "false_hit_rate": null, "wrong_depth_rate": null,
-            "ulps": { "median": 0.25, "p99": 0.5, "max": null }, "ns_per_ray": ns, "timed": 1000, "runs": 3, "dominated_by": null,
-            "provenance": provenance("sahara study accuracy"),
-        })
+/// A journal with one epoch of each of these scenes.
+pub fn journal(study: &str, scenes: &[&str], provenance: &Provenance) -> Files {
+    let file = |scene: &&str| {
+        let Measured { case, epoch } = measured(study, scene);
+        let fields = serde_json::json!({
+            "schema": Dataset::SCHEMA, "provenance": provenance, "case": case, "epoch": epoch,
+        });
+        (format!("{study}/{}-{}.json", slug(scene), slug(&provenance.date)), fields.to_string().into_bytes())
     };
-    let records = [("sah-kd:test=exact", 250.0, 0.0), ("sah-kd:test=moller-trumbore", 200.0, 0.02)].map(of);
-    journal("accuracy", vec![serde_json::json!({ "records": records, "refused": [], "note": null })])
+    scenes.iter().map(file).collect()
 }
 
-/// A journal with two epochs of a scene.
-pub fn attribution(scene: &str) -> Files {
-    let epochs = study::tests::cases(2, 0.0).into_iter().map(|epoch| Epoch { scene: scene.into(), ..epoch });
-    journal("attribution", epochs.map(|epoch| serde_json::to_value(epoch).unwrap()).collect())
+/// An export of the same.
+pub fn export(study: &str, scenes: &[&str], provenance: &Provenance) -> Files {
+    let dataset = Dataset::new(provenance.clone(), scenes.iter().map(|scene| measured(study, scene)).collect());
+    vec![(format!("{study}-{}.json", slug(&provenance.date)), dataset.to_json())]
 }
 
-/// A journal of a comparison, one epoch of each of these scenes.
-pub fn comparison(scenes: &[&str]) -> Files {
-    let case = |scene: &&str| {
-        let mut epoch =
-            epoch::example(scene, 12, 0, &[("median-kd", 1000, &[8_000_000]), ("sah-kd", 2000, &[1_000_000])]);
-        for structure in &mut epoch.structures {
-            structure.details = Some(StructureDetails {
-                config: serde_json::json!({}),
-                triangle_test: "exact".into(),
-                build_peak_bytes: None,
-                counts: CaseCounts::default(),
-            });
-            structure.rays[0].details = Some(RayDetails::default());
-        }
-        serde_json::to_value(epoch).unwrap()
-    };
-    journal("compare", scenes.iter().map(case).collect())
-}
-
-/// A journal of spheres of so many triangles, each with so many epochs.
-pub fn scaling(spheres: &[(usize, usize)]) -> Files {
-    let case = |triangles: usize, number: usize| {
-        let name = format!("sphere {triangles}");
-        let epoch = epoch::example(&name, triangles, number, &[("sah-kd", 1000, &[90_000, 91_000])]);
-        serde_json::json!({ "family": "spheres", "epoch": epoch })
-    };
-    let cases = spheres.iter().flat_map(|&(triangles, epochs)| (0..epochs).map(move |number| case(triangles, number)));
-    journal("scaling", cases.collect())
-}
-
-/// The files of a journal.
-fn journal(study: &str, cases: Vec<serde_json::Value>) -> Files {
-    let header = Header::new(study, &serde_json::json!({ "seed": 1 }), provenance(&format!("sahara study {study}")));
-    let file = |(i, case): (usize, serde_json::Value)| {
-        let key = i.to_string();
-        let text = journal::text(&header, &key, &case, |value| Ok(value.clone()));
-        (format!("{study}/{}", journal::file_name(&key)), text.into_bytes())
-    };
-    cases.into_iter().enumerate().map(file).collect()
-}
-
-/// Journals of the studies of curves.
-fn curves(scene: &str) -> Files {
-    let epoch = |triangles: usize, number: usize| {
-        let ns: [&[u64]; 3] = [&[90_000, 91_000], &[40_000, 41_000], &[30_000, 30_500]];
-        let structures = [("median-kd", 1000, ns[0]), ("sah-kd", 5000, ns[1]), ("obvhs-bvh2", 9000, ns[2])];
-        let grown = structures.map(|(label, build, ns)| (label, build * triangles as u64, ns));
-        epoch::example(&format!("{scene} {triangles}"), triangles, number, &grown)
-    };
-    let epochs: Vec<Epoch> = [20, 320, 5120].iter().flat_map(|&n| [epoch(n, 0), epoch(n, 1)]).collect();
-    let json = |epoch: &Epoch| serde_json::to_value(epoch).unwrap();
-    let depth = |epoch: &Epoch| serde_json::json!([["primary", (epoch.triangles as f64).log2()]]);
-    let spheres = |epoch: &Epoch| serde_json::json!({ "family": "spheres", "epoch": epoch });
-    let members =
-        |epoch: &Epoch| serde_json::json!({ "layers": epoch.triangles, "complexity": depth(epoch), "epoch": epoch });
-    [
-        journal("scaling", epochs.iter().map(spheres).collect()),
-        journal("break-even", epochs.iter().map(json).collect()),
-        journal("costs", epochs.iter().map(json).collect()),
-        journal("crossover", epochs.iter().map(members).collect()),
-    ]
-    .concat()
-}
-
-pub fn runs_folder<N: AsRef<str>>(files: &[(N, Vec<u8>)]) -> tempfile::TempDir {
+pub fn folder<N: AsRef<str>>(files: &[(N, Vec<u8>)]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (name, bytes) in files {
         let path = folder.path().join(name.as_ref());
@@ -151,23 +170,20 @@ pub fn runs_folder<N: AsRef<str>>(files: &[(N, Vec<u8>)]) -> tempfile::TempDir {
     folder
 }
 
-/// The records of a comparison in a file.
-pub fn exported(records: &[Record]) -> Files {
-    vec![("compare.json".into(), to_json(&records))]
+pub fn read(folder: &Path) -> Runs<'static> {
+    Runs::read(&[folder.to_path_buf()], &STUDIES).unwrap()
 }
 
-/// What is read of such a file.
-pub fn compared(records: &[Record]) -> Runs {
-    read(runs_folder(&exported(records)).path())
+/// What is read of these studies, each on these scenes.
+pub fn runs(studies: &[(&str, &[&str])]) -> Runs<'static> {
+    let provenance = provenance("2026-01-02T03:04:05Z");
+    let files: Vec<Files> = studies.iter().map(|(study, scenes)| journal(study, scenes, &provenance)).collect();
+    read(folder(&files.concat()).path())
 }
 
-/// Why paths cannot be read.
-pub fn refused(paths: &[PathBuf]) -> RunError {
-    Runs::read(paths, &Studies::builtin()).err().expect("it cannot be read")
-}
-
-pub fn read(folder: &Path) -> Runs {
-    Runs::read(&[folder.to_path_buf()], &Studies::builtin()).unwrap()
+/// Why a path cannot be read.
+pub fn refused(path: PathBuf) -> RunError {
+    Runs::read(&[path], &STUDIES).err().expect("it cannot be read")
 }
 
 /// Two rays, of which one meets a triangle that one of two structures misses.
@@ -194,27 +210,18 @@ fn inspector(scene: &str) -> Inspector {
 }
 
 /// Everything there is, from a scene called `scene`.
-pub fn whole(scene: &str) -> (Document, Runs) {
-    let files = [exported(&records_of(scene)), accuracy(scene), attribution(scene), curves(scene)].concat();
-    let runs = read(runs_folder(&files).path());
-    let thumbnail = |name: &str| Thumbnail {
+pub fn whole(scene: &str) -> (Document, Runs<'static>) {
+    let runs = runs(&[("compare", &[scene]), ("attribution", &[scene]), ("replicate", &[scene])]);
+    let picture = |name: &str| Picture {
         name: name.into(),
         note: "12 triangles".into(),
         alt: format!("{name}, rendered"),
         png: vec![1, 2, 3],
         size: [2, 2],
     };
-    let figure = |id: &str, art: Art| Figure {
-        id: id.into(),
-        caption: "A caption".into(),
-        alt: "A picture".into(),
-        command: "sahara render".into(),
-        art,
-        data: Table::default(),
-    };
     let overlay = Overlay {
         heading: scene.into(),
-        pictures: vec![thumbnail(scene), thumbnail("b")],
+        pictures: vec![picture(scene), picture("b")],
         colours: Colours::Ramp {
             title: "Work".into(),
             colours: vec!["#000000".into(), "#ffffff".into()],
@@ -222,23 +229,22 @@ pub fn whole(scene: &str) -> (Document, Runs) {
         },
         inspector: Some(Box::new(inspector(scene))),
     };
+    let key = Overlay { colours: Colours::Key(vec![("#ff0000".into(), "missed".into())]), ..overlay.clone() };
     let line = Line { label: scene.into(), note: String::new(), points: vec![] };
     let curves = Curves { x_title: "x".into(), y_title: "y".into(), lines: vec![line] };
-    let pictures = Section {
-        id: "pictures",
-        title: "Pictures",
-        blocks: vec![
-            Block::figure(figure("gallery", Art::Gallery(vec![thumbnail(scene)]))),
-            Block::figure(figure("overlay", Art::Overlay(overlay))),
-            Block::figure(figure("curves", Art::Chart(Chart::Curves(curves)))),
-            Block::Note(scene.into()),
-        ],
-    };
-    (document(&runs, &Studies::builtin(), vec![pictures]), runs)
+    let arts = [
+        ("gallery", Art::Gallery(vec![picture(scene)])),
+        ("overlay", Art::Overlay(overlay)),
+        ("overlay", Art::Overlay(key)),
+        ("curves", Art::Chart(Chart::Curves(curves))),
+    ];
+    let blocks = arts.map(|(id, art)| Block::figure(figure(id, art))).into();
+    let pictures = Section { id: "pictures", title: "Pictures", command: "sahara render".into(), blocks };
+    (document(&runs, &STUDIES, vec![pictures]), runs)
 }
 
 /// [`whole`] of an ordinary scene, made once.
-pub fn cube() -> &'static (Document, Runs) {
+pub fn cube() -> &'static (Document, Runs<'static>) {
     static CUBE: OnceLock<(Document, Runs)> = OnceLock::new();
     CUBE.get_or_init(|| whole("Cube"))
 }

@@ -22,7 +22,7 @@ use crate::registry::Registry;
 use crate::report::words::each_once;
 use crate::report::{Block, Failure, Report, Table};
 pub use options::CompareArgs;
-pub use rank::ranks;
+pub use rank::{FASTEST, ranks};
 pub use reference::{Reference, is_reference};
 pub use section::bias;
 

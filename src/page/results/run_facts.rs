@@ -1,0 +1,76 @@
+//! Where all numbers of the results come from.
+
+use serde::{Deserialize, Serialize};
+
+use super::ResultsError;
+use crate::measure::Provenance;
+use crate::page::runs::Runs;
+use crate::report::words::each_once;
+
+/// The one build and machine of a run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RunFacts {
+    pub version: String,
+    pub commit: String,
+    pub cpu: String,
+    pub simd: String,
+    /// Threads of the study that takes the most.
+    pub threads: usize,
+    pub rustc: String,
+    pub target: String,
+    pub obvhs: String,
+    /// Days of the first and of the last measurement, in UTC.
+    pub days: [String; 2],
+    pub commands: Vec<String>,
+}
+
+impl RunFacts {
+    /// # Errors
+    /// If there is more than one commit or machine.
+    pub fn new(runs: &Runs) -> Result<Self, ResultsError> {
+        let all = runs.provenances();
+        let one = |what: &'static str, of: fn(&Provenance) -> &String| -> Result<String, ResultsError> {
+            let mut values: Vec<&str> = all.iter().map(|p| of(p).as_str()).collect();
+            values.sort_unstable();
+            values.dedup();
+            match values[..] {
+                [] => Ok("unknown".into()),
+                [only] => Ok(only.into()),
+                _ => Err(ResultsError::Mixed { what, values: values.join(", ") }),
+            }
+        };
+        let days = || all.iter().map(|p| p.date.split('T').next().unwrap_or("").to_owned());
+        Ok(Self {
+            version: one("version", |p| &p.version)?,
+            commit: one("commit", |p| &p.commit)?,
+            cpu: one("machine", |p| &p.cpu)?,
+            simd: one("instruction set", |p| &p.simd)?,
+            threads: all.iter().map(|p| p.threads).max().unwrap_or(1),
+            rustc: one("compiler", |p| &p.rustc)?,
+            target: one("target", |p| &p.target)?,
+            obvhs: one("version of obvhs", |p| &p.obvhs)?,
+            days: [days().min().unwrap_or_default(), days().max().unwrap_or_default()],
+            commands: each_once(runs.commands().iter().map(|command| portable(command))),
+        })
+    }
+
+    /// Commit, machine and day in one sentence.
+    pub fn sentence(&self) -> String {
+        let [first, last] = &self.days;
+        let days = if first == last { first.clone() } else { format!("{first} to {last}") };
+        let threads = if self.threads > 1 { "one thread where no other number is named" } else { "one thread" };
+        let Self { version, commit, cpu, simd, .. } = self;
+        format!(
+            "All numbers are of one run of sahara {version}, commit {commit}, on {threads} ({cpu}, {simd}), {days}."
+        )
+    }
+}
+
+/// A command without the folders of the machine that it ran on.
+pub fn portable(command: &str) -> String {
+    let name = |word: &str| match word.starts_with('/') {
+        true => word.rsplit('/').next().unwrap_or(word).to_owned(),
+        false => word.to_owned(),
+    };
+    command.split(' ').map(name).collect::<Vec<_>>().join(" ")
+}
