@@ -19,8 +19,8 @@ pub fn blocks(results: &[Attribution]) -> Vec<Block> {
     let mut blocks = vec![
         Block::Text(
             "One kind of tree in every combination of six planes, three stop rules and two traversals. From the \
-             report's tree to the SAH tree three things are switched; each is credited with its gain, averaged over all \
-             orders of switching, so that the parts multiply to the whole."
+             report's tree to the SAH tree three things are switched; each is credited with its gain, averaged over \
+             all orders of switching, so that the parts multiply to the whole."
                 .into(),
         ),
         Block::figure(figure(&sorted)),
