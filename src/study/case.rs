@@ -1,5 +1,5 @@
-//! What one process measures: one epoch of one scene. Plain data, which any process reads back: no process needs to know
-//! which study it works for.
+//! What one process measures: one epoch of one scene. Plain data, which any process reads back: no process needs to
+//! know which study it works for.
 
 use std::collections::BTreeMap;
 
@@ -106,8 +106,8 @@ impl Default for Check {
     }
 }
 
-/// Where pairs are compared each on its own rays, a structure that takes more than so many times as long as the median one
-/// is timed on fewer: its ratios hardly gain from more of them, and the run would be about it alone.
+/// Where pairs are compared each on its own rays, a structure that takes more than so many times as long as the median
+/// one is timed on fewer: its ratios hardly gain from more of them, and the run would be about it alone.
 pub const SLOWEST: f64 = 4.0;
 
 impl Settings {

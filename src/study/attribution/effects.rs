@@ -1,8 +1,9 @@
 //! What the factors do, as sums of logarithms over the cells.
 //!
-//! Every figure is a **contrast**: a weight for each cell, times the logarithm of what was measured there. So figures of the
-//! same cells add up exactly, and their intervals come from the same replicates (Box, Hunter, Hunter, "Statistics for
-//! experimenters", 2nd edition 2005, chapter 5; Montgomery, "Design and analysis of experiments", 8th edition 2013, chapter 5).
+//! Every figure is a **contrast**: a weight for each cell, times the logarithm of what was measured there. So figures
+//! of the same cells add up exactly, and their intervals come from the same replicates (Box, Hunter, Hunter,
+//! "Statistics for experimenters", 2nd edition 2005, chapter 5; Montgomery, "Design and analysis of experiments", 8th
+//! edition 2013, chapter 5).
 
 use super::design::{CELLS, Factor, Treatment};
 
@@ -19,8 +20,9 @@ pub fn gain(from: Treatment, to: Treatment) -> Weights {
     weights(|cell| f64::from(u8::from(cell == from)) - f64::from(u8::from(cell == to)))
 }
 
-/// What the whole step from the report's tree to the SAH tree owes to `factor`: its gain, averaged over all orders in which the
-/// three factors can be switched (Shapley, "A value for n-person games", 1953). The three parts add up to the whole.
+/// What the whole step from the report's tree to the SAH tree owes to `factor`: its gain, averaged over all orders in
+/// which the three factors can be switched (Shapley, "A value for n-person games", 1953). The three parts add up to the
+/// whole.
 pub fn part(factor: Factor) -> Weights {
     let mut sum = [0.0; CELLS];
     for gain in parts_by_order(factor) {

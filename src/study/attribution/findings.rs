@@ -61,15 +61,15 @@ fn parts(hard: &[&Attribution]) -> Option<Finding> {
     (!hard.is_empty()).then(|| Finding::new("parts", format!("{most}; {}.", listed(&others))))
 }
 
-/// `Of the 21.1-fold speedup on Dragon, the stop rule gives 9.10, the plane 1.60, the traversal 1.45`, and by the order in
-/// which the three are switched.
+/// `Of the 21.1-fold speedup on Dragon, the stop rule gives 9.10, the plane 1.60, the traversal 1.45`, and by the order
+/// in which the three are switched.
 fn split(r: &Attribution) -> Finding {
     let (time, scene) = (r.time(), r.first().title());
     let [stop, plane, traversal] = PARTS.map(|factor| figures(time.part(factor).times.estimate));
     let orders = listed(&PARTS.map(|factor| range(time.part(factor))));
     let sentence = format!(
-        "Of the {}-fold speedup on {scene}, the stop rule gives {stop}, the plane {plane}, the traversal {traversal}; by \
-         the order of switching {orders}.",
+        "Of the {}-fold speedup on {scene}, the stop rule gives {stop}, the plane {plane}, the traversal {traversal}; \
+         by the order of switching {orders}.",
         figures(time.whole.estimate)
     );
     Finding::new(format!("split-{}", slug(&r.first().scene)), sentence).of(time.whole)
@@ -107,5 +107,6 @@ fn tau(results: &[Attribution]) -> Option<Estimate> {
         (!taus.is_empty()).then(|| taus.iter().sum::<f64>() / taus.len() as f64)
     };
     let scenes = each_once(results.iter().map(|r| r.first().scene.as_str()));
-    mean(&scenes.into_iter().filter_map(of_scene).collect::<Vec<_>>())
+    // One scene is no mean of scenes.
+    mean(&scenes.into_iter().filter_map(of_scene).collect::<Vec<_>>()).filter(|tau| tau.interval.is_some())
 }

@@ -18,9 +18,9 @@ pub fn blocks(results: &[Attribution]) -> Vec<Block> {
     sorted.sort_by_key(|r| HARD.iter().position(|name| r.first().scene == *name).unwrap_or(HARD.len()));
     let mut blocks = vec![
         Block::Text(
-            "One kind of tree in every combination of six planes, three stop rules and two traversals. From the report's \
-             tree to the SAH tree three things are switched; each is credited with its gain, averaged over all orders of \
-             switching, so that the parts multiply to the whole."
+            "One kind of tree in every combination of six planes, three stop rules and two traversals. From the \
+             report's tree to the SAH tree three things are switched; each is credited with its gain, averaged over \
+             all orders of switching, so that the parts multiply to the whole."
                 .into(),
         ),
         Block::figure(figure(&sorted)),
@@ -45,8 +45,8 @@ fn figure(results: &[&Attribution]) -> Figure {
     Figure {
         id: "attribution".into(),
         caption: "How many times faster the SAH tree is than the report's, and the factors whose product that is. The \
-                  axis is logarithmic: lengths add up to the whole. Factors below 1 stand to the left. The line below a \
-                  bar is the 95 % interval of the whole."
+                  axis is logarithmic: lengths add up to the whole. Factors below 1 stand to the left. The line below \
+                  a bar is the 95 % interval of the whole."
             .into(),
         alt: format!("Stacked bar chart. {}.", results.iter().map(told).collect::<Vec<_>>().join("; ")),
         art: Art::Chart(Chart::Bars(Bars::of_products(
@@ -106,8 +106,11 @@ fn of_scene(r: &Attribution) -> Table {
         rays.ns.len(),
     );
     let title = format!("{}: {} triangles, {} rays", first.title(), count(first.triangles as u64), rays.workload);
-    let shared = ["scene", "triangles", "stand_in", "structure", "label", "workload", "mrays_per_s"];
-    explained(Table { title, ..trees([r]) }.without_columns(&shared).noted(vec![note]))
+    let left_out = [
+        &["scene", "triangles", "stand_in", "structure", "label", "workload"][..],
+        &["mrays_per_s", "sampled", "depth", "bytes", "build_ns"],
+    ];
+    explained(Table { title, ..trees([r]) }.without_columns(&left_out.concat()).noted(vec![note]))
 }
 
 /// One row for each tree of each scene.
@@ -130,6 +133,7 @@ pub fn trees<'a>(results: impl IntoIterator<Item = &'a Attribution<'a>>) -> Tabl
             ("workload", &|(r, _)| r.workload().into()),
             ("mrays_per_s", &|&(r, cell)| (1e3 / r.ns_per_ray(cell)).into()),
             ("ns_per_ray", &|&(r, cell)| Cell::from(r.ns_per_ray(cell)).sampled(is_sampled(r))),
+            ("sampled", &|(r, _)| is_sampled(r).into()),
             ("speedup", &|&(r, cell)| r.speedup(&effects::gain(Treatment::REPORT, cell)).into()),
             ("tests_per_ray", &|&(r, cell)| r.counts(cell).tests_per_ray().into()),
             ("steps_per_ray", &|&(r, cell)| r.counts(cell).steps_per_ray().into()),

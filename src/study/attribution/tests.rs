@@ -80,7 +80,7 @@ fn of_one<T>(measured: Vec<Measured>, of: impl Fn(&Attribution) -> T) -> T {
 #[test]
 fn the_split_is_the_one_put_in_and_multiplies_to_the_whole() {
     for epochs in [2, 5] {
-        let time = of_one(measured("Dragon", epochs, 0.02), |result| result.time());
+        let time = of_one(measured("Dragon", epochs, 0.02), |r| r.time());
         assert!(time.whole.holds(STOP * PLANE * TRAVERSAL * TOGETHER), "{:?}", time.whole);
         let half = libm::sqrt(TOGETHER);
         let mut product = 1.0;
@@ -117,7 +117,7 @@ fn without_noise_every_figure_is_exact() {
 #[test]
 fn intervals_are_as_wide_as_the_noise() {
     let width = |noise: f64| {
-        let whole = of_one(measured("Dragon", 5, noise), |result| result.time()).whole;
+        let whole = of_one(measured("Dragon", 5, noise), |r| r.time()).whole;
         whole.high().unwrap() / whole.low().unwrap()
     };
     assert!(width(0.1) > width(0.01) && width(0.01) > 1.0 && width(0.1) < 1.4, "{} {}", width(0.1), width(0.01));
@@ -127,11 +127,11 @@ fn intervals_are_as_wide_as_the_noise() {
 fn the_sentences_name_the_parts_and_the_stand_in() {
     let own = report(measured("Dragon", 3, 0.0));
     let sentence = |key| &own.finding(key).unwrap().sentence;
-    let split = "Of the 30.0-fold speedup on Dragon (stand-in), the stop rule gives 11.3, the plane 2.12, the traversal \
-                 1.25; by the order of switching 8.00 to 16.0, 1.50 to 3.00 and 1.25 to 1.25.";
+    let split = "Of the 30.0-fold speedup on Dragon (stand-in), the stop rule gives 11.3, the plane 2.12, the \
+                 traversal 1.25; by the order of switching 8.00 to 16.0, 1.50 to 3.00 and 1.25 to 1.25.";
     assert_eq!(sentence("split-dragon"), split);
-    let parts = "On Dragon (stand-in) most of the speedup is due to the stop rule: it gives 11.3 [11.3, 11.3] times; the \
-                 plane 2.12 [2.12, 2.12] times and the traversal 1.25 [1.25, 1.25] times.";
+    let parts = "On Dragon (stand-in) most of the speedup is due to the stop rule: it gives 11.3 [11.3, 11.3] times; \
+                 the plane 2.12 [2.12, 2.12] times and the traversal 1.25 [1.25, 1.25] times.";
     assert_eq!(sentence("parts"), parts);
     assert_eq!((own.data.rows.len(), own.tables().count()), (CELLS, 1));
     assert!(own.finding("gain-dragon").is_none() && report(vec![]).blocks.is_empty());
@@ -139,16 +139,16 @@ fn the_sentences_name_the_parts_and_the_stand_in() {
 
 #[test]
 fn claims_are_judged_by_real_meshes_where_they_are_there() {
-    let mut all = measured("Dragon", 3, 0.01);
-    all.extend(measured("Sponza", 3, 0.01));
+    let mut all = measured("Dragon", 3, 0.0);
+    all.extend(measured("Sponza", 3, 0.0));
     let value = |report: &Report, key: &str| report.finding(key).and_then(|finding| finding.value);
     let stand_ins = report(all.clone());
     assert!(value(&stand_ins, "gain-dragon").unwrap().holds(1.0) && value(&stand_ins, "gain-lucy").is_none());
-    assert!((value(&stand_ins, "tau").unwrap().estimate - 1.0).abs() < 0.2);
+    assert_eq!(value(&stand_ins, "tau").unwrap().estimate, 1.0);
     let outcomes: Vec<_> = stand_ins.verdicts.iter().map(|verdict| verdict.outcome.name()).collect();
     assert_eq!(outcomes[..4], ["confirmed", "confirmed", "not measured", "not measured"]);
     // A real mesh of one scene alone is not held against a stand-in.
-    all.extend(real(measured("Dragon", 3, 0.01)));
+    all.extend(real(measured("Dragon", 3, 0.0)));
     let both = report(all.clone());
     let headlines = both.tables().next().unwrap();
     let scenes: Vec<String> = headlines.rows.iter().map(|row| row[0].text()).collect();

@@ -1,9 +1,9 @@
 //! `scaling`: how do time, build and memory grow with the number of triangles?
 //!
 //! Icospheres of 20 to 16 million triangles, seen alike, so that nothing changes but how finely one surface is divided;
-//! and the meshes that are named, which differ in more than their number of triangles, so that their exponent says less.
-//! Powers are fitted to medians on logarithms, over the meshes on which the structure has more than one leaf: a single
-//! leaf is brute force.
+//! and the meshes that are named, which differ in more than their number of triangles, so that their exponent says
+//! less. Powers are fitted to medians on logarithms, over the meshes on which the structure has more than one leaf: a
+//! single leaf is brute force.
 
 mod growth;
 mod section;

@@ -81,9 +81,9 @@ pub fn blocks(growths: &[Growth]) -> Vec<Block> {
     let groups: Vec<&[Growth]> = growths.chunk_by(|a, b| a.family == b.family && a.workload == b.workload).collect();
     let Some(first) = groups.first() else { return vec![] };
     let mut blocks = vec![Block::Text(
-        "If a query were logarithmic in the number of triangles n, its power of n would be near 0; a power of 1 means that \
-         twice the triangles take twice the time. One sphere, divided more and more finely and seen alike, asks this \
-         without anything else that changes; different meshes differ in more than their size."
+        "If a query were logarithmic in the number of triangles n, its power of n would be near 0; a power of 1 means \
+         that twice the triangles take twice the time. One sphere, divided more and more finely and seen alike, asks \
+         this without anything else that changes; different meshes differ in more than their size."
             .into(),
     )];
     let spheres = groups.iter().filter(|group| group[0].family == SPHERES);
@@ -91,8 +91,9 @@ pub fn blocks(growths: &[Growth]) -> Vec<Block> {
     // Builds and memory do not know of rays.
     let quantities = if first[0].family == MESHES { &[][..] } else { &[BUILD, MEMORY] };
     blocks.extend(quantities.iter().map(|quantity| Block::figure(figure(first, quantity))));
-    blocks.extend(groups.iter().map(|group| exponents(group).into()));
-    let points = groups.iter().map(|group| points(group).into()).collect();
+    let families: Vec<&[Growth]> = growths.chunk_by(|a, b| a.family == b.family).collect();
+    blocks.extend(families.iter().filter_map(|family| exponents(family)).map(Block::from));
+    let points = families.iter().map(|family| points(family).into()).collect();
     blocks.push(Block::Fold("All points".into(), points));
     blocks
 }
@@ -115,8 +116,8 @@ fn figure(group: &[Growth], quantity: &Quantity) -> Figure {
     Figure {
         id: format!("scaling-{}-{}-{}", quantity.id, slug(first.family), slug(&first.workload)),
         caption: format!(
-            "{}, {};{rays} both axes are logarithmic, so that a power of n is a straight line. Its exponent stands behind \
-             the name.",
+            "{}, {};{rays} both axes are logarithmic, so that a power of n is a straight line. Its exponent stands \
+             behind the name.",
             quantity.words, first.family,
         ),
         alt: format!("Line chart over the number of triangles. {}.", told.join("; ")),
@@ -138,11 +139,8 @@ fn all_points(growths: &[Growth]) -> impl Iterator<Item = (&Growth, &Point)> {
     growths.iter().flat_map(|growth| growth.points.iter().map(move |point| (growth, point)))
 }
 
-fn title(group: &[Growth], what: &str) -> String {
-    format!("{}, {} rays: {what}", group[0].family, group[0].workload)
-}
-
-fn exponents(group: &[Growth]) -> Table {
+/// Nothing of fewer meshes than a power takes.
+fn exponents(family: &[Growth]) -> Option<Table> {
     let power = |x: Option<Estimate>| Cell::from(x.map(|x| Cell::estimate(x, Format::Decimals(2))));
     let over = |growth: &Growth| {
         let fitted = growth.points.iter().filter(|point| point.is_fitted()).count();
@@ -150,10 +148,11 @@ fn exponents(group: &[Growth]) -> Table {
         format!("{fitted}{}", ends.unwrap_or_default())
     };
     let table = Table::of(
-        title(group, "powers of the number of triangles"),
-        group,
+        format!("{}: powers of the number of triangles", family[0].family),
+        family,
         &[
             ("structure", &|growth| growth.label.as_str().into()),
+            ("rays", &|growth| growth.workload.as_str().into()),
             ("time a ray", &|growth| power(growth.time)),
             ("+-", &|growth| growth.scatter.map(|half| Cell::number(half, Format::Decimals(2))).into()),
             ("build", &|growth| power(growth.build)),
@@ -164,21 +163,22 @@ fn exponents(group: &[Growth]) -> Table {
         ],
     );
     let note = "Least squares on logarithms over the meshes on which the structure has more than one leaf, with 95 % \
-                intervals for another run on these meshes; counts and memory do not vary. +-: half of the 95 % interval of \
-                the power of time by the scatter of the meshes about it.";
-    explained(table.noted(vec![note.into()]))
+                intervals for another run on these meshes; counts and memory do not vary. +-: half of the 95 % \
+                interval of the power of time by the scatter of the meshes about it.";
+    family.iter().any(|growth| growth.time.is_some()).then(|| explained(table.noted(vec![note.into()])))
 }
 
-fn points(group: &[Growth]) -> Table {
+fn points(family: &[Growth]) -> Table {
     let name = |growth: &Growth, point: &Point| {
         let cell = Cell::from(&growth.label);
         if point.is_fitted() { cell } else { cell.noted("one leaf") }
     };
     Table::of(
-        title(group, "what was measured"),
-        all_points(group),
+        format!("{}: what was measured", family[0].family),
+        all_points(family),
         &[
             ("structure", &|(growth, point)| name(growth, point)),
+            ("rays", &|(growth, _)| growth.workload.as_str().into()),
             ("mesh", &|(_, point)| point.measurement.scene_title().into()),
             ("triangles", &|(_, point)| point.triangles().into()),
             ("time a ray", &|(_, point)| Cell::duration(point.ns_per_ray)),
