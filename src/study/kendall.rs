@@ -6,7 +6,7 @@ use crate::measure::{Estimate, Rerun, Variance};
 /// Kendall's tau-b of pairs `(x, y)` (Kendall, "The treatment of ties in ranking problems", 1945): 1 for the same
 /// order, -1 for the opposite one. Only couples for which `compared` says so take part. Nothing where none differs in
 /// both.
-pub(crate) fn kendall(pairs: &[(f64, f64)], compared: impl Fn(usize, usize) -> bool) -> Option<f64> {
+pub fn kendall(pairs: &[(f64, f64)], compared: impl Fn(usize, usize) -> bool) -> Option<f64> {
     let (mut same, mut x_differ, mut y_differ) = (0.0, 0.0, 0.0);
     for i in 0..pairs.len() {
         for j in (0..i).filter(|&j| compared(i, j)) {
@@ -21,7 +21,7 @@ pub(crate) fn kendall(pairs: &[(f64, f64)], compared: impl Fn(usize, usize) -> b
 }
 
 /// How well estimates have the order that is expected of them.
-pub(crate) struct Order {
+pub struct Order {
     /// Kendall's tau; at the ends of its interval all couples whose order is not sure are in it, or against it.
     pub tau: Estimate,
     /// The couples that surely have the other order: numbers of that which was expected to be larger, and of the
@@ -57,7 +57,7 @@ impl Order {
 
 /// The mean of the taus of several scenes, with the interval of one among all claims for as many other scenes, cut to
 /// what a tau can be.
-pub(crate) fn mean(taus: &[f64]) -> Option<Estimate> {
+pub fn mean(taus: &[f64]) -> Option<Estimate> {
     let mean = Rerun::of(taus, Variance::NONE)?.plain().among(CLAIMS);
     Some(mean.map(|tau| tau.clamp(-1.0, 1.0)))
 }

@@ -4,8 +4,8 @@ use super::epoch::{Epoch, Rays, Structure};
 use super::epoch_medians::{epoch_medians, ratio, values};
 use crate::measure::{AaNoise, Estimate};
 
-/// How long the structures of a scene take for all their rays, whatever part of them was timed: the rays of every kind at
-/// the pace of those that were. Structures are named by their roles.
+/// How long the structures of a scene take for all their rays, whatever part of them was timed: the rays of every kind
+/// at the pace of those that were. Structures are named by their roles.
 pub struct WholeTimes<'a> {
     /// Of one scene, in which every structure is timed; at least one.
     epochs: &'a [&'a Epoch],

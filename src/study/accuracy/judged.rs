@@ -28,7 +28,8 @@ pub struct Judged<'a> {
     pub error: f64,
     /// What the true share is below, with 95 % confidence.
     pub error_bound: f64,
-    /// The label of a structure on the front that is at most as slow and at most as wrong; nothing for the front itself.
+    /// The label of a structure on the front that is at most as slow and at most as wrong; nothing for the front
+    /// itself.
     pub dominated_by: Option<&'a str>,
 }
 

@@ -1,5 +1,5 @@
-//! `accuracy`: how wrong, how fast. Every structure over every triangle test answers the same rays; the exact oracle judges,
-//! one thread is timed.
+//! `accuracy`: how wrong, how fast. Every structure over every triangle test answers the same rays; the exact oracle
+//! judges, one thread is timed.
 
 mod figure;
 mod findings;
@@ -51,8 +51,8 @@ struct AccuracyArgs {
     /// A kind of rays: uniform, edge, vertex, axis, grazing, scale, offset or surface; may be repeated [default: all]
     #[arg(long, short, value_name = "KIND")]
     workload: Vec<RayKind>,
-    /// Rays of each kind: without an error among n, the error is below about 3/n with 95 % confidence; or a file of rays
-    /// to replay, in place of kinds
+    /// Rays of each kind: without an error among n, the error is below about 3/n with 95 % confidence; or a file of
+    /// rays to replay, in place of kinds
     #[arg(long, value_name = "N|F.rays", default_value = "20000")]
     rays: RaySource,
     /// Samples of every structure on every kind of rays
@@ -113,8 +113,8 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     let mut plan = Plan::by_epoch(STUDY.name, &planned).by_scene().noting(scenes.iter().map(|(_, scene)| scene));
     if scenes.iter().any(leaves_out) && structures.iter().any(is_left_out) {
         plan.notes.push(format!(
-            "{BRUTE_FORCE} is left out of meshes with more than {} triangles: --structure {BRUTE_FORCE} runs it, on a part \
-             of the rays.",
+            "{BRUTE_FORCE} is left out of meshes with more than {} triangles: --structure {BRUTE_FORCE} runs it, on a \
+             part of the rays.",
             count(SMALL as u64)
         ));
     }
@@ -154,8 +154,8 @@ fn report(dataset: &Dataset, _: &ArgMatches) -> Report {
     let mut blocks = vec![];
     if !all.is_empty() {
         blocks.push(Block::Text(
-            "Exact arithmetic decides for every ray what it truly meets. Kinds of rays are never added up: each fails in its \
-             own way. On the front are those that nothing beats in both speed and error."
+            "Exact arithmetic decides for every ray what it truly meets. Kinds of rays are never added up: each fails \
+             in its own way. On the front are those that nothing beats in both speed and error."
                 .into(),
         ));
     }

@@ -63,10 +63,10 @@ pub const LEGEND: [&str; 4] = [
     "error: share of rays with a wrong answer by exact arithmetic: missed, false hits, or a depth that is off by more \
      than 4 units in the last place and more than 1e-6; at most: its upper bound with 95 % confidence by Clopper and \
      Pearson (no error in n rays: about 3/n).",
-    "primitive: hits at a triangle that is not the nearest, by whatever little; not part of the error. ulps: error of t \
-     where the triangle is right; at most 0.5 is correctly rounded.",
-    "dominated by: at most as slow and at most as wrong, and better in one of the two; blank on the front. Kinds of rays \
-     are never added up.",
+    "primitive: hits at a triangle that is not the nearest, by whatever little; not part of the error. ulps: error of \
+     t where the triangle is right; at most 0.5 is correctly rounded.",
+    "dominated by: at most as slow and at most as wrong, and better in one of the two; blank on the front. Kinds of \
+     rays are never added up.",
 ];
 
 /// One row for each structure and kind of rays.

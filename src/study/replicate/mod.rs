@@ -1,7 +1,7 @@
 //! `replicate`: the source report's tables measured again, and the claim it ends with put to the test.
 //!
-//! The report times all rays of a picture, construction left out, on a machine of its own: seconds can be compared with its
-//! seconds only in their ratios. `t'` is seconds / (rays x triangles).
+//! The report times all rays of a picture, construction left out, on a machine of its own: seconds can be compared with
+//! its seconds only in their ratios. `t'` is seconds / (rays x triangles).
 
 mod findings;
 mod original;
@@ -43,8 +43,8 @@ const SAH: &str = "sah";
 /// The report's tree on a hard scene.
 const TREE: &str = "tree";
 
-/// Tells where secondary rays start: over a triangle test in single precision, as the report's program has one. The exact
-/// test decides edges otherwise, and with them a few rays.
+/// Tells where secondary rays start: over a triangle test in single precision, as the report's program has one. The
+/// exact test decides edges otherwise, and with them a few rays.
 const GUIDE: &str = "sah-kd:test=moller-trumbore";
 
 fn options() -> Command {
@@ -95,8 +95,8 @@ fn whole_counts(row: &Row) -> Vec<String> {
 
 fn report(dataset: &Dataset, _: &ArgMatches) -> Report {
     let [main, hard] = [&MAIN[..], &HARD].map(|rows| replicated(dataset, rows));
-    let text = "Rays, seconds and settings as in the source report, ours beside its own. Seconds are of different machines \
-                and code: compare their ratios.";
+    let text = "Rays, seconds and settings as in the source report, ours beside its own. Seconds are of different \
+                machines and code: compare their ratios.";
     let tables = tables::tables(&main, &hard).into_iter().map(Block::Table);
     let findings = findings(&main, &hard);
     Report {

@@ -11,8 +11,8 @@ pub struct Row {
     pub rays: u64,
     /// Seconds with the tree (L = 100, T = 0.7), without its construction.
     pub tree_s: f64,
-    /// Of an easy or normal scene: seconds with every ray tested against every triangle, and `improvement` as printed; that
-    /// of Teapot should be 23.776.
+    /// Of an easy or normal scene: seconds with every ray tested against every triangle, and `improvement` as printed;
+    /// that of Teapot should be 23.776.
     pub brute_s: Option<f64>,
     pub improvement: Option<f64>,
     /// Of a hard scene: seconds of the construction.

@@ -126,8 +126,8 @@ fn conclusion(hard: &[Replicated]) -> Table {
     rows.extend(mean(hard).map(|mean| vec![format!("geometric mean of {}", names.join(", ")).into(), mean.into()]));
     let title = "The report's conclusion: how much faster is sah-kd than median-kd on the hard scenes?";
     explained(Table::new(title, ["scene", "times faster [95%]"], rows).noted(vec![
-        "Times of one round divided, their median in each epoch, geometric mean over the epochs, with the interval that \
-         holds that of another run, as little disturbed, in 95 % of cases."
+        "Times of one round divided, their median in each epoch, geometric mean over the epochs, with the interval \
+         that holds that of another run, as little disturbed, in 95 % of cases."
             .into(),
     ]))
 }

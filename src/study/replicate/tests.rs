@@ -7,8 +7,8 @@ use crate::study::epoch::Rays;
 use crate::study::epoch::tests::{example, rays};
 use crate::study::{Measured, case};
 
-/// Epochs of a scene of 100 triangles whose structures in these roles take so many nanoseconds for each of 1000 closest-hit
-/// rays and of 500 shadow rays, in rounds of which one is slow.
+/// Epochs of a scene of 100 triangles whose structures in these roles take so many nanoseconds for each of 1000
+/// closest-hit rays and of 500 shadow rays, in rounds of which one is slow.
 fn scene(name: &str, epochs: usize, roles: &[(&str, u64)]) -> Vec<Measured> {
     let one = |number: usize| {
         let ns: Vec<Vec<u64>> = roles.iter().map(|(_, t)| [1000, 1300, 1000].map(|round| round * t).into()).collect();
@@ -83,8 +83,8 @@ fn what_is_said_of_the_hard_scenes_is_what_was_found() {
         let sentence = report.sentences().next().unwrap();
         assert!(sentence.starts_with(told), "{sentence}");
     }
-    // Twins that cannot be told apart widen the interval: both runs have the noise of one A/A ratio in three epochs, and t
-    // is 4.303.
+    // Twins that cannot be told apart widen the interval: both runs have the noise of one A/A ratio in three epochs,
+    // and t is 4.303.
     let width = |twin: u64| {
         let faster = value(&of(vec![hard("Sponza", 3, [800, 100, twin])]), "hard-sponza").unwrap();
         libm::log(faster.high().unwrap() / faster.low().unwrap())
