@@ -179,11 +179,11 @@ fn tinybvh_is_kept_from_trees_that_overflow_its_stack() {
 fn an_absent_or_wrong_library_is_named_and_ends_no_run() {
     use crate::cli::command::{command, stdout};
 
-    let absent = "/nowhere/libembree4.so";
+    const ABSENT: &str = "/nowhere/libembree4.so";
     let compare = ["-q", "compare", "cube", "-s", "sah-kd", "-s", "embree", "--rays", "100", "--budget", "1"];
     let mut runs = vec![
-        (absent, &compare[..], 5, &["embree", "refused", absent, "\n  sah-kd "][..]),
-        (absent, &["list", "structures"], 0, &["absent"]),
+        (ABSENT, &compare[..], 5, &["embree", "refused", ABSENT, "\n  sah-kd "][..]),
+        (ABSENT, &["list", "structures"], 0, &["absent"]),
     ];
     if cfg!(all(target_os = "linux", target_env = "gnu")) {
         let validate = &["-q", "validate", "cube", "-s", "embree", "--rays", "50"];

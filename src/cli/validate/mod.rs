@@ -187,7 +187,7 @@ impl Args {
 /// Why a structure could not be built.
 #[derive(Debug, thiserror::Error)]
 enum BuildFailure {
-    #[error("its builder did not end within {0} s: see --limit")]
+    #[error("it hangs: its builder did not end within {0} s: see --limit")]
     Hangs(u64),
     #[error(transparent)]
     Refused(#[from] BuildError),
