@@ -1,27 +1,19 @@
 //! Files and folders written whole or not at all.
 
 mod folder;
+mod standard;
 
-use std::fmt::Display;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use tempfile::{Builder, NamedTempFile};
 
+use crate::escaped::Escaped as _;
+
 pub use folder::{FolderError, OutputFolder};
-
-/// The file name that stands for standard output.
-pub const STDOUT: &str = "-";
-
-/// Whether a result goes to standard output: then nothing else may.
-static TO_STDOUT: AtomicBool = AtomicBool::new(false);
-
-/// Whether a result was requested as [`STDOUT`]: messages for people go to standard error then.
-pub fn stdout_is_taken() -> bool {
-    TO_STDOUT.load(Ordering::Relaxed)
-}
+pub use standard::{STDOUT, stdout_is_taken};
+pub(crate) use standard::{note, print, take_failure, tell};
 
 /// A file that results will go to, or standard output where it is called [`STDOUT`].
 ///
@@ -35,15 +27,15 @@ pub struct OutputFile {
 /// Why a file cannot be written.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
-    #[error("cannot write {}: it is a directory: name a file in it", .0.display())]
+    #[error("cannot write {}: it is a directory: name a file in it", .0.escaped())]
     Directory(PathBuf),
-    #[error("cannot write {}: it is one of the files to read: name another one", .0.display())]
+    #[error("cannot write {}: it is one of the files to read: name another one", .0.escaped())]
     Input(PathBuf),
-    #[error("cannot write two results to {}: name another file for one of them", .0.display())]
+    #[error("cannot write two results to {}: name another file for one of them", .0.escaped())]
     Same(PathBuf),
     #[error("cannot write two results to standard output: name a file for one of them")]
     Twice,
-    #[error("cannot write {}: {cause}: choose a place that exists, may be written and has room", path.display())]
+    #[error("cannot write {}: {cause}: choose a place that exists, may be written and has room", path.escaped())]
     Write { path: PathBuf, cause: io::Error },
 }
 
@@ -55,7 +47,7 @@ impl OutputFile {
     pub fn check(path: &Path) -> Result<Self, OutputError> {
         let file = Self { path: path.into() };
         if file.is_stdout() {
-            return if TO_STDOUT.swap(true, Ordering::Relaxed) { Err(OutputError::Twice) } else { Ok(file) };
+            return if standard::take_stdout() { Ok(file) } else { Err(OutputError::Twice) };
         }
         Self::check_place(path)?;
         Ok(file)
@@ -114,6 +106,8 @@ impl OutputFile {
         self.path == Path::new(STDOUT)
     }
 
+    /// Standard output never fails here: what it has not got is told when the command ends, and a reader that has gone is no error.
+    ///
     /// # Errors
     /// If the system refuses, or there is no room; then an older file is as it was.
     pub fn write(&self, bytes: &[u8]) -> Result<(), OutputError> {
@@ -142,11 +136,11 @@ impl OutputFile {
 
     fn place(&self, bytes: &[u8]) -> io::Result<()> {
         if self.is_stdout() {
-            let mut out = io::stdout().lock();
-            return out.write_all(bytes).and_then(|()| out.flush());
+            print(bytes);
+            return Ok(());
         }
         if fs::metadata(&self.path).is_ok_and(|there| !there.is_file()) {
-            return fs::OpenOptions::new().write(true).open(&self.path)?.write_all(bytes);
+            return standard::unless_gone(fs::OpenOptions::new().write(true).open(&self.path)?.write_all(bytes));
         }
         self.written_beside(bytes)?.persist(self.target())?;
         Ok(())
@@ -202,11 +196,6 @@ fn plain(error: io::Error) -> io::Error {
     }
 }
 
-/// Writes a line to standard error; a reader that has gone away, or a full disk, ends no run.
-pub(crate) fn tell(line: impl Display) {
-    let _ = writeln!(io::stderr(), "{line}");
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -256,7 +245,7 @@ mod tests {
         let out = OutputFile::check(Path::new("-")).unwrap().apart_from([Path::new("-")]).unwrap();
         assert!(stdout_is_taken() && out.is_stdout());
         assert!(matches!(OutputFile::check(Path::new("-")), Err(OutputError::Twice)));
-        TO_STDOUT.store(false, Ordering::Relaxed);
+        standard::leave_stdout();
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! `compare`, with the baselines that it is held against.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::parser::ValueSource;
@@ -9,6 +10,7 @@ use super::progress::OnTerminal;
 use super::study::{Common, RUNS};
 use super::terminal::Terminal;
 use super::{Session, Suite, study};
+use crate::escaped::Escaped as _;
 use crate::measure::{Provenance, SystemClock};
 use crate::output::OutputFile;
 use crate::registry::Registry;
@@ -88,7 +90,7 @@ fn options(matches: &ArgMatches) -> anyhow::Result<CompareArgs> {
     let mut args = CompareArgs::from_arg_matches(matches)?;
     let is_default = |id: &str| matches.value_source(id) == Some(ValueSource::DefaultValue);
     if args.scenes.scenes.is_empty() && args.rays.file().is_none() {
-        args.scenes.scenes = SCENES.map(String::from).into();
+        args.scenes.scenes = SCENES.map(OsString::from).into();
     }
     if args.workload.is_empty() && args.rays.file().is_none() {
         args.workload = vec![WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse];
@@ -155,7 +157,7 @@ fn gated(session: &Session, gate: &Gate, matches: &ArgMatches) -> anyhow::Result
             let measured = run.epoch(&mut screen);
             if screen.is_interrupted() {
                 screen.end();
-                terminal.print_lines(&["Interrupted: nothing is kept of a run for a baseline.".into()])?;
+                terminal.print_lines(&["Interrupted: nothing is kept of a run for a baseline.".into()]);
                 return Ok(Status::Interrupted);
             }
             measured?;
@@ -172,10 +174,10 @@ fn gated(session: &Session, gate: &Gate, matches: &ArgMatches) -> anyhow::Result
     screen.warn(&CompareStudy::warnings(&compared));
     screen.end();
 
-    print(&compared, comparison.as_ref(), args.wide, terminal)?;
-    terminal.print_lines(&refusals(&compared.refused))?;
-    terminal.print_lines(&plan.notes)?;
-    terminal.print_lines(&[provenance.line()])?;
+    print(&compared, comparison.as_ref(), args.wide, terminal);
+    terminal.print_lines(&refusals(&compared.refused));
+    terminal.print_lines(&plan.notes);
+    terminal.print_lines(&[provenance.line()]);
     if let Some(file) = json {
         file.write(&to_json(&compared.records))?;
     }
@@ -194,25 +196,24 @@ fn gated(session: &Session, gate: &Gate, matches: &ArgMatches) -> anyhow::Result
             let added = match history::Entry::new(name, &compared.records) {
                 Some(entry) => {
                     history::add(&past, entry)?;
-                    format!("added to {}", past.display())
+                    format!("added to {}", past.escaped())
                 }
                 None => "not added to the history, for no structure of obvhs over its own triangle test has a time to relate others to".into(),
             };
-            format!("Kept as baseline {name}: {}; {added}.", file.path().display())
+            format!("Kept as baseline {name}: {}; {added}.", file.path().escaped())
         };
-        terminal.print_lines(&[line])?;
+        terminal.print_lines(&[line]);
     }
     Ok(found)
 }
 
-fn print(compared: &Compared, comparison: Option<&Comparison>, wide: bool, terminal: &Terminal) -> anyhow::Result<()> {
+fn print(compared: &Compared, comparison: Option<&Comparison>, wide: bool, terminal: &Terminal) {
     if let Some(comparison) = comparison {
-        return Ok(tables(comparison).iter().try_for_each(|table| terminal.print_table(table))?);
+        return tables(comparison).iter().for_each(|table| terminal.print_table(table));
     }
     for records in compared.records.chunk_by(|a, b| a.scene == b.scene) {
         let refused: Vec<_> = compared.refused.iter().filter(|r| r.scene == records[0].scene).cloned().collect();
         let table = if wide { scene_table } else { brief_table };
-        terminal.print_table(&table(records, &Reference::of(records, None), &refused))?;
+        terminal.print_table(&table(records, &Reference::of(records, None), &refused));
     }
-    Ok(())
 }

@@ -22,7 +22,7 @@ pub struct Args {
 pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     // The manual page is for no shell.
     let Ok(shell) = args.form.parse::<Shell>() else {
-        terminal.print(&String::from_utf8_lossy(&manual(super::command(&suite.studies))?))?;
+        terminal.print(&String::from_utf8_lossy(&manual(super::command(&suite.studies))?));
         return Ok(Status::Right);
     };
     let names = Names::of(&suite.registry);
@@ -32,7 +32,7 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
     // Where a scene is expected, a file is right as well: zsh offers what is listed and nothing else.
     let scenes = names.scenes.join(" ");
     let both = format!(":{{ compadd {scenes}; _files }}");
-    terminal.print(&script.replace(&format!(":({scenes})"), &both))?;
+    terminal.print(&script.replace(&format!(":({scenes})"), &both));
     Ok(Status::Right)
 }
 

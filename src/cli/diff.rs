@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::terminal::Terminal;
+use crate::escaped::Escaped as _;
 use crate::measure::Provenance;
 use crate::output::OutputFile;
 use crate::report::{Export, Record, to_json, to_markdown};
@@ -36,10 +37,10 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
 
     let comparison = Comparison::new(&old, &new, None, 1);
     let tables = tables(&comparison);
-    tables.iter().try_for_each(|table| terminal.print_table(table))?;
+    tables.iter().for_each(|table| terminal.print_table(table));
     let of = |records: &[Record]| records.first().map_or(String::new(), |record| record.provenance.line());
     let foot = [format!("Old: {}", of(&old)), format!("New: {}", of(&new))];
-    terminal.print_lines(&foot)?;
+    terminal.print_lines(&foot);
     if let Some(file) = json {
         file.write(&to_json(&Export::new("diff", &Provenance::capture(1), &comparison)))?;
     }
@@ -51,11 +52,11 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
 
 fn records(path: &Path) -> anyhow::Result<Vec<Record>> {
     let text = std::fs::read(path).map_err(|cause| {
-        anyhow::anyhow!("cannot read {} ({cause}): give a file of `sahara compare --export-json`", path.display())
+        anyhow::anyhow!("cannot read {} ({cause}): give a file of `sahara compare --export-json`", path.escaped())
     })?;
     let records: Vec<Record> = serde_json::from_slice(&text).map_err(|cause| {
-        anyhow::anyhow!("{} holds no records of `sahara compare --export-json`: {cause}", path.display())
+        anyhow::anyhow!("{} holds no records of `sahara compare --export-json`: {cause}", path.escaped())
     })?;
-    anyhow::ensure!(!records.is_empty(), "{} holds no record: there is nothing to compare", path.display());
+    anyhow::ensure!(!records.is_empty(), "{} holds no record: there is nothing to compare", path.escaped());
     Ok(records)
 }

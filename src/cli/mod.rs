@@ -23,18 +23,22 @@ mod terminal;
 mod validate;
 
 use std::ffi::OsString;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use clap::error::ErrorKind;
 use clap::{ArgMatches, Args as _, FromArgMatches, Subcommand};
 
+use crate::escaped::{Escaped as _, quoted};
 use crate::measure::{keep_to, program};
 use crate::names::suggestion;
+use crate::panics;
 use crate::registry::Registry;
 use crate::simd::Level;
 use crate::study::job::{self, Done, Job};
 use crate::study::process::Processes;
-use crate::study::{AnyStudy, Chosen, Status, Studies, guarded, sources};
+use crate::study::{AnyStudy, Chosen, Status, Studies, sources};
 use progress::OnTerminal;
 use terminal::{Colour, Terminal};
 
@@ -170,10 +174,12 @@ pub fn run(suite: &Suite, args: impl IntoIterator<Item = OsString>) -> ExitCode 
 fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, processes: Option<&Processes>) -> ExitCode {
     // The date of what is measured is that of its beginning.
     program::started();
-    let parsed = command(&suite.studies).try_get_matches_from(args);
+    let args: Vec<OsString> = args.into_iter().collect();
+    let parsed = command(&suite.studies).try_get_matches_from(&args);
     let parsed = parsed.and_then(|matches| Ok((Global::from_arg_matches(&matches)?, matches)));
     let (global, matches) = match parsed {
         Ok(parsed) => parsed,
+        Err(message) if message.kind() == ErrorKind::InvalidUtf8 => return exit_status::of(Err(not_text(&args))),
         Err(message) => return exit_status::told(message),
     };
     if let Some(level) = global.level {
@@ -188,8 +194,17 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, processes: 
         None => dispatch(&session, &matches, &global),
     };
     // A structure of another crate may panic where its command has nothing else to go on with.
-    let found = if may_panic { run() } else { guarded(run).unwrap_or_else(|| Err(anyhow::anyhow!(PANIC))) };
-    exit_status::of(found)
+    let found = if may_panic { Ok(run()) } else { catch_unwind(AssertUnwindSafe(run)) };
+    exit_status::of(found.unwrap_or_else(|_| {
+        panics::uncaught().iter().for_each(crate::output::tell);
+        Err(anyhow::anyhow!(PANIC))
+    }))
+}
+
+/// Names what clap does not.
+fn not_text(args: &[OsString]) -> anyhow::Error {
+    let names: Vec<String> = args.iter().filter(|arg| arg.to_str().is_none()).map(quoted).collect();
+    anyhow::anyhow!("{} is not UTF-8 text: files and folders may have such names, but nothing else", names.join(" or "))
 }
 
 /// What a process with a job does, on the command line of the run that it is a part of.
@@ -203,12 +218,12 @@ fn answer_job(session: &Session, matches: &ArgMatches, job: &Job, out: Option<&P
         match done {
             Done::Measured => {}
             Done::Before => {
-                crate::output::tell(format_args!("{} holds this case already: nothing is measured.", out.display()))
+                crate::output::tell(format_args!("{} holds this case already: nothing is measured.", out.escaped()))
             }
             Done::Meanwhile => {
                 crate::output::tell(format_args!(
                     "{} has been written by another job meanwhile: its case is kept.",
-                    out.display()
+                    out.escaped()
                 ));
             }
         }

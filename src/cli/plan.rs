@@ -1,13 +1,15 @@
 //! `study plan`: studies as jobs that need each other in nothing, for the machines of a cluster.
 
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
 use clap::error::{ContextKind, ContextValue};
+use clap_lex::OsStrExt as _;
 
 use super::progress::Waiting;
 use super::study::RUNS;
 use super::{Session, chosen, command};
-use crate::measure::quoted;
+use crate::escaped::{Escaped as _, quoted};
 use crate::report::words::{each_once, each_once_by};
 use crate::simd::Level;
 use crate::study::job::{Job, OPTION, OUT};
@@ -27,7 +29,7 @@ const NO_SCENE: &str = "--scenes needs a scene: --scenes SCENE..";
 pub struct Args {
     /// Studies, or `all`, as `study all` measures them [default: all]
     #[arg(value_name = "NAME", allow_hyphen_values = true)]
-    name: Option<String>,
+    name: Option<OsString>,
     /// Folder of journals: each job writes DIR/NAME/CASE.json [default: runs]
     #[arg(long, value_name = "DIR")]
     dir: Option<PathBuf>,
@@ -36,43 +38,44 @@ pub struct Args {
     quick: bool,
     /// Scenes and mesh files, in place of those of the studies
     #[arg(long, value_name = "SCENE|FILE", num_args = 1..)]
-    scenes: Vec<String>,
+    scenes: Vec<OsString>,
     /// More studies, the options above, and options of the studies
     #[arg(value_name = "NAME|OPTION", trailing_var_arg = true, allow_hyphen_values = true)]
-    rest: Vec<String>,
+    rest: Vec<OsString>,
 }
 
 impl Args {
     /// What is asked for: the names of studies, and the options that are theirs. An option that is given twice is refused as clap refuses
     /// one before `rest`.
-    fn split(&self) -> anyhow::Result<(Self, Vec<String>, Vec<String>)> {
+    fn split(&self) -> anyhow::Result<(Self, Vec<OsString>, Vec<OsString>)> {
         let (mut own, mut names, mut options) = (self.clone(), vec![], vec![]);
         // To clap options of the studies behind scenes are scenes, and the first one is a name where there is none.
-        let scenes = own.scenes.iter().take_while(|word| !word.starts_with('-')).count();
+        let scenes = own.scenes.iter().take_while(|word| !word.starts_with("-")).count();
         let behind = own.scenes.split_off(scenes);
         anyhow::ensure!(scenes > 0 || behind.is_empty(), NO_SCENE);
         let mut rest = self.name.iter().chain(&self.rest).chain(&behind).peekable();
-        while let Some(word) = rest.next_if(|word| !word.starts_with('-')) {
+        while let Some(word) = rest.next_if(|word| !word.starts_with("-")) {
             names.push(word.clone());
         }
         if names.is_empty() {
             names.push(super::all::NAME.into());
         }
         while let Some(word) = rest.next() {
-            match word.split_once('=').map_or((word.as_str(), None), |(name, value)| (name, Some(value))) {
+            let (option, value) = word.split_once("=").map_or((&**word, None), |(name, value)| (name, Some(value)));
+            match (option.to_str().unwrap_or_default(), value) {
                 ("--quick", None) => {
                     anyhow::ensure!(!own.quick, "the argument '--quick' cannot be used multiple times");
                     own.quick = true;
                 }
                 ("--dir", value) => {
                     anyhow::ensure!(own.dir.is_none(), "the argument '--dir <DIR>' cannot be used multiple times");
-                    let value = value.or_else(|| rest.next().map(String::as_str));
+                    let value = value.or_else(|| rest.next().map(OsString::as_os_str));
                     own.dir = Some(value.ok_or_else(|| anyhow::anyhow!("--dir needs a folder: --dir DIR"))?.into());
                 }
                 ("--scenes", value) => {
                     let before = own.scenes.len();
-                    own.scenes.extend(value.map(String::from));
-                    while let Some(scene) = rest.next_if(|word| !word.starts_with('-')) {
+                    own.scenes.extend(value.map(OsString::from));
+                    while let Some(scene) = rest.next_if(|word| !word.starts_with("-")) {
                         own.scenes.push(scene.clone());
                     }
                     anyhow::ensure!(own.scenes.len() > before, NO_SCENE);
@@ -87,16 +90,18 @@ impl Args {
 pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Result<Status> {
     let &Session { suite, terminal, .. } = session;
     let (args, names, options) = args.split()?;
-    if let Some(name) = options.iter().find(|word| suite.studies.find(word).is_some()) {
+    if let Some(name) = options.iter().filter_map(|word| word.to_str()).find(|word| suite.studies.find(word).is_some())
+    {
         anyhow::bail!("{name} stands behind options: names of studies come first, `sahara study plan {name} ..`");
     }
     let output = options.iter().find(|word| {
-        let name = word.split('=').next().unwrap_or(word);
-        OUTPUTS.contains(&name)
+        let name = word.split_once("=").map_or(&***word, |(name, _)| name);
+        OUTPUTS.iter().any(|output| name == *output)
     });
     if let Some(output) = output {
         anyhow::bail!(
-            "{output} is of a whole study, and each job measures one case of it: give it to the study once all jobs are done"
+            "{} is of a whole study, and each job measures one case of it: give it to the study once all jobs are done",
+            output.escaped()
         );
     }
     anyhow::ensure!(
@@ -104,7 +109,8 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
         "--fresh empties the folder of a study, and each job measures one case of it: name another folder with --dir, or remove this one"
     );
     let named = names.iter().filter(|name| *name != super::all::NAME);
-    let named: Vec<&dyn AnyStudy> = named.map(|name| super::find(suite, name)).collect::<anyhow::Result<_>>()?;
+    let named: Vec<&dyn AnyStudy> =
+        named.map(|name| super::find(suite, &name.to_string_lossy())).collect::<anyhow::Result<_>>()?;
     let whole = named.len() < names.len();
     let studies = if whole { suite.studies.in_order_of_measuring() } else { named };
     let dir = args.dir.as_deref().unwrap_or(Path::new(RUNS));
@@ -129,25 +135,25 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
         let waiting = Waiting::show(format!("plans {}", study.name()), terminal);
         let plan = study.plan(&*own, &suite.registry)?;
         drop(waiting);
-        words.extend(plan.decided);
+        words.extend(plan.decided.into_iter().map(OsString::from));
         warnings.extend(plan.warnings);
         for case in &plan.cases {
             let job = serde_json::to_string(&Job::of(study.name(), case)).expect("a job has text keys");
             let file = dir.join(study.name()).join(file_name(&case.key));
-            lines += &(line(&words, &job, &file)? + "\n");
+            lines += &(line(&words, &job, &file) + "\n");
         }
     }
     // Several studies may measure one scene.
     each_once(warnings).iter().for_each(|warning| terminal.tell(&format!("warning: {warning}")));
-    terminal.print(&lines)?;
+    terminal.print(&lines);
     Ok(Status::Right)
 }
 
 /// The command of a study.
-fn words(study: &dyn AnyStudy, args: &Args, whole: bool, level: Option<Level>, options: &[String]) -> Vec<String> {
-    let mut words: Vec<String> = vec!["sahara".into()];
-    words.extend(level.iter().flat_map(|level| ["--level", level.name()]).map(String::from));
-    words.extend(["study", study.name()].map(String::from));
+fn words(study: &dyn AnyStudy, args: &Args, whole: bool, level: Option<Level>, options: &[OsString]) -> Vec<OsString> {
+    let mut words: Vec<OsString> = vec!["sahara".into()];
+    words.extend(level.iter().flat_map(|level| ["--level", level.name()]).map(OsString::from));
+    words.extend(["study", study.name()].map(OsString::from));
     words.extend(match (args.quick, whole) {
         (true, _) => study.preset(Effort::Quick, &args.scenes),
         (false, true) => study.preset(Effort::Full, &args.scenes),
@@ -171,14 +177,8 @@ fn refused(mut error: clap::Error, study: &str, is_preset: bool) -> clap::Error 
 }
 
 /// A line that a shell reads as the command with a job and a file.
-fn line(words: &[String], job: &str, file: &Path) -> anyhow::Result<String> {
-    let name = file.to_str().ok_or_else(|| anyhow::anyhow!("{} is no text: name another folder", file.display()))?;
-    let (case, option) = (format!("--{OPTION}={job}"), format!("--{OUT}"));
-    let words = words.iter().map(String::as_str).chain([case.as_str(), &option, name]).map(quoted);
-    let line = words.collect::<Vec<String>>().join(" ");
-    anyhow::ensure!(
-        !line.chars().any(char::is_control),
-        "{line:?} holds a tab or the end of a line, and would be no line: call the folder or the scene otherwise"
-    );
-    Ok(line)
+fn line(words: &[OsString], job: &str, file: &Path) -> String {
+    let (case, out) = (format!("--{OPTION}={job}"), format!("--{OUT}"));
+    let own: [&OsStr; 3] = [case.as_ref(), out.as_ref(), file.as_ref()];
+    words.iter().map(OsString::as_os_str).chain(own).map(quoted).collect::<Vec<String>>().join(" ")
 }

@@ -283,9 +283,9 @@ impl Screen for OnTerminal<'_> {
         self.progress.iter_mut().for_each(|progress| progress.warn(warnings));
     }
 
-    fn table(&mut self, table: &Table) -> io::Result<()> {
+    fn table(&mut self, table: &Table) {
         let print = || self.terminal.print_table(table);
-        self.progress.as_ref().map_or_else(print, |progress| progress.aside(print))
+        self.progress.as_ref().map_or_else(print, |progress| progress.aside(print));
     }
 
     fn end(&mut self) {

@@ -117,9 +117,9 @@ pub fn run_as(session: &Session, study: &dyn AnyStudy, chosen: Chosen, common: &
     drop(screen);
 
     let Measured { answer, provenance, tables, mut legend, to_print, to_explain, foot, outcome, failures } = measured;
-    to_print.iter().try_for_each(|table| terminal.print_table(table))?;
-    terminal.print_lines(&to_explain)?;
-    terminal.print_lines(&foot)?;
+    to_print.iter().for_each(|table| terminal.print_table(table));
+    terminal.print_lines(&to_explain);
+    terminal.print_lines(&foot);
     failures.iter().for_each(|error| crate::output::tell(format_args!("error: {error}")));
     // Files are written whole, when all is measured.
     let Some(answer) = answer else { return Ok(outcome) };

@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 
 use super::{folder_of, part, plain};
 
+use crate::escaped::Escaped as _;
+
 /// The file that tells a folder of ours from others: it lists what is in it.
 const MARK: &str = "sahara-files.json";
 
@@ -18,13 +20,13 @@ pub struct OutputFolder {
 /// Why a folder cannot be written.
 #[derive(Debug, thiserror::Error)]
 pub enum FolderError {
-    #[error("{} is a file: name a folder that does not exist yet", .0.display())]
+    #[error("{} is a file: name a folder that does not exist yet", .0.escaped())]
     File(PathBuf),
-    #[error("{} holds something that sahara has not written there, {other}: name another folder, or empty it", path.display())]
+    #[error("{} holds something that sahara has not written there, {other}: name another folder, or empty it", path.escaped())]
     Foreign { path: PathBuf, other: String },
-    #[error("cannot replace {}: {}, one of the files to read, is in it: name another folder", path.display(), input.display())]
+    #[error("cannot replace {}: {}, one of the files to read, is in it: name another folder", path.escaped(), input.escaped())]
     Input { path: PathBuf, input: PathBuf },
-    #[error("cannot write {}: {cause}: choose a place that exists, may be written and has room", path.display())]
+    #[error("cannot write {}: {cause}: choose a place that exists, may be written and has room", path.escaped())]
     Write { path: PathBuf, cause: io::Error },
 }
 

@@ -11,6 +11,7 @@ use super::content::{Content, content, folder, modified};
 use super::machines::{Machine, OfMachine};
 use super::planned::without_result;
 use super::run_error::RunError;
+use crate::escaped::Escaped as _;
 use crate::measure::Provenance;
 use crate::report::Record;
 use crate::report::number::plural;
@@ -186,7 +187,7 @@ impl Runs {
                 self.take(&path, study, answer, Some(&group.provenance));
                 let again = group.replaced.first().map(|path| {
                     let count = plural(group.replaced.len(), "case");
-                    format!("{count} measured again since, as in {}.", path.display())
+                    format!("{count} measured again since, as in {}.", path.escaped())
                 });
                 let notes = notes.into_iter().chain(again);
                 self.notes.extend(notes.map(|note| format!("{}: {note}", study.name())));

@@ -1,6 +1,7 @@
 //! What is known of a study without its types.
 
 use std::any::Any;
+use std::ffi::OsString;
 use std::marker::PhantomData;
 
 use clap::{Args, Command};
@@ -84,7 +85,7 @@ pub trait AnyStudy: Send + Sync {
     /// Whether its options name scenes.
     fn names_scenes(&self) -> bool;
     /// What `study all` measures of it, in words of its command line; on these scenes, where there are any.
-    fn preset(&self, effort: Effort, scenes: &[String]) -> Vec<String>;
+    fn preset(&self, effort: Effort, scenes: &[OsString]) -> Vec<OsString>;
     /// Its options.
     ///
     /// # Errors
@@ -190,7 +191,7 @@ impl<S: Study> AnyStudy for Typed<S> {
         has_scenes::<S>()
     }
 
-    fn preset(&self, effort: Effort, scenes: &[String]) -> Vec<String> {
+    fn preset(&self, effort: Effort, scenes: &[OsString]) -> Vec<OsString> {
         preset::<S>(effort, scenes)
     }
 

@@ -1,5 +1,6 @@
 //! Options that studies share. The same option means the same in all of them.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::ValueEnum;
@@ -7,7 +8,7 @@ use clap::ValueEnum;
 use super::bench::check::TESTS;
 use super::epoch::{Asked, Settings};
 use super::reference_structures::takes_minutes;
-use super::{BRUTE_FORCE, REPORT_TREE, SAH_TREE, rays_or_all, sources};
+use super::{BRUTE_FORCE, REPORT_TREE, SAH_TREE, Seconds, rays_or_all, sources};
 use crate::measure::Threads;
 use crate::registry::{Choice, Registry};
 use crate::report::words::{each_once, listed};
@@ -34,8 +35,8 @@ pub struct Measuring<const EPOCHS: u16 = 5, const RUNS: u16 = 3, const BUDGET: u
     #[arg(long, value_name = "N", default_value = RUNS.to_string(), value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub runs: u16,
     /// Seconds that the samples of an epoch of a scene may take: slow cases are timed on fewer rays to keep within them
-    #[arg(long, value_name = "SECONDS", default_value = BUDGET.to_string(), value_parser = clap::value_parser!(u32).range(1..=86400))]
-    pub budget: u32,
+    #[arg(long, value_name = "SECONDS", default_value = BUDGET.to_string(), allow_negative_numbers = true)]
+    pub budget: Seconds,
     /// Threads that build and trace; 1 is the unit of comparison
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: u16,
@@ -70,7 +71,7 @@ impl<const EPOCHS: u16, const RUNS: u16, const BUDGET: u32> Measuring<EPOCHS, RU
             guide: sources::guide(registry)?,
             asked,
             runs: self.runs.into(),
-            budget_ns: u64::from(self.budget) * 1_000_000_000,
+            budget_ns: self.budget.ns(),
             slowest: f64::INFINITY,
             check_tests: TESTS,
             detailed: false,
@@ -154,7 +155,7 @@ pub struct Scenes {
     /// Built-in scenes, scene files (.toml) and mesh files (.obj, .ply, .gltf, .glb) [default: those of the study, else all
     /// built-in ones]
     #[arg(value_name = "SCENE|FILE")]
-    pub scenes: Vec<String>,
+    pub scenes: Vec<OsString>,
 }
 
 impl Scenes {
@@ -205,7 +206,7 @@ impl ScenesAndMeshes {
     /// # Errors
     /// As [`sources::scene`] and [`sources::distinct`], and if real meshes are asked for and one is not there.
     pub fn read(&self) -> anyhow::Result<Vec<Scene>> {
-        let all: Vec<String> = BUILTIN.iter().map(|builtin| builtin.name.to_owned()).collect();
+        let all: Vec<OsString> = BUILTIN.iter().map(|builtin| builtin.name.into()).collect();
         let mut forms: Vec<Scene> = vec![];
         for name in sources::wanted(if self.named.scenes.is_empty() { &all } else { &self.named.scenes }) {
             let builtin = Builtin::find(name).ok().filter(|_| self.meshes != Meshes::Real);

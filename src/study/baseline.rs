@@ -11,6 +11,7 @@ use super::engine::measure_case;
 use super::epoch::{Epoch, Joined, join};
 use super::process::Processes;
 use super::{Plan, Refused, Screen, Status, Study, StudyError};
+use crate::escaped::Escaped as _;
 use crate::measure::{Clock, Provenance};
 use crate::report::Record;
 use crate::report::number::plural;
@@ -100,13 +101,13 @@ pub fn outcome(comparison: &Comparison) -> Status {
 pub enum BaselineError {
     #[error("the name {0:?} of a baseline must be made of letters, digits, '-', '_' and '.', and not begin with '.'")]
     Name(String),
-    #[error("there is no baseline {name:?} in {}: {known}", folder.display())]
+    #[error("there is no baseline {name:?} in {}: {known}", folder.escaped())]
     Missing { name: String, folder: PathBuf, known: String },
-    #[error("the baseline {} cannot be read: {cause}: save it again with --save-baseline", path.display())]
+    #[error("the baseline {} cannot be read: {cause}: save it again with --save-baseline", path.escaped())]
     Read { path: PathBuf, cause: String },
-    #[error("the folder {} for baselines cannot be made: {cause}: choose another with --dir", path.display())]
+    #[error("the folder {} for baselines cannot be made: {cause}: choose another with --dir", path.escaped())]
     Folder { path: PathBuf, cause: std::io::Error },
-    #[error("the baseline {name} is of another machine ({machine}): choose another name, or remove {}", path.display())]
+    #[error("the baseline {name} is of another machine ({machine}): choose another name, or remove {}", path.escaped())]
     OtherMachine { name: String, machine: String, path: PathBuf },
     #[error(transparent)]
     Unlike(#[from] Unlike),

@@ -1,5 +1,7 @@
 //! The options of a study, whatever they are chosen by.
 
+use std::ffi::OsString;
+
 use clap::{ArgMatches, Args, Command, FromArgMatches};
 
 use super::{Effort, Study};
@@ -11,7 +13,7 @@ pub enum Chosen<'a> {
     /// The defaults of its command.
     Defaults,
     /// `study all`, on these scenes where there are any.
-    Preset(Effort, Vec<String>),
+    Preset(Effort, Vec<OsString>),
 }
 
 fn command<S: Study>() -> Command {
@@ -24,16 +26,17 @@ pub(super) fn has_scenes<S: Study>() -> bool {
 }
 
 /// What `study all` measures of a study, in words of its command line: scenes, those given where there are any, then options.
-pub(super) fn preset<S: Study>(effort: Effort, scenes: &[String]) -> Vec<String> {
+pub(super) fn preset<S: Study>(effort: Effort, scenes: &[OsString]) -> Vec<OsString> {
     let own = match effort {
         Effort::Full => S::FULL,
         Effort::Quick => S::QUICK,
     };
-    let own = own.split_whitespace().map(String::from);
+    let own = own.split_whitespace();
     if scenes.is_empty() || !has_scenes::<S>() {
-        return own.collect();
+        return own.map(OsString::from).collect();
     }
-    scenes.iter().cloned().chain(own.skip_while(|word| !word.starts_with('-'))).collect()
+    let options = own.skip_while(|word| !word.starts_with('-')).map(OsString::from);
+    scenes.iter().cloned().chain(options).collect()
 }
 
 /// The options of a study.

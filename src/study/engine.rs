@@ -160,7 +160,7 @@ fn measure(
         if study.is_scene_by_scene() && (is_whole || (stopped || has_failed) && !scene.is_empty()) {
             for table in study.printed(&*answer(&scene)).tables {
                 let of = if is_whole { String::new() } else { format!(" ({} of {epochs} epochs)", scene.len()) };
-                run.screen.table(&Table { title: table.title + &of, ..table })?;
+                run.screen.table(&Table { title: table.title + &of, ..table });
             }
         } else if !(stopped || has_failed)
             && case.epoch == 0
@@ -171,7 +171,7 @@ fn measure(
             if let Some(table) = look {
                 let title = format!("{} (a first look: epoch 1 of {epochs})", table.title);
                 // Nothing is lost with it.
-                let _ = run.screen.table(&Table { title, ..table });
+                run.screen.table(&Table { title, ..table });
             }
         }
         if stopped {

@@ -1,5 +1,6 @@
 //! A case as a job: the command line of a run, and which of its cases a process measures.
 
+use std::ffi::OsString;
 use std::path::Path;
 use std::str::FromStr;
 
@@ -7,7 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use super::journal::{self, CaseFile, Header, Read};
 use super::{AnyStudy, Chosen, Plan, Planned, Screen, StudyError};
-use crate::measure::{Provenance, SystemClock, quoted};
+use crate::escaped::quoted;
+use crate::measure::{Provenance, SystemClock};
 use crate::registry::Registry;
 
 /// Which case a process measures.
@@ -78,7 +80,7 @@ impl dyn AnyStudy + '_ {
     ) -> anyhow::Result<Done> {
         let read = self.reader();
         // As the run that would have started a process for it.
-        let command = command_of_run(std::env::args());
+        let command = command_of_run(std::env::args_os());
         if is_repeated(job, out, &command, read) {
             return Ok(Done::Before);
         }
@@ -124,15 +126,14 @@ fn is_repeated<C>(job: &Job, out: &Path, command: &str, read: Read<C>) -> bool {
 }
 
 /// The command line without the job: the same for all jobs of a run.
-fn command_of_run(args: impl Iterator<Item = String>) -> String {
+fn command_of_run(args: impl Iterator<Item = OsString>) -> String {
     let [case, out] = [OPTION, OUT].map(|option| format!("--{option}"));
     let mut words = vec![];
     let mut skips = false;
     for arg in args {
-        let is_value = std::mem::replace(&mut skips, arg == case || arg == out);
-        let is_job =
-            |option: &String| arg.strip_prefix(option).is_some_and(|rest| rest.is_empty() || rest.starts_with('='));
-        if !is_value && !is_job(&case) && !is_job(&out) {
+        let is_value = std::mem::replace(&mut skips, arg == *case || arg == *out);
+        let option = arg.as_encoded_bytes().split(|&byte| byte == b'=').next();
+        if !is_value && option != Some(case.as_bytes()) && option != Some(out.as_bytes()) {
             words.push(quoted(&arg));
         }
     }
@@ -146,8 +147,8 @@ mod tests {
     #[test]
     fn the_jobs_of_a_run_have_its_command() {
         let words = ["sahara", "study", "costs", "my mesh.ply", "--case={\"key\":\"a\"}", "--out", "runs/costs/a.json"];
-        assert_eq!(command_of_run(words.map(String::from).into_iter()), "sahara study costs 'my mesh.ply'");
+        assert_eq!(command_of_run(words.map(OsString::from).into_iter()), "sahara study costs 'my mesh.ply'");
         let words = ["sahara", "--case", "{}", "compare", "--out=a.json", "--outer"];
-        assert_eq!(command_of_run(words.map(String::from).into_iter()), "sahara compare --outer");
+        assert_eq!(command_of_run(words.map(OsString::from).into_iter()), "sahara compare --outer");
     }
 }

@@ -1,5 +1,3 @@
-use std::io;
-
 use super::Stage;
 use crate::report::Table;
 
@@ -20,10 +18,7 @@ pub trait Screen {
     /// Shows what spoils the run, or may not be what was meant.
     fn warn(&mut self, warnings: &[String]);
     /// A table of the result.
-    ///
-    /// # Errors
-    /// If it cannot be printed.
-    fn table(&mut self, table: &Table) -> io::Result<()>;
+    fn table(&mut self, table: &Table);
     /// Nothing more is measured.
     fn end(&mut self);
 }

@@ -1,5 +1,6 @@
 //! Scenes, structures and kinds of rays from what the command line names.
 
+use std::ffi::{OsStr, OsString};
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -7,6 +8,7 @@ use anyhow::Context;
 use rayon::prelude::*;
 
 use super::SAH_TREE;
+use crate::escaped::{Escaped as _, stem};
 use crate::names::suggestion;
 use crate::output::OutputFile;
 use crate::registry::{Choice, Registry};
@@ -18,8 +20,8 @@ use crate::scene::{BUILTIN, Builtin, Scene, load, real_mesh_folder};
 ///
 /// # Errors
 /// If a name is not known, a file cannot be loaded, or two different scenes have one name.
-pub fn scenes(named: &[String]) -> anyhow::Result<Vec<Scene>> {
-    let all: Vec<String> = BUILTIN.iter().map(|builtin| builtin.name.into()).collect();
+pub fn scenes(named: &[OsString]) -> anyhow::Result<Vec<Scene>> {
+    let all: Vec<OsString> = BUILTIN.iter().map(|builtin| builtin.name.into()).collect();
     let named = wanted(if named.is_empty() { &all } else { named });
     // Large meshes take seconds to load; the first one that cannot be is named.
     let scenes: Vec<_> = named.collect::<Vec<_>>().into_par_iter().map(|name| scene(name)).collect();
@@ -39,18 +41,18 @@ pub fn is_process_of_run() -> bool {
 }
 
 /// What is loaded of what is named.
-pub fn wanted<S: AsRef<str>>(named: &[S]) -> impl Iterator<Item = &S> {
-    let is_only = |named: &str| ONLY.get().is_none_or(|only| name_of(named).is_none_or(|name| name == *only));
+pub fn wanted<S: AsRef<OsStr>>(named: &[S]) -> impl Iterator<Item = &S> {
+    let is_only = |named: &OsStr| ONLY.get().is_none_or(|only| name_of(named).is_none_or(|name| name == *only));
     named.iter().filter(move |named| is_only(named.as_ref()))
 }
 
 /// The name of a scene that is not loaded yet, where that can be told.
-fn name_of(named: &str) -> Option<String> {
+fn name_of(named: &OsStr) -> Option<String> {
     let path = Path::new(named);
     match Builtin::find(named) {
         Ok(builtin) => Some(builtin.name.into()),
-        Err(_) if is_scene_file(path) => Some(SceneFile::parse(&text(path).ok()?, named).ok()?.name),
-        Err(_) => path.file_stem().map(|stem| stem.to_string_lossy().into()),
+        Err(_) if is_scene_file(path) => Some(SceneFile::parse(&text(path).ok()?, "").ok()?.name),
+        Err(_) => Some(stem(path)),
     }
 }
 
@@ -87,19 +89,16 @@ pub fn distinct(scenes: Vec<Scene>) -> anyhow::Result<Vec<Scene>> {
 ///
 /// # Errors
 /// If there is no such scene, or a file cannot be loaded.
-pub fn scene(name: &str) -> anyhow::Result<Scene> {
+pub fn scene(name: impl AsRef<OsStr>) -> anyhow::Result<Scene> {
     let real_meshes = real_mesh_folder();
-    let path = Path::new(name);
-    match Builtin::find(name) {
+    let path = Path::new(name.as_ref());
+    match Builtin::find(path) {
         Ok(builtin) => Ok(builtin.scene(Some(&real_meshes))?),
         Err(unknown) if path.extension().is_none() && path.components().count() < 2 && !path.exists() => {
             Err(unknown.into())
         }
         Err(_) if is_scene_file(path) => Ok(Scene::read(path, Some(&real_meshes))?),
-        Err(_) => {
-            let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
-            Ok(Scene::framed(&stem, load(path)?)?)
-        }
+        Err(_) => Ok(Scene::framed(&stem(path), load(path)?)?),
     }
 }
 
@@ -109,7 +108,7 @@ pub fn scene(name: &str) -> anyhow::Result<Scene> {
 /// If it cannot be written, or is one of them.
 pub fn output<'a>(
     path: &Path,
-    scenes: &'a [String],
+    scenes: &'a [OsString],
     others: impl IntoIterator<Item = &'a Path>,
 ) -> anyhow::Result<OutputFile> {
     let files = scenes.iter().filter(|name| Builtin::find(name).is_err()).map(Path::new);
@@ -136,7 +135,7 @@ pub fn specs(registry: &Registry, named: &[String]) -> Vec<String> {
 /// # Errors
 /// If it cannot be read.
 pub fn text(path: &Path) -> anyhow::Result<String> {
-    std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))
+    std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.escaped()))
 }
 
 /// The structures named, or the first of every name; the same one twice would only take time.

@@ -1,7 +1,6 @@
 //! The comparison itself.
 
 use std::borrow::Cow;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -12,6 +11,7 @@ use super::{Kind, Reference, Validation, WorstRay};
 use crate::accel::DynAccel;
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::oracle::Oracle;
+use crate::panics::caught;
 
 /// Rays a batch: part of the result's definition, so that no thread count changes it.
 pub(super) const BATCH: usize = 256;
@@ -206,7 +206,7 @@ fn loaded_answers(subject: &dyn DynAccel, rays: &[Ray]) -> (Vec<Option<Hit>>, Ve
 
 fn ask<R>(asked: &Asked, call: Call, question: impl FnOnce() -> R) -> Result<R, String> {
     asked.begin(call);
-    let answer = catch_unwind(AssertUnwindSafe(question));
+    let answer = caught(question);
     asked.end();
     answer.map_err(|payload| message(payload.as_ref()))
 }

@@ -11,6 +11,7 @@ use super::table::{note_on_reference, print, row};
 use crate::accel::{DynAccel, Query};
 use crate::cli::progress::Waiting;
 use crate::cli::terminal::Terminal;
+use crate::escaped::Escaped as _;
 use crate::geometry::{Hit, Ray};
 use crate::registry::{Choice, Registry};
 use crate::report::number::plural;
@@ -57,10 +58,10 @@ pub fn export(
     let what = plural(rays.len(), "answer");
     terminal.print(&format!(
         "{}: {what} of {} to the rays {}\n",
-        output.path().display(),
+        output.path().escaped(),
         choice.label,
         file.workload.hash()
-    ))?;
+    ));
     Ok(Status::Right)
 }
 
@@ -89,7 +90,7 @@ pub fn check(
     let test = args.test.first().map_or("own", String::as_str);
     sources::known_tests(registry, &args.test)?;
     let answers = HitFile::read(path)?;
-    let name = path.display().to_string();
+    let name = path.escaped().to_string();
     let found = answers.answers(&file.workload).map_err(|problem| anyhow::anyhow!("{name}: {problem}"))?;
     let recorded: Vec<(Ray, Option<Hit>)> = file.workload.rays.iter().copied().zip(found.iter().copied()).collect();
     let (asked, some) = against.sample(&recorded, scene.mesh.len());
@@ -107,6 +108,6 @@ pub fn check(
     drop(waiting);
     let worst = found.worst.iter().map(|worst| format!("{name}: {worst}"));
     let notes = scene.notes.iter().cloned().chain(some).chain(worst).chain(note_on_reference(&name, &found)).collect();
-    print(scene, &rays, &who, vec![row(&name, test, &found)], notes, terminal)?;
+    print(scene, &rays, &who, vec![row(&name, test, &found)], notes, terminal);
     Ok(if against.refutes(&found) { Status::Wrong } else { Status::Right })
 }

@@ -6,24 +6,23 @@ mod exchange;
 mod hard;
 mod table;
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
 use anyhow::Context;
-use glam::Vec3;
 
 use super::progress::Waiting;
 use super::terminal::Terminal;
 use crate::accel::DynAccel;
-use crate::geometry::{Ray, RayTextError};
+use crate::geometry::Ray;
 use crate::registry::{Choice, Registry};
 use crate::report::number::plural;
 use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
 use crate::study::args::Structures;
 use crate::study::{BRUTE_FORCE, documented_defect, left_out};
-use crate::study::{RaySource, replayed};
-use crate::study::{Status, ViewArgs, sources};
+use crate::study::{RaySource, Seconds, Status, ViewArgs, replayed, sources};
 use crate::validate::{LIMIT, Stratum, Validation, validate_watched, watched};
 
 use against::{ASKED, Against, Known, References};
@@ -35,7 +34,7 @@ pub use hard::{CHILD, ChildArgs, described, run_child};
 pub struct Args {
     /// Built-in scenes, scene files (.toml) and mesh files; all built-in scenes if none is named
     #[arg(value_name = "SCENE|FILE")]
-    scenes: Vec<String>,
+    scenes: Vec<OsString>,
     #[command(flatten)]
     from: ViewArgs,
     /// A structure, with keys that differ from their defaults; may be repeated [default: all, one of each name]
@@ -62,7 +61,7 @@ pub struct Args {
     ])]
     hard: Option<Vec<String>>,
     /// Ask this ray alone, and print what every structure answers; may be repeated
-    #[arg(long, value_name = "ox,oy,oz dx,dy,dz", allow_hyphen_values = true, value_parser = valid_ray,
+    #[arg(long, value_name = "ox,oy,oz dx,dy,dz", allow_hyphen_values = true, value_parser = Ray::parse_valid,
         conflicts_with_all = ["rays", "seed", "camera", "inside", "size"])]
     ray: Vec<Ray>,
     /// Hold the answers of a file, to the rays of the file of --rays, against the reference, in place of structures
@@ -80,8 +79,8 @@ pub struct Args {
     export_hits: Option<PathBuf>,
     /// Seconds that a structure may take for 256 rays, or for its build and for each further million triangles of it, before it counts
     /// as hanging
-    #[arg(long, value_name = "SECONDS", default_value_t = LIMIT.as_secs() as u32, value_parser = clap::value_parser!(u32).range(1..=86400))]
-    limit: u32,
+    #[arg(long, value_name = "SECONDS", default_value_t = Seconds::whole(LIMIT.as_secs() as u32), allow_negative_numbers = true)]
+    limit: Seconds,
     /// Seed of the rays [default: 1]
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
@@ -181,7 +180,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
                 Taken::Hangs => {
                     verdict = Status::Wrong;
                     rows.push(set_apart(choice, "hangs"));
-                    let limit = args.build_limit(scene.mesh.len()).as_secs();
+                    let limit = args.build_limit(scene.mesh.len()).as_secs_f64();
                     notes.push(format!("{}: its builder did not end within {limit} s: see --limit", choice.label));
                 }
                 Taken::Refused(reason) => {
@@ -196,28 +195,13 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         if args.ray.is_empty() && !hits.is_empty() && hits.iter().all(|&hits| hits == 0) {
             notes.push("No ray hits anything by the reference: no hit could be lost, and this shows little.".into());
         }
-        print(scene, &rays, &against, rows, notes, terminal)?;
+        print(scene, &rays, &against, rows, notes, terminal);
         if !args.ray.is_empty() {
-            terminal.print_table(&answers::table(&scene.name, answered))?;
+            terminal.print_table(&answers::table(&scene.name, answered));
         }
     }
-    terminal.print_lines(&LEGEND.map(String::from))?;
+    terminal.print_lines(&LEGEND.map(String::from));
     Ok(verdict)
-}
-
-/// A ray that can hit something: of another one "no hit" would say nothing about a mesh.
-fn valid_ray(text: &str) -> Result<Ray, String> {
-    let ray: Ray = text.parse().map_err(|error: RayTextError| error.to_string())?;
-    let fault = if !ray.origin.is_finite() {
-        "its origin is not finite: give three finite numbers"
-    } else if !ray.direction.is_finite() {
-        "its direction is not finite: give three finite numbers"
-    } else if ray.direction == Vec3::ZERO {
-        "its direction is zero: give one that has a length"
-    } else {
-        "its interval is empty: give a t_max above 0 and above t_min"
-    };
-    if ray.is_valid() { Ok(ray) } else { Err(format!("such a ray hits nothing anywhere, since {fault}")) }
 }
 
 impl Args {
@@ -230,7 +214,7 @@ impl Args {
     }
 
     fn limit(&self) -> Duration {
-        Duration::from_secs(self.limit.into())
+        self.limit.duration()
     }
 
     /// What a build over so many triangles may take.

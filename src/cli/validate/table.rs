@@ -17,11 +17,11 @@ pub fn print(
     rows: Vec<Vec<Cell>>,
     notes: Vec<String>,
     terminal: &Terminal,
-) -> anyhow::Result<()> {
+) {
     let stand_in = if scene.stand_ins.is_empty() { "" } else { ", stand-in" };
     let (triangles, rays) = (plural(scene.mesh.len(), "triangle"), plural(rays.len(), "ray"));
     let title = format!("{}: {triangles}{stand_in}; {rays} against {against}", scene.name);
-    Ok(terminal.print_table(&Table::new(title, COLUMNS, rows).noted(notes))?)
+    terminal.print_table(&Table::new(title, COLUMNS, rows).noted(notes));
 }
 
 const COLUMNS: [&str; 8] =

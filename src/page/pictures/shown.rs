@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::measure::quoted;
+use crate::escaped::quoted;
 use crate::scene::{Builtin, Scene};
 use crate::study::{SceneId, ViewArgs};
 

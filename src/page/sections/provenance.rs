@@ -1,5 +1,6 @@
 //! Where the numbers come from.
 
+use crate::escaped::Escaped as _;
 use crate::measure::Provenance;
 use crate::page::runs::Runs;
 use crate::report::Table;
@@ -10,7 +11,7 @@ use crate::report::words::{command_line, each_once};
 /// Every file and every machine; `missing` is what no run has measured.
 pub fn section(runs: &Runs, missing: Vec<Block>) -> Section {
     let sources = runs.sources.iter().map(|source| {
-        let path = source.path.display().to_string();
+        let path = source.path.escaped().to_string();
         [path, source.kind.clone(), source.command.clone(), source.replaced.clone()]
     });
     let mut files = Table::of_texts(

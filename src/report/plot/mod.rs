@@ -17,6 +17,8 @@ mod stack;
 use canvas::{Canvas, WIDTH};
 use palette::{INK, colours};
 
+use crate::escaped::Escaped as _;
+
 pub use bars::{Bar, BarGroup, Bars};
 pub use chart::Chart;
 pub use curves::{CurvePoint, Curves, Line, Mark};
@@ -84,7 +86,7 @@ impl Format {
         match ending.as_deref().and_then(|ending| ending.to_str()) {
             Some("svg") => Ok(Self::Svg),
             Some("png") => Ok(Self::Png),
-            _ => Err(UnknownFormat(path.display().to_string())),
+            _ => Err(UnknownFormat(path.escaped().to_string())),
         }
     }
 }

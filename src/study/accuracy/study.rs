@@ -16,7 +16,8 @@ use crate::scene::Scene;
 use crate::study::args::{Scenes, kinds};
 use crate::study::plan::{Measure, named_notes, scene_key};
 use crate::study::{
-    BRUTE_FORCE, Context, Data, Plan, RaySource, Refused, SceneId, Study, Trouble, documented_defect, replayed, sources,
+    BRUTE_FORCE, Context, Data, Plan, RaySource, Refused, SceneId, Seconds, Study, Trouble, documented_defect,
+    replayed, sources,
 };
 use crate::triangle::{Exact, TriangleTest};
 
@@ -44,15 +45,15 @@ pub struct AccuracyArgs {
     #[arg(long, value_name = "N", default_value_t = RUNS, value_parser = clap::value_parser!(u16).range(1..))]
     runs: u16,
     /// Seconds that the samples of a scene may take: slow cases are timed on fewer rays to keep within them
-    #[arg(long, value_name = "SECONDS", default_value_t = BUDGET, value_parser = clap::value_parser!(u32).range(1..=86400))]
-    budget: u32,
+    #[arg(long, value_name = "SECONDS", default_value_t = BUDGET, allow_negative_numbers = true)]
+    budget: Seconds,
     /// Seed of the rays and of the order of samples
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
 }
 
 const RUNS: u16 = 7;
-const BUDGET: u32 = 40;
+const BUDGET: Seconds = Seconds::whole(40);
 
 /// Brute force takes part in meshes up to this size, unless it is asked for.
 const SMALL: usize = 5000;
@@ -105,7 +106,7 @@ impl Study for AccuracyStudy {
         let inputs = args.scenes.files().into_iter().chain(args.rays.file().map(Into::into)).collect();
         let threads = Threads::pinned(1).map_err(anyhow::Error::msg)?;
         let (is_default, runs, seed) = (args.structure.is_empty(), args.runs.into(), args.seed);
-        let budget_ns = u64::from(args.budget) * 1_000_000_000;
+        let budget_ns = args.budget.ns();
         let measure: Measure<JudgedScene> = Box::new(move |case, clock, progress| {
             let scene = &scenes[case.scene];
             let (choices, note) = fitting(&choices, scene, is_default);

@@ -1,7 +1,6 @@
 //! `compare` as a study.
 
 use std::collections::BTreeSet;
-use std::time::Duration;
 
 use serde_json::Value;
 
@@ -20,8 +19,8 @@ use crate::study::args::{Measuring, SLOWEST, Scenes, Structures, WORKLOADS, kind
 use crate::study::epoch::{self, Asked, Epoch, Settings, troubles};
 use crate::study::grouped::grouped;
 use crate::study::{
-    BRUTE_FORCE, Context, Data, Plan, Printed, RaySource, Refused, SceneId, Study, Trouble, ViewArgs, left_out,
-    replayed, sources,
+    BRUTE_FORCE, Context, Data, Plan, Printed, RaySource, Refused, SceneId, Seconds, Study, Trouble, ViewArgs,
+    left_out, replayed, sources,
 };
 
 pub struct CompareStudy;
@@ -39,8 +38,8 @@ pub struct CompareArgs {
     #[arg(long, value_name = "COMMAND")]
     pub runner: Vec<String>,
     /// Seconds that such a program may take for an answer, a build among them
-    #[arg(long, value_name = "SECONDS", requires = "runner", default_value_t = RUNNER_LIMIT, value_parser = clap::value_parser!(u32).range(1..=86400))]
-    pub runner_limit: u32,
+    #[arg(long, value_name = "SECONDS", requires = "runner", default_value_t = RUNNER_LIMIT, allow_negative_numbers = true)]
+    pub runner_limit: Seconds,
     /// The structure that speeds are related to; takes part even if it is not among those named [default: median-kd and the better
     /// BVH of obvhs; without them the first one]
     #[arg(long, value_name = "NAME[:key=value,..]")]
@@ -55,15 +54,15 @@ pub struct CompareArgs {
     pub measuring: Measuring<4, 1, 2>,
     /// A coarse answer within seconds: up to three epochs of few rays, without brute-force unless it is named, and no further epoch
     /// that would take a scene beyond 4 s
-    #[arg(long, conflicts_with_all = ["epochs", "runs", "budget", "rays"])]
+    #[arg(long, conflicts_with_all = ["epochs", "runs", "budget"])]
     pub quick: bool,
     /// Print all columns: of builds, memory, tests, steps, checks, and ratios to both references
     #[arg(long)]
     pub wide: bool,
 }
 
-/// Seconds that a program may take for an answer.
-const RUNNER_LIMIT: u32 = 120;
+/// What a program may take for an answer.
+const RUNNER_LIMIT: Seconds = Seconds::whole(120);
 
 /// Of a quick run: its epochs and rays, what all epochs of a scene may take, the samples of one of them, and the triangle tests of all
 /// checks together. These are totals, however many structures take part.
@@ -103,11 +102,16 @@ impl CompareArgs {
         named
     }
 
+    /// Rays of a workload that are timed, at most.
+    fn most_rays(&self) -> usize {
+        if self.quick { self.rays.count().min(QUICK_RAYS) } else { self.rays.count() }
+    }
+
     /// The programs that take part, each once.
     fn runners(&self) -> anyhow::Result<Vec<Choice>> {
         let mut programs: Vec<Program> = vec![];
         for command in &self.runner {
-            let program = Program::new(command, Duration::from_secs(self.runner_limit.into()));
+            let program = Program::new(command, self.runner_limit.duration());
             let program = program.map_err(|problem| anyhow::anyhow!("--runner {command:?}: {problem}"))?;
             if let Some(other) = programs.iter().find(|other| other.name() == program.name()) {
                 anyhow::ensure!(
@@ -133,13 +137,12 @@ impl CompareArgs {
             Some((scene, file)) => {
                 self.from.is_unasked()?;
                 anyhow::ensure!(self.workload.is_empty(), "the rays are those of the file: leave --workload out");
-                (vec![scene], Asked::Replayed(file.workload, usize::MAX))
+                (vec![scene], Asked::Replayed(file.workload, self.most_rays()))
             }
             None => {
                 let kinds = kinds(&self.workload, &WORKLOADS);
                 let scenes = self.scenes.read(&[])?.into_iter().map(|scene| self.from.of(scene));
-                let rays = if self.quick { QUICK_RAYS } else { self.rays.count() };
-                (scenes.collect::<anyhow::Result<_>>()?, Asked::Kinds(kinds, rays))
+                (scenes.collect::<anyhow::Result<_>>()?, Asked::Kinds(kinds, self.most_rays()))
             }
         };
         let settings = self.measuring.settings(registry, with_twin(structures), asked)?;
@@ -149,7 +152,10 @@ impl CompareArgs {
                 settings.structures.retain(|choice| choice.entry.name != BRUTE_FORCE);
             }
             let tests: BTreeSet<&str> = settings.structures.iter().map(Choice::triangle_test).collect();
-            let kinds = kinds(&self.workload, &WORKLOADS).len();
+            let kinds = match &settings.asked {
+                Asked::Replayed(..) => 1,
+                _ => kinds(&self.workload, &WORKLOADS).len(),
+            };
             settings.check_tests = QUICK_CHECKS / (tests.len() * kinds).max(1);
             settings.budget_ns = QUICK_SAMPLES_NS;
         }

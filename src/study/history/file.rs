@@ -5,6 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::Entry;
+use crate::escaped::Escaped as _;
 use crate::output::{OutputError, OutputFile};
 
 /// Its name, in the folder of baselines.
@@ -13,9 +14,9 @@ pub const FILE: &str = "history.jsonl";
 /// Why a history cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum HistoryError {
-    #[error("cannot read {}: {cause}", path.display())]
+    #[error("cannot read {}: {cause}", path.escaped())]
     Read { path: PathBuf, cause: io::Error },
-    #[error("line {line} of {} is no run that --save-baseline has kept ({cause}): remove that line, or the file to begin a new history", path.display())]
+    #[error("line {line} of {} is no run that --save-baseline has kept ({cause}): remove that line, or the file to begin a new history", path.escaped())]
     Line { path: PathBuf, line: usize, cause: String },
     #[error(transparent)]
     Write(#[from] OutputError),

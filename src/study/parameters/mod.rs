@@ -10,6 +10,8 @@ mod table;
 #[cfg(test)]
 mod tests;
 
+use std::ffi::{OsStr, OsString};
+
 use super::args::{Measuring, Scenes};
 use super::epoch::{Asked, Epoch};
 use super::replicate::original::{SWEEP, SweepRow, main_scenes};
@@ -63,8 +65,8 @@ impl Study for ParametersStudy {
 
     fn plan(args: &ParametersArgs, registry: &Registry) -> anyhow::Result<Plan<Epoch>> {
         let all = main_scenes();
-        let named = args.scenes.scenes.iter().map(String::as_str);
-        let named: Vec<&str> = if args.scenes.scenes.is_empty() { all.clone() } else { named.collect() };
+        let named = args.scenes.scenes.iter().map(OsString::as_os_str);
+        let named: Vec<&OsStr> = if named.len() == 0 { all.iter().map(OsStr::new).collect() } else { named.collect() };
         let mut chosen: Vec<Scene> = vec![];
         for name in named {
             let builtin = Builtin::find(name)?;

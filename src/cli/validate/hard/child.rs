@@ -1,6 +1,6 @@
 //! A structure asked in a process of its own, so that neither a panic nor an endless loop ends the run.
 
-use std::io::{self, Read, Write};
+use std::io::{self, Read};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::thread;
@@ -39,7 +39,7 @@ pub fn run(registry: &Registry, args: &Args) -> anyhow::Result<Status> {
     let (case, choice) = (find(&args.case)?, registry.choose(&args.structure)?);
     match ask(case, &choice.subject(), args.rays as usize, &SystemClock::start()) {
         Ok(answers) => {
-            io::stdout().lock().write_all(&answers.to_bytes())?;
+            crate::output::print(&answers.to_bytes());
             Ok(Status::Right)
         }
         // The registry has caught it; the parent looks for the exit status of a panic.

@@ -66,9 +66,9 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
     progress.finish();
 
     for table in tables(&cases, &columns) {
-        terminal.print_table(&table)?;
+        terminal.print_table(&table);
     }
-    terminal.print_lines(&legend())?;
+    terminal.print_lines(&legend());
     if let Some(file) = json {
         // Every structure answers on one thread.
         let provenance = Provenance::capture(1);
