@@ -13,7 +13,7 @@ use crate::escaped::Escaped as _;
 
 pub use folder::{FolderError, OutputFolder};
 pub use standard::{STDOUT, stdout_is_taken};
-pub(crate) use standard::{note, print, take_failure, tell};
+pub(crate) use standard::{note, print, take_failure, tell, tell_error};
 
 /// A file that results will go to, or standard output where it is called [`STDOUT`].
 ///

@@ -68,7 +68,7 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
         let start = Instant::now();
         let found = match run_as(session, *study, args.chosen(), &common) {
             Err(error) if !ends_all(&error) => {
-                crate::output::tell(format_args!("error: {}: {error:#}", study.name()));
+                crate::output::tell_error(format_args!("{}: {error:#}", study.name()));
                 Status::Failed
             }
             found => found?,

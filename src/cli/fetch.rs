@@ -53,7 +53,7 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
             continue;
         }
         if let Err(error) = fetch(real, &folder, terminal) {
-            crate::output::tell(format_args!("error: {error:#}"));
+            crate::output::tell_error(format_args!("{error:#}"));
             failed += 1;
         }
     }
@@ -77,7 +77,7 @@ fn scenes(named: &[OsString]) -> anyhow::Result<Vec<SceneFile>> {
 fn described(scene: &str, real: &RealMesh) -> [String; 3] {
     let size = real.bytes.map_or(String::new(), |n| format!(", {}", bytes(n as usize)));
     let RealMesh { file, origin, licence, url, .. } = real;
-    [format!("{scene}: {file}{size}: {origin}"), format!("  licence: {licence}"), format!("  from {url}")].into()
+    [format!("{scene}: {file}{size}: {origin}"), format!("  licence: {licence}"), format!("  from {url}")]
 }
 
 #[cfg(feature = "fetch")]

@@ -72,6 +72,11 @@ struct Global {
     /// Run on these instructions instead of the best ones here: portable, avx2 or avx512, where this build has them; the answers are the same
     #[arg(long, global = true)]
     level: Option<Level>,
+}
+
+/// Options of the processes that a run starts.
+#[derive(Debug, clap::Args)]
+struct Process {
     /// Measure this case of a run, and say it in lines of JSON: how a run starts a process
     #[arg(long = job::OPTION, global = true, hide = true)]
     job: Option<Job>,
@@ -100,14 +105,11 @@ enum Command {
     /// Hold two exported runs of `compare` against each other; those of two machines by their ratios to obvhs
     Diff(diff::Args),
     /// Hold every structure against a reference, hit for hit
-    Validate(validate::Args),
+    Validate(Box<validate::Args>),
     /// Record, import and show files of rays; write rays with exact answers
     Rays(rays::Args),
     /// Write what runs have measured as a page, Markdown, LaTeX and tidy data
     Report(report::Args),
-    /// Answer for one structure and one hard case; what `validate --hard` runs in a process of its own
-    #[command(name = validate::CHILD, hide = true)]
-    HardAnswer(validate::ChildArgs),
     /// Download the real meshes that scene files name, verified; licences are shown first
     Fetch(fetch::Args),
     /// Draw a picture
@@ -136,7 +138,8 @@ const OLD: [(&str, &str); 5] = [
     ("accuracy", "`sahara study accuracy`"),
 ];
 
-fn command(studies: &Studies) -> clap::Command {
+/// The commands that people are shown.
+fn shown(studies: &Studies) -> clap::Command {
     let whole = clap::Command::new("sahara").version(env!("CARGO_PKG_VERSION")).max_term_width(100);
     let mut command = Global::augment_args(whole).about(ABOUT).long_about(LONG_ABOUT).after_help(exit_status::STATUSES);
     command = command.subcommands(studies.find(COMPARE).map(compare::command));
@@ -151,7 +154,13 @@ fn command(studies: &Studies) -> clap::Command {
         .subcommand(all::Args::augment_args(all))
         .subcommand(plan::Args::augment_args(clap::Command::new(plan::NAME)))
         .subcommands(studies.iter().map(study::command));
-    command = Command::augment_subcommands(command.subcommand(listed));
+    Command::augment_subcommands(command.subcommand(listed))
+}
+
+/// All commands and options: those that a run starts processes with, and names that went, are hidden.
+fn command(studies: &Studies) -> clap::Command {
+    let child = clap::Command::new(validate::CHILD).hide(true);
+    let command = Process::augment_args(shown(studies)).subcommand(validate::ChildArgs::augment_args(child));
     let rest = || clap::Arg::new("rest").num_args(0..).trailing_var_arg(true).allow_hyphen_values(true);
     let old = OLD.map(|(name, _)| clap::Command::new(name).hide(true).disable_help_flag(true).arg(rest()));
     command.subcommands(old)
@@ -176,8 +185,9 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, processes: 
     program::started();
     let args: Vec<OsString> = args.into_iter().collect();
     let parsed = command(&suite.studies).try_get_matches_from(&args);
-    let parsed = parsed.and_then(|matches| Ok((Global::from_arg_matches(&matches)?, matches)));
-    let (global, matches) = match parsed {
+    let parsed = parsed
+        .and_then(|matches| Ok((Global::from_arg_matches(&matches)?, Process::from_arg_matches(&matches)?, matches)));
+    let (global, process, matches) = match parsed {
         Ok(parsed) => parsed,
         Err(message) if message.kind() == ErrorKind::InvalidUtf8 => return exit_status::of(Err(not_text(&args))),
         Err(message) => return exit_status::told(message),
@@ -189,8 +199,8 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, processes: 
     // What `validate --hard` runs in a process of its own tells it of a panic by ending with one.
     let may_panic = matches.subcommand_name() == Some(validate::CHILD);
     let session = Session { suite, terminal: &terminal, processes };
-    let run = || match &global.job {
-        Some(job) => answer_job(&session, &matches, job, global.out.as_deref()).map(|()| Status::Right),
+    let run = || match &process.job {
+        Some(job) => answer_job(&session, &matches, job, process.out.as_deref()).map(|()| Status::Right),
         None => dispatch(&session, &matches, &global),
     };
     // A structure of another crate may panic where its command has nothing else to go on with.
@@ -265,6 +275,9 @@ fn dispatch(session: &Session, matches: &ArgMatches, global: &Global) -> anyhow:
             Some((name, matches)) => return study::run(session, find(suite, name)?, matches),
             None => {}
         },
+        Some((validate::CHILD, matches)) => {
+            return validate::run_child(registry, &validate::ChildArgs::from_arg_matches(matches)?);
+        }
         Some((REPLICATE, matches)) => return study::run(session, find(suite, REPLICATE)?, matches),
         Some((name, _)) => {
             if let Some((_, new)) = OLD.iter().find(|(old, _)| *old == name) {
@@ -277,7 +290,6 @@ fn dispatch(session: &Session, matches: &ArgMatches, global: &Global) -> anyhow:
         Command::Report(args) => report::run(suite, &args, terminal),
         Command::Validate(args) => validate::run(registry, &args, terminal),
         Command::Rays(args) => rays::run(registry, &args, terminal),
-        Command::HardAnswer(args) => validate::run_child(registry, &args),
         Command::Fetch(args) => fetch::run(&args, terminal),
         Command::Render(args) => render::run(registry, &args, terminal),
         Command::Golden(args) => golden::run(registry, &args, terminal),

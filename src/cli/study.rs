@@ -120,7 +120,7 @@ pub fn run_as(session: &Session, study: &dyn AnyStudy, chosen: Chosen, common: &
     to_print.iter().for_each(|table| terminal.print_table(table));
     terminal.print_lines(&to_explain);
     terminal.print_lines(&foot);
-    failures.iter().for_each(|error| crate::output::tell(format_args!("error: {error}")));
+    failures.iter().for_each(crate::output::tell_error);
     // Files are written whole, when all is measured.
     let Some(answer) = answer else { return Ok(outcome) };
     let answer = answer.as_ref();

@@ -8,6 +8,8 @@ use std::io::{self, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
+use crate::escaped::Escaped as _;
+
 /// The file name that stands for standard output.
 pub const STDOUT: &str = "-";
 
@@ -56,6 +58,11 @@ pub(super) fn unless_gone(written: io::Result<()>) -> io::Result<()> {
         Err(cause) if cause.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         written => written,
     }
+}
+
+/// Writes to standard error what went wrong, in one line whatever the files hold that it is about.
+pub(crate) fn tell_error(error: impl Display) {
+    tell(format_args!("error: {}", error.to_string().escaped()));
 }
 
 /// Writes a line to standard error; a reader that has gone away, or a full disk, ends no run.

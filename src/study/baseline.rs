@@ -65,7 +65,7 @@ impl<'a> Run<'a> {
         // One of them ends the run, a wrong answer if there is any; the others are told.
         failures.sort_by_key(StudyError::is_wrong_answer);
         let last = failures.pop();
-        failures.iter().for_each(|error| crate::output::tell(format_args!("error: {error}")));
+        failures.iter().for_each(crate::output::tell_error);
         last.map_or(Ok(()), Err)
     }
 

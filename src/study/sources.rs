@@ -24,7 +24,7 @@ pub fn scenes(named: &[OsString]) -> anyhow::Result<Vec<Scene>> {
     let all: Vec<OsString> = BUILTIN.iter().map(|builtin| builtin.name.into()).collect();
     let named = wanted(if named.is_empty() { &all } else { named });
     // Large meshes take seconds to load; the first one that cannot be is named.
-    let scenes: Vec<_> = named.collect::<Vec<_>>().into_par_iter().map(|name| scene(name)).collect();
+    let scenes: Vec<_> = named.collect::<Vec<_>>().into_par_iter().map(scene).collect();
     distinct(scenes.into_iter().collect::<anyhow::Result<Vec<Scene>>>()?)
 }
 

@@ -55,8 +55,7 @@ impl Study for ReplicateStudy {
             .into_iter()
             .collect::<anyhow::Result<Vec<Settings>>>()?;
         let names: Vec<&str> = main_scenes().into_iter().chain(HARD.iter().map(|row| row.scene)).collect();
-        let scenes =
-            sources::wanted(&names).map(|name| sources::scene(name)).collect::<anyhow::Result<Vec<Scene>>>()?;
+        let scenes = sources::wanted(&names).map(sources::scene).collect::<anyhow::Result<Vec<Scene>>>()?;
         let is_hard = |scene: &Scene| usize::from(HARD.iter().any(|row| row.scene == scene.name));
         Ok(epoch::plan(settings, is_hard, scenes, args.measuring.epochs, |_, _, epoch| Ok(epoch)))
     }
