@@ -18,6 +18,7 @@ pub use sahara_core::{accel, brute_force, build, bvh8, exact, external, geometry
 
 // The suite.
 pub mod cli;
+mod escaped;
 pub mod fetch;
 pub mod golden;
 pub mod measure;
@@ -25,6 +26,7 @@ mod names;
 pub mod oracle;
 pub mod output;
 pub mod page;
+mod panics;
 pub mod registry;
 pub mod render;
 pub mod report;

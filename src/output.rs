@@ -1,50 +1,45 @@
-//! Files and folders written whole or not at all.
+//! Files and folders written whole or not at all; standard output, whose reader may go away.
 //!
 //! Contents are first written beside their place under a temporary name and then moved there: a reader never sees half
 //! of them, and what was there before stays when something fails.
 
 mod file;
 mod folder;
+mod standard;
 
-use std::fmt::Display;
 use std::fs;
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use tempfile::Builder;
 
-pub use file::{OutputFile, STDOUT};
+use crate::escaped::Escaped as _;
+
+pub use file::OutputFile;
 pub use folder::OutputFolder;
-
-/// Whether a result goes to standard output: then nothing else may.
-static TO_STDOUT: AtomicBool = AtomicBool::new(false);
-
-/// Whether a result was requested as [`STDOUT`]: messages for people go to standard error then.
-pub fn stdout_is_taken() -> bool {
-    TO_STDOUT.load(Ordering::Relaxed)
-}
+pub use standard::{STDOUT, stdout_is_taken};
+pub(crate) use standard::{note, print, take_failure, tell, tell_error};
 
 /// Why a file or a folder cannot be written.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
-    #[error("cannot write {}: it is a directory: name a file in it", .0.display())]
+    #[error("cannot write {}: it is a directory: name a file in it", .0.escaped())]
     Directory(PathBuf),
-    #[error("{} is a file: name a folder that does not exist yet", .0.display())]
+    #[error("{} is a file: name a folder that does not exist yet", .0.escaped())]
     File(PathBuf),
-    #[error("cannot write {}: it is one of the files to read: name another one", .0.display())]
+    #[error("cannot write {}: it is one of the files to read: name another one", .0.escaped())]
     Input(PathBuf),
     #[error("cannot replace {}: {}, one of the files to read, is in it: name another folder",
-        path.display(), input.display())]
+        path.escaped(), input.escaped())]
     InputInside { path: PathBuf, input: PathBuf },
     #[error("{} contains {other}, which sahara has not written there: name another folder, or empty it",
-        path.display())]
+        path.escaped())]
     Foreign { path: PathBuf, other: String },
-    #[error("cannot write two results to {}: name another file for one of them", .0.display())]
+    #[error("cannot write two results to {}: name another file for one of them", .0.escaped())]
     Same(PathBuf),
     #[error("cannot write two results to standard output: name a file for one of them")]
     Twice,
-    #[error("cannot write {}: {cause}: choose a place that exists, may be written and has room", path.display())]
+    #[error("cannot write {}: {cause}: choose a place that exists, may be written and has room", path.escaped())]
     Write { path: PathBuf, cause: io::Error },
 }
 
@@ -76,9 +71,4 @@ fn temporary(#[cfg_attr(not(unix), expect(unused_variables))] mode: u32) -> Buil
         builder.permissions(fs::Permissions::from_mode(mode));
     }
     builder
-}
-
-/// Writes a line to standard error; a closed pipe or a full disk ends no run.
-pub(crate) fn tell(line: impl Display) {
-    let _ = writeln!(io::stderr(), "{line}");
 }

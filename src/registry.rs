@@ -7,7 +7,6 @@ mod keys;
 mod peers;
 mod runners;
 
-use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
 
 use serde_json::{Map, Value};
@@ -16,6 +15,7 @@ use crate::accel::{Accel, BuildError};
 use crate::geometry::Mesh;
 use crate::names::suggestion;
 use crate::offered::Offered;
+use crate::panics::caught;
 use crate::scene::Scene;
 use entry::{Build, BuildResult};
 
@@ -104,7 +104,7 @@ impl Registry {
         let build: Build = Arc::new(move |mesh, config| {
             let config = parse::<A>(config).map_err(BuildError::Config)?;
             // Builders of other crates may panic on an unexpected mesh; one structure must not end a run.
-            panic::catch_unwind(AssertUnwindSafe(|| build(mesh, &config))).unwrap_or(Err(BuildError::Panic))
+            caught(|| build(mesh, &config)).unwrap_or(Err(BuildError::Panic))
         });
         self.entries.push(Entry {
             name: name.into(),

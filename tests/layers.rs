@@ -7,7 +7,7 @@ use std::path::Path;
 /// The modules of the crate by layer, as ARCHITECTURE.md draws them. Those of one layer may import each other in one
 /// direction, unless they are structures.
 const LAYERS: [&[&str]; 9] = [
-    &["geometry", "names", "output", "simd"],
+    &["escaped", "geometry", "names", "output", "panics", "simd"],
     &["exact", "triangle", "accel"],
     &["traversal", "build"],
     &["brute_force", "bvh8", "kdtree", "external"],

@@ -1,12 +1,13 @@
 //! `study all`: everything that the page shows, in one run that can be killed and goes on with the case that it was measuring.
 
-use std::io;
+use std::ffi::OsString;
 use std::path::PathBuf;
 use std::time::Instant;
 
 use super::progress::Waiting;
 use super::study::{Common, RUNS, run_as};
 use super::{Session, interrupt};
+use crate::escaped::Escaped as _;
 use crate::report::Table;
 use crate::report::number::duration;
 use crate::request::scenes;
@@ -34,7 +35,7 @@ pub struct Args {
     quick: bool,
     /// Scenes and mesh files, in place of those of each study; some have scenes of their own
     #[arg(long, value_name = "SCENE|FILE", num_args = 1..)]
-    scenes: Vec<String>,
+    scenes: Vec<OsString>,
 }
 
 pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
@@ -59,7 +60,7 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
         let found = study.matches(&words).map_err(anyhow::Error::from);
         let found = match found.and_then(|matches| run_as(session, study, &matches, &common)) {
             Err(error) if !ends_all(&error) => {
-                crate::output::tell(format_args!("error: {}: {error:#}", study.name));
+                crate::output::tell_error(format_args!("{}: {error:#}", study.name));
                 Status::Failed
             }
             found => found?,
@@ -77,11 +78,11 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
         let took = duration(start.elapsed().as_nanos() as f64);
         rows.push([study.name.into(), took, words.into(), format!("{}/", study.name)]);
     }
-    let title = format!("All studies, in {}", args.dir.display());
+    let title = format!("All studies, in {}", args.dir.escaped());
     // Without the cases that were measured before.
     let mut table = Table::of_texts(&title, ["study", "took this time", "answers", "journal"], rows);
-    table.notes.push(format!("{} `sahara report {} -o OUT` makes the page.", left(outcome), args.dir.display()));
-    terminal.print_table(&table)?;
+    table.notes.push(format!("{} `sahara report {} -o OUT` makes the page.", left(outcome), args.dir.escaped()));
+    terminal.print_table(&table);
     Ok(outcome)
 }
 
@@ -94,10 +95,9 @@ fn left(outcome: Status) -> &'static str {
     }
 }
 
-/// Whether the next studies would fare no better: nothing can be written into the folder of journals, another run
-/// measures there, beside which none is to be measured, or nobody reads what is printed.
+/// Whether the next studies would fare no better: nothing can be written into the folder of journals, or another run
+/// measures there, beside which none is to be measured.
 fn ends_all(error: &anyhow::Error) -> bool {
     let of_journal = error.downcast_ref::<JournalError>();
-    let ends = matches!(of_journal, Some(JournalError::Write { .. } | JournalError::Place(_) | JournalError::Busy(_)));
-    ends || error.is::<io::Error>()
+    matches!(of_journal, Some(JournalError::Write { .. } | JournalError::Place(_) | JournalError::Busy(_)))
 }

@@ -20,92 +20,69 @@ pub struct Args {
 }
 
 pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
-    // The manual page is for no shell.
-    let Ok(shell) = args.form.parse::<Shell>() else {
-        terminal.print(&String::from_utf8_lossy(&manual(super::command(&suite.studies))?))?;
-        return Ok(Status::Right);
-    };
-    let names = Names::of(&suite.registry);
-    let mut script = vec![];
-    clap_complete::generate(shell, &mut names.told(&super::command(&suite.studies)), "sahara", &mut script);
-    let script = String::from_utf8_lossy(&script);
-    // Where a scene is expected, a file is right as well: zsh offers what is listed and nothing else.
-    let scenes = names.scenes.join(" ");
-    let both = format!(":{{ compadd {scenes}; _files }}");
-    terminal.print(&script.replace(&format!(":({scenes})"), &both))?;
+    let mut output = vec![];
+    match args.form.parse::<Shell>() {
+        Ok(shell) => {
+            let names = Names::of(&suite.registry);
+            clap_complete::generate(shell, &mut names.told(super::shown(&suite.studies)), "sahara", &mut output);
+            // Where a scene is expected, a file is right as well: zsh offers what is listed and nothing else.
+            let scenes = names.scenes.join(" ");
+            let both = format!(":{{ compadd {scenes}; _files }}");
+            output = String::from_utf8_lossy(&output).replace(&format!(":({scenes})"), &both).into_bytes();
+        }
+        // The manual page is for no shell.
+        Err(_) => manual(super::shown(&suite.studies), &mut output)?,
+    }
+    terminal.print(&String::from_utf8_lossy(&output));
     Ok(Status::Right)
 }
 
-/// The manual page of the command and of all that it can be told to do, in one.
-fn manual(command: Command) -> std::io::Result<Vec<u8>> {
-    let mut command = command.name("sahara").disable_help_subcommand(true);
+/// The manual page of the command, then those of all that it can be told to do.
+fn manual(command: Command, output: &mut Vec<u8>) -> std::io::Result<()> {
+    let mut command = command.disable_help_subcommand(true);
     command.build();
-    let mut page = vec![];
-    Man::new(command.clone()).render(&mut page)?;
-    for own in command.get_subcommands().filter(|own| !own.is_hide_set()) {
-        let man = Man::new(own.clone());
-        let mut part = vec![];
-        man.render_description_section(&mut part)?;
-        man.render_options_section(&mut part)?;
-        let part = String::from_utf8_lossy(&part).replace("\n.SH ", "\n.SS ");
-        page.extend_from_slice(format!("\n.SH \"sahara {}\"\n{part}", own.get_name()).as_bytes());
-    }
-    Ok(page)
-}
-
-/// Commands keep names for ever, and this process ends soon.
-fn lasting(name: &str) -> &'static str {
-    String::leak(name.to_owned())
+    Man::new(command.clone()).render(output)?;
+    command.get_subcommands().try_for_each(|own| Man::new(own.clone()).render(output))
 }
 
 /// What a shell can offer besides options.
 struct Names {
-    scenes: Vec<&'static str>,
-    structures: Vec<&'static str>,
-    workloads: Vec<&'static str>,
-    views: Vec<&'static str>,
+    scenes: Vec<String>,
+    structures: Vec<String>,
+    workloads: Vec<String>,
+    views: Vec<String>,
 }
 
 impl Names {
     fn of(registry: &Registry) -> Self {
         Self {
-            scenes: BUILTIN.iter().map(|builtin| lasting(&builtin.name.to_lowercase())).collect(),
-            structures: registry.names().into_iter().map(lasting).collect(),
-            workloads: WorkloadKind::ALL.map(WorkloadKind::name).into(),
-            views: ViewKind::ALL.map(ViewKind::name).into(),
+            scenes: BUILTIN.iter().map(|builtin| builtin.name.to_lowercase()).collect(),
+            structures: registry.names().into_iter().map(String::from).collect(),
+            workloads: WorkloadKind::ALL.map(|kind| kind.name().into()).into(),
+            views: ViewKind::ALL.map(|view| view.name().into()).into(),
         }
     }
 
-    /// `command` as a shell is told of it: without what is hidden, with names in the place of what is free text for the command itself,
-    /// which takes files, keys and values as well.
-    fn told(&self, command: &Command) -> Command {
-        let mut told = Command::new(lasting(command.get_name()));
-        if let Some(about) = command.get_about() {
-            told = told.about(about.clone());
-        }
-        if let Some(version) = command.get_version() {
-            told = told.version(lasting(version));
-        }
-        let shown = command.get_subcommands().filter(|subcommand| !subcommand.is_hide_set());
-        let args = command.get_arguments().filter(|arg| !arg.is_hide_set());
-        told.args(args.map(|arg| self.arg(arg))).subcommands(shown.map(|inner| self.told(inner)))
+    /// `command` as a shell is told of it: with names in the place of what is free text for the command itself, which takes files,
+    /// keys and values as well.
+    fn told(&self, command: Command) -> Command {
+        command.mut_args(|arg| self.arg(arg)).mut_subcommands(|inner| self.told(inner))
     }
 
-    fn arg(&self, arg: &Arg) -> Arg {
+    fn arg(&self, arg: Arg) -> Arg {
         let expected = arg.get_value_names().and_then(|names| names.first()).map_or("", |name| name.as_str());
-        let id = arg.get_id().as_str();
-        let names = match (expected, id) {
+        let names = match (expected, arg.get_id().as_str()) {
             ("SCENE|FILE" | "SCENE" | "SCENE|F.toml", _) => &self.scenes,
             (_, "structure" | "against" | "reference") => &self.structures,
             (_, "workload") => &self.workloads,
             (_, "view") => &self.views,
-            ("DIR", _) => return arg.clone().value_hint(ValueHint::DirPath),
+            ("DIR", _) => return arg.value_hint(ValueHint::DirPath),
             (file, _) if file.starts_with("FILE") || file.starts_with("F.") => {
-                return arg.clone().value_hint(ValueHint::FilePath);
+                return arg.value_hint(ValueHint::FilePath);
             }
-            _ => return arg.clone(),
+            _ => return arg,
         };
-        arg.clone().value_parser(PossibleValuesParser::new(names.clone()))
+        arg.value_parser(PossibleValuesParser::new(names.clone()))
     }
 }
 
@@ -115,10 +92,11 @@ mod tests {
 
     #[test]
     fn the_manual_has_every_command_with_its_options() {
-        let page = manual(super::super::command(&Suite::from(Registry::builtin()).studies)).unwrap();
+        let mut page = vec![];
+        manual(super::super::shown(&Suite::from(Registry::builtin()).studies), &mut page).unwrap();
         let page = String::from_utf8(page).unwrap();
         assert!(page.starts_with(".ie") || page.starts_with(".TH"), "{}", &page[..80]);
-        for part in ["sahara compare", "sahara report", "\\-\\-fail\\-on\\-regression", "\\-\\-results"] {
+        for part in ["sahara\\-compare", "sahara\\-report", "\\-\\-fail\\-on\\-regression", "\\-\\-results"] {
             assert!(page.contains(part), "{part}");
         }
     }
@@ -127,10 +105,10 @@ mod tests {
     fn shells_know_scenes_structures_workloads_and_views_and_nothing_hidden() {
         let suite = Suite::from(Registry::builtin());
         let names = Names::of(&suite.registry);
-        let whole = || super::super::command(&suite.studies);
+        let whole = || super::super::shown(&suite.studies);
         for shell in [Shell::Bash, Shell::Zsh, Shell::Fish] {
             let mut script = vec![];
-            clap_complete::generate(shell, &mut names.told(&whole()), "sahara", &mut script);
+            clap_complete::generate(shell, &mut names.told(whole()), "sahara", &mut script);
             let script = String::from_utf8(script).unwrap();
             for word in ["replicate", "dragon", "sah-hybrid", "image-shadow", "heat", "attribution"] {
                 assert!(script.contains(word), "{shell}: {word}");
@@ -142,6 +120,6 @@ mod tests {
         // The command itself takes more than names.
         let args = ["sahara", "compare", "my-mesh.obj", "-s", "sah-kd:leaf=4", "--reference", "median-kd:leaf=8"];
         assert!(whole().try_get_matches_from(args).is_ok());
-        assert!(names.told(&whole()).try_get_matches_from(args).is_err());
+        assert!(names.told(whole()).try_get_matches_from(args).is_err());
     }
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::terminal::Terminal;
+use crate::escaped::Escaped as _;
 use crate::output::OutputFile;
 use crate::report::{Report, markdown};
 use crate::study::diff::{Comparison, Side, settings, tables, unlike};
@@ -53,12 +54,12 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
         comparison.settings = settings(&a.case, &b.case);
     }
     let tables = tables(&comparison);
-    tables.iter().try_for_each(|table| terminal.print_table(table))?;
+    tables.iter().for_each(|table| terminal.print_table(table));
     let mut foot = vec![format!("Old: {}", a.provenance.line()), format!("New: {}", b.provenance.line())];
     for (side, dataset) in [("Old", &old), ("New", &new)] {
         foot.extend(dataset.notes.iter().map(|note| format!("{side}: {note}")));
     }
-    terminal.print_lines(&foot)?;
+    terminal.print_lines(&foot);
     if let Some(file) = json {
         file.write(&serde_json::to_vec_pretty(&comparison)?)?;
     }
@@ -91,12 +92,12 @@ fn dataset(path: &Path) -> anyhow::Result<Dataset> {
         (compare < all.len()).then(|| all.swap_remove(compare))
     } else {
         let text = std::fs::read(path)
-            .map_err(|cause| anyhow::anyhow!("cannot read {} ({cause}): {advice}", path.display()))?;
+            .map_err(|cause| anyhow::anyhow!("cannot read {} ({cause}): {advice}", path.escaped()))?;
         let value: Value = serde_json::from_slice(&text)
-            .map_err(|cause| anyhow::anyhow!("{} is torn or no JSON ({cause}): {advice}", path.display()))?;
-        anyhow::ensure!(Dataset::is_dataset(&value), "{} is no export of a study: {advice}", path.display());
+            .map_err(|cause| anyhow::anyhow!("{} is torn or no JSON ({cause}): {advice}", path.escaped()))?;
+        anyhow::ensure!(Dataset::is_dataset(&value), "{} is no export of a study: {advice}", path.escaped());
         Some(Dataset::read(path, value)?)
     };
     let found = found.filter(|own| !own.measured.is_empty());
-    found.ok_or_else(|| anyhow::anyhow!("{} holds nothing that was measured: {advice}", path.display()))
+    found.ok_or_else(|| anyhow::anyhow!("{} holds nothing that was measured: {advice}", path.escaped()))
 }

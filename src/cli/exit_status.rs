@@ -1,12 +1,13 @@
 //! How the command ends: a number for what it found.
 
-use std::io;
+use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 
-use super::interrupt;
-use crate::output::OutputError;
+use super::{interrupt, moved};
+use crate::escaped::Escaped as _;
+use crate::output;
 use crate::study::{Status, StudyError};
 
 /// One rule for all commands; what a baseline is known to get wrong is no fault of a run.
@@ -14,34 +15,40 @@ pub(crate) const STATUSES: &str = "Exit status:
   0  right
   1  usage, input or output that cannot be had, or a scene that could not be measured
   2  wrong answers, or answers without an end
-  3  a regression (compare --fail-on-regression)
+  3  a regression (diff --fail-on-regression)
   4  the samples do not tell whether there is a regression
   5  right, but for a structure that could not be built, panicked or could not take part
 130  interrupted by Ctrl-C: what was measured is shown and kept, and the same command goes on
-Wrong answers of a baseline from another project whose defects are documented are shown, cost it its time, and do not \
+Wrong answers of a baseline from another project with known defects are shown, cost it its time, and do not \
 change the status: 2 is for everything else. Tables name the defects.
 
 `-` in place of a file to write is standard output; tables and messages go to standard error then.";
 
 /// Ends with what was found; an error is told first.
 pub(super) fn of(found: anyhow::Result<Status>) -> ExitCode {
-    match found {
-        Ok(Status::Right) => ExitCode::SUCCESS,
-        Ok(Status::Failed) => ExitCode::from(1),
-        Ok(Status::Wrong) => ExitCode::from(2),
-        Ok(Status::Regression) => ExitCode::from(3),
-        Ok(Status::Undecided) => ExitCode::from(4),
-        Ok(Status::Refused) => ExitCode::from(5),
-        Ok(Status::Interrupted) => interrupt::end(),
-        Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
+    ended(match found {
+        Ok(Status::Right) => 0,
+        Ok(Status::Failed) => 1,
+        Ok(Status::Wrong) => 2,
+        Ok(Status::Regression) => 3,
+        Ok(Status::Undecided) => 4,
+        Ok(Status::Refused) => 5,
+        Ok(Status::Interrupted) => return interrupt::end(),
         Err(error) => match error.downcast::<clap::Error>() {
-            Ok(message) => told(message),
+            Ok(message) => return told(message),
             Err(error) => {
-                crate::output::tell(format_args!("error: {error:#}"));
-                ExitCode::from(of_error(&error))
+                output::tell_error(format_args!("{error:#}"));
+                of_error(&error)
             }
         },
-    }
+    })
+}
+
+/// A result that could not be written is told, and is a failure unless there is a verdict that says more.
+fn ended(status: u8) -> ExitCode {
+    let Some(cause) = output::take_failure() else { return ExitCode::from(status) };
+    output::tell_error(format_args!("cannot write to standard output: {cause}"));
+    ExitCode::from(status.max(1))
 }
 
 /// A wrong answer may be found as an error, where nothing else can be said of a run.
@@ -50,12 +57,26 @@ fn of_error(error: &anyhow::Error) -> u8 {
     if is_wrong { 2 } else { 1 }
 }
 
-/// Prints what the command line is told. Help and version are answers, not errors; a reader that has gone away is no
-/// error either.
+/// What is said of an option that went, if the message is about one.
+fn moved(message: &clap::Error) -> Option<String> {
+    match (message.kind(), message.get(ContextKind::InvalidArg)?) {
+        (ErrorKind::UnknownArgument, ContextValue::String(option)) => moved::option(option),
+        _ => None,
+    }
+}
+
+/// Prints what the command line is told. Help and version are answers, not errors.
 pub(super) fn told(message: clap::Error) -> ExitCode {
-    let message = advised(message);
-    let _ = message.print();
-    ExitCode::from(u8::from(message.use_stderr()))
+    if let Some(sentence) = moved(&message) {
+        output::tell_error(sentence);
+        return ended(1);
+    }
+    let message = shown(advised(message));
+    let printed = message.print().and_then(|()| io::stdout().flush());
+    if !message.use_stderr() {
+        output::note(printed);
+    }
+    ended(message.use_stderr().into())
 }
 
 /// Where --quick is no option, one that is written alike is no help: the command that has it is named instead.
@@ -71,13 +92,19 @@ fn advised(mut message: clap::Error) -> clap::Error {
     message
 }
 
-/// Whether the reader of our output has gone away, as `head` does.
-fn is_broken_pipe(error: &anyhow::Error) -> bool {
-    let of_file = error.downcast_ref::<OutputError>().and_then(|error| match error {
-        OutputError::Write { cause, .. } => Some(cause),
-        _ => None,
-    });
-    error.downcast_ref::<io::Error>().or(of_file).is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
+/// What was typed stands in the message: it is escaped there.
+fn shown(mut message: clap::Error) -> clap::Error {
+    let typed: Vec<(ContextKind, String)> = message
+        .context()
+        .filter_map(|(kind, value)| match value {
+            ContextValue::String(text) => Some((kind, text.escaped().to_string())),
+            _ => None,
+        })
+        .collect();
+    for (kind, text) in typed {
+        message.insert(kind, ContextValue::String(text));
+    }
+    message
 }
 
 #[cfg(test)]

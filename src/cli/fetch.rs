@@ -1,10 +1,12 @@
 //! `fetch`.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 
 use super::terminal::Terminal;
+use crate::escaped::Escaped as _;
 use crate::fetch::DataFile;
 #[cfg(feature = "fetch")]
 use crate::fetch::{Client, FetchOutcome};
@@ -18,7 +20,7 @@ use crate::study::Status;
 pub struct Args {
     /// Built-in scenes and scene files (.toml); all built-in scenes if none is named
     #[arg(value_name = "SCENE|F.toml")]
-    scenes: Vec<String>,
+    scenes: Vec<OsString>,
     /// Only say what would be fetched, from where and under what licence
     #[arg(long)]
     list: bool,
@@ -36,11 +38,12 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     // What is named twice counts once.
     let files = each_once_by(files, |one, other| (&one.0, &one.1.file) == (&other.0, &other.1.file));
     if files.is_empty() {
-        terminal.print("these scenes name no real mesh: there is nothing to fetch\n")?;
+        terminal.print("these scenes name no real mesh: there is nothing to fetch\n");
         return Ok(Status::Right);
     }
     // The licences of all come before the first download.
-    terminal.print(&files.iter().map(|(scene, real)| described(scene, real)).collect::<String>())?;
+    let lines = files.iter().flat_map(|(scene, real)| described(scene, real));
+    terminal.print(&lines.map(|line| format!("{}\n", line.escaped())).collect::<String>());
     if args.list {
         return Ok(Status::Right);
     }
@@ -48,11 +51,11 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     for (_, real) in &files {
         let path = folder.join(&real.file);
         if real.sha256.is_none() && path.is_file() {
-            terminal.print(&format!("{}: is there, not verified: its scene file gives no sha256\n", path.display()))?;
+            terminal.print(&format!("{}: is there, not verified: its scene file gives no sha256\n", path.escaped()));
             continue;
         }
         if let Err(error) = fetch(real, &folder, terminal) {
-            crate::output::tell(format_args!("error: {error:#}"));
+            crate::output::tell_error(format_args!("{error:#}"));
             failed += 1;
         }
     }
@@ -60,15 +63,15 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     Ok(Status::Right)
 }
 
-fn scenes(named: &[String]) -> anyhow::Result<Vec<SceneFile>> {
+fn scenes(named: &[OsString]) -> anyhow::Result<Vec<SceneFile>> {
     if named.is_empty() {
         return Ok(BUILTIN.iter().map(Builtin::file).collect());
     }
-    let read = |name: &String| -> anyhow::Result<SceneFile> {
+    let read = |name: &OsString| -> anyhow::Result<SceneFile> {
         match Path::new(name).extension() {
             Some(_) => {
-                let text = std::fs::read_to_string(name).with_context(|| format!("cannot read {name}"))?;
-                Ok(SceneFile::parse(&text, name)?)
+                let text = std::fs::read_to_string(name).with_context(|| format!("cannot read {}", name.escaped()))?;
+                Ok(SceneFile::parse(&text, &name.escaped().to_string())?)
             }
             None => Ok(Builtin::find(name)?.file()),
         }
@@ -76,10 +79,10 @@ fn scenes(named: &[String]) -> anyhow::Result<Vec<SceneFile>> {
     named.iter().map(read).collect()
 }
 
-fn described(scene: &str, real: &RealMesh) -> String {
+fn described(scene: &str, real: &RealMesh) -> [String; 3] {
     let size = real.bytes.map_or(String::new(), |n| format!(", {}", bytes(n as usize)));
     let RealMesh { file, origin, licence, url, .. } = real;
-    format!("{scene}: {file}{size}: {origin}\n  licence: {licence}\n  from {url}\n")
+    [format!("{scene}: {file}{size}: {origin}"), format!("  licence: {licence}"), format!("  from {url}")]
 }
 
 #[cfg(feature = "fetch")]
@@ -98,7 +101,7 @@ fn fetch(real: &RealMesh, folder: &Path, terminal: &Terminal) -> anyhow::Result<
             format!("fetched, {whole}, {before} of them before, SHA-256 verified")
         }
     };
-    terminal.print(&format!("{}: {what}\n", file.path.display()))?;
+    terminal.print(&format!("{}: {what}\n", file.path.escaped()));
     Ok(())
 }
 
@@ -106,12 +109,12 @@ fn fetch(real: &RealMesh, folder: &Path, terminal: &Terminal) -> anyhow::Result<
 fn fetch(real: &RealMesh, folder: &Path, terminal: &Terminal) -> anyhow::Result<()> {
     let file = DataFile::new(real, folder)?;
     if file.is_there()? {
-        terminal.print(&format!("{}: is there\n", file.path.display()))?;
+        terminal.print(&format!("{}: is there\n", file.path.escaped()));
         return Ok(());
     }
     anyhow::bail!(
         "this sahara was built without the feature `fetch`: download {} to {} yourself",
         file.url,
-        file.path.display()
+        file.path.escaped()
     )
 }

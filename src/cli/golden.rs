@@ -5,6 +5,7 @@ use clap::ValueEnum;
 
 use super::terminal::Terminal;
 use crate::accel::DynAccel;
+use crate::escaped::Escaped as _;
 use crate::golden::{GoldenError, Goldens, SIZE, TRIANGLE_TEST};
 use crate::registry::{Choice, Registry};
 use crate::report::number::count;
@@ -54,7 +55,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
                 let brute_force = registry.choose(&format!("{BRUTE_FORCE}:test={}", TRIANGLE_TEST))?;
                 let changed = goldens.update(&scene, brute_force.build(&scene.mesh)?.as_ref())?;
                 let what = if changed { "made anew" } else { "as it was" };
-                terminal.print(&format!("{}: {what}, {}\n", scene.name, goldens.path(&scene).display()))?;
+                terminal.print(&format!("{}: {what}, {}\n", scene.name, goldens.path(&scene).escaped()));
             }
             Action::Check => {
                 let mut right = vec![];
@@ -63,7 +64,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
                     match goldens.check(&scene, &choice.label, accel.as_ref()) {
                         Ok(()) => right.push(choice.label.as_str()),
                         Err(error @ (GoldenError::Differs { .. } | GoldenError::NotShown { .. })) => {
-                            terminal.print(&format!("{error}\n  {}\n", cause(&scene, accel.as_ref())?))?;
+                            terminal.print(&format!("{error}\n  {}\n", cause(&scene, accel.as_ref())?));
                             if known_defect(&choice.entry.name).is_none() {
                                 verdict = Status::Wrong;
                             }
@@ -71,7 +72,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
                         Err(error) => return Err(error.into()),
                     }
                 }
-                terminal.print(&format!("{}: byte for byte the same with {}\n", scene.name, right.join(", ")))?;
+                terminal.print(&format!("{}: byte for byte the same with {}\n", scene.name, right.join(", ")));
             }
         }
     }

@@ -35,7 +35,7 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
         Some("workloads") => workloads(),
         Some("studies") => studies(suite),
         Some("hard") => {
-            terminal.print_lines(&described())?;
+            terminal.print_lines(&described());
             return Ok(Status::Right);
         }
         Some(name) => {
@@ -50,7 +50,7 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
             keys(registry, name)
         }
     };
-    terminal.print_table(&table)?;
+    terminal.print_table(&table);
     Ok(Status::Right)
 }
 

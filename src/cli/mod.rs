@@ -23,16 +23,19 @@ mod terminal;
 mod validate;
 
 use std::ffi::OsString;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use clap::error::ErrorKind;
 use clap::{ArgMatches, Args as _, FromArgMatches, Subcommand};
 
+use crate::escaped::{Escaped as _, quoted};
 use crate::measure::{keep_to, program};
 use crate::names::suggestion;
+use crate::panics;
 use crate::registry::Registry;
 use crate::simd::Level;
-use crate::study::measure::guarded;
 use crate::study::process::{self, Listened, Processes, Written, build_watch, measure_into};
 use crate::study::{Case, Status, Studies, Study};
 use progress::OnTerminal;
@@ -68,6 +71,11 @@ struct Global {
     /// Run on these instructions instead of the best ones here: portable, avx2 or avx512, where this build has them; the answers are the same
     #[arg(long, global = true)]
     level: Option<Level>,
+}
+
+/// Options of the processes that a run starts.
+#[derive(Debug, clap::Args)]
+struct Process {
     /// Measure this case: how a run or a scheduler starts a process
     #[arg(long = process::CASE, global = true, hide = true, requires = "out", value_parser = read_case)]
     case: Option<Case>,
@@ -106,14 +114,11 @@ enum Command {
     /// Compare two runs (across machines: by their ratios to obvhs); with a threshold, a gate
     Diff(diff::Args),
     /// Hold every structure against a reference, hit for hit
-    Validate(validate::Args),
+    Validate(Box<validate::Args>),
     /// Record, import and show files of rays; write rays with exact answers
     Rays(rays::Args),
     /// Write what runs have measured as a page, Markdown and tidy data
     Report(report::Args),
-    /// Answer for one structure and one hard case; what `validate --hard` runs in a process of its own
-    #[command(name = validate::CHILD, hide = true)]
-    HardAnswer(validate::ChildArgs),
     /// Download the real meshes that scene files name, verified; licences are shown first
     Fetch(fetch::Args),
     /// Draw a picture
@@ -133,7 +138,8 @@ const REPLICATE: &str = "replicate";
 /// The others, by name.
 const STUDY: &str = "study";
 
-fn command(studies: &Studies) -> clap::Command {
+/// The commands that people are shown.
+fn shown(studies: &Studies) -> clap::Command {
     let whole = clap::Command::new("sahara").version(env!("CARGO_PKG_VERSION")).max_term_width(100);
     let mut command = Global::augment_args(whole).about(ABOUT).long_about(LONG_ABOUT).after_help(exit_status::STATUSES);
     command = command.subcommands(studies.find(COMPARE).map(study::command));
@@ -148,7 +154,13 @@ fn command(studies: &Studies) -> clap::Command {
         .subcommand(all::Args::augment_args(all))
         .subcommand(plan::Args::augment_args(clap::Command::new(plan::NAME)))
         .subcommands(studies.iter().map(study::command));
-    command = Command::augment_subcommands(command.subcommand(listed));
+    Command::augment_subcommands(command.subcommand(listed))
+}
+
+/// All commands and options: those that a run starts processes with, and names that went, are hidden.
+fn command(studies: &Studies) -> clap::Command {
+    let child = clap::Command::new(validate::CHILD).hide(true);
+    let command = Process::augment_args(shown(studies)).subcommand(validate::ChildArgs::augment_args(child));
     let rest = || clap::Arg::new("rest").num_args(0..).trailing_var_arg(true).allow_hyphen_values(true);
     let old = moved::commands().map(|name| clap::Command::new(name).hide(true).disable_help_flag(true).arg(rest()));
     command.subcommands(old)
@@ -173,9 +185,11 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, starts_proc
     program::started();
     let args: Vec<OsString> = args.into_iter().collect();
     let parsed = command(&suite.studies).try_get_matches_from(&args);
-    let parsed = parsed.and_then(|matches| Ok((Global::from_arg_matches(&matches)?, matches)));
-    let (global, matches) = match parsed {
+    let parsed = parsed
+        .and_then(|matches| Ok((Global::from_arg_matches(&matches)?, Process::from_arg_matches(&matches)?, matches)));
+    let (global, process, matches) = match parsed {
         Ok(parsed) => parsed,
+        Err(message) if message.kind() == ErrorKind::InvalidUtf8 => return exit_status::of(Err(not_text(&args))),
         Err(message) => return exit_status::told(message),
     };
     if let Some(level) = global.level {
@@ -187,36 +201,45 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, starts_proc
     let level = global.level.iter().flat_map(|level| ["--level", level.name()]).map(OsString::from);
     let processes = starts_processes.then(|| Processes { options: level.collect() });
     let session = Session { suite, terminal: &terminal, processes: processes.as_ref() };
-    let run = || match (&global.case, &global.out) {
-        (Some(case), Some(out)) => measure_case(&session, &global, case, out, args.clone()),
+    let run = || match (&process.case, &process.out) {
+        (Some(case), Some(out)) => measure_case(&session, &process, case, out, args.clone()),
         _ => dispatch(&session, &matches, &global),
     };
     // A structure of another crate may panic where its command has nothing else to go on with.
-    let found = if may_panic { run() } else { guarded(run).unwrap_or_else(|| Err(anyhow::anyhow!(PANIC))) };
-    exit_status::of(found)
+    let found = if may_panic { Ok(run()) } else { catch_unwind(AssertUnwindSafe(run)) };
+    exit_status::of(found.unwrap_or_else(|_| {
+        panics::uncaught().iter().for_each(crate::output::tell);
+        Err(anyhow::anyhow!(PANIC))
+    }))
+}
+
+/// Names what clap does not.
+fn not_text(args: &[OsString]) -> anyhow::Error {
+    let names: Vec<String> = args.iter().filter(|arg| arg.to_str().is_none()).map(quoted).collect();
+    anyhow::anyhow!("{} is not UTF-8 text: files and folders may have such names, but nothing else", names.join(" or "))
 }
 
 /// What a process with a case and a file does.
 fn measure_case(
     session: &Session,
-    global: &Global,
+    process: &Process,
     case: &Case,
     out: &Path,
     args: Vec<OsString>,
 ) -> anyhow::Result<Status> {
     let &Session { suite, terminal, .. } = session;
-    if !global.cores.is_empty() {
-        keep_to(&global.cores);
+    if !process.cores.is_empty() {
+        keep_to(&process.cores);
     }
     let watch = build_watch(case, args);
-    if global.listen {
+    if process.listen {
         let measured = measure_into(case, out, &suite.registry, &watch, &mut Listened::new());
         if let Err(error) = measured {
             process::report_failure(&error)?;
         }
         return Ok(Status::Right);
     }
-    let tell = |what: &str| crate::output::tell(format_args!("{} {what}", out.display()));
+    let tell = |what: &str| crate::output::tell(format_args!("{} {what}", out.escaped()));
     match measure_into(case, out, &suite.registry, &watch, &mut OnTerminal::of_job(terminal))? {
         Written::Now => {}
         Written::Before => tell("holds this case already: nothing is measured."),
@@ -242,6 +265,9 @@ fn dispatch(session: &Session, matches: &ArgMatches, global: &Global) -> anyhow:
             Some((name, matches)) => return study::run(session, find(suite, name)?, matches),
             None => {}
         },
+        Some((validate::CHILD, matches)) => {
+            return validate::run_child(registry, &validate::ChildArgs::from_arg_matches(matches)?);
+        }
         Some((REPLICATE, matches)) => return study::run(session, find(suite, REPLICATE)?, matches),
         Some((name, _)) => {
             if let Some(sentence) = moved::command(name) {
@@ -254,7 +280,6 @@ fn dispatch(session: &Session, matches: &ArgMatches, global: &Global) -> anyhow:
         Command::Validate(args) => validate::run(registry, &args, terminal),
         Command::Rays(args) => rays::run(registry, &args, terminal),
         Command::Report(args) => report::run(suite, &args, terminal),
-        Command::HardAnswer(args) => validate::run_child(registry, &args),
         Command::Fetch(args) => fetch::run(&args, terminal),
         Command::Render(args) => render::run(registry, &args, terminal),
         Command::Golden(args) => golden::run(registry, &args, terminal),

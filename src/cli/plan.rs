@@ -1,13 +1,16 @@
 //! `study plan`: studies as jobs that need each other in nothing, for the machines of a cluster.
 
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
 use clap::error::{ContextKind, ContextValue};
+use clap_lex::OsStrExt as _;
 
 use super::progress::Waiting;
 use super::study::RUNS;
 use super::{Session, study as command};
-use crate::measure::{Provenance, Threads, quoted};
+use crate::escaped::{Escaped as _, quoted};
+use crate::measure::{Provenance, Threads};
 use crate::report::words::{each_once, each_once_by};
 use crate::simd::Level;
 use crate::study::journal::file_name;
@@ -27,7 +30,7 @@ const NO_SCENE: &str = "--scenes needs a scene: --scenes SCENE..";
 pub struct Args {
     /// Studies, or `all`, as `study all` measures them [default: all]
     #[arg(value_name = "NAME", allow_hyphen_values = true)]
-    name: Option<String>,
+    name: Option<OsString>,
     /// Folder of journals: each job writes DIR/NAME/CASE.json [default: runs]
     #[arg(long, value_name = "DIR")]
     dir: Option<PathBuf>,
@@ -36,43 +39,44 @@ pub struct Args {
     quick: bool,
     /// Scenes and mesh files, in place of those of the studies
     #[arg(long, value_name = "SCENE|FILE", num_args = 1..)]
-    scenes: Vec<String>,
+    scenes: Vec<OsString>,
     /// More studies, the options above, and options of the studies
     #[arg(value_name = "NAME|OPTION", trailing_var_arg = true, allow_hyphen_values = true)]
-    rest: Vec<String>,
+    rest: Vec<OsString>,
 }
 
 impl Args {
     /// What is asked for: the names of studies, and the options that are theirs. An option that is given twice is refused as clap refuses
     /// one before `rest`.
-    fn split(&self) -> anyhow::Result<(Self, Vec<String>, Vec<String>)> {
+    fn split(&self) -> anyhow::Result<(Self, Vec<OsString>, Vec<OsString>)> {
         let (mut own, mut names, mut options) = (self.clone(), vec![], vec![]);
         // To clap options of the studies behind scenes are scenes, and the first one is a name where there is none.
-        let scenes = own.scenes.iter().take_while(|word| !word.starts_with('-')).count();
+        let scenes = own.scenes.iter().take_while(|word| !word.starts_with("-")).count();
         let behind = own.scenes.split_off(scenes);
         anyhow::ensure!(scenes > 0 || behind.is_empty(), NO_SCENE);
         let mut rest = self.name.iter().chain(&self.rest).chain(&behind).peekable();
-        while let Some(word) = rest.next_if(|word| !word.starts_with('-')) {
+        while let Some(word) = rest.next_if(|word| !word.starts_with("-")) {
             names.push(word.clone());
         }
         if names.is_empty() {
             names.push(super::all::NAME.into());
         }
         while let Some(word) = rest.next() {
-            match word.split_once('=').map_or((word.as_str(), None), |(name, value)| (name, Some(value))) {
+            let (option, value) = word.split_once("=").map_or((&**word, None), |(name, value)| (name, Some(value)));
+            match (option.to_str().unwrap_or_default(), value) {
                 ("--quick", None) => {
                     anyhow::ensure!(!own.quick, "the argument '--quick' cannot be used multiple times");
                     own.quick = true;
                 }
                 ("--dir", value) => {
                     anyhow::ensure!(own.dir.is_none(), "the argument '--dir <DIR>' cannot be used multiple times");
-                    let value = value.or_else(|| rest.next().map(String::as_str));
+                    let value = value.or_else(|| rest.next().map(OsString::as_os_str));
                     own.dir = Some(value.ok_or_else(|| anyhow::anyhow!("--dir needs a folder: --dir DIR"))?.into());
                 }
                 ("--scenes", value) => {
                     let before = own.scenes.len();
-                    own.scenes.extend(value.map(String::from));
-                    while let Some(scene) = rest.next_if(|word| !word.starts_with('-')) {
+                    own.scenes.extend(value.map(OsString::from));
+                    while let Some(scene) = rest.next_if(|word| !word.starts_with("-")) {
                         own.scenes.push(scene.clone());
                     }
                     anyhow::ensure!(own.scenes.len() > before, NO_SCENE);
@@ -87,16 +91,18 @@ impl Args {
 pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Result<Status> {
     let &Session { suite, terminal, .. } = session;
     let (args, names, options) = args.split()?;
-    if let Some(name) = options.iter().find(|word| suite.studies.find(word).is_some()) {
+    if let Some(name) = options.iter().filter_map(|word| word.to_str()).find(|word| suite.studies.find(word).is_some())
+    {
         anyhow::bail!("{name} stands behind options: names of studies come first, `sahara study plan {name} ..`");
     }
     let output = options.iter().find(|word| {
-        let name = word.split('=').next().unwrap_or(word);
-        OUTPUTS.contains(&name)
+        let name = word.split_once("=").map_or(&***word, |(name, _)| name);
+        OUTPUTS.iter().any(|output| name == *output)
     });
     if let Some(output) = output {
         anyhow::bail!(
-            "{output} is of a whole study, and each job measures one case of it: give it to the study once all jobs are done"
+            "{} is of a whole study, and each job measures one case of it: give it to the study once all jobs are done",
+            output.escaped()
         );
     }
     anyhow::ensure!(
@@ -104,7 +110,8 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
         "--fresh is of a whole study, and each job measures one case of it: name another folder with --dir"
     );
     let named = names.iter().filter(|name| *name != super::all::NAME);
-    let named: Vec<&Study> = named.map(|name| super::find(suite, name)).collect::<anyhow::Result<_>>()?;
+    let named: Vec<&Study> =
+        named.map(|name| super::find(suite, &name.to_string_lossy())).collect::<anyhow::Result<_>>()?;
     let whole = named.len() < names.len();
     let studies = if whole { suite.studies.iter().collect() } else { named };
     let dir = args.dir.as_deref().unwrap_or(Path::new(RUNS));
@@ -125,23 +132,24 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
         let plan = (study.plan)(&matches, &suite.registry)?;
         drop(waiting);
         warnings.extend(plan.warnings);
-        let own = ["sahara", "study", study.name].into_iter().chain(words.iter().map(String::as_str));
+        let own =
+            ["sahara", "study", study.name].map(OsStr::new).into_iter().chain(words.iter().map(OsString::as_os_str));
         let own = own.map(quoted).collect::<Vec<String>>().join(" ");
         for case in plan.cases {
             let threads = Threads::unstarted(case.settings.threads);
             let provenance = Provenance { process_per_epoch: true, ..Provenance::of(&threads) };
             let file = dir.join(study.name).join(file_name(&case, &provenance) + ".json");
-            lines += &(line(level, &Case { command: own.clone(), ..case }, &file)? + "\n");
+            lines += &(line(level, &Case { command: own.clone(), ..case }, &file) + "\n");
         }
     }
     // Several studies may measure one scene.
     each_once(warnings).iter().for_each(|warning| terminal.tell(&format!("warning: {warning}")));
-    terminal.print(&lines)?;
+    terminal.print(&lines);
     Ok(Status::Right)
 }
 
 /// The options of a study.
-fn words(study: &Study, args: &Args, whole: bool, options: &[String]) -> Vec<String> {
+fn words(study: &Study, args: &Args, whole: bool, options: &[OsString]) -> Vec<OsString> {
     let mut words = match (args.quick, whole) {
         (true, _) => study.preset(Effort::Quick, &args.scenes),
         (false, true) => study.preset(Effort::Full, &args.scenes),
@@ -165,16 +173,10 @@ fn refused(mut error: clap::Error, study: &str, is_preset: bool) -> clap::Error 
 }
 
 /// A line that a shell reads as the command with a case and a file.
-fn line(level: Option<Level>, case: &Case, file: &Path) -> anyhow::Result<String> {
-    let name = file.to_str().ok_or_else(|| anyhow::anyhow!("{} is no text: name another folder", file.display()))?;
+fn line(level: Option<Level>, case: &Case, file: &Path) -> String {
     let text = serde_json::to_string(case).expect("a case has text keys");
     let (case, out) = (format!("--{CASE}={text}"), format!("--{OUT}"));
     let level = level.iter().flat_map(|level| ["--level", level.name()]);
-    let words = ["sahara"].into_iter().chain(level).chain([case.as_str(), &out, name]).map(quoted);
-    let line = words.collect::<Vec<String>>().join(" ");
-    anyhow::ensure!(
-        !line.chars().any(char::is_control),
-        "{line:?} holds a tab or the end of a line, and would be no line: call the folder or the scene otherwise"
-    );
-    Ok(line)
+    let words = ["sahara"].into_iter().chain(level).chain([case.as_str(), &out]).map(OsStr::new);
+    words.chain([file.as_os_str()]).map(quoted).collect::<Vec<String>>().join(" ")
 }

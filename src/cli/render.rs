@@ -1,5 +1,6 @@
 //! `render`.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
@@ -7,6 +8,7 @@ use anyhow::Context;
 use super::progress::Waiting;
 use super::terminal::Terminal;
 use crate::accel::{DynAccel, Observed};
+use crate::escaped::Escaped as _;
 use crate::registry::{Choice, Registry};
 use crate::render::{ErrorMap, ViewError, ViewKind, coarse_size, costs, draw, heat_bar, hottest};
 use crate::report::number::count;
@@ -19,7 +21,7 @@ use crate::study::measure::{PANICKED, guarded};
 pub struct Args {
     /// A built-in scene, a scene file (.toml) or a mesh file
     #[arg(value_name = "SCENE|FILE")]
-    scene: String,
+    scene: OsString,
     /// The picture, a PNG file; - is standard output
     #[arg(long, short, value_name = "F.png")]
     output: PathBuf,
@@ -46,7 +48,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let choice = request::structure(registry, &args.structure)?;
     let file = request::output(registry, &args.output, std::slice::from_ref(&args.scene), None)?;
     is_png(&args.output)?;
-    let waiting = Waiting::show(format!("loads {}", args.scene), terminal);
+    let waiting = Waiting::show(format!("loads {}", args.scene.escaped()), terminal);
     let scene = args.from.of(request::scene(registry, &args.scene)?)?;
     let size = scene.size;
 
@@ -81,18 +83,18 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
 
     let size = picture.size();
     let what = format!("{} view of {} by {}", args.view.name(), scene.name, choice.label);
-    terminal.print(&format!("{}: {} x {} pixels, {what}{legend}\n", args.output.display(), size[0], size[1]))?;
+    terminal.print(&format!("{}: {} x {} pixels, {what}{legend}\n", args.output.escaped(), size[0], size[1]));
     let notes: Vec<String> = scene.notes.iter().map(|note| format!("{}: {note}", scene.name)).collect();
-    terminal.print_lines(&notes)?;
+    terminal.print_lines(&notes);
     if args.view == ViewKind::Heat && scaled_alone {
         terminal.print_lines(&[format!(
             "{}: the scale is that of this structure alone, since it would take minutes to build all among so many triangles: --hottest \
              gives several pictures one scale",
             scene.name
-        )])?;
+        )]);
     }
     if let Some(errors) = errors {
-        terminal.print(&format!("{}\n", errors.legend()))?;
+        terminal.print(&format!("{}\n", errors.legend()));
     }
     Ok(Status::Right)
 }
@@ -103,8 +105,8 @@ fn is_png(path: &Path) -> anyhow::Result<()> {
     match ending {
         Some(ending) => anyhow::bail!(
             "cannot write {} as {}: pictures are PNG files: end the name in .png, or give - for standard output",
-            path.display(),
-            ending.to_string_lossy()
+            path.escaped(),
+            ending.escaped()
         ),
         None => Ok(()),
     }

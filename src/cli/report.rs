@@ -7,6 +7,7 @@ use super::Suite;
 use super::progress::Waiting;
 use super::study::RUNS;
 use super::terminal::Terminal;
+use crate::escaped::Escaped as _;
 use crate::output::{OutputFile, OutputFolder};
 use crate::page::results::{self, Results};
 use crate::page::{Runs, document, draw, files, left_out};
@@ -49,27 +50,27 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
     }
 
     if !document.answer.banner.is_empty() {
-        terminal.print_lines(std::slice::from_ref(&document.answer.banner))?;
+        terminal.print_lines(std::slice::from_ref(&document.answer.banner));
     }
-    terminal.print(&format!("{} {}.\n", document.title, document.answer.verdict))?;
+    terminal.print(&format!("{} {}.\n", document.title, document.answer.verdict));
     for number in &document.answer.numbers {
-        terminal.print(&format!("  {}: {} {}\n", number.label, number.number, number.interval))?;
+        terminal.print(&format!("  {}: {} {}\n", number.label, number.number, number.interval));
     }
     for note in &runs.notes {
-        terminal.print(&format!("{note}\n"))?;
+        terminal.print(&format!("{note}\n"));
     }
     match &document.missing()[..] {
         [] => {}
-        [one] => terminal.print(&format!("not measured: {}: {}\n", one.what, one.command))?,
+        [one] => terminal.print(&format!("not measured: {}: {}\n", one.what, one.command)),
         all => terminal.print(&format!(
             "not measured: {} other questions, which the end of the page names with their commands; `sahara study all` \
              measures all\n",
             all.len()
-        ))?,
+        )),
     }
     let written = folder.iter().map(|folder| folder.path().join("index.html"));
     for path in written.chain(results.iter().flat_map(ResultsFolder::paths)) {
-        terminal.print(&format!("{}\n", path.display()))?;
+        terminal.print(&format!("{}\n", path.escaped()));
     }
     Ok(Status::Right)
 }
@@ -88,7 +89,7 @@ impl ResultsFolder {
         anyhow::ensure!(
             folder.is_dir(),
             "there is no folder {}: make it, or name another one with --results=DIR",
-            folder.display()
+            folder.escaped()
         );
         let readme = folder.canonicalize()?.parent().map(|parent| parent.join("README.md"));
         let readme = readme.and_then(|path| Some((fs::read_to_string(&path).ok()?, path)));

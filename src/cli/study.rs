@@ -108,9 +108,9 @@ pub fn run_as(session: &Session, study: &Study, matches: &ArgMatches, common: &C
     drop(screen);
 
     let Outcome { dataset, report, tables, foot, status, failures } = outcome;
-    let printed = tables.iter().try_for_each(|table| terminal.print_table(table));
-    let printed = printed.and_then(|()| terminal.print_lines(&foot));
-    failures.iter().for_each(|error| crate::output::tell(format_args!("error: {error}")));
+    tables.iter().for_each(|table| terminal.print_table(table));
+    terminal.print_lines(&foot);
+    failures.iter().for_each(crate::output::tell_error);
     // Files are written whole, when all is measured.
     if let Some(dataset) = dataset {
         if let Some(file) = files.json {
@@ -131,7 +131,6 @@ pub fn run_as(session: &Session, study: &Study, matches: &ArgMatches, common: &C
             file.write(&bytes)?;
         }
     }
-    printed?;
     Ok(status)
 }
 

@@ -5,7 +5,8 @@ use std::io::{self, IsTerminal, Write};
 use clap::ValueEnum;
 use comfy_table::Table as Probe;
 
-use crate::output::{stdout_is_taken, tell};
+use crate::escaped::Escaped as _;
+use crate::output::{self, stdout_is_taken, tell};
 use crate::report::{Screen, Table, terminal, wrapped};
 
 /// When to use colour.
@@ -49,13 +50,13 @@ impl Terminal {
     }
 
     /// Prints text as it is; to standard error where a result goes to standard output.
-    pub fn print(&self, text: &str) -> io::Result<()> {
+    pub fn print(&self, text: &str) {
         if stdout_is_taken() {
-            return io::stderr().lock().write_all(text.as_bytes());
+            // As with all that goes there, nothing depends on its reader.
+            let _ = io::stderr().lock().write_all(text.as_bytes());
+        } else {
+            output::print(text.as_bytes());
         }
-        let mut out = io::stdout().lock();
-        out.write_all(text.as_bytes())?;
-        out.flush()
     }
 
     /// Says on standard error what is no result, unless progress is left out.
@@ -66,14 +67,14 @@ impl Terminal {
     }
 
     /// Prints a table, but for columns in which no row says anything, with a blank line after it.
-    pub fn print_table(&self, table: &Table) -> io::Result<()> {
-        self.print(&(terminal::table(table, self.screen) + "\n"))
+    pub fn print_table(&self, table: &Table) {
+        self.print(&(terminal::table(table, self.screen) + "\n"));
     }
 
     /// Prints lines of text, broken where the screen ends.
-    pub fn print_lines(&self, lines: &[String]) -> io::Result<()> {
+    pub fn print_lines(&self, lines: &[String]) {
         let width = usize::from(self.screen.width.unwrap_or(120));
-        let lines = lines.iter().flat_map(|line| wrapped(line, width));
-        self.print(&lines.map(|line| line + "\n").collect::<String>())
+        let lines = lines.iter().flat_map(|line| wrapped(&line.escaped().to_string(), width));
+        self.print(&lines.map(|line| line + "\n").collect::<String>());
     }
 }

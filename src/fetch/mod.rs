@@ -10,6 +10,8 @@ mod data_file;
 use std::path::PathBuf;
 use std::time::Duration;
 
+use crate::escaped::Escaped as _;
+
 #[cfg(feature = "fetch")]
 pub use client::Client;
 pub use data_file::DataFile;
@@ -26,13 +28,13 @@ pub enum FetchOutcome {
 /// Why a file was not fetched. A partial download is kept, so that it can be resumed.
 #[derive(Debug, thiserror::Error)]
 pub enum FetchError {
-    #[error("{file} cannot be fetched: its scene file gives no sha256 to verify it by{}", unpack.as_ref().map_or(String::new(), |how| format!("; download {url} yourself, then {how}, into {}", folder.display())))]
+    #[error("{file} cannot be fetched: its scene file gives no sha256 to verify it by{}", unpack.as_ref().map_or(String::new(), |how| format!("; download {url} yourself, then {how}, into {}", folder.escaped())))]
     NoHash { file: String, url: String, unpack: Option<String>, folder: PathBuf },
     #[error(
         "{file} cannot be fetched: its scene file gives the url {url:?}, which does not begin with https:// or http://"
     )]
     Address { file: String, url: String },
-    #[error("{} is there with other contents (SHA-256 {found}, not {expected}): rename or remove it and fetch again", path.display())]
+    #[error("{} is there with other contents (SHA-256 {found}, not {expected}): rename or remove it and fetch again", path.escaped())]
     Other { path: PathBuf, found: String, expected: String },
     #[error("{url}: the server answers {status}: {}", advice(*status))]
     Status { url: String, status: u16 },
@@ -54,9 +56,9 @@ pub enum FetchError {
         "{url}: what came has the SHA-256 {found}, not {expected}: nothing of it is kept; the file there has changed, or was changed on the way"
     )]
     Hash { url: String, found: String, expected: String },
-    #[error("cannot read {}: {cause}: check that it may be read", path.display())]
+    #[error("cannot read {}: {cause}: check that it may be read", path.escaped())]
     Read { path: PathBuf, cause: std::io::Error },
-    #[error("cannot write {}: {cause}: choose a folder that may be written and has room (SAHARA_DATA)", path.display())]
+    #[error("cannot write {}: {cause}: choose a folder that may be written and has room (SAHARA_DATA)", path.escaped())]
     Write { path: PathBuf, cause: std::io::Error },
 }
 

@@ -6,6 +6,7 @@ mod image;
 use std::path::{Path, PathBuf};
 
 use crate::accel::DynAccel;
+use crate::escaped::Escaped as _;
 use crate::render::{Difference, Picture, PictureError, render};
 use crate::scene::Scene;
 use crate::triangle::{Exact, TriangleTest};
@@ -33,21 +34,21 @@ pub enum GoldenError {
     #[error(
         "the golden image {} has {expected:?} pixels, and what was drawn has {found:?}: see {}-actual.png and -expected.png; \
          if it is right, {remedy}",
-        path.display(), shown.display()
+        path.escaped(), shown.escaped()
     )]
     Size { path: PathBuf, expected: [u32; 2], found: [u32; 2], shown: PathBuf, remedy: &'static str },
     #[error(
         "{label}: {} of {} pixels differ from {}, first at column {}, row {}, by up to {} of 255: see {}-actual.png, \
          -expected.png and -difference.png",
-        difference.pixels, size[0] * size[1], path.display(), difference.first[0], difference.first[1],
-        difference.largest, shown.display()
+        difference.pixels, size[0] * size[1], path.escaped(), difference.first[0], difference.first[1],
+        difference.largest, shown.escaped()
     )]
     Differs { label: String, path: PathBuf, difference: Difference, size: [u32; 2], shown: PathBuf },
     #[error("{refusal}; but these could not be written: {cause}")]
     NotShown { refusal: Box<GoldenError>, cause: Box<GoldenError> },
     #[error(transparent)]
     Picture(#[from] PictureError),
-    #[error("cannot make the directory {}: {cause}", path.display())]
+    #[error("cannot make the directory {}: {cause}", path.escaped())]
     Directory { path: PathBuf, cause: std::io::Error },
 }
 

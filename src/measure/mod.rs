@@ -36,7 +36,7 @@ pub use memory::{CountingAllocator, peak_bytes};
 pub use order::RandomOrder;
 pub use pass::{Pass, spread};
 pub use pin::{Pin, keep_to, on_all_cores};
-pub use provenance::{Provenance, quoted};
+pub use provenance::Provenance;
 pub use query_results::checksum;
 pub use ray_allotment::{Allotment, Cost, allot, level_by_clock, pilot_level};
 pub use remote_pass::{Failure, RemotePass};

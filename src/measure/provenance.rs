@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use super::{CpuClock, Threads, machine, program};
+use crate::escaped::quoted;
 use crate::simd::Level;
 
 /// The facts that one needs to judge a measurement, and to repeat it.
@@ -79,7 +80,7 @@ fn unknown() -> String {
 impl Provenance {
     /// Of this process, which builds and traces on `threads` threads.
     pub fn capture(threads: usize) -> Self {
-        let command: Vec<String> = std::env::args().map(|arg| quoted(&arg)).collect();
+        let command: Vec<String> = std::env::args_os().map(quoted).collect();
         Self {
             command: command.join(" "),
             version: env!("CARGO_PKG_VERSION").into(),
@@ -157,12 +158,6 @@ impl Provenance {
     }
 }
 
-/// An argument, quoted for a shell.
-pub fn quoted(arg: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./:=,+@%".contains(c);
-    if !arg.is_empty() && arg.chars().all(plain) { arg.into() } else { format!("'{}'", arg.replace('\'', "'\\''")) }
-}
-
 fn host_name() -> Option<String> {
     let name = std::fs::read_to_string("/proc/sys/kernel/hostname").ok().or_else(|| std::env::var("HOSTNAME").ok())?;
     Some(name.trim().to_owned()).filter(|name| !name.is_empty())
@@ -187,16 +182,6 @@ mod tests {
         let text = "processor\t: 0\nmodel name\t: Some  CPU @ 3.00GHz\nmodel name\t: Other\n";
         assert_eq!(model_name(text).as_deref(), Some("Some CPU @ 3.00GHz"));
         assert_eq!(model_name("processor\t: 0\n"), None);
-    }
-
-    #[test]
-    fn arguments_can_be_pasted_back() {
-        assert_eq!(quoted("sah-kd:leaf=8"), "sah-kd:leaf=8");
-        assert_eq!(quoted("0,0,0 1,0,0"), "'0,0,0 1,0,0'");
-        assert_eq!(quoted("it's"), "'it'\\''s'");
-        assert_eq!(quoted(""), "''");
-        let arguments = ["sahara", "a b.ply", "it's", "", "--camera", "0,0,1 0,0,0", "\\", "c.ply"];
-        assert_eq!(shlex::split(&arguments.map(quoted).join(" ")).unwrap(), arguments);
     }
 
     #[test]

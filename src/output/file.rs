@@ -1,14 +1,11 @@
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::Ordering;
 
 use tempfile::NamedTempFile;
 
-use super::{OutputError, TO_STDOUT, folder_of, target, temporary};
-
-/// The file name that stands for standard output.
-pub const STDOUT: &str = "-";
+use super::standard::{STDOUT, print, take_stdout, unless_gone};
+use super::{OutputError, folder_of, target, temporary};
 
 /// A file that results will go to, or standard output where it is called [`STDOUT`]. What is not a regular file (a
 /// pipe, `/dev/stdout`) is written to directly.
@@ -25,7 +22,7 @@ impl OutputFile {
     pub fn check(path: &Path) -> Result<Self, OutputError> {
         Self::check_place(path)?;
         let file = Self { path: path.into() };
-        if file.is_stdout() && TO_STDOUT.swap(true, Ordering::Relaxed) { Err(OutputError::Twice) } else { Ok(file) }
+        if file.is_stdout() && !take_stdout() { Err(OutputError::Twice) } else { Ok(file) }
     }
 
     /// Checks the place alone, as often as one likes: standard output is not taken by it.
@@ -67,16 +64,19 @@ impl OutputFile {
         &self.path
     }
 
+    /// Standard output never fails here: what it has not got is told when the command ends, and a reader that has gone
+    /// is no error.
+    ///
     /// # Errors
     /// If the system refuses, or there is no room; then an older file is as it was.
     pub fn write(&self, bytes: &[u8]) -> Result<(), OutputError> {
         let write = || {
             if self.is_stdout() {
-                let mut out = io::stdout().lock();
-                return out.write_all(bytes).and_then(|()| out.flush());
+                print(bytes);
+                return Ok(());
             }
             if self.is_special() {
-                return fs::OpenOptions::new().write(true).open(&self.path)?.write_all(bytes);
+                return unless_gone(fs::OpenOptions::new().write(true).open(&self.path)?.write_all(bytes));
             }
             self.temporary_with(bytes)?.persist(target(&self.path))?;
             Ok(())
@@ -135,7 +135,7 @@ impl OutputFile {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::stdout_is_taken;
+    use crate::output::standard::{leave_stdout, stdout_is_taken};
 
     fn check(directory: &tempfile::TempDir, name: &str) -> Result<OutputFile, OutputError> {
         OutputFile::check(&directory.path().join(name))
@@ -171,7 +171,7 @@ mod tests {
         let out = check().unwrap().apart_from([Path::new(STDOUT)]).unwrap();
         assert!(stdout_is_taken() && out.unlike(&[&out]).is_ok());
         assert!(matches!(check(), Err(OutputError::Twice)));
-        TO_STDOUT.store(false, Ordering::Relaxed);
+        leave_stdout();
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::escaped::Escaped as _;
 use crate::report::number::plural;
 use crate::study::process::OUT;
 
@@ -14,11 +15,11 @@ pub fn without_result(folder: &Path) -> Option<String> {
     let path = folder.join(FILE);
     let results = results(&fs::read_to_string(&path).ok()?, folder);
     let missing: Vec<&PathBuf> = results.iter().filter(|result| !result.exists()).collect();
-    let first = missing.first()?.display();
+    let first = missing.first()?.escaped();
     let (jobs, missing) = (plural(results.len(), "job"), missing.len());
     Some(format!(
         "{missing} of {jobs} of {} have no result, the first of them {first}: the same plan measures them.",
-        path.display()
+        path.escaped()
     ))
 }
 

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use glam::Vec3;
 use png::{BitDepth, DecodingError};
 
+use crate::escaped::Escaped as _;
 use crate::output::{OutputError, OutputFile};
 
 /// Bytes of a picture that is read, at most.
@@ -21,9 +22,9 @@ pub struct Picture {
 /// Why a picture cannot be read or written.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
-    #[error("cannot read the picture {}: {cause}", path.display())]
+    #[error("cannot read the picture {}: {cause}", path.escaped())]
     Read { path: PathBuf, cause: std::io::Error },
-    #[error("{} is not a PNG picture: {cause}", path.display())]
+    #[error("{} is not a PNG picture: {cause}", path.escaped())]
     Decode { path: PathBuf, cause: DecodingError },
     #[error(transparent)]
     Write(#[from] OutputError),

@@ -4,8 +4,8 @@ use super::{RayCounts, render};
 use crate::accel::Accel;
 use crate::brute_force::BruteForce;
 use crate::kdtree::{KdConfig, KdTree};
-use crate::scene::{Builtin, Sampling, Workload, WorkloadKind};
-use crate::triangle::MollerTrumbore;
+use crate::scene::{Builtin, Sampling, Scene, Workload, WorkloadKind};
+use crate::triangle::{Exact, MollerTrumbore};
 
 #[test]
 fn rays_are_cast_for_what_a_scene_needs_and_no_more() {
@@ -47,4 +47,24 @@ fn picture_workloads_hold_the_rays_that_the_renderer_counts() {
     assert!(counts.mirror > 5 * counts.primary);
     assert_eq!(count(WorkloadKind::Image), counts.primary + counts.mirror);
     assert_eq!(count(WorkloadKind::ImageShadow), counts.shadow);
+}
+
+#[test]
+fn a_mirrored_cube_looks_as_the_cube_itself() {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = |sca: &str| {
+        let path = folder.path().join("cube.toml");
+        let text = format!(
+            "name = \"Mirrored\"\ncamera = {{ eye = [0, 2, 5], target = [0, 0.5, 0], vertical_fov = 45 }}\n\
+             lights = [{{ pos = [3, 5, 4], col = [1, 1, 1] }}]\nobjects = [{{ mesh = \"cube\", sca = {sca} }}]"
+        );
+        std::fs::write(&path, text).unwrap();
+        let scene = Scene::read(&path, None).unwrap();
+        let all = BruteForce::<Exact>::build(&scene.mesh, &Default::default()).unwrap();
+        render(&scene, &all, [48, 48]).0
+    };
+    let plain = picture("[1, 1, 1]");
+    for sca in ["[-1, 1, 1]", "[1, 1, -1]", "[-1, -1, -1]", "[-1, -1, 1]"] {
+        assert!(picture(sca) == plain, "{sca}");
+    }
 }

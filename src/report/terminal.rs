@@ -1,8 +1,9 @@
 //! Tables and reports as text for a terminal.
 
-use comfy_table::{Attribute, Cell as Printed, CellAlignment, Color, ContentArrangement, Table as Grid, presets};
+use comfy_table::{Attribute, Cell as GridCell, CellAlignment, Color, ContentArrangement, Table as Grid, presets};
 
-use super::{Block, Report, Table, Tone, wrapped};
+use super::{Block, Cell, Report, Table, Tone, wrapped};
+use crate::escaped::Escaped as _;
 
 /// Where a table is printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,7 +32,8 @@ pub fn note(block: &Block) -> Option<String> {
 /// column once more.
 pub fn table(table: &Table, screen: Screen) -> String {
     let table = table.clone().without_empty_columns();
-    let title = if screen.colour { format!("\x1b[1m{}\x1b[0m", table.title) } else { table.title.clone() };
+    let title = table.title.escaped();
+    let title = if screen.colour { format!("\x1b[1m{title}\x1b[0m") } else { title.to_string() };
     let mut text = title + "\n";
     for columns in blocks(&table, screen.width.map(usize::from)) {
         for line in grid(&table, &columns, screen).lines() {
@@ -40,17 +42,24 @@ pub fn table(table: &Table, screen: Screen) -> String {
         }
     }
     for note in &table.notes {
-        for line in wrapped(note, usize::from(screen.width.unwrap_or(120)).saturating_sub(4).max(20)) {
+        for line in
+            wrapped(&note.escaped().to_string(), usize::from(screen.width.unwrap_or(120)).saturating_sub(4).max(20))
+        {
             text.push_str(&format!("  {line}\n"));
         }
     }
     text
 }
 
+/// The text of a cell: names of files are in it.
+fn printed(cell: &Cell) -> String {
+    cell.text().escaped().to_string()
+}
+
 /// The columns in groups that fit side by side, the first column in each.
 fn blocks(table: &Table, width: Option<usize>) -> Vec<Vec<usize>> {
     let widest = |i: usize| {
-        let cells = table.rows.iter().map(|row| row[i].text().chars().count());
+        let cells = table.rows.iter().map(|row| printed(&row[i]).chars().count());
         cells.chain([table.columns[i].chars().count()]).max().unwrap_or(0) + PADDING
     };
     if table.columns.is_empty() {
@@ -75,12 +84,12 @@ fn grid(table: &Table, columns: &[usize], screen: Screen) -> String {
     let mut grid = Grid::new();
     grid.load_preset(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);
     grid.set_header(columns.iter().map(|&i| {
-        let cell = Printed::new(&table.columns[i]);
+        let cell = GridCell::new(&table.columns[i]);
         if screen.colour { cell.add_attribute(Attribute::Bold) } else { cell }
     }));
     for row in &table.rows {
         grid.add_row(columns.iter().map(|&i| {
-            let printed = Printed::new(row[i].text());
+            let printed = GridCell::new(printed(&row[i]));
             match row[i].tone {
                 Tone::Best if screen.colour => printed.fg(Color::Green),
                 Tone::Wrong if screen.colour => printed.fg(Color::Red),

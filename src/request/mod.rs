@@ -1,18 +1,21 @@
 //! What several commands ask for: scenes, structures, rays and views, as options and as data that another process reads.
 
 mod measuring;
+mod os_text;
 mod ray_kind;
 mod rays;
 mod scenes;
+mod seconds;
 mod structures;
 mod view;
 
-pub use measuring::{Measuring, seconds};
+pub use measuring::Measuring;
 pub use ray_kind::RayKind;
 pub use rays::{RaySource, Rays, WORKLOADS, WorkloadRequest, each_kind, rays_or_all, recorded};
 pub use scenes::{
     Meshes, STAND_IN, SceneRequest, Scenes, ScenesAndMeshes, named_notes, output, scene, scene_files, scenes,
 };
+pub use seconds::Seconds;
 pub use structures::{
     ALL, BRUTE_FORCE, QUALITIES, REPORT_TREE, RunnerRequest, SAH_TREE, StructureRequest, Structures, TWIN, guide,
     is_large, is_obvhs, known_defect, known_tests, left_out, specs, structure, structures, structures_at, with_twin,

@@ -1,12 +1,14 @@
 //! The rays of a case: made anew, or recorded in a file.
 
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 
+use clap::builder::{OsStringValueParser, TryMapValueParser, TypedValueParser, ValueParserFactory};
 use serde::{Deserialize, Serialize};
 
 use super::{RayKind, scene};
 use crate::accel::{DynAccel, Query};
+use crate::escaped::Escaped as _;
 use crate::registry::Registry;
 use crate::report::words::each_once;
 use crate::scene::files::RayFile;
@@ -35,6 +37,7 @@ pub enum WorkloadRequest {
     PrimaryPicture,
     /// A file of rays.
     File {
+        #[serde(with = "super::os_text")]
         path: PathBuf,
         /// Of its rays, as [`Workload::hash`].
         hash: String,
@@ -65,7 +68,7 @@ impl WorkloadRequest {
             Self::PrimaryPicture => (&[WorkloadKind::Primary], picture),
             Self::File { path, hash, .. } => {
                 let file = RayFile::read(path)?;
-                anyhow::ensure!(file.workload.hash() == *hash, "{} has changed since it was planned", path.display());
+                anyhow::ensure!(file.workload.hash() == *hash, "{} has changed since it was planned", path.escaped());
                 return Ok(vec![file.workload]);
             }
             Self::Hard { kinds, count } => {
@@ -157,10 +160,22 @@ pub fn rays_or_all(text: &str) -> Result<usize, String> {
     }
 }
 
-impl FromStr for RaySource {
-    type Err = String;
+/// Reads what a command line names.
+impl ValueParserFactory for RaySource {
+    type Parser = TryMapValueParser<OsStringValueParser, fn(OsString) -> Result<Self, String>>;
 
-    fn from_str(text: &str) -> Result<Self, String> {
+    fn value_parser() -> Self::Parser {
+        OsStringValueParser::new().try_map(|named| Self::of(&named))
+    }
+}
+
+impl RaySource {
+    /// What `named` names.
+    ///
+    /// # Errors
+    /// A sentence, if it is a number that is no number of rays.
+    pub fn of(named: &OsStr) -> Result<Self, String> {
+        let Some(text) = named.to_str() else { return Ok(Self::File(named.into())) };
         // A number that is wrong is not taken for a file.
         let is_number = text.trim_start_matches(['-', '+']).bytes().all(|byte| byte.is_ascii_digit());
         match rays_or_all(text) {
@@ -169,9 +184,7 @@ impl FromStr for RaySource {
             Err(_) => Ok(Self::File(text.into())),
         }
     }
-}
 
-impl RaySource {
     /// The file that they are replayed from, if they are.
     pub fn file(&self) -> Option<&Path> {
         match self {
@@ -209,27 +222,27 @@ impl RaySource {
 pub fn recorded(
     registry: &Registry,
     source: &RaySource,
-    named: &[String],
-) -> anyhow::Result<Option<((String, Scene), RayFile)>> {
+    named: &[OsString],
+) -> anyhow::Result<Option<((OsString, Scene), RayFile)>> {
     let RaySource::File(path) = source else { return Ok(None) };
     let file = RayFile::read(path)?;
     let name = match named {
         [] if file.scene.is_empty() => {
-            anyhow::bail!("{} holds rays of no scene in particular: name a scene", path.display())
+            anyhow::bail!("{} holds rays of no scene in particular: name a scene", path.escaped())
         }
         // Names of built-in scenes are names; what else a file says is no path to follow.
         [] if Builtin::find(&file.scene).is_err() => anyhow::bail!(
             "{} holds rays of {:?}, which is no built-in scene: name the mesh or scene file that they were recorded for",
-            path.display(),
+            path.escaped(),
             file.scene
         ),
-        [] => &file.scene,
+        [] => OsStr::new(&file.scene),
         [one] => one,
-        _ => anyhow::bail!("{} holds rays of one scene: name one scene, not {}", path.display(), named.len()),
+        _ => anyhow::bail!("{} holds rays of one scene: name one scene, not {}", path.escaped(), named.len()),
     };
     let scene = scene(registry, name)?;
-    file.check_scene(&scene).map_err(|problem| anyhow::anyhow!("{}: {problem}", path.display()))?;
-    Ok(Some(((name.clone(), scene), file)))
+    file.check_scene(&scene).map_err(|problem| anyhow::anyhow!("{}: {problem}", path.escaped()))?;
+    Ok(Some(((name.into(), scene), file)))
 }
 
 #[cfg(test)]
@@ -238,13 +251,14 @@ mod tests {
 
     #[test]
     fn numbers_are_counts_and_the_rest_are_files() {
-        assert_eq!("100".parse(), Ok(RaySource::Count(100)));
-        assert_eq!("a.rays".parse(), Ok(RaySource::File("a.rays".into())));
-        assert_eq!("./100".parse(), Ok(RaySource::File("./100".into())));
-        assert_eq!("all".parse(), Ok(RaySource::Count(usize::MAX)));
+        let of = |text: &str| RaySource::of(text.as_ref());
+        assert_eq!(of("100"), Ok(RaySource::Count(100)));
+        assert_eq!(of("a.rays"), Ok(RaySource::File("a.rays".into())));
+        assert_eq!(of("./100"), Ok(RaySource::File("./100".into())));
+        assert_eq!(of("all"), Ok(RaySource::Count(usize::MAX)));
         assert!(rays_or_all("a.rays").is_err());
         for wrong in ["0", "-5", "99999999999", ""] {
-            assert!(wrong.parse::<RaySource>().is_err(), "{wrong}");
+            assert!(of(wrong).is_err(), "{wrong}");
         }
     }
 }

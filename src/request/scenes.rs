@@ -1,5 +1,6 @@
 //! Scenes by a word that every process resolves alike: a built-in name, a generator with its parameters, or a file.
 
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
@@ -8,6 +9,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::ViewArgs;
+use crate::escaped::{Escaped as _, stem};
 use crate::output::OutputFile;
 use crate::registry::Registry;
 use crate::report::words::listed;
@@ -17,7 +19,8 @@ use crate::scene::{BUILTIN, Builtin, Scene, load, real_mesh_folder};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SceneRequest {
     /// A built-in name, `NAME:stand-in`, a generator as `icosphere:7`, or a file.
-    pub word: String,
+    #[serde(with = "super::os_text")]
+    pub word: OsString,
     /// Where it is looked at from.
     #[serde(default, skip_serializing_if = "ViewArgs::is_default")]
     pub view: ViewArgs,
@@ -38,7 +41,7 @@ pub const STAND_IN: &str = "stand-in";
 
 impl SceneRequest {
     /// A request for `scene`, which is what `word` names, seen by `view`.
-    pub fn new(word: &str, view: &ViewArgs, scene: &Scene) -> Self {
+    pub fn new(word: impl Into<OsString>, view: &ViewArgs, scene: &Scene) -> Self {
         Self {
             word: word.into(),
             view: view.clone(),
@@ -58,7 +61,7 @@ impl SceneRequest {
         anyhow::ensure!(
             scene.hash().starts_with(&self.hash),
             "the scene {} is not what it was when it was planned: plan it anew (Snakemake: remove plan.txt)",
-            self.word
+            self.word.escaped()
         );
         Ok(scene)
     }
@@ -68,20 +71,20 @@ impl SceneRequest {
 ///
 /// # Errors
 /// If a name is not known, a file cannot be loaded, or two different scenes have one name.
-pub fn scenes(registry: &Registry, named: &[String]) -> anyhow::Result<Vec<Scene>> {
+pub fn scenes(registry: &Registry, named: &[OsString]) -> anyhow::Result<Vec<Scene>> {
     Ok(loaded(registry, &words(named))?.into_iter().map(|(_, scene)| scene).collect())
 }
 
 /// The words named, or all built-in ones.
-fn words(named: &[String]) -> Vec<String> {
+fn words(named: &[OsString]) -> Vec<OsString> {
     if named.is_empty() { BUILTIN.iter().map(|builtin| builtin.name.into()).collect() } else { named.to_vec() }
 }
 
 /// Each of the scenes once, with its word.
-fn loaded(registry: &Registry, words: &[String]) -> anyhow::Result<Vec<(String, Scene)>> {
+fn loaded(registry: &Registry, words: &[OsString]) -> anyhow::Result<Vec<(OsString, Scene)>> {
     // Large meshes take seconds to load; the first one that cannot be is named.
-    let load = |word: &String| Ok((word.clone(), scene(registry, word)?));
-    let scenes: Vec<anyhow::Result<(String, Scene)>> = words.par_iter().map(load).collect();
+    let load = |word: &OsString| Ok((word.clone(), scene(registry, word)?));
+    let scenes: Vec<anyhow::Result<(OsString, Scene)>> = words.par_iter().map(load).collect();
     distinct(scenes.into_iter().collect::<anyhow::Result<_>>()?)
 }
 
@@ -97,8 +100,8 @@ fn same_name(one: &Scene, other: &Scene) -> bool {
 ///
 /// # Errors
 /// If there are two different ones of one name, naming them: no table could tell them apart.
-fn distinct(scenes: Vec<(String, Scene)>) -> anyhow::Result<Vec<(String, Scene)>> {
-    let mut each: Vec<(String, Scene)> = vec![];
+fn distinct(scenes: Vec<(OsString, Scene)>) -> anyhow::Result<Vec<(OsString, Scene)>> {
+    let mut each: Vec<(OsString, Scene)> = vec![];
     for (word, scene) in scenes {
         let Some((_, other)) = each.iter().find(|(_, other)| same_name(other, &scene)) else {
             each.push((word, scene));
@@ -118,37 +121,35 @@ fn distinct(scenes: Vec<(String, Scene)>) -> anyhow::Result<Vec<(String, Scene)>
 ///
 /// # Errors
 /// If there is no such scene, or a file cannot be loaded.
-pub fn scene(registry: &Registry, word: &str) -> anyhow::Result<Scene> {
+pub fn scene(registry: &Registry, word: impl AsRef<OsStr>) -> anyhow::Result<Scene> {
     let real_meshes = real_mesh_folder();
-    let path = Path::new(word);
-    if let Some((name, parameters)) = word.split_once(':').filter(|_| !path.exists()) {
+    let path = Path::new(word.as_ref());
+    let parts = path.to_str().and_then(|word| word.split_once(':'));
+    if let Some((name, parameters)) = parts.filter(|_| !path.exists()) {
         if let (Ok(builtin), STAND_IN) = (Builtin::find(name), parameters) {
             return Ok(builtin.scene(None)?);
         }
         if let Some(scene) = registry.generated(name, parameters) {
-            return scene.with_context(|| format!("{word:?}"));
+            return scene.with_context(|| format!("{path:?}"));
         }
     }
-    match Builtin::find(word) {
+    match Builtin::find(path) {
         Ok(builtin) => Ok(builtin.scene(Some(&real_meshes))?),
         Err(unknown) if path.extension().is_none() && path.components().count() < 2 && !path.exists() => {
             Err(unknown.into())
         }
         Err(_) if is_scene_file(path) => Ok(Scene::read(path, Some(&real_meshes))?),
-        Err(_) => {
-            let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
-            Ok(Scene::framed(&stem, load(path)?)?)
-        }
+        Err(_) => Ok(Scene::framed(&stem(path), load(path)?)?),
     }
 }
 
 /// Those of the words that name files.
-pub fn scene_files(registry: &Registry, words: &[String]) -> Vec<PathBuf> {
+pub fn scene_files(registry: &Registry, words: &[OsString]) -> Vec<PathBuf> {
     let is_name = |word: &str| {
         let name = word.split(':').next().unwrap_or(word);
         Builtin::find(name).is_ok() || registry.has_generator(name)
     };
-    words.iter().filter(|word| !is_name(word)).map(PathBuf::from).collect()
+    words.iter().filter(|word| !word.to_str().is_some_and(is_name)).map(PathBuf::from).collect()
 }
 
 /// The file `path` for results, which is none of those read: scenes that are files, and `others`.
@@ -158,7 +159,7 @@ pub fn scene_files(registry: &Registry, words: &[String]) -> Vec<PathBuf> {
 pub fn output<'a>(
     registry: &Registry,
     path: &Path,
-    scenes: &[String],
+    scenes: &[OsString],
     others: impl IntoIterator<Item = &'a Path>,
 ) -> anyhow::Result<OutputFile> {
     let files = scene_files(registry, scenes);
@@ -176,7 +177,7 @@ pub struct Scenes {
     /// Built-in scenes, scene files (.toml), mesh files (.obj, .ply, .gltf, .glb) and generated scenes (icosphere:LEVEL)
     /// [default: those of the study, else all built-in ones]
     #[arg(value_name = "SCENE|FILE")]
-    pub scenes: Vec<String>,
+    pub scenes: Vec<OsString>,
 }
 
 impl Scenes {
@@ -184,8 +185,8 @@ impl Scenes {
     ///
     /// # Errors
     /// As [`scenes`].
-    pub fn read(&self, registry: &Registry, own: &[&str]) -> anyhow::Result<Vec<(String, Scene)>> {
-        let own: Vec<String> = own.iter().map(|&name| name.into()).collect();
+    pub fn read(&self, registry: &Registry, own: &[&str]) -> anyhow::Result<Vec<(OsString, Scene)>> {
+        let own: Vec<OsString> = own.iter().map(|&name| name.into()).collect();
         loaded(registry, &words(if self.scenes.is_empty() { &own } else { &self.scenes }))
     }
 }
@@ -218,12 +219,13 @@ impl ScenesAndMeshes {
     ///
     /// # Errors
     /// As [`scenes`], and if real meshes are asked for and one is not there.
-    pub fn read(&self, registry: &Registry) -> anyhow::Result<Vec<(String, Scene)>> {
-        let mut forms: Vec<String> = vec![];
+    pub fn read(&self, registry: &Registry) -> anyhow::Result<Vec<(OsString, Scene)>> {
+        let mut forms: Vec<OsString> = vec![];
         for word in words(&self.named.scenes) {
-            let builtin = Builtin::find(&word).is_ok();
-            forms.extend((builtin && self.meshes != Meshes::Real).then(|| format!("{word}:{STAND_IN}")));
-            forms.extend((!builtin || self.meshes != Meshes::StandIns).then_some(word));
+            let builtin = Builtin::find(&word).ok();
+            let own = builtin.filter(|_| self.meshes != Meshes::Real);
+            forms.extend(own.map(|builtin| format!("{}:{STAND_IN}", builtin.name).into()));
+            forms.extend((builtin.is_none() || self.meshes != Meshes::StandIns).then_some(word));
         }
         // Both forms of a scene without a real mesh are one.
         let scenes = loaded(registry, &forms)?;

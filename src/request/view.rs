@@ -7,6 +7,7 @@ use anyhow::Context;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
+use crate::geometry::numbers;
 use crate::scene::{Camera, Scene};
 
 /// Options that take the place of a scene's own camera and picture.
@@ -75,11 +76,9 @@ impl FromStr for Look {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let refusal = || "write \"ex,ey,ez tx,ty,tz\" and, if you like, a field of view in degrees".to_owned();
-        let numbers = |part: &str| part.split(',').map(|n| n.parse().ok()).collect::<Option<Vec<f32>>>();
-        let parts: Option<Vec<Vec<f32>>> = text.split_whitespace().map(numbers).collect();
-        match parts.ok_or_else(refusal)?.iter().map(Vec::as_slice).collect::<Vec<_>>()[..] {
-            [&[ex, ey, ez], &[tx, ty, tz], ref rest @ ..] if rest.iter().all(|r| r.len() == 1) && rest.len() < 2 => {
-                let vertical_fov = rest.first().map(|fov| fov[0]);
+        match numbers(text).map_err(|_| refusal())?[..] {
+            [ex, ey, ez, tx, ty, tz, ref rest @ ..] if rest.len() < 2 => {
+                let vertical_fov = rest.first().copied();
                 Ok(Self { eye: Vec3::new(ex, ey, ez), target: Vec3::new(tx, ty, tz), vertical_fov })
             }
             _ => Err(refusal()),
@@ -165,8 +164,9 @@ mod tests {
     fn cameras() {
         let (eye, target) = (Vec3::new(-1.0, 2.0, 3.5), Vec3::ZERO);
         assert_eq!("-1,2,3.5 0,0,0".parse(), Ok(Look { eye, target, vertical_fov: None }));
+        assert_eq!("-1 2 3.5, 0 0 0, 45".parse(), Ok(Look { eye, target, vertical_fov: Some(45.0) }));
         assert_eq!("-1,2,3.5 0,0,0 45".parse(), Ok(Look { eye, target, vertical_fov: Some(45.0) }));
-        for wrong in ["", "1,2,3", "1,2 3,4,5", "1,2,3 4,5,6 7 8", "1,2,3 4,5,6 7,8", "a,b,c 1,2,3"] {
+        for wrong in ["", "1,2,3", "1,2 3,4,5", "1,2,3 4,5,6 7 8", "1,2,3 4,5,6 7,8", "1,2,3, ,4,5,6", "a,b,c 1,2,3"] {
             assert!(wrong.parse::<Look>().is_err(), "{wrong}");
         }
     }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::format::{LightFile, ObjectFile, RealMesh, SceneFile};
 use super::{Camera, CornerNormals, Light, Material, Model, Offset, Scene, SceneError, load, meshes};
+use crate::escaped::Escaped as _;
 use crate::geometry::{Mesh, Transform};
 use crate::names::suggestion;
 
@@ -93,7 +94,8 @@ impl Parts {
         self.notes.append(&mut model.notes);
 
         let (first, before) = (self.positions.len(), self.triangles.len());
-        let shifted = |indices: &[u32; 3], by: usize| indices.map(|i| i + by as u32);
+        let is_mirrored = placement.is_mirror();
+        let shifted = |&indices: &[u32; 3], by: usize| Model::placed(indices, is_mirrored).map(|i| i + by as u32);
         if (first + model.positions.len()).max(self.normals.len() + model.normals.len()) > i32::MAX as usize {
             return Err(origin.value(key, "the scene has more than 2^31 vertices or normals: split it".into()));
         }
@@ -166,7 +168,7 @@ impl Parts {
         let count = model.triangles.len();
         let left_out = before - count;
         let instead = real.reported_triangles.map_or(String::new(), |n| format!(" in place of the report's {n}"));
-        self.notes.push(format!("real mesh {}: {count} triangles{instead}", path.display()));
+        self.notes.push(format!("real mesh {}: {count} triangles{instead}", path.escaped()));
         if left_out > 0 {
             let materials = real.exclude_materials.join(", ");
             self.notes.push(format!("{left_out} triangles of the real mesh left out, of the materials {materials}"));
@@ -227,7 +229,7 @@ fn missing(real: &RealMesh, key: &str, origin: &Origin) -> SceneError {
         Some(folder) => format!(
             "{} is not in {}: `sahara fetch {}` gets it or says how, and SAHARA_DATA can name another folder",
             real.file,
-            folder.display(),
+            folder.escaped(),
             origin.file
         ),
         None => format!("{} is a real mesh, and no folder of them is given: give one, or name a `mesh`", real.file),

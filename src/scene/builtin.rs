@@ -1,10 +1,12 @@
 //! The twelve scenes of the source report.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use super::assemble::{Origin, assemble};
 use super::format::SceneFile;
 use super::{Scene, SceneError};
+use crate::escaped::Escaped as _;
 use crate::names::{named, suggestion};
 
 /// How the source report groups its scenes.
@@ -55,12 +57,13 @@ impl Builtin {
     ///
     /// # Errors
     /// [`SceneError::Unknown`], which suggests a name and lists all.
-    pub fn find(name: &str) -> Result<&'static Self, SceneError> {
-        named(BUILTIN, name, |builtin| builtin.name).ok_or_else(|| {
+    pub fn find(name: impl AsRef<OsStr>) -> Result<&'static Self, SceneError> {
+        let name = name.escaped().to_string();
+        named(BUILTIN, &name, |builtin| builtin.name).ok_or_else(|| {
             let all = || BUILTIN.iter().map(|builtin| builtin.name);
             SceneError::Unknown {
-                name: name.chars().take(60).flat_map(char::escape_debug).collect(),
-                suggestion: suggestion(name, all()),
+                suggestion: suggestion(&name, all()),
+                name: name.chars().take(60).collect(),
                 all: all().collect::<Vec<_>>().join(", "),
             }
         })
@@ -89,7 +92,7 @@ impl Scene {
     pub fn read(path: &Path, real_meshes: Option<&Path>) -> Result<Self, SceneError> {
         let text =
             std::fs::read_to_string(path).map_err(|cause| SceneError::Unreadable { file: path.into(), cause })?;
-        let file = path.display().to_string();
+        let file = path.escaped().to_string();
         let folder = Some(path.parent().unwrap_or(Path::new("")));
         assemble(&SceneFile::parse(&text, &file)?, &Origin { file: &file, folder, real_meshes })
     }

@@ -5,12 +5,13 @@ use std::path::PathBuf;
 use glam::Vec3;
 
 use super::{CameraError, LoadError};
+use crate::escaped::Escaped as _;
 use crate::geometry::MeshError;
 
 /// An error of a scene in one line: the file, the key in it, the problem and a remedy.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
-    #[error("{}: the scene cannot be read ({cause}): check that it exists and may be opened", file.display())]
+    #[error("{}: the scene cannot be read ({cause}): check that it exists and may be opened", file.escaped())]
     Unreadable { file: PathBuf, cause: std::io::Error },
     #[error("{file}, line {line}: {problem}")]
     Syntax { file: String, line: usize, problem: String },

@@ -25,4 +25,10 @@ pub struct Model {
 impl Model {
     /// The normal index of a triangle without normals.
     pub const FLAT: u32 = u32::MAX;
+
+    /// The corners of a triangle, or their normals, where it is placed: a mirror turns them round, so that the front stays in
+    /// front.
+    pub fn placed([a, b, c]: [u32; 3], is_mirrored: bool) -> [u32; 3] {
+        if is_mirrored { [a, c, b] } else { [a, b, c] }
+    }
 }

@@ -199,6 +199,38 @@ fn rays_go_through_the_pixels() {
 }
 
 #[test]
+fn a_mirror_leaves_fronts_in_front() {
+    for (mesh, is_smooth) in [("cube", false), ("teapot", true), ("torus", true)] {
+        let at = |sca: [f32; 3]| {
+            let placed = format!("mesh = \"{mesh}\", rot = [20, 0, 70], sca = {sca:?}, tra = [1, 2, 3]");
+            scene(&PLAIN.replace("mesh = \"cube\"", &placed)).unwrap()
+        };
+        let plain = at([1.0, 1.0, 1.0]);
+        assert_eq!(plain.normals.is_some(), is_smooth);
+        for (sca, is_mirrored) in [
+            ([-1.0, 1.0, 1.0], true),
+            ([1.0, -1.0, 1.0], true),
+            ([-1.0, -1.0, -1.0], true),
+            ([-1.0, 1.0, -1.0], false),
+            ([2.0, 3.0, 0.5], false),
+        ] {
+            let placed = at(sca);
+            let turned = |[a, b, c]: [u32; 3]| if is_mirrored { [a, c, b] } else { [a, b, c] };
+            let expected: Vec<[u32; 3]> = plain.mesh.triangles().iter().map(|&t| turned(t)).collect();
+            assert_eq!(placed.mesh.triangles(), expected, "{mesh} {sca:?}");
+            for t in 0..placed.mesh.len() as u32 {
+                let [a, b, c] = placed.mesh.corners(t);
+                let front = (b - a).cross(c - a);
+                let corners = placed.normals.as_ref().and_then(|normals| normals.corners(t));
+                let is_in_front = |n: &Vec3| n.dot(front) >= 0.0;
+                // A corner's normal may lean, but all three of a triangle do not lean back.
+                assert!(corners.is_none_or(|corners| corners.iter().any(is_in_front)), "{mesh} {sca:?} {t}");
+            }
+        }
+    }
+}
+
+#[test]
 fn a_surface_has_the_point_and_both_normals() {
     let flat = scene(PLAIN).unwrap();
     let ray = Ray::new(Vec3::new(0.25, 0.5, 5.0), -Vec3::Z);

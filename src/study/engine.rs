@@ -1,5 +1,6 @@
 //! Runs a study: measures the cases that its journal lacks, one by one, and reports.
 
+use std::ffi::OsString;
 use std::fs;
 use std::path::Path;
 
@@ -135,7 +136,7 @@ struct Engine<'a> {
     provenance: Provenance,
     threads: Threads,
     /// The last scene that was measured in this process, with its word: loading a large one takes seconds.
-    loaded: Option<(String, Scene)>,
+    loaded: Option<(OsString, Scene)>,
     /// What ended the measuring of scenes.
     failures: Vec<StudyError>,
     /// Scenes of which no further epoch is measured: they failed, or there is no time for one.
@@ -258,7 +259,7 @@ impl Engine<'_> {
             (false, epochs) => format!(" ({epochs} of {} epochs)", case.epochs),
         };
         for table in self.report(&self.dataset(measured)).tables().filter(|table| table.of_scene) {
-            screen.table(&Table { title: format!("{}{of}", table.title), ..table.clone() })?;
+            screen.table(&Table { title: format!("{}{of}", table.title), ..table.clone() });
         }
         Ok(())
     }

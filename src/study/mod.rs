@@ -31,6 +31,8 @@ mod status;
 mod tests;
 mod whole_times;
 
+use std::ffi::{OsStr, OsString};
+
 use clap::{ArgMatches, Command};
 
 use crate::registry::Registry;
@@ -91,8 +93,8 @@ impl Study {
     ///
     /// # Errors
     /// If they are not those of its command.
-    pub fn matches(&self, words: &[String]) -> Result<ArgMatches, clap::Error> {
-        self.command().try_get_matches_from(words)
+    pub fn matches<W: AsRef<OsStr>>(&self, words: &[W]) -> Result<ArgMatches, clap::Error> {
+        self.command().try_get_matches_from(words.iter().map(OsString::from))
     }
 
     /// Its options by default.
@@ -100,7 +102,7 @@ impl Study {
     /// # Panics
     /// If an option has no default.
     pub fn defaults(&self) -> ArgMatches {
-        self.matches(&[]).unwrap_or_else(|error| panic!("study {}: {error}", self.name))
+        self.matches::<OsString>(&[]).unwrap_or_else(|error| panic!("study {}: {error}", self.name))
     }
 
     /// Whether its options name scenes.
@@ -109,16 +111,17 @@ impl Study {
     }
 
     /// What `study all` measures of it, in words of its command line; on these scenes, where there are any.
-    pub fn preset(&self, effort: Effort, scenes: &[String]) -> Vec<String> {
+    pub fn preset(&self, effort: Effort, scenes: &[OsString]) -> Vec<OsString> {
         let own = match effort {
             Effort::Full => self.presets.full,
             Effort::Quick => self.presets.quick,
         };
-        let own = own.split_whitespace().map(String::from);
+        let own = own.split_whitespace();
         if scenes.is_empty() || !self.names_scenes() {
-            return own.collect();
+            return own.map(OsString::from).collect();
         }
-        scenes.iter().cloned().chain(own.skip_while(|word| !word.starts_with('-'))).collect()
+        let options = own.skip_while(|word| !word.starts_with('-')).map(OsString::from);
+        scenes.iter().cloned().chain(options).collect()
     }
 
     /// The command that measures it into the folder `runs`, which `sahara report` reads.

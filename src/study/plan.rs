@@ -1,11 +1,12 @@
 //! What a study is going to measure.
 
 use std::collections::BTreeMap;
+use std::ffi::OsStr;
 use std::path::PathBuf;
 use std::time::Duration;
 
 use super::case::{Case, Settings};
-use crate::measure::quoted;
+use crate::escaped::quoted;
 use crate::request::{SceneRequest, StructureRequest, ViewArgs, WorkloadRequest, named_notes};
 use crate::scene::Scene;
 
@@ -38,14 +39,14 @@ pub struct PlannedScene {
 impl PlannedScene {
     /// A scene seen by its own camera, without labels.
     pub fn new(
-        (word, scene): &(String, Scene),
+        (word, scene): &(impl AsRef<OsStr>, Scene),
         structures: &[StructureRequest],
         workloads: &WorkloadRequest,
         settings: &Settings,
         epochs: usize,
     ) -> Self {
         Self {
-            request: SceneRequest::new(word, &ViewArgs::default(), scene),
+            request: SceneRequest::new(word.as_ref(), &ViewArgs::default(), scene),
             labels: BTreeMap::new(),
             structures: structures.to_vec(),
             workloads: workloads.clone(),
@@ -64,7 +65,7 @@ impl PlannedScene {
 impl Plan {
     /// All epochs of `scenes`, the first of all scenes before the second of any, with a journal that is kept.
     pub fn by_epoch(study: &str, scenes: &[PlannedScene]) -> Self {
-        let command: Vec<String> = std::env::args().map(|arg| quoted(&arg)).collect();
+        let command: Vec<String> = std::env::args_os().map(quoted).collect();
         let command = command.join(" ");
         let case = |planned: &PlannedScene, epoch: usize| Case {
             study: study.into(),

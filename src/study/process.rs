@@ -232,8 +232,7 @@ impl Listened {
     /// From now on this process ends with the run: one that is killed leaves nothing behind that disturbs the next one.
     #[allow(clippy::new_without_default)]
     pub fn new() -> Self {
-        #[cfg(target_os = "linux")]
-        let _ = nix::sys::prctl::set_pdeathsig(nix::sys::signal::Signal::SIGKILL);
+        process_group::end_with_parent();
         Self(())
     }
 }
@@ -305,7 +304,7 @@ pub fn build_watch(case: &Case, args: Vec<OsString>) -> BuildWatch {
 fn replace(mut command: Command) {
     use std::os::unix::process::CommandExt;
     let cause = command.exec();
-    crate::output::tell(format_args!("error: this program cannot be started again: {cause}"));
+    crate::output::tell_error(format_args!("this program cannot be started again: {cause}"));
     std::process::exit(1);
 }
 

@@ -1,5 +1,3 @@
-use std::io;
-
 use super::Stage;
 use crate::report::Table;
 
@@ -24,12 +22,7 @@ pub trait Screen {
     /// Shows what spoils the run, or may not be what was meant.
     fn warn(&mut self, _: &[String]) {}
     /// A table of the result.
-    ///
-    /// # Errors
-    /// If it cannot be printed.
-    fn table(&mut self, _: &Table) -> io::Result<()> {
-        Ok(())
-    }
+    fn table(&mut self, _: &Table) {}
     /// Nothing more is measured.
     fn end(&mut self) {}
 }

@@ -1,7 +1,6 @@
 //! The comparison itself.
 
 use std::borrow::Cow;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -12,6 +11,7 @@ use super::{Kind, Reference, Validation, WorstRay};
 use crate::accel::DynAccel;
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::oracle::Oracle;
+use crate::panics::caught;
 
 /// Rays per batch: part of the result's definition, so that no thread count changes it.
 pub(super) const BATCH: usize = 256;
@@ -138,13 +138,13 @@ pub(super) fn validate_batch(
     // Trace each ray alone, and only then the batch: what panics or hangs does so at a ray that can be named.
     let mut alone = Vec::with_capacity(rays.len());
     for (index, ray) in rays.iter().enumerate() {
-        match caught(clock, Call::Ray(index), || traced_alone(subject, ray)) {
+        match returned(clock, Call::Ray(index), || traced_alone(subject, ray)) {
             Ok(hits) => alone.push(hits),
             Err(message) => return sums.ended(expected[index], rays, Call::Ray(index), Kind::Panicked, message),
         }
     }
     // In the form in which it is timed.
-    let (found, any) = match caught(clock, Call::Batch, || traced_loaded(subject, rays)) {
+    let (found, any) = match returned(clock, Call::Batch, || traced_loaded(subject, rays)) {
         Ok(hits) => hits,
         Err(message) => return sums.ended(expected[0], rays, Call::Batch, Kind::Panicked, message),
     };
@@ -205,9 +205,9 @@ fn traced_loaded(subject: &dyn DynAccel, rays: &[Ray]) -> (Vec<Option<Hit>>, Vec
 }
 
 /// What a query returns, or the message of its panic.
-fn caught<R>(clock: &QueryClock, call: Call, query: impl FnOnce() -> R) -> Result<R, String> {
+fn returned<R>(clock: &QueryClock, call: Call, query: impl FnOnce() -> R) -> Result<R, String> {
     clock.begin(call);
-    let result = catch_unwind(AssertUnwindSafe(query));
+    let result = caught(query);
     clock.end();
     result.map_err(|payload| message(payload.as_ref()))
 }

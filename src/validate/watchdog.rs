@@ -3,7 +3,7 @@
 //! A thread cannot be ended from outside: one that hangs is left behind, and ends with the process.
 
 use std::collections::BTreeMap;
-use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::panic::resume_unwind;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -15,6 +15,7 @@ use super::query_clock::{Call, QueryClock, message};
 use super::{Kind, Reference, Validation};
 use crate::accel::DynAccel;
 use crate::geometry::{Hit, Mesh, Ray};
+use crate::panics::caught;
 
 /// Default time limit of a build, or of 256 rays: far longer than any of them takes that returns at all.
 pub const LIMIT: Duration = Duration::from_secs(120);
@@ -39,7 +40,7 @@ pub enum WatchError {
 pub fn watched<R: Send + 'static>(limit: Duration, work: impl FnOnce() -> R + Send + 'static) -> Result<R, WatchError> {
     let (sender, receiver) = channel();
     thread::spawn(move || {
-        let result = catch_unwind(AssertUnwindSafe(work)).map_err(|payload| message(payload.as_ref()));
+        let result = caught(work).map_err(|payload| message(payload.as_ref()));
         // Nobody listens after the limit.
         let _ = sender.send(result);
     });

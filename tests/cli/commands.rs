@@ -44,6 +44,12 @@ fn what_is_not_known_is_refused_with_what_is() {
     refuses(&["compare", "cube", "--workload", "primry"], &["primry", "did you mean primary?", "shadow"]);
     refuses(&["compare", "--frobnicate"], &["--frobnicate"]);
     refuses(&["compare", "cube", "--threads", "0"], &["0"]);
+    for seconds in ["--budget", "--runner-limit"] {
+        for wrong in ["-1", "nan", "inf", "0", "soon"] {
+            let sentence = "give seconds from 0.001 to 86400";
+            refuses(&["compare", "cube", "--runner", "none", seconds, wrong], &[seconds, wrong, sentence]);
+        }
+    }
     refuses(&["compare", "cube", "--quality", "best"], &["best", "fast", "balanced", "high"]);
     refuses(&["frobnicate"], &["frobnicate"]);
     refuses_in_a_line(&["study", "foo"], &["foo", "compare", "attribution", "plan"]);

@@ -12,6 +12,9 @@ mod interrupted;
 mod job;
 mod journal;
 mod large;
+#[cfg(target_os = "linux")]
+mod names;
+mod output;
 mod plan;
 mod processes;
 mod rays;

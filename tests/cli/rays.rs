@@ -141,8 +141,23 @@ fn text_becomes_rays_and_rays_become_text() {
     refuses(&folder, &["validate", "--rays", "free.rays"], &["name a scene"]);
     right(&folder, &["validate", "cube", "--rays", "free.rays", "-s", "sah-kd"]);
 
+    fs::write(folder.path().join("blanks.txt"), "0 0 5 0 0 -1\n0.5, 0, 5  0, 0, -1 [0.25 7]\n").unwrap();
+    right(&folder, &["rays", "import", "blanks.txt", "-o", "blanks.rays", "--scene", "torus"]);
+    assert_eq!(right(&folder, &["rays", "show", "blanks.rays", "--text"]), shown);
+    let coarse = right(&folder, &["compare", "--rays", "f.rays", "--quick", "-s", "sah-kd"]);
+    assert!(coarse.contains("Coarse") && coarse.contains("Torus"), "{coarse}");
+
     refuses(&folder, &["rays", "import", "rays.txt", "-o", "bad.rays", "--name", "a\nb"], &["control character"]);
-    for (line, part) in [("1,2,3 nan,0,1", "line 1: ray 1"), ("1,2 3,4,5", "line 1"), ("# none", "no ray")] {
+    for (line, part) in [
+        ("1,2,3 nan,0,1", "line 1: the ray"),
+        (
+            "0 0 1 0 0 -1\n\n0 0 0 0 -0 0",
+            "line 3: the ray \"0 0 0 0 -0 0\" hits nothing anywhere: its direction is zero",
+        ),
+        ("1 2 3 4 5 6 [2, 1] # back", "its interval is empty"),
+        ("1,2 3,4,5", "line 1"),
+        ("# none", "no ray"),
+    ] {
         fs::write(folder.path().join("bad.txt"), line).unwrap();
         refuses(&folder, &["rays", "import", "bad.txt", "-o", "bad.rays"], &["bad.txt", part]);
         assert!(!folder.path().join("bad.rays").exists());

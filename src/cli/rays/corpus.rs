@@ -5,6 +5,7 @@
 mod tests;
 
 use std::collections::BTreeMap;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
@@ -13,6 +14,7 @@ use sha2::{Digest, Sha256};
 use crate::accel::Query;
 use crate::cli::progress::Waiting;
 use crate::cli::terminal::Terminal;
+use crate::escaped::Escaped as _;
 use crate::exact;
 use crate::geometry::{Mesh, Ray};
 use crate::oracle::Oracle;
@@ -39,7 +41,7 @@ const SEED: u64 = 1;
 pub struct Args {
     /// Scenes, with our own meshes in place of fetched ones; scene files or mesh files [default: all built-in scenes]
     #[arg(value_name = "SCENE|FILE")]
-    scenes: Vec<String>,
+    scenes: Vec<OsString>,
     /// The folder; an older corpus there is replaced
     #[arg(long, short, value_name = "DIR")]
     output: PathBuf,
@@ -63,13 +65,16 @@ type Files = BTreeMap<String, Vec<u8>>;
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     let inputs = args.scenes.iter().filter(|name| Builtin::find(name).is_err()).map(Path::new);
     let folder = OutputFolder::check(&args.output)?.apart_from(inputs)?;
-    let all = || BUILTIN.iter().map(|builtin| builtin.name.to_owned()).collect();
+    let all = || BUILTIN.iter().map(|builtin| builtin.name.into()).collect();
     let named = if args.scenes.is_empty() { all() } else { args.scenes.clone() };
 
     let waiting = Waiting::show("loads scenes".into(), terminal);
     // Our own meshes are the same everywhere.
-    let own = |name: &String| if Builtin::find(name).is_ok() { format!("{name}:{STAND_IN}") } else { name.clone() };
-    let scenes = request::scenes(registry, &named.iter().map(own).collect::<Vec<String>>())?;
+    let own = |name: &OsString| match Builtin::find(name) {
+        Ok(builtin) => format!("{}:{STAND_IN}", builtin.name).into(),
+        Err(_) => name.clone(),
+    };
+    let scenes = request::scenes(registry, &named.iter().map(own).collect::<Vec<OsString>>())?;
 
     // One scene at a time: an oracle takes much more memory than its scene and files.
     let (mut files, mut rows, mut stand_ins) = (Files::new(), vec![], vec![]);
@@ -85,17 +90,17 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         files.extend(part.files);
     }
 
-    waiting.says(format!("writes {}", folder.path().display()));
+    waiting.says(format!("writes {}", folder.path().escaped()));
     let sums = sums(&files);
     let digest = sha256(sums.as_bytes());
     files.insert(SUMS.into(), sums.into_bytes());
     folder.write(&files.into_iter().collect::<Vec<_>>())?;
     drop(waiting);
 
-    let title = format!("{}: rays of {} kinds with their exact answers", args.output.display(), RayKind::ALL.len());
+    let title = format!("{}: rays of {} kinds with their exact answers", args.output.escaped(), RayKind::ALL.len());
     let note = format!("{} with meshes of our own, whether or not the real ones were fetched.", listed(&stand_ins));
     let notes = if stand_ins.is_empty() { vec![] } else { vec![note] };
-    terminal.print_table(&Table::new(title, ["scene", "triangles", "rays", "hits", "bytes"], rows).noted(notes))?;
+    terminal.print_table(&Table::new(title, ["scene", "triangles", "rays", "hits", "bytes"], rows).noted(notes));
     verdict(args, &digest, terminal)
 }
 
@@ -110,9 +115,9 @@ fn verdict(args: &Args, digest: &str, terminal: &Terminal) -> anyhow::Result<Sta
         terminal.print_lines(&[format!(
             "This machine computes something else than the published corpus, whose {SUMS} has the SHA-256 {CORPUS_SHA256}: \
              do not compare with numbers of others, and report this."
-        )])?;
+        )]);
     }
-    terminal.print(&format!("SHA-256 of {SUMS}: {digest}{said}\n"))?;
+    terminal.print(&format!("SHA-256 of {SUMS}: {digest}{said}\n"));
     Ok(status)
 }
 

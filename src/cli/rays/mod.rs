@@ -2,6 +2,7 @@
 
 mod corpus;
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 use anyhow::Context;
@@ -10,6 +11,7 @@ use clap::Subcommand;
 use crate::accel::Query;
 use crate::cli::progress::Waiting;
 use crate::cli::terminal::Terminal;
+use crate::escaped::Escaped as _;
 use crate::geometry::Ray;
 use crate::output::OutputFile;
 use crate::registry::Registry;
@@ -29,7 +31,7 @@ pub struct Args {
 enum Action {
     /// Write the rays of a workload, as `compare` makes them
     Record(Record),
-    /// Make a ray file from text, one ray a line: "ox,oy,oz dx,dy,dz [t_min,t_max]"
+    /// Make a ray file from text, one ray a line: "ox,oy,oz dx,dy,dz [t_min,t_max]", with blanks or commas
     Import(Import),
     /// Say what a ray file holds
     Show(Show),
@@ -41,7 +43,7 @@ enum Action {
 struct Record {
     /// A built-in scene, a scene file (.toml) or a mesh file
     #[arg(value_name = "SCENE|FILE")]
-    scene: String,
+    scene: OsString,
     /// The kind of rays
     #[arg(long, short, value_name = "KIND", default_value = "primary")]
     workload: WorkloadKind,
@@ -65,7 +67,7 @@ struct Import {
     output: PathBuf,
     /// The scene that the rays are for [default: none in particular]
     #[arg(long, value_name = "SCENE|FILE")]
-    scene: Option<String>,
+    scene: Option<OsString>,
     /// What to call the rays
     #[arg(long, value_name = "NAME", default_value = "imported")]
     name: String,
@@ -94,7 +96,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
 
 fn record(registry: &Registry, args: &Record, terminal: &Terminal) -> anyhow::Result<Status> {
     let output = request::output(registry, &args.output, std::slice::from_ref(&args.scene), None)?;
-    let waiting = Waiting::show(format!("loads {}", args.scene), terminal);
+    let waiting = Waiting::show(format!("loads {}", args.scene.escaped()), terminal);
     let scene = request::scene(registry, &args.scene)?;
     let guide = request::guide(registry)?;
     waiting.says(format!("{} builds {}", scene.name, guide.label));
@@ -109,14 +111,14 @@ fn record(registry: &Registry, args: &Record, terminal: &Terminal) -> anyhow::Re
 
 fn import(registry: &Registry, args: &Import, terminal: &Terminal) -> anyhow::Result<Status> {
     let output = request::output(registry, &args.output, args.scene.as_slice(), [args.text.as_path()])?;
-    let waiting = Waiting::show(format!("reads {}", args.text.display()), terminal);
-    let text = std::fs::read_to_string(&args.text).with_context(|| format!("cannot read {}", args.text.display()))?;
-    let rays = parse(&text).map_err(|problem| anyhow::anyhow!("{}: {problem}", args.text.display()))?;
+    let waiting = Waiting::show(format!("reads {}", args.text.escaped()), terminal);
+    let text = std::fs::read_to_string(&args.text).with_context(|| format!("cannot read {}", args.text.escaped()))?;
+    let rays = parse(&text).map_err(|problem| anyhow::anyhow!("{}: {problem}", args.text.escaped()))?;
     let query = if args.any { Query::Any } else { Query::Closest };
     let workload = Workload { name: args.name.clone(), query, rays };
     let file = match &args.scene {
         Some(scene) => {
-            waiting.says(format!("loads {scene}"));
+            waiting.says(format!("loads {}", scene.escaped()));
             RayFile::new(&request::scene(registry, scene)?, workload)
         }
         None => RayFile { scene: String::new(), scene_hash: None, workload },
@@ -132,9 +134,7 @@ fn parse(text: &str) -> Result<Vec<Ray>, String> {
         if line.is_empty() {
             continue;
         }
-        let ray: Ray = line.parse().map_err(|error| format!("line {}: {error}", number + 1))?;
-        RayFile::check(&[ray]).map_err(|problem| format!("line {}: {problem}", number + 1))?;
-        rays.push(ray);
+        rays.push(Ray::parse_valid(line).map_err(|error| format!("line {}: {error}", number + 1))?);
     }
     RayFile::check(&rays).map(|()| rays)
 }
@@ -142,21 +142,21 @@ fn parse(text: &str) -> Result<Vec<Ray>, String> {
 fn finish(file: &RayFile, output: &OutputFile, terminal: &Terminal) -> anyhow::Result<Status> {
     RayFile::check_names(&file.scene, &file.workload.name).map_err(anyhow::Error::msg)?;
     file.write(output)?;
-    terminal.print(&format!("{}: {}\n", output.path().display(), described(file)))?;
+    terminal.print(&format!("{}: {}\n", output.path().escaped(), described(file)));
     Ok(Status::Right)
 }
 
 fn show(args: &Show, terminal: &Terminal) -> anyhow::Result<Status> {
-    let waiting = Waiting::show(format!("reads {}", args.file.display()), terminal);
+    let waiting = Waiting::show(format!("reads {}", args.file.escaped()), terminal);
     let file = RayFile::read(&args.file)?;
     drop(waiting);
     if args.text {
-        terminal.print(&file.workload.rays.iter().map(|ray| format!("{ray}\n")).collect::<String>())?;
+        terminal.print(&file.workload.rays.iter().map(|ray| format!("{ray}\n")).collect::<String>());
         return Ok(Status::Right);
     }
-    terminal.print(&format!("{}: {}\n", args.file.display(), described(&file)))?;
+    terminal.print(&format!("{}: {}\n", args.file.escaped(), described(&file)));
     let scene = file.scene_hash.as_deref().unwrap_or("none in particular");
-    terminal.print(&format!("scene hash: {scene}\nfirst ray: {}\n", file.workload.rays[0]))?;
+    terminal.print(&format!("scene hash: {scene}\nfirst ray: {}\n", file.workload.rays[0]));
     Ok(Status::Right)
 }
 

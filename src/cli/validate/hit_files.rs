@@ -10,6 +10,7 @@ use super::reference::closest_hits;
 use super::table::{note_on_reference, row, scene_table};
 use crate::accel::{DynAccel, Query};
 use crate::cli::progress::Waiting;
+use crate::escaped::Escaped as _;
 use crate::geometry::{Hit, Ray};
 use crate::report::number::plural;
 use crate::request;
@@ -47,8 +48,8 @@ impl Run<'_> {
         }
         HitFile::new(workload, hits).write(&output)?;
         drop(waiting);
-        let (path, answers, hash) = (output.path().display(), plural(rays, "answer"), workload.hash());
-        self.terminal.print(&format!("{path}: {answers} of {label} to the rays {hash}\n"))?;
+        let (path, answers, hash) = (output.path().escaped(), plural(rays, "answer"), workload.hash());
+        self.terminal.print(&format!("{path}: {answers} of {label} to the rays {hash}\n"));
         Ok(Status::Right)
     }
 
@@ -60,7 +61,7 @@ impl Run<'_> {
         let test = args.test.first().map_or("own", String::as_str);
         request::known_tests(self.registry, &args.test)?;
         let hit_file = HitFile::read(path)?;
-        let name = path.display().to_string();
+        let name = path.escaped().to_string();
         let hits = hit_file.hits_of(&file.workload).map_err(|problem| anyhow::anyhow!("{name}: {problem}"))?;
         let recorded: Vec<(Ray, Option<Hit>)> = file.workload.rays.iter().copied().zip(hits.iter().copied()).collect();
         let (sample, note) = choice.sample(&recorded, scene.mesh.len());
@@ -81,7 +82,7 @@ impl Run<'_> {
         notes.extend(found.worst.iter().map(|worst| format!("{name}: {worst}")));
         notes.extend(note_on_reference(&name, &found));
         let rows = vec![row(&name, test, &found)];
-        self.terminal.print_table(&scene_table(scene, &rays, &reference_name, rows, notes))?;
+        self.terminal.print_table(&scene_table(scene, &rays, &reference_name, rows, notes));
         Ok(if choice.refutes(&found) { Status::Wrong } else { Status::Right })
     }
 }

@@ -7,19 +7,19 @@ mod reference;
 mod scene;
 mod table;
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
 use anyhow::Context;
-use glam::Vec3;
 
 use super::progress::Waiting;
 use super::terminal::Terminal;
 use crate::accel::{BuildError, DynAccel};
-use crate::geometry::{Ray, RayTextError};
+use crate::geometry::Ray;
 use crate::registry::{Choice, Registry};
-use crate::request::{self, BRUTE_FORCE, RaySource, ViewArgs, recorded};
+use crate::request::{self, BRUTE_FORCE, RaySource, Seconds, ViewArgs, recorded};
 use crate::scene::Scene;
 use crate::study::Status;
 use crate::validate::{LIMIT, watched};
@@ -33,7 +33,7 @@ pub use hard::{CHILD, ChildArgs, described, run_child};
 pub struct Args {
     /// Built-in scenes, scene files (.toml) and mesh files [default: all built-in scenes]
     #[arg(value_name = "SCENE|FILE")]
-    scenes: Vec<String>,
+    scenes: Vec<OsString>,
     #[command(flatten)]
     from: ViewArgs,
     /// A structure, with keys that differ from their defaults; may be repeated [default: all, one of each name]
@@ -60,7 +60,7 @@ pub struct Args {
     ])]
     hard: Option<Vec<String>>,
     /// Trace only this ray, and print what every structure returns; may be repeated
-    #[arg(long, value_name = "ox,oy,oz dx,dy,dz", allow_hyphen_values = true, value_parser = valid_ray,
+    #[arg(long, value_name = "ox,oy,oz dx,dy,dz", allow_hyphen_values = true, value_parser = Ray::parse_valid,
         conflicts_with_all = ["rays", "seed", "camera", "inside", "size"])]
     ray: Vec<Ray>,
     /// Check the hits of this file, for the rays of the file of --rays, instead of structures
@@ -78,8 +78,8 @@ pub struct Args {
     export_hits: Option<PathBuf>,
     /// Seconds that a structure may take for 256 rays, or for its build and for each further million triangles of it, before it counts
     /// as hanging
-    #[arg(long, value_name = "SECONDS", default_value_t = LIMIT.as_secs() as u32, value_parser = clap::value_parser!(u32).range(1..=86400))]
-    limit: u32,
+    #[arg(long, value_name = "SECONDS", default_value_t = Seconds::whole(LIMIT.as_secs() as u32), allow_negative_numbers = true)]
+    limit: Seconds,
     /// Seed of the rays [default: 1]
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
@@ -141,23 +141,8 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     for scene in &scenes {
         status = status.and(run.validate(scene, recorded.as_deref())?);
     }
-    terminal.print_lines(&LEGEND.map(String::from))?;
+    terminal.print_lines(&LEGEND.map(String::from));
     Ok(status)
-}
-
-/// A ray that can hit something: the miss of any other would say nothing about a mesh.
-fn valid_ray(text: &str) -> Result<Ray, String> {
-    let ray: Ray = text.parse().map_err(|error: RayTextError| error.to_string())?;
-    let fault = if !ray.origin.is_finite() {
-        "its origin is not finite: give three finite numbers"
-    } else if !ray.direction.is_finite() {
-        "its direction is not finite: give three finite numbers"
-    } else if ray.direction == Vec3::ZERO {
-        "its direction is zero: give one that has a length"
-    } else {
-        "its interval is empty: give a t_max above 0 and above t_min"
-    };
-    if ray.is_valid() { Ok(ray) } else { Err(format!("such a ray hits nothing anywhere, since {fault}")) }
 }
 
 impl Args {
@@ -170,7 +155,7 @@ impl Args {
     }
 
     fn limit(&self) -> Duration {
-        Duration::from_secs(self.limit.into())
+        self.limit.duration()
     }
 
     /// Builds a structure within the limit.
@@ -179,7 +164,7 @@ impl Args {
         let (own, mesh) = (choice.clone(), Arc::clone(&scene.mesh));
         let limit = self.limit() * u32::try_from(1 + mesh.len() / 1_000_000).unwrap_or(u32::MAX);
         // The registry catches a panic of the builder: what ends without a result hangs.
-        let built = watched(limit, move || own.build(&mesh)).map_err(|_| BuildFailure::Hangs(limit.as_secs()))?;
+        let built = watched(limit, move || own.build(&mesh)).map_err(|_| BuildFailure::Hangs(limit.as_secs_f64()))?;
         Ok(Arc::from(built?))
     }
 }
@@ -188,7 +173,7 @@ impl Args {
 #[derive(Debug, thiserror::Error)]
 enum BuildFailure {
     #[error("it hangs: its builder did not end within {0} s: see --limit")]
-    Hangs(u64),
+    Hangs(f64),
     #[error(transparent)]
     Refused(#[from] BuildError),
 }

@@ -57,9 +57,9 @@ impl Run<'_> {
         if args.ray.is_empty() && !hits.is_empty() && hits.iter().all(|&hits| hits == 0) {
             notes.push("No ray hits anything by the reference: no hit could be lost, and this shows little.".into());
         }
-        terminal.print_table(&scene_table(scene, &rays, &self.reference, rows, notes))?;
+        terminal.print_table(&scene_table(scene, &rays, &self.reference, rows, notes));
         if !args.ray.is_empty() {
-            terminal.print_table(&table(&scene.name, &of_structures))?;
+            terminal.print_table(&table(&scene.name, &of_structures));
         }
         Ok(status)
     }

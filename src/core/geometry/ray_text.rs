@@ -25,44 +25,88 @@ impl Display for Ray {
 /// Why a text is not a ray.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RayTextError {
-    /// Not two parts, or three.
+    /// Not six numbers.
     #[allow(missing_docs)]
     #[error(
-        "the ray {text:?} has {count} parts: write \"ox,oy,oz dx,dy,dz\", then \" [t_min,t_max]\" if it is bounded"
+        "the ray {text:?} has {count} numbers: write \"ox,oy,oz dx,dy,dz\", then \" [t_min,t_max]\" if it is bounded"
     )]
-    Parts { text: String, count: usize },
-    /// A part with too few numbers, or too many.
+    Count { text: String, count: usize },
+    /// An interval that is not two numbers in brackets at the end.
     #[allow(missing_docs)]
-    #[error("{part:?} in the ray {text:?} has {count} numbers: it must have {expected}, separated by commas")]
-    Count { text: String, part: String, count: usize, expected: usize },
+    #[error("the interval of the ray {text:?} must be two numbers in brackets behind the others: [t_min,t_max]")]
+    Interval { text: String },
     /// What should be a number is none.
     #[allow(missing_docs)]
     #[error("{number:?} in the ray {text:?} is not a number")]
     Number { text: String, number: String },
-    /// An interval without brackets.
+    /// A ray that no structure can answer otherwise than with "no hit": that would say nothing about a mesh.
     #[allow(missing_docs)]
-    #[error("the interval {part:?} in the ray {text:?} must stand in brackets: [t_min,t_max]")]
-    Brackets { text: String, part: String },
+    #[error("the ray {text:?} hits nothing anywhere: {fault}")]
+    Invalid { text: String, fault: &'static str },
 }
 
-/// Reads what [`Display`] writes; the interval may end with `]` or `)`, which both mean the open end.
+/// Reads what [`Display`] writes. Blanks, commas or both may stand between all numbers; the interval may end with `]` or `)`,
+/// which both mean the open end.
 impl FromStr for Ray {
     type Err = RayTextError;
 
     fn from_str(text: &str) -> Result<Self, RayTextError> {
-        let mut parts = text.split_whitespace();
-        let count = parts.clone().count();
-        let (Some(origin), Some(direction), interval, None) = (parts.next(), parts.next(), parts.next(), parts.next())
-        else {
-            return Err(RayTextError::Parts { text: short(text), count });
+        let (six, interval) = match text.split_once('[') {
+            Some((six, rest)) => (six.trim_end().trim_end_matches(','), Some(rest)),
+            None => (text, None),
         };
-        let ray = Self::new(Vec3::from_array(numbers(text, origin)?), Vec3::from_array(numbers(text, direction)?));
-        let Some(part) = interval else { return Ok(ray) };
-        let inner = part.strip_prefix('[').and_then(|p| p.strip_suffix([']', ')']));
-        let inner = inner.ok_or_else(|| RayTextError::Brackets { text: short(text), part: short(part) })?;
-        let [t_min, t_max] = numbers(text, inner)?;
-        Ok(Self { t_min, t_max, ..ray })
+        let not_a_number = |number: &str| RayTextError::Number { text: short(text), number: short(number) };
+        let numbers = |part| numbers(part).map_err(not_a_number);
+        let no_interval = || RayTextError::Interval { text: short(text) };
+        let ray = match numbers(six)?[..] {
+            [a, b, c, d, e, f] => Self::new(Vec3::new(a, b, c), Vec3::new(d, e, f)),
+            [_, _, _, _, _, _, _, _] if interval.is_none() => return Err(no_interval()),
+            ref other => return Err(RayTextError::Count { text: short(text), count: other.len() }),
+        };
+        let Some(rest) = interval else { return Ok(ray) };
+        let inner = rest.trim_end().strip_suffix([']', ')']).ok_or_else(no_interval)?;
+        match numbers(inner)?[..] {
+            [t_min, t_max] => Ok(Self { t_min, t_max, ..ray }),
+            _ => Err(no_interval()),
+        }
     }
+}
+
+impl Ray {
+    /// Reads a ray that can hit something.
+    ///
+    /// # Errors
+    /// If the text is no ray, or its ray is not [valid](Self::is_valid).
+    pub fn parse_valid(text: &str) -> Result<Self, RayTextError> {
+        let ray: Self = text.parse()?;
+        let fault = if ray.is_valid() {
+            return Ok(ray);
+        } else if !ray.origin.is_finite() {
+            "its origin is not finite: give three finite numbers"
+        } else if !ray.direction.is_finite() {
+            "its direction is not finite: give three finite numbers"
+        } else if ray.direction == Vec3::ZERO {
+            "its direction is zero: give one that has a length"
+        } else {
+            "its interval is empty: give a t_max above 0 and above t_min"
+        };
+        Err(RayTextError::Invalid { text: short(text), fault })
+    }
+}
+
+/// The numbers of a text, with blanks, a comma or both between them.
+///
+/// # Errors
+/// The first part that is no number; it is empty between two commas.
+pub fn numbers(text: &str) -> Result<Vec<f32>, &str> {
+    if text.trim().is_empty() {
+        return Ok(vec![]);
+    }
+    let fields = text.split(',').flat_map(|field| {
+        let is_empty = field.trim().is_empty();
+        field.split_whitespace().chain(is_empty.then_some(""))
+    });
+    fields.map(|number| number.parse().map_err(|_| number)).collect()
 }
 
 /// Text that may be a whole file in one line, as it may stand in a message: cut after 120 characters.
@@ -72,18 +116,6 @@ fn short(text: &str) -> String {
         Some((end, _)) => format!("{}...", &text[..end]),
         None => text.into(),
     }
-}
-
-fn numbers<const N: usize>(text: &str, part: &str) -> Result<[f32; N], RayTextError> {
-    let mut found = [0.0; N];
-    let count = part.split(',').count();
-    if count != N {
-        return Err(RayTextError::Count { text: short(text), part: short(part), count, expected: N });
-    }
-    for (slot, number) in found.iter_mut().zip(part.split(',')) {
-        *slot = number.parse().map_err(|_| RayTextError::Number { text: short(text), number: short(number) })?;
-    }
-    Ok(found)
 }
 
 #[cfg(test)]
@@ -117,13 +149,44 @@ mod tests {
     }
 
     #[test]
+    fn blanks_commas_or_both_stand_between_numbers() {
+        let ray = Ray::new(Vec3::new(0.0, 0.5, 100.0), Vec3::new(0.0, 0.0, -1.0));
+        for text in ["0 0.5 100 0 0 -1", "0,0.5,100,0,0,-1", "0, 0.5, 100, 0, 0, -1", " 0,.5 , 100\t0 0,-1 "] {
+            assert_eq!(text.parse(), Ok(ray), "{text}");
+        }
+        for text in ["0 0.5 100 0 0 -1 [0 2]", "0,0.5,100,0,0,-1,[0, 2]", "0 0.5 100  0,0,-1[ 0 , 2 )"] {
+            assert_eq!(text.parse(), Ok(ray.until(2.0)), "{text}");
+        }
+    }
+
+    #[test]
     fn what_is_not_a_ray_is_named() {
         let error = |text: &str| text.parse::<Ray>().unwrap_err().to_string();
-        assert!(error("1,2,3").contains("has 1 parts"));
-        assert!(error("1,2,3 4,5").contains("\"4,5\" in the ray \"1,2,3 4,5\" has 2 numbers"));
+        assert!(error("").contains("has 0 numbers") && error("1,2,3 [0,1]").contains("has 3 numbers"));
+        assert!(error("1,2,3 4,5").contains("the ray \"1,2,3 4,5\" has 5 numbers"));
         assert!(error("1,2,3 4,5,x").contains("\"x\""));
-        assert!(error("1,2,3 4,5,6 0,1").contains("brackets: [t_min,t_max]"));
-        assert!(error("1,2,3 4,5,6 [0,1,2]").contains("it must have 2"));
+        for gap in ["1,,3 4,5,6", "1,2,3,4,5,6,", ",1 2 3 4 5 6", "1 2 3 4 5 6 [,1]"] {
+            assert!(error(gap).starts_with("\"\" in the ray"), "{gap}");
+        }
+        let intervals = ["1,2,3 4,5,6 0,1", "1,2,3 4,5,6 [0,1,2]", "1 2 3 4 5 6 [0 1", "1 2 3 4 5 6 [0 1] 7"];
+        for interval in intervals {
+            assert!(error(interval).contains("in brackets behind the others: [t_min,t_max]"), "{interval}");
+        }
         assert!(error(&"1 ".repeat(1 << 20)).len() < 300);
+    }
+
+    #[test]
+    fn what_hits_nothing_anywhere_is_refused_with_its_fault() {
+        let fault = |text: &str| Ray::parse_valid(text).unwrap_err().to_string();
+        for (text, part) in [
+            ("0 0 0 0 -0 0", "direction is zero"),
+            ("0 0 0 1 0 inf", "direction is not finite"),
+            ("0 nan 0 1 0 0", "origin is not finite"),
+            ("0 0 0 1 0 0 [2 1]", "t_max above 0 and above t_min"),
+            ("0 0 0 1 0 0 [nan 1]", "t_max above 0 and above t_min"),
+        ] {
+            assert!(fault(text).contains(part) && fault(text).contains(text), "{text}");
+        }
+        assert_eq!(Ray::parse_valid("0 0 0 1 0 0 [-2 1]").unwrap().t_min, -2.0);
     }
 }

@@ -8,7 +8,7 @@ use glam::{DMat3, DVec3, Vec3};
 /// 1]` (rows): each turns in the opposite sense to the usual right-handed rotation. Sines come from `libm`, everything
 /// is computed in `f64` and rounded once, so that a placed vertex has the same bits on every machine.
 ///
-/// A mirroring scale keeps the order of the corners, as the course does: the geometric normal then turns over.
+/// A placement that [mirrors](Self::is_mirror) turns the order of corners round: whoever places triangles turns it back.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transform {
     linear: DMat3,
@@ -27,6 +27,11 @@ impl Transform {
         let about_z = rows([[z.1, z.0, 0.0], [-z.0, z.1, 0.0], [0.0, 0.0, 1.0]]);
         let linear = about_z * about_y * about_x * DMat3::from_diagonal(scale.as_dvec3());
         Self { linear, translation: translation.as_dvec3() }
+    }
+
+    /// Whether it turns left hands into right ones, as a scale does that is negative along one axis or all three.
+    pub fn is_mirror(&self) -> bool {
+        self.linear.determinant() < 0.0
     }
 
     /// Where `point` comes to lie.
@@ -89,6 +94,23 @@ mod tests {
         assert_eq!(placed.point(Vec3::ONE), Vec3::new(6.0, 23.0, 32.0));
         assert_eq!(placed.normal(Vec3::new(0.0, 0.0, -7.0)), Vec3::X);
         assert_eq!(Transform::IDENTITY.point(Vec3::new(0.1, 0.2, 0.3)), Vec3::new(0.1, 0.2, 0.3));
+    }
+
+    #[test]
+    fn an_odd_number_of_negative_scales_is_a_mirror() {
+        for (scale, expected) in [
+            ([1.0, 1.0, 1.0], false),
+            ([-1.0, 1.0, 1.0], true),
+            ([1.0, -2.0, 1.0], true),
+            ([1.0, 1.0, -1e-30], true),
+            ([-1.0, -1.0, 1.0], false),
+            ([-1.0, -1e30, -1e30], true),
+            ([0.0, -1.0, 1.0], false),
+        ] {
+            for rotation in [Vec3::ZERO, Vec3::new(10.0, 200.0, 77.0)] {
+                assert_eq!(Transform::new(rotation, scale.into(), Vec3::X).is_mirror(), expected, "{scale:?}");
+            }
+        }
     }
 
     #[test]

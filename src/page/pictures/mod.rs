@@ -7,9 +7,11 @@ mod heat;
 mod inspect;
 mod scenes;
 
+use std::ffi::OsStr;
+
 use super::document::Section;
 use super::runs::Runs;
-use crate::measure::quoted;
+use crate::escaped::quoted;
 use crate::registry::Registry;
 use crate::report::Block;
 use crate::request::{SceneRequest, is_large};
@@ -38,7 +40,10 @@ impl LoadedScene {
 pub fn draw(runs: &Runs, registry: &Registry, progress: &mut dyn FnMut(String)) -> Vec<Section> {
     let (mut loaded, mut lost): (Vec<LoadedScene>, Vec<String>) = (vec![], vec![]);
     // The scenes of a generator are many, and look alike.
-    let is_generated = |word: &str| word.split_once(':').is_some_and(|(name, _)| registry.has_generator(name));
+    let is_generated = |word: &OsStr| {
+        let parts = word.to_str().and_then(|word| word.split_once(':'));
+        parts.is_some_and(|(name, _)| registry.has_generator(name))
+    };
     for request in runs.scenes().into_iter().filter(|request| !is_generated(&request.word)) {
         progress(format!("loads {}", request.name));
         match request.load(registry) {

@@ -47,7 +47,10 @@ fn halved(fine: &render::Picture) -> render::Picture {
 
 /// From where the scenes are seen.
 fn caption(loaded: &[LoadedScene]) -> String {
-    let is_builtin = |own: &LoadedScene| Builtin::find(own.request.word.split(':').next().unwrap_or_default()).is_ok();
+    let is_builtin = |own: &LoadedScene| {
+        let name = own.request.word.to_str().and_then(|word| word.split(':').next());
+        Builtin::find(name.unwrap_or_default()).is_ok()
+    };
     let all_builtin = loaded.iter().all(is_builtin);
     let cameras = if all_builtin {
         "with the source report's cameras, lights and materials"

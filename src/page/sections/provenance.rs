@@ -1,5 +1,6 @@
 //! Where the numbers come from.
 
+use crate::escaped::Escaped as _;
 use crate::measure::Provenance;
 use crate::page::document::Section;
 use crate::page::runs::{Runs, Source, scene_titles};
@@ -12,7 +13,7 @@ use crate::study::Dataset;
 pub fn section(runs: &Runs, missing: Vec<Block>) -> Section {
     let source = |source: &Source| {
         let Source { path, kind, commands } = source;
-        [path.display().to_string(), kind.clone(), commands.join("; ")]
+        [path.escaped().to_string(), kind.clone(), commands.join("; ")]
     };
     let files = Table::of_texts(
         "Files that this report was made from",

@@ -8,6 +8,7 @@ use plotters::prelude::{BitMapBackend, DrawingBackend, SVGBackend};
 use super::canvas::{Area, Canvas, DrawResult, Tip, register};
 use super::palette::PAPER;
 use super::{Bars, Curves, Scatter, Tradeoff};
+use crate::escaped::Escaped as _;
 use crate::render::Picture;
 
 /// A chart of any kind.
@@ -45,7 +46,7 @@ impl Format {
         match ending.as_deref().and_then(|ending| ending.to_str()) {
             Some("svg") => Ok(Self::Svg),
             Some("png") => Ok(Self::Png),
-            _ => Err(UnknownFormat(path.display().to_string())),
+            _ => Err(UnknownFormat(path.escaped().to_string())),
         }
     }
 }

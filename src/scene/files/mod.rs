@@ -12,6 +12,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
+use crate::escaped::Escaped as _;
 use crate::output::OutputError;
 
 pub use exact_hits::ExactHitFile;
@@ -23,9 +24,9 @@ pub use rays::RayFile;
 /// Why a file of rays or hits cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
-    #[error("cannot read {}: {cause}: check that it exists and may be read", path.display())]
+    #[error("cannot read {}: {cause}: check that it exists and may be read", path.escaped())]
     Read { path: PathBuf, cause: std::io::Error },
-    #[error("{}: {problem}", path.display())]
+    #[error("{}: {problem}", path.escaped())]
     Content { path: PathBuf, problem: String },
     #[error(transparent)]
     Write(#[from] OutputError),

@@ -3,21 +3,22 @@
 use std::fmt;
 use std::path::PathBuf;
 
+use crate::escaped::Escaped as _;
 use crate::geometry::MeshError;
 
 /// An error of a mesh file in one line: the file, the location in it, the problem and a remedy.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
-    #[error("{}: its extension is not that of a known format: give an .obj, .ply, .gltf or .glb file", file.display())]
+    #[error("{}: its extension is not that of a known format: give an .obj, .ply, .gltf or .glb file", file.escaped())]
     UnknownFormat { file: PathBuf },
-    #[error("{}: this is a folder: give a mesh file in it, .obj, .ply, .gltf or .glb, or a scene file, .toml", file.display())]
+    #[error("{}: this is a folder: give a mesh file in it, .obj, .ply, .gltf or .glb, or a scene file, .toml", file.escaped())]
     Folder { file: PathBuf },
-    #[error("{}: the file cannot be read ({cause}): check that it exists and may be opened", file.display())]
+    #[error("{}: the file cannot be read ({cause}): check that it exists and may be opened", file.escaped())]
     Unreadable { file: PathBuf, cause: std::io::Error },
-    #[error("{}{location}: {problem}", file.display())]
+    #[error("{}{location}: {problem}", file.escaped())]
     Malformed { file: PathBuf, location: Location, problem: String },
     /// The arrays of the file are no mesh; numbers count from 0.
-    #[error("{}: {cause}", file.display())]
+    #[error("{}: {cause}", file.escaped())]
     Mesh { file: PathBuf, cause: MeshError },
 }
 

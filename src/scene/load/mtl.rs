@@ -10,6 +10,7 @@ use super::error::quoted;
 use super::notes::Notes;
 use super::text::{after_keyword, lines, number, plain, words};
 use super::{below, read_file};
+use crate::escaped::Escaped as _;
 use crate::scene::Material;
 
 /// The most libraries that are read, more than any exporter writes.
@@ -55,7 +56,7 @@ impl Libraries {
             files.push(file);
             match read_file(&path) {
                 Ok(bytes) => reader.read(&bytes, &path, notes),
-                Err(cause) => notes.add(format!("the materials in {} cannot be read ({cause})", path.display())),
+                Err(cause) => notes.add(format!("the materials in {} cannot be read ({cause})", path.escaped())),
             }
         }
         let [one, many] = [("line", "is"), ("lines", "are")]
@@ -94,13 +95,13 @@ impl Reader<'_> {
     fn read(&mut self, bytes: &[u8], path: &Path, notes: &mut Notes) {
         let text = match plain(bytes) {
             Ok(text) => text,
-            Err(fault) => return notes.add(format!("{}: {}", path.display(), fault.problem)),
+            Err(fault) => return notes.add(format!("{}: {}", path.escaped(), fault.problem)),
         };
         // The current material; none if no face uses it.
         let mut current: Option<String> = None;
         for (number, line) in lines(text) {
             if self.line(line, &mut current).is_err() {
-                notes.add(format!("{}, line {number}: {} is ignored", path.display(), quoted(line)));
+                notes.add(format!("{}, line {number}: {} is ignored", path.escaped(), quoted(line)));
             }
         }
     }

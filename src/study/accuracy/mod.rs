@@ -9,6 +9,8 @@ mod table;
 #[cfg(test)]
 mod tests;
 
+use std::ffi::OsString;
+
 use anyhow::Context as _;
 use clap::{ArgMatches, Args as _, Command, FromArgMatches as _};
 
@@ -18,8 +20,8 @@ use crate::report::number::count;
 use crate::report::words::each_once_by;
 use crate::report::{Block, Failure, Report};
 use crate::request::{
-    BRUTE_FORCE, RayKind, RaySource, Scenes, StructureRequest, WorkloadRequest, each_kind, guide, known_defect,
-    known_tests, recorded, scene_files, seconds, specs, structure,
+    BRUTE_FORCE, RayKind, RaySource, Scenes, Seconds, StructureRequest, WorkloadRequest, each_kind, guide,
+    known_defect, known_tests, recorded, scene_files, specs, structure,
 };
 use crate::scene::Scene;
 use crate::triangle::{Exact, TriangleTest};
@@ -59,12 +61,15 @@ struct AccuracyArgs {
     #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..))]
     runs: u16,
     /// Seconds that the samples of a scene may take: what is slow is timed on fewer rays to keep within them
-    #[arg(long, value_name = "SECONDS", default_value = "40", value_parser = seconds)]
-    budget: f64,
+    #[arg(long, value_name = "SECONDS", default_value_t = BUDGET, allow_negative_numbers = true)]
+    budget: Seconds,
     /// Seed of the rays and of the order of samples
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
 }
+
+/// What the samples of a scene may take.
+const BUDGET: Seconds = Seconds::whole(40);
 
 /// Brute force takes part in meshes up to this size, unless structures are named.
 const SMALL: usize = 5000;
@@ -91,7 +96,7 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     };
     let settings = Settings {
         runs: args.runs.into(),
-        budget_ns: Some((args.budget * 1e9) as u64),
+        budget_ns: Some(args.budget.ns()),
         slowest: Some(SLOWEST),
         check: Check::Oracle,
         build_limit_s: None,
@@ -102,9 +107,9 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
         threads: 1,
     };
 
-    let leaves_out = |own: &(String, Scene)| args.structure.is_empty() && own.1.mesh.len() > SMALL;
+    let leaves_out = |own: &(OsString, Scene)| args.structure.is_empty() && own.1.mesh.len() > SMALL;
     let is_left_out = |structure: &StructureRequest| structure.name() == BRUTE_FORCE;
-    let planned = |own: &(String, Scene)| {
+    let planned = |own: &(OsString, Scene)| {
         let mut structures = structures.clone();
         structures.retain(|structure| !leaves_out(own) || !is_left_out(structure));
         PlannedScene::new(own, &structures, &workloads, &settings, 1)

@@ -1,14 +1,15 @@
 //! The options of `compare`, and what they plan.
 
 use std::collections::BTreeSet;
+use std::ffi::OsString;
 use std::time::Duration;
 
 use super::NAME;
 use crate::registry::Registry;
 use crate::report::words::each_once_by;
 use crate::request::{
-    BRUTE_FORCE, Measuring, RaySource, SceneRequest, Scenes, StructureRequest, Structures, ViewArgs, WORKLOADS,
-    WorkloadRequest, each_kind, guide, left_out, recorded, scene_files, seconds, structures_at, with_twin,
+    BRUTE_FORCE, Measuring, RaySource, SceneRequest, Scenes, Seconds, StructureRequest, Structures, ViewArgs,
+    WORKLOADS, WorkloadRequest, each_kind, guide, left_out, recorded, scene_files, structures_at, with_twin,
 };
 use crate::scene::{Scene, WorkloadKind};
 use crate::study::case::TESTS;
@@ -27,8 +28,8 @@ pub struct CompareArgs {
     #[arg(long, value_name = "COMMAND")]
     pub runner: Vec<String>,
     /// Seconds that such a program may take for an answer, a build among them
-    #[arg(long, value_name = "SECONDS", requires = "runner", default_value = "120", value_parser = seconds)]
-    pub runner_limit: f64,
+    #[arg(long, value_name = "SECONDS", requires = "runner", default_value_t = RUNNER_LIMIT, allow_negative_numbers = true)]
+    pub runner_limit: Seconds,
     /// The structure that speeds are related to; measured even if it is not among those named [default: median-kd and
     /// the better obvhs BVH; without them the first one]
     #[arg(long, value_name = "NAME[:key=value,..]")]
@@ -47,7 +48,7 @@ pub struct CompareArgs {
     pub quick: bool,
     /// Seconds that a build may take, or none [default: 60 and 30 more a million triangles; 10 and 10 with --quick; none
     /// with --budget none]
-    #[arg(long, value_name = "SECONDS|none", value_parser = BuildLimit::parse)]
+    #[arg(long, value_name = "SECONDS|none", value_parser = BuildLimit::parse, allow_negative_numbers = true)]
     pub build_limit: Option<BuildLimit>,
     /// Print all columns: builds, memory, the shape of the trees, tests, steps, checks, ratios to both references, and
     /// after how many rays a build pays off
@@ -55,16 +56,19 @@ pub struct CompareArgs {
     pub wide: bool,
 }
 
+/// What a program may take for an answer.
+const RUNNER_LIMIT: Seconds = Seconds::whole(120);
+
 /// What a build may take.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BuildLimit {
-    Seconds(f64),
+    Seconds(Seconds),
     None,
 }
 
 impl BuildLimit {
     fn parse(text: &str) -> Result<Self, String> {
-        if text == "none" { Ok(Self::None) } else { Ok(Self::Seconds(seconds(text)?)) }
+        if text == "none" { Ok(Self::None) } else { text.parse().map(Self::Seconds) }
     }
 }
 
@@ -99,7 +103,7 @@ impl CompareArgs {
         }
         let quality = self.structures.quality.as_deref();
         for command in &self.runner {
-            let runner = StructureRequest::of_runner(command, self.runner_limit)?;
+            let runner = StructureRequest::of_runner(command, self.runner_limit.seconds())?;
             if let Some(other) = structures.iter().find(|other| other.spec == runner.spec) {
                 anyhow::ensure!(
                     other == &runner,
@@ -127,7 +131,7 @@ impl CompareArgs {
     }
 
     /// The scenes as they are seen, and their rays.
-    fn scenes(&self, registry: &Registry) -> anyhow::Result<(Vec<(String, Scene)>, WorkloadRequest)> {
+    fn scenes(&self, registry: &Registry) -> anyhow::Result<(Vec<(OsString, Scene)>, WorkloadRequest)> {
         let quick = self.quick.then_some(QUICK_RAYS);
         if let Some((scene, file)) = recorded(registry, &self.rays, &self.scenes.scenes)? {
             self.from.is_unasked()?;
@@ -146,7 +150,7 @@ impl CompareArgs {
     fn build_limit_s(&self, triangles: usize) -> Option<f64> {
         let millions = triangles as f64 * 1e-6;
         match self.build_limit {
-            Some(BuildLimit::Seconds(seconds)) => Some(seconds),
+            Some(BuildLimit::Seconds(seconds)) => Some(seconds.seconds()),
             Some(BuildLimit::None) => None,
             None if self.quick => Some(10.0 + 10.0 * millions),
             None => self.measuring.budget.ns().map(|_| 60.0 + 30.0 * millions),
@@ -204,7 +208,7 @@ impl CompareArgs {
         let structures = with_twin(structures);
         let settings = self.settings(registry, &structures, workloads.len())?;
         let epochs = if self.quick { QUICK_EPOCHS } else { self.measuring.epochs };
-        let planned = |(word, scene): &(String, Scene)| {
+        let planned = |(word, scene): &(OsString, Scene)| {
             let triangles = scene.mesh.len();
             let fits = |own: &&StructureRequest| !named.leaves_out(own.name(), triangles);
             PlannedScene {

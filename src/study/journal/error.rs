@@ -1,38 +1,39 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::escaped::Escaped as _;
 use crate::output::OutputError;
 
 /// Why a journal, a case of one or an export cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum JournalError {
-    #[error("cannot read {}: {cause}: name what a study has written", path.display())]
+    #[error("cannot read {}: {cause}: name what a study has written", path.escaped())]
     Read { path: PathBuf, cause: io::Error },
     #[error(
         "cannot write {}: {cause}: what was measured before is kept; give it room, or name another folder with --dir",
-        path.display()
+        path.escaped()
     )]
     Write { path: PathBuf, cause: io::Error },
     #[error(
         "another run is measuring into {}: give the same command again when it has ended, or name another folder with --dir",
-        .0.display()
+        .0.escaped()
     )]
     Busy(PathBuf),
     #[error(transparent)]
     Place(OutputError),
-    #[error("{} is not a case of a study: move it away, or name another place", .0.display())]
+    #[error("{} is not a case of a study: move it away, or name another place", .0.escaped())]
     Foreign(PathBuf),
     #[error(
         "{} holds another case than the one to be measured: name another place with --out",
-        .0.display()
+        .0.escaped()
     )]
     Other(PathBuf),
     #[error(
         "{} has version {there} of the form of cases, this sahara writes version {here}: name another folder, or measure it again",
-        path.display()
+        path.escaped()
     )]
     Schema { path: PathBuf, there: u32, here: u32 },
-    #[error("{} does not read: {problem}; remove it, and the same command measures its case again", path.display())]
+    #[error("{} does not read: {problem}; remove it, and the same command measures its case again", path.escaped())]
     Damaged { path: PathBuf, problem: String },
 }
 

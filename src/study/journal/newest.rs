@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use serde_json::{Map, Value};
 
 use super::CaseFile;
+use crate::escaped::Escaped as _;
 use crate::measure::Provenance;
 use crate::report::number::plural;
 use crate::report::words::{each_once, listed};
@@ -101,7 +102,7 @@ fn dataset(files: &[&CaseFile]) -> Dataset {
     dataset.notes.extend(missing);
     if let Some(path) = replaced.first() {
         let cases = plural(replaced.len(), "case");
-        dataset.notes.push(format!("{cases} measured again since, as in {}.", path.display()));
+        dataset.notes.push(format!("{cases} measured again since, as in {}.", path.escaped()));
     }
     // Times of different cases may be of different hosts, which one processor does not make alike.
     let hosts = each_once(files.iter().map(|file| file.provenance.host.as_str()));

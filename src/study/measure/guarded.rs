@@ -1,9 +1,9 @@
 //! Structures of others may panic on a ray as on a mesh: one of them must not end a run over many.
 
-use std::panic::{self, AssertUnwindSafe};
 use std::rc::Rc;
 
 use crate::measure::{Failure, Pass, Stopwatch, Timed};
+use crate::panics::caught;
 
 /// Said of a structure whose traversal panicked.
 pub const PANICKED: &str =
@@ -11,7 +11,7 @@ pub const PANICKED: &str =
 
 /// The result of asking a structure, or nothing if it panicked.
 pub fn guarded<R>(ask: impl FnOnce() -> R) -> Option<R> {
-    panic::catch_unwind(AssertUnwindSafe(ask)).ok()
+    caught(ask).ok()
 }
 
 /// A pass that survives a panic of its structure: from then on it does nothing and says so.

@@ -10,6 +10,8 @@ mod tables;
 #[cfg(test)]
 mod tests;
 
+use std::ffi::OsString;
+
 use clap::{ArgMatches, Args as _, Command, FromArgMatches as _};
 
 use super::{Check, Dataset, Plan, PlannedScene, Presets, Settings, Study, claims};
@@ -67,7 +69,7 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     };
     let rows: Vec<&Row> = MAIN.iter().chain(&HARD).collect();
     let scenes = Scenes::default().read(registry, &rows.iter().map(|row| row.scene).collect::<Vec<_>>())?;
-    let planned = |(own, row): (&(String, Scene), &&Row)| {
+    let planned = |(own, row): (&(OsString, Scene), &&Row)| {
         let (workloads, table) =
             if row.is_hard() { (WorkloadRequest::PrimaryPicture, "hard") } else { (WorkloadRequest::Picture, "main") };
         let settings = Settings { whole_counts: whole_counts(row), ..settings.clone() };

@@ -10,6 +10,8 @@ mod section;
 #[cfg(test)]
 mod tests;
 
+use std::ffi::OsString;
+
 use clap::{ArgMatches, Args as _, Command, FromArgMatches};
 
 use super::case::SLOWEST;
@@ -72,12 +74,12 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     // Before the spheres, for they may not be there.
     let meshes = args.scenes.read(registry, &["dragon", "lucy", "sponza"])?;
     let finest = args.finest.unwrap_or_else(|| finest(|triangles| may_fit(structures.len(), triangles)));
-    let spheres = Scenes { scenes: (0..=finest).map(|level| format!("icosphere:{level}")).collect() };
+    let spheres = Scenes { scenes: (0..=finest).map(|level| format!("icosphere:{level}").into()).collect() };
     let spheres = spheres.read(registry, &[])?;
 
     let epochs = usize::from(args.measuring.epochs);
     let few = epochs.min(EPOCHS_OF_FINEST);
-    let planned = |own: &(String, Scene), family: &str| {
+    let planned = |own: &(OsString, Scene), family: &str| {
         let epochs = if own.1.mesh.len() > LEVEL_8 { few } else { epochs };
         PlannedScene::new(own, &structures, &workloads, &settings, epochs).labelled(FAMILY, family)
     };

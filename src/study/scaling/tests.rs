@@ -162,6 +162,6 @@ fn a_plan_labels_spheres_with_their_level_and_meshes_with_their_family() {
     let plan = (STUDY.plan)(&STUDY.matches(&words).unwrap(), &Registry::builtin()).unwrap();
     let keys: Vec<String> = plan.cases[..4].iter().map(|case| case.key()).collect();
     assert_eq!(keys[2..], ["icosphere 2 family=icospheres level=2 epoch 0", "Torus family=meshes epoch 0"]);
-    assert_eq!((plan.cases.len(), plan.cases[0].scene.word.as_str()), (8, "icosphere:0"));
+    assert_eq!((plan.cases.len(), &plan.cases[0].scene.word), (8, &"icosphere:0".into()));
     assert!(plan.cases.iter().all(|case| case.structures.len() == 2 && case.settings.slowest == Some(SLOWEST)));
 }

@@ -1,6 +1,6 @@
 //! A hard case in a process of its own, so that neither a panic nor an endless loop of a structure ends the run.
 
-use std::io::{self, Write};
+use std::io;
 use std::process::Output;
 use std::time::Duration;
 
@@ -37,7 +37,7 @@ pub fn run_child(registry: &Registry, args: &Args) -> anyhow::Result<Status> {
     let (case, choice) = (find(&args.case)?, registry.choose(&args.structure)?);
     match run(case, &choice.subject(), args.rays as usize, &SystemClock::start()) {
         Ok(answers) => {
-            io::stdout().lock().write_all(&serde_json::to_vec(&answers)?)?;
+            crate::output::print(&serde_json::to_vec(&answers)?);
             Ok(Status::Right)
         }
         // The registry has caught it; the parent recognises the exit status of a panic.

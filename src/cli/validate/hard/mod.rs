@@ -12,7 +12,7 @@ use std::time::Duration;
 use anyhow::Context;
 
 use super::Args;
-use crate::cli::progress::Progress;
+use crate::cli::progress::Waiting;
 use crate::cli::terminal::Terminal;
 use crate::measure::Provenance;
 use crate::output::OutputFile;
@@ -47,23 +47,22 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
     let json = args.export_json.as_deref().map(OutputFile::check).transpose()?;
 
     let mut columns: Vec<Column> = choices.iter().map(Column::of).collect();
-    let mut progress = Progress::over(cases.len() as u64, terminal);
+    let waiting = Waiting::show(String::new(), terminal);
     let mut records = vec![];
-    for case in &cases {
-        progress.scene(case.name, 1);
+    for (i, case) in cases.iter().enumerate() {
+        waiting.says(format!("{} of {}: {}", i + 1, cases.len(), case.name));
         let scores = scores(case, &choices, rays, args.limit())?;
         for ((choice, column), score) in choices.iter().zip(&mut columns).zip(scores) {
             records.push(HardRecord::new(case, choice, &score));
             column.scores.push(score);
         }
-        progress.scene_done();
     }
-    progress.finish();
+    drop(waiting);
 
     for table in tables(&cases, &columns) {
-        terminal.print_table(&table)?;
+        terminal.print_table(&table);
     }
-    terminal.print_lines(&LEGEND.map(String::from))?;
+    terminal.print_lines(&LEGEND.map(String::from));
     if let Some(file) = json {
         // Every structure traces on one thread.
         let provenance = Provenance::capture(1);

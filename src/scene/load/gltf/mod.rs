@@ -189,8 +189,8 @@ fn add(model: &mut Model, placement: &Placement, shape: &Shape, accessors: &Acce
         normals.map(|&a| first(&mut model.normals, &mut accessors.vectors(a).map(turn))).collect();
 
     for part in &shape.parts {
-        part.for_each(accessors, |[a, b, c]| {
-            let corners = if mirrored { [a, c, b] } else { [a, b, c] };
+        part.for_each(accessors, |corners| {
+            let corners = Model::placed(corners, mirrored);
             model.triangles.push(corners.map(|i| first_vertex[part.positions] + i));
             model.normal_indices.push(match part.normals {
                 Some(normals) => corners.map(|i| first_normal[normals] + i),

@@ -1,0 +1,72 @@
+//! Seconds, as options give them.
+
+use std::fmt::{self, Display, Formatter};
+use std::ops::RangeInclusive;
+use std::str::FromStr;
+use std::time::Duration;
+
+/// A time of at least a millisecond and at most a day.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Seconds(Duration);
+
+const RANGE: RangeInclusive<f64> = 0.001..=86400.0;
+
+impl Seconds {
+    pub const fn whole(seconds: u32) -> Self {
+        Self(Duration::from_secs(seconds as u64))
+    }
+
+    pub fn duration(self) -> Duration {
+        self.0
+    }
+
+    pub fn seconds(self) -> f64 {
+        self.0.as_secs_f64()
+    }
+
+    pub fn ns(self) -> u64 {
+        self.0.as_nanos() as u64
+    }
+}
+
+impl FromStr for Seconds {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let seconds = text.parse().ok().filter(|seconds| RANGE.contains(seconds));
+        let refusal = || format!("give seconds from {} to {}, for example 1.5", RANGE.start(), RANGE.end());
+        seconds.map(|seconds| Self(Duration::from_secs_f64(seconds))).ok_or_else(refusal)
+    }
+}
+
+impl Display for Seconds {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        self.0.as_secs_f64().fmt(f)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn seconds_may_have_decimals_and_are_some_time() {
+        for (text, ns) in
+            [("1", 1_000_000_000), ("1.5", 1_500_000_000), (".25", 250_000_000), ("86400", 86_400_000_000_000)]
+        {
+            assert_eq!(text.parse().map(Seconds::ns), Ok(ns));
+        }
+        for wrong in ["", "0", "-1", "-0.5", "nan", "inf", "-inf", "1e300", "86400.1", "1,5", "1s", "1e-9"] {
+            let sentence = wrong.parse::<Seconds>().unwrap_err();
+            assert!(sentence.starts_with("give seconds from 0.001 to 86400"), "{wrong}: {sentence}");
+        }
+    }
+
+    #[test]
+    fn they_are_shown_as_they_are_given() {
+        for text in ["8", "1.5", "0.001"] {
+            let seconds: Seconds = text.parse().unwrap();
+            assert_eq!(seconds.to_string(), text);
+        }
+    }
+}

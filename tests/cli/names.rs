@@ -1,0 +1,123 @@
+//! Files of any name that the system knows: taken as it gives them, shown escaped.
+
+use std::ffi::{OsStr, OsString};
+use std::fs;
+use std::os::unix::ffi::OsStrExt;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use super::command::{RIGHT, SQUARE, USAGE, command, stderr, stdout};
+
+/// Bytes that are no text, an escape sequence with the end of a line, and each of them as it is shown.
+const NAMES: [(&[u8], &str); 2] = [(b"gr\xfcn", "gr\\xfcn"), (b"a\x1b[31m\nb", "a\\u{1b}[31m\\nb")];
+
+fn with_ending(name: &OsStr, ending: &str) -> OsString {
+    let mut name = name.to_owned();
+    name.push(ending);
+    name
+}
+
+/// A line of words; `@.obj` is the file of that name and ending.
+fn run(folder: &Path, name: &OsStr, line: &str) -> Output {
+    let word = |word: &str| match word.strip_prefix('@') {
+        Some(ending) => with_ending(name, ending),
+        None => word.into(),
+    };
+    command(&["--quiet"]).args(line.split(' ').map(word)).current_dir(folder).output().unwrap()
+}
+
+/// Neither output holds what the name would do to a terminal.
+#[track_caller]
+fn is_plain(output: &Output) -> String {
+    // Both are UTF-8.
+    let said = stdout(output) + &stderr(output);
+    assert!(!said.contains('\u{1b}') && !said.contains('\u{fffd}'), "{said:?}");
+    said
+}
+
+#[test]
+fn files_of_any_name_are_taken_and_shown_escaped() {
+    for (name, shown) in NAMES {
+        let (folder, name) = (tempfile::tempdir().unwrap(), OsStr::from_bytes(name));
+        let put = |ending: &str, text: &str| fs::write(folder.path().join(with_ending(name, ending)), text).unwrap();
+        put(".obj", SQUARE);
+        put(".txt", "0.5 0.5 1 0 0 -1\n");
+        let scene =
+            "camera = { eye = [0, 0, 5], target = [0, 0, 0], vertical_fov = 60 }\nobjects = [{ mesh = \"cube\" }]";
+        put(".toml", &format!("name = \"Scene\"\n{scene}"));
+        put("-bad.toml", scene);
+        for (line, parts) in [
+            ("compare @.obj -s sah-kd --rays 64 --epochs 1 --export-json @.json", &[shown, "4 triangles"][..1]),
+            ("validate @.obj -s sah-kd --rays 64", &[shown]),
+            ("render @.obj -o @.png --size 4x4", &[shown, "4 x 4"]),
+            ("render @.toml -o @-2.png --size 4x4", &[shown, "Scene"]),
+            ("rays record @.obj -o @.rays --rays 16", &[shown, "16 rays"]),
+            ("rays show @.rays", &[shown, "16 rays"]),
+            ("rays import @.txt -o @-2.rays --scene @.obj", &[shown, "1 ray"]),
+            ("validate @.obj --rays @.rays -s sah-kd --export-hits @.hits", &[shown, "16 answers"]),
+            ("validate @.obj --rays @.rays --hits @.hits", &[shown]),
+            ("rays corpus @.obj -o @.corpus --rays 4", &[shown]),
+            ("study compare @.obj -s sah-kd --rays 16 --epochs 1 --dir @.runs", &[shown]),
+            ("diff @.json @.json", &[shown]),
+            ("report @.runs -o @.page --no-pictures", &[shown]),
+            ("fetch @.toml --list", &["nothing to fetch"]),
+        ] {
+            let output = run(folder.path(), name, line);
+            let said = is_plain(&output);
+            assert_eq!(output.status.code(), Some(RIGHT), "{line}: {said}");
+            assert!(parts.iter().all(|part| said.contains(part)), "{line}: {said}");
+        }
+        for made in [".json", ".png", "-2.png", ".rays", "-2.rays", ".hits", ".corpus/SHA256SUMS", ".page/index.html"] {
+            assert!(folder.path().join(with_ending(name, made)).is_file(), "{made}");
+        }
+        for line in [
+            "compare @-none.obj",
+            "compare @.xyz",
+            "validate @-bad.toml",
+            "render cube -o @/x.png",
+            "rays show @-none.rays",
+            "rays import @-none.txt -o x.rays",
+            "diff @-none.json @.json",
+            "report @-none -o x",
+            "fetch @-bad.toml",
+        ] {
+            let output = run(folder.path(), name, line);
+            let said = is_plain(&output);
+            assert_eq!(output.status.code(), Some(USAGE), "{line}: {said}");
+            assert!(said.lines().count() == 1 && said.contains(shown), "{line}: {said}");
+        }
+    }
+}
+
+#[test]
+fn a_plan_names_files_of_any_name_as_a_shell_reads_them() {
+    for (name, _) in NAMES {
+        let (folder, name) = (tempfile::tempdir().unwrap(), OsStr::from_bytes(name));
+        let mesh = with_ending(name, ".obj");
+        fs::write(folder.path().join(&mesh), SQUARE).unwrap();
+        let plan = run(folder.path(), name, "study plan compare --dir @.runs --scenes @.obj --rays 16 --epochs 1 -s sah-kd");
+        let line = is_plain(&plan);
+        assert!(plan.status.success() && line.lines().count() == 1, "{line}");
+        let program = env!("CARGO_BIN_EXE_sahara");
+        let script = line.trim_end().replacen("sahara", &format!("'{program}' --quiet"), 1);
+        let Ok(done) = Command::new("bash").args(["-c", &script]).current_dir(folder.path()).output() else { return };
+        assert_eq!(done.status.code(), Some(RIGHT), "{script}: {}", stderr(&done));
+        // A second time the case is there.
+        let again = run(folder.path(), name, "study compare @.obj --rays 16 --epochs 1 -s sah-kd --dir @.runs");
+        assert_eq!(again.status.code(), Some(RIGHT), "{}", stderr(&again));
+    }
+}
+
+#[test]
+fn what_must_be_text_is_named_where_it_is_none() {
+    let args = [OsStr::new("compare"), OsStr::new("cube"), OsStr::new("-s"), OsStr::from_bytes(b"sah\xff")];
+    let output = command(&[]).args(args).output().unwrap();
+    let said = is_plain(&output);
+    assert_eq!(output.status.code(), Some(USAGE));
+    assert!(said.lines().count() == 1 && said.contains("$'sah\\xff' is not UTF-8"), "{said}");
+    for args in [&["compare", "\u{1b}[31m"][..], &["\u{1b}[31m"], &["compare", "cube", "--\u{1b}[31m"]] {
+        let output = command(args).output().unwrap();
+        assert!(is_plain(&output).contains("\\u{1b}[31m"), "{args:?}");
+        assert_eq!(output.status.code(), Some(USAGE));
+    }
+}
