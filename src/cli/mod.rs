@@ -77,16 +77,16 @@ struct Global {
 #[derive(Debug, clap::Args)]
 struct Process {
     /// Measure this case: how a run or a scheduler starts a process
-    #[arg(long = process::CASE, global = true, hide = true, requires = "out", value_parser = read_case)]
+    #[arg(id = "process-case", long = process::CASE, global = true, hide = true, requires = "process-out", value_parser = read_case)]
     case: Option<Case>,
     /// Write that case into this file
-    #[arg(long = process::OUT, global = true, hide = true, requires = "case")]
+    #[arg(id = "process-out", long = process::OUT, global = true, hide = true, requires = "process-case")]
     out: Option<PathBuf>,
     /// Say on standard output what is done, and wait for an answer: a run listens
-    #[arg(long = process::LISTEN, global = true, hide = true, requires = "case")]
+    #[arg(long = process::LISTEN, global = true, hide = true, requires = "process-case")]
     listen: bool,
     /// Keep to these cores
-    #[arg(long = process::CORES, global = true, hide = true, requires = "case", value_delimiter = ',')]
+    #[arg(long = process::CORES, global = true, hide = true, requires = "process-case", value_delimiter = ',')]
     cores: Vec<usize>,
 }
 
