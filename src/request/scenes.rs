@@ -224,11 +224,17 @@ impl ScenesAndMeshes {
         for word in words(&self.named.scenes) {
             let builtin = Builtin::find(&word).ok();
             let own = builtin.filter(|_| self.meshes != Meshes::Real);
-            forms.extend(own.map(|builtin| format!("{}:{STAND_IN}", builtin.name).into()));
+            forms.extend(own.map(|_| [word.as_os_str(), format!(":{STAND_IN}").as_ref()].into_iter().collect()));
             forms.extend((builtin.is_none() || self.meshes != Meshes::StandIns).then_some(word));
         }
         // Both forms of a scene without a real mesh are one.
-        let scenes = loaded(registry, &forms)?;
+        let mut scenes = loaded(registry, &forms)?;
+        for (word, scene) in &mut scenes {
+            let plain = word.to_str().and_then(|word| word.strip_suffix(STAND_IN)?.strip_suffix(':'));
+            if let Some(plain) = plain.filter(|_| scene.stand_ins.is_empty()) {
+                *word = plain.into();
+            }
+        }
         if let (Meshes::Real, Some(note)) = (self.meshes, self.note(scenes.iter().map(|(_, scene)| scene))) {
             anyhow::bail!("{note} Without `--meshes real` stand-ins are measured.");
         }

@@ -189,6 +189,7 @@ impl Case {
             "labels": self.labels,
             "structures": structures,
             "settings": self.group(),
+            "build_limit_s": self.settings.build_limit_s,
         })
     }
 
@@ -199,6 +200,8 @@ impl Case {
             _ => unreachable!("settings are a struct"),
         };
         map.remove("whole_counts");
+        // Larger meshes have more time, unless the limit is named.
+        map.remove("build_limit_s");
         let workloads = serde_json::to_value(&self.workloads).expect("a request has text keys");
         // Scenes of one study may have pictures of their own kind.
         if !matches!(self.workloads, WorkloadRequest::Picture | WorkloadRequest::PrimaryPicture) {

@@ -195,7 +195,7 @@ fn a_minus_stands_for_standard_output() {
     assert!(picture.stdout.starts_with(b"\x89PNG") && stderr(&picture).contains("shaded view of Cube"));
     let json = sahara(&[&small("cube")[..], &["-s", "sah-kd", "-s", "sah-bvh", "--export-json", "-"]].concat());
     let dataset: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON and nothing else");
-    assert_eq!(dataset["measured"][0]["epoch"]["structures"].as_array().unwrap().len(), 2, "{dataset}");
+    assert_eq!(dataset["measured"][0]["epoch"]["structures"].as_array().unwrap().len(), 3, "two and a twin: {dataset}");
     assert!(stderr(&json).contains("Cube: 12 triangles"));
     assert!(!Path::new("-").exists(), "a file of that name was made");
 }

@@ -50,8 +50,9 @@ pub fn rows(export: impl AsRef<Path>) -> Vec<Value> {
                 let mut row = structure.as_object().unwrap().clone();
                 row.remove("rays");
                 row.extend(rays.as_object().unwrap().clone());
-                row.insert("scene".into(), epoch["scene"].clone());
-                row.insert("triangles".into(), epoch["triangles"].clone());
+                for field in ["scene", "scene_hash", "triangles"] {
+                    row.insert(field.into(), epoch[field].clone());
+                }
                 rows.push(row.into());
             }
         }
