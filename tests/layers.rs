@@ -13,7 +13,7 @@ const LAYERS: [&[&str]; 9] = [
     &["brute_force", "bvh8", "kdtree", "external"],
     &["offered", "scene", "oracle"],
     &["render", "measure", "golden", "validate", "fetch", "runner"],
-    &["registry", "study", "report"],
+    &["registry", "request", "study", "report"],
     &["page"],
     &["cli", "build_info"],
 ];
