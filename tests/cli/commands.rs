@@ -165,6 +165,7 @@ fn old_names_are_answered_with_the_new_ones() {
         (&["hard", "cube"], "validate --hard"),
         (&["compare-runs", "a", "b"], "diff"),
         (&["counts", "cube"], "compare --wide"),
+        (&["study", "counts"], "compare --wide"),
         (&["study", "crossover"], "sahara compare"),
         (&["study", "partitions", "cube", "--quick"], "sah-kd-tight"),
         (&["study", "plan", "threads"], "--threads"),

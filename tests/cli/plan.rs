@@ -91,7 +91,6 @@ fn what_cannot_be_planned_is_one_sentence() {
     refuses_in_a_line(&["study", "plan", "all", "attributoin", "--quick"], &["attributoin"]);
     refuses_in_a_line(&["study", "plan", "attribution", "--scenes", "cub"], &["cub", "Cube"]);
     refuses_in_a_line(&["study", "plan", "attribution", "scaling", "--scenes"], &["--scenes SCENE"]);
-    refuses_in_a_line(&["study", "plan", "attribution", "--scenes", "cube", "--dir", "a\tb"], &["tab"]);
     refuses(&["study", "plan", "attribution", "--quick", "--epoch", "3"], &["--epoch"]);
     // An option that is given twice, wherever it stands; one of them may be of the preset.
     let twice = "cannot be used multiple times";

@@ -18,7 +18,7 @@ pub const COMMAND: &str = "hard-answer";
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// Name of a hard case
-    case: String,
+    name: String,
     /// A structure, with keys that differ from their defaults
     structure: String,
     /// Rays at most
@@ -34,7 +34,7 @@ const PANICKED: i32 = 101;
 /// If the structure cannot be built.
 pub fn run_child(registry: &Registry, args: &Args) -> anyhow::Result<Status> {
     process_group::end_with_parent();
-    let (case, choice) = (find(&args.case)?, registry.choose(&args.structure)?);
+    let (case, choice) = (find(&args.name)?, registry.choose(&args.structure)?);
     match run(case, &choice.subject(), args.rays as usize, &SystemClock::start()) {
         Ok(answers) => {
             crate::output::print(&serde_json::to_vec(&answers)?);
