@@ -5,8 +5,8 @@ use std::path::Path;
 
 use tempfile::TempDir;
 
-use super::journal::rows;
 use super::command::{command, refused_in_a_line, stderr, stdout};
+use super::journal::rows;
 
 fn sahara(folder: &Path, args: &[&str]) -> (Option<i32>, String, String) {
     let output = command(args).current_dir(folder).output().unwrap();

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::reference::{Reference, cell};
-use super::table::control;
+use super::table::{control, names};
 use crate::measure::Estimate;
 use crate::report::number::plural;
 use crate::report::words::{distinct, each_once, explained};
@@ -60,10 +60,9 @@ pub fn mean_table(all: &[Measurement], references: &[Reference]) -> Table {
         columns.push(format!("all x {}", reference.name()));
         cells.push(column(reference, None));
     }
-    let row = |(i, label): (usize, &String)| {
-        std::iter::once(Cell::from(label.as_str())).chain(cells.iter().map(|column| column[i].clone())).collect()
-    };
-    let rows: Vec<Vec<Cell>> = structures.iter().enumerate().map(row).collect();
+    let row =
+        |(i, name): (usize, Cell)| std::iter::once(name).chain(cells.iter().map(|column| column[i].clone())).collect();
+    let rows: Vec<Vec<Cell>> = names(&structures).into_iter().enumerate().map(row).collect();
 
     let untimed = || all.iter().filter(|r| r.mrays_per_s.is_none());
     let wrong = untimed().filter(|r| r.is_disqualified() || r.declined.is_none()).count();

@@ -10,6 +10,9 @@ use crate::request::{is_large, known_defect};
 use crate::study::measurement::{Measurement, Refused, trace_noise};
 use crate::triangle::{Exact, TriangleTest};
 
+/// What a structure is asked with that answers many rays in one call.
+const PACKETS: &str = "batch=packets";
+
 /// Said where brute force could check few rays, since there are so many triangles.
 fn few_checked(all: &[Measurement]) -> Option<String> {
     let triangles = all.first()?.triangles;
@@ -43,8 +46,33 @@ pub fn legend(all: &[Measurement], references: &[Reference]) -> Vec<String> {
         }
         false => "",
     };
-    vec![speeds + ".", format!("{columns}: speed {against}, geometric mean over the row on the same rays{intervals}.")]
+    let mut legend = vec![
+        speeds + ".",
+        format!("{columns}: speed {against}, geometric mean over the row on the same rays{intervals}."),
+    ];
+    let has = |part: &str| all.iter().any(|r| r.label.contains(part));
+    if has(PACKETS) {
+        let obvhs = if has("obvhs") { "; obvhs has no such call, and answers ray by ray" } else { "" };
+        legend.push(format!("{PACKETS}: asked for many rays in one call{obvhs}."));
+    }
+    if names(&distinct(all.iter().map(|r| &r.label))).iter().any(|name| name.text().starts_with(ABOVE)) {
+        legend.push(format!("{ABOVE}: the structure of the row above, with these keys."));
+    }
+    legend
 }
+
+/// The labels as short names of rows. A structure below itself with fewer keys is named by the others alone.
+pub fn names(labels: &[String]) -> Vec<Cell> {
+    let name = |(place, label): (usize, &String)| {
+        let above = place.checked_sub(1).map(|place| labels[place].as_str());
+        let own = above.and_then(|above| label.strip_prefix(above)).filter(|rest| rest.starts_with([':', ',']));
+        Cell::from(own.map_or(label.clone(), |rest| format!("{ABOVE}{rest}")))
+    };
+    labels.iter().enumerate().map(name).collect()
+}
+
+/// Stands for the name of the structure above.
+const ABOVE: char = '…';
 
 /// Why structures are refused, each reason once for all tables.
 pub fn refusals(refused: &[Refused]) -> Vec<String> {
@@ -93,6 +121,9 @@ pub fn scene_table(all: &[Measurement], references: &[Reference], refused: &[Ref
         row
     };
     let mut rows: Vec<Vec<Cell>> = structures.iter().map(row).collect();
+    if !wide {
+        rows.iter_mut().zip(names(&structures)).for_each(|(row, name)| row[0] = name);
+    }
     let width = columns.len();
     rows.extend(refused.iter().map(|refused| {
         let mut row = vec![Cell::empty(); width];
