@@ -95,7 +95,8 @@ fn a_plan_names_files_of_any_name_as_a_shell_reads_them() {
         let (folder, name) = (tempfile::tempdir().unwrap(), OsStr::from_bytes(name));
         let mesh = with_ending(name, ".obj");
         fs::write(folder.path().join(&mesh), SQUARE).unwrap();
-        let plan = run(folder.path(), name, "study plan compare --dir @.runs --scenes @.obj --rays 16 --epochs 1 -s sah-kd");
+        let plan =
+            run(folder.path(), name, "study plan compare --dir @.runs --scenes @.obj --rays 16 --epochs 1 -s sah-kd");
         let line = is_plain(&plan);
         assert!(plan.status.success() && line.lines().count() == 1, "{line}");
         let program = env!("CARGO_BIN_EXE_sahara");
