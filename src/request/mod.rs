@@ -13,7 +13,7 @@ pub use measuring::Measuring;
 pub use ray_kind::RayKind;
 pub use rays::{RaySource, Rays, WORKLOADS, WorkloadRequest, each_kind, rays_or_all, recorded};
 pub use scenes::{
-    Meshes, STAND_IN, SceneRequest, Scenes, ScenesAndMeshes, named_notes, output, scene, scene_files, scenes,
+    Meshes, SceneRequest, Scenes, ScenesAndMeshes, named_notes, output, scene, scene_files, scenes, stand_in,
 };
 pub use seconds::Seconds;
 pub use structures::{

@@ -37,7 +37,15 @@ pub struct SceneRequest {
 const DIGITS: usize = 16;
 
 /// What stands behind the name of a built-in scene, after a colon, to name it with the mesh that stands in for a real one.
-pub const STAND_IN: &str = "stand-in";
+const STAND_IN: &str = "stand-in";
+
+/// The word for a built-in scene with the mesh that stands in for a real one.
+pub fn stand_in(name: impl AsRef<OsStr>) -> OsString {
+    let mut word = name.as_ref().to_owned();
+    word.push(":");
+    word.push(STAND_IN);
+    word
+}
 
 impl SceneRequest {
     /// A request for `scene`, which is what `word` names, seen by `view`.
@@ -222,10 +230,9 @@ impl ScenesAndMeshes {
     pub fn read(&self, registry: &Registry) -> anyhow::Result<Vec<(OsString, Scene)>> {
         let mut forms: Vec<OsString> = vec![];
         for word in words(&self.named.scenes) {
-            let builtin = Builtin::find(&word).ok();
-            let own = builtin.filter(|_| self.meshes != Meshes::Real);
-            forms.extend(own.map(|_| [word.as_os_str(), format!(":{STAND_IN}").as_ref()].into_iter().collect()));
-            forms.extend((builtin.is_none() || self.meshes != Meshes::StandIns).then_some(word));
+            let builtin = Builtin::find(&word).is_ok();
+            forms.extend((builtin && self.meshes != Meshes::Real).then(|| stand_in(&word)));
+            forms.extend((!builtin || self.meshes != Meshes::StandIns).then_some(word));
         }
         // Both forms of a scene without a real mesh are one.
         let mut scenes = loaded(registry, &forms)?;

@@ -37,7 +37,7 @@ fn a_job_measures_once_and_refuses_what_is_not_its_own() {
     // Its scene must be what it was when it was planned.
     let hash = lines[1].split("\"hash\":\"").nth(1).unwrap()[..16].to_owned();
     refused(&lines[1].replace(&hash, "0123456789abcdef"), "plan it anew");
-    refused(&lines[1].replace("\"word\":\"cube\"", "\"word\":\"torus\""), "plan it anew");
+    refused(&lines[1].replace("\"word\":\"cube", "\"word\":\"torus"), "plan it anew");
     assert!(!file(&lines[1]).exists());
 }
 

@@ -23,7 +23,7 @@ use crate::registry::Registry;
 use crate::report::number::{bytes, count, plural};
 use crate::report::words::{listed, slug};
 use crate::report::{Cell, Table};
-use crate::request::{self, RayKind, STAND_IN};
+use crate::request::{self, RayKind, stand_in};
 use crate::scene::files::{ExactHitFile, RayFile, mesh_bytes};
 use crate::scene::{BUILTIN, Builtin, Scene, Workload};
 use crate::study::Status;
@@ -70,10 +70,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
 
     let waiting = Waiting::show("loads scenes".into(), terminal);
     // Our own meshes are the same everywhere.
-    let own = |name: &OsString| match Builtin::find(name) {
-        Ok(builtin) => format!("{}:{STAND_IN}", builtin.name).into(),
-        Err(_) => name.clone(),
-    };
+    let own = |name: &OsString| if Builtin::find(name).is_ok() { stand_in(name) } else { name.clone() };
     let scenes = request::scenes(registry, &named.iter().map(own).collect::<Vec<OsString>>())?;
 
     // One scene at a time: an oracle takes much more memory than its scene and files.
