@@ -1,7 +1,8 @@
 //! A table: plain data. The renderers are [`terminal`](super::terminal), [`markdown`](super::markdown),
 //! [`csv`](super::csv) and the page.
 
-use super::Cell;
+use super::words::ONE_EPOCH;
+use super::{Cell, Value};
 
 /// A table with a title above and notes below.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -22,6 +23,16 @@ pub struct Table {
 pub type Column<'a, T> = (&'a str, &'a dyn Fn(&T) -> Cell);
 
 impl Table {
+    /// With a note on estimates without an interval, where it has some.
+    #[must_use]
+    pub fn explained(mut self) -> Self {
+        let has_no_interval = |cell: &Cell| matches!(cell.value, Value::Estimate(x, _) if x.interval.is_none());
+        if self.rows.iter().flatten().any(has_no_interval) {
+            self.notes.push(format!("{ONE_EPOCH}: no interval; use --epochs 2 or more"));
+        }
+        self
+    }
+
     /// A table without notes.
     pub fn new(
         title: impl Into<String>,

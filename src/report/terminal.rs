@@ -31,7 +31,7 @@ pub fn note(block: &Block) -> Option<String> {
 /// The table in lines of at most the screen's width: columns for which there is no room follow below, after the first
 /// column once more.
 pub fn table(table: &Table, screen: Screen) -> String {
-    let table = table.clone().without_empty_columns();
+    let table = with_short_names(table.clone().without_empty_columns());
     let title = table.title.escaped();
     let title = if screen.colour { format!("\x1b[1m{title}\x1b[0m") } else { title.to_string() };
     let mut text = title + "\n";
@@ -49,6 +49,25 @@ pub fn table(table: &Table, screen: Screen) -> String {
         }
     }
     text
+}
+
+/// Stands for the name in the row above.
+const ABOVE: char = '…';
+
+/// Below a structure, the same with more keys is named by these keys alone: its whole label leaves no room for figures.
+fn with_short_names(mut table: Table) -> Table {
+    let names: Vec<String> = table.rows.iter().map(|row| row.first().map_or(String::new(), Cell::text)).collect();
+    let mut has_short = false;
+    for (names, row) in names.windows(2).zip(table.rows.iter_mut().skip(1)) {
+        if let Some(keys) = names[1].strip_prefix(&names[0]).filter(|keys| keys.starts_with(':') && keys.len() > 1) {
+            row[0] = Cell::from(format!("{ABOVE}{keys}")).with(row[0].tone);
+            has_short = true;
+        }
+    }
+    if has_short {
+        table.notes.push(format!("{ABOVE}: the structure of the row above, with these keys."));
+    }
+    table
 }
 
 /// The text of a cell: names of files are in it.

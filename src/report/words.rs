@@ -1,7 +1,6 @@
 //! Words that tables, studies and pages share.
 
 use super::number::figures;
-use super::{Cell, Table, Value};
 use crate::measure::{Estimate, Interval};
 
 /// A scene as keys, tables and figures name it: they say where a mesh of our own stands in for a real one.
@@ -45,15 +44,6 @@ fn says_nothing(interval: Interval) -> bool {
 
 /// Stands behind an estimate that has no interval.
 pub const ONE_EPOCH: &str = "(one epoch)";
-
-/// The table, with a note on estimates without an interval where it has some.
-pub fn explained(mut table: Table) -> Table {
-    let has_no_interval = |cell: &Cell| matches!(cell.value, Value::Estimate(x, _) if x.interval.is_none());
-    if table.rows.iter().flatten().any(has_no_interval) {
-        table.notes.push(format!("{ONE_EPOCH}: no interval; use --epochs 2 or more"));
-    }
-    table
-}
 
 /// The words of `text` in lines of at most `width` characters, or one word.
 pub fn wrapped(text: &str, width: usize) -> Vec<String> {
@@ -154,6 +144,7 @@ pub fn command_line(command: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Table;
     use super::*;
 
     #[test]
@@ -165,7 +156,7 @@ mod tests {
         assert_eq!(interval(Estimate::between(-0.5, -0.75, 0.25)), "-0.500 [-0.750, 0.250]");
         assert_eq!(interval(Estimate::exact(2.0)), "2.00");
         assert_eq!(interval(Estimate::alone(2.0)), "2.00 (one epoch)");
-        let table = |x: Estimate| explained(Table { rows: vec![vec![x.into()]], ..Table::default() }).notes;
+        let table = |x: Estimate| Table::new("", [""], [vec![x.into()]]).explained().notes;
         assert!(table(Estimate::exact(2.0)).is_empty());
         assert!(table(Estimate::alone(2.0))[0].contains("no interval"));
         assert_eq!(scene_name("Dragon", true), "Dragon (stand-in)");

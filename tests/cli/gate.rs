@@ -37,9 +37,10 @@ fn gate(base: [f64; 2], branch: [f64; 2]) -> (Output, usize) {
     let (text, rays) =
         (write(&folder, "away.txt", &"9,9,9 0,0,1\n".repeat(64)), path_text(&folder.path().join("away.rays")));
     prints(&["rays", "import", &text, "-o", &rays, "--scene", "cube"]);
-    // Each epoch is a process that starts the runner and its twin: every other two starts have the same seconds.
-    let starts = "n=$(cat \"$STARTS\" 2>/dev/null || echo 0); echo $((n + 1)) > \"$STARTS\"\n\
-                  if [ $((n / 2 % 2)) -eq 0 ]; then own=$EVEN; else own=$ODD; fi\n";
+    // Each epoch is a process that starts the runner and its twin: those of every other process have the same seconds.
+    let starts = "grep -qx $PPID \"$STARTS\" 2>/dev/null || echo $PPID >> \"$STARTS\"\n\
+                  n=$(grep -nx $PPID \"$STARTS\" | cut -d: -f1)\n\
+                  if [ $((n % 2)) -eq 1 ]; then own=$EVEN; else own=$ODD; fi\n";
     let runner = NOTHING.replacen("#!/bin/sh\n", &format!("#!/bin/sh\n{starts}"), 1);
     let runner = program("told.sh", &runner.replace("*) echo \"passed 0.001\"", "*) echo \"passed $own\""));
     let sahara = env!("CARGO_BIN_EXE_sahara");

@@ -1,6 +1,6 @@
 //! What all structures do for the camera rays of one scene.
 
-use super::LoadedScene;
+use super::loaded_scene::LoadedScene;
 use crate::accel::Observed;
 use crate::page::runs::Runs;
 use crate::registry::Registry;

@@ -5,36 +5,22 @@ mod camera_rays;
 mod errors;
 mod heat;
 mod inspect;
+mod loaded_scene;
 mod scenes;
 
 use std::ffi::OsStr;
 
 use super::document::Section;
 use super::runs::Runs;
-use crate::escaped::quoted;
 use crate::registry::Registry;
 use crate::report::Block;
-use crate::request::{SceneRequest, is_large};
-use crate::scene::Scene;
+use crate::request::is_large;
 
 use camera_rays::CameraRays;
+use loaded_scene::LoadedScene;
 
 /// Scenes with heat maps and pictures of errors: the largest.
 const LARGEST: usize = 3;
-
-/// A scene of the runs, as it was measured.
-struct LoadedScene {
-    scene: Scene,
-    request: SceneRequest,
-}
-
-impl LoadedScene {
-    /// The scene and its view as a shell reads them.
-    fn words(&self) -> String {
-        let view = self.request.view.words();
-        [quoted(&self.request.word), view].into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
-    }
-}
 
 /// The sections of scenes, heat maps and errors. `progress` is told what is done.
 pub fn draw(runs: &Runs, registry: &Registry, progress: &mut dyn FnMut(String)) -> Vec<Section> {

@@ -1,6 +1,6 @@
 //! The scenes, as the report's course shades them.
 
-use super::LoadedScene;
+use super::loaded_scene::LoadedScene;
 use crate::page::document::Section;
 use crate::registry::Registry;
 use crate::render::{self, ViewKind, draw, size_of};

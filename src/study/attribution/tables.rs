@@ -6,7 +6,6 @@ use super::findings::{HARD, PARTS, range};
 use super::result::{Attribution, Split};
 use crate::report::number::{count, figures};
 use crate::report::plot::{Bar, Bars, Chart};
-use crate::report::words::explained;
 use crate::report::{Art, Block, Cell, Figure, Table};
 use crate::study::epoch::RayCounts;
 
@@ -76,7 +75,7 @@ fn headlines(results: &[&Attribution]) -> Table {
     let note = "whole: how many times faster the SAH tree is than the report's; the three parts multiply to it. plane \
                 alone: exact SAH against the report's plane where both stop at 8 triangles, as far as planes divide \
                 them, and have plane intervals. [95 %: of another run of the same plan]";
-    explained(table.noted(vec![note.into()]))
+    table.noted(vec![note.into()]).explained()
 }
 
 /// The same split for counts, and by the order of switching.
@@ -92,7 +91,7 @@ fn splits(r: &Attribution) -> Table {
     let title = format!("{}: from the report's tree to the SAH tree", r.first().title());
     let note = "The parts are geometric means over all orders of switching the factors (Shapley). In parentheses: the \
                 least and the most over those orders.";
-    explained(Table::new(title, columns, rows).noted(vec![note.into()]))
+    Table::new(title, columns, rows).noted(vec![note.into()]).explained()
 }
 
 /// All trees of one scene.
@@ -110,7 +109,7 @@ fn of_scene(r: &Attribution) -> Table {
         &["scene", "triangles", "stand_in", "structure", "label", "workload"][..],
         &["mrays_per_s", "sampled", "depth", "bytes", "build_ns"],
     ];
-    explained(Table { title, ..trees([r]) }.without_columns(&left_out.concat()).noted(vec![note]))
+    Table { title, ..trees([r]) }.without_columns(&left_out.concat()).noted(vec![note]).explained()
 }
 
 /// One row for each tree of each scene.

@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 
 use super::reference::{Reference, cell};
-use super::table::{control, names};
+use super::table::control;
 use crate::measure::Estimate;
 use crate::report::number::plural;
-use crate::report::words::{distinct, each_once, explained};
+use crate::report::words::{distinct, each_once};
 use crate::report::{Cell, Table, Tone};
 use crate::request::REPORT_TREE;
 use crate::study::measurement::{Measurement, trace_noise};
@@ -60,9 +60,10 @@ pub fn mean_table(all: &[Measurement], references: &[Reference]) -> Table {
         columns.push(format!("all x {}", reference.name()));
         cells.push(column(reference, None));
     }
-    let row =
-        |(i, name): (usize, Cell)| std::iter::once(name).chain(cells.iter().map(|column| column[i].clone())).collect();
-    let rows: Vec<Vec<Cell>> = names(&structures).into_iter().enumerate().map(row).collect();
+    let row = |(i, label): (usize, &String)| {
+        std::iter::once(Cell::from(label)).chain(cells.iter().map(|column| column[i].clone())).collect()
+    };
+    let rows: Vec<Vec<Cell>> = structures.iter().enumerate().map(row).collect();
 
     let untimed = || all.iter().filter(|r| r.mrays_per_s.is_none());
     let wrong = untimed().filter(|r| r.is_disqualified() || r.declined.is_none()).count();
@@ -85,7 +86,7 @@ pub fn mean_table(all: &[Measurement], references: &[Reference]) -> Table {
     let against = references.first().map_or("?", Reference::name);
     let against = if against == "median" { REPORT_TREE } else { against };
     let title = format!("Speed x {against}: geometric means over {over}; all: over scenes and workloads");
-    explained(Table::new(title, columns, rows).noted(notes).without_empty_columns())
+    Table::new(title, columns, rows).noted(notes).without_empty_columns().explained()
 }
 
 /// Said where scenes have different numbers of epochs.

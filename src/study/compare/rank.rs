@@ -3,7 +3,7 @@
 use super::reference::{Reference, cell, speed};
 use crate::measure::{Estimate, geometric_mean};
 use crate::report::number::plural;
-use crate::report::words::{distinct, each_once, explained, interval, listed};
+use crate::report::words::{distinct, each_once, interval, listed};
 use crate::report::{Cell, Finding, Table, Tone};
 use crate::study::measurement::{Measurement, trace_noise};
 use crate::triangle::{EdgeF64, Exact, MollerTrumboreF64, TriangleTest};
@@ -173,7 +173,7 @@ impl Ranks {
         if !left.is_empty() {
             notes.push(format!("Not ranked, without a time in half of the cells or more: {}.", listed(&left)));
         }
-        explained(table.noted(notes).without_empty_columns())
+        table.noted(notes).without_empty_columns().explained()
     }
 
     /// The rows of a rank without one that gives wrong answers in some cell: in single precision some do by their nature, and stay.

@@ -4,7 +4,7 @@ use super::details::details;
 use super::reference::{Reference, cell};
 use crate::accel::Query;
 use crate::report::number::{count, figures, plural};
-use crate::report::words::{distinct, explained, listed};
+use crate::report::words::{distinct, listed};
 use crate::report::{Cell, Table, Tone, Value};
 use crate::request::{is_large, known_defect};
 use crate::study::measurement::{Measurement, Refused, trace_noise};
@@ -55,24 +55,8 @@ pub fn legend(all: &[Measurement], references: &[Reference]) -> Vec<String> {
         let obvhs = if has("obvhs") { "; obvhs has no such call, and answers ray by ray" } else { "" };
         legend.push(format!("{PACKETS}: asked for many rays in one call{obvhs}."));
     }
-    if names(&distinct(all.iter().map(|r| &r.label))).iter().any(|name| name.text().starts_with(ABOVE)) {
-        legend.push(format!("{ABOVE}: the structure of the row above, with these keys."));
-    }
     legend
 }
-
-/// The labels as short names of rows. A structure below itself with fewer keys is named by the others alone.
-pub fn names(labels: &[String]) -> Vec<Cell> {
-    let name = |(place, label): (usize, &String)| {
-        let above = place.checked_sub(1).map(|place| labels[place].as_str());
-        let own = above.and_then(|above| label.strip_prefix(above)).filter(|rest| rest.starts_with([':', ',']));
-        Cell::from(own.map_or(label.clone(), |rest| format!("{ABOVE}{rest}")))
-    };
-    labels.iter().enumerate().map(name).collect()
-}
-
-/// Stands for the name of the structure above.
-const ABOVE: char = '…';
 
 /// Why structures are refused, each reason once for all tables.
 pub fn refusals(refused: &[Refused]) -> Vec<String> {
@@ -121,9 +105,6 @@ pub fn scene_table(all: &[Measurement], references: &[Reference], refused: &[Ref
         row
     };
     let mut rows: Vec<Vec<Cell>> = structures.iter().map(row).collect();
-    if !wide {
-        rows.iter_mut().zip(names(&structures)).for_each(|(row, name)| row[0] = name);
-    }
     let width = columns.len();
     rows.extend(refused.iter().map(|refused| {
         let mut row = vec![Cell::empty(); width];
@@ -150,7 +131,7 @@ pub fn scene_table(all: &[Measurement], references: &[Reference], refused: &[Ref
     notes.extend(unfit_tests(all));
     notes.extend(few_checked(all));
     notes.extend(control(all));
-    explained(Table::new(title, columns, rows).noted(notes).without_empty_columns().of_one_scene())
+    Table::new(title, columns, rows).noted(notes).without_empty_columns().of_one_scene().explained()
 }
 
 /// A footnote about the A/A ratios, where there are any.

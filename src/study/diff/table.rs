@@ -2,12 +2,12 @@
 
 use super::{Change, Comparison, Finding, Reproduced};
 use crate::report::number::{figures, plural};
-use crate::report::words::{each_once, explained, listed};
+use crate::report::words::{each_once, listed};
 use crate::report::{Cell, Format, Table, Tone};
 
 /// One table of the structures, one of their cells.
 pub fn tables(comparison: &Comparison) -> Vec<Table> {
-    [structures(comparison), cells(comparison)].map(explained).into()
+    [structures(comparison), cells(comparison)].map(Table::explained).into()
 }
 
 fn structures(comparison: &Comparison) -> Table {

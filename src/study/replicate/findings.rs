@@ -1,8 +1,7 @@
 //! What is found again of the report.
 
-use super::BRUTE;
 use super::original::{CROWDED, DEFAULT, MAIN};
-use super::replication::{Replicated, mean};
+use super::replication::{BRUTE, Replicated, mean};
 use crate::measure::Estimate;
 use crate::report::Finding;
 use crate::report::number::{count, plural};

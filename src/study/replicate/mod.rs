@@ -21,7 +21,7 @@ use crate::request::{BRUTE_FORCE, Measuring, REPORT_TREE, SAH_TREE, Scenes, Stru
 use crate::scene::Scene;
 use findings::findings;
 use original::{CROWDED, DEFAULT, HARD, MAIN, Row, SWEEP};
-use replication::replicated;
+use replication::{BRUTE, SAH, TREE, replicated};
 
 pub const STUDY: Study = Study {
     name: "replicate",
@@ -38,12 +38,6 @@ struct ReplicateArgs {
     #[command(flatten)]
     measuring: Measuring<8, 3, 5>,
 }
-
-/// Roles of structures. The settings of the sweep have [roles](original::SweepRow::role) of their own.
-const BRUTE: &str = "brute force";
-const SAH: &str = "sah";
-/// The report's tree on a hard scene.
-const TREE: &str = "tree";
 
 /// Tells where secondary rays start: over a triangle test in single precision, as the report's program has one. The
 /// exact test decides edges otherwise, and with them a few rays.

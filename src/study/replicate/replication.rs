@@ -1,13 +1,18 @@
 //! The report's tables with our figures in them.
 
 use super::original::{DEFAULT, Row, t_prime};
-use super::{BRUTE, SAH, TREE};
 use crate::accel::Query;
 use crate::measure::{AaNoise, Estimate, Rerun, cut_to_shared_epochs, epoch_values, median};
 use crate::request::TWIN;
 use crate::study::epoch::Structure;
 use crate::study::whole_times::WholeTimes;
 use crate::study::{Dataset, Epoch};
+
+/// Roles of structures. The settings of the sweep have [roles](original::SweepRow::role) of their own.
+pub const BRUTE: &str = "brute force";
+pub const SAH: &str = "sah";
+/// The report's tree on a hard scene.
+pub const TREE: &str = "tree";
 
 /// A scene of the report, ours beside its own.
 #[derive(Debug)]

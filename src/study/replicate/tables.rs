@@ -2,9 +2,7 @@
 
 use super::findings::order;
 use super::original::SWEEP;
-use super::replication::{Replicated, Times, mean};
-use super::{BRUTE, SAH};
-use crate::report::words::explained;
+use super::replication::{BRUTE, Replicated, SAH, Times, mean};
 use crate::report::{Cell, Table, Value};
 
 const SAMPLED: &str = "~ a part of the rays was timed and stands for all.";
@@ -66,7 +64,7 @@ fn seconds(main: &[Replicated]) -> Table {
     );
     let mut notes = vec![format!("improvement: brute-force / median-kd. {SAMPLED}")];
     notes.extend(order(main).and_then(|(_, reversed)| reversed));
-    explained(table.noted(notes))
+    table.noted(notes).explained()
 }
 
 fn t_primes(main: &[Replicated]) -> Table {
@@ -125,11 +123,13 @@ fn conclusion(hard: &[Replicated]) -> Table {
     let names: Vec<&str> = hard.iter().map(|own| own.title.as_str()).collect();
     rows.extend(mean(hard).map(|mean| vec![format!("geometric mean of {}", names.join(", ")).into(), mean.into()]));
     let title = "The report's conclusion: how much faster is sah-kd than median-kd on the hard scenes?";
-    explained(Table::new(title, ["scene", "times faster [95%]"], rows).noted(vec![
+    Table::new(title, ["scene", "times faster [95%]"], rows)
+        .noted(vec![
         "Times of one round divided, their median in each epoch, geometric mean over the epochs, with the interval \
          that holds that of another run, as little disturbed, in 95 % of cases."
             .into(),
-    ]))
+    ])
+        .explained()
 }
 
 /// One row for each scene.

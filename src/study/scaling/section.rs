@@ -4,7 +4,7 @@ use super::growth::{Growth, LEVEL_8, MESHES, Point, SPHERES};
 use crate::measure::Estimate;
 use crate::report::number::count;
 use crate::report::plot::{Chart, Curves, Line};
-use crate::report::words::{explained, listed, slug, written};
+use crate::report::words::{listed, slug, written};
 use crate::report::{Art, Block, Cell, Figure, Finding, Format, Table};
 use crate::request::{REPORT_TREE, SAH_TREE};
 use crate::scene::WorkloadKind;
@@ -165,7 +165,7 @@ fn exponents(family: &[Growth]) -> Option<Table> {
     let note = "Least squares on logarithms over the meshes on which the structure has more than one leaf, with 95 % \
                 intervals for another run on these meshes; counts and memory do not vary. +-: half of the 95 % \
                 interval of the power of time by the scatter of the meshes about it.";
-    family.iter().any(|growth| growth.time.is_some()).then(|| explained(table.noted(vec![note.into()])))
+    family.iter().any(|growth| growth.time.is_some()).then(|| table.noted(vec![note.into()]).explained())
 }
 
 fn points(family: &[Growth]) -> Table {

@@ -1,0 +1,19 @@
+//! A scene of the runs.
+
+use crate::escaped::quoted;
+use crate::request::SceneRequest;
+use crate::scene::Scene;
+
+/// A scene of the runs, as it was measured.
+pub struct LoadedScene {
+    pub scene: Scene,
+    pub request: SceneRequest,
+}
+
+impl LoadedScene {
+    /// The scene and its view as a shell reads them.
+    pub fn words(&self) -> String {
+        let view = self.request.view.words();
+        [quoted(&self.request.word), view].into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
+    }
+}
