@@ -24,7 +24,6 @@ const REPLICATE: &str = "replicate";
 const ATTRIBUTION: &str = "attribution";
 const COMPARE: &str = "compare";
 
-
 /// A hard scene as tables name it, and how many times faster the SAH tree is there.
 struct Hard {
     key: &'static str,
