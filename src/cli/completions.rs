@@ -132,7 +132,7 @@ mod tests {
             let mut script = vec![];
             clap_complete::generate(shell, &mut names.told(&whole()), "sahara", &mut script);
             let script = String::from_utf8(script).unwrap();
-            for word in ["replicate", "dragon", "sah-hybrid", "image-shadow", "heat", "self-intersection"] {
+            for word in ["replicate", "dragon", "sah-hybrid", "image-shadow", "heat", "attribution"] {
                 assert!(script.contains(word), "{shell}: {word}");
             }
             for hidden in [crate::cli::validate::CHILD, "--case", "compare-runs"] {
