@@ -104,3 +104,6 @@ impl Dataset {
         serde_json::from_value(value).map_err(|cause| JournalError::damaged(path, &cause))
     }
 }
+
+#[cfg(test)]
+mod tests;
