@@ -2,8 +2,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::accel::{Accel, BuildError, Footprint, Observer, Outline, Part, TreeShape};
-use crate::geometry::{Aabb, Hit, Mesh, Ray};
+use crate::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
+use crate::geometry::{Hit, Mesh, Ray};
 use crate::simd::EightLanes;
 use crate::traversal::leaf::{LeafBlock, search, start};
 use crate::traversal::walk::{Walk, walked_queries};
@@ -21,18 +21,6 @@ pub struct BruteForce<T: TriangleTest> {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BruteForceConfig {}
-
-impl<T: TriangleTest> BruteForce<T> {
-    /// All triangles in the whole of space.
-    fn leaf(&self) -> Outline {
-        let everywhere = Aabb { min: glam::Vec3::NEG_INFINITY, max: glam::Vec3::INFINITY };
-        let outline = Outline::of(Some(((), everywhere)), |(), _, references| {
-            references.extend(self.blocks.iter().flat_map(|block| block.ids()));
-            Part::Leaf
-        });
-        outline.of_cells()
-    }
-}
 
 impl<T: TriangleTest> Walk for BruteForce<T> {
     #[inline(always)]
@@ -65,12 +53,15 @@ impl<T: TriangleTest> Accel for BruteForce<T> {
     }
 
     fn shape(&self) -> TreeShape {
-        // Every ray enters it, whatever its box.
-        TreeShape { sah_cost: Some(self.references as f64), ..self.leaf().shape() }
-    }
-
-    fn outline(&self) -> Option<Outline> {
-        Some(self.leaf())
+        TreeShape {
+            leaves: 1,
+            empty: usize::from(self.references == 0),
+            references: self.references,
+            largest_leaf: self.references,
+            // Every ray enters it, whatever its box.
+            sah_cost: Some(TreeShape::leaf_cost(self.references)),
+            ..TreeShape::default()
+        }
     }
 }
 

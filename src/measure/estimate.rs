@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::student::{LEVEL, factor, two_sided};
+use super::student::{LEVEL, factor};
 use super::variance::Variance;
 
 /// An estimate with its 95 % [interval](mod@super::interval); none for a single epoch.
@@ -129,18 +129,6 @@ impl Estimate {
         });
         Self { estimate: libm::exp(log), interval }
     }
-
-    /// The two-sided p-value of a ratio of 1: the level at which its interval just reaches 1. None without an interval.
-    pub fn chance_of_one(&self) -> Option<f64> {
-        let Interval { low, high, freedom } = self.interval?;
-        let distance = libm::log(self.estimate);
-        let half = if distance > 0.0 { distance - libm::log(low) } else { libm::log(high) - distance };
-        Some(match (distance.abs(), half) {
-            (0.0, _) => 1.0,
-            (_, 0.0) => 0.0,
-            (distance, half) => two_sided(distance / half * factor(freedom, LEVEL), freedom),
-        })
-    }
 }
 
 /// How much wider an interval is as one of `looks`.
@@ -169,9 +157,9 @@ mod tests {
     fn without_an_interval_nothing_is_sure() {
         let alone = Estimate::alone(9.0);
         assert!(!alone.is_above(1.0) && !alone.is_below(10.0) && !alone.holds(9.0));
-        assert_eq!((alone.low(), alone.chance_of_one(), alone.among(5)), (None, None, alone));
+        assert_eq!((alone.low(), alone.among(5)), (None, alone));
         let exact = Estimate::exact(9.0);
-        assert!(exact.is_above(1.0) && exact.holds(9.0) && exact.chance_of_one() == Some(0.0));
+        assert!(exact.is_above(1.0) && exact.holds(9.0));
     }
 
     #[test]
@@ -200,10 +188,5 @@ mod tests {
         let ratio = one.ratio_among(5);
         let down = libm::log(1.2 / ratio.low().unwrap()) / libm::log(1.2 / 1.1);
         assert!((down - 4.604 / 2.776).abs() < 1e-3, "{ratio:?}");
-        // The chance is that of the level at which it reaches to 1.
-        let chance = one.chance_of_one().unwrap();
-        let looks = LEVEL / chance;
-        assert!(one.ratio_among(looks.floor() as usize).is_above(1.0));
-        assert!(!one.ratio_among(looks.ceil() as usize).is_above(1.0), "{chance}");
     }
 }

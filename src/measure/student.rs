@@ -67,27 +67,12 @@ fn density(t: f64, freedom: f64) -> f64 {
 ///
 /// # Panics
 /// If `freedom` is not positive.
-pub fn two_sided(t: f64, freedom: f64) -> f64 {
+fn two_sided(t: f64, freedom: f64) -> f64 {
     assert!(freedom > 0.0, "a t has degrees of freedom");
     if freedom >= 1e6 {
         return libm::erfc(t.abs() / std::f64::consts::SQRT_2);
     }
     incomplete_beta(freedom / (freedom + t * t), freedom / 2.0, 0.5)
-}
-
-/// Which of many p-values are significant, if the probability of even one false claim among all may be `level` (Holm,
-/// "A simple sequentially rejective multiple test procedure", 1979).
-pub fn holm(probabilities: &[f64], level: f64) -> Vec<bool> {
-    let mut order: Vec<usize> = (0..probabilities.len()).collect();
-    order.sort_by(|&a, &b| probabilities[a].total_cmp(&probabilities[b]));
-    let mut real = vec![false; probabilities.len()];
-    for (done, &i) in order.iter().enumerate() {
-        if probabilities[i] > level / (probabilities.len() - done) as f64 {
-            break;
-        }
-        real[i] = true;
-    }
-    real
 }
 
 #[cfg(test)]
@@ -135,16 +120,5 @@ mod tests {
             }
         }
         assert_eq!(two_sided(0.0, 3.0), 1.0);
-    }
-
-    #[test]
-    fn many_looks_ask_for_more_each() {
-        // One of a single comparison is real, the same one of five is not.
-        assert_eq!(holm(&[0.03], 0.05), [true]);
-        assert_eq!(holm(&[0.03, 0.5, 0.5, 0.5, 0.5], 0.05), [false; 5]);
-        // Step by step: 0.05 / 3, 0.05 / 2, 0.05.
-        assert_eq!(holm(&[0.04, 0.01, 0.02], 0.05), [true, true, true]);
-        assert_eq!(holm(&[0.06, 0.01, 0.03], 0.05), [false, true, false]);
-        assert_eq!(holm(&[], 0.05), [false; 0]);
     }
 }

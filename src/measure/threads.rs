@@ -71,11 +71,6 @@ impl Threads {
         if self.pool.get().is_some() { Ok(()) } else { self.start().map(drop) }
     }
 
-    #[cfg(test)]
-    pub fn are_started(&self) -> bool {
-        self.pool.get().is_some()
-    }
-
     /// The core of each thread; none if they are not bound.
     pub fn cores(&self) -> Option<&[usize]> {
         self.cores.as_deref()

@@ -1,6 +1,5 @@
 //! What a study says of what was measured: [`Report`], plain data, and its renderers for a terminal, Markdown and CSV.
 //! The page is the fourth.
-#![doc = include_str!("SCHEMA.md")]
 
 mod cell;
 pub mod csv;

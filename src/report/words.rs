@@ -84,27 +84,6 @@ pub fn slug(text: &str) -> String {
     if slug.is_empty() { "x".into() } else { slug.into() }
 }
 
-/// Labels without the triangle test, where all that name one name the same.
-pub fn short_labels(labels: &[String]) -> Vec<String> {
-    let parts = |label: &String| {
-        let (name, keys) = label.split_once(':').unwrap_or((label, ""));
-        let (tests, others): (Vec<String>, Vec<String>) =
-            keys.split(',').filter(|key| !key.is_empty()).map(String::from).partition(|key| key.starts_with("test="));
-        (name.to_owned(), tests, others)
-    };
-    let tests: Vec<String> = labels.iter().flat_map(|label| parts(label).1).collect();
-    if distinct(tests.iter()).len() > 1 {
-        return labels.to_vec();
-    }
-    let short = labels.iter().map(|label| match parts(label) {
-        (name, _, others) if others.is_empty() => name,
-        (name, _, others) => format!("{name}:{}", others.join(",")),
-    });
-    // One structure with its default test and with another is two.
-    let short: Vec<String> = short.collect();
-    if distinct(short.iter()).len() < labels.len() { labels.to_vec() } else { short }
-}
-
 /// The name of a structure: its label without the keys.
 pub fn bare(label: &str) -> &str {
     label.split(':').next().unwrap_or(label)
@@ -169,11 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn lists_read_as_sentences_and_slugs_as_names() {
-        let short = |labels: [&str; 2]| short_labels(&labels.map(String::from)).join(" ");
-        assert_eq!(short(["a:test=x", "b:leaf=4,test=x"]), "a b:leaf=4");
-        assert_eq!(short(["a:test=x", "b:test=y"]), "a:test=x b:test=y");
-        assert_eq!(short(["a:test=x", "a"]), "a:test=x a");
+    fn slugs_are_names() {
         assert_eq!([slug("Dragon (stand-in)"), slug("<script>"), slug("!")], ["dragon-stand-in", "script", "x"]);
     }
 }

@@ -1,4 +1,5 @@
 //! What one report is made of: the epochs of cases of one group, measured by one build on one machine.
+#![doc = include_str!("SCHEMA.md")]
 
 use serde::{Deserialize, Serialize};
 
@@ -103,3 +104,6 @@ impl Dataset {
         serde_json::from_value(value).map_err(|cause| JournalError::damaged(path, &cause))
     }
 }
+
+#[cfg(test)]
+mod tests;

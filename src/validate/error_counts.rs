@@ -96,21 +96,6 @@ impl ErrorCounts {
     pub fn error(&self) -> Rate {
         Rate { events: self.errors(), of: self.rays }
     }
-
-    /// Misses among the true hits.
-    pub fn miss_rate(&self) -> Rate {
-        Rate { events: self.missed, of: self.hits }
-    }
-
-    /// False hits among the rays that truly hit nothing.
-    pub fn false_hit_rate(&self) -> Rate {
-        Rate { events: self.false_hits, of: self.rays - self.hits }
-    }
-
-    /// Wrong depths among the true hits.
-    pub fn wrong_depth_rate(&self) -> Rate {
-        Rate { events: self.wrong_depth, of: self.hits }
-    }
 }
 
 /// Counts the wrong hits of some rays.
@@ -240,7 +225,6 @@ mod tests {
         assert_eq!((counts.hits, counts.missed, counts.false_hits), (4, 1, 1));
         assert_eq!((counts.wrong_depth, counts.wrong_primitive), (1, 1));
         assert_eq!(counts.error(), Rate { events: 3, of: 6 });
-        assert_eq!(counts.false_hit_rate(), Rate { events: 1, of: 2 });
         assert_eq!(counts.ulps, Some(Ulps { median: 0.0, p99: 2.0, max: 2.0 }));
         assert_eq!(count_errors(&[], &[], DepthRule::STRICT), ErrorCounts::default());
     }

@@ -3,10 +3,8 @@
 mod capabilities;
 mod counts;
 mod footprint;
-mod histogram;
 mod loaded;
 mod observer;
-mod outline;
 mod query;
 mod remote;
 mod shape;
@@ -15,13 +13,11 @@ mod traits;
 pub use capabilities::Capabilities;
 pub use counts::Counts;
 pub use footprint::Footprint;
-pub use histogram::Histogram;
 pub use loaded::Loaded;
 pub use observer::{Observed, Observer};
-pub use outline::{Outline, OutlineNode, Part};
 pub use query::Query;
 pub use remote::Remote;
-pub use shape::TreeShape;
+pub use shape::{Part, TreeShape};
 #[cfg(feature = "suite")]
 pub(crate) use traits::RayBatch;
 pub use traits::{Accel, BuildError, DynAccel};

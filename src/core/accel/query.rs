@@ -13,7 +13,7 @@ pub enum Query {
 }
 
 impl Query {
-    /// As written in records.
+    /// As written in exports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Closest => "closest",

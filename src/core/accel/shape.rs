@@ -1,6 +1,6 @@
 //! What a tree looks like.
 
-use super::Histogram;
+use crate::geometry::Aabb;
 
 /// Counts of a finished tree. A structure without a tree is one leaf.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -21,10 +21,14 @@ pub struct TreeShape {
     /// constants for every structure: [`TreeShape::INNER_COST`] and [`TreeShape::leaf_cost`]. `None` where it is not
     /// defined.
     pub sah_cost: Option<f64>,
-    /// Leaves by their number of references. Empty where it is not known.
-    pub leaf_sizes: Histogram,
-    /// Leaves by their depth. Empty where it is not known.
-    pub leaf_depths: Histogram,
+}
+
+/// What is at a place of a tree.
+pub enum Part<N> {
+    /// A leaf with so many references.
+    Leaf(usize),
+    /// An inner node: its children, each with its bounds.
+    Inner(Vec<(N, Aabb)>),
 }
 
 impl TreeShape {
@@ -34,5 +38,73 @@ impl TreeShape {
     /// Cost of a leaf: one for each triangle.
     pub fn leaf_cost(references: usize) -> f64 {
         references as f64
+    }
+
+    /// Walks a tree from `root`, if there is one, in depth-first order, and counts. `open` returns what is at a place.
+    pub fn of<N>(root: Option<(N, Aabb)>, mut open: impl FnMut(N, &Aabb) -> Part<N>) -> Self {
+        let root_area = root.as_ref().map_or(0.0, |(_, bounds)| bounds.half_area());
+        let mut shape = Self::default();
+        let mut cost = 0.0;
+        let mut waiting: Vec<(N, Aabb, usize)> = root.into_iter().map(|(at, bounds)| (at, bounds, 0)).collect();
+        while let Some((at, bounds, depth)) = waiting.pop() {
+            match open(at, &bounds) {
+                Part::Leaf(references) => {
+                    cost += bounds.half_area() * Self::leaf_cost(references);
+                    shape.leaves += 1;
+                    shape.empty += usize::from(references == 0);
+                    shape.references += references;
+                    shape.largest_leaf = shape.largest_leaf.max(references);
+                    shape.depth = shape.depth.max(depth);
+                }
+                Part::Inner(children) => {
+                    cost += bounds.half_area() * Self::INNER_COST;
+                    shape.inner += 1;
+                    waiting.extend(children.into_iter().rev().map(|(at, bounds)| (at, bounds, depth + 1)));
+                }
+            }
+        }
+        shape.sah_cost = (root_area > 0.0 && root_area.is_finite()).then(|| cost / root_area);
+        shape
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+
+    /// Inner nodes and leaves as a test writes them.
+    enum Tree {
+        Node(Vec<Tree>),
+        Leaf(usize),
+    }
+
+    fn shape(tree: &Tree) -> TreeShape {
+        let unit = Aabb { min: Vec3::ZERO, max: Vec3::ONE };
+        TreeShape::of(Some((tree, unit)), |tree, bounds| match tree {
+            Tree::Leaf(references) => Part::Leaf(*references),
+            Tree::Node(children) => {
+                let (mut low, mut high) = (*bounds, *bounds);
+                (low.max.x, high.min.x) = (bounds.centre().x, bounds.centre().x);
+                Part::Inner(children.iter().zip([low, high]).collect())
+            }
+        })
+    }
+
+    #[test]
+    fn nodes_are_counted_and_weighed_by_their_area() {
+        use Tree::{Leaf, Node};
+        let shape = shape(&Node(vec![Node(vec![Leaf(2), Leaf(0)]), Leaf(3)]));
+        assert_eq!((shape.inner, shape.leaves, shape.empty, shape.references), (2, 3, 1, 5));
+        assert_eq!((shape.depth, shape.largest_leaf), (2, 3));
+        // Half areas 3, 2 and 1.5: (1.2 * 3 + 1.2 * 2 + 2 * 1.5 + 3 * 2) / 3.
+        assert!((shape.sah_cost.unwrap() - 5.0).abs() < 1e-12, "{shape:?}");
+    }
+
+    #[test]
+    fn no_tree_and_a_single_leaf_have_a_shape() {
+        assert_eq!(TreeShape::of(None::<((), Aabb)>, |_, _| Part::Leaf(0)), TreeShape::default());
+        assert_eq!(shape(&Tree::Leaf(1)).sah_cost, Some(1.0));
     }
 }

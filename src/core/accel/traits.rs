@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::{Capabilities, Counts, Footprint, Loaded, Observed, Observer, Outline, Remote, TreeShape};
+use super::{Capabilities, Counts, Footprint, Loaded, Observed, Observer, Remote, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
 
 /// Why a structure could not be built.
@@ -53,7 +53,7 @@ pub enum BuildError {
     note = "implement `sahara::accel::Accel` for `{Self}`: the front page of sahara's documentation walks through an example"
 )]
 pub trait Accel: Sized + Send + Sync + 'static {
-    /// Build parameters. Serialisation gives them names: the command line sets them as `key=value`, and records show
+    /// Build parameters. Serialisation gives them names: the command line sets them as `key=value`, and exports show
     /// them.
     type Config: Clone + Debug + Default + Serialize + DeserializeOwned + Send + Sync + 'static;
 
@@ -128,12 +128,6 @@ pub trait Accel: Sized + Send + Sync + 'static {
 
     /// What its tree looks like.
     fn shape(&self) -> TreeShape;
-
-    /// The whole tree as plain data, for measures that need more than counts; nothing where it cannot be walked. Takes
-    /// 64 bytes a node.
-    fn outline(&self) -> Option<Outline> {
-        None
-    }
 }
 
 /// [`Accel`] without its type: one virtual call hands over a batch, inside everything is monomorphised.
@@ -179,10 +173,6 @@ pub trait DynAccel: Send + Sync {
     fn footprint(&self) -> Footprint;
     /// As [`Accel::shape`].
     fn shape(&self) -> TreeShape;
-    /// As [`Accel::outline`].
-    fn outline(&self) -> Option<Outline> {
-        None
-    }
     /// What is known of it besides, where it answers in a process of its own.
     fn remote(&self) -> Option<&dyn Remote> {
         None
@@ -224,10 +214,6 @@ impl<A: Accel> DynAccel for A {
 
     fn shape(&self) -> TreeShape {
         Accel::shape(self)
-    }
-
-    fn outline(&self) -> Option<Outline> {
-        Accel::outline(self)
     }
 }
 

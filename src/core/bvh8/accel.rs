@@ -4,7 +4,7 @@ use super::batch::answer;
 use super::config::Bvh8Config;
 use super::node::Limits;
 use super::tree::Bvh8;
-use crate::accel::{Accel, BuildError, Footprint, Observer, Outline, TreeShape};
+use crate::accel::{Accel, BuildError, Footprint, Observer, Part, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::traversal::leaf::LeafBlock;
 use crate::traversal::walk::walked_queries;
@@ -35,10 +35,11 @@ impl<T: TriangleTest> Accel for Bvh8<T> {
     }
 
     fn shape(&self) -> TreeShape {
-        self.boxes().shape()
-    }
-
-    fn outline(&self) -> Option<Outline> {
-        Some(self.boxes())
+        TreeShape::of(Some((self.root, self.bounds)), |child, _| match child.blocks() {
+            Some((first, count)) => {
+                Part::Leaf(self.blocks[first..first + count].iter().map(|block| block.len() as usize).sum())
+            }
+            None => Part::Inner(self.nodes[child.index()].boxes().map(|(bounds, child)| (child, bounds)).collect()),
+        })
     }
 }

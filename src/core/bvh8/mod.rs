@@ -8,7 +8,6 @@ mod config;
 mod frustum;
 mod layout;
 mod node;
-mod outline;
 mod packet;
 mod packet_hits;
 mod packet_state;

@@ -3,7 +3,6 @@
 mod config;
 mod median;
 mod node;
-mod outline;
 mod plan;
 #[cfg(test)]
 mod tests;

@@ -3,7 +3,7 @@ use std::sync::Arc;
 use super::config::KdConfig;
 use super::node::{Limits, Node};
 use super::plan::{Plan, plan};
-use crate::accel::{Accel, BuildError, Footprint, Outline, TreeShape};
+use crate::accel::{Accel, BuildError, Footprint, Part, TreeShape};
 use crate::build::sah_cost::BLOCK;
 use crate::geometry::{Aabb, Mesh};
 use crate::traversal::leaf::LeafBlock;
@@ -65,10 +65,13 @@ impl<T: TriangleTest> Accel for KdTree<T> {
     }
 
     fn shape(&self) -> TreeShape {
-        self.cells().shape()
-    }
-
-    fn outline(&self) -> Option<Outline> {
-        Some(self.cells())
+        TreeShape::of(Some((0, self.bounds)), |at, cell| {
+            let node: Node = self.nodes[at];
+            if node.is_leaf() {
+                return Part::Leaf(node.references() as usize);
+            }
+            let (below, above) = cell.cut(node.axis(), node.split());
+            Part::Inner(vec![(at + 1, below), (node.above() as usize, above)])
+        })
     }
 }

@@ -62,7 +62,7 @@ const WITH_AVX512: bool = cfg!(all(
 impl Level {
     const ALL: [Self; 3] = [Self::Portable, Self::Avx2, Self::Avx512];
 
-    /// As written on the command line and in records.
+    /// As written on the command line and in exports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Portable => "portable",

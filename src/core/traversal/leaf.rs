@@ -76,11 +76,6 @@ impl<T: TriangleTest, const N: usize> LeafBlock<T, N> {
         }));
     }
 
-    /// The triangles in it.
-    pub fn ids(&self) -> impl Iterator<Item = u32> + '_ {
-        self.ids.iter().copied().filter(|&id| id != NONE)
-    }
-
     /// The number of triangles.
     #[inline(always)]
     pub fn len(&self) -> u32 {

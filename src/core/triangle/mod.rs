@@ -51,7 +51,7 @@ use crate::simd::{EightLanes, Lanes, Portable};
     note = "use one of the tests in `sahara::triangle`, for example `Exact`; a structure with a test of its own needs none: it leaves `Accel::TRIANGLE_TEST` as it is"
 )]
 pub trait TriangleTest: Send + Sync + 'static {
-    /// The name used by the command line and records.
+    /// The name used by the command line and exports.
     const NAME: &'static str;
 
     /// The prepared form of a ray.

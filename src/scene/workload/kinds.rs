@@ -25,7 +25,7 @@ macro_rules! kinds {
         impl WorkloadKind {
             pub const ALL: [Self; [$($name),*].len()] = [$(Self::$kind),*];
 
-            /// The name on the command line and in records.
+            /// The name on the command line and in exports.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$kind => $name),*

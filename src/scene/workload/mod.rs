@@ -54,7 +54,7 @@ impl Workload {
     }
 
     /// The first 16 hexadecimal digits of the SHA-256 of [`bytes`](Self::bytes): names the workload in
-    /// records.
+    /// exports.
     pub fn hash(&self) -> String {
         hexadecimal(&Sha256::digest(self.bytes())[..8])
     }

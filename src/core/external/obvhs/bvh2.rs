@@ -11,7 +11,7 @@ use obvhs::ray::{Ray as PreparedRay, RayHit};
 use obvhs::triangle::Triangle;
 
 use super::{Tree, aabb};
-use crate::accel::{Observer, Outline, Part};
+use crate::accel::{Observer, Part, TreeShape};
 use crate::traversal::pages;
 
 const _: () = assert!(size_of::<Bvh2Node>() == 32);
@@ -57,13 +57,12 @@ impl Tree for Bvh2 {
         })
     }
 
-    fn outline(&self) -> Outline {
+    fn shape(&self) -> TreeShape {
         let root = self.nodes.first().map(|root| (0, aabb(*root.aabb())));
-        Outline::of(root, |at: usize, _, references| {
+        TreeShape::of(root, |at: usize, _| {
             let node = &self.nodes[at];
             if node.is_leaf() {
-                references.extend(node.first_index..node.first_index + node.prim_count);
-                return Part::Leaf;
+                return Part::Leaf(node.prim_count as usize);
             }
             let first = node.first_index as usize;
             Part::Inner([first, first + 1].map(|child| (child, aabb(*self.nodes[child].aabb()))).into())

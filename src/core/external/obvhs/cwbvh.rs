@@ -12,7 +12,7 @@ use obvhs::traverse;
 use obvhs::triangle::Triangle;
 
 use super::{Tree, aabb};
-use crate::accel::{Observer, Outline, Part};
+use crate::accel::{Observer, Part, TreeShape};
 use crate::traversal::pages;
 
 /// Compressed, 8 wide: 80-byte nodes, at most three triangles a leaf.
@@ -87,19 +87,15 @@ impl Tree for CwBvh {
     }
 
     /// Children of a node that hold triangles are its leaves; their boxes are rounded outward to a grid of 256 cells.
-    fn outline(&self) -> Outline {
+    fn shape(&self) -> TreeShape {
         let root = (!self.nodes.is_empty()).then(|| (Place::Node(0), aabb(self.total_aabb)));
-        Outline::of(root, |place, _, references| match place {
-            Place::Leaf(first, count) => {
-                references.extend(first..first + count);
-                Part::Leaf
-            }
+        TreeShape::of(root, |place, _| match place {
+            Place::Leaf(count) => Part::Leaf(count as usize),
             Place::Node(at) => {
                 let node = &self.nodes[at];
                 let place = |child| {
-                    let (first, count) = node.child_primitives(child);
                     if node.is_leaf(child) {
-                        Place::Leaf(first, count)
+                        Place::Leaf(node.child_primitives(child).1)
                     } else {
                         Place::Node(node.child_node_index(child) as usize)
                     }
@@ -111,10 +107,10 @@ impl Tree for CwBvh {
     }
 }
 
-/// A node, or a child of one that holds triangles: the first of them and how many there are.
+/// A node, or a child of one that holds so many triangles.
 enum Place {
     Node(usize),
-    Leaf(u32, u32),
+    Leaf(u32),
 }
 
 /// What the macro of obvhs takes for a tree.

@@ -34,7 +34,7 @@ pub use config::{ObvhsConfig, Preset, Rays};
 pub use leaf_test::{LeafTest, Native, Over};
 pub use rt_test::RtTest;
 
-use crate::accel::{Accel, BuildError, Footprint, Observer, Outline, TreeShape};
+use crate::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
 use crate::external::prepared::{Prepare, prepared_queries};
 use crate::geometry::{Aabb, Hit, Mesh, Ray};
 use leaves::{Leaves, input};
@@ -82,8 +82,8 @@ pub trait Tree: Send + Sync + Sized + 'static {
         observer: &mut impl Observer,
     ) -> Option<RayHit>;
 
-    /// Its boxes; references are places in the tree.
-    fn outline(&self) -> Outline;
+    /// That of its boxes.
+    fn shape(&self) -> TreeShape;
 }
 
 impl<B: Tree, T: LeafTest> Prepare for Obvhs<B, T> {
@@ -135,12 +135,6 @@ impl<B: Tree, T: LeafTest> Accel for Obvhs<B, T> {
     }
 
     fn shape(&self) -> TreeShape {
-        self.tree.outline().shape()
-    }
-
-    fn outline(&self) -> Option<Outline> {
-        let mut outline = self.tree.outline();
-        outline.references.iter_mut().for_each(|place| *place = self.leaves.ids[*place as usize]);
-        Some(outline)
+        self.tree.shape()
     }
 }
