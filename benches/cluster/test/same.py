@@ -6,27 +6,30 @@
 RUNS are folders of results, DIR/<study>/<case>.json; REPORT is what `sahara report DIR -o REPORT` has written.
 """
 
+import csv
 import json
 import sys
 from pathlib import Path
 
-# What a clock, or the moment, decides. All else must be equal, so that a field which is new is compared until it is named here.
-OF_CASES = {"provenance", "circumstances", "build_ns", "build_peak_bytes", "outside", "instructions_per_ray", "branch_misses_per_ray"}
-OF_CASES |= {"ns", "slowest_ns"}
-OF_REPORTS = {"build_samples_ns", "trace_ns", "samples_ns", "twin_samples_ns", "ns_per_ray", "mrays_per_s", "noise_floor"}
-# The last is what came of a claim of `predictions`.
-OF_REPORTS |= {"speedup", "value"}
-MOMENT = OF_CASES | OF_REPORTS
-# What is found by comparing times: even whether it is known.
-BY_TIMES = {"dominated_by", "verdict"}
+# What a clock, or the moment, decides. All else must be equal, so a new field is compared until it is named here.
+OF_CASES = {"provenance", "environment", "build_ns", "build_peak_bytes", "outside", "ns", "slowest_ns"}
+OF_CASES |= {"instructions_per_ray", "branch_misses_per_ray"}
+# The command line that planned it, and how many answers `--quick` checks: it stops after a time.
+OF_CASES |= {"case.command", "checked.rays"}
+OF_REPORTS = {"build_ns", "build_peak_bytes", "trace_ns", "ns_per_ray", "slowest_ns", "mrays_per_s", "checked_rays"}
+OF_REPORTS |= {"instructions_per_ray", "branch_misses_per_ray", "speedup", "speedup_low", "speedup_high"}
+# Comparing times decides even whether these are known.
+BY_TIMES = {"dominated_by", "pays_off_after_rays"}
+# All that these hold is made of times.
+TABLES_OF_TIMES = {"replicate.csv"}
 
 
-def counts(value):
+def counts(value, of=""):
     """A result without its times: of each is left whether it is known, and of samples how many there are."""
     if isinstance(value, dict):
-        fields = ((name, field) for name, field in value.items() if name not in BY_TIMES)
-        return {name: known(field) if name in MOMENT else counts(field) for name, field in fields}
-    return [counts(item) for item in value] if isinstance(value, list) else value
+        is_moment = lambda name: name in OF_CASES or f"{of}.{name}" in OF_CASES
+        return {name: known(field) if is_moment(name) else counts(field, name) for name, field in value.items()}
+    return [counts(item, of) for item in value] if isinstance(value, list) else value
 
 
 def known(time):
@@ -53,10 +56,16 @@ def results(folder):
 
 
 def rows(report):
-    """The rows of a report, by file and line."""
-    files = sorted(Path(report).glob("data/*.jsonl"))
-    lines = {file.name: file.read_text().splitlines() for file in files}
-    return {f"{name} line {i + 1}": counts(json.loads(line)) for name in lines for i, line in enumerate(lines[name])}
+    """The rows of a report, by file and row, likewise without times."""
+    found = {}
+    for file in sorted(Path(report).glob("data/*.csv")):
+        if file.name in TABLES_OF_TIMES:
+            continue
+        with open(file, newline="") as text:
+            for number, row in enumerate(csv.DictReader(text), 1):
+                fields = ((name, field) for name, field in row.items() if name not in BY_TIMES)
+                found[f"{file.name} row {number}"] = {name: field != "" if name in OF_REPORTS else field for name, field in fields}
+    return found
 
 
 def different(read, one, other):

@@ -47,6 +47,8 @@ pub fn datasets(files: Vec<CaseFile>) -> Vec<Dataset> {
         }
     }
     let mut datasets: Vec<Dataset> = vec![];
+    // Groups of which every scene has been measured again since have no dataset that could say so.
+    let mut superseded: Vec<(&str, Vec<String>)> = vec![];
     for (number, group) in groups.iter().enumerate() {
         let is_newest = |file: &&CaseFile| {
             let title = file.case.scene_title();
@@ -61,11 +63,18 @@ pub fn datasets(files: Vec<CaseFile>) -> Vec<Dataset> {
         if !older.is_empty() {
             dataset.notes.push(format!("other settings, builds or machines measured {} later.", listed(&older)));
         }
-        if !dataset.measured.is_empty() {
+        if dataset.measured.is_empty() {
+            superseded.push((&group.study, older));
+        } else {
             datasets.push(dataset);
         }
     }
     datasets.sort_by_key(|dataset| std::cmp::Reverse((dataset.measured.len(), dataset.provenance.date.clone())));
+    for (study, scenes) in superseded {
+        if let Some(dataset) = datasets.iter_mut().find(|dataset| dataset.study() == Some(study)) {
+            dataset.notes.push(format!("other settings, builds or machines measured {} before.", listed(&scenes)));
+        }
+    }
     datasets
 }
 

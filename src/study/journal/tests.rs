@@ -194,6 +194,21 @@ fn a_report_shows_the_newest_group_of_each_scene_and_says_what_else_there_is() {
 }
 
 #[test]
+fn a_report_names_a_machine_of_which_every_scene_was_measured_again_elsewhere() {
+    let folder = folder();
+    let path = journal(&folder, 2);
+    let other = Provenance { cpu: "another".into(), ..provenance() };
+    let mut journal = Journal::open(&path, other, false).unwrap();
+    (0..2).for_each(|i| drop(measure(&mut journal, &case("Cube", i, &["x"]), "2026-01-02")));
+    let found = datasets(files(&path).unwrap().iter().map(|path| CaseFile::read(path).unwrap()).collect());
+    assert_eq!(
+        found.iter().map(|own| (own.provenance.cpu.as_str(), own.measured.len())).collect::<Vec<_>>(),
+        [("another", 2)]
+    );
+    assert_eq!(found[0].notes, ["other settings, builds or machines measured Cube before."]);
+}
+
+#[test]
 fn provenance_is_of_the_oldest_with_all_hosts_and_the_highest_load_that_no_job_made() {
     let of = |host: &str, date: &str, load: Option<f64>| Provenance {
         host: host.into(),
