@@ -116,6 +116,7 @@ pub fn left_out() -> Vec<Section> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::request::SceneRequest;
     use crate::request::ViewArgs;
     use crate::scene::Builtin;
 
