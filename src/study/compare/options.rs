@@ -79,7 +79,7 @@ const QUICK_RAYS: usize = 1 << 14;
 const QUICK: Duration = Duration::from_secs(4);
 const QUICK_SAMPLES_NS: u64 = 250_000_000;
 const QUICK_CHECKS: usize = 1 << 28;
-const QUICK_CHECKS_NS: u64 = 2_000_000_000;
+const QUICK_CHECKS_NS: u64 = 1_000_000_000;
 
 /// Where pairs are compared each on its own rays, a structure that takes more than so many times as long as the median
 /// one is timed on fewer: its ratios hardly gain from more of them, and the run would be about it alone.

@@ -36,11 +36,17 @@ const FEW: usize = 512;
 const FEWEST: usize = 32;
 const FEW_TESTS: u64 = 1 << 20;
 
-/// Of each pair as many rays as are worth it, on all threads; nothing where the structure could not be built or panics.
-pub fn count_all(pairs: &[Pair], built: &[Option<Built>], workloads: &[Workload]) -> Vec<Option<Counted>> {
+/// Counts, for each pair, what `count` chooses of its rays, on all threads; nothing where the structure could not be
+/// built or panics.
+pub fn count_all(
+    pairs: &[Pair],
+    built: &[Option<Built>],
+    workloads: &[Workload],
+    count: fn(&dyn DynAccel, &[Ray], Query) -> Counted,
+) -> Vec<Option<Counted>> {
     let of = |pair: &Pair| {
         let (built, workload) = (built[pair.structure].as_ref()?, &workloads[pair.workload]);
-        guarded(|| Counted::affordable(built.accel.as_ref(), &workload.rays, workload.query))
+        guarded(|| count(built.accel.as_ref(), &workload.rays, workload.query))
     };
     pairs.par_iter().map(of).collect()
 }
