@@ -82,6 +82,11 @@ pub enum Check {
 pub const TESTS: usize = 1 << 27;
 
 impl Settings {
+    /// Whether a clock bounds what is checked, and so everything else that could take long.
+    pub fn is_quick(&self) -> bool {
+        matches!(self.check, Check::BruteForce { limit_ns: Some(_), .. })
+    }
+
     /// One sample of all rays on one thread, checked against brute force, with secondary rays that start where the
     /// structure of this spec finds surfaces.
     pub fn for_guide(guide: impl Into<String>) -> Self {

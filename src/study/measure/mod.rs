@@ -266,7 +266,8 @@ impl<'a> Bench<'a> {
         };
         let Prepared { choices, threads, .. } = self.prepared;
         let built: Vec<Option<&Built>> = self.built.iter().map(Option::as_ref).collect();
-        let timing = Timing { choices, built: &built, workloads: &self.workloads, threads, clock };
+        let by_clock = settings.is_quick();
+        let timing = Timing { choices, built: &built, workloads: &self.workloads, threads, clock, by_clock };
         let all = Pair::all(self.structures.len(), self.workloads.len());
         let allotted = timing.allot(&all, &plan);
 
@@ -316,8 +317,7 @@ impl<'a> Bench<'a> {
             structure.refused.is_none() && structure.rays.get(pair.workload).is_some_and(counts)
         });
         // What bounds the checks of a quick run bounds its counts.
-        let is_bounded = matches!(settings.check, Check::BruteForce { limit_ns: Some(_), .. });
-        let count = if is_bounded { Counted::few } else { Counted::affordable };
+        let count = if settings.is_quick() { Counted::few } else { Counted::affordable };
         for (pair, counted) in pairs.iter().zip(count_all(&pairs, &self.built, &self.workloads, count)) {
             let Some(built) = &self.built[pair.structure] else { continue };
             let (structure, workload) = (&mut self.structures[pair.structure], &self.workloads[pair.workload]);

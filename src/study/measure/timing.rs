@@ -22,6 +22,8 @@ pub struct Timing<'a> {
     pub workloads: &'a [Workload],
     pub threads: &'a Threads,
     pub clock: &'a dyn Clock,
+    /// Whether the clock decides on how many rays each is timed, as it does for programs: a prediction may be far off.
+    pub by_clock: bool,
 }
 
 /// What decides how much of cases is timed, and is the same in every epoch.
@@ -82,8 +84,10 @@ impl Timing<'_> {
         let clock = own.as_ref().map_or(self.clock, |clock| clock as &dyn Clock);
 
         let mut levels = levels.clone();
-        let is_remote = |i: usize| self.built[all[i].structure].is_some_and(|built| built.accel.remote().is_some());
-        for (&i, pass) in timed.iter().zip(&mut passes).filter(|(i, _)| is_remote(**i)) {
+        let is_remote = |built: &Built| built.accel.remote().is_some();
+        let is_by_clock =
+            |i: usize| self.built[all[i].structure].is_some_and(|built| self.by_clock || is_remote(built));
+        for (&i, pass) in timed.iter().zip(&mut passes).filter(|(i, _)| is_by_clock(**i)) {
             levels[i] = level_by_clock(&Stopwatch::new(clock), pass.as_mut(), levels[i], *share_ns);
         }
         let cases: Vec<Of> = (0..all.len())
@@ -91,7 +95,7 @@ impl Timing<'_> {
                 workload: all[i].workload,
                 all: self.workloads[all[i].workload].rays.len(),
                 level: levels[i],
-                is_remote: is_remote(i),
+                is_by_clock: is_by_clock(i),
             })
             .collect();
         let mut samples: Vec<Samples> = timed.iter().map(|&i| none(&cases[i], &cases)).collect();
@@ -112,7 +116,7 @@ struct Of {
     /// Rays of the workload.
     all: usize,
     level: usize,
-    is_remote: bool,
+    is_by_clock: bool,
 }
 
 /// The samples of `case` before the first one, of its own rays and those of each slower one of its workload.
@@ -121,7 +125,7 @@ fn none(case: &Of, cases: &[Of]) -> Samples {
     let mut fewer = vec![];
     for other in cases.iter().filter(|other| other.workload == case.workload) {
         fewer.push(rays_at(other.all, other.level));
-        if other.is_remote && other.level < last_level(other.all) {
+        if other.is_by_clock && other.level < last_level(other.all) {
             fewer.push(rays_at(other.all, other.level + 1));
         }
     }
@@ -129,7 +133,7 @@ fn none(case: &Of, cases: &[Of]) -> Samples {
     fewer.sort_unstable_by(|a, b| b.cmp(a));
     fewer.dedup();
     // Whatever rays it is timed on, its answers to the same ones are kept.
-    let asked = if case.is_remote { Some(pilot_level(case.all)) } else { own.asked };
+    let asked = if case.is_by_clock { Some(pilot_level(case.all)) } else { own.asked };
     Samples { asked, parts: fewer.into_iter().map(|rays| Part { rays, ns: vec![] }).collect(), ..own }
 }
 
@@ -139,7 +143,8 @@ mod tests {
 
     /// The rays of the parts of cases on two workloads.
     fn parts(cases: &[(usize, usize, bool)]) -> Vec<Vec<usize>> {
-        let of = |&(workload, level, is_remote): &(usize, usize, bool)| Of { workload, all: 65_536, level, is_remote };
+        let of =
+            |&(workload, level, is_by_clock): &(usize, usize, bool)| Of { workload, all: 65_536, level, is_by_clock };
         let cases: Vec<Of> = cases.iter().map(of).collect();
         cases.iter().map(|case| none(case, &cases).parts.iter().map(|part| part.rays).collect()).collect()
     }
@@ -156,7 +161,7 @@ mod tests {
         assert_eq!(parts(&cases), [vec![16_384, 4096, 1024], vec![4096, 1024], vec![], vec![]]);
         // At the last level there is no next one.
         assert_eq!(parts(&[(0, 0, false), (0, 5, true)]), [vec![64], vec![]]);
-        let program = Of { workload: 0, all: 65_536, level: 1, is_remote: true };
+        let program = Of { workload: 0, all: 65_536, level: 1, is_by_clock: true };
         assert_eq!(none(&program, &[]).asked, Some(5));
     }
 }
