@@ -60,7 +60,9 @@ fn of_error(error: &anyhow::Error) -> u8 {
 /// What is said of an option that went, if the message is about one.
 fn moved(message: &clap::Error) -> Option<String> {
     match (message.kind(), message.get(ContextKind::InvalidArg)?) {
-        (ErrorKind::UnknownArgument, ContextValue::String(option)) => moved::option(option),
+        (ErrorKind::UnknownArgument, ContextValue::String(option)) => {
+            moved::said(moved::OPTIONS, option.split('=').next().unwrap_or(option))
+        }
         _ => None,
     }
 }

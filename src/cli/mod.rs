@@ -162,8 +162,8 @@ fn command(studies: &Studies) -> clap::Command {
     let child = clap::Command::new(validate::CHILD).hide(true);
     let command = Process::augment_args(shown(studies)).subcommand(validate::ChildArgs::augment_args(child));
     let rest = || clap::Arg::new("rest").num_args(0..).trailing_var_arg(true).allow_hyphen_values(true);
-    let old = moved::commands().map(|name| clap::Command::new(name).hide(true).disable_help_flag(true).arg(rest()));
-    command.subcommands(old)
+    let old = |(name, _): &(&'static str, _)| clap::Command::new(*name).hide(true).disable_help_flag(true).arg(rest());
+    command.subcommands(moved::COMMANDS.1.iter().map(old))
 }
 
 /// Runs the command line of this process over structures, with the studies of this crate, or over a whole [`Suite`].
@@ -270,7 +270,7 @@ fn dispatch(session: &Session, matches: &ArgMatches, global: &Global) -> anyhow:
         }
         Some((REPLICATE, matches)) => return study::run(session, find(suite, REPLICATE)?, matches),
         Some((name, _)) => {
-            if let Some(sentence) = moved::command(name) {
+            if let Some(sentence) = moved::said(moved::COMMANDS, name) {
                 anyhow::bail!(sentence);
             }
         }
@@ -290,7 +290,7 @@ fn dispatch(session: &Session, matches: &ArgMatches, global: &Global) -> anyhow:
 
 fn find<'a>(suite: &'a Suite, study: &str) -> anyhow::Result<&'a Study> {
     suite.studies.find(study).ok_or_else(|| {
-        if let Some(sentence) = moved::study(study) {
+        if let Some(sentence) = moved::said(moved::STUDIES, study) {
             return anyhow::anyhow!(sentence);
         }
         let names: Vec<&str> = suite.studies.iter().map(|study| study.name).chain([all::NAME, plan::NAME]).collect();

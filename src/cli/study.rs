@@ -7,8 +7,8 @@ use clap::{ArgMatches, Args as _, FromArgMatches};
 use super::Session;
 use super::progress::OnTerminal;
 use crate::output::OutputFile;
-use crate::report::plot::Format;
-use crate::report::{Art, Block, Report, csv, markdown};
+use crate::report::plot::{Format, WIDTH};
+use crate::report::{Figure, csv, markdown};
 use crate::study::{self, Outcome, Run, Status, Study};
 
 /// Where studies keep their journals.
@@ -123,7 +123,8 @@ pub fn run_as(session: &Session, study: &Study, matches: &ArgMatches, common: &C
             file.write(markdown::report(&report, &foot).as_bytes())?;
         }
         for (file, format) in files.plots {
-            let chart = first_chart(&report).ok_or_else(|| anyhow::anyhow!("study {} has no picture", study.name))?;
+            let chart = report.figures().find_map(Figure::chart);
+            let chart = chart.ok_or_else(|| anyhow::anyhow!("study {} has no picture", study.name))?;
             let bytes = match format {
                 Format::Svg => chart.svg(WIDTH).into_bytes(),
                 Format::Png => chart.png(WIDTH),
@@ -132,18 +133,4 @@ pub fn run_as(session: &Session, study: &Study, matches: &ArgMatches, common: &C
         }
     }
     Ok(status)
-}
-
-/// Width of drawings, in their units.
-const WIDTH: f64 = 900.0;
-
-/// The first drawing of a report.
-fn first_chart(report: &Report) -> Option<&crate::report::plot::Chart> {
-    report.blocks.iter().find_map(|block| match block {
-        Block::Figure(figure) => match &figure.art {
-            Art::Chart(chart) => Some(chart),
-            _ => None,
-        },
-        _ => None,
-    })
 }

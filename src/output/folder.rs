@@ -18,9 +18,6 @@ pub struct OutputFolder {
 impl OutputFolder {
     /// Checks that `path` may be written: it does not exist, is empty or holds only what was written there before.
     /// Leaves nothing behind.
-    ///
-    /// # Errors
-    /// If it is a file, holds anything else, or its parent takes no folder.
     pub fn check(path: &Path) -> Result<Self, OutputError> {
         let folder = Self { path: path.into() };
         if path.exists() && !path.is_dir() {
@@ -34,10 +31,7 @@ impl OutputFolder {
         Ok(folder)
     }
 
-    /// The same folder, if none of `inputs`, the files that its contents are made from, is in it.
-    ///
-    /// # Errors
-    /// If one is, by whatever path.
+    /// The same folder, if none of `inputs`, the files that its contents are made from, is in it, by whatever path.
     pub fn apart_from<'a>(self, inputs: impl IntoIterator<Item = &'a Path>) -> Result<Self, OutputError> {
         let Ok(own) = self.path.canonicalize() else { return Ok(self) };
         let is_inside = |input: &&Path| input.canonicalize().is_ok_and(|input| input.starts_with(&own));
@@ -51,10 +45,8 @@ impl OutputFolder {
         &self.path
     }
 
-    /// Writes files, given by their paths in the folder with `/`, in place of what was there.
-    ///
-    /// # Errors
-    /// If the system refuses, or there is no room; then what was there before is as it was.
+    /// Writes files, given by their paths in the folder with `/`, in place of what was there, which stays as it was if
+    /// that fails.
     pub fn write(&self, files: &[(String, Vec<u8>)]) -> Result<(), OutputError> {
         self.replace(files).map_err(|cause| OutputError::write(&self.path, cause))
     }

@@ -85,54 +85,26 @@ impl From<Value> for Cell {
     }
 }
 
-impl From<String> for Cell {
-    fn from(text: String) -> Self {
-        if text.is_empty() { Self::default() } else { Value::Text(text).into() }
-    }
+/// Empty text is what is not known; other numbers than whole ones have three significant digits.
+macro_rules! cell_from {
+    ($($value:ident: $type:ty => $of:expr;)*) => {
+        $(impl From<$type> for Cell {
+            fn from($value: $type) -> Self {
+                $of.into()
+            }
+        })*
+    };
 }
 
-impl From<&str> for Cell {
-    fn from(text: &str) -> Self {
-        text.to_owned().into()
-    }
-}
-
-impl From<&String> for Cell {
-    fn from(text: &String) -> Self {
-        text.clone().into()
-    }
-}
-
-/// Three significant digits.
-impl From<f64> for Cell {
-    fn from(x: f64) -> Self {
-        Value::Number(x, Format::Figures).into()
-    }
-}
-
-impl From<u64> for Cell {
-    fn from(n: u64) -> Self {
-        Value::Count(n).into()
-    }
-}
-
-impl From<usize> for Cell {
-    fn from(n: usize) -> Self {
-        Value::Count(n as u64).into()
-    }
-}
-
-impl From<bool> for Cell {
-    fn from(yes: bool) -> Self {
-        if yes { "true" } else { "false" }.into()
-    }
-}
-
-/// Three significant digits, with the interval.
-impl From<Estimate> for Cell {
-    fn from(x: Estimate) -> Self {
-        Value::Estimate(x, Format::Figures).into()
-    }
+cell_from! {
+    text: String => if text.is_empty() { Value::Empty } else { Value::Text(text) };
+    text: &str => text.to_owned();
+    text: &String => text.clone();
+    x: f64 => Value::Number(x, Format::Figures);
+    x: Estimate => Value::Estimate(x, Format::Figures);
+    n: u64 => Value::Count(n);
+    n: usize => Value::Count(n as u64);
+    yes: bool => if yes { "true" } else { "false" };
 }
 
 /// What is not known is empty.

@@ -1,6 +1,5 @@
 //! Single rays of a picture, and what every structure does for them: data of a part of the page that is looked into.
 
-use serde::ser::SerializeSeq;
 use serde::{Serialize, Serializer};
 
 /// Some rays of a picture, each with all answers: columns, so that a few thousand rays stay small on a page.
@@ -35,19 +34,17 @@ pub struct Answer {
 /// `[t, triangle, u, v]`, or `[]` of a miss; what is wrong with it stands behind.
 impl Serialize for Answer {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut fields = serializer.serialize_seq(None)?;
-        if let Some(hit) = &self.hit {
-            fields.serialize_element(&hit.t)?;
-            fields.serialize_element(&hit.triangle)?;
-            for weight in hit.weights {
-                // As many digits as are printed.
-                fields.serialize_element(&(libm::round(weight * 1e9) / 1e9))?;
-            }
+        let hit = self.hit.map(|InspectedHit { t, triangle, weights }| {
+            // As many digits as are printed.
+            let [u, v] = weights.map(|weight| libm::round(weight * 1e9) / 1e9);
+            (t, triangle, u, v)
+        });
+        match (hit, self.wrong) {
+            (Some(hit), "") => hit.serialize(serializer),
+            (Some((t, triangle, u, v)), wrong) => (t, triangle, u, v, wrong).serialize(serializer),
+            (None, "") => [(); 0].serialize(serializer),
+            (None, wrong) => [wrong].serialize(serializer),
         }
-        if !self.wrong.is_empty() {
-            fields.serialize_element(self.wrong)?;
-        }
-        fields.end()
     }
 }
 

@@ -1,10 +1,8 @@
 //! What a study says of a dataset: plain data, before it has a form.
 
-use std::fmt;
-
 use super::inspector::Inspector;
 use super::plot::Chart;
-use super::{Cell, Table, Tone, Value};
+use super::{Cell, Table, Tone};
 use crate::measure::Estimate;
 use crate::names::named_enum;
 
@@ -214,6 +212,11 @@ impl Report {
         (!self.verdicts.is_empty()).then_some(table)
     }
 
+    /// Figures that are not folded, in their order.
+    pub fn figures(&self) -> impl Iterator<Item = &Figure> {
+        self.blocks.iter().filter_map(|block| if let Block::Figure(figure) = block { Some(&**figure) } else { None })
+    }
+
     /// Tables that are not folded, in their order.
     pub fn tables(&self) -> impl Iterator<Item = &Table> {
         self.blocks.iter().filter_map(|block| if let Block::Table(table) = block { Some(table) } else { None })
@@ -230,13 +233,11 @@ impl Outcome {
     }
 }
 
-impl fmt::Display for Missing {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} (`{}`)", self.what, self.command)
-    }
-}
-
 impl Figure {
+    pub fn chart(&self) -> Option<&Chart> {
+        if let Art::Chart(chart) = &self.art { Some(chart) } else { None }
+    }
+
     /// The pictures of pixels that it consists of; none in a chart.
     pub fn pictures(&self) -> &[Picture] {
         match &self.art {
@@ -265,13 +266,5 @@ impl Block {
 impl From<Table> for Block {
     fn from(table: Table) -> Self {
         Self::Table(table)
-    }
-}
-
-impl Value {
-    /// Text, or nothing where it is empty.
-    pub fn text(text: impl Into<String>) -> Self {
-        let text = text.into();
-        if text.is_empty() { Self::Empty } else { Self::Text(text) }
     }
 }

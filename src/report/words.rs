@@ -13,13 +13,11 @@ pub fn interval(x: Estimate) -> String {
     written(x, figures)
 }
 
-/// As [`interval`], of numbers written as `number` says. `[?]` of an interval that reaches from nearly nothing to a great multiple.
+/// As [`interval`], of numbers written as `number` says.
 pub fn written(x: Estimate, number: impl Fn(f64) -> String) -> String {
     match x.interval {
         Some(interval) if interval.low == interval.high => number(x.estimate),
-        Some(interval) if says_nothing(interval) => format!("{} [?]", number(x.estimate)),
-        Some(interval) => format!("{} [{}, {}]", number(x.estimate), number(interval.low), number(interval.high)),
-        None => format!("{} {ONE_EPOCH}", number(x.estimate)),
+        _ => format!("{} {}", number(x.estimate), written_ends(x, number)),
     }
 }
 
@@ -30,16 +28,16 @@ pub fn ended(words: &str) -> String {
 
 /// `[19.2, 21.4]`; `(one epoch)` without an interval.
 pub fn ends(x: Estimate) -> String {
-    match x.interval {
-        Some(interval) if says_nothing(interval) => "[?]".into(),
-        Some(interval) => format!("[{}, {}]", figures(interval.low), figures(interval.high)),
-        None => ONE_EPOCH.into(),
-    }
+    written_ends(x, figures)
 }
 
-/// Whether it reaches from nearly nothing to a great multiple.
-fn says_nothing(interval: Interval) -> bool {
-    interval.low > 0.0 && interval.high > 1e4 * interval.low
+/// `[?]` of an interval that reaches from nearly nothing to a great multiple.
+fn written_ends(x: Estimate, number: impl Fn(f64) -> String) -> String {
+    match x.interval {
+        Some(Interval { low, high, .. }) if low > 0.0 && high > 1e4 * low => "[?]".into(),
+        Some(Interval { low, high, .. }) => format!("[{}, {}]", number(low), number(high)),
+        None => ONE_EPOCH.into(),
+    }
 }
 
 /// Stands behind an estimate that has no interval.

@@ -4,12 +4,11 @@ use minijinja::{Value, context};
 
 use super::{in_script, scatter};
 use crate::page::document::{Answer, Document, Headline, Section};
-use crate::report::plot::Chart;
+use crate::report::plot::{Chart, WIDTH};
 use crate::report::words::ended;
 use crate::report::{Art, Block, Cell, Colours, Figure, Overlay, Picture, Table, Tone};
 
-/// Widths of drawings: on a desk, and on a telephone.
-pub const WIDE: f64 = 900.0;
+/// Width of drawings on a telephone.
 const NARROW: f64 = 360.0;
 
 /// The page: what the template may ask of each part stands where the part is made.
@@ -98,7 +97,7 @@ fn figure(figure: &Figure) -> Value {
     let mut laid = None;
     match &figure.art {
         Art::Chart(chart) => {
-            wide = Some(inline(&chart.svg(WIDE)));
+            wide = Some(inline(&chart.svg(WIDTH)));
             // Points have labels all over: they are as wide as they are, and scroll.
             narrow = (!matches!(chart, Chart::Scatter(_))).then(|| inline(&chart.svg(NARROW)));
             scatter = if let Chart::Tradeoff(tradeoff) = chart { Some(scatter::data(tradeoff)) } else { None };

@@ -16,4 +16,12 @@ impl LoadedScene {
         let view = self.request.view.words();
         [quoted(&self.request.word), view].into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
     }
+
+    /// The cube under another name, asked for as `word` and seen as the JSON of `view` says.
+    #[cfg(test)]
+    pub fn cube(word: &str, name: &str, view: &str) -> Self {
+        let scene = Scene { name: name.into(), ..crate::scene::Builtin::find("cube").unwrap().scene(None).unwrap() };
+        let request = SceneRequest::new(word, &serde_json::from_str(view).unwrap(), &scene);
+        Self { scene, request }
+    }
 }

@@ -116,16 +116,10 @@ pub fn left_out() -> Vec<Section> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::request::SceneRequest;
-    use crate::request::ViewArgs;
-    use crate::scene::Builtin;
 
     #[test]
     fn a_scene_that_is_too_large_to_be_built_again_is_named_with_a_command() {
-        let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
-        let view: ViewArgs = serde_json::from_str(r#"{"inside":true}"#).unwrap();
-        let request = SceneRequest::new("cube", &view, &scene);
-        let loaded = LoadedScene { scene, request };
+        let loaded = LoadedScene::cube("cube", "Cube", r#"{"inside":true}"#);
         for (section, view) in [
             (heat::section(vec![], without(&[&loaded], "heat")), "heat"),
             (errors::section(vec![], without(&[&loaded], "error")), "error"),

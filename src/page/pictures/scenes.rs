@@ -94,17 +94,10 @@ pub fn section(pictures: Vec<Picture>, loaded: &[LoadedScene], lost: &[String]) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::request::{SceneRequest, ViewArgs};
-    use crate::scene::Scene;
 
     #[test]
     fn only_built_in_scenes_have_the_cameras_of_the_source_report() {
-        let caption = |word: &str, name: &str, view: &str| {
-            let scene = Scene { name: name.into(), ..Builtin::find("cube").unwrap().scene(None).unwrap() };
-            let view: ViewArgs = serde_json::from_str(view).unwrap();
-            let request = SceneRequest::new(word, &view, &scene);
-            super::caption(&[LoadedScene { scene, request }])
-        };
+        let caption = |word: &str, name: &str, view: &str| super::caption(&[LoadedScene::cube(word, name, view)]);
         let cube = caption("cube", "Cube", "{}");
         assert!(cube.contains("rendered by sahara with the source report's cameras") && !cube.contains("--"), "{cube}");
         assert_eq!(caption("cube:stand-in", "Cube", "{}"), cube);

@@ -74,7 +74,8 @@ fn results(document: &Document, runs: &Runs) -> String {
         let command = own.command.lines().map(portable).collect::<Vec<_>>().join("\n");
         section(&Section { blocks, command, ..*own }, &mut text);
     }
-    let missing: Vec<String> = document.missing().iter().map(ToString::to_string).collect();
+    let missing: Vec<String> =
+        document.missing().iter().map(|own| format!("{} (`{}`)", own.what, own.command)).collect();
     if !missing.is_empty() {
         text += &paragraph(&format!("Not measured in this run: {}.", listed(&missing)));
     }

@@ -11,6 +11,9 @@ use super::{Bars, Curves, Scatter, Tradeoff};
 use crate::escaped::Escaped as _;
 use crate::render::Picture;
 
+/// Width of drawings that stand alone, in their units.
+pub const WIDTH: f64 = 900.0;
+
 /// A chart of any kind.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Chart {
@@ -28,25 +31,14 @@ pub enum Format {
     Png,
 }
 
-/// What the ending of a file name does not tell.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("cannot plot to {0}: name a file that ends in .svg or .png")]
-pub struct UnknownFormat(String);
-
 impl Format {
-    /// The form that the ending of a file name asks for.
-    ///
-    /// # Errors
-    /// If it is neither `.svg` nor `.png`. Standard output, `-`, gets SVG.
-    pub fn of(path: &Path) -> Result<Self, UnknownFormat> {
-        if path == Path::new(crate::output::STDOUT) {
-            return Ok(Self::Svg);
-        }
-        let ending = path.extension().map(|ending| ending.to_ascii_lowercase());
-        match ending.as_deref().and_then(|ending| ending.to_str()) {
-            Some("svg") => Ok(Self::Svg),
-            Some("png") => Ok(Self::Png),
-            _ => Err(UnknownFormat(path.escaped().to_string())),
+    /// The form that the ending of a file name asks for. Standard output, `-`, gets SVG.
+    pub fn of(path: &Path) -> anyhow::Result<Self> {
+        let is = |ending: &str| path.extension().is_some_and(|own| own.eq_ignore_ascii_case(ending));
+        match () {
+            () if is("svg") || path == Path::new(crate::output::STDOUT) => Ok(Self::Svg),
+            () if is("png") => Ok(Self::Png),
+            () => anyhow::bail!("cannot plot to {}: name a file that ends in .svg or .png", path.escaped()),
         }
     }
 }
