@@ -44,7 +44,6 @@ pub const OPTIONS: Names = (
     ],
 );
 
-/// What is said of a name that went.
 pub fn said((kind, names): Names, name: &str) -> Option<String> {
     let (name, now) = names.iter().find(|(old, _)| *old == name)?;
     Some(format!("the {kind} {name} went: {now}"))

@@ -11,7 +11,6 @@ use crate::report::plot::{Format, WIDTH};
 use crate::report::{Figure, csv, markdown};
 use crate::study::{self, Outcome, Run, Status, Study};
 
-/// Where studies keep their journals.
 pub const RUNS: &str = "runs";
 
 /// Options of every study beside its own.
@@ -76,14 +75,12 @@ impl Common {
     }
 }
 
-/// The command of a study.
 pub fn command(study: &Study) -> clap::Command {
     let command = Common::augment_args((study.options)().name(study.name));
     // The options come with what they themselves are about.
     command.about(study.question).long_about(None)
 }
 
-/// Runs a study from its own command line.
 pub fn run(session: &Session, study: &Study, matches: &ArgMatches) -> anyhow::Result<Status> {
     run_as(session, study, matches, &Common::from_arg_matches(matches)?)
 }
@@ -101,7 +98,7 @@ pub fn run_as(session: &Session, study: &Study, matches: &ArgMatches, common: &C
         folder: &folder,
         keep_journal: common.dir.is_some().then_some(true),
         fresh: common.fresh,
-        processes: session.processes(common),
+        processes: session.processes.filter(|_| !common.in_process),
         screen: &mut screen,
     };
     let outcome = study::run(study, matches, &plan, &mut run)?;

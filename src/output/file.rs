@@ -88,7 +88,6 @@ impl OutputFile {
         self.path == Path::new(STDOUT)
     }
 
-    /// Whether it is there and not a regular file.
     fn is_special(&self) -> bool {
         fs::metadata(&self.path).is_ok_and(|there| !there.is_file())
     }
@@ -107,7 +106,6 @@ impl OutputFile {
         temporary(0o666).tempfile_in(folder_of(&target(&self.path)))
     }
 
-    /// A temporary file with `bytes`, on the disk.
     fn temporary_with(&self, bytes: &[u8]) -> io::Result<NamedTempFile> {
         let mut file = self.temporary()?;
         file.write_all(bytes)?;
@@ -156,28 +154,6 @@ mod tests {
         assert!(stdout_is_taken() && out.unlike(&[&out]).is_ok());
         assert!(matches!(check(), Err(OutputError::Twice)));
         leave_stdout();
-    }
-
-    #[test]
-    fn a_result_replaces_no_input_and_no_other_result_by_whatever_path() {
-        let directory = tempfile::tempdir().unwrap();
-        let detour = format!("../{}/mesh.obj", directory.path().file_name().unwrap().display());
-        let [mesh, again, other, new, same] =
-            ["mesh.obj", &detour, "other.obj", "new.obj", "./new.obj"].map(|name| check(&directory, name).unwrap());
-        mesh.write(b"v 0 0 0").unwrap();
-        for file in [&mesh, &again] {
-            let error = file.clone().apart_from([other.path(), mesh.path()]).unwrap_err().to_string();
-            assert!(error.contains("mesh.obj") && error.contains("another"), "{error}");
-        }
-        other.clone().apart_from([other.path(), mesh.path()]).unwrap();
-
-        // A file that is not there yet, and then is.
-        for _ in 0..2 {
-            mesh.unlike(&[&new]).unwrap();
-            let error = same.unlike(&[&other, &new]).unwrap_err().to_string();
-            assert!(error.contains("new.obj") && error.contains("two results"), "{error}");
-            new.write(b"there").unwrap();
-        }
     }
 
     #[cfg(unix)]

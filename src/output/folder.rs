@@ -150,17 +150,4 @@ mod tests {
             assert!(matches!(OutputFolder::check(&nowhere), Err(OutputError::Write { .. })));
         }
     }
-
-    #[test]
-    fn a_folder_with_an_input_is_not_replaced() {
-        let parent = tempfile::tempdir().unwrap();
-        let path = parent.path().join("out");
-        let folder = OutputFolder::check(&path).unwrap();
-        folder.write(&files("one")).unwrap();
-        let (inside, beside) = (path.join("../out/data/a.csv"), parent.path().join("a.csv"));
-        fs::write(&beside, "mine").unwrap();
-        let error = folder.clone().apart_from([beside.as_path(), &inside]).unwrap_err().to_string();
-        assert!(error.contains("a.csv, one of the files to read") && error.contains("another folder"), "{error}");
-        folder.apart_from([beside.as_path(), &parent.path().join("not-there")]).unwrap();
-    }
 }

@@ -34,7 +34,6 @@ pub struct StudyRun<'a> {
     pub study: &'a Study,
     /// What is shown: of several settings, builds or machines the one with the most cases.
     pub dataset: Dataset,
-    /// The others.
     pub others: Vec<Dataset>,
     pub report: Report,
 }
@@ -44,7 +43,6 @@ pub struct StudyRun<'a> {
 pub struct Source {
     /// As named on the command line, or found in a folder that was.
     pub path: PathBuf,
-    /// What it holds.
     pub kind: String,
     /// The commands that made it; none where it does not say.
     pub commands: Vec<String>,

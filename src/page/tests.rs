@@ -20,7 +20,6 @@ fn document(runs: &Runs) -> Document {
     super::document(runs, &STUDIES, vec![])
 }
 
-/// Both forms of a document.
 fn forms(document: &Document) -> [String; 2] {
     [page(document), super::markdown::markdown(document)]
 }

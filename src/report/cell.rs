@@ -15,7 +15,6 @@ pub enum Value {
     /// A difference: `+2`, `-3`, `0`.
     Difference(i64),
     Number(f64, Format),
-    /// A number with its interval.
     Estimate(Estimate, Format),
     /// Rays with a wrong answer, of those that were checked.
     Errors {
@@ -24,10 +23,8 @@ pub enum Value {
     },
 }
 
-/// How a number is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// Three significant digits.
     Figures,
     /// So many decimals.
     Decimals(u8),
@@ -46,9 +43,7 @@ pub enum Format {
 pub enum Tone {
     #[default]
     Plain,
-    /// The best of its column.
     Best,
-    /// A wrong answer.
     Wrong,
 }
 
@@ -115,7 +110,6 @@ impl<T: Into<Cell>> From<Option<T>> for Cell {
 }
 
 impl Cell {
-    /// What is not known.
     pub fn empty() -> Self {
         Self::default()
     }
@@ -128,7 +122,6 @@ impl Cell {
         Value::Estimate(x, format).into()
     }
 
-    /// Nanoseconds.
     pub fn duration(ns: f64) -> Self {
         Self::number(ns, Format::Duration)
     }
@@ -142,7 +135,6 @@ impl Cell {
         Self { equal: x != Estimate::exact(1.0) && x.holds(1.0), ..x.into() }
     }
 
-    /// The same cell with this tone.
     pub fn with(self, tone: Tone) -> Self {
         Self { tone, ..self }
     }
@@ -152,7 +144,6 @@ impl Cell {
         Self { sampled, ..self }
     }
 
-    /// The same cell with a note in parentheses.
     pub fn noted(self, note: impl Into<String>) -> Self {
         Self { note: note.into(), ..self }
     }
@@ -166,7 +157,6 @@ impl Cell {
         matches!(self.value, Value::Text(_))
     }
 
-    /// As people read it.
     pub fn text(&self) -> String {
         let value = match &self.value {
             Value::Empty => return String::new(),

@@ -64,7 +64,6 @@ pub struct InspectedStructure {
     /// Inner nodes and leaves entered.
     pub nodes: Vec<u64>,
     pub leaves: Vec<u64>,
-    /// Triangles tested.
     pub tests: Vec<u64>,
     /// Which of the answers of the ray is its own.
     pub answers: Vec<usize>,

@@ -56,7 +56,6 @@ pub enum Block {
 pub struct Verdict {
     /// Of the prediction that the claim is a part of, from 1.
     pub prediction: u8,
-    /// What is measured.
     pub claim: String,
     /// What was expected of it: `at least 20`.
     pub expected: String,
@@ -66,7 +65,6 @@ pub struct Verdict {
 }
 
 named_enum! {
-    /// What came of a claim.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Outcome {
         /// The whole interval is as expected.
@@ -75,7 +73,6 @@ named_enum! {
         Refuted = "refuted",
         /// The interval reaches across a bound, or is not known.
         Undecided = "undecided",
-        /// There is nothing to judge by.
         NotMeasured = "not measured",
     }
 }
@@ -83,13 +80,11 @@ named_enum! {
 /// A structure without times, or with wrong answers, and why.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Failure {
-    /// Name in the registry.
     pub structure: String,
     /// What to print below the tables; empty where a table says it.
     pub sentence: String,
     /// Whether the structure has no time at all.
     pub refused: bool,
-    /// Whether it gave wrong answers.
     pub wrong: bool,
 }
 
@@ -107,7 +102,6 @@ pub struct Figure {
     pub data: Table,
 }
 
-/// What a figure consists of.
 #[derive(Clone, Debug)]
 pub enum Art {
     Chart(Chart),
@@ -118,7 +112,6 @@ pub enum Art {
 /// Pictures of one size on one scale, side by side, and two of them one upon the other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Overlay {
-    /// What is seen.
     pub heading: String,
     pub pictures: Vec<Picture>,
     pub colours: Colours,
@@ -126,12 +119,9 @@ pub struct Overlay {
     pub inspector: Option<Box<Inspector>>,
 }
 
-/// What the colours of pictures mean.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Colours {
-    /// A scale.
     Ramp {
-        /// What it is of.
         title: String,
         /// Colours at equal distances, `#RRGGBB`.
         colours: Vec<String>,
@@ -142,15 +132,12 @@ pub enum Colours {
     Key(Vec<(String, String)>),
 }
 
-/// A small picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
     pub name: String,
     /// One line below it.
     pub note: String,
-    /// What one sees.
     pub alt: String,
-    /// The bytes of a PNG file.
     pub png: Vec<u8>,
     /// Width and height in pixels.
     pub size: [u32; 2],
@@ -160,7 +147,6 @@ pub struct Picture {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Missing {
     pub what: String,
-    /// The command that measures it.
     pub command: String,
 }
 
@@ -175,24 +161,20 @@ impl Finding {
         Self { key: key.into(), sentence: String::new(), value: None, name: Some(name.into()) }
     }
 
-    /// A number without a sentence.
     pub fn number(key: impl Into<String>, value: Estimate) -> Self {
         Self { key: key.into(), sentence: String::new(), value: Some(value), name: None }
     }
 
-    /// The same finding, about `value`.
     pub fn of(self, value: Estimate) -> Self {
         Self { value: Some(value), ..self }
     }
 }
 
 impl Report {
-    /// The finding of this key.
     pub fn finding(&self, key: &str) -> Option<&Finding> {
         self.findings.iter().find(|finding| finding.key == key)
     }
 
-    /// Sentences of the findings.
     pub fn sentences(&self) -> impl Iterator<Item = &str> {
         self.findings.iter().map(|finding| finding.sentence.as_str()).filter(|sentence| !sentence.is_empty())
     }

@@ -110,9 +110,6 @@ pub fn each_once_by<T>(items: impl IntoIterator<Item = T>, same: impl Fn(&T, &T)
 
 /// A command line as another machine would type it: without the folder of the program.
 pub fn command_line(command: &str) -> String {
-    if command.is_empty() {
-        return String::new();
-    }
     let (program, rest) = command.split_once(' ').unwrap_or((command, ""));
     let program = program.trim_matches('\'').rsplit(['/', '\\']).next().unwrap_or(program);
     let name = if program.starts_with("sahara") { "sahara" } else { program };

@@ -31,7 +31,6 @@ use crate::study::Status;
 /// The SHA-256 of `SHA256SUMS` in the corpus of all defaults.
 const CORPUS_SHA256: &str = "80236458bcb0a6bbaadffad14093129fc1b00782e4f0118cc37d15f480bc129d";
 
-/// The file of all others' hashes.
 const SUMS: &str = "SHA256SUMS";
 
 const RAYS: u32 = 256;
@@ -59,7 +58,6 @@ impl Args {
     }
 }
 
-/// The files of a corpus, by their names.
 type Files = BTreeMap<String, Vec<u8>>;
 
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
@@ -118,7 +116,6 @@ fn verdict(args: &Args, digest: &str, terminal: &Terminal) -> anyhow::Result<Sta
     Ok(status)
 }
 
-/// What a corpus holds of one scene.
 struct Part {
     files: Files,
     rays: usize,

@@ -158,7 +158,6 @@ impl Args {
         self.limit.duration()
     }
 
-    /// Builds a structure within the limit.
     fn build(&self, choice: &Choice, scene: &Scene, waiting: &Waiting) -> Result<Arc<dyn DynAccel>, BuildFailure> {
         waiting.says(format!("{} builds {}", scene.name, choice.label));
         let (own, mesh) = (choice.clone(), Arc::clone(&scene.mesh));

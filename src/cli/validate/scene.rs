@@ -108,7 +108,6 @@ impl Run<'_> {
     }
 }
 
-/// What a structure does not support.
 fn declined(choice: &Choice, found: &Validation) -> Option<String> {
     let what = choice.entry.capabilities.declined();
     let rays = match found.declined {

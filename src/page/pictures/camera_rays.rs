@@ -51,7 +51,6 @@ impl<'a> CameraRays<'a> {
         Self { loaded, name: scene_name(&scene.name, !scene.stand_ins.is_empty()), exact, structures }
     }
 
-    /// Where the answers of a structure are wrong.
     pub fn errors(&self, structure: &StructureWork) -> ErrorMap {
         ErrorMap::of(&self.exact, structure.work.iter().map(|work| work.hit))
     }

@@ -21,12 +21,7 @@ struct Heat<'a> {
     costs: Vec<u64>,
 }
 
-impl<'a> Heat<'a> {
-    fn of(structure: &'a StructureWork) -> Option<Self> {
-        let costs = || structure.work.iter().map(Work::cost).collect();
-        (structure.observed == Observed::ALL).then(|| Self { label: &structure.label, costs: costs() })
-    }
-
+impl Heat<'_> {
     fn mean(&self) -> f64 {
         self.costs.iter().sum::<u64>() as f64 / self.costs.len() as f64
     }
@@ -34,7 +29,9 @@ impl<'a> Heat<'a> {
 
 /// The maps of all structures that tell their work, with the command that draws one. Nothing where none does.
 pub fn block(camera: &CameraRays) -> Option<(Block, String)> {
-    let maps: Vec<Heat> = camera.structures.iter().filter_map(Heat::of).collect();
+    let told = camera.structures.iter().filter(|own| own.observed == Observed::ALL);
+    let costs = |own: &StructureWork| own.work.iter().map(Work::cost).collect();
+    let maps: Vec<Heat> = told.map(|own| Heat { label: &own.label, costs: costs(own) }).collect();
     // One scale for all: a structure is as bright as its work.
     let scale = maps.iter().map(|heat| hottest(&heat.costs)).max()?;
     let (name, size) = (&camera.name, camera.exact.size);

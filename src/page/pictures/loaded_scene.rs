@@ -4,7 +4,6 @@ use crate::escaped::quoted;
 use crate::request::SceneRequest;
 use crate::scene::Scene;
 
-/// A scene of the runs, as it was measured.
 pub struct LoadedScene {
     pub scene: Scene,
     pub request: SceneRequest,

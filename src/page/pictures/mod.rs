@@ -77,7 +77,6 @@ fn without(too_large: &[&LoadedScene], view: &str) -> Vec<Block> {
     too_large.iter().map(block).collect()
 }
 
-/// A colour of a picture as the page writes it.
 fn hex([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }

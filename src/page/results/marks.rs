@@ -1,6 +1,5 @@
 //! Places of a Markdown file that a run fills in: text between `<!-- sahara: KEY -->` and `<!-- / -->`.
 
-/// Begins a mark.
 pub const OPEN: &str = "<!-- sahara: ";
 const END: &str = " -->";
 const CLOSE: &str = "<!-- / -->";

@@ -39,10 +39,8 @@ pub const DATA: &str = "results.json";
 /// The folder of figures, likewise.
 pub const FIGURES: &str = "figures";
 
-/// All that is written.
 pub struct Results {
     pub data: ResultsData,
-    /// The paper.
     pub paper: String,
     /// Names and bytes of the files in the folder of figures.
     pub figures: Vec<(String, Vec<u8>)>,
@@ -51,7 +49,6 @@ pub struct Results {
 /// The data file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ResultsData {
-    /// Version of these fields.
     pub schema: u32,
     pub made_by: String,
     pub run: RunFacts,
@@ -127,7 +124,6 @@ impl Results {
         fill(readme, |key| self.data.statements.get(key).map(|statement| statement.text.clone())).context("README.md")
     }
 
-    /// The bytes of the data file.
     pub fn json(&self) -> Vec<u8> {
         let mut bytes = serde_json::to_vec_pretty(&self.data).expect("keys are text");
         bytes.push(b'\n');

@@ -12,7 +12,6 @@ use crate::report::{Art, Block, wrapped};
 /// The text around; a name in double braces stands for what is filled in.
 const FRAME: &str = include_str!("paper.md");
 
-/// The picture of the answer.
 pub const ANSWER: &str = "answer.svg";
 
 /// Figures of a study that the paper shows; the page has all.

@@ -5,7 +5,7 @@ use std::path::Path;
 use plotters::drawing::IntoDrawingArea;
 use plotters::prelude::{BitMapBackend, DrawingBackend, SVGBackend};
 
-use super::canvas::{Area, Canvas, DrawResult, Tip, register};
+use super::canvas::{Area, Canvas, DrawResult, register};
 use super::palette::PAPER;
 use super::{Bars, Curves, Scatter, Tradeoff};
 use crate::escaped::Escaped as _;
@@ -14,7 +14,6 @@ use crate::render::Picture;
 /// Width of drawings that stand alone, in their units.
 pub const WIDTH: f64 = 900.0;
 
-/// A chart of any kind.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Chart {
     Bars(Bars),
@@ -60,7 +59,7 @@ impl Chart {
         (width as u32, height as u32)
     }
 
-    fn draw<B: DrawingBackend>(&self, area: Area<B>) -> DrawResult<B, Vec<Tip>> {
+    fn draw<B: DrawingBackend>(&self, area: Area<B>) -> DrawResult<B, String> {
         register();
         area.fill(&PAPER.light)?;
         let width = area.dim_in_pixel().0 as i32;
@@ -81,7 +80,7 @@ impl Chart {
         let area = SVGBackend::with_string(&mut text, self.size(width)).into_drawing_area();
         let tips = self.draw(area).expect(DRAWN);
         let end = text.rfind("</svg>").unwrap_or(text.len());
-        text.insert_str(end, &tips.iter().map(Tip::svg).collect::<String>());
+        text.insert_str(end, &tips);
         text
     }
 

@@ -23,7 +23,7 @@ use crate::request::{self, known_defect};
 use crate::study::Status;
 use crate::triangle::{Exact, TriangleTest};
 use crate::validate::hard_cases::{Answers, CaseTruth, Content, Failure, HardCase, Score, catalogue, find_all};
-use record::{HardRecord, HardRun};
+use record::{HardRun, record};
 use table::{Column, LEGEND, tables};
 
 pub use child::{Args as ChildArgs, COMMAND as CHILD, run_child};
@@ -53,7 +53,7 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
         waiting.says(format!("{} of {}: {}", i + 1, cases.len(), case.name));
         let scores = scores(case, &choices, rays, args.limit())?;
         for (column, score) in columns.iter_mut().zip(scores) {
-            records.push(HardRecord::new(case, column.choice, &score));
+            records.push(record(case, column.choice, &score));
             column.scores.push(score);
         }
     }

@@ -6,14 +6,12 @@ use crate::report::{Cell, Table, Tone};
 use crate::request::known_defect;
 use crate::validate::hard_cases::{Content, Failure, HardCase, Property, Rank, RayScore, Score};
 
-/// One structure in the tables.
 pub struct Column<'a> {
     pub choice: &'a Choice,
     /// One per case, in the order of the cases.
     pub scores: Vec<Score>,
 }
 
-/// What the tables show, once for all.
 pub const LEGEND: [&str; 4] = [
     "A dot: nothing wrong. m: missed, d: wrong depth (t off by more than 4 ulps and more than 1e-6; behind the stroke \
      those off by more than 1 %, or 0.1 % on another primitive), S: structure errors, in percent of the true hits; f: false \
