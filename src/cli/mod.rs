@@ -154,7 +154,7 @@ fn command(studies: &Studies) -> clap::Command {
     let command = Process::augment_args(shown(studies)).subcommand(validate::ChildArgs::augment_args(child));
     let rest = || clap::Arg::new("rest").num_args(0..).trailing_var_arg(true).allow_hyphen_values(true);
     let old = |(name, _): &(&'static str, _)| clap::Command::new(*name).hide(true).disable_help_flag(true).arg(rest());
-    command.subcommands(moved::COMMANDS.1.iter().map(old))
+    command.subcommands(moved::COMMANDS.iter().map(old))
 }
 
 /// Runs the command line of this process over structures, with the studies of this crate, or over a whole [`Suite`].
@@ -258,7 +258,7 @@ fn dispatch(session: &Session, matches: &ArgMatches, global: &Global) -> anyhow:
             return validate::run_child(registry, &validate::ChildArgs::from_arg_matches(matches)?);
         }
         Some((name, _)) => {
-            if let Some(sentence) = moved::said(moved::COMMANDS, name) {
+            if let Some(sentence) = moved::said("command", &moved::COMMANDS, name) {
                 anyhow::bail!(sentence);
             }
         }
@@ -278,7 +278,7 @@ fn dispatch(session: &Session, matches: &ArgMatches, global: &Global) -> anyhow:
 
 fn find<'a>(suite: &'a Suite, study: &str) -> anyhow::Result<&'a Study> {
     suite.studies.find(study).ok_or_else(|| {
-        if let Some(sentence) = moved::said(moved::STUDIES, study) {
+        if let Some(sentence) = moved::said("study", &moved::STUDIES, study) {
             return anyhow::anyhow!(sentence);
         }
         let names: Vec<&str> = suite.studies.iter().map(|study| study.name).chain([all::NAME, plan::NAME]).collect();

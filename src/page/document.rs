@@ -46,7 +46,6 @@ pub struct Section {
 }
 
 impl Document {
-    /// All blocks, in their order, with those that are folded.
     fn blocks(&self) -> Vec<&Block> {
         fn collect<'a>(blocks: &'a [Block], found: &mut Vec<&'a Block>) {
             for block in blocks {

@@ -113,7 +113,6 @@ impl<'a> Runs<'a> {
         }
     }
 
-    /// What was measured of the study of this name.
     pub fn of(&self, study: &str) -> Option<&StudyRun<'a>> {
         self.studies.iter().find(|run| run.study.name == study)
     }
@@ -123,7 +122,6 @@ impl<'a> Runs<'a> {
         self.studies.iter().map(|run| &run.dataset.provenance).collect()
     }
 
-    /// The commands that measured what is shown.
     pub fn commands(&self) -> Vec<String> {
         each_once(self.studies.iter().flat_map(StudyRun::commands))
     }
@@ -136,7 +134,6 @@ impl<'a> Runs<'a> {
 }
 
 impl StudyRun<'_> {
-    /// The commands that measured what is shown.
     pub fn commands(&self) -> Vec<String> {
         each_once(self.dataset.commands().into_iter().map(command_line))
     }

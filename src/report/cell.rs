@@ -25,6 +25,7 @@ pub enum Value {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
+    /// Three significant digits.
     Figures,
     /// So many decimals.
     Decimals(u8),

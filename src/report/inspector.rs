@@ -5,7 +5,6 @@ use serde::{Serialize, Serializer};
 /// Some rays of a picture, each with all answers: columns, so that a few thousand rays stay small on a page.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Inspector {
-    /// Width and height of the picture in pixels.
     pub size: [u32; 2],
     /// Which pixels can be asked for, in a sentence.
     pub which: String,
@@ -17,7 +16,6 @@ pub struct Inspector {
     pub rays: Vec<String>,
     /// What exact arithmetic answers.
     pub truths: Vec<Answer>,
-    /// The different answers of the structures.
     pub answers: Vec<Vec<Answer>>,
     /// Labels, and what each structure does for each ray.
     pub structures: Vec<InspectedStructure>,

@@ -37,7 +37,6 @@ pub struct Finding {
     pub name: Option<String>,
 }
 
-/// What follows one upon the other in a report.
 #[derive(Clone, Debug)]
 pub enum Block {
     Text(String),
@@ -83,7 +82,6 @@ pub struct Failure {
     pub structure: String,
     /// What to print below the tables; empty where a table says it.
     pub sentence: String,
-    /// Whether the structure has no time at all.
     pub refused: bool,
     pub wrong: bool,
 }
@@ -229,7 +227,6 @@ impl Figure {
         }
     }
 
-    /// Where a picture of it is, in the folder of a report.
     pub fn picture_path(&self, index: usize) -> String {
         format!("figures/{}-{}.png", self.id, index + 1)
     }

@@ -40,7 +40,6 @@ fn written_ends(x: Estimate, number: impl Fn(f64) -> String) -> String {
     }
 }
 
-/// Stands behind an estimate that has no interval.
 pub const ONE_EPOCH: &str = "(one epoch)";
 
 /// The words of `text` in lines of at most `width` characters, or one word.
@@ -87,7 +86,6 @@ pub fn bare(label: &str) -> &str {
     label.split(':').next().unwrap_or(label)
 }
 
-/// Distinct names in the order of their first appearance.
 pub fn distinct<'a>(names: impl Iterator<Item = &'a String>) -> Vec<String> {
     each_once(names).into_iter().cloned().collect()
 }

@@ -41,7 +41,7 @@ impl Run<'_> {
         let mut hits = vec![];
         for batch in workload.rays.chunks(BATCH) {
             let (accel, query, batch) = (Arc::clone(&accel), workload.query, batch.to_vec());
-            let traced = watched(args.limit(), move || traced(accel.as_ref(), query, &batch));
+            let traced = watched(args.limit.duration(), move || traced(accel.as_ref(), query, &batch));
             let advice = || format!("{label}: find the ray by the same command without --export-hits");
             hits.extend(traced.with_context(advice)?);
         }

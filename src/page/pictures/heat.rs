@@ -15,7 +15,6 @@ use crate::report::{Art, Block, Colours, Figure, Overlay, Picture, Table};
 
 pub const TITLE: &str = "Where is the work?";
 
-/// What one structure does for each pixel.
 struct Heat<'a> {
     label: &'a str,
     costs: Vec<u64>,
@@ -110,7 +109,6 @@ fn stepped(cost: u64, scale: u64) -> u64 {
     libm::round(libm::expm1(step * unit)) as u64
 }
 
-/// The section with the figures of all scenes, and what is said of those without one.
 pub fn section(found: Vec<(Block, String)>, left_out: Vec<Block>) -> Section {
     let what = "Where the work is: brighter pixels cost more triangle tests and steps.";
     let (blocks, command) = introduced("Heat maps of the structures", what, found, left_out);

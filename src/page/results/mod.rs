@@ -30,13 +30,9 @@ use crate::study::measurement::{Measurement, measurements};
 /// The command that makes all of it.
 pub const COMMAND: &str = "sahara report RUN.. --results";
 
-/// The paper, in the folder of results.
+/// The paper, the data file and the folder of figures, in the folder of results.
 pub const PAPER: &str = "RESULTS.md";
-
-/// The data file, likewise.
 pub const DATA: &str = "results.json";
-
-/// The folder of figures, likewise.
 pub const FIGURES: &str = "figures";
 
 pub struct Results {

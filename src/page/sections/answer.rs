@@ -10,7 +10,6 @@ use crate::report::words::{ended, ends, interval, listed, slug};
 use crate::study::claims;
 use crate::study::compare::FASTEST;
 
-/// The question in the words of the source report.
 const QUESTION: &str = "Would a SAH tree have been much faster on the hard scenes?";
 
 /// The hard scenes, as keys name them.

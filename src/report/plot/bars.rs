@@ -26,7 +26,6 @@ pub struct Bars {
     pub groups: Vec<BarGroup>,
 }
 
-/// Bars below one heading.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BarGroup {
     /// May be empty.
@@ -63,7 +62,6 @@ impl Bar {
     }
 }
 
-/// Height of the title of the axis, below all groups.
 const FOOT: i32 = 48;
 
 /// Least width of a group, without the labels.

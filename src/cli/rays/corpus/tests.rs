@@ -9,10 +9,6 @@ use crate::validate::{DepthRule, count_errors};
 
 const DOCUMENT: &str = include_str!("../../../scene/files/FORMAT.md");
 
-fn own(name: &str) -> Scene {
-    Builtin::find(name).unwrap().scene(None).unwrap()
-}
-
 #[test]
 fn the_document_states_the_hash_of_the_corpus() {
     assert!(
@@ -45,7 +41,7 @@ fn the_python_of_the_document_counts_the_errors_that_we_count() {
     };
     let script = write("judge.py", code.as_bytes());
 
-    let scene = own("cornellbox");
+    let scene = Builtin::find("cornellbox").unwrap().scene(None).unwrap();
     let oracle = Oracle::new(&scene.mesh);
     let tree = KdTree::<MollerTrumbore>::build(&scene.mesh, &KdConfig::SAH).unwrap();
     let mut wrong = 0;

@@ -51,7 +51,7 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
     let mut records = vec![];
     for (i, case) in cases.iter().enumerate() {
         waiting.says(format!("{} of {}: {}", i + 1, cases.len(), case.name));
-        let scores = scores(case, &choices, rays, args.limit())?;
+        let scores = scores(case, &choices, rays, args.limit.duration())?;
         for (column, score) in columns.iter_mut().zip(scores) {
             records.push(record(case, column.choice, &score));
             column.scores.push(score);
