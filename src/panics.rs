@@ -25,9 +25,6 @@ fn held_back() -> MutexGuard<'static, Vec<String>> {
 ///
 /// Of other threads, those of rayon are quiet as well while this runs: rayon hands their panics on to whoever waits for them. If
 /// nobody catches one, [`uncaught`] has its message. Panics of all other threads are printed as ever.
-///
-/// # Errors
-/// If `work` panics.
 pub fn caught<R>(work: impl FnOnce() -> R) -> thread::Result<R> {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {

@@ -14,7 +14,6 @@ use crate::request::scenes;
 use crate::study::journal::JournalError;
 use crate::study::{Effort, Status, Study};
 
-/// Name of the command.
 pub const NAME: &str = "all";
 
 /// Every study, one after the other: a run that is killed goes on with the case that it was at

@@ -23,10 +23,10 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
     let mut output = vec![];
     match args.form.parse::<Shell>() {
         Ok(shell) => {
-            let names = Names::of(&suite.registry);
-            clap_complete::generate(shell, &mut names.told(super::shown(&suite.studies)), "sahara", &mut output);
+            let mut command = told(&suite.registry, super::shown(&suite.studies));
+            clap_complete::generate(shell, &mut command, "sahara", &mut output);
             // Where a scene is expected, a file is right as well: zsh offers what is listed and nothing else.
-            let scenes = names.scenes.join(" ");
+            let scenes = scenes().join(" ");
             let both = format!(":{{ compadd {scenes}; _files }}");
             output = String::from_utf8_lossy(&output).replace(&format!(":({scenes})"), &both).into_bytes();
         }
@@ -45,45 +45,30 @@ fn manual(command: Command, output: &mut Vec<u8>) -> std::io::Result<()> {
     command.get_subcommands().try_for_each(|own| Man::new(own.clone()).render(output))
 }
 
-/// What a shell can offer besides options.
-struct Names {
-    scenes: Vec<String>,
-    structures: Vec<String>,
-    workloads: Vec<String>,
-    views: Vec<String>,
+/// `command` as a shell is told of it: with names in the place of what is free text for the command itself, which takes
+/// files, keys and values as well.
+fn told(registry: &Registry, command: Command) -> Command {
+    command.mut_args(|arg| arg_told(registry, arg)).mut_subcommands(|inner| told(registry, inner))
 }
 
-impl Names {
-    fn of(registry: &Registry) -> Self {
-        Self {
-            scenes: BUILTIN.iter().map(|builtin| builtin.name.to_lowercase()).collect(),
-            structures: registry.names().into_iter().map(String::from).collect(),
-            workloads: WorkloadKind::ALL.map(|kind| kind.name().into()).into(),
-            views: ViewKind::ALL.map(|view| view.name().into()).into(),
+fn arg_told(registry: &Registry, arg: Arg) -> Arg {
+    let expected = arg.get_value_names().and_then(|names| names.first()).map_or("", |name| name.as_str());
+    let names = match (expected, arg.get_id().as_str()) {
+        ("SCENE|FILE" | "SCENE" | "SCENE|F.toml", _) => scenes(),
+        (_, "structure" | "against" | "reference") => registry.names().into_iter().map(String::from).collect(),
+        (_, "workload") => WorkloadKind::ALL.map(|kind| kind.name().into()).into(),
+        (_, "view") => ViewKind::ALL.map(|view| view.name().into()).into(),
+        ("DIR", _) => return arg.value_hint(ValueHint::DirPath),
+        (file, _) if file.starts_with("FILE") || file.starts_with("F.") => {
+            return arg.value_hint(ValueHint::FilePath);
         }
-    }
+        _ => return arg,
+    };
+    arg.value_parser(PossibleValuesParser::new(names))
+}
 
-    /// `command` as a shell is told of it: with names in the place of what is free text for the command itself, which takes files,
-    /// keys and values as well.
-    fn told(&self, command: Command) -> Command {
-        command.mut_args(|arg| self.arg(arg)).mut_subcommands(|inner| self.told(inner))
-    }
-
-    fn arg(&self, arg: Arg) -> Arg {
-        let expected = arg.get_value_names().and_then(|names| names.first()).map_or("", |name| name.as_str());
-        let names = match (expected, arg.get_id().as_str()) {
-            ("SCENE|FILE" | "SCENE" | "SCENE|F.toml", _) => &self.scenes,
-            (_, "structure" | "against" | "reference") => &self.structures,
-            (_, "workload") => &self.workloads,
-            (_, "view") => &self.views,
-            ("DIR", _) => return arg.value_hint(ValueHint::DirPath),
-            (file, _) if file.starts_with("FILE") || file.starts_with("F.") => {
-                return arg.value_hint(ValueHint::FilePath);
-            }
-            _ => return arg,
-        };
-        arg.value_parser(PossibleValuesParser::new(names.clone()))
-    }
+fn scenes() -> Vec<String> {
+    BUILTIN.iter().map(|builtin| builtin.name.to_lowercase()).collect()
 }
 
 #[cfg(test)]
@@ -104,11 +89,10 @@ mod tests {
     #[test]
     fn shells_know_scenes_structures_workloads_and_views_and_nothing_hidden() {
         let suite = Suite::from(Registry::builtin());
-        let names = Names::of(&suite.registry);
         let whole = || super::super::shown(&suite.studies);
         for shell in [Shell::Bash, Shell::Zsh, Shell::Fish] {
             let mut script = vec![];
-            clap_complete::generate(shell, &mut names.told(whole()), "sahara", &mut script);
+            clap_complete::generate(shell, &mut told(&suite.registry, whole()), "sahara", &mut script);
             let script = String::from_utf8(script).unwrap();
             for word in ["replicate", "dragon", "sah-hybrid", "image-shadow", "heat", "attribution"] {
                 assert!(script.contains(word), "{shell}: {word}");
@@ -120,6 +104,6 @@ mod tests {
         // The command itself takes more than names.
         let args = ["sahara", "compare", "my-mesh.obj", "-s", "sah-kd:leaf=4", "--reference", "median-kd:leaf=8"];
         assert!(whole().try_get_matches_from(args).is_ok());
-        assert!(names.told(whole()).try_get_matches_from(args).is_err());
+        assert!(told(&suite.registry, whole()).try_get_matches_from(args).is_err());
     }
 }

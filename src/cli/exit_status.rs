@@ -57,10 +57,11 @@ fn of_error(error: &anyhow::Error) -> u8 {
     if is_wrong { 2 } else { 1 }
 }
 
-/// What is said of an option that went, if the message is about one.
 fn moved(message: &clap::Error) -> Option<String> {
     match (message.kind(), message.get(ContextKind::InvalidArg)?) {
-        (ErrorKind::UnknownArgument, ContextValue::String(option)) => moved::option(option),
+        (ErrorKind::UnknownArgument, ContextValue::String(option)) => {
+            moved::said("option", &moved::OPTIONS, option.split('=').next().unwrap_or(option))
+        }
         _ => None,
     }
 }

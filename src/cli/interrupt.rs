@@ -64,23 +64,11 @@ pub fn end() -> ExitCode {
     ExitCode::from(130)
 }
 
-/// Whether the run is to stop.
 pub fn is_asked() -> bool {
     ASKED.load(Ordering::SeqCst)
 }
 
-/// A run that stops when it is asked to, as long as this is kept.
-pub struct Listening;
-
-impl Listening {
-    pub fn begin() -> Self {
-        LISTENS.store(true, Ordering::SeqCst);
-        Self
-    }
-}
-
-impl Drop for Listening {
-    fn drop(&mut self) {
-        LISTENS.store(false, Ordering::SeqCst);
-    }
+/// From now on a run stops by itself when it is asked to, or no longer does.
+pub fn listen(listens: bool) {
+    LISTENS.store(listens, Ordering::SeqCst);
 }

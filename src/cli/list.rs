@@ -85,7 +85,6 @@ fn scenes() -> anyhow::Result<Table> {
     Ok(Table::new("Scenes", ["name", "difficulty", "triangles", "lights", "mirrors", "meshes"], rows))
 }
 
-/// The meshes of our own that a scene file can name.
 fn meshes() -> Table {
     let row = |generator: &Generator| -> Vec<Cell> {
         let model = (generator.make)();
@@ -170,8 +169,8 @@ fn keys(registry: &Registry, name: &str) -> Table {
 
 fn workloads() -> Table {
     let query = |kind: WorkloadKind| if kind.query() == Query::Any { "any hit" } else { "closest hit" };
-    let rows = WorkloadKind::ALL.map(|kind| vec![Cell::from(kind.name()), query(kind).into()]);
-    Table::new("Workloads", ["name", "query"], rows)
+    let rows = WorkloadKind::ALL.map(|kind| [kind.name(), query(kind)].map(String::from));
+    Table::of_texts("Workloads", ["name", "query"], rows.into())
 }
 
 fn studies(suite: &Suite) -> Table {

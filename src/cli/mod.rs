@@ -47,7 +47,6 @@ const LONG_ABOUT: &str = "Benchmark, validate and image-test ray-tracing acceler
 
 Without a command: `compare` on the built-in scenes.";
 
-/// The structures and studies of a command.
 pub struct Suite {
     pub registry: Registry,
     pub studies: Studies,
@@ -94,18 +93,11 @@ fn read_case(text: &str) -> Result<Case, String> {
     serde_json::from_str(text).map_err(|cause| format!("it is no case of this version of sahara: {cause}"))
 }
 
-/// What studies are run with.
 struct Session<'a> {
     suite: &'a Suite,
     terminal: &'a Terminal,
-    processes: Option<&'a Processes>,
-}
-
-impl<'a> Session<'a> {
     /// What starts a process for each case, unless all are to be measured in this one.
-    fn processes(&self, common: &study::Common) -> Option<&'a Processes> {
-        self.processes.filter(|_| !common.in_process)
-    }
+    processes: Option<&'a Processes>,
 }
 
 // The commands that are no study. No doc comment: clap would take it for what the whole command does.
@@ -135,7 +127,6 @@ enum Command {
 const COMPARE: &str = "compare";
 const REPLICATE: &str = "replicate";
 
-/// The others, by name.
 const STUDY: &str = "study";
 
 /// The commands that people are shown.
@@ -162,8 +153,8 @@ fn command(studies: &Studies) -> clap::Command {
     let child = clap::Command::new(validate::CHILD).hide(true);
     let command = Process::augment_args(shown(studies)).subcommand(validate::ChildArgs::augment_args(child));
     let rest = || clap::Arg::new("rest").num_args(0..).trailing_var_arg(true).allow_hyphen_values(true);
-    let old = moved::commands().map(|name| clap::Command::new(name).hide(true).disable_help_flag(true).arg(rest()));
-    command.subcommands(old)
+    let old = |(name, _): &(&'static str, _)| clap::Command::new(*name).hide(true).disable_help_flag(true).arg(rest());
+    command.subcommands(moved::COMMANDS.iter().map(old))
 }
 
 /// Runs the command line of this process over structures, with the studies of this crate, or over a whole [`Suite`].
@@ -213,13 +204,11 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, starts_proc
     }))
 }
 
-/// Names what clap does not.
 fn not_text(args: &[OsString]) -> anyhow::Error {
     let names: Vec<String> = args.iter().filter(|arg| arg.to_str().is_none()).map(quoted).collect();
     anyhow::anyhow!("{} is not UTF-8 text: files and folders may have such names, but nothing else", names.join(" or "))
 }
 
-/// What a process with a case and a file does.
 fn measure_case(
     session: &Session,
     process: &Process,
@@ -256,7 +245,7 @@ fn dispatch(session: &Session, matches: &ArgMatches, global: &Global) -> anyhow:
             let compare = suite.studies.find(COMPARE).ok_or_else(|| anyhow::anyhow!("name a command: see --help"))?;
             return study::run_as(session, compare, &compare.defaults(), &study::Common::default());
         }
-        Some((COMPARE, matches)) => return study::run(session, find(suite, COMPARE)?, matches),
+        Some((name @ (COMPARE | REPLICATE), matches)) => return study::run(session, find(suite, name)?, matches),
         Some((STUDY, matches)) => match matches.subcommand() {
             Some((all::NAME, matches)) => return all::run(session, &all::Args::from_arg_matches(matches)?),
             Some((plan::NAME, matches)) => {
@@ -268,9 +257,8 @@ fn dispatch(session: &Session, matches: &ArgMatches, global: &Global) -> anyhow:
         Some((validate::CHILD, matches)) => {
             return validate::run_child(registry, &validate::ChildArgs::from_arg_matches(matches)?);
         }
-        Some((REPLICATE, matches)) => return study::run(session, find(suite, REPLICATE)?, matches),
         Some((name, _)) => {
-            if let Some(sentence) = moved::command(name) {
+            if let Some(sentence) = moved::said("command", &moved::COMMANDS, name) {
                 anyhow::bail!(sentence);
             }
         }
@@ -290,7 +278,7 @@ fn dispatch(session: &Session, matches: &ArgMatches, global: &Global) -> anyhow:
 
 fn find<'a>(suite: &'a Suite, study: &str) -> anyhow::Result<&'a Study> {
     suite.studies.find(study).ok_or_else(|| {
-        if let Some(sentence) = moved::study(study) {
+        if let Some(sentence) = moved::said("study", &moved::STUDIES, study) {
             return anyhow::anyhow!(sentence);
         }
         let names: Vec<&str> = suite.studies.iter().map(|study| study.name).chain([all::NAME, plan::NAME]).collect();

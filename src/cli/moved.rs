@@ -1,7 +1,6 @@
 //! Names of commands, studies and options that went, and where their worth is now.
 
-/// Commands.
-const COMMANDS: [(&str, &str); 5] = [
+pub const COMMANDS: [(&str, &str); 5] = [
     ("bench", "`sahara compare --export-json A.json` and `sahara diff A.json B.json --fail-on-regression PERCENT`"),
     ("compare-runs", "`sahara diff A.json B.json`"),
     ("hard", "`sahara validate --hard CASE`"),
@@ -9,8 +8,7 @@ const COMMANDS: [(&str, &str); 5] = [
     ("accuracy", "`sahara study accuracy`"),
 ];
 
-/// Studies.
-const STUDIES: [(&str, &str); 10] = [
+pub const STUDIES: [(&str, &str); 10] = [
     ("predictions", "its claims are judged by the studies that measure them: `sahara study all`, then `sahara report`"),
     ("crossover", "`sahara compare` on scenes of few and of many layers; papers/TUNING.md has what it found"),
     ("break-even", "the column \"pays off after\" of `sahara compare --wide`"),
@@ -23,8 +21,7 @@ const STUDIES: [(&str, &str); 10] = [
     ("self-intersection", "papers/TUNING.md has what it found about ray offsets"),
 ];
 
-/// Options.
-const OPTIONS: [(&str, &str); 2] = [
+pub const OPTIONS: [(&str, &str); 2] = [
     (
         "--save-baseline",
         "`sahara compare --export-json A.json` keeps a run, and `sahara diff A.json B.json` compares two",
@@ -32,27 +29,7 @@ const OPTIONS: [(&str, &str); 2] = [
     ("--baseline", "`sahara diff A.json B.json --fail-on-regression PERCENT` is the gate"),
 ];
 
-/// The names of the commands that went.
-pub fn commands() -> [&'static str; COMMANDS.len()] {
-    COMMANDS.map(|(name, _)| name)
-}
-
-fn find(table: &[(&str, &str)], kind: &str, name: &str) -> Option<String> {
-    let (name, now) = table.iter().find(|(old, _)| *old == name)?;
-    Some(format!("{kind} {name} went: {now}"))
-}
-
-/// What is said of a command that went.
-pub fn command(name: &str) -> Option<String> {
-    find(&COMMANDS, "the command", name)
-}
-
-/// What is said of a study that went.
-pub fn study(name: &str) -> Option<String> {
-    find(&STUDIES, "the study", name)
-}
-
-/// What is said of an option that went.
-pub fn option(name: &str) -> Option<String> {
-    find(&OPTIONS, "the option", name.split('=').next().unwrap_or(name))
+pub fn said(kind: &str, names: &[(&str, &str)], name: &str) -> Option<String> {
+    let (name, now) = names.iter().find(|(old, _)| *old == name)?;
+    Some(format!("the {kind} {name} went: {now}"))
 }

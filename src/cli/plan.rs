@@ -17,7 +17,6 @@ use crate::study::journal::file_name;
 use crate::study::process::{CASE, OUT};
 use crate::study::{Case, Effort, Status, Study};
 
-/// Name of the command.
 pub const NAME: &str = "plan";
 
 /// Options that write what came of a whole study.
@@ -148,7 +147,6 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
     Ok(Status::Right)
 }
 
-/// The options of a study.
 fn words(study: &Study, args: &Args, whole: bool, options: &[OsString]) -> Vec<OsString> {
     let mut words = match (args.quick, whole) {
         (true, _) => study.preset(Effort::Quick, &args.scenes),

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::interrupt::{self, Listening};
+use super::interrupt;
 use super::terminal::Terminal;
 use crate::report::Table;
 use crate::study::{Screen, Stage};
@@ -20,7 +20,6 @@ fn style(template: &str) -> ProgressStyle {
     ProgressStyle::with_template(template).expect("the template is valid")
 }
 
-/// A bar of so many steps, if that is known.
 fn bar(steps: Option<u64>, template: &str, terminal: &Terminal) -> ProgressBar {
     let target = if terminal.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
     ProgressBar::with_draw_target(steps, target).with_style(style(template))
@@ -45,7 +44,6 @@ impl Waiting {
         Self(bar)
     }
 
-    /// Now something else is done.
     pub fn says(&self, what: String) {
         self.0.set_message(what);
     }
@@ -60,7 +58,6 @@ impl Drop for Waiting {
 /// How often a log, which shows no bar, is told how far a run has come.
 const LINE: Duration = Duration::from_secs(5);
 
-/// Steps of the bar for each unit of work.
 const STEPS: u64 = 100;
 
 /// A thread that calls `tell` with what it was told last, if nothing else comes for `limit`; it sleeps otherwise. `None` is nothing
@@ -80,7 +77,6 @@ fn watch(limit: Duration, tell: impl Fn(&str) + Send + 'static) -> Sender<Option
     sender
 }
 
-/// The progress bar and the tables of a study.
 pub struct OnTerminal<'a> {
     terminal: &'a Terminal,
     bar: ProgressBar,
@@ -98,8 +94,6 @@ pub struct OnTerminal<'a> {
     warned: Vec<String>,
     /// Whether it shows a job: one case, of which there is nothing to show or keep before it is measured.
     is_job: bool,
-    /// While a run measures: all else is ended by Ctrl-C at once.
-    listening: Option<Listening>,
 }
 
 impl<'a> OnTerminal<'a> {
@@ -124,7 +118,6 @@ impl<'a> OnTerminal<'a> {
             logged: (!terminal.quiet && !io::stderr().is_terminal()).then(Instant::now),
             warned: vec![],
             is_job: false,
-            listening: None,
         }
     }
 
@@ -158,7 +151,8 @@ impl Screen for OnTerminal<'_> {
         self.bar.set_length(work * STEPS);
         self.bar.set_style(style(BAR));
         if !self.is_job {
-            self.listening.get_or_insert_with(Listening::begin);
+            // All else than a run that measures is ended by Ctrl-C at once.
+            interrupt::listen(true);
         }
     }
 
@@ -230,6 +224,7 @@ impl Screen for OnTerminal<'_> {
 
 impl Drop for OnTerminal<'_> {
     fn drop(&mut self) {
+        interrupt::listen(false);
         self.bar.finish_and_clear();
     }
 }

@@ -101,18 +101,16 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
 
 /// Refuses a name that promises another form than the one that is written.
 fn is_png(path: &Path) -> anyhow::Result<()> {
-    let ending = path.extension().filter(|ending| !ending.eq_ignore_ascii_case("png"));
-    match ending {
-        Some(ending) => anyhow::bail!(
-            "cannot write {} as {}: pictures are PNG files: end the name in .png, or give - for standard output",
-            path.escaped(),
-            ending.escaped()
-        ),
-        None => Ok(()),
-    }
+    let ending = path.extension().unwrap_or("png".as_ref());
+    anyhow::ensure!(
+        ending.eq_ignore_ascii_case("png"),
+        "cannot write {} as {}: pictures are PNG files: end the name in .png, or give - for standard output",
+        path.escaped(),
+        ending.escaped()
+    );
+    Ok(())
 }
 
-/// The scale of one structure.
 fn own_scale(choice: &Choice, scene: &Scene, accel: &dyn DynAccel) -> anyhow::Result<u64> {
     let costs =
         guarded(|| costs(scene, accel, coarse_size(scene))).with_context(|| format!("{}: {PANICKED}", choice.label))?;

@@ -7,11 +7,10 @@ use clap::{ArgMatches, Args as _, FromArgMatches};
 use super::Session;
 use super::progress::OnTerminal;
 use crate::output::OutputFile;
-use crate::report::plot::Format;
-use crate::report::{Art, Block, Report, csv, markdown};
+use crate::report::plot::{Format, WIDTH};
+use crate::report::{Figure, csv, markdown};
 use crate::study::{self, Outcome, Run, Status, Study};
 
-/// Where studies keep their journals.
 pub const RUNS: &str = "runs";
 
 /// Options of every study beside its own.
@@ -76,14 +75,12 @@ impl Common {
     }
 }
 
-/// The command of a study.
 pub fn command(study: &Study) -> clap::Command {
     let command = Common::augment_args((study.options)().name(study.name));
     // The options come with what they themselves are about.
     command.about(study.question).long_about(None)
 }
 
-/// Runs a study from its own command line.
 pub fn run(session: &Session, study: &Study, matches: &ArgMatches) -> anyhow::Result<Status> {
     run_as(session, study, matches, &Common::from_arg_matches(matches)?)
 }
@@ -101,7 +98,7 @@ pub fn run_as(session: &Session, study: &Study, matches: &ArgMatches, common: &C
         folder: &folder,
         keep_journal: common.dir.is_some().then_some(true),
         fresh: common.fresh,
-        processes: session.processes(common),
+        processes: session.processes.filter(|_| !common.in_process),
         screen: &mut screen,
     };
     let outcome = study::run(study, matches, &plan, &mut run)?;
@@ -123,7 +120,8 @@ pub fn run_as(session: &Session, study: &Study, matches: &ArgMatches, common: &C
             file.write(markdown::report(&report, &foot).as_bytes())?;
         }
         for (file, format) in files.plots {
-            let chart = first_chart(&report).ok_or_else(|| anyhow::anyhow!("study {} has no picture", study.name))?;
+            let chart = report.figures().find_map(Figure::chart);
+            let chart = chart.ok_or_else(|| anyhow::anyhow!("study {} has no picture", study.name))?;
             let bytes = match format {
                 Format::Svg => chart.svg(WIDTH).into_bytes(),
                 Format::Png => chart.png(WIDTH),
@@ -132,18 +130,4 @@ pub fn run_as(session: &Session, study: &Study, matches: &ArgMatches, common: &C
         }
     }
     Ok(status)
-}
-
-/// Width of drawings, in their units.
-const WIDTH: f64 = 900.0;
-
-/// The first drawing of a report.
-fn first_chart(report: &Report) -> Option<&crate::report::plot::Chart> {
-    report.blocks.iter().find_map(|block| match block {
-        Block::Figure(figure) => match &figure.art {
-            Art::Chart(chart) => Some(chart),
-            _ => None,
-        },
-        _ => None,
-    })
 }

@@ -21,7 +21,6 @@ pub enum Colour {
     Never,
 }
 
-/// Standard output, and how to treat it.
 pub struct Terminal {
     screen: Screen,
     /// Whether somebody looks at standard output.

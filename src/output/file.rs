@@ -16,9 +16,7 @@ pub struct OutputFile {
 
 impl OutputFile {
     /// Checks that `path` can be written now, before the long run whose results it is for; leaves nothing behind.
-    ///
-    /// # Errors
-    /// If `path` is a directory, or its directory takes no file; or if another result goes to standard output already.
+    /// Standard output takes one result.
     pub fn check(path: &Path) -> Result<Self, OutputError> {
         Self::check_place(path)?;
         let file = Self { path: path.into() };
@@ -26,9 +24,6 @@ impl OutputFile {
     }
 
     /// Checks the place alone, as often as one likes: standard output is not taken by it.
-    ///
-    /// # Errors
-    /// If `path` is a directory, or its directory takes no file.
     pub fn check_place(path: &Path) -> Result<(), OutputError> {
         let file = Self { path: path.into() };
         match fs::metadata(path) {
@@ -40,20 +35,14 @@ impl OutputFile {
         Ok(())
     }
 
-    /// The same file, if it is none of `inputs`, the files that its contents are made from.
-    ///
-    /// # Errors
-    /// If it is one of them, by whatever path.
+    /// The same file, if it is none of `inputs`, the files that its contents are made from, by whatever path.
     pub fn apart_from<'a>(self, inputs: impl IntoIterator<Item = &'a Path>) -> Result<Self, OutputError> {
         let own = self.identity();
         let is_input = own.is_some() && inputs.into_iter().any(|input| input.canonicalize().ok() == own);
         if is_input { Err(OutputError::Input(self.path)) } else { Ok(self) }
     }
 
-    /// Rejects a file that is also one of the `others`.
-    ///
-    /// # Errors
-    /// If it is, by whatever path.
+    /// Rejects a file that is also one of the `others`, by whatever path.
     pub fn unlike(&self, others: &[&Self]) -> Result<(), OutputError> {
         let own = self.identity();
         let is_same = own.is_some() && others.iter().any(|other| other.identity() == own);
@@ -65,10 +54,7 @@ impl OutputFile {
     }
 
     /// Standard output never fails here: what it has not got is told when the command ends, and a reader that has gone
-    /// is no error.
-    ///
-    /// # Errors
-    /// If the system refuses, or there is no room; then an older file is as it was.
+    /// is no error. After any other failed write an older file is as it was.
     pub fn write(&self, bytes: &[u8]) -> Result<(), OutputError> {
         let write = || {
             if self.is_stdout() {
@@ -85,10 +71,8 @@ impl OutputFile {
     }
 
     /// Writes a file that does not exist yet; false if it does. Of several writers, also on machines that share a file
-    /// system, one wins and its file stays as it is. When this returns the file is on the disk.
-    ///
-    /// # Errors
-    /// As [`write`](Self::write); then there is no file.
+    /// system, one wins and its file stays as it is. When this returns the file is on the disk; after a failed write there
+    /// is none.
     pub fn write_new(&self, bytes: &[u8]) -> Result<bool, OutputError> {
         let failed = |cause| OutputError::write(&self.path, cause);
         match self.temporary_with(bytes).map_err(failed)?.persist_noclobber(&self.path) {
@@ -104,7 +88,6 @@ impl OutputFile {
         self.path == Path::new(STDOUT)
     }
 
-    /// Whether it is there and not a regular file.
     fn is_special(&self) -> bool {
         fs::metadata(&self.path).is_ok_and(|there| !there.is_file())
     }
@@ -123,7 +106,6 @@ impl OutputFile {
         temporary(0o666).tempfile_in(folder_of(&target(&self.path)))
     }
 
-    /// A temporary file with `bytes`, on the disk.
     fn temporary_with(&self, bytes: &[u8]) -> io::Result<NamedTempFile> {
         let mut file = self.temporary()?;
         file.write_all(bytes)?;
@@ -172,28 +154,6 @@ mod tests {
         assert!(stdout_is_taken() && out.unlike(&[&out]).is_ok());
         assert!(matches!(check(), Err(OutputError::Twice)));
         leave_stdout();
-    }
-
-    #[test]
-    fn a_result_replaces_no_input_and_no_other_result_by_whatever_path() {
-        let directory = tempfile::tempdir().unwrap();
-        let detour = format!("../{}/mesh.obj", directory.path().file_name().unwrap().display());
-        let [mesh, again, other, new, same] =
-            ["mesh.obj", &detour, "other.obj", "new.obj", "./new.obj"].map(|name| check(&directory, name).unwrap());
-        mesh.write(b"v 0 0 0").unwrap();
-        for file in [&mesh, &again] {
-            let error = file.clone().apart_from([other.path(), mesh.path()]).unwrap_err().to_string();
-            assert!(error.contains("mesh.obj") && error.contains("another"), "{error}");
-        }
-        other.clone().apart_from([other.path(), mesh.path()]).unwrap();
-
-        // A file that is not there yet, and then is.
-        for _ in 0..2 {
-            mesh.unlike(&[&new]).unwrap();
-            let error = same.unlike(&[&other, &new]).unwrap_err().to_string();
-            assert!(error.contains("new.obj") && error.contains("two results"), "{error}");
-            new.write(b"there").unwrap();
-        }
     }
 
     #[cfg(unix)]

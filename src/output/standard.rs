@@ -40,7 +40,6 @@ pub(crate) fn print(bytes: &[u8]) {
     note(out.write_all(bytes).and_then(|()| out.flush()));
 }
 
-/// Keeps why something could not be written to standard output.
 pub(crate) fn note(written: io::Result<()>) {
     if let Err(cause) = unless_gone(written) {
         FAILURE.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(cause);

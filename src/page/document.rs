@@ -3,10 +3,8 @@
 use crate::report::plot::Chart;
 use crate::report::{Block, Figure, Missing};
 
-/// A whole report.
 #[derive(Clone, Debug, Default)]
 pub struct Document {
-    /// The question.
     pub title: String,
     pub answer: Answer,
     pub sections: Vec<Section>,
@@ -21,7 +19,6 @@ pub struct Answer {
     pub verdict: String,
     /// The sentences that say why, the most important first.
     pub sentences: Vec<String>,
-    /// Headline numbers.
     pub numbers: Vec<Headline>,
     /// The same as a picture, with intervals; nothing where there are none.
     pub chart: Option<Chart>,
@@ -34,7 +31,6 @@ pub struct Headline {
     pub number: String,
     /// Its interval, or nothing.
     pub interval: String,
-    /// What it is.
     pub label: String,
 }
 
@@ -50,7 +46,6 @@ pub struct Section {
 }
 
 impl Document {
-    /// All blocks, in their order, with those that are folded.
     fn blocks(&self) -> Vec<&Block> {
         fn collect<'a>(blocks: &'a [Block], found: &mut Vec<&'a Block>) {
             for block in blocks {
@@ -65,13 +60,11 @@ impl Document {
         found
     }
 
-    /// All figures, in their order.
     pub fn figures(&self) -> Vec<&Figure> {
         let blocks = self.blocks().into_iter();
         blocks.filter_map(|block| if let Block::Figure(figure) = block { Some(&**figure) } else { None }).collect()
     }
 
-    /// What no run has measured.
     pub fn missing(&self) -> Vec<&Missing> {
         let blocks = self.blocks().into_iter();
         blocks.filter_map(|block| if let Block::Missing(missing) = block { Some(missing) } else { None }).collect()

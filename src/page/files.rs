@@ -4,10 +4,8 @@ use super::document::Document;
 use super::html::page;
 use super::markdown::markdown;
 use super::runs::Runs;
+use crate::report::plot::WIDTH;
 use crate::report::{Art, Figure, csv};
-
-/// Width of drawings that stand alone, in their units.
-const WIDTH: f64 = 900.0;
 
 /// Paths in the folder of a report, and what is there.
 pub fn files(document: &Document, runs: &Runs) -> Vec<(String, Vec<u8>)> {

@@ -3,7 +3,6 @@
 use super::document::{Document, Section};
 use crate::report::markdown::{blocks, escaped, prose};
 
-/// The text of the file.
 pub fn markdown(document: &Document) -> String {
     let mut text = format!("# {}\n\n", escaped(&document.title));
     if !document.answer.banner.is_empty() {

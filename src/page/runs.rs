@@ -15,6 +15,9 @@ use crate::request::SceneRequest;
 use crate::study::journal::{self, CaseFile};
 use crate::study::{Dataset, Studies, Study};
 
+/// The study that compares all structures.
+pub const COMPARE: &str = "compare";
+
 /// Everything that a page is made of.
 #[derive(Default)]
 pub struct Runs<'a> {
@@ -31,7 +34,6 @@ pub struct StudyRun<'a> {
     pub study: &'a Study,
     /// What is shown: of several settings, builds or machines the one with the most cases.
     pub dataset: Dataset,
-    /// The others.
     pub others: Vec<Dataset>,
     pub report: Report,
 }
@@ -41,7 +43,6 @@ pub struct StudyRun<'a> {
 pub struct Source {
     /// As named on the command line, or found in a folder that was.
     pub path: PathBuf,
-    /// What it holds.
     pub kind: String,
     /// The commands that made it; none where it does not say.
     pub commands: Vec<String>,
@@ -53,9 +54,6 @@ pub const NO_RUN: &str = "no run: left out";
 impl<'a> Runs<'a> {
     /// Reads files, and of folders all `.json` files and those of journals in them. An export counts as the cases that
     /// it holds; of each scene the cases that were measured last count.
-    ///
-    /// # Errors
-    /// If there is nothing, or a file is torn, foreign or of another version.
     pub fn read(paths: &[PathBuf], studies: &'a Studies) -> Result<Self, RunError> {
         let mut runs = Self::default();
         let mut cases = vec![];
@@ -70,8 +68,8 @@ impl<'a> Runs<'a> {
             }
             for file in files {
                 match read(&file, studies) {
-                    Ok(File { kind, cases: own, notes }) => {
-                        runs.add_source(&file, kind, &own);
+                    Ok((source, own, notes)) => {
+                        runs.add_source(source);
                         runs.notes.extend(notes);
                         cases.extend(own);
                     }
@@ -107,20 +105,14 @@ impl<'a> Runs<'a> {
         }
     }
 
-    /// Notes a file: cases of one folder are one source.
-    fn add_source(&mut self, file: &Path, kind: Kind, cases: &[CaseFile]) {
-        let commands = || cases.iter().map(|own| command_line(&own.case.command));
-        let (path, kind) = match kind {
-            Kind::Export(study) => (file.to_path_buf(), format!("{study}: {}", plural(cases.len(), "case"))),
-            Kind::Case(study) => (file.parent().unwrap_or(Path::new(".")).to_path_buf(), format!("{study}: journal")),
-        };
-        match self.sources.iter_mut().find(|source| source.path == path && source.kind == kind) {
-            Some(source) => source.commands = each_once(source.commands.drain(..).chain(commands())),
-            None => self.sources.push(Source { path, kind, commands: each_once(commands()) }),
+    /// Cases of one folder are one source.
+    fn add_source(&mut self, new: Source) {
+        match self.sources.iter_mut().find(|source| source.path == new.path && source.kind == new.kind) {
+            Some(source) => source.commands = each_once(source.commands.drain(..).chain(new.commands)),
+            None => self.sources.push(new),
         }
     }
 
-    /// What was measured of the study of this name.
     pub fn of(&self, study: &str) -> Option<&StudyRun<'a>> {
         self.studies.iter().find(|run| run.study.name == study)
     }
@@ -130,7 +122,6 @@ impl<'a> Runs<'a> {
         self.studies.iter().map(|run| &run.dataset.provenance).collect()
     }
 
-    /// The commands that measured what is shown.
     pub fn commands(&self) -> Vec<String> {
         each_once(self.studies.iter().flat_map(StudyRun::commands))
     }
@@ -143,7 +134,6 @@ impl<'a> Runs<'a> {
 }
 
 impl StudyRun<'_> {
-    /// The commands that measured what is shown.
     pub fn commands(&self) -> Vec<String> {
         each_once(self.dataset.commands().into_iter().map(command_line))
     }
@@ -163,21 +153,8 @@ pub fn also_measured(dataset: &Dataset) -> String {
     format!("Also measured, and not shown: {scenes} on {cpu}, commit {commit}, {day} ({}).", listed(&commands))
 }
 
-/// What a file holds.
-struct File {
-    kind: Kind,
-    cases: Vec<CaseFile>,
-    notes: Vec<String>,
-}
-
-/// Of which study.
-enum Kind {
-    Export(&'static str),
-    Case(&'static str),
-}
-
-/// What the file `path` holds.
-fn read(path: &Path, studies: &Studies) -> Result<File, RunError> {
+/// What the file `path` is, the cases that it holds, and what is to be said of them.
+fn read(path: &Path, studies: &Studies) -> Result<(Source, Vec<CaseFile>, Vec<String>), RunError> {
     let text = fs::read_to_string(path).map_err(|cause| RunError::Read { path: path.into(), cause })?;
     let value: Value = serde_json::from_str(&text).map_err(|cause| RunError::Torn { path: path.into(), cause })?;
     let known = |name: &str| match studies.find(name) {
@@ -186,7 +163,12 @@ fn read(path: &Path, studies: &Studies) -> Result<File, RunError> {
     };
     if CaseFile::is_case(&value) {
         let case = CaseFile::of(path, value)?;
-        return Ok(File { kind: Kind::Case(known(&case.case.study)?), cases: vec![case], notes: vec![] });
+        let source = Source {
+            path: path.parent().unwrap_or(Path::new(".")).to_path_buf(),
+            kind: format!("{}: journal", known(&case.case.study)?),
+            commands: vec![command_line(&case.case.command)],
+        };
+        return Ok((source, vec![case], vec![]));
     }
     if !Dataset::is_dataset(&value) {
         return Err(RunError::Foreign { path: path.into() });
@@ -194,6 +176,11 @@ fn read(path: &Path, studies: &Studies) -> Result<File, RunError> {
     let Dataset { provenance, measured, notes, .. } = Dataset::read(path, value)?;
     let study = measured.first().map(|own| own.case.study.clone());
     let study = known(&study.ok_or_else(|| RunError::Foreign { path: path.into() })?)?;
+    let source = Source {
+        path: path.into(),
+        kind: format!("{study}: {}", plural(measured.len(), "case")),
+        commands: each_once(measured.iter().map(|own| command_line(&own.case.command))),
+    };
     let cases = measured.into_iter().map(|own| CaseFile {
         path: path.into(),
         provenance: provenance.clone(),
@@ -201,7 +188,7 @@ fn read(path: &Path, studies: &Studies) -> Result<File, RunError> {
         epoch: own.epoch,
     });
     let notes = notes.iter().map(|note| format!("{study}: {note}")).collect();
-    Ok(File { kind: Kind::Export(study), cases: cases.collect(), notes })
+    Ok((source, cases.collect(), notes))
 }
 
 /// The files of a folder that may be runs, by name: its own, and those of the journals in it.

@@ -15,7 +15,6 @@ pub enum Value {
     /// A difference: `+2`, `-3`, `0`.
     Difference(i64),
     Number(f64, Format),
-    /// A number with its interval.
     Estimate(Estimate, Format),
     /// Rays with a wrong answer, of those that were checked.
     Errors {
@@ -24,7 +23,6 @@ pub enum Value {
     },
 }
 
-/// How a number is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// Three significant digits.
@@ -46,9 +44,7 @@ pub enum Format {
 pub enum Tone {
     #[default]
     Plain,
-    /// The best of its column.
     Best,
-    /// A wrong answer.
     Wrong,
 }
 
@@ -85,54 +81,26 @@ impl From<Value> for Cell {
     }
 }
 
-impl From<String> for Cell {
-    fn from(text: String) -> Self {
-        if text.is_empty() { Self::default() } else { Value::Text(text).into() }
-    }
+/// Empty text is what is not known; other numbers than whole ones have three significant digits.
+macro_rules! cell_from {
+    ($($value:ident: $type:ty => $of:expr;)*) => {
+        $(impl From<$type> for Cell {
+            fn from($value: $type) -> Self {
+                $of.into()
+            }
+        })*
+    };
 }
 
-impl From<&str> for Cell {
-    fn from(text: &str) -> Self {
-        text.to_owned().into()
-    }
-}
-
-impl From<&String> for Cell {
-    fn from(text: &String) -> Self {
-        text.clone().into()
-    }
-}
-
-/// Three significant digits.
-impl From<f64> for Cell {
-    fn from(x: f64) -> Self {
-        Value::Number(x, Format::Figures).into()
-    }
-}
-
-impl From<u64> for Cell {
-    fn from(n: u64) -> Self {
-        Value::Count(n).into()
-    }
-}
-
-impl From<usize> for Cell {
-    fn from(n: usize) -> Self {
-        Value::Count(n as u64).into()
-    }
-}
-
-impl From<bool> for Cell {
-    fn from(yes: bool) -> Self {
-        if yes { "true" } else { "false" }.into()
-    }
-}
-
-/// Three significant digits, with the interval.
-impl From<Estimate> for Cell {
-    fn from(x: Estimate) -> Self {
-        Value::Estimate(x, Format::Figures).into()
-    }
+cell_from! {
+    text: String => if text.is_empty() { Value::Empty } else { Value::Text(text) };
+    text: &str => text.to_owned();
+    text: &String => text.clone();
+    x: f64 => Value::Number(x, Format::Figures);
+    x: Estimate => Value::Estimate(x, Format::Figures);
+    n: u64 => Value::Count(n);
+    n: usize => Value::Count(n as u64);
+    yes: bool => if yes { "true" } else { "false" };
 }
 
 /// What is not known is empty.
@@ -143,7 +111,6 @@ impl<T: Into<Cell>> From<Option<T>> for Cell {
 }
 
 impl Cell {
-    /// What is not known.
     pub fn empty() -> Self {
         Self::default()
     }
@@ -156,7 +123,6 @@ impl Cell {
         Value::Estimate(x, format).into()
     }
 
-    /// Nanoseconds.
     pub fn duration(ns: f64) -> Self {
         Self::number(ns, Format::Duration)
     }
@@ -170,7 +136,6 @@ impl Cell {
         Self { equal: x != Estimate::exact(1.0) && x.holds(1.0), ..x.into() }
     }
 
-    /// The same cell with this tone.
     pub fn with(self, tone: Tone) -> Self {
         Self { tone, ..self }
     }
@@ -180,7 +145,6 @@ impl Cell {
         Self { sampled, ..self }
     }
 
-    /// The same cell with a note in parentheses.
     pub fn noted(self, note: impl Into<String>) -> Self {
         Self { note: note.into(), ..self }
     }
@@ -194,7 +158,6 @@ impl Cell {
         matches!(self.value, Value::Text(_))
     }
 
-    /// As people read it.
     pub fn text(&self) -> String {
         let value = match &self.value {
             Value::Empty => return String::new(),

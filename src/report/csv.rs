@@ -6,10 +6,9 @@ use super::{Cell, Table, Value};
 /// and `x_of`. What is not known is empty.
 pub fn table(table: &Table) -> Vec<u8> {
     let column = |i: usize| table.rows.iter().map(move |row| &row[i].value);
-    let has_interval: Vec<bool> =
-        (0..table.columns.len()).map(|i| column(i).any(|value| matches!(value, Value::Estimate(..)))).collect();
-    let has_errors: Vec<bool> =
-        (0..table.columns.len()).map(|i| column(i).any(|value| matches!(value, Value::Errors { .. }))).collect();
+    let has = |is: fn(&Value) -> bool| (0..table.columns.len()).map(|i| column(i).any(is)).collect::<Vec<bool>>();
+    let has_interval = has(|value| matches!(value, Value::Estimate(..)));
+    let has_errors = has(|value| matches!(value, Value::Errors { .. }));
     let mut writer = csv::Writer::from_writer(vec![]);
     let mut names = vec![];
     for (i, name) in table.columns.iter().enumerate() {
@@ -35,19 +34,24 @@ pub fn table(table: &Table) -> Vec<u8> {
 
 /// The value, the ends of its interval, and of how many the errors are.
 fn parts(cell: &Cell) -> [String; 4] {
-    let none = String::new;
-    match &cell.value {
-        Value::Empty => [none(), none(), none(), none()],
-        Value::Text(text) => [text.clone(), none(), none(), none()],
-        Value::Count(n) => [n.to_string(), none(), none(), none()],
-        Value::Difference(n) => [n.to_string(), none(), none(), none()],
-        Value::Number(x, _) => [x.to_string(), none(), none(), none()],
+    let mut parts = <[String; 4]>::default();
+    parts[0] = match &cell.value {
+        Value::Empty => String::new(),
+        Value::Text(text) => text.clone(),
+        Value::Count(n) => n.to_string(),
+        Value::Difference(n) => n.to_string(),
+        Value::Number(x, _) => x.to_string(),
         Value::Estimate(x, _) => {
-            let end = |end: Option<f64>| end.map_or(String::new(), |end| end.to_string());
-            [x.estimate.to_string(), end(x.low()), end(x.high()), none()]
+            let [low, high] = [x.low(), x.high()].map(|end| end.map_or(String::new(), |end| end.to_string()));
+            [parts[1], parts[2]] = [low, high];
+            x.estimate.to_string()
         }
-        Value::Errors { wrong, of } => [wrong.to_string(), none(), none(), of.to_string()],
-    }
+        Value::Errors { wrong, of } => {
+            parts[3] = of.to_string();
+            wrong.to_string()
+        }
+    };
+    parts
 }
 
 #[cfg(test)]

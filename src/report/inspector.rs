@@ -1,12 +1,10 @@
 //! Single rays of a picture, and what every structure does for them: data of a part of the page that is looked into.
 
-use serde::ser::SerializeSeq;
 use serde::{Serialize, Serializer};
 
 /// Some rays of a picture, each with all answers: columns, so that a few thousand rays stay small on a page.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Inspector {
-    /// Width and height of the picture in pixels.
     pub size: [u32; 2],
     /// Which pixels can be asked for, in a sentence.
     pub which: String,
@@ -18,7 +16,6 @@ pub struct Inspector {
     pub rays: Vec<String>,
     /// What exact arithmetic answers.
     pub truths: Vec<Answer>,
-    /// The different answers of the structures.
     pub answers: Vec<Vec<Answer>>,
     /// Labels, and what each structure does for each ray.
     pub structures: Vec<InspectedStructure>,
@@ -35,19 +32,17 @@ pub struct Answer {
 /// `[t, triangle, u, v]`, or `[]` of a miss; what is wrong with it stands behind.
 impl Serialize for Answer {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut fields = serializer.serialize_seq(None)?;
-        if let Some(hit) = &self.hit {
-            fields.serialize_element(&hit.t)?;
-            fields.serialize_element(&hit.triangle)?;
-            for weight in hit.weights {
-                // As many digits as are printed.
-                fields.serialize_element(&(libm::round(weight * 1e9) / 1e9))?;
-            }
+        let hit = self.hit.map(|InspectedHit { t, triangle, weights }| {
+            // As many digits as are printed.
+            let [u, v] = weights.map(|weight| libm::round(weight * 1e9) / 1e9);
+            (t, triangle, u, v)
+        });
+        match (hit, self.wrong) {
+            (Some(hit), "") => hit.serialize(serializer),
+            (Some((t, triangle, u, v)), wrong) => (t, triangle, u, v, wrong).serialize(serializer),
+            (None, "") => [(); 0].serialize(serializer),
+            (None, wrong) => [wrong].serialize(serializer),
         }
-        if !self.wrong.is_empty() {
-            fields.serialize_element(self.wrong)?;
-        }
-        fields.end()
     }
 }
 
@@ -67,7 +62,6 @@ pub struct InspectedStructure {
     /// Inner nodes and leaves entered.
     pub nodes: Vec<u64>,
     pub leaves: Vec<u64>,
-    /// Triangles tested.
     pub tests: Vec<u64>,
     /// Which of the answers of the ray is its own.
     pub answers: Vec<usize>,

@@ -14,7 +14,6 @@ pub fn report(report: &Report, foot: &[String]) -> String {
     text + &lines.join("\n\n") + "\n"
 }
 
-/// Blocks, one after the other.
 pub fn blocks(list: &[Block], text: &mut String) {
     for block in list {
         match block {
@@ -49,14 +48,9 @@ fn figure(figure: &Figure, text: &mut String) {
 pub fn table(table: &Table) -> String {
     let heading = if table.title.is_empty() { String::new() } else { format!("### {}\n\n", escaped(&table.title)) };
     let notes: String = table.notes.iter().map(|note| format!("\n{}\n", escaped(note))).collect();
-    heading + &grid(table) + &notes
-}
-
-/// A table alone.
-pub fn grid(table: &Table) -> String {
     let table = table.clone().without_empty_columns();
     let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
-    let mut text = line(table.columns.iter().map(|name| escaped(name)).collect());
+    let mut text = heading + &line(table.columns.iter().map(|name| escaped(name)).collect());
     text += &line((0..table.columns.len()).map(|i| if i == 0 { "---" } else { "---:" }.to_owned()).collect());
     for row in &table.rows {
         let cell = |cell: &super::Cell| match cell.tone {
@@ -66,19 +60,13 @@ pub fn grid(table: &Table) -> String {
         };
         text += &line(row.iter().map(cell).collect());
     }
-    text
+    text + &notes
 }
 
 /// Text with what Markdown would read as a table or as markup marked as text.
 pub fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        if "|*_`<>\\~".contains(c) {
-            out.push('\\');
-        }
-        out.push(c);
-    }
-    out
+    let marked = |c: char| "|*_`<>\\~".contains(c).then_some('\\').into_iter().chain([c]);
+    text.chars().flat_map(marked).collect()
 }
 
 /// A sentence as Markdown: what stands between backticks is code, `**` is strong, and all else is text.

@@ -26,7 +26,6 @@ pub fn duration(ns: f64) -> String {
     format!("{} {unit}", figures(ns / scale))
 }
 
-/// Bytes as `B`, `KiB`, `MiB` or `GiB`.
 pub fn bytes(bytes: usize) -> String {
     let (scale, unit) = match bytes {
         0..1024 => (0, "B"),

@@ -1,10 +1,8 @@
 //! What a study says of a dataset: plain data, before it has a form.
 
-use std::fmt;
-
 use super::inspector::Inspector;
 use super::plot::Chart;
-use super::{Cell, Table, Tone, Value};
+use super::{Cell, Table, Tone};
 use crate::measure::Estimate;
 use crate::names::named_enum;
 
@@ -39,7 +37,6 @@ pub struct Finding {
     pub name: Option<String>,
 }
 
-/// What follows one upon the other in a report.
 #[derive(Clone, Debug)]
 pub enum Block {
     Text(String),
@@ -58,7 +55,6 @@ pub enum Block {
 pub struct Verdict {
     /// Of the prediction that the claim is a part of, from 1.
     pub prediction: u8,
-    /// What is measured.
     pub claim: String,
     /// What was expected of it: `at least 20`.
     pub expected: String,
@@ -68,7 +64,6 @@ pub struct Verdict {
 }
 
 named_enum! {
-    /// What came of a claim.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Outcome {
         /// The whole interval is as expected.
@@ -77,7 +72,6 @@ named_enum! {
         Refuted = "refuted",
         /// The interval reaches across a bound, or is not known.
         Undecided = "undecided",
-        /// There is nothing to judge by.
         NotMeasured = "not measured",
     }
 }
@@ -85,13 +79,10 @@ named_enum! {
 /// A structure without times, or with wrong answers, and why.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Failure {
-    /// Name in the registry.
     pub structure: String,
     /// What to print below the tables; empty where a table says it.
     pub sentence: String,
-    /// Whether the structure has no time at all.
     pub refused: bool,
-    /// Whether it gave wrong answers.
     pub wrong: bool,
 }
 
@@ -109,7 +100,6 @@ pub struct Figure {
     pub data: Table,
 }
 
-/// What a figure consists of.
 #[derive(Clone, Debug)]
 pub enum Art {
     Chart(Chart),
@@ -120,7 +110,6 @@ pub enum Art {
 /// Pictures of one size on one scale, side by side, and two of them one upon the other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Overlay {
-    /// What is seen.
     pub heading: String,
     pub pictures: Vec<Picture>,
     pub colours: Colours,
@@ -128,12 +117,9 @@ pub struct Overlay {
     pub inspector: Option<Box<Inspector>>,
 }
 
-/// What the colours of pictures mean.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Colours {
-    /// A scale.
     Ramp {
-        /// What it is of.
         title: String,
         /// Colours at equal distances, `#RRGGBB`.
         colours: Vec<String>,
@@ -144,15 +130,12 @@ pub enum Colours {
     Key(Vec<(String, String)>),
 }
 
-/// A small picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
     pub name: String,
     /// One line below it.
     pub note: String,
-    /// What one sees.
     pub alt: String,
-    /// The bytes of a PNG file.
     pub png: Vec<u8>,
     /// Width and height in pixels.
     pub size: [u32; 2],
@@ -162,7 +145,6 @@ pub struct Picture {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Missing {
     pub what: String,
-    /// The command that measures it.
     pub command: String,
 }
 
@@ -177,24 +159,20 @@ impl Finding {
         Self { key: key.into(), sentence: String::new(), value: None, name: Some(name.into()) }
     }
 
-    /// A number without a sentence.
     pub fn number(key: impl Into<String>, value: Estimate) -> Self {
         Self { key: key.into(), sentence: String::new(), value: Some(value), name: None }
     }
 
-    /// The same finding, about `value`.
     pub fn of(self, value: Estimate) -> Self {
         Self { value: Some(value), ..self }
     }
 }
 
 impl Report {
-    /// The finding of this key.
     pub fn finding(&self, key: &str) -> Option<&Finding> {
         self.findings.iter().find(|finding| finding.key == key)
     }
 
-    /// Sentences of the findings.
     pub fn sentences(&self) -> impl Iterator<Item = &str> {
         self.findings.iter().map(|finding| finding.sentence.as_str()).filter(|sentence| !sentence.is_empty())
     }
@@ -214,6 +192,11 @@ impl Report {
         (!self.verdicts.is_empty()).then_some(table)
     }
 
+    /// Figures that are not folded, in their order.
+    pub fn figures(&self) -> impl Iterator<Item = &Figure> {
+        self.blocks.iter().filter_map(|block| if let Block::Figure(figure) = block { Some(&**figure) } else { None })
+    }
+
     /// Tables that are not folded, in their order.
     pub fn tables(&self) -> impl Iterator<Item = &Table> {
         self.blocks.iter().filter_map(|block| if let Block::Table(table) = block { Some(table) } else { None })
@@ -230,13 +213,11 @@ impl Outcome {
     }
 }
 
-impl fmt::Display for Missing {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} (`{}`)", self.what, self.command)
-    }
-}
-
 impl Figure {
+    pub fn chart(&self) -> Option<&Chart> {
+        if let Art::Chart(chart) = &self.art { Some(chart) } else { None }
+    }
+
     /// The pictures of pixels that it consists of; none in a chart.
     pub fn pictures(&self) -> &[Picture] {
         match &self.art {
@@ -246,7 +227,6 @@ impl Figure {
         }
     }
 
-    /// Where a picture of it is, in the folder of a report.
     pub fn picture_path(&self, index: usize) -> String {
         format!("figures/{}-{}.png", self.id, index + 1)
     }
@@ -265,13 +245,5 @@ impl Block {
 impl From<Table> for Block {
     fn from(table: Table) -> Self {
         Self::Table(table)
-    }
-}
-
-impl Value {
-    /// Text, or nothing where it is empty.
-    pub fn text(text: impl Into<String>) -> Self {
-        let text = text.into();
-        if text.is_empty() { Self::Empty } else { Self::Text(text) }
     }
 }

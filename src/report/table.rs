@@ -33,7 +33,6 @@ impl Table {
         self
     }
 
-    /// A table without notes.
     pub fn new(
         title: impl Into<String>,
         columns: impl IntoIterator<Item = impl Into<String>>,
@@ -49,12 +48,10 @@ impl Table {
         Self::new(title, columns.iter().map(|(name, _)| *name), items.into_iter().map(row))
     }
 
-    /// A table of texts, without notes.
     pub fn of_texts<const N: usize>(title: &str, columns: [&str; N], rows: Vec<[String; N]>) -> Self {
         Self::new(title, columns, rows.into_iter().map(|row| row.map(Cell::from).into()))
     }
 
-    /// The same table with these notes.
     pub fn noted(self, notes: Vec<String>) -> Self {
         Self { notes, ..self }
     }
@@ -91,7 +88,6 @@ impl Table {
     }
 }
 
-/// The `items` that are `kept`.
 fn only<T>(items: Vec<T>, kept: &[bool]) -> Vec<T> {
     items.into_iter().zip(kept).filter(|(_, kept)| **kept).map(|(item, _)| item).collect()
 }

@@ -13,13 +13,11 @@ pub fn interval(x: Estimate) -> String {
     written(x, figures)
 }
 
-/// As [`interval`], of numbers written as `number` says. `[?]` of an interval that reaches from nearly nothing to a great multiple.
+/// As [`interval`], of numbers written as `number` says.
 pub fn written(x: Estimate, number: impl Fn(f64) -> String) -> String {
     match x.interval {
         Some(interval) if interval.low == interval.high => number(x.estimate),
-        Some(interval) if says_nothing(interval) => format!("{} [?]", number(x.estimate)),
-        Some(interval) => format!("{} [{}, {}]", number(x.estimate), number(interval.low), number(interval.high)),
-        None => format!("{} {ONE_EPOCH}", number(x.estimate)),
+        _ => format!("{} {}", number(x.estimate), written_ends(x, number)),
     }
 }
 
@@ -30,19 +28,18 @@ pub fn ended(words: &str) -> String {
 
 /// `[19.2, 21.4]`; `(one epoch)` without an interval.
 pub fn ends(x: Estimate) -> String {
+    written_ends(x, figures)
+}
+
+/// `[?]` of an interval that reaches from nearly nothing to a great multiple.
+fn written_ends(x: Estimate, number: impl Fn(f64) -> String) -> String {
     match x.interval {
-        Some(interval) if says_nothing(interval) => "[?]".into(),
-        Some(interval) => format!("[{}, {}]", figures(interval.low), figures(interval.high)),
+        Some(Interval { low, high, .. }) if low > 0.0 && high > 1e4 * low => "[?]".into(),
+        Some(Interval { low, high, .. }) => format!("[{}, {}]", number(low), number(high)),
         None => ONE_EPOCH.into(),
     }
 }
 
-/// Whether it reaches from nearly nothing to a great multiple.
-fn says_nothing(interval: Interval) -> bool {
-    interval.low > 0.0 && interval.high > 1e4 * interval.low
-}
-
-/// Stands behind an estimate that has no interval.
 pub const ONE_EPOCH: &str = "(one epoch)";
 
 /// The words of `text` in lines of at most `width` characters, or one word.
@@ -89,7 +86,6 @@ pub fn bare(label: &str) -> &str {
     label.split(':').next().unwrap_or(label)
 }
 
-/// Distinct names in the order of their first appearance.
 pub fn distinct<'a>(names: impl Iterator<Item = &'a String>) -> Vec<String> {
     each_once(names).into_iter().cloned().collect()
 }
@@ -112,9 +108,6 @@ pub fn each_once_by<T>(items: impl IntoIterator<Item = T>, same: impl Fn(&T, &T)
 
 /// A command line as another machine would type it: without the folder of the program.
 pub fn command_line(command: &str) -> String {
-    if command.is_empty() {
-        return String::new();
-    }
     let (program, rest) = command.split_once(' ').unwrap_or((command, ""));
     let program = program.trim_matches('\'').rsplit(['/', '\\']).next().unwrap_or(program);
     let name = if program.starts_with("sahara") { "sahara" } else { program };

@@ -9,7 +9,6 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
-use sha2::{Digest, Sha256};
 
 use crate::accel::Query;
 use crate::cli::progress::Waiting;
@@ -19,6 +18,7 @@ use crate::exact;
 use crate::geometry::{Mesh, Ray};
 use crate::oracle::Oracle;
 use crate::output::OutputFolder;
+use crate::page::results::digest;
 use crate::registry::Registry;
 use crate::report::number::{bytes, count, plural};
 use crate::report::words::{listed, slug};
@@ -31,7 +31,6 @@ use crate::study::Status;
 /// The SHA-256 of `SHA256SUMS` in the corpus of all defaults.
 const CORPUS_SHA256: &str = "80236458bcb0a6bbaadffad14093129fc1b00782e4f0118cc37d15f480bc129d";
 
-/// The file of all others' hashes.
 const SUMS: &str = "SHA256SUMS";
 
 const RAYS: u32 = 256;
@@ -59,7 +58,6 @@ impl Args {
     }
 }
 
-/// The files of a corpus, by their names.
 type Files = BTreeMap<String, Vec<u8>>;
 
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
@@ -89,7 +87,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
 
     waiting.says(format!("writes {}", folder.path().escaped()));
     let sums = sums(&files);
-    let digest = sha256(sums.as_bytes());
+    let digest_of_sums = digest(sums.as_bytes());
     files.insert(SUMS.into(), sums.into_bytes());
     folder.write(&files.into_iter().collect::<Vec<_>>())?;
     drop(waiting);
@@ -98,7 +96,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let note = format!("{} with meshes of our own, whether or not the real ones were fetched.", listed(&stand_ins));
     let notes = if stand_ins.is_empty() { vec![] } else { vec![note] };
     terminal.print_table(&Table::new(title, ["scene", "triangles", "rays", "hits", "bytes"], rows).noted(notes));
-    verdict(args, &digest, terminal)
+    verdict(args, &digest_of_sums, terminal)
 }
 
 /// Prints the hash, and whether it is the one that it should be.
@@ -118,7 +116,6 @@ fn verdict(args: &Args, digest: &str, terminal: &Terminal) -> anyhow::Result<Sta
     Ok(status)
 }
 
-/// What a corpus holds of one scene.
 struct Part {
     files: Files,
     rays: usize,
@@ -179,9 +176,5 @@ fn exact_answer(oracle: &Oracle, mesh: &Mesh, ray: &Ray) -> Option<(f64, Vec<u32
 
 /// A line for each file, as `sha256sum` writes and checks them.
 fn sums(files: &Files) -> String {
-    files.iter().map(|(name, bytes)| format!("{}  {name}\n", sha256(bytes))).collect()
-}
-
-fn sha256(bytes: &[u8]) -> String {
-    format!("{:x}", Sha256::digest(bytes))
+    files.iter().map(|(name, bytes)| format!("{}  {name}\n", digest(bytes))).collect()
 }

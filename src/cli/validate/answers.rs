@@ -39,7 +39,6 @@ fn answer(accel: &Arc<dyn DynAccel>, ray: &Ray, mesh: &Mesh, limit: Duration) ->
 
 const COLUMNS: [&str; 6] = ["structure", "ray", "t", "triangle", "u", "v"];
 
-/// The rows of all structures as a table, ray by ray.
 pub fn table(scene: &str, of_structures: &[Vec<Vec<Cell>>]) -> Table {
     let rays = of_structures.first().map_or(0, Vec::len);
     let rows = (0..rays).flat_map(|ray| of_structures.iter().map(move |rows| rows[ray].clone()));

@@ -23,7 +23,6 @@ use crate::validate::{validate_answers, validate_any_answers, watched};
 const BATCH: usize = 256;
 
 impl Run<'_> {
-    /// Writes the hits of one structure.
     pub fn export_hits(&self, scene: &Scene, file: &RayFile, to: &Path, waiting: Waiting) -> anyhow::Result<Status> {
         let (args, workload) = (self.args, &file.workload);
         let [choice] = &self.structures[..] else {
@@ -42,7 +41,7 @@ impl Run<'_> {
         let mut hits = vec![];
         for batch in workload.rays.chunks(BATCH) {
             let (accel, query, batch) = (Arc::clone(&accel), workload.query, batch.to_vec());
-            let traced = watched(args.limit(), move || traced(accel.as_ref(), query, &batch));
+            let traced = watched(args.limit.duration(), move || traced(accel.as_ref(), query, &batch));
             let advice = || format!("{label}: find the ray by the same command without --export-hits");
             hits.extend(traced.with_context(advice)?);
         }
@@ -53,7 +52,6 @@ impl Run<'_> {
         Ok(Status::Right)
     }
 
-    /// Compares the hits of the file of --hits with the reference.
     pub fn check_hits(&self, scene: &Scene, file: &RayFile, waiting: Waiting) -> anyhow::Result<Status> {
         let (args, choice) = (self.args, &self.reference);
         let path = args.hits.as_deref().context("the caller has seen it")?;

@@ -10,7 +10,6 @@ mod table;
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::Duration;
 
 use anyhow::Context;
 
@@ -150,19 +149,10 @@ impl Args {
         self.rays.clone().unwrap_or(RaySource::Count(DEFAULT_RAYS))
     }
 
-    fn seed(&self) -> u64 {
-        self.seed.unwrap_or(1)
-    }
-
-    fn limit(&self) -> Duration {
-        self.limit.duration()
-    }
-
-    /// Builds a structure within the limit.
     fn build(&self, choice: &Choice, scene: &Scene, waiting: &Waiting) -> Result<Arc<dyn DynAccel>, BuildFailure> {
         waiting.says(format!("{} builds {}", scene.name, choice.label));
         let (own, mesh) = (choice.clone(), Arc::clone(&scene.mesh));
-        let limit = self.limit() * u32::try_from(1 + mesh.len() / 1_000_000).unwrap_or(u32::MAX);
+        let limit = self.limit.duration() * u32::try_from(1 + mesh.len() / 1_000_000).unwrap_or(u32::MAX);
         // The registry catches a panic of the builder: what ends without a result hangs.
         let built = watched(limit, move || own.build(&mesh)).map_err(|_| BuildFailure::Hangs(limit.as_secs_f64()))?;
         Ok(Arc::from(built?))

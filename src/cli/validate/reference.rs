@@ -26,7 +26,6 @@ const FILE_TESTS: u32 = 36;
 /// Triangle tests after which brute force reports its progress: about a second.
 const PROGRESS_TESTS: usize = 1 << 29;
 
-/// Which reference hits are compared with.
 pub enum ReferenceChoice {
     /// Brute force with the triangle test of each structure.
     SameTest,
@@ -43,7 +42,6 @@ impl ReferenceChoice {
         Ok(Self::Structure(Box::new(request::structure(registry, name)?)))
     }
 
-    /// The reference for a structure with this triangle test.
     pub fn build(&self, scene: &Scene, test: &str) -> anyhow::Result<Reference> {
         match self {
             Self::SameTest => Ok(Reference::of_test(test, &scene.mesh)?),
@@ -114,7 +112,6 @@ impl fmt::Display for ReferenceChoice {
     }
 }
 
-/// A reference and its hits for the rays of a scene.
 pub type ReferenceHits = (Arc<Reference>, Vec<Option<Hit>>);
 
 /// The references of one scene, each built and traced once.
@@ -127,7 +124,6 @@ pub struct References<'a> {
 }
 
 impl References<'_> {
-    /// The one for a triangle test.
     pub fn get(&mut self, test: &'static str, waiting: &Waiting) -> anyhow::Result<&ReferenceHits> {
         let key = matches!(self.choice, ReferenceChoice::SameTest).then_some(test);
         if !self.known.contains_key(&key) {

@@ -35,9 +35,10 @@ impl Run<'_> {
             match args.build(choice, scene, &waiting) {
                 Ok(accel) => {
                     waiting.says(format!("{} checks {}", scene.name, choice.label));
-                    let found = validate_watched(&accel, reference, expected, &scene.mesh, &rays, args.limit());
+                    let found =
+                        validate_watched(&accel, reference, expected, &scene.mesh, &rays, args.limit.duration());
                     if !args.ray.is_empty() {
-                        of_structures.push(answers(&choice.label, &accel, &rays, &scene.mesh, args.limit()));
+                        of_structures.push(answers(&choice.label, &accel, &rays, &scene.mesh, args.limit.duration()));
                     }
                     status = status.and(self.status(choice, &found, &mut notes));
                     rows.push(row(&choice.label, choice.triangle_test(), &found));
@@ -98,17 +99,19 @@ impl Run<'_> {
         let number = args.rays.clone().unwrap_or(RaySource::Count(affordable));
         if args.adversarial {
             let each = number.number()?.div_ceil(Stratum::ALL.len());
-            return Ok(Stratum::ALL.iter().flat_map(|stratum| stratum.rays(&scene.mesh, each, args.seed())).collect());
+            return Ok(Stratum::ALL
+                .iter()
+                .flat_map(|stratum| stratum.rays(&scene.mesh, each, args.seed.unwrap_or(1)))
+                .collect());
         }
         let tracer = request::guide(registry)?.build(&scene.mesh)?;
         let limit = number.count().div_ceil(WorkloadKind::ALL.len());
-        let sampling = Sampling::some(scene, limit, args.seed());
+        let sampling = Sampling::some(scene, limit, args.seed.unwrap_or(1));
         let of_kind = |&kind| Workload::new(scene, kind, &sampling, tracer.as_ref()).rays;
         Ok(WorkloadKind::ALL.iter().flat_map(of_kind).collect())
     }
 }
 
-/// What a structure does not support.
 fn declined(choice: &Choice, found: &Validation) -> Option<String> {
     let what = choice.entry.capabilities.declined();
     let rays = match found.declined {

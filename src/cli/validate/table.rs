@@ -31,7 +31,6 @@ pub fn note_on_reference(name: &str, found: &Validation) -> Option<String> {
     (found.reference_errors > 0).then(|| format!("On {rays} the reference is wrong and not {name}: no errors of it."))
 }
 
-/// What the columns mean.
 pub const LEGEND: [&str; 4] = [
     "hits: rays that hit something by the reference. structure errors: hits lost or invented although the structure's own \
      triangle test, run over all triangles, says otherwise, contradictions, panics and queries that never return; none in a \
@@ -44,7 +43,6 @@ pub const LEGEND: [&str; 4] = [
     "To trace a ray again: sahara validate SCENE --structure NAME --ray \"ox,oy,oz dx,dy,dz\"",
 ];
 
-/// The row of a structure without hits.
 pub fn failure_row(choice: &Choice, why: &str) -> Vec<Cell> {
     let mut row = vec![Cell::empty(); COLUMNS.len()];
     row[0] = choice.label.as_str().into();
@@ -53,7 +51,6 @@ pub fn failure_row(choice: &Choice, why: &str) -> Vec<Cell> {
     row
 }
 
-/// The row of what was found.
 pub fn row(label: &str, test: &str, found: &Validation) -> Vec<Cell> {
     let errors = |n: u64| Cell::from(count(n)).with(if n > 0 { Tone::Wrong } else { Tone::Plain });
     let own = found.errors() - found.answer_errors;

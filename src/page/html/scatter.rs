@@ -7,7 +7,6 @@ use crate::report::plot::palette::roles_of;
 use crate::report::plot::{Tradeoff, TradeoffCase, TradeoffPoint};
 use crate::report::words::distinct;
 
-/// As JSON that may stand in a script element.
 pub fn data(tradeoff: &Tradeoff) -> String {
     // A structure has one colour in all cases.
     let all: Vec<String> = tradeoff.cases.iter().flat_map(|case| &case.points).map(|p| p.label.clone()).collect();

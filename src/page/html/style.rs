@@ -2,7 +2,6 @@
 
 use crate::report::plot::palette::{Role, hex, roles};
 
-/// The whole sheet.
 pub fn sheet() -> String {
     let light = properties(|role| hex(role.light));
     let dark = properties(|role| hex(role.dark));

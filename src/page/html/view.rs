@@ -4,12 +4,10 @@ use minijinja::{Value, context};
 
 use super::{in_script, scatter};
 use crate::page::document::{Answer, Document, Headline, Section};
-use crate::report::plot::Chart;
+use crate::report::plot::{Chart, WIDTH};
 use crate::report::words::ended;
 use crate::report::{Art, Block, Cell, Colours, Figure, Overlay, Picture, Table, Tone};
 
-/// Widths of drawings: on a desk, and on a telephone.
-pub const WIDE: f64 = 900.0;
 const NARROW: f64 = 360.0;
 
 /// The page: what the template may ask of each part stands where the part is made.
@@ -28,7 +26,6 @@ pub fn page(document: &Document, css: String) -> Value {
     }
 }
 
-/// One value for each item.
 fn values<'a, T: 'a>(items: impl IntoIterator<Item = &'a T>, value: impl FnMut(&'a T) -> Value) -> Vec<Value> {
     items.into_iter().map(value).collect()
 }
@@ -93,27 +90,18 @@ fn table(table: &Table) -> Value {
 }
 
 fn figure(figure: &Figure) -> Value {
-    // The data of a chart that can be changed.
-    let (mut wide, mut narrow, mut scatter) = (None, None, None);
-    let mut laid = None;
-    match &figure.art {
-        Art::Chart(chart) => {
-            wide = Some(inline(&chart.svg(WIDE)));
-            // Points have labels all over: they are as wide as they are, and scroll.
-            narrow = (!matches!(chart, Chart::Scatter(_))).then(|| inline(&chart.svg(NARROW)));
-            scatter = if let Chart::Tradeoff(tradeoff) = chart { Some(scatter::data(tradeoff)) } else { None };
-        }
-        Art::Gallery(_) => {}
-        Art::Overlay(drawn) => laid = Some(overlay(drawn)),
-    }
+    let chart = figure.chart();
+    // Points have labels all over: they are as wide as they are, and scroll.
+    let shrinks = |chart: &&Chart| !matches!(chart, Chart::Scatter(_));
     context! {
         id => &figure.id,
         caption => &figure.caption,
         alt => &figure.alt,
-        wide => wide,
-        narrow => narrow,
-        scatter => scatter,
-        overlay => laid,
+        wide => chart.map(|chart| inline(&chart.svg(WIDTH))),
+        narrow => chart.filter(shrinks).map(|chart| inline(&chart.svg(NARROW))),
+        // The data of a chart that can be changed.
+        scatter => if let Some(Chart::Tradeoff(tradeoff)) = chart { Some(scatter::data(tradeoff)) } else { None },
+        overlay => if let Art::Overlay(drawn) = &figure.art { Some(overlay(drawn)) } else { None },
         pictures => values(figure.pictures(), picture),
         data => table(&figure.data),
     }

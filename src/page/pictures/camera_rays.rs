@@ -2,15 +2,12 @@
 
 use super::loaded_scene::LoadedScene;
 use crate::accel::Observed;
-use crate::page::runs::Runs;
+use crate::page::runs::{COMPARE, Runs};
 use crate::registry::Registry;
 use crate::render::{ErrorMap, ExactPicture, Work, coarse_size};
 use crate::report::words::{each_once, scene_name};
 use crate::request::{BRUTE_FORCE, REPORT_TREE, SAH_TREE};
 use crate::study::measure::guarded;
-
-/// The study that compares all structures.
-const COMPARE: &str = "compare";
 
 /// A picture of a scene, traced by exact arithmetic and by every structure of the comparison but brute force, whose
 /// work would darken that of all others.
@@ -54,7 +51,6 @@ impl<'a> CameraRays<'a> {
         Self { loaded, name: scene_name(&scene.name, !scene.stand_ins.is_empty()), exact, structures }
     }
 
-    /// Where the answers of a structure are wrong.
     pub fn errors(&self, structure: &StructureWork) -> ErrorMap {
         ErrorMap::of(&self.exact, structure.work.iter().map(|work| work.hit))
     }

@@ -89,7 +89,6 @@ fn pixels(camera: &CameraRays, wrong: &[(&StructureWork, ErrorMap)]) -> Inspecto
     inspector(camera, chosen, which)
 }
 
-/// The section with what is known of all scenes, and what is said of those without a picture.
 pub fn section(found: Vec<(Block, String)>, left_out: Vec<Block>) -> Section {
     let what = "The camera rays of a picture, each held against exact arithmetic.";
     let (blocks, command) = introduced("Pictures of wrong answers", what, found, left_out);

@@ -15,18 +15,12 @@ use crate::report::{Art, Block, Colours, Figure, Overlay, Picture, Table};
 
 pub const TITLE: &str = "Where is the work?";
 
-/// What one structure does for each pixel.
 struct Heat<'a> {
     label: &'a str,
     costs: Vec<u64>,
 }
 
-impl<'a> Heat<'a> {
-    fn of(structure: &'a StructureWork) -> Option<Self> {
-        let costs = || structure.work.iter().map(Work::cost).collect();
-        (structure.observed == Observed::ALL).then(|| Self { label: &structure.label, costs: costs() })
-    }
-
+impl Heat<'_> {
     fn mean(&self) -> f64 {
         self.costs.iter().sum::<u64>() as f64 / self.costs.len() as f64
     }
@@ -34,7 +28,9 @@ impl<'a> Heat<'a> {
 
 /// The maps of all structures that tell their work, with the command that draws one. Nothing where none does.
 pub fn block(camera: &CameraRays) -> Option<(Block, String)> {
-    let maps: Vec<Heat> = camera.structures.iter().filter_map(Heat::of).collect();
+    let told = camera.structures.iter().filter(|own| own.observed == Observed::ALL);
+    let costs = |own: &StructureWork| own.work.iter().map(Work::cost).collect();
+    let maps: Vec<Heat> = told.map(|own| Heat { label: &own.label, costs: costs(own) }).collect();
     // One scale for all: a structure is as bright as its work.
     let scale = maps.iter().map(|heat| hottest(&heat.costs)).max()?;
     let (name, size) = (&camera.name, camera.exact.size);
@@ -113,7 +109,6 @@ fn stepped(cost: u64, scale: u64) -> u64 {
     libm::round(libm::expm1(step * unit)) as u64
 }
 
-/// The section with the figures of all scenes, and what is said of those without one.
 pub fn section(found: Vec<(Block, String)>, left_out: Vec<Block>) -> Section {
     let what = "Where the work is: brighter pixels cost more triangle tests and steps.";
     let (blocks, command) = introduced("Heat maps of the structures", what, found, left_out);

@@ -64,7 +64,6 @@ fn truth(camera: &CameraRays, pixel: usize) -> Answer {
     Answer { hit: truth.map(|hit| of_hit(camera, &camera.exact.rays[pixel], hit)), wrong: "" }
 }
 
-/// The different answers of all structures.
 fn answers(camera: &CameraRays, pixel: usize) -> Vec<Answer> {
     each_once(camera.structures.iter().map(|structure| answer(camera, pixel, structure.work[pixel].hit)))
 }

@@ -4,7 +4,6 @@ use crate::escaped::quoted;
 use crate::request::SceneRequest;
 use crate::scene::Scene;
 
-/// A scene of the runs, as it was measured.
 pub struct LoadedScene {
     pub scene: Scene,
     pub request: SceneRequest,
@@ -15,5 +14,13 @@ impl LoadedScene {
     pub fn words(&self) -> String {
         let view = self.request.view.words();
         [quoted(&self.request.word), view].into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
+    }
+
+    /// The cube under another name, asked for as `word` and seen as the JSON of `view` says.
+    #[cfg(test)]
+    pub fn cube(word: &str, name: &str, view: &str) -> Self {
+        let scene = Scene { name: name.into(), ..crate::scene::Builtin::find("cube").unwrap().scene(None).unwrap() };
+        let request = SceneRequest::new(word, &serde_json::from_str(view).unwrap(), &scene);
+        Self { scene, request }
     }
 }

@@ -77,7 +77,6 @@ fn without(too_large: &[&LoadedScene], view: &str) -> Vec<Block> {
     too_large.iter().map(block).collect()
 }
 
-/// A colour of a picture as the page writes it.
 fn hex([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
@@ -116,16 +115,10 @@ pub fn left_out() -> Vec<Section> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::request::SceneRequest;
-    use crate::request::ViewArgs;
-    use crate::scene::Builtin;
 
     #[test]
     fn a_scene_that_is_too_large_to_be_built_again_is_named_with_a_command() {
-        let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
-        let view: ViewArgs = serde_json::from_str(r#"{"inside":true}"#).unwrap();
-        let request = SceneRequest::new("cube", &view, &scene);
-        let loaded = LoadedScene { scene, request };
+        let loaded = LoadedScene::cube("cube", "Cube", r#"{"inside":true}"#);
         for (section, view) in [
             (heat::section(vec![], without(&[&loaded], "heat")), "heat"),
             (errors::section(vec![], without(&[&loaded], "error")), "error"),

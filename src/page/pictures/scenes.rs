@@ -11,7 +11,6 @@ use crate::request::guide;
 use crate::scene::Builtin;
 use crate::study::measure::guarded;
 
-/// Longest side of a picture, in pixels.
 const SIDE: u32 = 208;
 
 pub const TITLE: &str = "The scenes";
@@ -33,7 +32,6 @@ pub fn picture(loaded: &LoadedScene, registry: &Registry) -> Option<Picture> {
     })
 }
 
-/// The mean of each two by two pixels.
 fn halved(fine: &render::Picture) -> render::Picture {
     let [width, height] = fine.size().map(|side| side / 2);
     let pixel = |x: u32, y: u32| fine.pixels()[(y * fine.size()[0] + x) as usize];
@@ -45,7 +43,6 @@ fn halved(fine: &render::Picture) -> render::Picture {
     render::Picture::new([width, height], pixels.collect())
 }
 
-/// From where the scenes are seen.
 fn caption(loaded: &[LoadedScene]) -> String {
     let is_builtin = |own: &LoadedScene| {
         let name = own.request.word.to_str().and_then(|word| word.split(':').next());
@@ -94,17 +91,10 @@ pub fn section(pictures: Vec<Picture>, loaded: &[LoadedScene], lost: &[String]) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::request::{SceneRequest, ViewArgs};
-    use crate::scene::Scene;
 
     #[test]
     fn only_built_in_scenes_have_the_cameras_of_the_source_report() {
-        let caption = |word: &str, name: &str, view: &str| {
-            let scene = Scene { name: name.into(), ..Builtin::find("cube").unwrap().scene(None).unwrap() };
-            let view: ViewArgs = serde_json::from_str(view).unwrap();
-            let request = SceneRequest::new(word, &view, &scene);
-            super::caption(&[LoadedScene { scene, request }])
-        };
+        let caption = |word: &str, name: &str, view: &str| super::caption(&[LoadedScene::cube(word, name, view)]);
         let cube = caption("cube", "Cube", "{}");
         assert!(cube.contains("rendered by sahara with the source report's cameras") && !cube.contains("--"), "{cube}");
         assert_eq!(caption("cube:stand-in", "Cube", "{}"), cube);

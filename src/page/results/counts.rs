@@ -29,7 +29,6 @@ pub fn of(measurements: &[Measurement]) -> BTreeMap<String, BTreeMap<String, Str
     scenes.map(of).collect()
 }
 
-/// What a structure counts for so many rays.
 pub fn text(rays: usize, hits: usize, tests: Option<u64>, steps: Option<u64>) -> String {
     let number = |n: Option<u64>, what: &str| n.map_or(String::new(), |n| format!(", {n} {what}"));
     format!("{rays} rays: {hits} hits{}{}", number(tests, "tests"), number(steps, "steps"))

@@ -1,19 +1,11 @@
 //! Places of a Markdown file that a run fills in: text between `<!-- sahara: KEY -->` and `<!-- / -->`.
 
-/// Begins a mark.
 pub const OPEN: &str = "<!-- sahara: ";
 const END: &str = " -->";
 const CLOSE: &str = "<!-- / -->";
 
 /// Columns of a line.
 const WIDTH: usize = 120;
-
-/// Why marks cannot be read.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum MarkError {
-    #[error("the mark {0:?} is not closed: write `<!-- / -->` after its text")]
-    Open(String),
-}
 
 /// A marked place: where the text between the marks begins and ends.
 struct Place<'a> {
@@ -22,11 +14,15 @@ struct Place<'a> {
     to: usize,
 }
 
-fn places(text: &str) -> Result<Vec<Place<'_>>, MarkError> {
+/// Refuses a mark that is not closed.
+fn places(text: &str) -> anyhow::Result<Vec<Place<'_>>> {
     let (mut places, mut at) = (vec![], 0);
     while let Some(open) = text[at..].find(OPEN) {
         let rest = &text[at + open + OPEN.len()..];
-        let error = |key: &str| MarkError::Open(key.chars().take(40).collect());
+        let error = |key: &str| {
+            let key: String = key.chars().take(40).collect();
+            anyhow::anyhow!("the mark {key:?} is not closed: write `{CLOSE}` after its text")
+        };
         let (key, after) = rest.split_once(END).ok_or_else(|| error(rest))?;
         let from = text.len() - after.len();
         let length = after.find(CLOSE).ok_or_else(|| error(key))?;
@@ -40,20 +36,14 @@ fn places(text: &str) -> Result<Vec<Place<'_>>, MarkError> {
 }
 
 /// Keys and texts of all marked places, in order; a run of white space is one blank.
-///
-/// # Errors
-/// If a mark is not closed.
-pub fn marked(text: &str) -> Result<Vec<(String, String)>, MarkError> {
+pub fn marked(text: &str) -> anyhow::Result<Vec<(String, String)>> {
     let plain = |place: &Place| text[place.from..place.to].split_whitespace().collect::<Vec<_>>().join(" ");
     Ok(places(text)?.iter().map(|place| (place.key.to_owned(), plain(place))).collect())
 }
 
 /// The file with what `of` says in the marked places; what it does not know stays. Paragraphs with marks are wrapped
 /// anew, tables stand in lines of their own.
-///
-/// # Errors
-/// If a mark is not closed.
-pub fn fill(text: &str, of: impl Fn(&str) -> Option<String>) -> Result<String, MarkError> {
+pub fn fill(text: &str, of: impl Fn(&str) -> Option<String>) -> anyhow::Result<String> {
     let (mut filled, mut at) = (String::new(), 0);
     for Place { key, from, to } in places(text)? {
         filled += &text[at..from];

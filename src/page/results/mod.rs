@@ -12,42 +12,31 @@ mod tests;
 
 use std::collections::BTreeMap;
 
+use anyhow::Context;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-pub use marks::{MarkError, OPEN, fill, marked};
+pub use marks::{OPEN, fill, marked};
 pub use run_facts::RunFacts;
 
 use super::document::Document;
-use super::runs::Runs;
+use super::runs::{COMPARE, Runs};
 use super::sections::tally;
 use crate::measure::Estimate;
-use crate::report::Art;
+use crate::report::plot::WIDTH;
 use crate::study::Studies;
 use crate::study::measurement::{Measurement, measurements};
 
 /// The command that makes all of it.
 pub const COMMAND: &str = "sahara report RUN.. --results";
 
-/// The paper, in the folder of results.
+/// The paper, the data file and the folder of figures, in the folder of results.
 pub const PAPER: &str = "RESULTS.md";
-
-/// The data file, likewise.
 pub const DATA: &str = "results.json";
-
-/// The folder of figures, likewise.
 pub const FIGURES: &str = "figures";
 
-/// Width of figures, in their units.
-const WIDTH: f64 = 900.0;
-
-/// The study that compares all structures.
-const COMPARE: &str = "compare";
-
-/// All that is written.
 pub struct Results {
     pub data: ResultsData,
-    /// The paper.
     pub paper: String,
     /// Names and bytes of the files in the folder of figures.
     pub figures: Vec<(String, Vec<u8>)>,
@@ -56,7 +45,6 @@ pub struct Results {
 /// The data file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ResultsData {
-    /// Version of these fields.
     pub schema: u32,
     pub made_by: String,
     pub run: RunFacts,
@@ -80,36 +68,17 @@ pub struct Statement {
     pub value: Option<Estimate>,
 }
 
-/// Why no results are made.
-#[derive(Debug, thiserror::Error)]
-pub enum ResultsError {
-    #[error(
-        "these runs are of more than one {what} ({values}): results are of one run; measure all of it anew into a \
-         folder of its own"
-    )]
-    Mixed { what: &'static str, values: String },
-    #[error("README.md: {0}")]
-    Mark(#[from] MarkError),
-    #[error("README.md marks {key:?}, and there is no such statement; there are: {known}")]
-    Unknown { key: String, known: String },
-}
-
 impl Results {
-    /// The results of `document`, which was made from `runs`.
-    ///
-    /// # Errors
-    /// If the runs are of different commits or machines.
-    pub fn new(document: &Document, runs: &Runs) -> Result<Self, ResultsError> {
+    /// The results of `document`, which was made from `runs` of one commit on one machine.
+    pub fn new(document: &Document, runs: &Runs) -> anyhow::Result<Self> {
         let run = RunFacts::new(runs)?;
         let statements = statements(document, runs, &run);
         let mut paper = paper::text(document, runs, &run);
         let answer = document.answer.chart.as_ref().map(|chart| (paper::ANSWER.into(), chart.svg(WIDTH).into_bytes()));
         let mut figures: Vec<(String, Vec<u8>)> = answer.into_iter().collect();
         for figure in document.figures() {
-            let (Art::Chart(chart), path) = (&figure.art, paper::path(&figure.id)) else { continue };
-            if !paper.contains(&path) {
-                continue;
-            }
+            let path = paper::path(&figure.id);
+            let Some(chart) = figure.chart().filter(|_| paper.contains(&path)) else { continue };
             // The answer may be the figure of a study as well: it is kept once.
             let bytes = chart.svg(WIDTH).into_bytes();
             match figures.iter().find(|(_, known)| *known == bytes) {
@@ -135,26 +104,22 @@ impl Results {
 
     /// The text of README with what it marks filled in. What it marks and no run has measured says so, here and in the
     /// data.
-    ///
-    /// # Errors
-    /// If a mark is not closed, or names no statement.
-    pub fn fill(&mut self, readme: &str, studies: &Studies) -> Result<String, ResultsError> {
-        for (key, _) in marked(readme)? {
+    pub fn fill(&mut self, readme: &str, studies: &Studies) -> anyhow::Result<String> {
+        for (key, _) in marked(readme).context("README.md")? {
             if self.data.statements.contains_key(&key) {
                 continue;
             }
             let study = studies.iter().find(|study| key.split('.').next() == Some(study.name));
-            let study = study.ok_or_else(|| ResultsError::Unknown {
-                key: key.clone(),
-                known: self.data.statements.keys().cloned().collect::<Vec<_>>().join(", "),
+            let study = study.ok_or_else(|| {
+                let known = self.data.statements.keys().map(String::as_str).collect::<Vec<_>>().join(", ");
+                anyhow::anyhow!("README.md marks {key:?}, and there is no such statement; there are: {known}")
             })?;
             let text = format!("Not measured in this run (`{}`).", study.command_line());
             self.data.statements.insert(key, Statement { text, value: None });
         }
-        Ok(fill(readme, |key| self.data.statements.get(key).map(|statement| statement.text.clone()))?)
+        fill(readme, |key| self.data.statements.get(key).map(|statement| statement.text.clone())).context("README.md")
     }
 
-    /// The bytes of the data file.
     pub fn json(&self) -> Vec<u8> {
         let mut bytes = serde_json::to_vec_pretty(&self.data).expect("keys are text");
         bytes.push(b'\n');
@@ -162,7 +127,7 @@ impl Results {
     }
 }
 
-/// The digest by which the data file knows a file.
+/// The SHA-256 of a file, by which data files and corpora know it.
 pub fn digest(bytes: &[u8]) -> String {
     format!("{:x}", Sha256::digest(bytes))
 }

@@ -12,7 +12,6 @@ use crate::report::{Art, Block, wrapped};
 /// The text around; a name in double braces stands for what is filled in.
 const FRAME: &str = include_str!("paper.md");
 
-/// The picture of the answer.
 pub const ANSWER: &str = "answer.svg";
 
 /// Figures of a study that the paper shows; the page has all.
@@ -74,7 +73,8 @@ fn results(document: &Document, runs: &Runs) -> String {
         let command = own.command.lines().map(portable).collect::<Vec<_>>().join("\n");
         section(&Section { blocks, command, ..*own }, &mut text);
     }
-    let missing: Vec<String> = document.missing().iter().map(ToString::to_string).collect();
+    let missing: Vec<String> =
+        document.missing().iter().map(|own| format!("{} (`{}`)", own.what, own.command)).collect();
     if !missing.is_empty() {
         text += &paragraph(&format!("Not measured in this run: {}.", listed(&missing)));
     }

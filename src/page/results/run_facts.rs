@@ -2,7 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::ResultsError;
 use crate::measure::Provenance;
 use crate::page::runs::Runs;
 use crate::report::words::each_once;
@@ -25,18 +24,21 @@ pub struct RunFacts {
 }
 
 impl RunFacts {
-    /// # Errors
-    /// If there is more than one commit or machine.
-    pub fn new(runs: &Runs) -> Result<Self, ResultsError> {
+    /// Refuses runs of more than one commit or machine.
+    pub fn new(runs: &Runs) -> anyhow::Result<Self> {
         let all = runs.provenances();
-        let one = |what: &'static str, of: fn(&Provenance) -> &String| -> Result<String, ResultsError> {
+        let one = |what: &'static str, of: fn(&Provenance) -> &String| -> anyhow::Result<String> {
             let mut values: Vec<&str> = all.iter().map(|p| of(p).as_str()).collect();
             values.sort_unstable();
             values.dedup();
             match values[..] {
                 [] => Ok("unknown".into()),
                 [only] => Ok(only.into()),
-                _ => Err(ResultsError::Mixed { what, values: values.join(", ") }),
+                _ => anyhow::bail!(
+                    "these runs are of more than one {what} ({}): results are of one run; measure all of it anew into \
+                     a folder of its own",
+                    values.join(", ")
+                ),
             }
         };
         let days = || all.iter().map(|p| p.date.split('T').next().unwrap_or("").to_owned());

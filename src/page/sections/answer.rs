@@ -2,15 +2,14 @@
 
 use crate::measure::Estimate;
 use crate::page::document::{Answer, Headline};
-use crate::page::runs::{Runs, StudyRun, scene_titles};
+use crate::page::runs::{COMPARE, Runs, StudyRun, scene_titles};
+use crate::report::Figure;
 use crate::report::number::{figures, plural};
 use crate::report::plot::{Bar, Bars, Chart};
 use crate::report::words::{ended, ends, interval, listed, slug};
-use crate::report::{Art, Block};
 use crate::study::claims;
 use crate::study::compare::FASTEST;
 
-/// The question in the words of the source report.
 const QUESTION: &str = "Would a SAH tree have been much faster on the hard scenes?";
 
 /// The hard scenes, as keys name them.
@@ -19,10 +18,9 @@ const SCENES: [&str; 3] = ["dragon", "lucy", "sponza"];
 /// From this on a tree is called much faster: half of the time.
 const MUCH: f64 = 2.0;
 
-/// The studies that tell how fast the SAH tree is on the hard scenes, and the one that compares all structures.
+/// The studies that tell how fast the SAH tree is on the hard scenes.
 const REPLICATE: &str = "replicate";
 const ATTRIBUTION: &str = "attribution";
-const COMPARE: &str = "compare";
 
 /// A hard scene as tables name it, and how many times faster the SAH tree is there.
 struct Hard {
@@ -125,16 +123,10 @@ fn verdict(hard: &[Hard], mean: Option<Estimate>) -> String {
 /// How many times faster, scene by scene: in the parts that it is due to where `attribution` tells them, else as a
 /// whole.
 fn chart(runs: &Runs, hard: &[Hard]) -> Bars {
-    let blocks = runs.of(ATTRIBUTION).map_or(&[][..], |run| &run.report.blocks);
-    let parts = blocks.iter().find_map(|block| match block {
-        Block::Figure(figure) if figure.id == ATTRIBUTION => match &figure.art {
-            Art::Chart(Chart::Bars(bars)) => Some(bars),
-            _ => None,
-        },
-        _ => None,
-    });
-    let has_all = |bars: &&Bars| hard.iter().all(|own| bars.labels.contains(&own.title));
-    if let Some(bars) = parts.filter(has_all) {
+    let mut figures = runs.of(ATTRIBUTION).into_iter().flat_map(|run| run.report.figures());
+    if let Some(Chart::Bars(bars)) = figures.find(|figure| figure.id == ATTRIBUTION).and_then(Figure::chart)
+        && hard.iter().all(|own| bars.labels.contains(&own.title))
+    {
         return bars.clone();
     }
     let bar = |own: &Hard| (own.title.clone(), Bar::Product(vec![own.ratio.estimate], own.ratio));

@@ -34,7 +34,6 @@ pub fn section(runs: &Runs, missing: Vec<Block>) -> Section {
     Section { id: "provenance", title: "Where the numbers come from", blocks, ..Section::default() }
 }
 
-/// One row for each dataset.
 fn machines(runs: &Runs) -> Table {
     let row = |study: &str, dataset: &Dataset, shown: &str| {
         let p = &dataset.provenance;

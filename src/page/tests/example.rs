@@ -33,10 +33,8 @@ fn study(name: &'static str, question: &'static str, report: fn(&Dataset, &ArgMa
 }
 
 /// How much faster the SAH tree is on every scene.
-pub const RATIO: f64 = 8.0;
-
 fn ratio() -> Estimate {
-    Estimate::between(RATIO, 7.0, 9.0)
+    Estimate::between(8.0, 7.0, 9.0)
 }
 
 fn titles(dataset: &Dataset) -> Vec<String> {
@@ -139,7 +137,6 @@ pub fn measured(study: &str, scene: &str) -> Measured {
     Measured { case, epoch: epoch::example(scene, 12, 0, &structures) }
 }
 
-/// Files by their paths in a folder.
 pub type Files = Vec<(String, Vec<u8>)>;
 
 /// A journal with one epoch of each of these scenes.
@@ -154,7 +151,6 @@ pub fn journal(study: &str, scenes: &[&str], provenance: &Provenance) -> Files {
     scenes.iter().map(file).collect()
 }
 
-/// An export of the same.
 pub fn export(study: &str, scenes: &[&str], provenance: &Provenance) -> Files {
     let dataset = Dataset::new(provenance.clone(), scenes.iter().map(|scene| measured(study, scene)).collect());
     vec![(format!("{study}-{}.json", slug(&provenance.date)), dataset.to_json())]
@@ -181,7 +177,6 @@ pub fn runs(studies: &[(&str, &[&str])]) -> Runs<'static> {
     read(folder(&files.concat()).path())
 }
 
-/// Why a path cannot be read.
 pub fn refused(path: PathBuf) -> RunError {
     Runs::read(&[path], &STUDIES).err().expect("it cannot be read")
 }

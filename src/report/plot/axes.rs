@@ -69,7 +69,6 @@ pub const BOTTOM_WITHOUT_TITLE: i32 = 52;
 /// Between an axis and what is drawn beside it.
 pub const GAP: i32 = 20;
 
-/// A pair of axes.
 pub type Axes<'a, B, Y = LogAxis> = ChartContext<'a, B, Cartesian2d<LogAxis, Y>>;
 
 /// What is written on axes, and the room for it: above, to the left and to the right.

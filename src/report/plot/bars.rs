@@ -18,7 +18,6 @@ use crate::report::words::interval;
 /// Groups of bars that share labels, order and axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bars {
-    /// What the axis says.
     pub x_title: String,
     /// Names of the bars of every group; structures have their colours.
     pub labels: Vec<String>,
@@ -27,12 +26,10 @@ pub struct Bars {
     pub groups: Vec<BarGroup>,
 }
 
-/// Bars below one heading.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BarGroup {
     /// May be empty.
     pub title: String,
-    /// One for each label.
     pub bars: Vec<Bar>,
 }
 
@@ -65,7 +62,6 @@ impl Bar {
     }
 }
 
-/// Height of the title of the axis, below all groups.
 const FOOT: i32 = 48;
 
 /// Least width of a group, without the labels.
@@ -88,7 +84,6 @@ struct Layout {
     /// Height of the heading of a group, and of a whole group.
     head: i32,
     group: i32,
-    /// Height of all groups.
     height: i32,
 }
 

@@ -15,10 +15,8 @@ use plotters::style::{Color, FontStyle, IntoFont, TextStyle, register_font};
 
 use super::palette::Colour;
 
-/// A part of a drawing.
 pub type Area<B> = DrawingArea<B, Shift>;
 
-/// What drawing on a backend gives.
 pub type DrawResult<B, T = ()> = Result<T, DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
 
 /// A place in pixels, from the top left corner of the drawing.
@@ -39,7 +37,6 @@ pub fn register() {
     });
 }
 
-/// Text of this colour.
 pub fn text_style(colour: Colour) -> TextStyle<'static> {
     TextStyle { color: colour.to_backend_color(), ..(FONT, TEXT).into_font().into() }
 }
@@ -51,36 +48,14 @@ pub fn width_of(text: &str) -> i32 {
     (1.06 * f64::from(width)) as i32
 }
 
-/// Width of the widest of these texts.
 pub fn widest<'a>(texts: impl IntoIterator<Item = &'a String>) -> i32 {
     texts.into_iter().map(|text| width_of(text)).max().unwrap_or(0)
 }
 
-/// A whole drawing.
 pub struct Canvas<B: DrawingBackend> {
     pub area: Area<B>,
-    /// In the order in which they are drawn: later ones are on top.
-    tips: RefCell<Vec<Tip>>,
-}
-
-/// A place and what a pointer is told there.
-pub struct Tip {
-    min: Place,
-    max: Place,
-    text: String,
-}
-
-impl Tip {
-    /// As an element of an SVG file.
-    pub fn svg(&self) -> String {
-        let text = self.text.replace('&', "&amp;").replace('<', "&lt;");
-        let (x, y) = self.min;
-        let (width, height) = (self.max.0 - x, self.max.1 - y);
-        format!(
-            "<rect class=\"tip\" x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" fill=\"none\" pointer-events=\"all\">\
-             <title>{text}</title></rect>\n"
-        )
-    }
+    /// Elements of an SVG file, in the order in which they are drawn: later ones are on top.
+    tips: RefCell<String>,
 }
 
 impl<B: DrawingBackend> Canvas<B> {
@@ -89,13 +64,18 @@ impl<B: DrawingBackend> Canvas<B> {
     }
 
     /// What a pointer is told in all places. Pictures of pixels do not have it.
-    pub fn into_tips(self) -> Vec<Tip> {
+    pub fn into_tips(self) -> String {
         self.tips.into_inner()
     }
 
     /// Tells a pointer between two corners a text.
-    pub fn tip(&self, min: Place, max: Place, text: String) {
-        self.tips.borrow_mut().push(Tip { min, max, text });
+    pub fn tip(&self, (x, y): Place, max: Place, text: String) {
+        let text = text.replace('&', "&amp;").replace('<', "&lt;");
+        let (width, height) = (max.0 - x, max.1 - y);
+        *self.tips.borrow_mut() += &format!(
+            "<rect class=\"tip\" x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" fill=\"none\" pointer-events=\"all\">\
+             <title>{text}</title></rect>\n"
+        );
     }
 
     /// As [`tip`](Self::tip), about a point.
@@ -109,7 +89,6 @@ impl<B: DrawingBackend> Canvas<B> {
         self.area.draw_text(text, &text_style(colour).pos(Pos::new(side, VPos::Center)), place)
     }
 
-    /// A line `width` wide through `points`.
     pub fn line(&self, points: &[Place], colour: Colour, width: u32) -> DrawResult<B> {
         self.area.draw(&PathElement::new(points, colour.stroke_width(width)))
     }

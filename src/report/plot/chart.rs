@@ -5,13 +5,15 @@ use std::path::Path;
 use plotters::drawing::IntoDrawingArea;
 use plotters::prelude::{BitMapBackend, DrawingBackend, SVGBackend};
 
-use super::canvas::{Area, Canvas, DrawResult, Tip, register};
+use super::canvas::{Area, Canvas, DrawResult, register};
 use super::palette::PAPER;
 use super::{Bars, Curves, Scatter, Tradeoff};
 use crate::escaped::Escaped as _;
 use crate::render::Picture;
 
-/// A chart of any kind.
+/// Width of drawings that stand alone, in their units.
+pub const WIDTH: f64 = 900.0;
+
 #[derive(Clone, Debug, PartialEq)]
 pub enum Chart {
     Bars(Bars),
@@ -28,25 +30,14 @@ pub enum Format {
     Png,
 }
 
-/// What the ending of a file name does not tell.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("cannot plot to {0}: name a file that ends in .svg or .png")]
-pub struct UnknownFormat(String);
-
 impl Format {
-    /// The form that the ending of a file name asks for.
-    ///
-    /// # Errors
-    /// If it is neither `.svg` nor `.png`. Standard output, `-`, gets SVG.
-    pub fn of(path: &Path) -> Result<Self, UnknownFormat> {
-        if path == Path::new(crate::output::STDOUT) {
-            return Ok(Self::Svg);
-        }
-        let ending = path.extension().map(|ending| ending.to_ascii_lowercase());
-        match ending.as_deref().and_then(|ending| ending.to_str()) {
-            Some("svg") => Ok(Self::Svg),
-            Some("png") => Ok(Self::Png),
-            _ => Err(UnknownFormat(path.escaped().to_string())),
+    /// The form that the ending of a file name asks for. Standard output, `-`, gets SVG.
+    pub fn of(path: &Path) -> anyhow::Result<Self> {
+        let is = |ending: &str| path.extension().is_some_and(|own| own.eq_ignore_ascii_case(ending));
+        match () {
+            () if is("svg") || path == Path::new(crate::output::STDOUT) => Ok(Self::Svg),
+            () if is("png") => Ok(Self::Png),
+            () => anyhow::bail!("cannot plot to {}: name a file that ends in .svg or .png", path.escaped()),
         }
     }
 }
@@ -68,7 +59,7 @@ impl Chart {
         (width as u32, height as u32)
     }
 
-    fn draw<B: DrawingBackend>(&self, area: Area<B>) -> DrawResult<B, Vec<Tip>> {
+    fn draw<B: DrawingBackend>(&self, area: Area<B>) -> DrawResult<B, String> {
         register();
         area.fill(&PAPER.light)?;
         let width = area.dim_in_pixel().0 as i32;
@@ -89,7 +80,7 @@ impl Chart {
         let area = SVGBackend::with_string(&mut text, self.size(width)).into_drawing_area();
         let tips = self.draw(area).expect(DRAWN);
         let end = text.rfind("</svg>").unwrap_or(text.len());
-        text.insert_str(end, &tips.iter().map(Tip::svg).collect::<String>());
+        text.insert_str(end, &tips);
         text
     }
 

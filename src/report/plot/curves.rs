@@ -9,7 +9,6 @@ use super::canvas::{Canvas, DrawResult};
 use super::palette::{Colour, colours};
 use crate::report::number::figures;
 
-/// Lines over one pair of axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curves {
     pub x_title: String,

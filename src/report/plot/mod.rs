@@ -13,7 +13,7 @@ mod tradeoff;
 
 pub use axes::tick_text;
 pub use bars::{Bar, BarGroup, Bars};
-pub use chart::{Chart, Format};
+pub use chart::{Chart, Format, WIDTH};
 pub use curves::{Curves, Line};
 pub use scatter::{LABELLED, Point, Scatter};
 pub use tradeoff::{Tradeoff, TradeoffCase, TradeoffPoint};

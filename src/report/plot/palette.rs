@@ -44,7 +44,6 @@ impl Role {
     }
 }
 
-/// Paper, text, lines.
 pub const PAPER: Role = role("paper", [255, 255, 255], [20, 23, 27]);
 pub const INK: Role = role("ink", [34, 38, 43], [226, 228, 231]);
 pub const MIDDLE: Role = role("middle", [100, 106, 114], [157, 164, 173]);
@@ -86,7 +85,6 @@ pub const PARTS: [Role; 3] = [
     role("p2", [172, 190, 208], [76, 92, 110]),
 ];
 
-/// All roles.
 pub fn roles() -> impl Iterator<Item = Role> {
     let shades = SERIES.into_iter().flat_map(|role| (1..=SHADES.len()).map(move |shade| role.shaded(shade)));
     [PAPER, INK, MIDDLE, FAINT].into_iter().chain(SERIES).chain(shades).chain(PARTS)
@@ -193,23 +191,21 @@ mod tests {
         }
     }
 
+    fn of(labels: &[&str]) -> Vec<Role> {
+        roles_of(&labels.iter().map(|label| (*label).to_owned()).collect::<Vec<_>>())
+    }
+
     #[test]
     fn structures_keep_their_colour_in_every_chart_and_variants_have_shades_of_it() {
-        let labels = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
-        let alone = |name: &str| roles_of(&labels(&[name]))[0];
         let names = ["grid", "sah-kd:leaf=4", "sah-kd", "sah-kd:leaf=2", "median-kd", "grid:cell=2", "embree"];
-        let many = roles_of(&labels(&names));
-        for (label, role) in names.iter().zip(&many) {
-            assert_eq!(*role, alone(label), "{label}");
-            assert_eq!(role.name, alone(bare(label)).name, "{label}");
-            assert_eq!(role.shade > 0, label.contains(':'), "{label}");
+        let many = of(&names);
+        for (i, (label, role)) in names.iter().zip(&many).enumerate() {
+            assert_eq!(of(&[label]), [*role], "{label}");
+            assert_eq!((role.name, role.shade > 0), (of(&[bare(label)])[0].name, label.contains(':')), "{label}");
+            assert!(!many[..i].contains(role), "{label}");
         }
         // In another order, and without the bare name, too.
-        let few = roles_of(&labels(&["median-kd", "sah-kd:leaf=2"]));
-        assert_eq!(few, [many[4], many[3]]);
-        for (i, role) in many.iter().enumerate() {
-            assert!(!many[..i].contains(role), "{i}");
-        }
+        assert_eq!(of(&["median-kd", "sah-kd:leaf=2"]), [many[4], many[3]]);
     }
 
     #[test]
@@ -222,8 +218,7 @@ mod tests {
             assert_eq!(structure.copied(), STRUCTURES.contains(&own).then_some(own), "{label}");
         }
         // As many variants as there are shades are told apart.
-        let variants: Vec<String> = (0..SHADES.len()).map(|i| format!("sah-kd:leaf={i}")).collect();
-        let shades: BTreeSet<usize> = roles_of(&variants).iter().map(|role| role.shade).collect();
-        assert_eq!(shades.len(), SHADES.len());
+        let variants = of(&["sah-kd:leaf=0", "sah-kd:leaf=1", "sah-kd:leaf=2", "sah-kd:leaf=3"]);
+        assert_eq!(variants.iter().map(|role| role.shade).collect::<BTreeSet<usize>>().len(), SHADES.len());
     }
 }

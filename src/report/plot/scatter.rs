@@ -14,7 +14,6 @@ use super::palette::{Colour, INK, MIDDLE, PAPER, colours};
 use crate::report::number::figures;
 use crate::report::words::distinct;
 
-/// Points over one pair of axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scatter {
     /// May be empty.
@@ -44,10 +43,8 @@ pub const LABELLED: usize = 20;
 
 const RADIUS: i32 = 10;
 
-/// Length of the arrow below a bound.
 const ARROW: i32 = 44;
 
-/// Height of the title.
 const TITLE: i32 = 60;
 
 /// A point where it is drawn.

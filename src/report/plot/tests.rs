@@ -90,8 +90,7 @@ fn there_is_room_for_the_name_of_each_line_which_stand_as_the_lines_end() {
 
 #[test]
 fn the_ending_tells_the_form() {
-    assert_eq!(Format::of(Path::new("a/b.SVG")), Ok(Format::Svg));
-    assert_eq!(Format::of(Path::new("b.png")), Ok(Format::Png));
+    assert_eq!(["a/b.SVG", "b.png"].map(|path| Format::of(Path::new(path)).unwrap()), [Format::Svg, Format::Png]);
     for wrong in ["b", "b.pdf", "svg", ".png"] {
         assert!(Format::of(Path::new(wrong)).unwrap_err().to_string().contains(".svg or .png"));
     }

@@ -2,7 +2,6 @@
 
 use super::scatter::{Point, Scatter};
 
-/// Several scenes and workloads.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tradeoff {
     pub cases: Vec<TradeoffCase>,

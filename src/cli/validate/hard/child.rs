@@ -29,9 +29,6 @@ pub struct Args {
 const PANICKED: i32 = 101;
 
 /// The child's side: writes what the structure returns to standard output.
-///
-/// # Errors
-/// If the structure cannot be built.
 pub fn run_child(registry: &Registry, args: &Args) -> anyhow::Result<Status> {
     process_group::end_with_parent();
     let (case, choice) = (find(&args.name)?, registry.choose(&args.structure)?);
@@ -46,10 +43,7 @@ pub fn run_child(registry: &Registry, args: &Args) -> anyhow::Result<Status> {
     }
 }
 
-/// The parent's side: runs a case of at most `rays` rays in a child.
-///
-/// # Errors
-/// The inner one if the structure returns nothing, or not in time; the outer one if no process can be started.
+/// The parent's side: runs a case of at most `rays` rays in a child. The outer error is that none can be started.
 pub fn answers(case: &HardCase, choice: &Choice, rays: u32, limit: Duration) -> io::Result<Result<Answers, Failure>> {
     let (rays, level) = (rays.to_string(), Level::current().name());
     let mut command = same_program([COMMAND, case.name, &choice.label, "--rays", &rays, "--level", level]);

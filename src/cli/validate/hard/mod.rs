@@ -23,7 +23,7 @@ use crate::request::{self, known_defect};
 use crate::study::Status;
 use crate::triangle::{Exact, TriangleTest};
 use crate::validate::hard_cases::{Answers, CaseTruth, Content, Failure, HardCase, Score, catalogue, find_all};
-use record::{HardRecord, HardRun};
+use record::{HardRun, record};
 use table::{Column, LEGEND, tables};
 
 pub use child::{Args as ChildArgs, COMMAND as CHILD, run_child};
@@ -46,14 +46,14 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
     let rays = u32::try_from(args.source().number()?.min(MOST_RAYS))?;
     let json = args.export_json.as_deref().map(OutputFile::check).transpose()?;
 
-    let mut columns: Vec<Column> = choices.iter().map(Column::of).collect();
+    let mut columns: Vec<Column> = choices.iter().map(|choice| Column { choice, scores: vec![] }).collect();
     let waiting = Waiting::show(String::new(), terminal);
     let mut records = vec![];
     for (i, case) in cases.iter().enumerate() {
         waiting.says(format!("{} of {}: {}", i + 1, cases.len(), case.name));
-        let scores = scores(case, &choices, rays, args.limit())?;
-        for ((choice, column), score) in choices.iter().zip(&mut columns).zip(scores) {
-            records.push(HardRecord::new(case, choice, &score));
+        let scores = scores(case, &choices, rays, args.limit.duration())?;
+        for (column, score) in columns.iter_mut().zip(scores) {
+            records.push(record(case, column.choice, &score));
             column.scores.push(score);
         }
     }
@@ -69,8 +69,7 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
         let run = HardRun { schema: HardRun::SCHEMA, provenance, results: records };
         file.write(&serde_json::to_vec_pretty(&run)?)?;
     }
-    let mut all = choices.iter().zip(&columns);
-    let wrong = all.any(|(choice, column)| column.scores.iter().any(|score| is_wrong(choice, score)));
+    let wrong = columns.iter().any(|column| column.scores.iter().any(|score| is_wrong(column.choice, score)));
     Ok(if wrong { Status::Wrong } else { Status::Right })
 }
 

@@ -6,25 +6,12 @@ use crate::report::{Cell, Table, Tone};
 use crate::request::known_defect;
 use crate::validate::hard_cases::{Content, Failure, HardCase, Property, Rank, RayScore, Score};
 
-/// One structure in the tables.
-pub struct Column {
-    /// As the user chose it.
-    label: String,
-    /// Whether it has known defects: no wrong ray need be shown.
-    has_defects: bool,
+pub struct Column<'a> {
+    pub choice: &'a Choice,
     /// One per case, in the order of the cases.
     pub scores: Vec<Score>,
 }
 
-impl Column {
-    /// Without scores.
-    pub fn of(choice: &Choice) -> Self {
-        let has_defects = known_defect(&choice.entry.name).is_some();
-        Self { label: choice.label.clone(), has_defects, scores: vec![] }
-    }
-}
-
-/// What the tables show, once for all.
 pub const LEGEND: [&str; 4] = [
     "A dot: nothing wrong. m: missed, d: wrong depth (t off by more than 4 ulps and more than 1e-6; behind the stroke \
      those off by more than 1 %, or 0.1 % on another primitive), S: structure errors, in percent of the true hits; f: false \
@@ -78,7 +65,7 @@ fn table(
             rows.push(std::iter::once(name).chain(cells.into_iter().map(Option::unwrap_or_default)).collect());
         }
     }
-    let names = columns.iter().map(|column| column.label.as_str());
+    let names = columns.iter().map(|column| column.choice.label.as_str());
     Table::new(title, std::iter::once("case").chain(names), rows)
 }
 
@@ -87,17 +74,19 @@ fn notes(cases: &[&HardCase], columns: &[Column], is_shown: impl Fn(&HardCase) -
     let mut notes = vec![];
     for (i, case) in cases.iter().enumerate().filter(|(_, case)| is_shown(case)) {
         for column in columns {
+            // Wrong rays of what has known defects need not be shown.
+            let has_defects = known_defect(&column.choice.entry.name).is_some();
             let sentence = match &column.scores[i] {
                 Score::Failed(Failure::Refused(sentence) | Failure::Declined(sentence)) => sentence,
                 Score::Rays(RayScore { example: Some(example), .. })
                 | Score::Property(Property { example: Some(example), .. })
-                    if !column.has_defects =>
+                    if !has_defects =>
                 {
                     example
                 }
                 _ => continue,
             };
-            notes.push(format!("{} on {}: {sentence}", column.label, case.name));
+            notes.push(format!("{} on {}: {sentence}", column.choice.label, case.name));
         }
     }
     notes
@@ -147,7 +136,7 @@ fn totals(cases: &[&HardCase], columns: &[Column]) -> Table {
     let mut most_hits = 0;
     let mut rows = vec![];
     for column in columns {
-        let mut row = vec![column.label.as_str().into()];
+        let mut row = vec![column.choice.label.as_str().into()];
         for (ranks, _) in GROUPS {
             let of_group = cases.iter().zip(&column.scores).filter(|(case, _)| ranks.contains(&case.rank));
             let scores: Vec<&Score> = of_group.map(|(_, score)| score).collect();
