@@ -47,14 +47,6 @@ impl Numbers {
         }
     }
 
-    /// A mesh of so many triangles at random.
-    fn mesh(&mut self, triangles: u32) -> Arc<Mesh> {
-        let corners = triangles * 3 / 2;
-        let positions = (0..corners).map(|_| self.point()).collect();
-        let indices = (0..triangles).map(|i| [i, (i * 7 + 1) % corners, (i * 5 + 2) % corners]).collect();
-        Arc::new(Mesh::new(positions, indices).unwrap())
-    }
-
     pub fn point(&mut self) -> Vec3 {
         Vec3::new(self.number(), self.number(), self.number())
     }
@@ -73,42 +65,15 @@ impl Numbers {
     }
 }
 
-/// Checks that both oracles agree about `ray`; returns whether it hits.
-fn agree(oracle: &Oracle, ray: &Ray, mesh: &Mesh) -> bool {
-    let (fast, slow) = (oracle.nearest(ray), nearest(ray, mesh));
-    if let (Some(fast), Some((t, _))) = (&fast, &slow) {
-        assert_eq!(fast.rounded().to_bits(), t.round().to_bits(), "{ray:?}");
-    }
-    assert_eq!(fast.map(|truth| (truth.t, truth.ids)), slow, "{ray:?}");
-    slow.is_some()
-}
-
-#[test]
-fn the_fast_oracle_agrees_with_the_slow_one() {
-    for (kind, mut numbers) in Numbers::all().enumerate() {
-        let mesh = numbers.mesh(60);
-        let oracle = Oracle::new(&mesh);
-        let mut hits = 0;
-        for round in 0..200 {
-            let origin = if round % 5 == 0 { mesh.positions()[round % 90] } else { numbers.point() };
-            let target = mesh.positions()[round % 90];
-            let mut ray = Ray::new(origin, if round % 2 == 0 { numbers.direction() } else { target - origin });
-            if round % 7 == 0 {
-                (ray.t_min, ray.t_max) = (numbers.number().abs(), numbers.number().abs());
-            }
-            hits += u32::from(agree(&oracle, &ray, &mesh));
-        }
-        assert!(hits > if kind == 7 { 3 } else { 40 }, "numbers of kind {kind} hit {hits} times");
-    }
-}
-
 /// The fast and the slow oracle and the exact test use the same exact sums; the rational arithmetic shares nothing with
 /// them.
 #[test]
 fn rational_arithmetic_agrees() {
     let mut hits = 0;
     for mut numbers in Numbers::all() {
-        let mesh = numbers.mesh(20);
+        let positions: Vec<Vec3> = (0..30).map(|_| numbers.point()).collect();
+        let triangles = (0..20).map(|i| [i, (i * 7 + 1) % 30, (i * 5 + 2) % 30]).collect();
+        let mesh = Arc::new(Mesh::new(positions, triangles).unwrap());
         let oracle = Oracle::new(&mesh);
         for round in 0..24 {
             let (origin, target) = (numbers.point(), mesh.positions()[round]);
