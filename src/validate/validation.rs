@@ -137,21 +137,11 @@ impl Validation {
         for ray in &mut later.worst {
             ray.index += self.rays;
         }
-        self.rays += later.rays;
-        self.declined += later.declined;
-        self.hits += later.hits;
-        self.differing += later.differing;
-        self.structure_errors += later.structure_errors;
-        self.test_errors += later.test_errors;
-        self.reference_errors += later.reference_errors;
-        self.answer_errors += later.answer_errors;
-        self.depth_errors += later.depth_errors;
-        self.any_hit_errors += later.any_hit_errors;
-        self.unrepeatable += later.unrepeatable;
-        self.panics += later.panics;
-        self.hangs += later.hangs;
-        self.ties += later.ties;
-        self.higher_ids += later.higher_ids;
+        macro_rules! add {
+            ($($count:ident),*) => { $(self.$count += later.$count;)* };
+        }
+        add!(rays, declined, hits, differing, structure_errors, test_errors, reference_errors, answer_errors);
+        add!(depth_errors, any_hit_errors, unrepeatable, panics, hangs, ties, higher_ids);
         self.worst.append(&mut later.worst);
         self.keep_worst();
     }

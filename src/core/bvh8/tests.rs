@@ -10,7 +10,7 @@ use crate::accel::{Accel, BuildError, Counts};
 use crate::build::Quality;
 use crate::build::check::{mesh, soup};
 use crate::exact;
-use crate::geometry::{Hit, Mesh, Ray};
+use crate::geometry::{Hit, Mesh, PrimId, Ray};
 use crate::simd::{Level, dispatch};
 use crate::triangle::{Exact, MollerTrumbore, Plucker, TriangleTest};
 
@@ -36,24 +36,12 @@ fn rays_that_miss_a_root_of_several_blocks_test_no_triangle() {
     let apart = soup(12, 3);
     for mesh in [coincident, apart].map(Arc::new) {
         for partition in ALL {
-            for batch in [Batch::Single, Batch::Packets] {
-                let tree = Tree::build(&mesh, &Bvh8Config { batch, ..Bvh8Config::new(partition) }).unwrap();
-                let bounds = mesh.bounds();
-                let beside = Ray::new(bounds.max + bounds.max.abs(), Vec3::ONE);
-                let mut counts = Counts::default();
-                assert_eq!(tree.closest_hit(&beside, &mut counts), None);
-                assert_eq!(counts.tests, 0, "{partition:?}");
-                let [mut hits, mut alone] = [[None; 32]; 2];
-                let centroid = |mesh: &Mesh, i: u32| mesh.corners(i).iter().sum::<Vec3>() / 3.0;
-                let rays: [Ray; 32] = std::array::from_fn(|i| {
-                    let from = bounds.min - Vec3::splat(0.5 + i as f32 / 64.0);
-                    Ray::new(from, centroid(&mesh, i as u32 % 12) - from)
-                });
-                tree.closest_hits(&rays, &mut hits, &mut ());
-                rays.iter().zip(&mut alone).for_each(|(ray, hit)| *hit = tree.closest_hit(ray, &mut ()));
-                assert_eq!(hits, alone, "{partition:?}, {batch:?}");
-                assert!(hits.iter().flatten().count() > 4, "nothing is proven by rays that hit nothing");
-            }
+            let tree = Tree::build(&mesh, &Bvh8Config::new(partition)).unwrap();
+            let bounds = mesh.bounds();
+            let beside = Ray::new(bounds.max + bounds.max.abs(), Vec3::ONE);
+            let mut counts = Counts::default();
+            assert_eq!(tree.closest_hit(&beside, &mut counts), None);
+            assert_eq!(counts.tests, 0, "{partition:?}");
         }
     }
 }
@@ -98,24 +86,6 @@ fn packets_leave_alone_what_their_common_bounds_cannot_tell() {
     }
 }
 
-/// Two triangles of opposite determinants, hit at -0.0 and at 0.0: both as near, so that the lower number wins, with
-/// its own zero.
-#[test]
-fn packets_find_the_zero_of_the_lower_number() {
-    let (x, y) = ([Vec3::ZERO, Vec3::X, Vec3::Y], [Vec3::ZERO, Vec3::Y, Vec3::X]);
-    let rays = [Ray::new(Vec3::ZERO, Vec3::new(0.1, 0.1, 1.0)); 16];
-    for corners in [[x, y], [y, x]] {
-        let mesh = Arc::new(mesh(2, |i| corners[i]));
-        let tree = Tree::build(&mesh, &Bvh8Config { batch: Batch::Packets, ..Bvh8Config::default() }).unwrap();
-        let alone = tree.closest_hit(&rays[0], &mut ()).unwrap();
-        let mut hits = [None; 16];
-        tree.closest_hits(&rays, &mut hits, &mut ());
-        for hit in hits.map(Option::unwrap) {
-            assert_eq!((hit.prim.index(), hit.t.to_bits()), (0, alone.t.to_bits()));
-        }
-    }
-}
-
 fn several_answer_as_one<T: TriangleTest>(mesh: &Arc<Mesh>, rays: &[Ray]) {
     for partition in ALL {
         let tree = &Bvh8::<T>::build(mesh, &Bvh8Config::new(partition)).unwrap();
@@ -126,9 +96,8 @@ fn several_answer_as_one<T: TriangleTest>(mesh: &Arc<Mesh>, rays: &[Ray]) {
             let form = &|hit: Option<Hit>| Some(hit.is_some());
             dispatch(level, Interleaved::<true, T, _, _> { tree, rays, which, answers: &mut any, form });
             for (i, ray) in rays.iter().enumerate() {
-                let bits = |hit: Option<Hit>| hit.map(|hit| (hit.t.to_bits(), hit.prim));
-                let found = (hits[i].map(bits), any[i]);
-                let alone = (Some(bits(tree.closest_hit(ray, &mut ()))), Some(tree.any_hit(ray, &mut ())));
+                let found = (hits[i].map(|hit| as_bits(&[hit])), any[i]);
+                let alone = (Some(as_bits(&[tree.closest_hit(ray, &mut ())])), Some(tree.any_hit(ray, &mut ())));
                 assert_eq!(found, alone, "{partition:?}, {level}, {ray:?}");
             }
         }
@@ -207,53 +176,20 @@ fn answers_of_long_slices<T: TriangleTest>(mesh: &Arc<Mesh>, rays: &[Ray]) {
         if let Some(winner) = winner {
             tree.apart = [winner; 2].map(Trial::won_by).into();
         }
-        for len in [0, 15, 4095, 4096, 4097, rays.len()] {
-            let (mut hits, mut any) = (vec![None; len], vec![false; len]);
-            tree.closest_hits(&rays[..len], &mut hits, &mut ());
-            tree.any_hits(&rays[..len], &mut any, &mut ());
-            assert!(all_same_bits(&hits, &alone[..len]), "{}, {batch:?}, {winner:?}, {len} rays", T::NAME);
-            assert!(
-                any.iter().zip(&alone).all(|(any, hit)| *any == hit.is_some()),
-                "{}, {batch:?}, {winner:?}, {len} rays",
-                T::NAME
-            );
+        let short = (0..20).flat_map(|len| (0..400).step_by(13).map(move |first| first..first + len));
+        for range in short.chain([4095, 4096, 4097, rays.len()].map(|len| 0..len)) {
+            let (mut hits, mut any) = (vec![None; range.len()], vec![false; range.len()]);
+            tree.closest_hits(&rays[range.clone()], &mut hits, &mut ());
+            tree.any_hits(&rays[range.clone()], &mut any, &mut ());
+            let place = format!("{}, {batch:?}, {winner:?}, the rays {range:?}", T::NAME);
+            let is_hit: Vec<bool> = alone[range.clone()].iter().map(Option::is_some).collect();
+            assert!(as_bits(&hits) == as_bits(&alone[range]) && any == is_hit, "{place}");
         }
     }
 }
 
-fn all_same_bits(one: &[Option<Hit>], other: &[Option<Hit>]) -> bool {
-    let same = |(x, y): (&Option<Hit>, &Option<Hit>)| match (x, y) {
-        (Some(x), Some(y)) => x.same_bits(*y),
-        (x, y) => x.is_none() && y.is_none(),
-    };
-    one.len() == other.len() && one.iter().zip(other).all(same)
-}
-
-/// Slices of all small lengths, in which some rays miss, some begin on a triangle, where only exact arithmetic tells,
-/// and many hit.
-#[test]
-fn short_slices_are_answered_as_their_rays_are_over_the_exact_test() {
-    let mesh = Arc::new(soup(300, 6));
-    let tree = Bvh8::<Exact>::build(&mesh, &Bvh8Config::default()).unwrap();
-    let ray = |i: u32| {
-        let [a, b, c] = mesh.corners(i * 7 % 300);
-        match i % 4 {
-            0 => Ray::new(a, scattered(i).direction),
-            1 => scattered(i),
-            _ => Ray::new(scattered(i).origin, (a + b + c) / 3.0 - scattered(i).origin),
-        }
-    };
-    let rays: Vec<Ray> = (0..400).map(ray).collect();
-    let alone: Vec<_> = rays.iter().map(|ray| tree.closest_hit(ray, &mut ())).collect();
-    let at_once = alone.iter().flatten().filter(|hit| hit.t == 0.0).count();
-    assert!(at_once > 50 && alone.iter().any(Option::is_none), "{at_once} begin on a triangle");
-    for len in (0..20).chain([rays.len()]) {
-        for first in (0..=rays.len() - len).step_by(13) {
-            let mut hits = vec![None; len];
-            tree.closest_hits(&rays[first..first + len], &mut hits, &mut ());
-            assert!(all_same_bits(&hits, &alone[first..first + len]), "{len} rays from {first}");
-        }
-    }
+fn as_bits(hits: &[Option<Hit>]) -> Vec<Option<(u32, PrimId)>> {
+    hits.iter().map(|hit| hit.map(|hit| (hit.t.to_bits(), hit.prim))).collect()
 }
 
 /// Sixty-four triangles a few bits apart, some of them the same, in the order of their numbers or not; rays from
@@ -286,7 +222,7 @@ fn crowds_of_triangles_are_ordered_exactly() {
             };
             let hits = (0..64).filter_map(|id| Some((exact::hit(&ray, mesh.corners(id))?, id)));
             let right = hits.filter(|(t, _)| t.is_within(&ray)).min().map(|(t, id)| Hit::new(t.round(), id));
-            assert!(all_same_bits(&[tree.closest_hit(&ray, &mut ())], &[right]), "{ray:?}, {right:?}");
+            assert_eq!(as_bits(&[tree.closest_hit(&ray, &mut ())]), as_bits(&[right]), "{ray:?}");
             crowded += u32::from(right.is_some());
         }
     }

@@ -1,9 +1,10 @@
 use dashu_ratio::RBig;
 use dashu_ratio::ops::Abs;
-use rand_core::{RngCore, SeedableRng};
+use rand_core::SeedableRng;
 use rand_pcg::Pcg32;
 
 use super::*;
+use crate::triangle::tests::{any, grid, point, ray, triangle, unit};
 
 fn assert_agree(ray: &Ray, corners: [Vec3; 3]) -> bool {
     let ours = hit(ray, corners);
@@ -19,29 +20,13 @@ fn assert_agree(ray: &Ray, corners: [Vec3; 3]) -> bool {
     ours.is_some()
 }
 
-fn point(rng: &mut Pcg32, mut number: impl FnMut(&mut Pcg32) -> f32) -> Vec3 {
-    Vec3::from_array(std::array::from_fn(|_| number(rng)))
-}
-
-/// Any finite float, denormals and both zeros included.
-fn any_bits(rng: &mut Pcg32) -> f32 {
-    loop {
-        let x = f32::from_bits(rng.next_u32());
-        if x.is_finite() {
-            return x;
-        }
-    }
-}
-
 #[test]
 fn both_formulations_agree_on_a_grid() {
     let mut rng = Pcg32::seed_from_u64(11);
-    let grid = |rng: &mut Pcg32| (rng.next_u32() % 5) as f32 - 2.0;
     let mut hits = 0;
     for _ in 0..10_000 {
-        let corners = std::array::from_fn(|_| point(&mut rng, grid));
-        let ray = Ray::new(point(&mut rng, grid), point(&mut rng, grid));
-        hits += usize::from(assert_agree(&ray, corners));
+        let corners = triangle(&mut rng, grid);
+        hits += usize::from(assert_agree(&ray(&mut rng, grid), corners));
     }
     assert!(hits > 500, "the grid must produce hits, or the test proves nothing: {hits}");
 }
@@ -49,18 +34,17 @@ fn both_formulations_agree_on_a_grid() {
 #[test]
 fn both_formulations_agree_at_all_scales() {
     let mut rng = Pcg32::seed_from_u64(12);
-    let unit = |rng: &mut Pcg32| rng.next_u32() as f32 / u32::MAX as f32 * 2.0 - 1.0;
     let mut hits = 0;
     for round in 0..4_000 {
         if round % 2 == 0 {
             // From denormals, where rounding moves the corners to a coarse grid, to numbers whose cubes overflow.
             let scale = f32::from_bits([1 << 10, 1 << 23, 97 << 23, 127 << 23, 157 << 23, 253 << 23][round / 2 % 6]);
-            let corners = std::array::from_fn(|_| point(&mut rng, unit) * scale);
+            let corners = triangle(&mut rng, unit).map(|p| p * scale);
             let ray = Ray::new(point(&mut rng, unit) * scale, point(&mut rng, unit));
             hits += usize::from(assert_agree(&ray, corners));
         } else {
-            let corners = std::array::from_fn(|_| point(&mut rng, any_bits));
-            assert_agree(&Ray::new(point(&mut rng, any_bits), point(&mut rng, any_bits)), corners);
+            let corners = triangle(&mut rng, any);
+            assert_agree(&ray(&mut rng, any), corners);
         }
     }
     assert!(hits > 100, "{hits}");
@@ -148,18 +132,4 @@ fn order_is_exact_where_floats_are_not() {
     assert_eq!(third.compare(f32::NAN), None);
     assert_eq!(third.compare(f32::INFINITY), Some(Ordering::Less));
     assert_eq!(third.compare(f32::NEG_INFINITY), Some(Ordering::Greater));
-}
-
-#[test]
-fn the_interval_is_half_open() {
-    let corners = [Vec3::new(-1.0, -1.0, 2.0), Vec3::new(3.0, -1.0, 2.0), Vec3::new(-1.0, 3.0, 2.0)];
-    let ray = Ray::new(Vec3::ZERO, Vec3::Z);
-    let t = hit(&ray, corners).unwrap();
-    for (t_min, t_max, inside) in [(0.0, 2.0, false), (0.0, 2.0_f32.next_up(), true), (2.0, 3.0, true)] {
-        assert_eq!(t.is_within(&Ray { t_min, t_max, ..ray }), inside);
-    }
-    assert!(!t.is_within(&Ray { t_min: 2.0_f32.next_up(), ..ray }));
-    // A negative t_min counts as 0: what lies behind the origin is not hit.
-    let behind = Ray { t_min: -5.0, direction: Vec3::NEG_Z, ..ray };
-    assert!(!hit(&behind, corners).unwrap().is_within(&behind));
 }

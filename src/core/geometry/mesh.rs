@@ -222,10 +222,4 @@ mod tests {
         }
         assert!(found.iter().all(|&count| count > 3000), "{found:?}");
     }
-
-    #[test]
-    fn an_empty_mesh_has_empty_bounds() {
-        let mesh = Mesh::new(vec![], vec![]).unwrap();
-        assert!(mesh.is_empty() && mesh.bounds().is_empty());
-    }
 }

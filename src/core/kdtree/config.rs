@@ -221,28 +221,21 @@ impl KdConfig {
     }
 
     pub(super) fn check(&self) -> Result<(), BuildError> {
-        let refuse = |what: &str| Err(BuildError::Config(what.into()));
         let positive = |x: f32| x > 0.0 && x.is_finite();
-        if self.leaf == 0 {
-            return refuse("leaf must be at least 1");
-        }
-        if !(self.threshold > 0.0 && self.threshold <= 1.0) {
-            return refuse("threshold must lie above 0 and be at most 1");
-        }
-        if !positive(self.traversal_cost) || !positive(self.intersection_cost) {
-            return refuse("traversal_cost and intersection_cost must be positive numbers");
-        }
-        if !(2..=62).contains(&self.candidates) {
-            return refuse("candidates must be in 2..=62");
-        }
-        if self.sample < 16 {
-            return refuse("sample must be at least 16");
-        }
-        if !(0.0..1.0).contains(&self.empty_bonus) {
-            return refuse("empty_bonus must be at least 0 and below 1");
-        }
-        if !(self.duplication >= 1.0 && self.duplication.is_finite()) {
-            return refuse("duplication must be a number of at least 1");
+        let demands = [
+            (self.leaf >= 1, "leaf must be at least 1"),
+            (self.threshold > 0.0 && self.threshold <= 1.0, "threshold must lie above 0 and be at most 1"),
+            (
+                positive(self.traversal_cost) && positive(self.intersection_cost),
+                "traversal_cost and intersection_cost must be positive numbers",
+            ),
+            ((2..=62).contains(&self.candidates), "candidates must be in 2..=62"),
+            (self.sample >= 16, "sample must be at least 16"),
+            ((0.0..1.0).contains(&self.empty_bonus), "empty_bonus must be at least 0 and below 1"),
+            (self.duplication >= 1.0 && self.duplication.is_finite(), "duplication must be a number of at least 1"),
+        ];
+        if let Some((_, sentence)) = demands.iter().find(|(is_met, _)| !is_met) {
+            return Err(BuildError::Config((*sentence).into()));
         }
         self.check_unread()
     }

@@ -22,18 +22,23 @@ macro_rules! lanewise {
     )*};
 }
 
+/// Functions that are a few instructions.
+macro_rules! instructions {
+    ($(fn $name:ident($($parameter:tt)*) -> $result:ty { $($body:tt)* })*) => {$(
+        #[inline(always)]
+        fn $name($($parameter)*) -> $result {
+            // SAFETY: the machine has the instructions, see `Avx`.
+            unsafe { $($body)* }
+        }
+    )*};
+}
+
 impl<const MASKS: bool> Arithmetic<8> for Avx<MASKS> {
     type Scalar = f32;
 
     #[inline(always)]
     fn zero() -> Self {
         Self::splat(0.0)
-    }
-
-    #[inline(always)]
-    fn splat(value: f32) -> Self {
-        // SAFETY: the machine has the instruction, see `Avx`.
-        Self(unsafe { _mm256_set1_ps(value) })
     }
 
     #[inline(always)]
@@ -47,44 +52,38 @@ impl<const MASKS: bool> Arithmetic<8> for Avx<MASKS> {
     lanewise!(add: _mm256_add_ps, sub: _mm256_sub_ps, mul: _mm256_mul_ps, div: _mm256_div_ps);
     lanewise!(min: _mm256_min_ps, max: _mm256_max_ps);
 
-    #[inline(always)]
-    fn flip_sign(self, other: Self) -> Self {
-        // SAFETY: the machine has the instruction, see `Avx`.
-        Self(unsafe { _mm256_xor_ps(self.0, _mm256_and_ps(other.0, _mm256_set1_ps(-0.0))) })
-    }
-
-    #[inline(always)]
-    fn le(self, other: Self) -> u32 {
-        // SAFETY: the machine has the instruction, see `Avx`.
-        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(self.0, other.0)) as u32 }
-    }
-
-    #[inline(always)]
-    fn lt(self, other: Self) -> u32 {
-        // SAFETY: the machine has the instruction, see `Avx`.
-        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0)) as u32 }
-    }
-
-    #[inline(always)]
-    fn mul_add_loosely(self, factor: Self, term: Self) -> Self {
-        // SAFETY: the machine has the instruction, see `Avx`.
-        Self(unsafe { _mm256_fmadd_ps(self.0, factor.0, term.0) })
-    }
-
-    #[inline(always)]
-    fn mul_sub_loosely(self, factor: Self, term: Self) -> Self {
-        // SAFETY: the machine has the instruction, see `Avx`.
-        Self(unsafe { _mm256_fmsub_ps(self.0, factor.0, term.0) })
+    instructions! {
+        fn splat(value: f32) -> Self {
+            Self(_mm256_set1_ps(value))
+        }
+        fn flip_sign(self, other: Self) -> Self {
+            Self(_mm256_xor_ps(self.0, _mm256_and_ps(other.0, _mm256_set1_ps(-0.0))))
+        }
+        fn le(self, other: Self) -> u32 {
+            _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(self.0, other.0)) as u32
+        }
+        fn lt(self, other: Self) -> u32 {
+            _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0)) as u32
+        }
+        fn mul_add_loosely(self, factor: Self, term: Self) -> Self {
+            Self(_mm256_fmadd_ps(self.0, factor.0, term.0))
+        }
+        fn mul_sub_loosely(self, factor: Self, term: Self) -> Self {
+            Self(_mm256_fmsub_ps(self.0, factor.0, term.0))
+        }
     }
 }
 
 impl<const MASKS: bool> Lanes<8> for Avx<MASKS> {
     type Double = F64x8;
 
-    #[inline(always)]
-    fn load(values: &[f32; 8]) -> Self {
-        // SAFETY: the machine has the instruction, see `Avx`.
-        Self(unsafe { _mm256_loadu_ps(values.as_ptr()) })
+    instructions! {
+        fn load(values: &[f32; 8]) -> Self {
+            Self(_mm256_loadu_ps(values.as_ptr()))
+        }
+        fn narrow(F64x8([low, high]): F64x8) -> Self {
+            Self(_mm256_set_m128(_mm256_cvtpd_ps(high), _mm256_cvtpd_ps(low)))
+        }
     }
 
     #[inline(always)]
@@ -94,12 +93,6 @@ impl<const MASKS: bool> Lanes<8> for Avx<MASKS> {
             let halves = [_mm256_castps256_ps128(self.0), _mm256_extractf128_ps::<1>(self.0)];
             F64x8([_mm256_cvtps_pd(halves[0]), _mm256_cvtps_pd(halves[1])])
         }
-    }
-
-    #[inline(always)]
-    fn narrow(F64x8([low, high]): F64x8) -> Self {
-        // SAFETY: the machine has the instruction, see `Avx`.
-        Self(unsafe { _mm256_set_m128(_mm256_cvtpd_ps(high), _mm256_cvtpd_ps(low)) })
     }
 }
 
@@ -201,16 +194,13 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
         }
     }
 
-    #[inline(always)]
-    fn cmp_le(self, other: Self) -> __m256 {
-        // SAFETY: the machine has the instruction, see `Avx`.
-        unsafe { _mm256_cmp_ps::<_CMP_LE_OQ>(self.0, other.0) }
-    }
-
-    #[inline(always)]
-    fn cmp_lt(self, other: Self) -> __m256 {
-        // SAFETY: the machine has the instruction, see `Avx`.
-        unsafe { _mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0) }
+    instructions! {
+        fn cmp_le(self, other: Self) -> __m256 {
+            _mm256_cmp_ps::<_CMP_LE_OQ>(self.0, other.0)
+        }
+        fn cmp_lt(self, other: Self) -> __m256 {
+            _mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0)
+        }
     }
 
     #[inline(always)]
@@ -223,40 +213,25 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
         }
     }
 
-    #[inline(always)]
-    fn bits(mask: __m256) -> u32 {
-        // SAFETY: the machine has the instruction, see `Avx`.
-        unsafe { _mm256_movemask_ps(mask) as u32 }
-    }
-
-    #[inline(always)]
-    fn both(one: __m256, other: __m256) -> __m256 {
-        // SAFETY: the machine has the instruction, see `Avx`.
-        unsafe { _mm256_and_ps(one, other) }
-    }
-
-    #[inline(always)]
-    fn either(one: __m256, other: __m256) -> __m256 {
-        // SAFETY: the machine has the instruction, see `Avx`.
-        unsafe { _mm256_or_ps(one, other) }
-    }
-
-    #[inline(always)]
-    fn choose(self, other: Self, mask: __m256) -> Self {
-        // SAFETY: the machine has the instruction, see `Avx`.
-        Self(unsafe { _mm256_blendv_ps(other.0, self.0, mask) })
-    }
-
-    #[inline(always)]
-    fn numbers(numbers: &[u32; 8]) -> __m256i {
-        // SAFETY: the machine has the instruction, see `Avx`.
-        unsafe { _mm256_loadu_si256(numbers.as_ptr().cast()) }
-    }
-
-    #[inline(always)]
-    fn splat_number(number: u32) -> __m256i {
-        // SAFETY: the machine has the instruction, see `Avx`.
-        unsafe { _mm256_set1_epi32(number as i32) }
+    instructions! {
+        fn bits(mask: __m256) -> u32 {
+            _mm256_movemask_ps(mask) as u32
+        }
+        fn both(one: __m256, other: __m256) -> __m256 {
+            _mm256_and_ps(one, other)
+        }
+        fn either(one: __m256, other: __m256) -> __m256 {
+            _mm256_or_ps(one, other)
+        }
+        fn choose(self, other: Self, mask: __m256) -> Self {
+            Self(_mm256_blendv_ps(other.0, self.0, mask))
+        }
+        fn numbers(numbers: &[u32; 8]) -> __m256i {
+            _mm256_loadu_si256(numbers.as_ptr().cast())
+        }
+        fn splat_number(number: u32) -> __m256i {
+            _mm256_set1_epi32(number as i32)
+        }
     }
 
     #[inline(always)]
@@ -267,16 +242,13 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
         stored
     }
 
-    #[inline(always)]
-    fn cmp_le_numbers(one: __m256i, other: __m256i) -> __m256 {
-        // SAFETY: the machine has the instruction, see `Avx`.
-        unsafe { _mm256_castsi256_ps(_mm256_cmpeq_epi32(_mm256_min_epu32(one, other), one)) }
-    }
-
-    #[inline(always)]
-    fn choose_numbers(one: __m256i, other: __m256i, mask: __m256) -> __m256i {
-        // SAFETY: the machine has the instruction, see `Avx`.
-        unsafe { _mm256_blendv_epi8(other, one, _mm256_castps_si256(mask)) }
+    instructions! {
+        fn cmp_le_numbers(one: __m256i, other: __m256i) -> __m256 {
+            _mm256_castsi256_ps(_mm256_cmpeq_epi32(_mm256_min_epu32(one, other), one))
+        }
+        fn choose_numbers(one: __m256i, other: __m256i, mask: __m256) -> __m256i {
+            _mm256_blendv_epi8(other, one, _mm256_castps_si256(mask))
+        }
     }
 }
 

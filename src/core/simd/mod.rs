@@ -157,42 +157,26 @@ mod tests {
         }
     }
 
+    /// What is taken of `a` up to `b`, in an order and in that of the lanes: the sets, and the bits of keys and values.
+    fn taken<L: EightLanes>(a: &[f32; 8], b: &[f32; 8], order: u32) -> ([u32; 2], [Vec<u32>; 3]) {
+        let (a, b, values) = (L::load(a), L::load(b), std::array::from_fn(|i| 100 + i as u32));
+        let (mut keys, [mut ordered, mut plain]) = ([0.0_f32; 8], [[0_u32; 8]; 2]);
+        // SAFETY: the arrays have eight places.
+        let sets = unsafe {
+            let set = a.compress_ordered(b, &values, order, keys.as_mut_ptr(), ordered.as_mut_ptr());
+            [set, a.compress(b, &values, plain.as_mut_ptr())]
+        };
+        let first = |lanes: [u32; 8], set: u32| lanes[..set.count_ones() as usize].to_vec();
+        (sets, [first(keys.map(f32::to_bits), sets[0]), first(ordered, sets[0]), first(plain, sets[1])])
+    }
+
     /// Draws the same lanes as the portable ones, for all comparisons and some orders.
     fn same_compression<L: EightLanes>() {
-        let values = std::array::from_fn(|i| 100 + i as u32);
         for seed in 0..SPECIAL.len() * SPECIAL.len() {
             let a: [f32; 8] = std::array::from_fn(|k| SPECIAL[(seed + 3 * k) % SPECIAL.len()]);
             let b: [f32; 8] = std::array::from_fn(|k| SPECIAL[(seed / SPECIAL.len() + 7 * k) % SPECIAL.len()]);
             let order = (0..8).fold(0, |order, i| order << 3 | ((i * 3 + seed) % 8) as u32);
-            let (mut keys, mut others) = ([0.0_f32; 8], [0.0_f32; 8]);
-            let (mut chosen, mut expected) = ([0_u32; 8], [0_u32; 8]);
-            // SAFETY: the arrays have eight places.
-            let (set, right) = unsafe {
-                let ours =
-                    L::load(&a).compress_ordered(L::load(&b), &values, order, keys.as_mut_ptr(), chosen.as_mut_ptr());
-                let limit = Portable::load(&b);
-                let right = Portable::load(&a).compress_ordered(
-                    limit,
-                    &values,
-                    order,
-                    others.as_mut_ptr(),
-                    expected.as_mut_ptr(),
-                );
-                (ours, right)
-            };
-            let count = set.count_ones() as usize;
-            assert_eq!((set, &chosen[..count]), (right, &expected[..count]));
-            assert_eq!(
-                keys[..count].iter().map(|k| k.to_bits()).collect::<Vec<_>>(),
-                others[..count].iter().map(|k| k.to_bits()).collect::<Vec<_>>()
-            );
-
-            // SAFETY: as above.
-            let (set, right) = unsafe {
-                let set = L::load(&a).compress(L::load(&b), &values, chosen.as_mut_ptr());
-                (set, Portable::load(&a).compress(Portable::load(&b), &values, expected.as_mut_ptr()))
-            };
-            assert_eq!((set, &chosen[..set.count_ones() as usize]), (right, &expected[..set.count_ones() as usize]));
+            assert_eq!(taken::<L>(&a, &b, order), taken::<Portable<8>>(&a, &b, order));
         }
         for (x, y) in specials() {
             let (a, b) = (L::load(&x), L::load(&y));

@@ -4,6 +4,16 @@ use super::{Arithmetic, EightLanes, Lanes, each, indexed};
 #[derive(Clone, Copy, Debug)]
 pub struct Portable<const N: usize, S = f32>([S; N]);
 
+/// Operations of two vectors that are one of two numbers in each lane.
+macro_rules! lanewise {
+    ($all:ident -> $result:ty; $($name:ident: $one:expr,)*) => {$(
+        #[inline(always)]
+        fn $name(self, other: Self) -> $result {
+            self.$all(other, $one)
+        }
+    )*};
+}
+
 macro_rules! arithmetic {
     ($scalar:ty, $sign:literal) => {
         impl<const N: usize> Portable<N, $scalar> {
@@ -36,49 +46,21 @@ macro_rules! arithmetic {
                 self.0
             }
 
-            #[inline(always)]
-            fn add(self, other: Self) -> Self {
-                self.zip(other, |a, b| a + b)
+            lanewise! {
+                zip -> Self;
+                add: |a, b| a + b,
+                sub: |a, b| a - b,
+                mul: |a, b| a * b,
+                div: |a, b| a / b,
+                min: |a, b| if a < b { a } else { b },
+                max: |a, b| if a > b { a } else { b },
+                flip_sign: |a, b| <$scalar>::from_bits(a.to_bits() ^ (b.to_bits() & $sign)),
             }
 
-            #[inline(always)]
-            fn sub(self, other: Self) -> Self {
-                self.zip(other, |a, b| a - b)
-            }
-
-            #[inline(always)]
-            fn mul(self, other: Self) -> Self {
-                self.zip(other, |a, b| a * b)
-            }
-
-            #[inline(always)]
-            fn div(self, other: Self) -> Self {
-                self.zip(other, |a, b| a / b)
-            }
-
-            #[inline(always)]
-            fn min(self, other: Self) -> Self {
-                self.zip(other, |a, b| if a < b { a } else { b })
-            }
-
-            #[inline(always)]
-            fn max(self, other: Self) -> Self {
-                self.zip(other, |a, b| if a > b { a } else { b })
-            }
-
-            #[inline(always)]
-            fn flip_sign(self, other: Self) -> Self {
-                self.zip(other, |a, b| <$scalar>::from_bits(a.to_bits() ^ (b.to_bits() & $sign)))
-            }
-
-            #[inline(always)]
-            fn le(self, other: Self) -> u32 {
-                self.bits(other, |a, b| a <= b)
-            }
-
-            #[inline(always)]
-            fn lt(self, other: Self) -> u32 {
-                self.bits(other, |a, b| a < b)
+            lanewise! {
+                bits -> u32;
+                le: |a, b| a <= b,
+                lt: |a, b| a < b,
             }
 
             #[inline(always)]

@@ -56,7 +56,7 @@ fn advise<T>(_: *const T, _: usize) {}
 
 /// Whether the system reports that it was advised to use huge pages for the memory around these values.
 #[cfg(test)]
-pub(crate) fn are_large<T>(values: &[T]) -> bool {
+fn are_large<T>(values: &[T]) -> bool {
     let at = values.as_ptr().addr() + size_of_val(values) / 2;
     let maps = std::fs::read_to_string("/proc/self/smaps").unwrap_or_default();
     let holds = |line: &str| {
@@ -69,10 +69,10 @@ pub(crate) fn are_large<T>(values: &[T]) -> bool {
     flags.next().is_some_and(|line| line.split_whitespace().any(|flag| flag == "hg"))
 }
 
-/// Whether the system takes such advice.
+/// The values lie in huge pages, where the system takes such advice.
 #[cfg(test)]
-pub(crate) fn can_be_large() -> bool {
+pub(crate) fn assert_large<T>(values: &[T]) {
     let mut probe = with_capacity::<u64>(1 << 20);
     probe.resize(1 << 20, 0);
-    are_large(&probe)
+    assert!(are_large(values) || !are_large(&probe));
 }

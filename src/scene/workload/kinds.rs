@@ -11,27 +11,20 @@ use super::source::Source;
 use super::{bounces, lines, picture, primary};
 use crate::accel::Query;
 use crate::geometry::Ray;
-use crate::names::{Unknown, find};
+use crate::names::{Unknown, find, named_enum};
 
 macro_rules! kinds {
     ($($(#[$doc:meta])* $kind:ident, $name:literal, $query:ident, $make:path;)*) => {
-        /// The kind of a workload: where its rays start and where they go.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-        #[serde(rename_all = "kebab-case")]
-        pub enum WorkloadKind {
-            $($(#[$doc])* $kind),*
+        named_enum! {
+            /// The kind of a workload: where its rays start and where they go.
+            #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+            #[serde(rename_all = "kebab-case")]
+            pub enum WorkloadKind {
+                $($(#[$doc])* $kind = $name,)*
+            }
         }
 
         impl WorkloadKind {
-            pub const ALL: [Self; [$($name),*].len()] = [$(Self::$kind),*];
-
-            /// The name on the command line and in exports.
-            pub fn name(self) -> &'static str {
-                match self {
-                    $(Self::$kind => $name),*
-                }
-            }
-
             /// The query of these rays.
             pub fn query(self) -> Query {
                 match self {

@@ -89,21 +89,19 @@ fn other_damage_is_told_apart() {
     let invented: Damage = |_, hit| hit.or(Some(Hit::new(0.25, 3)));
     let beyond: Damage = |_, hit| hit.map(|h| Hit::new(h.t, 499 - h.prim.index()));
     let outside: Damage = |_, hit| hit.map(|h| Hit::new(h.t, 10_000));
-    for (damage, share, kind) in [
-        (ulp, true, Some(Kind::WrongT)),
-        (ulp, false, None),
-        (far, true, Some(Kind::WrongT)),
-        (far, false, Some(Kind::WrongT)),
-        (invented, true, Some(Kind::Invented)),
-        (invented, false, Some(Kind::Invented)),
-        (beyond, true, Some(Kind::WrongPrimitive)),
-        (beyond, false, Some(Kind::WrongPrimitive)),
-        (outside, true, Some(Kind::WrongPrimitive)),
-        (outside, false, Some(Kind::WrongPrimitive)),
+    // Another test may round by an ulp.
+    for (damage, kind, is_allowed) in [
+        (ulp, Kind::WrongT, true),
+        (far, Kind::WrongT, false),
+        (invented, Kind::Invented, false),
+        (beyond, Kind::WrongPrimitive, false),
+        (outside, Kind::WrongPrimitive, false),
     ] {
-        let v = damaged(damage, |any| any, share).unwrap();
-        assert_eq!(v.worst_error().map(|w| w.kind), kind);
-        assert_eq!(v.errors() > 0, kind.is_some());
+        for share in [true, false] {
+            let v = damaged(damage, |any| any, share).unwrap();
+            let kind = Some(kind).filter(|_| share || !is_allowed);
+            assert_eq!((v.worst_error().map(|w| w.kind), v.errors() > 0), (kind, kind.is_some()));
+        }
     }
 }
 

@@ -100,24 +100,3 @@ fn the_last_bits_of_eight_hits_are_those_of_each() {
     // Of cases as hard as these the filter is sure of every fourth.
     assert!(hits > 200_000 && seen > 50_000, "{seen} of {hits}");
 }
-
-/// Both corners of a pair of triangles at the same exact `t`: the lower number wins, whatever `f64` makes of them.
-#[test]
-fn exact_depths_are_ordered_exactly() {
-    let ray = Ray::new(Vec3::new(0.1, 0.2, 0.3), Vec3::new(0.7, 0.3, -0.9));
-    // Planes z = -1 and z = -1 - 2^-23: t differs in the last bit of f32.
-    let [p, q, r] = [Vec3::new(-9.0, -9.0, -1.0), Vec3::new(9.0, -9.0, -1.0), Vec3::new(0.0, 19.0, -1.0)];
-    let order = |one: [Vec3; 3], other: [Vec3; 3]| {
-        let (prepared, blocks) = (Exact::prepare(&ray), [one, other].map(|corners| Exact::block(&[corners])));
-        let [one, other] =
-            [0, 1].map(|i: usize| Exact::hit(&prepared, &blocks[i], 0.0, f32::INFINITY).expect("it is hit"));
-        Exact::order(&prepared, &one, &other)
-    };
-    let turned = [q, r, p];
-    assert_eq!(order([p, q, r], turned), std::cmp::Ordering::Equal);
-    // The same plane by other corners.
-    assert_eq!(order([p, q, Vec3::new(0.3, 7.1, -1.0)], turned), std::cmp::Ordering::Equal);
-    let lower = [p, q, r].map(|v| Vec3::new(v.x, v.y, v.z.next_down()));
-    assert_eq!(order(turned, lower), std::cmp::Ordering::Less);
-    assert_eq!(order(lower, turned), std::cmp::Ordering::Greater);
-}
