@@ -46,6 +46,7 @@ print(*[s.getsockname()[1] for s in sockets])')
 
 # No accounting and no control groups: neither is there in a container. A job is bound to nothing, so it is no cluster to measure on.
 host=$(hostname -s)
+megabytes=$(awk '/^MemTotal:/ { print int($2 / 1024) }' /proc/meminfo)
 mkdir -p "$folder/state" "$folder/spool"
 cat > "$folder/slurm.conf" << CONF
 ClusterName=test
@@ -68,7 +69,7 @@ SlurmctldLogFile=$folder/slurmctld.log
 SlurmdLogFile=$folder/slurmd.log
 StateSaveLocation=$folder/state
 SlurmdSpoolDir=$folder/spool
-NodeName=$host CPUs=$(nproc) State=UNKNOWN
+NodeName=$host CPUs=$(nproc) RealMemory=$megabytes State=UNKNOWN
 PartitionName=test Nodes=$host Default=YES MaxTime=INFINITE State=UP
 CONF
 slurmctld -c
