@@ -1,4 +1,4 @@
-//! What a report shows of a journal: of each scene the newest group of its cases.
+//! The cases of a journal in groups that are comparable, the newest of each case.
 
 use std::path::PathBuf;
 
@@ -24,17 +24,11 @@ impl Group {
     fn admits(&self, file: &CaseFile) -> bool {
         self.study == file.case.study && self.settings == file.case.group() && self.machine == file.provenance.machine()
     }
-
-    /// When the last of its cases of this scene was measured.
-    fn date(&self, title: &str) -> Option<&str> {
-        let own = self.files.iter().filter(|file| file.case.scene_title() == title);
-        own.map(|file| file.provenance.date.as_str()).max()
-    }
 }
 
-/// One dataset for each group of settings, build and machine, the one with the most cases of a study first. A scene is in
-/// the group that measured it last; the notes of a dataset say what else the files hold, what is missing and what does
-/// not join. A case that was measured again counts as it was measured last.
+/// One dataset for each group of settings, build and machine, the one with the most cases first, of equal ones the
+/// newest. A case that was measured again counts as it was measured last; the notes of a dataset say so, and what is
+/// missing or does not join.
 pub fn datasets(files: Vec<CaseFile>) -> Vec<Dataset> {
     let mut groups: Vec<Group> = vec![];
     for file in files {
@@ -46,40 +40,14 @@ pub fn datasets(files: Vec<CaseFile>) -> Vec<Dataset> {
             }
         }
     }
-    let mut datasets: Vec<Dataset> = vec![];
-    // Groups of which every scene has been measured again since have no dataset that could say so.
-    let mut superseded: Vec<(&str, Vec<String>)> = vec![];
-    for (number, group) in groups.iter().enumerate() {
-        let is_newest = |file: &&CaseFile| {
-            let title = file.case.scene_title();
-            let date = group.date(&title);
-            groups.iter().enumerate().all(|(other, rival)| {
-                rival.study != group.study || other == number || (rival.date(&title), other) < (date, number)
-            })
-        };
-        let (newest, older): (Vec<&CaseFile>, Vec<&CaseFile>) = group.files.iter().partition(is_newest);
-        let mut dataset = dataset(&newest);
-        let older = each_once(older.iter().map(|file| file.case.scene_title()));
-        if !older.is_empty() {
-            dataset.notes.push(format!("other settings, builds or machines measured {} later.", listed(&older)));
-        }
-        if dataset.measured.is_empty() {
-            superseded.push((&group.study, older));
-        } else {
-            datasets.push(dataset);
-        }
-    }
+    let mut datasets: Vec<Dataset> = groups.iter().map(|group| dataset(&group.files)).collect();
+    datasets.retain(|dataset| !dataset.measured.is_empty());
     datasets.sort_by_key(|dataset| std::cmp::Reverse((dataset.measured.len(), dataset.provenance.date.clone())));
-    for (study, scenes) in superseded {
-        if let Some(dataset) = datasets.iter_mut().find(|dataset| dataset.study() == Some(study)) {
-            dataset.notes.push(format!("other settings, builds or machines measured {} before.", listed(&scenes)));
-        }
-    }
     datasets
 }
 
 /// The dataset of files of one group, joined.
-fn dataset(files: &[&CaseFile]) -> Dataset {
+fn dataset(files: &[CaseFile]) -> Dataset {
     let mut newest: Vec<&CaseFile> = vec![];
     let mut replaced: Vec<PathBuf> = vec![];
     for file in files {

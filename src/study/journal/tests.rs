@@ -163,7 +163,7 @@ fn what_was_interrupted_is_kept_beside_what_is_there() {
 }
 
 #[test]
-fn a_report_shows_the_newest_group_of_each_scene_and_says_what_else_there_is() {
+fn cases_of_equal_settings_are_a_dataset_and_what_was_measured_again_counts_once() {
     let folder = folder();
     let path = journal(&folder, 2);
     let mut journal = open(&path).unwrap();
@@ -177,11 +177,8 @@ fn a_report_shows_the_newest_group_of_each_scene_and_says_what_else_there_is() {
         dataset.measured.iter().map(|own| format!("{}{}", own.case.scene.name, own.case.settings.runs)).collect()
     };
     let found = datasets(read());
-    let mut all: Vec<Vec<String>> = found.iter().map(scenes).collect();
-    all.sort();
-    assert_eq!(all, [vec!["Cube9".to_owned()], vec!["Sphere3".into()]]);
-    let older = found.iter().find(|own| own.measured[0].case.scene.name == "Sphere").unwrap();
-    assert!(older.notes.iter().any(|note| note.contains("Cube")), "{:?}", older.notes);
+    let all: Vec<Vec<String>> = found.iter().map(scenes).collect();
+    assert_eq!(all, [vec!["Sphere3", "Cube3", "Cube3"], vec!["Cube9"]]);
 
     // The same case again replaces the older one, and hosts are named.
     let mut elsewhere = open(&path).unwrap();
@@ -191,21 +188,6 @@ fn a_report_shows_the_newest_group_of_each_scene_and_says_what_else_there_is() {
     let notes = cube.notes.join(" ");
     assert!(notes.contains("1 case measured again since") && notes.contains("2 hosts"), "{notes}");
     assert!(notes.contains("epoch 1 is not measured"), "{notes}");
-}
-
-#[test]
-fn a_report_names_a_machine_of_which_every_scene_was_measured_again_elsewhere() {
-    let folder = folder();
-    let path = journal(&folder, 2);
-    let other = Provenance { cpu: "another".into(), ..provenance() };
-    let mut journal = Journal::open(&path, other, false).unwrap();
-    (0..2).for_each(|i| drop(measure(&mut journal, &case("Cube", i, &["x"]), "2026-01-02")));
-    let found = datasets(files(&path).unwrap().iter().map(|path| CaseFile::read(path).unwrap()).collect());
-    assert_eq!(
-        found.iter().map(|own| (own.provenance.cpu.as_str(), own.measured.len())).collect::<Vec<_>>(),
-        [("another", 2)]
-    );
-    assert_eq!(found[0].notes, ["other settings, builds or machines measured Cube before."]);
 }
 
 #[test]
