@@ -34,7 +34,7 @@ pub struct Epoch {
 }
 
 /// One structure in one epoch.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Structure {
     /// As chosen.
     pub label: String,
@@ -357,13 +357,10 @@ pub(crate) mod tests {
             name: label.split(':').next().unwrap().into(),
             config: Value::Object(Default::default()),
             triangle_test: if label.starts_with("obvhs") { "native".into() } else { Exact::NAME.into() },
-            refused: None,
-            wrong: false,
-            build_peak_bytes: None,
-            outside: None,
             build_ns,
             shape: Shape { bytes: 100 * triangles, leaves: 8, references: 2 * triangles, depth: 3, ..Shape::default() },
             rays: vec![Rays { ns: ns.to_vec(), ..rays("primary") }],
+            ..Structure::default()
         };
         Epoch {
             scene: scene.into(),

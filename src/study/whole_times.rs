@@ -8,15 +8,10 @@ use crate::measure::{AaNoise, Estimate};
 /// at the pace of those that were. Structures are named by their roles.
 pub struct WholeTimes<'a> {
     /// Of one scene, in which every structure is timed; at least one.
-    epochs: &'a [&'a Epoch],
+    pub epochs: &'a [&'a Epoch],
 }
 
-impl<'a> WholeTimes<'a> {
-    /// Of the epochs of one scene, in which every structure is timed.
-    pub fn new(epochs: &'a [&'a Epoch]) -> Self {
-        Self { epochs }
-    }
-
+impl WholeTimes<'_> {
     /// ln of seconds of the structures in these roles, on the rays that all of them were timed on, of each epoch.
     ///
     /// # Panics

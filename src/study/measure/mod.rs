@@ -136,38 +136,24 @@ impl<'a> Bench<'a> {
         let mut structures: Vec<Structure> = vec![];
         let mut built: Vec<Option<Built>> = vec![];
         for ((choice, request), ready) in choices.iter().zip(&case.structures).zip(placed.built.drain(..)) {
-            let none = Structure {
+            let mut structure = Structure {
                 label: choice.label.clone(),
                 role: request.role.clone(),
                 name: choice.entry.name.clone(),
                 config: choice.config.clone(),
                 triangle_test: choice.triangle_test().into(),
-                refused: None,
-                wrong: false,
-                build_ns: 0,
-                build_peak_bytes: None,
-                outside: None,
-                shape: Shape::default(),
-                rays: vec![],
+                ..Structure::default()
             };
-            match ready {
+            match &ready {
                 Ok(one) => {
                     let accel = one.accel.as_ref();
-                    let shape = Shape { bytes: accel.footprint().total(), ..Shape::from(&accel.shape()) };
-                    let (build_ns, build_peak_bytes) = (one.build_ns, one.peak_bytes);
-                    structures.push(Structure { build_ns, build_peak_bytes, shape, ..none });
-                    built.push(Some(one));
+                    structure.shape = Shape { bytes: accel.footprint().total(), ..Shape::from(&accel.shape()) };
+                    (structure.build_ns, structure.build_peak_bytes) = (one.build_ns, one.peak_bytes);
                 }
-                Err(StudyError::Build { cause, .. }) => {
-                    structures.push(Structure { refused: Some(cause.to_string()), ..none });
-                    built.push(None);
-                }
-                Err(StudyError::Skipped { reason }) => {
-                    structures.push(Structure { refused: Some(reason), ..none });
-                    built.push(None);
-                }
-                Err(other) => return Err(other),
+                Err(reason) => structure.refused = Some(reason.clone()),
             }
+            structures.push(structure);
+            built.push(ready.ok());
         }
 
         // Rays that start on a surface start where the guide finds it.
@@ -175,7 +161,8 @@ impl<'a> Bench<'a> {
         let guide = match built.iter().flatten().find(|built| built.choice.label == prepared.guide.label) {
             Some(built) => built.accel.as_ref(),
             None => {
-                own = Built::new(&prepared.guide, scene, threads, clock)?;
+                let refused = StudyError::of_build(&prepared.guide.label, &scene.name);
+                own = Built::new(&prepared.guide, scene, threads, clock).map_err(refused)?;
                 own.accel.as_ref()
             }
         };
