@@ -70,7 +70,7 @@ impl Checks<'_> {
         let mut all: BTreeMap<&'static str, Known> = BTreeMap::new();
         let mut checks = vec![];
         for own in &built {
-            progress(Stage::Check(&own.choice.label));
+            progress(Stage::Check((&own.choice.label).into()));
             let test = own.choice.triangle_test();
             if !all.contains_key(test) {
                 let reference = Reference::of_test(test, &self.scene.mesh);

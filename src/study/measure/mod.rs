@@ -166,7 +166,7 @@ impl<'a> Bench<'a> {
                 own.accel.as_ref()
             }
         };
-        let mut told = |kind: &str| progress(Stage::Rays(kind));
+        let mut told = |kind: &str| progress(Stage::Rays(kind.into()));
         let workloads = case.workloads.workloads(scene, case.settings.seed, guide, &mut told);
         let workloads = workloads.map_err(|cause| StudyError::Rays(format!("{cause:#}")))?;
         let hashes: Vec<String> = workloads.iter().map(Workload::hash).collect();
@@ -210,7 +210,7 @@ impl<'a> Bench<'a> {
     /// Counts the errors of all structures against the exact oracle. A structure that declines some of the rays is
     /// refused: its rate would be of other rays.
     fn judge(&mut self, progress: &mut dyn FnMut(Stage)) {
-        progress(Stage::Rays("the exact answers to all"));
+        progress(Stage::Rays("the exact answers to all".into()));
         let oracle = Oracle::new(&self.prepared.scene.mesh);
         let budget_ns = self.case.settings.budget_ns.unwrap_or(u64::MAX / 2);
         let pairs = Pair::all(self.structures.len(), self.workloads.len());
@@ -223,7 +223,7 @@ impl<'a> Bench<'a> {
                 structure.refused = Some(crate::accel::BuildError::Declined(declined_word(declined)).to_string());
                 continue;
             }
-            progress(Stage::Check(&structure.label));
+            progress(Stage::Check((&structure.label).into()));
             let costs = &costs[place * judges.len()..][..judges.len()];
             let judged = guarded(|| {
                 let judge =

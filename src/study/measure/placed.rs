@@ -35,7 +35,7 @@ impl Placed {
         let mut built: Vec<Option<Result<Built, String>>> = choices.iter().map(|_| None).collect();
         let mut blocks = vec![];
         for i in random.shuffled(choices.len()) {
-            progress(Stage::Build(&choices[i].label));
+            progress(Stage::Build((&choices[i].label).into()));
             // Small blocks move what follows on the heap, large ones move mapped pages.
             blocks.push(vec![0; 16 * (1 + random.below(1 << 12))]);
             blocks.push(vec![0; (256 << 10) + 4096 * random.below(64)]);
