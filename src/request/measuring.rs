@@ -39,15 +39,3 @@ impl Limit {
         self.0.map(Seconds::ns)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_budget_is_a_number_of_seconds_or_none() {
-        assert_eq!(Limit::parse("none").unwrap().ns(), None);
-        assert_eq!(Limit::parse("0.5").unwrap().ns(), Some(500_000_000));
-        assert!(Limit::parse("0").is_err());
-    }
-}

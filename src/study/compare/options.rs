@@ -238,14 +238,6 @@ mod tests {
     }
 
     #[test]
-    fn packets_stand_beside_single_rays_where_no_structure_is_named() {
-        let all = specs(&["cube"]);
-        let at = all.iter().position(|spec| spec == "sah-hybrid").unwrap();
-        assert_eq!(all[at + 1], PACKETS);
-        assert!(!specs(&["cube", "-s", ALL]).contains(&PACKETS.into()));
-    }
-
-    #[test]
     fn builds_have_a_limit_unless_all_rays_are_timed() {
         let limit = |words: &[&str]| plan(&[&["cube", "-s", "sah-kd"], words].concat()).cases[0].settings.build_limit_s;
         let seconds = |limit: Option<f64>| limit.map(|seconds| seconds as u64);

@@ -12,9 +12,6 @@ const BYTES: u64 = 100;
 
 /// Refuses what the system would end in the middle, when the last structures are built: all of an epoch are held at
 /// once, for they take turns.
-///
-/// # Errors
-/// If the structures need more than the machine has, about.
 pub fn fits(choices: &[Choice], scene: &Scene) -> Result<(), StudyError> {
     let structures = choices.len();
     // A twin is built beside those that are named.
