@@ -18,7 +18,7 @@ mod timing;
 use super::case::{Case, Check};
 use super::epoch::{Epoch, RayCounts, Rays, Shape, Structure};
 use super::{Stage, StudyError};
-use crate::accel::{DynAccel, Remote};
+use crate::accel::{BuildError, DynAccel, Remote};
 use crate::measure::{Clock, Plan, Threads, spread};
 use crate::oracle::Oracle;
 use crate::registry::{Choice, Registry};
@@ -219,8 +219,8 @@ impl<'a> Bench<'a> {
         let judges: Vec<Judge> = self.workloads.iter().map(|workload| Judge::new(&workload.rays, &oracle)).collect();
         for (place, structure) in self.structures.iter_mut().enumerate() {
             let Some(built) = &self.built[place] else { continue };
-            if let Some(declined) = structure.rays.iter().find_map(|rays| rays.declined.as_deref()) {
-                structure.refused = Some(crate::accel::BuildError::Declined(declined_word(declined)).to_string());
+            if let Some(what) = self.workloads.iter().find_map(|workload| declined(built.accel.as_ref(), workload)) {
+                structure.refused = Some(BuildError::Declined(what).to_string());
                 continue;
             }
             progress(Stage::Check((&structure.label).into()));
@@ -323,11 +323,6 @@ impl<'a> Bench<'a> {
     }
 }
 
-/// The words of a declined capability, which are known at compile time.
-fn declined_word(word: &str) -> &'static str {
-    ["any hit", "t_min", "t_max"].into_iter().find(|known| *known == word).unwrap_or("these rays")
-}
-
 /// A structure on a workload before it is checked and timed.
 fn untimed(built: &Built, workload: &Workload, hash: &str) -> Rays {
     let declined = declined(built.accel.as_ref(), workload);
@@ -336,17 +331,9 @@ fn untimed(built: &Built, workload: &Workload, hash: &str) -> Rays {
         hash: hash.into(),
         query: workload.query,
         all: workload.rays.len(),
-        rays: 0,
-        checksum: 0,
-        ns: vec![],
-        parts: vec![],
         untimed: declined.map(|what| format!("declined: it has no {what}")),
-        wrong: false,
         declined: declined.map(String::from),
-        checked: None,
-        counts: None,
-        errors: None,
-        slowest_ns: None,
+        ..Rays::default()
     }
 }
 
