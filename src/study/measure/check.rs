@@ -57,9 +57,6 @@ const PILOT: usize = 8;
 impl Checks<'_> {
     /// Holds every structure against brute force with its own triangle test, on rays of each workload that are evenly
     /// spread. One row for each structure, one check for each workload; nothing for a structure that panicked.
-    ///
-    /// # Errors
-    /// If brute force cannot be built.
     pub fn all<'b>(
         &self,
         built: impl IntoIterator<Item = &'b Built>,
