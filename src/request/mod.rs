@@ -9,7 +9,7 @@ mod seconds;
 mod structures;
 mod view;
 
-pub use measuring::Measuring;
+pub use measuring::{Limit, Measuring};
 pub use ray_kind::RayKind;
 pub use rays::{RaySource, Rays, WORKLOADS, WorkloadRequest, each_kind, rays_or_all, recorded};
 pub use scenes::{

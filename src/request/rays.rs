@@ -98,18 +98,13 @@ impl WorkloadRequest {
     }
 
     /// How many workloads there are, at most.
-    pub fn len(&self) -> usize {
+    pub fn kinds(&self) -> usize {
         match self {
             Self::Scene { kinds, .. } => kinds.len(),
             Self::Hard { kinds, .. } => kinds.len(),
             Self::Picture => 2,
             Self::PrimaryPicture | Self::File { .. } => 1,
         }
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
     }
 }
 

@@ -104,10 +104,7 @@ fn same_name(one: &Scene, other: &Scene) -> bool {
     one.name.eq_ignore_ascii_case(&other.name) && one.stand_ins.is_empty() == other.stand_ins.is_empty()
 }
 
-/// Each of the scenes once, however often it is named.
-///
-/// # Errors
-/// If there are two different ones of one name, naming them: no table could tell them apart.
+/// Each of the scenes once, however often it is named. Two different ones of one name are refused.
 fn distinct(scenes: Vec<(OsString, Scene)>) -> anyhow::Result<Vec<(OsString, Scene)>> {
     let mut each: Vec<(OsString, Scene)> = vec![];
     for (word, scene) in scenes {

@@ -127,14 +127,9 @@ impl Settings {
         Ok(Self {
             runs: measuring.runs.into(),
             budget_ns: measuring.budget.ns(),
-            slowest: None,
-            check: Check::default(),
-            build_limit_s: None,
-            whole_counts: vec![],
-            whole: false,
-            guide: guide(registry)?.label,
             seed: measuring.seed,
             threads: measuring.threads.into(),
+            ..Self::for_guide(guide(registry)?.label)
         })
     }
 }

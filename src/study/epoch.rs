@@ -34,7 +34,7 @@ pub struct Epoch {
 }
 
 /// One structure in one epoch.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Structure {
     /// As chosen.
     pub label: String,
@@ -81,7 +81,7 @@ pub struct Shape {
 }
 
 /// One structure on one workload in one epoch.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rays {
     pub workload: String,
     /// Of its rays, as [`Workload::hash`](crate::scene::Workload::hash).
@@ -320,15 +320,9 @@ pub(crate) mod tests {
         Rays {
             workload: workload.into(),
             hash: "11".into(),
-            query: Query::Closest,
             all: 1000,
             rays: 1000,
             checksum: 1,
-            ns: vec![],
-            parts: vec![],
-            untimed: None,
-            wrong: false,
-            declined: None,
             checked: Some(Checked { rays: 100, errors: 0 }),
             counts: Some(RayCounts {
                 rays: 1000,
@@ -339,8 +333,7 @@ pub(crate) mod tests {
                 steps: Some(10_000),
                 ..RayCounts::default()
             }),
-            errors: None,
-            slowest_ns: None,
+            ..Rays::default()
         }
     }
 
@@ -357,13 +350,10 @@ pub(crate) mod tests {
             name: label.split(':').next().unwrap().into(),
             config: Value::Object(Default::default()),
             triangle_test: if label.starts_with("obvhs") { "native".into() } else { Exact::NAME.into() },
-            refused: None,
-            wrong: false,
-            build_peak_bytes: None,
-            outside: None,
             build_ns,
             shape: Shape { bytes: 100 * triangles, leaves: 8, references: 2 * triangles, depth: 3, ..Shape::default() },
             rays: vec![Rays { ns: ns.to_vec(), ..rays("primary") }],
+            ..Structure::default()
         };
         Epoch {
             scene: scene.into(),

@@ -7,8 +7,6 @@ use crate::report::number::plural;
 pub enum StudyError {
     #[error("{structure} cannot be built over {scene}: {cause}")]
     Build { structure: String, scene: String, cause: BuildError },
-    #[error("{reason}")]
-    Skipped { reason: String },
     #[error(
         "{scene}: {structures} structures at once need about {needed:.0} GB, and there are {there:.0} GB of memory: \
          name {}a smaller scene",

@@ -9,7 +9,7 @@ use crate::measure::{AaNoise, Part, log_ratios, median};
 use crate::report::words::scene_name;
 
 /// One structure on one workload of one scene. What is not known is nothing, never 0.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Measurement {
     pub scene: String,
     pub scene_hash: String,
@@ -80,8 +80,6 @@ pub struct Refused {
     pub scene: String,
     /// A sentence without its full stop.
     pub reason: String,
-    /// Whether that is for wrong answers.
-    pub wrong: bool,
 }
 
 /// Those of all scenes, structure by structure and workload by workload. Twins are part of the structure that they are
@@ -95,12 +93,7 @@ pub fn refused(dataset: &Dataset) -> Vec<Refused> {
     let of_scene = |scene: &SceneEpochs| -> Vec<Refused> {
         let first = scene.epochs[0];
         let refused = |structure: &Structure| {
-            Some(Refused {
-                label: structure.label.clone(),
-                scene: first.title(),
-                reason: structure.refused.clone()?,
-                wrong: structure.wrong,
-            })
+            Some(Refused { label: structure.label.clone(), scene: first.title(), reason: structure.refused.clone()? })
         };
         first.structures.iter().filter(|own| !own.is_twin()).filter_map(refused).collect()
     };
@@ -292,20 +285,15 @@ pub(crate) mod tests {
             scene: "Cube".into(),
             scene_hash: "00".into(),
             triangles: 12,
-            degenerate: 0,
-            stand_in: false,
             structure: bare(label).into(),
             label: label.into(),
-            role: String::new(),
             config: serde_json::json!({"leaf": 8, "threshold": 0.7}),
             triangle_test: if is_obvhs(label) { "native".into() } else { Exact::NAME.into() },
             workload: workload.into(),
-            query: Query::Closest,
             workload_hash: "11".into(),
             workload_rays: 1000,
             rays: 500,
             sampled: true,
-            parts: vec![],
             counted_rays: 1000,
             hits: 20,
             answers: Some(1),
@@ -315,20 +303,12 @@ pub(crate) mod tests {
             trace_ns,
             epochs,
             samples_ns: samples_ns.into(),
-            twin_samples_ns: None,
-            twin_builds_ns: None,
             mrays_per_s: trace_ns.map(|ns| 500.0 * 1e3 / ns),
-            tests_per_ray: None,
             steps_per_ray: Some(1.5),
-            leaf_steps_per_ray: None,
-            empty_leaf_steps_per_ray: None,
             tests_over_minimum: Some(2.5),
-            instructions_per_ray: None,
-            branch_misses_per_ray: None,
             shape: Shape { bytes: 4096, leaves: 7, ..Shape::default() },
-            declined: None,
             checked_rays: 100,
-            structure_errors: 0,
+            ..Measurement::default()
         }
     }
 

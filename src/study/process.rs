@@ -35,25 +35,9 @@ pub const CORES: &str = "cores";
 
 /// A line of a process.
 #[derive(Serialize, Deserialize)]
-enum Message {
-    Build(String),
-    Rays(String),
-    Check(String),
-    Trace(usize, usize),
-    Count,
+enum Message<'a> {
+    Stage(#[serde(borrow)] Stage<'a>),
     Failed { sentence: String, of_one_scene: bool, wrong_answer: bool },
-}
-
-impl From<&Stage<'_>> for Message {
-    fn from(stage: &Stage) -> Self {
-        match *stage {
-            Stage::Build(what) => Self::Build(what.into()),
-            Stage::Rays(what) => Self::Rays(what.into()),
-            Stage::Check(what) => Self::Check(what.into()),
-            Stage::Trace(taken, total) => Self::Trace(taken, total),
-            Stage::Count => Self::Count,
-        }
-    }
 }
 
 /// How processes are started.
@@ -106,11 +90,7 @@ impl Processes {
             };
             let _ = write!(io::stderr(), "{own}");
             match serde_json::from_str(message).map_err(|cause| failure(format!("it said {message:?}: {cause}")))? {
-                Message::Build(what) => progress(Stage::Build(&what)),
-                Message::Rays(what) => progress(Stage::Rays(&what)),
-                Message::Check(what) => progress(Stage::Check(&what)),
-                Message::Trace(taken, total) => progress(Stage::Trace(taken, total)),
-                Message::Count => progress(Stage::Count),
+                Message::Stage(stage) => progress(stage),
                 Message::Failed { sentence, of_one_scene, wrong_answer } => {
                     return Err(StudyError::Reported { sentence, of_one_scene, wrong_answer });
                 }
@@ -239,7 +219,7 @@ impl Listened {
 
 impl Screen for Listened {
     fn stage(&mut self, stage: &Stage) {
-        if say(&Message::from(stage)).and_then(|()| hear()).is_err() {
+        if say(&Message::Stage(stage.clone())).and_then(|()| hear()).is_err() {
             // The run is gone, and would be disturbed by this process when it goes on.
             std::process::exit(1);
         }

@@ -49,14 +49,9 @@ fn measured(folder: &std::path::Path, without: &[(&str, usize)], change: fn(&Cas
 #[derive(Default)]
 struct Shown {
     titles: Vec<String>,
-    is_interrupted: bool,
 }
 
 impl Screen for Shown {
-    fn is_interrupted(&self) -> bool {
-        self.is_interrupted
-    }
-
     fn table(&mut self, table: &Table) {
         self.titles.push(table.title.clone());
     }
@@ -87,24 +82,6 @@ fn scenes_that_fail_are_told_and_cut_no_mean() {
     assert_eq!(screen.titles, ["a", "b (1 of 2 epochs)"]);
     let titles: Vec<&str> = outcome.tables.iter().map(|table| table.title.as_str()).collect();
     assert!(titles == ["mean of a"] && outcome.dataset.is_some(), "{titles:?}");
-}
-
-#[test]
-fn an_interrupted_run_says_how_far_it_came_and_is_no_dataset() {
-    let folder = tempfile::tempdir().unwrap();
-    measured(folder.path(), &[("b", 1), ("c", 0), ("c", 1)], |_, _| ());
-    let mut screen = Shown { is_interrupted: true, ..Shown::default() };
-    let stopped = outcome(folder.path(), &mut screen);
-    assert!(stopped.dataset.is_none() && stopped.status == Status::Interrupted);
-    assert!(stopped.foot.last().unwrap().starts_with("Interrupted: 3 of 6 cases are measured"), "{:?}", stopped.foot);
-
-    // One that finds everything measured reports it.
-    let folder = tempfile::tempdir().unwrap();
-    measured(folder.path(), &[], |_, _| ());
-    let mut screen = Shown::default();
-    let whole = outcome(folder.path(), &mut screen);
-    assert_eq!((whole.status, whole.dataset.unwrap().measured.len()), (Status::Right, 6));
-    assert_eq!(screen.titles, ["a", "b", "c"]);
 }
 
 #[test]

@@ -8,19 +8,11 @@ use crate::measure::{AaNoise, Estimate};
 /// at the pace of those that were. Structures are named by their roles.
 pub struct WholeTimes<'a> {
     /// Of one scene, in which every structure is timed; at least one.
-    epochs: &'a [&'a Epoch],
+    pub epochs: &'a [&'a Epoch],
 }
 
-impl<'a> WholeTimes<'a> {
-    /// Of the epochs of one scene, in which every structure is timed.
-    pub fn new(epochs: &'a [&'a Epoch]) -> Self {
-        Self { epochs }
-    }
-
+impl WholeTimes<'_> {
     /// ln of seconds of the structures in these roles, on the rays that all of them were timed on, of each epoch.
-    ///
-    /// # Panics
-    /// If no structure has such a role.
     fn epoch_medians(&self, roles: &[&str]) -> Vec<Vec<f64>> {
         let of_epoch = |epoch: &&Epoch| {
             let in_role = |role: &&str| epoch.in_role(role).unwrap_or_else(|| panic!("no structure is {role:?}"));
@@ -31,27 +23,18 @@ impl<'a> WholeTimes<'a> {
     }
 
     /// Seconds: the geometric mean over the epochs, with its interval.
-    ///
-    /// # Panics
-    /// If there is no epoch, or no structure in this role.
     pub fn seconds(&self, role: &str, noise: &AaNoise) -> Estimate {
         ratio(&self.epoch_medians(&[role]), |logs| logs[0], noise.weighted(&[1.0]))
     }
 
     /// ln of the time of `one` over that of `other` in each epoch, as a cell of
     /// [`epoch_values`](crate::measure::epoch_values).
-    ///
-    /// # Panics
-    /// As [`seconds`](Self::seconds).
     pub fn log_ratios(&self, one: &str, other: &str) -> Vec<Vec<f64>> {
         let logs = values(&self.epoch_medians(&[one, other]), |logs| logs[0] - logs[1]);
         logs.into_iter().map(|log| vec![log]).collect()
     }
 
     /// The time of `one` over that of `other`, with its interval.
-    ///
-    /// # Panics
-    /// As [`seconds`](Self::seconds).
     pub fn ratio(&self, one: &str, other: &str, noise: &AaNoise) -> Estimate {
         ratio(&self.epoch_medians(&[one, other]), |logs| logs[0] - logs[1], noise.of_ratio())
     }

@@ -56,7 +56,7 @@ fn a_process_measures_its_case_alone_and_says_what_it_does() {
     let first = json(&cases(folder.path(), "compare")[0]);
     let out = folder.path().join("again.json");
     let lines = said(&first["case"], &out);
-    assert!(lines.iter().any(|line| line["Build"] == "sah-bvh"), "{lines:?}");
+    assert!(lines.iter().any(|line| line["Stage"]["Build"] == "sah-bvh"), "{lines:?}");
     let checksums = |file: &Value| -> Vec<Value> {
         let structures = file["epoch"]["structures"].as_array().unwrap();
         structures.iter().map(|structure| structure["rays"][0]["checksum"].clone()).collect()

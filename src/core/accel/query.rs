@@ -3,10 +3,11 @@
 use serde::{Deserialize, Serialize};
 
 /// Which of the two questions is asked of a batch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Query {
     /// The nearest hit of each ray.
+    #[default]
     Closest,
     /// Whether each ray hits anything.
     Any,

@@ -99,12 +99,8 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
         budget_ns: Some(args.budget.ns()),
         slowest: Some(SLOWEST),
         check: Check::Oracle,
-        build_limit_s: None,
-        whole_counts: vec![],
-        whole: false,
-        guide: guide(registry)?.label,
         seed: args.seed,
-        threads: 1,
+        ..Settings::for_guide(guide(registry)?.label)
     };
 
     let leaves_out = |own: &(OsString, Scene)| args.structure.is_empty() && own.1.mesh.len() > SMALL;

@@ -72,7 +72,8 @@ fn exact_is_right_and_single_precision_is_not() {
 fn what_is_refused_or_owes_the_truth_and_errs_fails() {
     let dataset =
         measured("cube -w vertex -s sah-kd:mailbox=true -s brute-force -t exact --rays 100 --runs 2 --budget 1");
-    let changes: [(fn(&mut Measured), &[(&str, bool)]); 4] = [
+    type Change = fn(&mut Measured);
+    let changes: [(Change, &[(&str, bool)]); 4] = [
         (|_| (), &[]),
         (|own| own.epoch.structures[0].rays[0].errors.as_mut().unwrap().missed = 1, &[("", true)]),
         // A defect that is known, and a test that promises nothing.
@@ -101,11 +102,11 @@ fn what_is_refused_or_owes_the_truth_and_errs_fails() {
             report.failures.iter().map(|own| (own.sentence.as_str(), own.wrong)).collect();
         assert_eq!(failures, expected);
     }
-    let figures = report(&dataset, &STUDY.defaults()).blocks.into_iter().filter_map(|block| match block {
+    let mut figures = report(&dataset, &STUDY.defaults()).blocks.into_iter().filter_map(|block| match block {
         Block::Figure(figure) => Some(figure),
         _ => None,
     });
-    let figure = figures.last().unwrap();
+    let figure = figures.next_back().unwrap();
     let Art::Chart(Chart::Scatter(scatter)) = &figure.art else { panic!("{:?}", figure.art) };
     assert_eq!(figure.id, "accuracy-cube-vertex-0");
     assert_eq!(scatter.groups(), ["sah-kd:mailbox=true", "brute-force"]);

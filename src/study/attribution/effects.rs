@@ -51,43 +51,9 @@ fn weights(of: impl Fn(Treatment) -> f64) -> Weights {
 mod tests {
     use super::*;
 
-    /// Logs made of known effects: each level of each factor, and one interaction.
-    fn logs(plane: [f64; 6], stop: [f64; 3], traversal: [f64; 2], both: f64) -> Vec<f64> {
-        let of = |Treatment([p, s, t]): Treatment| {
-            5.0 + plane[p] + stop[s] + traversal[t] + if p == 5 && s == 2 { both } else { 0.0 }
-        };
-        Treatment::all().into_iter().map(of).collect()
-    }
-
-    const PLANE: [f64; 6] = [0.5, 0.3, 0.1, -0.1, -0.3, -0.5];
-    const STOP: [f64; 3] = [2.0, -1.0, -1.0];
-    const TRAVERSAL: [f64; 2] = [0.25, -0.25];
-
     #[track_caller]
     fn close(a: f64, b: f64) {
         assert!((a - b).abs() < 1e-12, "{a} {b}");
-    }
-
-    #[test]
-    fn without_interaction_a_part_is_the_same_in_every_order() {
-        let logs = logs(PLANE, STOP, TRAVERSAL, 0.0);
-        for (factor, gain) in Factor::ALL.into_iter().zip([1.0, 3.0, 0.5]) {
-            close(value(&part(factor), &logs), gain);
-            for order in parts_by_order(factor) {
-                close(value(&order, &logs), gain);
-            }
-        }
-    }
-
-    #[test]
-    fn an_interaction_is_shared_by_those_that_take_part_in_it() {
-        let logs = logs(PLANE, STOP, TRAVERSAL, -0.8);
-        close(value(&part(Factor::Plane), &logs), 1.0 + 0.4);
-        close(value(&part(Factor::Stop), &logs), 3.0 + 0.4);
-        close(value(&part(Factor::Traversal), &logs), 0.5);
-        let orders: Vec<f64> = parts_by_order(Factor::Plane).iter().map(|weights| value(weights, &logs)).collect();
-        assert_eq!(orders.iter().filter(|&&gain| (gain - 1.0).abs() < 1e-12).count(), 3);
-        assert_eq!(orders.iter().filter(|&&gain| (gain - 1.8).abs() < 1e-12).count(), 3);
     }
 
     #[test]

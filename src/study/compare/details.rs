@@ -36,7 +36,7 @@ pub fn details(all: &[Measurement], workloads: &[String], columns: &mut Vec<Stri
         row.extend(own.iter().map(|(_, cell)| first.map_or(Cell::empty(), cell)));
         let pays = |workload: &String| {
             let measured = all.iter().find(|r| r.label == label && r.workload == *workload);
-            measured.and_then(|own| pays_off_after(all, own)).map(|rays| Cell::from(rays)).unwrap_or_default()
+            measured.and_then(|own| pays_off_after(all, own)).into()
         };
         row.extend(workloads.iter().map(pays));
     }

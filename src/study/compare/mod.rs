@@ -7,8 +7,6 @@ mod rank;
 mod reference;
 mod section;
 mod table;
-#[cfg(test)]
-mod tests;
 mod tradeoff;
 
 use clap::{ArgMatches, Args, Command, FromArgMatches};
@@ -20,7 +18,7 @@ use crate::measure::advice::{Conditions, of_own_clock, of_samples};
 use crate::measure::{Provenance, machine, median};
 use crate::registry::Registry;
 use crate::report::words::each_once;
-use crate::report::{Block, Failure, Report, Table};
+use crate::report::{Failure, Report, Table};
 pub use options::CompareArgs;
 pub use rank::{FASTEST, ranks};
 pub use reference::{Reference, is_reference};
@@ -125,9 +123,4 @@ fn scene_warnings(scene: &SceneEpochs, provenance: &Provenance) -> Vec<String> {
 fn nothing_measured(scene: &str, refused: &[Refused]) -> Table {
     let rows = refused.iter().map(|own| vec![own.label.as_str().into()]);
     Table::new(format!("{scene}: every structure is refused, or no ray is left"), ["structure"], rows).of_one_scene()
-}
-
-/// A block of a table.
-fn block(table: Table) -> Block {
-    Block::Table(table)
 }

@@ -8,11 +8,11 @@ use super::NAME;
 use crate::registry::Registry;
 use crate::report::words::each_once_by;
 use crate::request::{
-    BRUTE_FORCE, Measuring, RaySource, SceneRequest, Scenes, Seconds, StructureRequest, Structures, ViewArgs,
-    WORKLOADS, WorkloadRequest, each_kind, guide, left_out, recorded, scene_files, structures_at, with_twin,
+    BRUTE_FORCE, Limit, Measuring, RaySource, SceneRequest, Scenes, Seconds, StructureRequest, Structures, ViewArgs,
+    WORKLOADS, WorkloadRequest, each_kind, left_out, recorded, scene_files, structures_at, with_twin,
 };
 use crate::scene::{Scene, WorkloadKind};
-use crate::study::case::TESTS;
+use crate::study::case::SLOWEST;
 use crate::study::{Check, Plan, PlannedScene, Settings};
 
 #[derive(Clone, Debug, clap::Args)]
@@ -48,8 +48,8 @@ pub struct CompareArgs {
     pub quick: bool,
     /// Seconds that a build may take, or none [default: 60 and 30 more a million triangles; 10 and 10 with --quick; none
     /// with --budget none]
-    #[arg(long, value_name = "SECONDS|none", value_parser = BuildLimit::parse, allow_negative_numbers = true)]
-    pub build_limit: Option<BuildLimit>,
+    #[arg(long, value_name = "SECONDS|none", value_parser = Limit::parse, allow_negative_numbers = true)]
+    pub build_limit: Option<Limit>,
     /// Print all columns: builds, memory, the shape of the trees, tests, steps, checks, ratios to both references, and
     /// after how many rays a build pays off
     #[arg(long)]
@@ -59,19 +59,6 @@ pub struct CompareArgs {
 /// What a program may take for an answer.
 const RUNNER_LIMIT: Seconds = Seconds::whole(120);
 
-/// What a build may take.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum BuildLimit {
-    Seconds(Seconds),
-    None,
-}
-
-impl BuildLimit {
-    fn parse(text: &str) -> Result<Self, String> {
-        if text == "none" { Ok(Self::None) } else { text.parse().map(Self::Seconds) }
-    }
-}
-
 /// Of a quick run: its epochs and rays, what all epochs of a scene may take, the samples of one of them, and the
 /// triangle tests and the time of all checks together. These are totals, however many structures there are.
 const QUICK_EPOCHS: u16 = 3;
@@ -80,10 +67,6 @@ const QUICK: Duration = Duration::from_secs(4);
 const QUICK_SAMPLES_NS: u64 = 250_000_000;
 const QUICK_CHECKS: usize = 1 << 28;
 const QUICK_CHECKS_NS: u64 = 1_000_000_000;
-
-/// Where pairs are compared each on its own rays, a structure that takes more than so many times as long as the median
-/// one is timed on fewer: its ratios hardly gain from more of them, and the run would be about it alone.
-pub const SLOWEST: f64 = 4.0;
 
 /// The structures that are compared beside one of each name where none is named: for users who have slices of rays.
 const PACKETS: &str = "sah-hybrid:batch=packets";
@@ -150,8 +133,7 @@ impl CompareArgs {
     fn build_limit_s(&self, triangles: usize) -> Option<f64> {
         let millions = triangles as f64 * 1e-6;
         match self.build_limit {
-            Some(BuildLimit::Seconds(seconds)) => Some(seconds.seconds()),
-            Some(BuildLimit::None) => None,
+            Some(limit) => limit.0.map(Seconds::seconds),
             None if self.quick => Some(10.0 + 10.0 * millions),
             None => self.measuring.budget.ns().map(|_| 60.0 + 30.0 * millions),
         }
@@ -167,22 +149,12 @@ impl CompareArgs {
         let check = if self.quick {
             let tests = structures.iter().map(|own| Ok(own.choose(registry)?.triangle_test()));
             let tests: BTreeSet<&str> = tests.collect::<anyhow::Result<_>>()?;
-            Check::BruteForce {
-                tests: QUICK_CHECKS / (tests.len() * workloads).max(1),
-                limit_ns: Some(QUICK_CHECKS_NS),
-            }
+            let tests = QUICK_CHECKS / (tests.len() * workloads).max(1);
+            Check::BruteForce { tests, limit_ns: Some(QUICK_CHECKS_NS) }
         } else {
-            Check::BruteForce { tests: TESTS, limit_ns: None }
+            Check::default()
         };
-        Ok(Settings {
-            runs: self.measuring.runs.into(),
-            budget_ns,
-            slowest: Some(SLOWEST),
-            check,
-            seed: self.measuring.seed,
-            threads: self.measuring.threads.into(),
-            ..Settings::for_guide(guide(registry)?.label)
-        })
+        Ok(Settings { budget_ns, slowest: Some(SLOWEST), check, ..Settings::new(&self.measuring, registry)? })
     }
 
     /// Scene by scene, small ones first.
@@ -206,16 +178,17 @@ impl CompareArgs {
             }
         }
         let structures = with_twin(structures);
-        let settings = self.settings(registry, &structures, workloads.len())?;
+        let settings = self.settings(registry, &structures, workloads.kinds())?;
         let epochs = if self.quick { QUICK_EPOCHS } else { self.measuring.epochs };
-        let planned = |(word, scene): &(OsString, Scene)| {
+        let planned = |own: &(OsString, Scene)| {
+            let (word, scene) = own;
             let triangles = scene.mesh.len();
             let fits = |own: &&StructureRequest| !named.leaves_out(own.name(), triangles);
             PlannedScene {
                 request: SceneRequest::new(word, &self.from, scene),
                 structures: structures.iter().filter(fits).cloned().collect(),
                 settings: Settings { build_limit_s: self.build_limit_s(triangles), ..settings.clone() },
-                ..PlannedScene::new(&(word.clone(), scene.clone()), &[], &workloads, &settings, epochs.into())
+                ..PlannedScene::new(own, &[], &workloads, &settings, epochs.into())
             }
         };
         let is_large = |scene: &&Scene| structures.iter().any(|own| named.leaves_out(own.name(), scene.mesh.len()));
@@ -262,14 +235,6 @@ mod tests {
             assert!(has(&["-s", ALL, "-s", BRUTE_FORCE]) && has(&["-s", "sah-kd", "--reference", BRUTE_FORCE]));
         }
         assert!(specs(&["cube"]).contains(&BRUTE_FORCE.into()));
-    }
-
-    #[test]
-    fn packets_stand_beside_single_rays_where_no_structure_is_named() {
-        let all = specs(&["cube"]);
-        let at = all.iter().position(|spec| spec == "sah-hybrid").unwrap();
-        assert_eq!(all[at + 1], PACKETS);
-        assert!(!specs(&["cube", "-s", ALL]).contains(&PACKETS.into()));
     }
 
     #[test]

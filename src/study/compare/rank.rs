@@ -4,7 +4,7 @@ use super::reference::{Reference, cell, speed};
 use crate::measure::{Estimate, geometric_mean};
 use crate::report::number::plural;
 use crate::report::words::{distinct, each_once, interval, listed};
-use crate::report::{Cell, Finding, Table, Tone};
+use crate::report::{Finding, Table, Tone};
 use crate::study::measurement::{Measurement, trace_noise};
 use crate::triangle::{EdgeF64, Exact, MollerTrumboreF64, TriangleTest};
 
@@ -131,8 +131,7 @@ impl Ranks {
     }
 
     fn table(&self, all: &[Measurement], title: &str, rank: &Rank, over: &str) -> Table {
-        let known = |x: Option<f64>| Cell::from(x);
-        let best = self.first_right(all, rank).map(|row| row.label.clone());
+        let best = self.right(all, rank).first().map(|row| row.label.clone());
         let tone = |row: &Ranked| if Some(&row.label) == best.as_ref() { Tone::Best } else { Tone::Plain };
         let speed = format!("x {}", self.reference.name());
         let table = Table::of(
@@ -141,11 +140,11 @@ impl Ranks {
             &[
                 ("structure", &|row| row.label.as_str().into()),
                 (&speed, &|row| cell(row.speed).with(tone(row))),
-                ("tests", &|row| known(row.tests)),
-                ("steps", &|row| known(row.steps)),
-                ("instructions", &|row| known(row.instructions)),
-                ("branch misses", &|row| known(row.branch_misses)),
-                ("bytes a triangle", &|row| known(row.bytes_per_triangle)),
+                ("tests", &|row| row.tests.into()),
+                ("steps", &|row| row.steps.into()),
+                ("instructions", &|row| row.instructions.into()),
+                ("branch misses", &|row| row.branch_misses.into()),
+                ("bytes a triangle", &|row| row.bytes_per_triangle.into()),
             ],
         );
         let mut notes = vec![
@@ -182,21 +181,14 @@ impl Ranks {
         rank.rows.iter().filter(is_right).collect()
     }
 
-    /// The fastest of these.
-    fn first_right<'a>(&self, all: &[Measurement], rank: &'a Rank) -> Option<&'a Ranked> {
-        self.right(all, rank).first().copied()
-    }
-
     /// The fastest of each rank, and what right answers cost.
     pub fn findings(&self, all: &[Measurement]) -> Vec<Finding> {
         let ranks = [("right", "with right answers", &self.precise), ("single", "in single precision", &self.single)];
         let firsts = ranks.into_iter().filter_map(|(key, words, rank)| self.first(all, key, words, rank));
-        let mut found: Vec<Finding> = firsts.flatten().collect();
-        // What is right is the fastest, if anything is.
-        let mut fastest = found.extract_if(.., |finding| finding.key == FASTEST).collect::<Vec<Finding>>();
+        let (mut found, fastest): (Vec<Finding>, Vec<Finding>) = firsts.map(|[told, label]| (told, label)).unzip();
         found.extend(self.cost(all));
-        fastest.truncate(1);
-        found.extend(fastest);
+        // What is right is the fastest, if anything is.
+        found.extend(fastest.into_iter().next());
         found
     }
 

@@ -2,10 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::reference::speed;
 use super::table::{legend, refusals, scene_table};
-use super::{Reference, block, by_scene, details, means, nothing_measured, rank, tradeoff};
-use crate::measure::Estimate;
+use super::{Reference, by_scene, details, means, nothing_measured, rank, tradeoff};
 use crate::report::number::count;
 use crate::report::plot::{Bar, BarGroup, Bars, Chart};
 use crate::report::words::{distinct, each_once, interval, listed, slug};
@@ -100,7 +98,7 @@ pub fn blocks(all: &[Measurement], refused: &[Refused], references: &[Reference]
     for title in &titles {
         let own: Vec<Refused> = refused.iter().filter(|own| own.scene == *title).cloned().collect();
         let scene = scenes.iter().find(|scene| scene[0].scene_title() == *title);
-        blocks.push(block(match scene {
+        blocks.push(Block::from(match scene {
             Some(scene) if wide => scene_table(scene, references, &own, true),
             Some(scene) => scene_table(scene, last, &own, false),
             None => nothing_measured(title, &own),
@@ -112,7 +110,7 @@ pub fn blocks(all: &[Measurement], refused: &[Refused], references: &[Reference]
     }
     let several = scenes.len() > 1;
     let means = several.then(|| means::mean_table(all, if wide { references } else { last }));
-    blocks.extend(means.filter(Table::says_something).map(block));
+    blocks.extend(means.filter(Table::says_something).map(Block::from));
     blocks.extend(legend(all, if wide { references } else { last }).into_iter().map(Block::Note));
     let columns = || details::legend(&all[0].workload).into_iter().map(Block::Note);
     if wide {
@@ -124,7 +122,7 @@ pub fn blocks(all: &[Measurement], refused: &[Refused], references: &[Reference]
     if !ranks.is_empty() {
         let bias = Block::Note(format!("We are judges in our own cause. {}", bias()));
         let name = "Ranks over all scenes and workloads".to_owned();
-        blocks.push(Block::Fold(name, ranks.into_iter().map(block).chain([bias]).collect()));
+        blocks.push(Block::Fold(name, ranks.into_iter().map(Block::from).chain([bias]).collect()));
     }
     // The largest scenes are what the question is about.
     scenes.sort_by_key(|scene| std::cmp::Reverse(scene[0].triangles));
@@ -136,7 +134,7 @@ pub fn blocks(all: &[Measurement], refused: &[Refused], references: &[Reference]
         blocks.push(Block::Fold(format!("Figures of the other {} scenes", rest.len()), figures));
     }
     if !wide {
-        let tables = scenes.iter().chain(&rest).map(|scene| block(scene_table(scene, references, &[], true)));
+        let tables = scenes.iter().chain(&rest).map(|scene| scene_table(scene, references, &[], true).into());
         blocks.push(Block::Fold("All columns".into(), tables.chain(columns()).collect()));
     }
     blocks
@@ -159,10 +157,7 @@ fn bars(all: &[Measurement]) -> Figure {
             _ if own.declined.is_some() => Bar::Missing("declined".into()),
             (None, _) if own.is_disqualified() => Bar::Missing("wrong answers".into()),
             (Some(_), Some(baseline)) if baseline.trace_ns.is_some() => {
-                // A structure is as fast as itself, without doubt.
-                let is_same = own.label == baseline.label;
-                let ratio = if is_same { Some(Estimate::exact(1.0)) } else { speed([(own, baseline)], &noise) };
-                ratio.map_or(Bar::Missing("no pairs".into()), Bar::Of)
+                Reference::ratio(&[(own, baseline)], &noise).map_or(Bar::Missing("no pairs".into()), Bar::Of)
             }
             _ => Bar::Missing("not timed".into()),
         }

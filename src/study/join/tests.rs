@@ -7,25 +7,18 @@ fn epochs(scene: &str, numbers: &[usize]) -> Vec<Epoch> {
     numbers.iter().map(|&n| example(scene, 10, n, &[("x", 50, &[1000; 3]), ("y", 10, &[500; 3])])).collect()
 }
 
-/// What comes of the epochs, each with its case of three planned ones.
-struct Cases {
-    cases: Vec<Epoch>,
-    failures: Vec<StudyError>,
-    unchecked: Vec<String>,
-    missing: Vec<String>,
-}
-
-fn joined_as(epochs: Vec<Epoch>, whole: bool) -> Cases {
+/// What comes of the epochs, each with its case of three planned ones, and why others are left out.
+fn joined_as(epochs: Vec<Epoch>, whole: bool) -> (Vec<Epoch>, Joined) {
     let measured = |epoch: Epoch| {
         let mut case = case(&epoch.scene, epoch.epoch, &[]);
         (case.epochs, case.settings.whole) = (3, whole);
         Measured { case, epoch }
     };
-    let Joined { measured, failures, unchecked, missing } = join(epochs.into_iter().map(measured).collect());
-    Cases { cases: measured.into_iter().map(|own| own.epoch).collect(), failures, unchecked, missing }
+    let mut joined = join(epochs.into_iter().map(measured).collect());
+    (std::mem::take(&mut joined.measured).into_iter().map(|own| own.epoch).collect(), joined)
 }
 
-fn joined(epochs: Vec<Epoch>) -> Cases {
+fn joined(epochs: Vec<Epoch>) -> (Vec<Epoch>, Joined) {
     joined_as(epochs, false)
 }
 
@@ -33,7 +26,7 @@ fn joined(epochs: Vec<Epoch>) -> Cases {
 fn failure(change: impl Fn(&mut Epoch)) -> StudyError {
     let mut epochs = epochs("a", &[0, 1]);
     change(&mut epochs[1]);
-    let Cases { cases, mut failures, .. } = joined(epochs);
+    let (cases, Joined { mut failures, .. }) = joined(epochs);
     assert!(cases.is_empty() && failures.len() == 1, "{failures:?}");
     failures.remove(0)
 }
@@ -41,7 +34,7 @@ fn failure(change: impl Fn(&mut Epoch)) -> StudyError {
 #[test]
 fn epochs_need_no_order_and_come_out_as_they_came_in() {
     let given = [epochs("a", &[2, 0]), epochs("b", &[1, 0, 2]), epochs("a", &[1])].concat();
-    let Cases { cases, failures, unchecked, .. } = joined(given.clone());
+    let (cases, Joined { failures, unchecked, .. }) = joined(given.clone());
     assert_eq!(cases, given);
     assert!(failures.is_empty() && unchecked.is_empty());
 }
@@ -49,7 +42,7 @@ fn epochs_need_no_order_and_come_out_as_they_came_in() {
 #[test]
 fn a_scene_without_its_first_epoch_is_left_out_and_one_without_another_is_named() {
     let given = [epochs("a", &[1, 2]), epochs("b", &[0, 2]), epochs("c", &[0, 1, 2])].concat();
-    let Cases { cases, unchecked, missing, .. } = joined(given);
+    let (cases, Joined { unchecked, missing, .. }) = joined(given);
     assert!(cases.len() == 5 && cases.iter().all(|epoch| epoch.scene != "a"));
     assert_eq!(unchecked, ["a: epoch 0 is not measured; epoch 0 checks the answers, so the scene is left out."]);
     assert_eq!(missing, ["b: epoch 1 is not measured."]);
@@ -60,12 +53,12 @@ fn what_the_first_epoch_found_wrong_has_no_time_anywhere() {
     let mut given = epochs("a", &[1, 0]);
     let wrong = &mut given[1].structures[0].rays[0];
     (wrong.untimed, wrong.wrong, wrong.ns) = (Some("3 wrong answers to 9 rays".into()), true, vec![]);
-    let Cases { cases, .. } = joined(given.clone());
+    let (cases, _) = joined(given.clone());
     let one = &cases[0].structures[0].rays[0];
     assert!(one.ns.is_empty() && one.wrong && one.untimed.as_deref() == Some("3 wrong answers to 9 rays"));
     assert_eq!(cases[0].structures[1], given[0].structures[1]);
     // A study that compares all or nothing leaves the scene out.
-    let Cases { cases, failures, .. } = joined_as(given, true);
+    let (cases, Joined { failures, .. }) = joined_as(given, true);
     assert!(cases.is_empty() && failures[0].is_wrong_answer(), "{failures:?}");
 }
 
@@ -79,7 +72,7 @@ fn structures_over_the_exact_test_that_answer_otherwise_are_a_wrong_answer() {
         let other = &mut given[0].structures[1];
         other.rays[0].counts.as_mut().unwrap().distances = 10;
         change(other);
-        joined(given).failures
+        joined(given).1.failures
     };
     let failures = with(["exact", "exact"], &|_| ());
     let sentence = failures[0].to_string();
@@ -101,7 +94,7 @@ fn structures_over_the_exact_test_that_answer_otherwise_are_a_wrong_answer() {
 fn what_is_refused_in_one_epoch_is_refused_in_all() {
     let mut given = epochs("a", &[0, 1, 2]);
     (given[1].structures[1].refused, given[1].structures[1].wrong) = (Some("it fell over".into()), true);
-    let Cases { cases, .. } = joined(given);
+    let (cases, _) = joined(given);
     assert!(cases.iter().all(|epoch| epoch.structures[1].refused.as_deref() == Some("it fell over")));
     assert!(cases.iter().all(|epoch| epoch.structures[1].wrong));
     assert!(cases.iter().all(|epoch| epoch.structures[0].refused.is_none()));
@@ -129,7 +122,7 @@ fn a_structure_of_others_that_answers_otherwise_takes_no_part() {
     let mut given = epochs("a", &[0, 1]);
     given.iter_mut().for_each(|epoch| epoch.structures[1].name = "embree".into());
     given[1].structures[1].rays[0].checksum = 2;
-    let Cases { cases, failures, .. } = joined(given);
+    let (cases, Joined { failures, .. }) = joined(given);
     assert!(failures.is_empty(), "{failures:?}");
     for epoch in cases {
         let refused: Vec<Option<&str>> = epoch.structures.iter().map(|s| s.refused.as_deref()).collect();
@@ -162,18 +155,18 @@ fn a_program_whose_clock_chose_otherwise_is_timed_on_the_rays_that_all_epochs_ha
         epoch.structures[1].rays[0].parts = parts(0);
         epoch
     };
-    let Cases { cases, failures, .. } = joined(vec![program(0, &[400, 100]), program(1, &[100, 25])]);
+    let (cases, Joined { failures, .. }) = joined(vec![program(0, &[400, 100]), program(1, &[100, 25])]);
     assert!(failures.is_empty());
     for epoch in &cases {
         let [one, other] = [0, 1].map(|place| &epoch.structures[place].rays[0]);
         assert_eq!((one.rays, &one.ns, one.parts.len()), (100, &vec![100], 0), "{one:?}");
         assert_eq!(other.parts.iter().map(|part| part.rays).collect::<Vec<_>>(), [100]);
     }
-    let Cases { cases, .. } = joined(vec![program(0, &[400, 100]), program(1, &[25, 6])]);
+    let (cases, _) = joined(vec![program(0, &[400, 100]), program(1, &[25, 6])]);
     assert!(cases.iter().all(|epoch| epoch.structures[0].refused.as_deref() == Some(UNSTEADY)));
     // Another checksum is another answer, on however many rays.
     let mut other = program(1, &[400, 100]);
     other.structures[0].rays[0].checksum = 2;
-    let Cases { cases, .. } = joined(vec![program(0, &[400, 100]), other]);
+    let (cases, _) = joined(vec![program(0, &[400, 100]), other]);
     assert!(cases.iter().all(|epoch| epoch.structures[0].refused.as_deref() == Some(CHANGED)));
 }

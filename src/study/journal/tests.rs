@@ -49,17 +49,6 @@ fn sentence(error: JournalError, parts: &[&str]) {
 }
 
 #[test]
-fn what_was_measured_is_there_when_opened_again_and_what_is_being_written_is_no_case() {
-    let folder = folder();
-    let path = journal(&folder, 3);
-    fs::write(path.join(".sahara-1234.part"), b"{\"schema\":4,\"ca").unwrap();
-    let again = open(&path).unwrap();
-    assert_eq!(files(&path).unwrap().len(), 3, "one file a case");
-    let is_there = |i| again.get(&case("Cube", i, &["x"])).is_some_and(|file| file.case.epoch == i);
-    assert_eq!([0, 1, 2, 3].map(is_there), [true, true, true, false]);
-}
-
-#[test]
 fn cases_of_other_settings_builds_and_machines_lie_side_by_side() {
     let folder = folder();
     let path = journal(&folder, 1);
@@ -80,19 +69,13 @@ fn cases_of_other_settings_builds_and_machines_lie_side_by_side() {
     assert_eq!(files(&path).unwrap().len(), 4, "nothing was thrown away");
     let host = Provenance { host: "elsewhere".into(), load: Some(9.0), ..provenance() };
     assert!(Journal::open(&path, host, false).unwrap().get(&own).is_some(), "another host goes on");
-}
-
-#[test]
-fn fresh_measures_again_and_the_newest_counts() {
-    let folder = folder();
-    let path = journal(&folder, 1);
-    let own = case("Cube", 0, &["x"]);
+    // What is measured again counts, in this run and the next.
     let mut fresh = Journal::open(&path, provenance(), true).unwrap();
     assert!(fresh.get(&own).is_none());
-    let second = measure(&mut fresh, &own, "2026-01-02");
-    assert_eq!(fresh.get(&own).map(|file| &file.path), Some(&second));
-    assert_eq!(open(&path).unwrap().get(&own).map(|file| &file.path), Some(&second), "and so it is for the next run");
-    assert_eq!(files(&path).unwrap().len(), 2);
+    let second = measure(&mut fresh, &own, "2026-01-04");
+    for journal in [fresh, open(&path).unwrap()] {
+        assert_eq!(journal.get(&own).map(|file| &file.path), Some(&second));
+    }
 }
 
 #[test]
@@ -108,24 +91,6 @@ fn names_of_files_are_plain_and_of_one_case_alone() {
     distinct.sort();
     distinct.dedup();
     assert_eq!(distinct.len(), names.len(), "{names:?}");
-}
-
-#[cfg(unix)]
-#[test]
-fn one_run_at_a_time_measures_and_others_may_look() {
-    let folder = folder();
-    let path = journal(&folder, 2);
-    let cases = [0, 1, 2].map(|i| case("Cube", i, &["x"]));
-    let run = |fresh: bool, cases: &[Case]| Journal::open_to_measure(&path, provenance(), fresh, cases);
-    let mut one = run(false, &cases[1..]).unwrap();
-    sentence(run(false, &cases[1..]).unwrap_err(), &["another run", "runs/compare", "when it has ended", "--dir"]);
-    sentence(run(true, &cases[..2]).unwrap_err(), &["another run"]);
-    // What measures nothing holds up nobody.
-    let look = run(false, &cases[..2]).unwrap();
-    measure(&mut one, &cases[2], "2026-01-02");
-    assert!(look.get(&cases[0]).is_some());
-    drop(one);
-    assert!(run(true, &cases).is_ok());
 }
 
 #[test]
@@ -148,18 +113,6 @@ fn what_is_no_case_or_damaged_is_named_and_left_alone() {
         assert_eq!(fs::read_to_string(&file).unwrap(), text);
     }
     sentence(open(&file).unwrap_err(), &["cannot write", "--dir"]);
-}
-
-#[test]
-fn what_was_interrupted_is_kept_beside_what_is_there() {
-    let folder = folder();
-    let path = journal(&folder, 2);
-    let kept = folder.path().join("unfinished/compare-1");
-    let journal = open(&path).unwrap();
-    journal.keep(&kept).unwrap();
-    journal.keep(&kept).unwrap();
-    assert_eq!(files(&kept).unwrap().len(), 2);
-    assert!(open(&kept).unwrap().get(&case("Cube", 1, &["x"])).is_some());
 }
 
 #[test]

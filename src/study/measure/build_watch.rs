@@ -20,19 +20,10 @@ impl BuildWatch {
     pub fn new(limit: Duration, on_limit: OnLimit) -> Self {
         let (sender, receiver) = channel::<Option<usize>>();
         thread::spawn(move || {
-            let mut building: Option<usize> = None;
-            loop {
-                let next = match building {
-                    None => receiver.recv().map_err(|_| RecvTimeoutError::Disconnected),
-                    Some(_) => receiver.recv_timeout(limit),
-                };
-                match (next, building) {
-                    (Ok(structure), _) => building = structure,
-                    (Err(RecvTimeoutError::Timeout), Some(structure)) => {
-                        on_limit(structure);
-                        building = None;
-                    }
-                    _ => return,
+            while let Ok(told) = receiver.recv() {
+                let Some(structure) = told else { continue };
+                if receiver.recv_timeout(limit) == Err(RecvTimeoutError::Timeout) {
+                    on_limit(structure);
                 }
             }
         });

@@ -1,10 +1,9 @@
 use std::sync::Arc;
 
-use crate::accel::{DynAccel, Remote};
+use crate::accel::{BuildError, DynAccel, Remote};
 use crate::measure::{Clock, CpuClock, Threads, median, peak_bytes};
 use crate::registry::Choice;
 use crate::scene::Scene;
-use crate::study::StudyError;
 
 /// A finished structure, and how long it took.
 pub struct Built {
@@ -20,21 +19,21 @@ pub struct Built {
 const SHORT_BUILD_NS: u64 = 20_000_000;
 
 /// One build, timed.
-type Build = fn(&Choice, &Scene, &Threads, &dyn Clock) -> Result<Built, StudyError>;
+type Build = fn(&Choice, &Scene, &Threads, &dyn Clock) -> Result<Built, BuildError>;
 
 impl Built {
     /// Builds once, or three times when that takes no time.
-    pub fn new(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, StudyError> {
+    pub fn new(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, BuildError> {
         Self::once(choice, scene, threads, clock)?.again(scene, threads, clock, Self::once)
     }
 
     /// Likewise, and counts what the first build holds, which takes it less time than builds differ by.
-    pub fn counted(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, StudyError> {
+    pub fn counted(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, BuildError> {
         Self::once_counted(choice, scene, threads, clock)?.again(scene, threads, clock, Self::once_counted)
     }
 
     /// Builds of which nothing is known yet of what they hold are `unseen`: what another thread gives back meanwhile may hide that of one.
-    fn again(self, scene: &Scene, threads: &Threads, clock: &dyn Clock, unseen: Build) -> Result<Self, StudyError> {
+    fn again(self, scene: &Scene, threads: &Threads, clock: &dyn Clock, unseen: Build) -> Result<Self, BuildError> {
         let mut times = vec![self.build_ns as f64];
         let mut last = self;
         while last.build_ns <= SHORT_BUILD_NS && times.len() < 3 {
@@ -48,14 +47,14 @@ impl Built {
     }
 
     /// What is less than the structure itself was not seen: its memory is C++'s, or another process's.
-    fn once_counted(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, StudyError> {
+    fn once_counted(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, BuildError> {
         let (built, peak) = peak_bytes(|| Self::once(choice, scene, threads, clock));
         let built = built?;
         let is_seen = |peak: &usize| built.accel.remote().is_none() && *peak >= built.accel.footprint().total();
         Ok(Self { peak_bytes: peak.filter(is_seen), ..built })
     }
 
-    fn once(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, StudyError> {
+    fn once(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, BuildError> {
         let mesh = Arc::clone(&scene.mesh);
         // As for rays: what others take of the core of a single thread is no time of the build.
         let own = CpuClock::of_process(threads);
@@ -63,7 +62,7 @@ impl Built {
         let start = clock.now_ns();
         let accel = threads.install(|| choice.build(&mesh));
         let build_ns = clock.now_ns() - start;
-        let accel = accel.map_err(StudyError::of_build(&choice.label, &scene.name))?;
+        let accel = accel?;
         let build_ns = accel.remote().map_or(build_ns, Remote::build_ns);
         Ok(Self { choice: choice.clone(), accel, build_ns, peak_bytes: None })
     }

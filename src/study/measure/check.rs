@@ -57,9 +57,6 @@ const PILOT: usize = 8;
 impl Checks<'_> {
     /// Holds every structure against brute force with its own triangle test, on rays of each workload that are evenly
     /// spread. One row for each structure, one check for each workload; nothing for a structure that panicked.
-    ///
-    /// # Errors
-    /// If brute force cannot be built.
     pub fn all<'b>(
         &self,
         built: impl IntoIterator<Item = &'b Built>,
@@ -70,7 +67,7 @@ impl Checks<'_> {
         let mut all: BTreeMap<&'static str, Known> = BTreeMap::new();
         let mut checks = vec![];
         for own in &built {
-            progress(Stage::Check(&own.choice.label));
+            progress(Stage::Check((&own.choice.label).into()));
             let test = own.choice.triangle_test();
             if !all.contains_key(test) {
                 let reference = Reference::of_test(test, &self.scene.mesh);

@@ -18,7 +18,7 @@ mod timing;
 use super::case::{Case, Check};
 use super::epoch::{Epoch, RayCounts, Rays, Shape, Structure};
 use super::{Stage, StudyError};
-use crate::accel::{DynAccel, Remote};
+use crate::accel::{BuildError, DynAccel, Remote};
 use crate::measure::{Clock, Plan, Threads, spread};
 use crate::oracle::Oracle;
 use crate::registry::{Choice, Registry};
@@ -136,38 +136,24 @@ impl<'a> Bench<'a> {
         let mut structures: Vec<Structure> = vec![];
         let mut built: Vec<Option<Built>> = vec![];
         for ((choice, request), ready) in choices.iter().zip(&case.structures).zip(placed.built.drain(..)) {
-            let none = Structure {
+            let mut structure = Structure {
                 label: choice.label.clone(),
                 role: request.role.clone(),
                 name: choice.entry.name.clone(),
                 config: choice.config.clone(),
                 triangle_test: choice.triangle_test().into(),
-                refused: None,
-                wrong: false,
-                build_ns: 0,
-                build_peak_bytes: None,
-                outside: None,
-                shape: Shape::default(),
-                rays: vec![],
+                ..Structure::default()
             };
-            match ready {
+            match &ready {
                 Ok(one) => {
                     let accel = one.accel.as_ref();
-                    let shape = Shape { bytes: accel.footprint().total(), ..Shape::from(&accel.shape()) };
-                    let (build_ns, build_peak_bytes) = (one.build_ns, one.peak_bytes);
-                    structures.push(Structure { build_ns, build_peak_bytes, shape, ..none });
-                    built.push(Some(one));
+                    structure.shape = Shape { bytes: accel.footprint().total(), ..Shape::from(&accel.shape()) };
+                    (structure.build_ns, structure.build_peak_bytes) = (one.build_ns, one.peak_bytes);
                 }
-                Err(StudyError::Build { cause, .. }) => {
-                    structures.push(Structure { refused: Some(cause.to_string()), ..none });
-                    built.push(None);
-                }
-                Err(StudyError::Skipped { reason }) => {
-                    structures.push(Structure { refused: Some(reason), ..none });
-                    built.push(None);
-                }
-                Err(other) => return Err(other),
+                Err(reason) => structure.refused = Some(reason.clone()),
             }
+            structures.push(structure);
+            built.push(ready.ok());
         }
 
         // Rays that start on a surface start where the guide finds it.
@@ -175,11 +161,12 @@ impl<'a> Bench<'a> {
         let guide = match built.iter().flatten().find(|built| built.choice.label == prepared.guide.label) {
             Some(built) => built.accel.as_ref(),
             None => {
-                own = Built::new(&prepared.guide, scene, threads, clock)?;
+                let refused = StudyError::of_build(&prepared.guide.label, &scene.name);
+                own = Built::new(&prepared.guide, scene, threads, clock).map_err(refused)?;
                 own.accel.as_ref()
             }
         };
-        let mut told = |kind: &str| progress(Stage::Rays(kind));
+        let mut told = |kind: &str| progress(Stage::Rays(kind.into()));
         let workloads = case.workloads.workloads(scene, case.settings.seed, guide, &mut told);
         let workloads = workloads.map_err(|cause| StudyError::Rays(format!("{cause:#}")))?;
         let hashes: Vec<String> = workloads.iter().map(Workload::hash).collect();
@@ -223,7 +210,7 @@ impl<'a> Bench<'a> {
     /// Counts the errors of all structures against the exact oracle. A structure that declines some of the rays is
     /// refused: its rate would be of other rays.
     fn judge(&mut self, progress: &mut dyn FnMut(Stage)) {
-        progress(Stage::Rays("the exact answers to all"));
+        progress(Stage::Rays("the exact answers to all".into()));
         let oracle = Oracle::new(&self.prepared.scene.mesh);
         let budget_ns = self.case.settings.budget_ns.unwrap_or(u64::MAX / 2);
         let pairs = Pair::all(self.structures.len(), self.workloads.len());
@@ -232,11 +219,11 @@ impl<'a> Bench<'a> {
         let judges: Vec<Judge> = self.workloads.iter().map(|workload| Judge::new(&workload.rays, &oracle)).collect();
         for (place, structure) in self.structures.iter_mut().enumerate() {
             let Some(built) = &self.built[place] else { continue };
-            if let Some(declined) = structure.rays.iter().find_map(|rays| rays.declined.as_deref()) {
-                structure.refused = Some(crate::accel::BuildError::Declined(declined_word(declined)).to_string());
+            if let Some(what) = self.workloads.iter().find_map(|workload| declined(built.accel.as_ref(), workload)) {
+                structure.refused = Some(BuildError::Declined(what).to_string());
                 continue;
             }
-            progress(Stage::Check(&structure.label));
+            progress(Stage::Check((&structure.label).into()));
             let costs = &costs[place * judges.len()..][..judges.len()];
             let judged = guarded(|| {
                 let judge =
@@ -339,11 +326,6 @@ impl<'a> Bench<'a> {
     }
 }
 
-/// The words of a declined capability, which are known at compile time.
-fn declined_word(word: &str) -> &'static str {
-    ["any hit", "t_min", "t_max"].into_iter().find(|known| *known == word).unwrap_or("these rays")
-}
-
 /// A structure on a workload before it is checked and timed.
 fn untimed(built: &Built, workload: &Workload, hash: &str) -> Rays {
     let declined = declined(built.accel.as_ref(), workload);
@@ -352,17 +334,9 @@ fn untimed(built: &Built, workload: &Workload, hash: &str) -> Rays {
         hash: hash.into(),
         query: workload.query,
         all: workload.rays.len(),
-        rays: 0,
-        checksum: 0,
-        ns: vec![],
-        parts: vec![],
         untimed: declined.map(|what| format!("declined: it has no {what}")),
-        wrong: false,
         declined: declined.map(String::from),
-        checked: None,
-        counts: None,
-        errors: None,
-        slowest_ns: None,
+        ..Rays::default()
     }
 }
 

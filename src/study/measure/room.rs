@@ -12,9 +12,6 @@ const BYTES: u64 = 100;
 
 /// Refuses what the system would end in the middle, when the last structures are built: all of an epoch are held at
 /// once, for they take turns.
-///
-/// # Errors
-/// If the structures need more than the machine has, about.
 pub fn fits(choices: &[Choice], scene: &Scene) -> Result<(), StudyError> {
     let structures = choices.len();
     // A twin is built beside those that are named.
@@ -60,7 +57,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn as_many_structures_as_fit_are_measured() {
+    fn as_many_structures_as_fit_are_measured_and_a_refusal_says_how_many() {
         let there = Some(24_500_000_000);
         assert_eq!(fits_into(there, 14, 10_000_000), Ok(()));
         assert_eq!(fits_into(there, 24, 10_000_000), Ok(()));
@@ -68,10 +65,7 @@ mod tests {
         assert_eq!(fits_into(there, 38, 10_000_000), Err(too_many));
         assert_eq!(fits_into(there, 38, 100_000), Ok(()));
         assert_eq!(fits_into(None, 1000, 1 << 30), Ok(()), "nothing is refused where nothing is known");
-    }
 
-    #[test]
-    fn a_refusal_says_how_many_structures_may_be_named() {
         let refusal = |most| StudyError::Memory { scene: "A".into(), structures: 9, needed: 27.0, there: 25.0, most };
         let numbers = "A: 9 structures at once need about 27 GB, and there are 25 GB of memory: name ";
         let said = [0, 1, 7].map(|most| refusal(most).to_string());

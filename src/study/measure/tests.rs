@@ -1,7 +1,7 @@
 //! Structures with planted faults, measured.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::{Deserialize, Serialize};
 
@@ -14,14 +14,13 @@ use crate::registry::Registry;
 use crate::request::{SceneRequest, ViewArgs, WorkloadRequest, scene, with_twin};
 use crate::scene::WorkloadKind;
 use crate::study::case::tests::example;
-use crate::study::measurement::{Measurement, measurements, refused};
+use crate::study::measurement::{Measurement, measurements};
 use crate::study::{Dataset, Joined, Measured, Status, join};
 use crate::triangle::{MollerTrumbore, TriangleTest};
 
 pub struct Flawed {
     inner: BruteForce<MollerTrumbore>,
     flaw: Flaw,
-    queries: AtomicUsize,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -31,8 +30,6 @@ pub enum Flaw {
     None,
     /// Loses the hits of about every second ray, always the same.
     Lossy,
-    /// Loses the hit of every 13th query.
-    Fickle,
     /// Loses all hits once [`HAS_TURNED`] is set.
     Turning,
     /// Panics on every ray.
@@ -58,7 +55,6 @@ impl Flawed {
             Flaw::Turning => HAS_TURNED.load(Ordering::Relaxed),
             Flaw::Panicking => panic!("a traversal panics"),
             Flaw::Lossy => ray.direction.x.to_bits() & 1 == 0,
-            Flaw::Fickle => self.queries.fetch_add(1, Ordering::Relaxed).is_multiple_of(13),
         }
     }
 }
@@ -77,7 +73,7 @@ impl Accel for Flawed {
         };
         assert!(!panics || mesh.is_empty(), "a builder panics");
         let inner = Accel::build(mesh, &Default::default())?;
-        Ok(Self { inner, flaw: config.flaw, queries: AtomicUsize::new(0) })
+        Ok(Self { inner, flaw: config.flaw })
     }
 
     fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
@@ -166,19 +162,6 @@ fn a_wrong_structure_has_errors_and_no_time() {
     assert!(!wrong.is_empty() && wrong.iter().all(|r| r.label == "flawed:flaw=lossy"));
     assert!(wrong.iter().all(|r| r.trace_ns.is_none() && r.mrays_per_s.is_none() && r.samples_ns.is_empty()));
     assert!(right.iter().any(|r| r.label == "brute-force" && r.trace_ns.is_some()));
-}
-
-#[test]
-fn a_structure_that_changes_its_mind_is_no_measurement() {
-    match run(&["flawed:flaw=fickle"]) {
-        // Answers of two epochs may differ, or those of two rounds, or the check finds it first.
-        Err(error) => assert!(error.is_wrong_answer(), "{error}"),
-        Ok(dataset) => {
-            let (all, refused) = (measurements(&dataset), refused(&dataset));
-            assert!(all.first().is_none_or(Measurement::is_disqualified), "{all:?}");
-            assert!(!all.is_empty() || refused.iter().any(|refused| refused.wrong), "{refused:?}");
-        }
-    }
 }
 
 #[test]

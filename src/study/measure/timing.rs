@@ -55,9 +55,6 @@ impl Timing<'_> {
     ///
     /// What a ray costs a program is not known: its own clock may allot it fewer rays, in another epoch other ones. So it is timed, and
     /// with it all others of its workload, on the next level as well: epochs have rays in common then.
-    ///
-    /// # Panics
-    /// If a structure is picked that could not be built.
     pub fn take(
         &self,
         allotted: &Allotted,

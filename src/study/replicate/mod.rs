@@ -14,7 +14,7 @@ use std::ffi::OsString;
 
 use clap::{ArgMatches, Args as _, Command, FromArgMatches as _};
 
-use super::{Check, Dataset, Plan, PlannedScene, Presets, Settings, Study, claims};
+use super::{Dataset, Plan, PlannedScene, Presets, Settings, Study, claims};
 use crate::registry::Registry;
 use crate::report::{Block, Report};
 use crate::request::{BRUTE_FORCE, Measuring, REPORT_TREE, SAH_TREE, Scenes, StructureRequest, TWIN, WorkloadRequest};
@@ -49,18 +49,8 @@ fn options() -> Command {
 
 fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     let ReplicateArgs { measuring } = ReplicateArgs::from_arg_matches(matches)?;
-    let settings = Settings {
-        runs: measuring.runs.into(),
-        budget_ns: measuring.budget.ns(),
-        slowest: None,
-        check: Check::default(),
-        build_limit_s: None,
-        whole_counts: vec![],
-        whole: true,
-        guide: registry.choose(GUIDE)?.label,
-        seed: measuring.seed,
-        threads: measuring.threads.into(),
-    };
+    let guide = registry.choose(GUIDE)?.label;
+    let settings = Settings { whole: true, guide, ..Settings::new(&measuring, registry)? };
     let rows: Vec<&Row> = MAIN.iter().chain(&HARD).collect();
     let scenes = Scenes::default().read(registry, &rows.iter().map(|row| row.scene).collect::<Vec<_>>())?;
     let planned = |(own, row): (&(OsString, Scene), &&Row)| {

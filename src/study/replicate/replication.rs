@@ -78,7 +78,7 @@ impl Replicated {
     fn of(epochs: &[&Epoch], report: &'static Row) -> Self {
         let first = epochs[0];
         let tree = if report.is_hard() { TREE.into() } else { DEFAULT.role() };
-        let all = WholeTimes::new(epochs);
+        let all = WholeTimes { epochs };
         let log_aa_ratios = all.log_ratios(&tree, TWIN);
         let noise = AaNoise::new(std::slice::from_ref(&log_aa_ratios));
         let of = |structure: &Structure| Times::of(structure, epochs, all.seconds(&structure.role, &noise));

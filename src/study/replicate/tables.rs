@@ -161,7 +161,8 @@ pub fn data<'a>(all: impl Iterator<Item = &'a Replicated> + Clone) -> Table {
         let seconds = |own: &Replicated| own.times(&setting.role()).map(|times| times.seconds).into();
         add(format!("seconds_{}_{}", setting.leaf, setting.threshold), &seconds);
     }
-    let of: [(&str, fn(&Replicated) -> Option<&Times>); 3] =
+    type Of = fn(&Replicated) -> Option<&Times>;
+    let of: [(&str, Of); 3] =
         [("tree", Replicated::tree), ("brute_force", |own| own.times(BRUTE)), ("sah", |own| own.times(SAH))];
     for (name, of) in of {
         add(format!("{name}_seconds"), &|own| of(own).map(|times| times.seconds).into());
