@@ -182,16 +182,3 @@ fn a_build_that_takes_too_long_is_refused_and_the_others_are_measured() {
     assert_eq!(output.status.code(), Some(5), "{said}");
     assert!(said.contains("refused") && said.contains("--build-limit"), "{said}");
 }
-
-#[test]
-fn what_went_is_told_where_its_worth_is_now() {
-    for (words, parts) in [
-        (&["study", "counts"][..], &["counts went", "compare --wide"][..]),
-        (&["study", "predictions"], &["predictions went", "study all"]),
-        (&["bench"], &["bench went", "--fail-on-regression"]),
-        (&["compare", "cube", "--save-baseline", "x"], &["--save-baseline went", "--export-json"]),
-        (&["compare", "cube", "--baseline=x"], &["--baseline went", "sahara diff"]),
-    ] {
-        refuses(words, parts);
-    }
-}
