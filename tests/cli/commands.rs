@@ -19,11 +19,6 @@ fn messages_that_cannot_be_written_end_no_run() {
 }
 
 #[test]
-fn golden_images_are_held_once_against_a_scene_named_twice() {
-    assert_eq!(prints(&["golden", "check", "cube", "Cube"]).lines().count(), 1);
-}
-
-#[test]
 fn what_is_not_known_is_refused_with_what_is() {
     refuses_in_a_line(&["compare", "sponsa"], &["sponsa", "did you mean Sponza", "Cube", "Lucy"]);
     refuses_in_a_line(&["compare", "cube", "--structure", "octree"], &["octree", "median-kd", "obvhs-bvh2"]);
@@ -60,6 +55,10 @@ fn what_is_not_known_is_refused_with_what_is() {
     refuses(&["render", "cube", "-o", "x.png", "--view", "heta"], &["did you mean heat?"]);
     refuses_in_a_line(&["render", "cube", "-o", "x.jpg"], &["x.jpg", "PNG", ".png"]);
     refuses_in_a_line(&["compare", "cube", "--export-json", "-", "--export-csv", "-"], &["two results"]);
+    for command in ["compare", "study accuracy"] {
+        let twice = format!("{command} cube --export-json a.json --export-csv ./a.json");
+        refuses_in_a_line(&words(&twice), &["two results", "a.json"]);
+    }
     refuses_in_a_line(&["golden", "check", "my.toml"], &["my.toml", "built-in scenes alone"]);
     refuses_in_a_line(&["render", "cube", "-o", "x.png", "--hottest", "10"], &["--hottest", "--view heat"]);
     refuses(&["render", "cube", "-o", "x.png", "--view", "heat", "--hottest", "0"], &["--hottest", "0"]);

@@ -1,9 +1,14 @@
 //! Studies of several epochs from outside: what they keep, add and refuse.
 
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
 use tempfile::TempDir;
 
-use super::command::{prints, refuses};
-use super::journal::cases;
+use super::command::{RIGHT, command, prints, refused_in_a_line, refuses, stderr, words};
+use super::journal::{answers, cases};
 
 /// A study that takes no time, in a folder.
 fn small<'a>(study: &'a [&'a str], folder: &'a str) -> Vec<&'a str> {
@@ -32,7 +37,7 @@ fn a_study_goes_on_where_it_stopped_and_repeats_what_it_said() {
         prints(&two);
         assert_eq!(cases().len(), 2 * measured, "{study:?}");
         // A case that is removed is measured again.
-        std::fs::remove_file(&cases()[0]).unwrap();
+        fs::remove_file(&cases()[0]).unwrap();
         prints(&two);
         assert_eq!(cases().len(), 2 * measured, "{study:?}");
         // Other settings lie beside, and what is measured anew leaves the old one there.
@@ -52,5 +57,69 @@ fn what_is_wrong_is_said_before_anything_is_measured() {
     refuses(&["compare", "cube", "-s", "sah-kd:leef=3", "--dir", dir], &["leef"]);
     refuses(&["study", "attribution", "cube", "--epochs", "0", "--dir", dir], &["0"]);
     refuses(&["compare", "icosphere:99", "--dir", dir], &["icosphere:99", "0 to 10"]);
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "nothing was begun");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "nothing was begun");
+}
+
+/// A study of seconds, of twelve epochs, into the folder `dir`.
+fn study(dir: &Path) -> Command {
+    let mut command = command(&words("study attribution cube --rays 64 --runs 1 --budget 1 --epochs 12 --quiet --dir"));
+    command.arg(dir).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+#[track_caller]
+fn finish(dir: &Path) {
+    let output = study(dir).output().expect("the command runs");
+    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
+}
+
+/// Kills it as `kill -9` does, as soon as the journal has `wanted` cases.
+fn kill_at(mut child: Child, dir: &Path, wanted: usize) {
+    let start = Instant::now();
+    while cases(dir, "attribution").len() < wanted {
+        assert!(child.try_wait().unwrap().is_none(), "it ended before it could be killed");
+        assert!(start.elapsed() < Duration::from_secs(600), "it measures nothing");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    child.kill().unwrap();
+    assert!(!child.wait().unwrap().success());
+}
+
+#[test]
+fn a_killed_study_ends_as_one_that_was_left_alone() {
+    let folder = TempDir::new().unwrap();
+    let (alone, killed) = (folder.path().join("alone"), folder.path().join("killed"));
+    finish(&alone);
+
+    // Once with a case, and once with another one.
+    kill_at(study(&killed).spawn().unwrap(), &killed, 1);
+    kill_at(study(&killed).spawn().unwrap(), &killed, 2);
+    // As if the power had failed while a case was written.
+    fs::write(killed.join("attribution/.sahara-1234.part"), "{\"schema\":4,\"pr").unwrap();
+    let before = cases(&killed, "attribution").len();
+
+    finish(&killed);
+    assert!(before < cases(&killed, "attribution").len());
+    assert_eq!(answers(&alone, "attribution").len(), 12);
+    assert_eq!(answers(&killed, "attribution"), answers(&alone, "attribution"));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_run_is_refused_while_another_one_measures_into_its_folder() {
+    let folder = TempDir::new().unwrap();
+    let journal = folder.path().join("attribution");
+    fs::create_dir(&journal).unwrap();
+    // As another run holds it.
+    let lock = fs::File::open(&journal).unwrap();
+    lock.lock().unwrap();
+    let second = study(folder.path()).output().unwrap();
+    refused_in_a_line(&second, &["another run is measuring into", "attribution", "--dir"]);
+    assert!(cases(folder.path(), "attribution").is_empty());
+
+    lock.unlock().unwrap();
+    finish(folder.path());
+    // With nothing left to measure it shows what there is.
+    lock.lock().unwrap();
+    finish(folder.path());
 }

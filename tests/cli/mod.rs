@@ -18,9 +18,7 @@ mod output;
 mod plan;
 mod processes;
 mod rays;
-mod render;
 mod report;
-mod resume;
 #[cfg(unix)]
 mod runner;
 mod study;
