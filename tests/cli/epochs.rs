@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
-use super::command::{RIGHT, command, prints, refused_in_a_line, refuses, stderr, words};
+use super::command::{RIGHT, command, prints, refuses, stderr, words};
 use super::journal::{answers, cases};
 
 /// A study that takes no time, in a folder.
@@ -102,24 +102,4 @@ fn a_killed_study_ends_as_one_that_was_left_alone() {
     assert!(before < cases(&killed, "attribution").len());
     assert_eq!(answers(&alone, "attribution").len(), 12);
     assert_eq!(answers(&killed, "attribution"), answers(&alone, "attribution"));
-}
-
-#[cfg(unix)]
-#[test]
-fn a_run_is_refused_while_another_one_measures_into_its_folder() {
-    let folder = TempDir::new().unwrap();
-    let journal = folder.path().join("attribution");
-    fs::create_dir(&journal).unwrap();
-    // As another run holds it.
-    let lock = fs::File::open(&journal).unwrap();
-    lock.lock().unwrap();
-    let second = study(folder.path()).output().unwrap();
-    refused_in_a_line(&second, &["another run is measuring into", "attribution", "--dir"]);
-    assert!(cases(folder.path(), "attribution").is_empty());
-
-    lock.unlock().unwrap();
-    finish(folder.path());
-    // With nothing left to measure it shows what there is.
-    lock.lock().unwrap();
-    finish(folder.path());
 }
