@@ -9,14 +9,11 @@ mod gate;
 mod input;
 #[cfg(target_os = "linux")]
 mod interrupted;
-mod job;
 mod journal;
-mod large;
 #[cfg(target_os = "linux")]
 mod names;
 mod output;
 mod plan;
-mod processes;
 mod rays;
 mod report;
 #[cfg(unix)]
