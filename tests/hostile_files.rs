@@ -226,11 +226,9 @@ fn gltf_files() -> Vec<(Files, [&'static str; 2])> {
 fn ray_files() -> Vec<(Files, [&'static str; 2])> {
     let head = |magic: &[u8], count: u64| [magic, &[1, 0, 0, 0, 0, 0, 0, 0], &count.to_le_bytes(), &[0; 48]].concat();
     vec![
-        (vec![("a.rays", vec![])], ["a.rays", "does not begin with"]),
         (vec![("a.rays", head(b"SAHARAYS", 0))], ["a.rays", "the first item begins at byte 96"]),
         (vec![("a.rays", head(b"SAHARAYS", u64::MAX))], ["a.rays", "cut short"]),
         (vec![("a.rays", [head(b"SAHARAYS", 1 << 59), vec![0; 99]].concat())], ["a.rays", "cut short"]),
-        (vec![("a.hits", head(b"SAHAHITS", 0))], ["a.hits", "40 bytes follow"]),
         (vec![("a.hits", head(b"SAHAHITS", u64::MAX))], ["a.hits", "cut short"]),
     ]
 }

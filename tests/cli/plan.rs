@@ -1,7 +1,6 @@
 //! `study plan`: jobs that need each other in nothing, one file each, what they measure, and what becomes of them.
 
 use std::fs;
-use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
@@ -10,7 +9,7 @@ use tempfile::TempDir;
 use super::command::{
     RIGHT, SQUARE, command, json, prints, refused_in_a_line, refuses, refuses_in_a_line, sahara, stderr, stdout, write,
 };
-use super::journal::{answers, cases};
+use super::journal::answers;
 
 /// A study of seconds.
 const SMALL: [&str; 9] = ["attribution", "--rays", "64", "--runs", "1", "--budget", "1", "--epochs", "2"];
@@ -90,22 +89,32 @@ fn a_plan_is_one_command_a_case_with_a_file_of_its_own() {
 
 #[test]
 fn what_cannot_be_planned_is_one_sentence() {
-    refuses_in_a_line(&["study", "plan", "attributoin"], &["attributoin"]);
-    refuses_in_a_line(&["study", "plan", "all", "attributoin", "--quick"], &["attributoin"]);
-    refuses_in_a_line(&["study", "plan", "attribution", "--scenes", "cub"], &["cub", "Cube"]);
-    refuses_in_a_line(&["study", "plan", "attribution", "scaling", "--scenes"], &["--scenes SCENE"]);
-    refuses(&["study", "plan", "attribution", "--quick", "--epoch", "3"], &["--epoch"]);
+    let plan = |line: &'static str| [&["study", "plan"], &line.split(' ').collect::<Vec<_>>()[..]].concat();
     // An option that is given twice, wherever it stands; one of them may be of the preset.
     let twice = "cannot be used multiple times";
-    let preset = "bring options of their own";
-    refuses(&["study", "plan", "attribution", "--quick", "--epochs", "3"], &["--epochs", twice, "attribution", preset]);
-    refuses(&["study", "plan", "--no-such-option", "64"], &["--no-such-option", preset]);
-    refuses(&["study", "plan", "compare", "--dir", "a", "--dir", "b"], &["--dir", twice]);
-    for line in ["--dir a compare scaling --dir=b", "compare scaling --dir a --dir b"] {
-        let options: Vec<&str> = line.split(' ').collect();
-        refuses_in_a_line(&[&["study", "plan"], &options[..]].concat(), &["--dir", twice]);
+    for (line, parts) in [
+        ("attributoin", &["attributoin"][..]),
+        ("all attributoin --quick", &["attributoin"]),
+        ("attribution --scenes cub", &["cub", "Cube"]),
+        ("attribution scaling --scenes", &["--scenes SCENE"]),
+        ("--dir a compare scaling --dir=b", &["--dir", twice]),
+        ("compare scaling --dir a --dir b", &["--dir", twice]),
+        ("compare --rays 64 --quick --quick", &["--quick", twice]),
+        // What writes what came of a study.
+        ("attribution --rays 64 --export-json x.json", &["--", "once all jobs are done"]),
+        ("attribution --rays 64 --export-csv=x.csv", &["--", "once all jobs are done"]),
+        ("attribution --rays 64 --plot x.svg", &["--", "once all jobs are done"]),
+        ("attribution --scenes cube --plot x.svg", &["--plot", "once all jobs are done"]),
+        // A job that finds its case measures nothing, whatever is asked.
+        ("attribution --rays 64 --fresh", &["--fresh", "--dir"]),
+    ] {
+        refuses_in_a_line(&plan(line), parts);
     }
-    refuses_in_a_line(&["study", "plan", "compare", "--rays", "64", "--quick", "--quick"], &["--quick", twice]);
+    let preset = "bring options of their own";
+    refuses(&plan("attribution --quick --epoch 3"), &["--epoch"]);
+    refuses(&plan("attribution --quick --epochs 3"), &["--epochs", twice, "attribution", preset]);
+    refuses(&plan("--no-such-option 64"), &["--no-such-option", preset]);
+    refuses(&plan("compare --dir a --dir b"), &["--dir", twice]);
 }
 
 #[test]
@@ -159,17 +168,6 @@ fn a_report_shows_the_newest_of_each_scene_and_names_what_else_there_is() {
     assert!(told.contains("not measured") && told.contains("1 of 5 jobs of ") && told.contains("epoch-9"), "{told}");
     let csv = fs::read_to_string(page.join("data/compare.csv")).unwrap();
     assert!(csv.lines().count() == 5, "{csv}");
-}
-
-#[test]
-fn a_plan_takes_no_option_that_writes_what_came_of_a_study() {
-    for option in [&["--export-json", "x.json"][..], &["--export-csv=x.csv"], &["--plot", "x.svg"]] {
-        refuses_in_a_line(&[&["study", "plan"], &SMALL[..], option].concat(), &["--", "once all jobs are done"]);
-    }
-    let after_scenes = ["study", "plan", "attribution", "--scenes", "cube", "--plot", "x.svg"];
-    refuses_in_a_line(&after_scenes, &["--plot", "once all jobs are done"]);
-    // A job that finds its case measures nothing, whatever is asked.
-    refuses_in_a_line(&[&["study", "plan"], &SMALL[..], &["--fresh"]].concat(), &["--fresh", "--dir"]);
 }
 
 #[test]
@@ -232,20 +230,6 @@ fn of_two_jobs_at_one_file_one_wins_and_both_are_content() {
     assert_eq!(both.iter().filter(is_other).count(), 1, "{both:?}");
     assert_eq!(fs::read_dir(folder.path().join("attribution")).unwrap().count(), 1);
     assert_eq!(json(file(&lines[0]))["case"]["study"], "attribution");
-}
-
-#[test]
-fn a_job_that_is_killed_leaves_no_result() {
-    let folder = TempDir::new().unwrap();
-    let lines = plan(folder.path(), &[&SMALL[..], &["--scenes", "sphere"]].concat());
-    let mut child = job(&lines[0]).spawn().unwrap();
-    let mut said = String::new();
-    BufReader::new(child.stderr.take().unwrap()).read_line(&mut said).unwrap();
-    assert!(said.starts_with("measures "), "{said}");
-    child.kill().unwrap();
-    child.wait().unwrap();
-    assert!(cases(folder.path(), "attribution").is_empty());
-    done(&lines[0]);
 }
 
 #[test]
