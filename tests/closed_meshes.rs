@@ -58,44 +58,32 @@ fn escapes<T: TriangleTest>(mesh: &Arc<Mesh>, rays: &[Ray]) -> usize {
     rays.par_iter().filter(|ray| tree.closest_hit(ray, &mut ()).is_none()).count()
 }
 
-fn assert_closed(name: &str, mesh: &Arc<Mesh>, origin: fn(&mut Sampler) -> Vec3) {
-    for aim in AIMS {
-        let rays = rays(mesh, aim, origin);
-        let leaks = [
-            (Watertight::NAME, escapes::<Watertight>(mesh, &rays)),
-            (MollerTrumboreF64::NAME, escapes::<MollerTrumboreF64>(mesh, &rays)),
-            (EdgeF64::NAME, escapes::<EdgeF64>(mesh, &rays)),
-            (Exact::NAME, escapes::<Exact>(mesh, &rays)),
-        ];
-        for (test, leaks) in leaks {
-            assert_eq!(leaks, 0, "{name}, {aim:?}: rays that escape through {test}, of {}", rays.len());
+/// Where a ray starts.
+type Origin = fn(&mut Sampler) -> Vec3;
+
+/// The vertices of the cube, origins in it and so edges are on a grid of eighths: rays meet vertices, edges and planes of
+/// faces exactly.
+#[test]
+#[ignore = "millions of rays"]
+fn no_ray_escapes_from_a_sphere_a_cube_or_a_star() {
+    let model = icosphere(4);
+    let sphere = Arc::new(Mesh::new(model.positions, model.triangles).expect("finite"));
+    let [cube, star] = ["cube_axis_aligned", "closed_random"]
+        .map(|name| hard_cases::find(name).expect("a case of the catalogue").set(1).expect("the case has rays").mesh);
+    let eighths = |sampler: &mut Sampler| Vec3::from_array([(); 3].map(|()| (sampler.below(15) as f32 - 7.0) / 8.0));
+    let anywhere = |sampler: &mut Sampler| sampler.cube() * 0.5;
+    let meshes: [(_, _, Origin); 3] = [("sphere", sphere, anywhere), ("cube", cube, eighths), ("star", star, anywhere)];
+    for (name, mesh, origin) in &meshes {
+        for aim in AIMS {
+            let rays = rays(mesh, aim, origin);
+            for (test, leaks) in [
+                (Watertight::NAME, escapes::<Watertight>(mesh, &rays)),
+                (MollerTrumboreF64::NAME, escapes::<MollerTrumboreF64>(mesh, &rays)),
+                (EdgeF64::NAME, escapes::<EdgeF64>(mesh, &rays)),
+                (Exact::NAME, escapes::<Exact>(mesh, &rays)),
+            ] {
+                assert_eq!(leaks, 0, "{name}, {aim:?}: rays that escape through {test}, of {}", rays.len());
+            }
         }
     }
-}
-
-#[test]
-#[ignore = "millions of rays"]
-fn no_ray_escapes_from_a_sphere() {
-    let model = icosphere(4);
-    let mesh = Arc::new(Mesh::new(model.positions, model.triangles).expect("finite"));
-    assert_closed("icosphere", &mesh, |sampler| sampler.cube() * 0.5);
-}
-
-/// Vertices, origins and so edges on a grid of eighths: rays meet vertices, edges and planes of faces exactly.
-#[test]
-#[ignore = "millions of rays"]
-fn no_ray_escapes_from_a_cube() {
-    let mesh = of_case("cube_axis_aligned");
-    let eighths = |sampler: &mut Sampler| Vec3::from_array([(); 3].map(|()| (sampler.below(15) as f32 - 7.0) / 8.0));
-    assert_closed("cube", &mesh, eighths);
-}
-
-#[test]
-#[ignore = "millions of rays"]
-fn no_ray_escapes_from_a_star() {
-    assert_closed("star", &of_case("closed_random"), |sampler| sampler.cube() * 0.5);
-}
-
-fn of_case(name: &str) -> Arc<Mesh> {
-    hard_cases::find(name).expect("a case of the catalogue").set(1).expect("the case has rays").mesh
 }

@@ -6,9 +6,17 @@ use std::sync::{Mutex, PoisonError};
 /// One cluster at a time.
 static CLUSTER: Mutex<()> = Mutex::new(());
 
-/// The plan on an engine, disturbed, and its result held against an undisturbed one.
+/// The plan on an engine, disturbed, and its result held against an undisturbed one; skipped where something is missing.
 #[track_caller]
-fn disturbed(engine: &str) {
+fn disturbed(engine: &str, with_slurm: bool, with_snakemake: bool) {
+    if with_slurm && std::env::var_os("SAHARA_SLURM").is_none_or(|wanted| wanted != "1") {
+        println!("skipped: SAHARA_SLURM=1 starts a cluster");
+        return;
+    }
+    if with_snakemake && Command::new("snakemake").arg("--version").output().is_err() {
+        println!("skipped: there is no snakemake on the path");
+        return;
+    }
     let _alone = CLUSTER.lock().unwrap_or_else(PoisonError::into_inner);
     let mut test = Command::new("python3");
     test.args(["benches/cluster/test/disturb.py", engine]).current_dir(env!("CARGO_MANIFEST_DIR"));
@@ -19,39 +27,18 @@ fn disturbed(engine: &str) {
     print!("{out}");
 }
 
-fn has_snakemake() -> bool {
-    Command::new("snakemake").arg("--version").output().is_ok()
-}
-
-/// Whether the tests that start a cluster are wanted.
-fn wants_slurm() -> bool {
-    std::env::var_os("SAHARA_SLURM").is_some_and(|wanted| wanted == "1")
-}
-
 #[test]
 #[ignore = "minutes: it measures a plan twice, job by job"]
 fn snakemake_on_this_machine() {
-    if !has_snakemake() {
-        println!("skipped: there is no snakemake on the path");
-        return;
-    }
-    disturbed("local");
+    disturbed("local", false, true);
 }
 
 #[test]
 fn snakemake_on_slurm() {
-    if !wants_slurm() || !has_snakemake() {
-        println!("skipped: SAHARA_SLURM=1, with a snakemake on the path, starts a cluster");
-        return;
-    }
-    disturbed("slurm");
+    disturbed("slurm", true, true);
 }
 
 #[test]
 fn a_job_array_of_slurm() {
-    if !wants_slurm() {
-        println!("skipped: SAHARA_SLURM=1 starts a cluster");
-        return;
-    }
-    disturbed("array");
+    disturbed("array", true, false);
 }

@@ -3,17 +3,16 @@
 use std::borrow::Cow;
 use std::fs;
 use std::path::Path;
-use std::sync::Arc;
 
 use sahara::accel::{Capabilities, Loaded};
 use sahara::brute_force::BruteForce;
 use sahara::bvh8::{Bvh8, Bvh8Config, Partition};
-use sahara::geometry::{Hit, Mesh, Ray};
+use sahara::geometry::{Hit, Ray};
 use sahara::kdtree::{KdConfig, KdTree};
 use sahara::registry::{Choice, Registry};
-use sahara::scene::{BUILTIN, Difficulty, Scene};
+use sahara::scene::{BUILTIN, Builtin, Difficulty, Scene};
 use sahara::triangle::MollerTrumbore;
-use sahara::validate::conformance::{Subject, answers, counting, shapes};
+use sahara::validate::conformance::{Named, Subject, answers, counting, shapes};
 use sahara::validate::{Stratum, degenerate_meshes};
 
 sahara::conformance!(brute_force, BruteForce<MollerTrumbore>, Default::default(), lowest_id);
@@ -76,58 +75,39 @@ pub fn passes(outcome: Result<(), String>) {
     }
 }
 
+/// The structures of `specs` answer rightly, `count` rays of each kind on each mesh.
+#[track_caller]
+fn are_right(specs: &[&str], meshes: &[Named], count: usize) {
+    let registry = Registry::builtin();
+    for spec in specs {
+        passes(answers(&subject(&registry.choose(spec).unwrap(), true), meshes, count));
+    }
+}
+
+/// The built-in scenes have real-world sizes and materials that split them.
 #[test]
-#[ignore = "half a minute; the default configurations are tested above"]
+#[ignore = "a minute and a half; the default configurations are tested above"]
 fn every_configuration_of_ours_is_right() {
-    let (registry, meshes) = (Registry::builtin(), degenerate_meshes());
+    let (registry, degenerate) = (Registry::builtin(), degenerate_meshes());
+    are_right(&OURS, &degenerate, 60);
     for spec in OURS {
-        let choice = registry.choose(spec).unwrap();
-        let subject = subject(&choice, true);
-        passes(answers(&subject, &meshes, 60));
-        passes(counting(&subject, &meshes, 10));
-        passes(shapes(&subject, &meshes));
+        let subject = subject(&registry.choose(spec).unwrap(), true);
+        passes(counting(&subject, &degenerate, 10));
+        passes(shapes(&subject, &degenerate));
     }
-}
-
-/// The built-in scenes, with real-world sizes and materials that split them.
-fn scenes(hard: bool) -> Vec<(String, Arc<Mesh>)> {
-    let wanted = BUILTIN.iter().filter(|builtin| (builtin.difficulty == Difficulty::Hard) == hard);
-    wanted.map(|b| (b.name.to_string(), b.scene(None).expect("a built-in scene is whole").mesh)).collect()
-}
-
-#[test]
-#[ignore = "half a minute"]
-fn every_configuration_of_ours_is_right_on_the_small_scenes() {
-    let (registry, meshes) = (Registry::builtin(), scenes(false));
-    for spec in OURS.iter().chain(&TREES) {
-        passes(answers(&subject(&registry.choose(spec).unwrap(), true), &meshes, 60));
-    }
-}
-
-#[test]
-#[ignore = "half a minute"]
-fn our_trees_are_right_on_the_hard_scenes() {
-    let (registry, meshes) = (Registry::builtin(), scenes(true));
-    for spec in TREES {
-        passes(answers(&subject(&registry.choose(spec).unwrap(), true), &meshes, 60));
-    }
+    let small = BUILTIN.iter().filter(|scene| scene.difficulty != Difficulty::Hard);
+    let named = |scene: &Builtin| (scene.name.to_string(), scene.scene(None).expect("a built-in scene is whole").mesh);
+    are_right(&OURS, &small.map(named).collect::<Vec<_>>(), 60);
+    are_right(&TREES, &BUILTIN.iter().map(named).collect::<Vec<_>>(), 60);
 }
 
 #[test]
 fn our_trees_are_right_where_surfaces_coincide() {
-    let (registry, meshes) = (Registry::builtin(), coincident());
-    for spec in TREES {
-        passes(answers(&subject(&registry.choose(spec).unwrap(), true), &meshes, 12));
-    }
-}
-
-/// The scenes of `scenes/coincident`.
-fn coincident() -> Vec<(String, Arc<Mesh>)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/coincident");
     let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let meshes: Vec<_> = files.map(|file| Scene::read(&file, None).unwrap()).map(|s| (s.name, s.mesh)).collect();
     assert_eq!(meshes.len(), 6);
-    meshes
+    are_right(&TREES, &meshes, 12);
 }
 
 /// What the baseline answers wrongly is in `tests/findings.rs`; what it counts and how it looks is sound. Structures with

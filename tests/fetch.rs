@@ -241,7 +241,15 @@ fn what_is_there_with_other_contents_is_not_touched() {
     assert!(there.contains("other contents") && there.contains("mesh.obj"), "{there}");
     assert_eq!(fs::read(&file.path).unwrap(), b"mine");
     assert!(server.requests().is_empty());
+    // A folder in place of the file opens, and does not read.
     fs::remove_file(&file.path).unwrap();
+    fs::create_dir(&file.path).unwrap();
+    assert!(error(&file).starts_with("cannot read"));
+    // The same in place of the part cannot be written.
+    fs::remove_dir(&file.path).unwrap();
+    fs::create_dir(file.part()).unwrap();
+    assert!(error(&file).starts_with("cannot write"));
+    fs::remove_dir(file.part()).unwrap();
     let nobody = DataFile { url: "http://127.0.0.1:9/mesh.obj".into(), ..file };
     assert!(error(&nobody).contains("check the connection"));
 }
@@ -255,19 +263,6 @@ fn a_server_that_stalls_is_left() {
         assert!(error.contains(word) && error.contains(&file.url), "{error}");
         assert!(begun.elapsed() < Duration::from_secs(20), "{:?}", begun.elapsed());
     }
-}
-
-#[test]
-fn what_cannot_be_read_is_not_said_to_be_unwritable() {
-    let server = Server::start();
-    let file = server.file("/mesh.obj");
-    // A folder in place of the file opens, and does not read.
-    fs::create_dir_all(&file.path).unwrap();
-    assert!(error(&file).starts_with("cannot read"));
-    // The same in place of the part cannot be written.
-    fs::remove_dir(&file.path).unwrap();
-    fs::create_dir_all(file.part()).unwrap();
-    assert!(error(&file).starts_with("cannot write"));
 }
 
 #[test]

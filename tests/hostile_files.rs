@@ -95,16 +95,10 @@ fn obj_files() -> Vec<(Files, [&'static str; 2])> {
     };
     let names: String = (0..500_000).map(|i| format!("usemtl m{i}\nf 1 2 3\n")).collect();
     vec![
-        (obj(vec![]), ["a.obj:", "no triangles"]),
         (obj(vec![0; 100]), ["line 1:", "no keyword of OBJ"]),
-        (obj(b"\xff\xfev\0".to_vec()), ["line 1:", "UTF-16"]),
         (obj(b"\x89PNG\r\n\x1a\n\0\0".to_vec()), ["line 1:", "another format"]),
         (obj(b"solid cube\nfacet normal 0 0 1\n".to_vec()), ["line 1: `solid cube`", "another format"]),
-        (after("v 0 0", "", 0, ""), ["line 1:", "three numbers"]),
         (after(TRIANGLE, "", 0, "f 1 2 99999999999\n"), ["line 4:", "more than a mesh can hold"]),
-        (after(TRIANGLE, "", 0, "f 1 2 4\n"), ["line 4:", "the file has only 3"]),
-        (after(TRIANGLE, "", 0, "f -4 -2 -1\n"), ["line 4:", "reaches before"]),
-        (after("v 0 0 0\nv 1 0 0\nv 0 1 nan\n", "", 0, "f 1 2 3\n"), ["line 3:", "not finite"]),
         (after("", "v 0 0 1\n", 3_000_000, "v 0 0 x\n"), ["line 3000001:", "`x` is not a number"]),
         (after(TRIANGLE, "f 1 1 1\n", 3_000_000, "f 1 2 x\n"), ["line 3000004:", "`x` is not a vertex index"]),
         (after("v 0 0 0\nvn 0 0 1\n", "f 1//1 1//1 1//1\n", 2_000_000, "f x"), ["line 2000003:", "not a vertex index"]),
@@ -132,7 +126,6 @@ fn ply_files() -> Vec<(Files, [&'static str; 2])> {
     let wide = [&1000_u32.to_le_bytes()[..], &[0; 1000]].concat();
     let wrong = [&[0; 3][..], &wide.repeat(15_000), &3_u32.to_le_bytes(), &[0, 0, 1]].concat();
     vec![
-        (vec![("a.ply", vec![])], ["line 1:", "begins with the line `ply`"]),
         (vec![("a.ply", vec![0; 1000])], ["line 1:", "begins with the line `ply`"]),
         (vec![("a.ply", b"ply".to_vec())], ["line 1:", "does not end"]),
         (vec![("a.ply", [&b"ply\n"[..], &b"comment\n".repeat(4_000_000)].concat())], ["line 13", "does not end"]),
@@ -151,7 +144,6 @@ fn ply_files() -> Vec<(Files, [&'static str; 2])> {
         (ply(&mesh("ascii", 1, 1), b"0 0 0\n99999999999 0\n"), ["face 0:", "taken for a mistake"]),
         (ply(&mesh("ascii", 1, 1), b"0 0 0\n3 0 -1 0\n"), ["face 0:", "`3 0 -1 0`"]),
         (ply(&mesh("ascii", 1, 1), b"0 0 \xff\n3 0 0 0\n"), ["vertex 0:", "no ASCII text"]),
-        (ply(&mesh("ascii", 1, 1), b"0 0 0\n2 0 0\n"), ["element face:", "no triangles"]),
     ]
 }
 
@@ -199,7 +191,6 @@ fn gltf_files() -> Vec<(Files, [&'static str; 2])> {
     binary["accessors"][0]["count"] = 4.into();
     binary["buffers"][0].as_object_mut().unwrap().remove("uri");
     let chunk = vec![0; 80_000_000];
-    let sparse = json!({"count": 2, "indices": {"bufferView": 0, "componentType": 5125}, "values": {"bufferView": 0}});
 
     vec![
         (text(vec![]), ["a.gltf", "no glTF 2.0 file"]),
@@ -209,13 +200,9 @@ fn gltf_files() -> Vec<(Files, [&'static str; 2])> {
         (text(b"[".repeat(5_000_000)), ["line 1 column", "no glTF 2.0 file"]),
         (text(b"{\"a\":".repeat(60_000)), ["line 1 column", "no glTF 2.0 file"]),
         (text(b"{\"asset\":{\"version\":\"2.0\"},\"meshes\":7}".to_vec()), ["line 1 column", "no glTF 2.0 file"]),
-        (text(b"{\"asset\":{\"version\":\"2.0\"}}".to_vec()), ["a.gltf", "it has no meshes"]),
         (list("\"nodes\":", "{},", 10_000_000), ["a.gltf", "10000003 objects"]),
         (list("\"accessors\":[{\"min\":", "0,", 20_000_000), ["a.gltf", "entries"]),
         (with("/scene", json!(-1)), ["line 1 column", "no glTF 2.0 file"]),
-        (with("/scene", json!(0)), ["scene:", "it names scene 0, but the file has 0 scenes"]),
-        (with("/nodes/0", json!({"mesh": 9})), ["nodes[0].mesh", "out of bounds"]),
-        (with("/nodes/0", json!({"children": [0], "mesh": 0})), ["node 0:", "own ancestor"]),
         (
             with("/nodes", (0..50_000).map(|i| json!({"children": [i + 1]})).collect()),
             ["nodes[49999]", "out of bounds"],
@@ -225,19 +212,13 @@ fn gltf_files() -> Vec<(Files, [&'static str; 2])> {
             ["line 1 column", "number out of range"],
         ),
         (with("/buffers/0/uri", json!("data:;base64,AAA")), ["buffer 0:", "should have 36 bytes and has 2"]),
-        (with("/buffers/0/uri", json!("data:")), ["buffer 0:", "not in base64"]),
-        (with("/buffers/0/uri", json!("/etc/hosts")), ["buffer 0:", "not below the folder"]),
-        (with("/buffers/0/uri", json!("../../x")), ["buffer 0:", "not below the folder"]),
         (with("/buffers/0/byteLength", json!(u64::MAX)), ["buffer 0:", "it is truncated"]),
-        (with("/accessors/0/count", json!(u64::MAX)), ["accessor 0:", "reach beyond"]),
-        (with("/accessors/0/sparse", sparse), ["accessor 0:", "does not ascend"]),
         (gltf(&buffers, 12 * megabyte), ["accessor 1:", "reach beyond"]),
         (gltf(&primitives, 12 * megabyte), ["accessor 1:", "reach beyond"]),
         (gltf(&shown, 12 * megabyte), ["a.gltf", "174762000 vertices"]),
         (text(embedded.to_string().into_bytes()), ["accessor 0:", "4 elements reach beyond the 36 bytes"]),
         (vec![("a.glb", glb(binary.to_string().as_bytes(), &chunk))], ["accessor 0:", "4 elements reach beyond"]),
         (vec![("a.glb", b"glTF\x02\0\0\0\x0c\0\0\0".to_vec())], ["a.glb", "no glTF 2.0 file"]),
-        (vec![("a.glb", b"glTF\x02\0\0\0\xff\xff\xff\xff".to_vec())], ["a.glb", "truncated"]),
         (vec![("a.glb", b"glTF".to_vec())], ["a.glb", "within its header"]),
     ]
 }
@@ -245,13 +226,10 @@ fn gltf_files() -> Vec<(Files, [&'static str; 2])> {
 fn ray_files() -> Vec<(Files, [&'static str; 2])> {
     let head = |magic: &[u8], count: u64| [magic, &[1, 0, 0, 0, 0, 0, 0, 0], &count.to_le_bytes(), &[0; 48]].concat();
     vec![
-        (vec![("a.rays", vec![])], ["a.rays", "does not begin with"]),
         (vec![("a.rays", head(b"SAHARAYS", 0))], ["a.rays", "the first item begins at byte 96"]),
         (vec![("a.rays", head(b"SAHARAYS", u64::MAX))], ["a.rays", "cut short"]),
         (vec![("a.rays", [head(b"SAHARAYS", 1 << 59), vec![0; 99]].concat())], ["a.rays", "cut short"]),
-        (vec![("a.hits", head(b"SAHAHITS", 0))], ["a.hits", "40 bytes follow"]),
         (vec![("a.hits", head(b"SAHAHITS", u64::MAX))], ["a.hits", "cut short"]),
-        (vec![("a.hits", b"SAHAHITS".to_vec())], ["a.hits", "cut short"]),
     ]
 }
 

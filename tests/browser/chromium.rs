@@ -11,9 +11,6 @@ use std::time::Duration;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-/// Names under which systems have it.
-const NAMES: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
-
 /// Nothing answers after so long any more: far longer than a busy machine takes.
 const HANGS: Duration = Duration::from_secs(300);
 
@@ -42,7 +39,8 @@ const KEYS: [(&str, u32, &str); 8] = [
 impl Chromium {
     /// Nothing where there is none.
     pub fn launch() -> Option<Self> {
-        let program = NAMES.iter().find_map(|name| on_path(name))?;
+        // Names under which systems have it.
+        let program = ["chromium", "chromium-browser", "google-chrome"].iter().find_map(|name| on_path(name))?;
         let profile = TempDir::new().unwrap();
         // The pipe is descriptors 3 and 4: its own standard ones.
         let mut process = Command::new("sh")

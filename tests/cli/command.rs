@@ -47,14 +47,14 @@ pub fn prints(args: &[&str]) -> String {
 
 /// A command has failed with one message, which holds all of `parts` and is given, and printed nothing as a result.
 #[track_caller]
-fn refused(output: &Output, parts: &[&str], args: &[&str]) -> String {
+fn refused(output: &Output, parts: &[&str]) -> String {
     let message = stderr(output);
-    assert_eq!(output.status.code(), Some(USAGE), "{args:?}: {message}");
-    assert!(output.stdout.is_empty(), "{args:?} prints {}", stdout(output));
-    assert!(message.starts_with("error: "), "{args:?}: {message}");
-    assert!(!message.contains("panicked") && !message.contains("backtrace"), "{args:?}: {message}");
+    assert_eq!(output.status.code(), Some(USAGE), "{message}");
+    assert!(output.stdout.is_empty(), "{message}: it prints {}", stdout(output));
+    assert!(message.starts_with("error: "), "{message}");
+    assert!(!message.contains("panicked") && !message.contains("backtrace"), "{message}");
     for part in parts {
-        assert!(message.contains(part), "{args:?}: {part:?} is not in {message:?}");
+        assert!(message.contains(part), "{part:?} is not in {message:?}");
     }
     message
 }
@@ -62,21 +62,20 @@ fn refused(output: &Output, parts: &[&str], args: &[&str]) -> String {
 /// As [`refused`], in one line.
 #[track_caller]
 pub fn refused_in_a_line(output: &Output, parts: &[&str]) {
-    let message = refused(output, parts, &[]);
+    let message = refused(output, parts);
     assert_eq!(message.lines().count(), 1, "{message}");
 }
 
 /// As [`refused`], by the command with these arguments.
 #[track_caller]
 pub fn refuses(args: &[&str], parts: &[&str]) -> String {
-    refused(&sahara(&[&["--quiet"], args].concat()), parts, args)
+    refused(&sahara(&[&["--quiet"], args].concat()), parts)
 }
 
 /// As [`refuses`], in one line.
 #[track_caller]
 pub fn refuses_in_a_line(args: &[&str], parts: &[&str]) {
-    let message = refuses(args, parts);
-    assert_eq!(message.lines().count(), 1, "{args:?}: {message}");
+    refused_in_a_line(&sahara(&[&["--quiet"], args].concat()), parts);
 }
 
 /// What a file of JSON holds.

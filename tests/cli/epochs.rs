@@ -1,9 +1,17 @@
-//! Studies of several epochs from outside: what they keep, add and refuse.
+//! Studies of several epochs from outside: what they keep, add and refuse; each epoch of a scene is measured in a process of
+//! its own.
 
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
 use tempfile::TempDir;
 
-use super::command::{prints, refuses};
-use super::journal::cases;
+use super::command::{RIGHT, command, json, prints, refuses, stderr, words};
+use super::journal::{answers, cases};
 
 /// A study that takes no time, in a folder.
 fn small<'a>(study: &'a [&'a str], folder: &'a str) -> Vec<&'a str> {
@@ -32,7 +40,7 @@ fn a_study_goes_on_where_it_stopped_and_repeats_what_it_said() {
         prints(&two);
         assert_eq!(cases().len(), 2 * measured, "{study:?}");
         // A case that is removed is measured again.
-        std::fs::remove_file(&cases()[0]).unwrap();
+        fs::remove_file(&cases()[0]).unwrap();
         prints(&two);
         assert_eq!(cases().len(), 2 * measured, "{study:?}");
         // Other settings lie beside, and what is measured anew leaves the old one there.
@@ -52,5 +60,111 @@ fn what_is_wrong_is_said_before_anything_is_measured() {
     refuses(&["compare", "cube", "-s", "sah-kd:leef=3", "--dir", dir], &["leef"]);
     refuses(&["study", "attribution", "cube", "--epochs", "0", "--dir", dir], &["0"]);
     refuses(&["compare", "icosphere:99", "--dir", dir], &["icosphere:99", "0 to 10"]);
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "nothing was begun");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "nothing was begun");
+}
+
+/// A study of seconds, of twelve epochs, into the folder `dir`.
+fn study(dir: &Path) -> Command {
+    let mut command = command(&words("study attribution cube --rays 64 --runs 1 --budget 1 --epochs 12 --quiet --dir"));
+    command.arg(dir).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+#[track_caller]
+fn finish(dir: &Path) {
+    let output = study(dir).output().expect("the command runs");
+    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
+}
+
+/// Kills it as `kill -9` does, as soon as the journal has `wanted` cases.
+fn kill_at(mut child: Child, dir: &Path, wanted: usize) {
+    let start = Instant::now();
+    while cases(dir, "attribution").len() < wanted {
+        assert!(child.try_wait().unwrap().is_none(), "it ended before it could be killed");
+        assert!(start.elapsed() < Duration::from_secs(600), "it measures nothing");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    child.kill().unwrap();
+    assert!(!child.wait().unwrap().success());
+}
+
+#[test]
+fn a_killed_study_ends_as_one_that_was_left_alone() {
+    let folder = TempDir::new().unwrap();
+    let (alone, killed) = (folder.path().join("alone"), folder.path().join("killed"));
+    finish(&alone);
+
+    // Once with a case, and once with another one.
+    kill_at(study(&killed).spawn().unwrap(), &killed, 1);
+    kill_at(study(&killed).spawn().unwrap(), &killed, 2);
+    // As if the power had failed while a case was written.
+    fs::write(killed.join("attribution/.sahara-1234.part"), "{\"schema\":4,\"pr").unwrap();
+    let before = cases(&killed, "attribution").len();
+
+    finish(&killed);
+    assert!(before < cases(&killed, "attribution").len());
+    assert_eq!(answers(&alone, "attribution").len(), 12);
+    assert_eq!(answers(&killed, "attribution"), answers(&alone, "attribution"));
+}
+
+const TWO_SCENES: [&str; 13] =
+    ["compare", "cube", "torus", "-s", "sah-kd", "-s", "sah-bvh", "-w", "diffuse", "--rays", "256", "--epochs", "2"];
+
+/// The numbers of the processes that have measured the cases of a journal.
+fn processes(folder: &Path) -> Vec<u64> {
+    let process = |path| json(path)["epoch"]["environment"]["process"].as_u64().unwrap();
+    let mut all: Vec<u64> = cases(folder, "compare").iter().map(process).collect();
+    all.sort_unstable();
+    all.dedup();
+    all
+}
+
+#[test]
+fn each_epoch_of_a_scene_has_a_process_and_one_process_answers_the_same() {
+    let folder = TempDir::new().unwrap();
+    let [apart, one] = ["apart", "one"].map(|name| folder.path().join(name));
+    let run = |dir: &Path, more: &[&str]| prints(&[&TWO_SCENES[..], &["--dir", dir.to_str().unwrap()], more].concat());
+    run(&apart, &[]);
+    run(&one, &["--in-process"]);
+    assert_eq!((processes(&apart).len(), processes(&one).len()), (4, 1), "two epochs of two scenes");
+    assert_eq!(answers(&apart, "compare"), answers(&one, "compare"));
+    // Both kinds lie side by side.
+    run(&apart, &["--in-process"]);
+    assert_eq!(cases(&apart, "compare").len(), 8);
+}
+
+/// What a process with a case says to a run that listens, given answers.
+fn said(case: &Value, out: &Path) -> Vec<Value> {
+    let mut command = command(&[&format!("--case={case}"), "--out", out.to_str().unwrap(), "--listen"]);
+    let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    // It may have ended before.
+    let _ = child.stdin.take().unwrap().write_all("\n".repeat(10_000).as_bytes());
+    let output = child.wait_with_output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    let lines = String::from_utf8(output.stdout).unwrap();
+    let line = |line: &str| serde_json::from_str(line.strip_prefix("\u{1e}case ").unwrap()).unwrap();
+    lines.lines().map(line).collect()
+}
+
+#[test]
+fn a_process_measures_its_case_alone_and_says_what_it_does() {
+    let folder = TempDir::new().unwrap();
+    prints(&[&TWO_SCENES[..], &["--dir", folder.path().to_str().unwrap()]].concat());
+    let first = json(&cases(folder.path(), "compare")[0]);
+    let out = folder.path().join("again.json");
+    let lines = said(&first["case"], &out);
+    assert!(lines.iter().any(|line| line["Stage"]["Build"] == "sah-bvh"), "{lines:?}");
+    let checksums = |file: &Value| -> Vec<Value> {
+        let structures = file["epoch"]["structures"].as_array().unwrap();
+        structures.iter().map(|structure| structure["rays"][0]["checksum"].clone()).collect()
+    };
+    assert_eq!(checksums(&json(&out)), checksums(&first));
+
+    // A scene that has changed is refused, in the words that the run shows.
+    let mut changed = first["case"].clone();
+    changed["scene"]["hash"] = "0123456789abcdef".into();
+    let lines = said(&changed, &folder.path().join("never.json"));
+    let sentence = lines[0]["Failed"]["sentence"].as_str().unwrap();
+    assert!(sentence.contains("cube") && sentence.contains("plan it anew"), "{sentence}");
+    assert!(!folder.path().join("never.json").exists());
 }

@@ -1,6 +1,11 @@
-//! Mesh files as users give them: what is wrong is said, and so is what is left out.
+//! Mesh files as users give them: what is wrong is said, and so is what is left out. Many triangles: memory of builds, and a
+//! scene without a file.
 
-use super::command::{prints, refuses_in_a_line, write};
+use std::fs;
+
+use super::command::{path_text, prints, refuses, refuses_in_a_line, write};
+use super::journal::rows;
+use crate::conformance::TREES;
 
 #[test]
 fn render_and_compare_print_what_was_left_out() {
@@ -30,4 +35,56 @@ fn what_cannot_be_shown_is_refused_by_its_reason() {
     let scene = "name = \"S\"\n[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 0]\nvertical_fov = 40\n\
                  [[objects]]\nmesh = \"cube\"\n[[objects]]\nmesh = \"points.obj\"\n";
     refused(&write(&folder, "s.toml", scene), &["s.toml", "`objects[1].mesh`", "points.obj", "no triangles"]);
+}
+
+/// A scene file with a terrain of so many triangles.
+fn terrain(triangles: &str) -> String {
+    format!(
+        "name = \"Ground\"\n[camera]\neye = [0.0, 1.0, 2.0]\ntarget = [0.0, 0.0, 0.0]\nvertical_fov = 45.0\n\
+         [[lights]]\npos = [3.0, 5.0, 4.0]\ncol = [1.0, 1.0, 1.0]\n\
+         [[objects]]\nterrain = {{ triangles = {triangles} }}\n"
+    )
+}
+
+/// Bytes a triangle above the mesh that a build of ours may hold at once.
+const BOUND: f64 = 200.0;
+
+#[test]
+fn builds_hold_less_than_200_bytes_a_triangle() {
+    let triangles = 200_000;
+    let folder = tempfile::tempdir().unwrap();
+    let scene = write(&folder, "ground.toml", &terrain(&triangles.to_string()));
+    let export = path_text(&folder.path().join("r.json"));
+    let mut args = vec!["compare", &scene, "--quick", "--in-process", "-w", "primary", "--size", "16x16"];
+    args.extend(["--export-json", &export]);
+    TREES.iter().for_each(|name| args.extend(["-s", name]));
+    prints(&args);
+    let records = rows(&export);
+    assert_eq!(records.len(), TREES.len());
+    for record in &records {
+        assert_eq!(record["triangles"], triangles);
+        let peak =
+            record["build_peak_bytes"].as_f64().expect("the command counts what it holds") / f64::from(triangles);
+        let finished = record["shape"]["bytes"].as_f64().unwrap() / f64::from(triangles);
+        assert!(finished <= peak && peak < BOUND, "{}: {peak} bytes a triangle", record["structure"]);
+    }
+}
+
+#[test]
+fn a_terrain_needs_no_file_and_a_wrong_one_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("ground.toml");
+    let (file, picture) = (path_text(&scene), path_text(&folder.path().join("p.png")));
+    fs::write(&scene, terrain("1001")).unwrap();
+    let told = prints(&["validate", &file, "-s", "sah-bvh", "--rays", "200"]);
+    assert!(told.contains("1,001 triangles"), "{told}");
+    prints(&["render", &file, "-o", &picture, "--size", "8x8"]);
+    for (wrong, parts) in [
+        ("0", ["objects[0].terrain.triangles", "1 to 134217728"]),
+        ("10, seed = -1", ["ground.toml, line 10", "u32"]),
+        ("10 }\nmesh = \"cube\" # { 1", ["objects[0].terrain", "give it alone"]),
+    ] {
+        fs::write(&scene, terrain(wrong)).unwrap();
+        refuses(&["render", &file, "-o", &picture], &parts);
+    }
 }

@@ -161,12 +161,14 @@ fn a_job_ends_at_once_and_leaves_nothing() {
     // Half a minute of samples.
     let long = ["attribution", "--scenes", "sphere", "--runs", "1000", "--budget", "30", "--epochs", "2"];
     let lines = plan(folder.path(), &long);
-    let mut child = spawn(job(&lines[1]), SigHandler::SigDfl);
-    let (mut reader, mut said) = (BufReader::new(child.stderr.take().unwrap()), String::new());
-    reader.read_line(&mut said).unwrap();
-    assert_eq!(said, "measures attribution, epoch 2 of 2: Sphere\n");
-    ends_by(Signal::SIGINT, &mut child);
-    assert_eq!(fs::read_dir(file(&lines[1]).parent().unwrap()).unwrap().count(), 0);
+    for signal in [Signal::SIGINT, Signal::SIGKILL] {
+        let mut child = spawn(job(&lines[1]), SigHandler::SigDfl);
+        let mut said = String::new();
+        BufReader::new(child.stderr.take().unwrap()).read_line(&mut said).unwrap();
+        assert_eq!(said, "measures attribution, epoch 2 of 2: Sphere\n");
+        ends_by(signal, &mut child);
+        assert_eq!(fs::read_dir(file(&lines[1]).parent().unwrap()).unwrap().count(), 0);
+    }
 }
 
 #[test]

@@ -9,18 +9,13 @@ mod gate;
 mod input;
 #[cfg(target_os = "linux")]
 mod interrupted;
-mod job;
 mod journal;
-mod large;
 #[cfg(target_os = "linux")]
 mod names;
 mod output;
 mod plan;
-mod processes;
 mod rays;
-mod render;
 mod report;
-mod resume;
 #[cfg(unix)]
 mod runner;
 mod study;

@@ -1,4 +1,4 @@
-//! `study plan`: jobs that need each other in nothing, one file each, and what becomes of them.
+//! `study plan`: jobs that need each other in nothing, one file each, what they measure, and what becomes of them.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,11 +6,13 @@ use std::process::{Command, Output, Stdio};
 
 use tempfile::TempDir;
 
-use super::command::{RIGHT, command, json, prints, refuses, refuses_in_a_line, sahara, stderr, stdout};
+use super::command::{
+    RIGHT, SQUARE, command, json, prints, refused_in_a_line, refuses, refuses_in_a_line, sahara, stderr, stdout, write,
+};
 use super::journal::answers;
 
 /// A study of seconds.
-pub const SMALL: [&str; 9] = ["attribution", "--rays", "64", "--runs", "1", "--budget", "1", "--epochs", "2"];
+const SMALL: [&str; 9] = ["attribution", "--rays", "64", "--runs", "1", "--budget", "1", "--epochs", "2"];
 const SCENES: [&str; 3] = ["--scenes", "cube", "sphere"];
 
 /// The lines of a plan.
@@ -41,11 +43,11 @@ pub fn job(line: &str) -> Command {
     command
 }
 
-pub fn run(line: &str) -> Output {
+fn run(line: &str) -> Output {
     job(line).output().unwrap()
 }
 
-pub fn done(line: &str) {
+fn done(line: &str) {
     let output = run(line);
     assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
     assert!(output.stdout.is_empty() && file(line).is_file());
@@ -87,22 +89,32 @@ fn a_plan_is_one_command_a_case_with_a_file_of_its_own() {
 
 #[test]
 fn what_cannot_be_planned_is_one_sentence() {
-    refuses_in_a_line(&["study", "plan", "attributoin"], &["attributoin"]);
-    refuses_in_a_line(&["study", "plan", "all", "attributoin", "--quick"], &["attributoin"]);
-    refuses_in_a_line(&["study", "plan", "attribution", "--scenes", "cub"], &["cub", "Cube"]);
-    refuses_in_a_line(&["study", "plan", "attribution", "scaling", "--scenes"], &["--scenes SCENE"]);
-    refuses(&["study", "plan", "attribution", "--quick", "--epoch", "3"], &["--epoch"]);
+    let plan = |line: &'static str| [&["study", "plan"], &line.split(' ').collect::<Vec<_>>()[..]].concat();
     // An option that is given twice, wherever it stands; one of them may be of the preset.
     let twice = "cannot be used multiple times";
-    let preset = "bring options of their own";
-    refuses(&["study", "plan", "attribution", "--quick", "--epochs", "3"], &["--epochs", twice, "attribution", preset]);
-    refuses(&["study", "plan", "--no-such-option", "64"], &["--no-such-option", preset]);
-    refuses(&["study", "plan", "compare", "--dir", "a", "--dir", "b"], &["--dir", twice]);
-    for line in ["--dir a compare scaling --dir=b", "compare scaling --dir a --dir b"] {
-        let options: Vec<&str> = line.split(' ').collect();
-        refuses_in_a_line(&[&["study", "plan"], &options[..]].concat(), &["--dir", twice]);
+    for (line, parts) in [
+        ("attributoin", &["attributoin"][..]),
+        ("all attributoin --quick", &["attributoin"]),
+        ("attribution --scenes cub", &["cub", "Cube"]),
+        ("attribution scaling --scenes", &["--scenes SCENE"]),
+        ("--dir a compare scaling --dir=b", &["--dir", twice]),
+        ("compare scaling --dir a --dir b", &["--dir", twice]),
+        ("compare --rays 64 --quick --quick", &["--quick", twice]),
+        // What writes what came of a study.
+        ("attribution --rays 64 --export-json x.json", &["--", "once all jobs are done"]),
+        ("attribution --rays 64 --export-csv=x.csv", &["--", "once all jobs are done"]),
+        ("attribution --rays 64 --plot x.svg", &["--", "once all jobs are done"]),
+        ("attribution --scenes cube --plot x.svg", &["--plot", "once all jobs are done"]),
+        // A job that finds its case measures nothing, whatever is asked.
+        ("attribution --rays 64 --fresh", &["--fresh", "--dir"]),
+    ] {
+        refuses_in_a_line(&plan(line), parts);
     }
-    refuses_in_a_line(&["study", "plan", "compare", "--rays", "64", "--quick", "--quick"], &["--quick", twice]);
+    let preset = "bring options of their own";
+    refuses(&plan("attribution --quick --epoch 3"), &["--epoch"]);
+    refuses(&plan("attribution --quick --epochs 3"), &["--epochs", twice, "attribution", preset]);
+    refuses(&plan("--no-such-option 64"), &["--no-such-option", preset]);
+    refuses(&plan("compare --dir a --dir b"), &["--dir", twice]);
 }
 
 #[test]
@@ -159,17 +171,6 @@ fn a_report_shows_the_newest_of_each_scene_and_names_what_else_there_is() {
 }
 
 #[test]
-fn a_plan_takes_no_option_that_writes_what_came_of_a_study() {
-    for option in [&["--export-json", "x.json"][..], &["--export-csv=x.csv"], &["--plot", "x.svg"]] {
-        refuses_in_a_line(&[&["study", "plan"], &SMALL[..], option].concat(), &["--", "once all jobs are done"]);
-    }
-    let after_scenes = ["study", "plan", "attribution", "--scenes", "cube", "--plot", "x.svg"];
-    refuses_in_a_line(&after_scenes, &["--plot", "once all jobs are done"]);
-    // A job that finds its case measures nothing, whatever is asked.
-    refuses_in_a_line(&[&["study", "plan"], &SMALL[..], &["--fresh"]].concat(), &["--fresh", "--dir"]);
-}
-
-#[test]
 fn a_study_that_is_named_twice_is_planned_once() {
     let folder = tempfile::tempdir().unwrap();
     let planned = |names: &[&str]| plan(folder.path(), &[names, &["--scenes", "cube"]].concat());
@@ -177,4 +178,79 @@ fn a_study_that_is_named_twice_is_planned_once() {
     // Scenes are added up, as everywhere.
     let torus = ["compare", "--scenes", "torus"];
     assert_eq!(planned(&torus), plan(folder.path(), &[&torus[..], &["cube"]].concat()));
+}
+
+#[test]
+fn a_job_on_fewer_cores_than_threads_measures_nothing() {
+    let folder = TempDir::new().unwrap();
+    let cores = std::thread::available_parallelism().unwrap().get();
+    let threads = (cores + 1).to_string();
+    let lines = plan(folder.path(), &[&SMALL[..], &["--scenes", "cube", "--threads", &threads]].concat());
+    refused_in_a_line(&run(&lines[0]), &["cannot be measured", &format!("{threads} threads share {cores} core")]);
+    assert!(!file(&lines[0]).exists());
+}
+
+#[test]
+fn a_job_measures_once_and_refuses_what_is_not_its_own() {
+    let folder = TempDir::new().unwrap();
+    let mesh = write(&folder, "square.obj", SQUARE);
+    let lines = plan(folder.path(), &[&SMALL[..], &["--scenes", &mesh]].concat());
+    done(&lines[0]);
+    let path = file(&lines[0]);
+    let before = fs::read(&path).unwrap();
+    // What is repeated loads nothing.
+    let away = folder.path().join("away.obj");
+    fs::rename(&mesh, &away).unwrap();
+    let again = run(&lines[0]);
+    assert_eq!(again.status.code(), Some(RIGHT), "{}", stderr(&again));
+    assert!(stderr(&again).contains("nothing is measured") && stderr(&again).lines().count() == 1);
+    refused_in_a_line(&run(&lines[1]), &[&mesh]);
+    fs::rename(&away, &mesh).unwrap();
+
+    let refused = |line: &str, part: &str| refused_in_a_line(&run(line), &[part]);
+    refused(&lines[1].replace(file(&lines[1]).to_str().unwrap(), path.to_str().unwrap()), "holds another case");
+    assert_eq!(fs::read(&path).unwrap(), before);
+    // Its scene must be what it was when it was planned.
+    let hash = lines[1].split("\"hash\":\"").nth(1).unwrap()[..16].to_owned();
+    refused(&lines[1].replace(&hash, "0123456789abcdef"), "plan it anew");
+    refused(&lines[1].replace(&format!("\"word\":\"{mesh}"), "\"word\":\"torus"), "plan it anew");
+    assert!(!file(&lines[1]).exists());
+}
+
+#[test]
+fn of_two_jobs_at_one_file_one_wins_and_both_are_content() {
+    let folder = TempDir::new().unwrap();
+    let lines = plan(folder.path(), &[&SMALL[..], &["--scenes", "cube"]].concat());
+    let both = [0, 1].map(|_| job(&lines[0]).spawn().unwrap());
+    let both = both.map(|child| child.wait_with_output().unwrap());
+    assert!(both.iter().all(|output| output.status.code() == Some(RIGHT)), "{both:?}");
+    let is_other = |output: &&Output| {
+        ["holds this case already", "its case is kept"].iter().any(|part| stderr(output).contains(part))
+    };
+    assert_eq!(both.iter().filter(is_other).count(), 1, "{both:?}");
+    assert_eq!(fs::read_dir(folder.path().join("attribution")).unwrap().count(), 1);
+    assert_eq!(json(file(&lines[0]))["case"]["study"], "attribution");
+}
+
+#[test]
+fn what_cannot_be_written_is_one_sentence_and_no_file() {
+    let folder = TempDir::new().unwrap();
+    let lines = plan(&folder.path().join("runs"), &[&SMALL[..], &["--scenes", "cube"]].concat());
+    // A file stands where the folder should be.
+    fs::write(folder.path().join("runs"), "x").unwrap();
+    refused_in_a_line(&run(&lines[0]), &["cannot write", "runs/attribution"]);
+    fs::remove_file(folder.path().join("runs")).unwrap();
+
+    // As on a full disk: the system takes no more than a thousand bytes of a file.
+    #[cfg(target_os = "linux")]
+    {
+        let job = lines[0].strip_prefix("sahara ").unwrap();
+        let shell = format!("trap '' XFSZ; ulimit -f 1; exec \"$0\" --quiet {job}");
+        let mut command = Command::new("sh");
+        command.args(["-c", &shell, env!("CARGO_BIN_EXE_sahara")]).env_remove("SAHARA_DATA");
+        let output = command.stdin(Stdio::null()).output().unwrap();
+        refused_in_a_line(&output, &["cannot write", "give it room"]);
+        assert_eq!(fs::read_dir(folder.path().join("runs/attribution")).unwrap().count(), 0, "nothing is left");
+    }
+    done(&lines[0]);
 }

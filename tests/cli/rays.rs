@@ -1,30 +1,29 @@
 //! Files of rays and hits, from outside: what is recorded is replayed to the bit, and what is damaged is refused.
 
 use std::fs;
-use std::path::Path;
+use std::process::Output;
 
 use tempfile::TempDir;
 
-use super::command::{command, refused_in_a_line, stderr, stdout};
+use super::command::{RIGHT, WRONG, command, refused_in_a_line, stderr, stdout};
 use super::journal::rows;
 
-fn sahara(folder: &Path, args: &[&str]) -> (Option<i32>, String, String) {
-    let output = command(args).current_dir(folder).output().unwrap();
-    (output.status.code(), stdout(&output), stderr(&output))
+fn sahara(folder: &TempDir, args: &[&str]) -> Output {
+    command(args).current_dir(folder).output().unwrap()
 }
 
 /// What the command prints; it must succeed.
 #[track_caller]
 fn right(folder: &TempDir, args: &[&str]) -> String {
-    let (code, printed, errors) = sahara(folder.path(), args);
-    assert_eq!(code, Some(0), "{args:?}: {printed}{errors}");
-    printed
+    let output = sahara(folder, args);
+    assert_eq!(output.status.code(), Some(RIGHT), "{args:?}: {}{}", stdout(&output), stderr(&output));
+    stdout(&output)
 }
 
 /// The command refuses in one line that holds all of `parts`.
 #[track_caller]
 fn refuses(folder: &TempDir, args: &[&str], parts: &[&str]) {
-    refused_in_a_line(&command(args).current_dir(folder).output().unwrap(), parts);
+    refused_in_a_line(&sahara(folder, args), parts);
 }
 
 #[test]
@@ -78,8 +77,9 @@ fn answers_go_out_and_come_back_and_wrong_ones_are_found() {
         fs::write(&path, bytes).unwrap();
         for test in [&["--test", "exact"][..], &[]] {
             let args = [&exchange[..], &["--hits", "f.hits"], test].concat();
-            let (code, printed, _) = sahara(folder.path(), &args);
-            assert!(code == Some(2) && printed.contains("lost: ray \""), "{printed}");
+            let output = sahara(&folder, &args);
+            assert_eq!(output.status.code(), Some(WRONG));
+            assert!(stdout(&output).contains("lost: ray \""), "{}", stdout(&output));
         }
     }
     refuses(&folder, &["validate", "torus", "--hits", "f.hits"], &["--rays F.rays"]);

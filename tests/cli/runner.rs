@@ -167,13 +167,16 @@ fn a_clock_that_disagrees_with_ours_is_told_and_what_it_declines_is_not_asked() 
 
 #[test]
 fn what_is_no_runner_is_refused_before_anything_is_measured() {
-    let compare = |command| ["compare", "cube", "--runner", command];
-    refuses_in_a_line(&compare("./no-such-program -x"), &["./no-such-program -x", "cannot be started"]);
-    refuses_in_a_line(&compare("true"), &["\"true\"", "it ends instead of answering \"sahara 1 1\""]);
-    refuses_in_a_line(&compare("cat"), &["it answers \"sahara 1 1\"", "runner 1 closest any"]);
-    refuses_in_a_line(&compare("yes"), &["\"yes\"", "\"y\"", "\"sahara 1 1\""]);
-    refuses_in_a_line(&compare("'open"), &["in quotes"]);
-    refuses_in_a_line(&compare(""), &["in quotes"]);
+    for (command, parts) in [
+        ("./no-such-program -x", &["./no-such-program -x", "cannot be started"][..]),
+        ("true", &["\"true\"", "it ends instead of answering \"sahara 1 1\""]),
+        ("cat", &["it answers \"sahara 1 1\"", "runner 1 closest any"]),
+        ("yes", &["\"yes\"", "\"y\"", "\"sahara 1 1\""]),
+        ("'open", &["in quotes"]),
+        ("", &["in quotes"]),
+    ] {
+        refuses_in_a_line(&["compare", "cube", "--runner", command], parts);
+    }
     let folder = TempDir::new().unwrap();
     let one = nothing(&folder);
     fs::create_dir(folder.path().join("b")).unwrap();
@@ -190,7 +193,8 @@ fn another_build_of_a_program_is_another_structure() {
     let dir = path_text(&folder.path().join("runs"));
     let own =
         ["-s", "sah-kd", "-w", "primary", "--rays", "256", "--epochs", "1", "--budget", "1", "--runner", &program];
-    let run = || prints_whatever(&[&["compare", "cube", "--dir", &dir][..], &own].concat());
+    // Whatever the status: a program that finds nothing is wrong.
+    let run = || sahara(&[&["compare", "cube", "--dir", &dir][..], &own].concat());
     let cases = || super::journal::cases(Path::new(&dir), "compare").len();
     run();
     run();
@@ -198,9 +202,4 @@ fn another_build_of_a_program_is_another_structure() {
     write(&folder, "nothing.sh", &(NOTHING.to_owned() + "# rebuilt\n"));
     run();
     assert_eq!(cases(), 2);
-}
-
-/// What is printed, whatever the status: a program that finds nothing is wrong.
-fn prints_whatever(args: &[&str]) -> String {
-    stdout(&sahara(args))
 }

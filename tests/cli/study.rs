@@ -6,9 +6,7 @@ use std::path::Path;
 use sahara::render::Picture;
 use serde_json::Value;
 
-use super::command::{
-    command, json, path_text, prints, refused_in_a_line, refuses_in_a_line, sahara, small, stderr, words,
-};
+use super::command::{command, json, path_text, prints, refused_in_a_line, sahara, small, stderr, words};
 use super::journal;
 
 #[test]
@@ -59,16 +57,6 @@ fn real_meshes_that_are_asked_for_are_never_replaced() {
     let args = ["--quiet", "study", "attribution", "cube", "dragon", "--meshes", "real"];
     let output = command(&args).env("SAHARA_DATA", empty.path()).output().unwrap();
     refused_in_a_line(&output, &["real meshes of Dragon are not there: `sahara fetch`"]);
-}
-
-#[test]
-fn two_results_are_not_written_to_one_place() {
-    let directory = tempfile::tempdir().unwrap();
-    let [one, again] = ["a.json", "./a.json"].map(|name| format!("{}/{name}", path_text(directory.path())));
-    for command in [&["compare"][..], &["study", "accuracy"]] {
-        let twice = [command, &["cube", "--export-json", &one, "--export-csv", &again]].concat();
-        refuses_in_a_line(&twice, &["two results", "a.json"]);
-    }
 }
 
 /// A limit of the memory that may be addressed stands for one of the threads.

@@ -96,6 +96,9 @@ fn what_is_named_twice_counts_once() {
     let text = prints(&["validate", "--hard", "one_triangle", "-s", "sah-kd", "-t", "exact", "-t", "EXACT"]);
     let columns: Vec<&str> = text.lines().filter(|line| line.contains("case ")).collect();
     assert!(!columns.is_empty() && columns.iter().all(|line| line.matches("sah-kd").count() == 1), "{columns:?}");
+    let text = prints(&words("compare cube -w primary -w primary --quick -s sah-kd --export-csv -"));
+    assert_eq!(text.lines().count(), 2, "{text}");
+    assert_eq!(prints(&["golden", "check", "cube", "Cube"]).lines().count(), 1);
 }
 
 #[test]

@@ -54,3 +54,13 @@ fn validate_and_render_look_from_there_as_well() {
     let point = write(&folder, "point.obj", "v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n");
     refuses_in_a_line(&["compare", &point, "--inside"], &["--inside", "same point"]);
 }
+
+#[test]
+fn the_error_view_says_what_its_colours_mean() {
+    let directory = tempfile::tempdir().unwrap();
+    let picture = path_text(&directory.path().join("error.png"));
+    let args = ["render", "cube", "-o", &picture, "--size", "24x24", "--view", "error", "-s", "sah-kd:test=exact"];
+    let text = prints(&args);
+    assert!(text.contains("missed 0 (vermilion)"), "{text}");
+    assert_eq!(Picture::read(Path::new(&picture)).unwrap().size()[0], 24);
+}

@@ -1,7 +1,6 @@
 //! One case of the fuzzer: a mesh and rays of any floats whatever, and all that must hold for them.
 //!
-//! Shared by `tests/properties.rs`, which draws cases by proptest, and by the fuzz target of this folder, which reads
-//! them from bytes.
+//! Shared by `tests/properties.rs` and by the fuzz target of this folder, which both draw bytes.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
@@ -20,7 +19,7 @@ use sahara::validate::{Reference, validate};
 
 /// The structures of this crate and their variants, over every triangle test that they are offered with; the eight-wide
 /// trees with every way to answer slices. Small leaves, so that small meshes make deep trees.
-const VARIANTS: [(&str, &str); 17] = [
+pub const VARIANTS: [(&str, &str); 17] = [
     ("brute-force", ""),
     ("median-kd", ""),
     ("median-kd", "leaf=1,threshold=1"),
@@ -130,17 +129,25 @@ impl Case {
         rays
     }
 
-    /// Reads a case from any bytes at all: bytes that are not there count as 0.
+    /// Reads a case from any bytes at all: bytes that are not there count as 0. Each case has its own mixture of floats, so
+    /// that numbers of one size meet each other.
     pub fn read(bytes: &[u8]) -> Self {
-        let mut bytes = Bytes(bytes);
+        let mut bytes = Bytes { left: bytes, kinds: (0..KINDS).collect() };
         let points = 3 + bytes.byte() as usize % 29;
         // Most meshes must be valid, or nothing is tested.
-        let wild = bytes.byte() == 0xff;
+        let wild = bytes.byte() > 0xf8;
+        let mixture = 1 + bytes.byte() % ((1 << (KINDS - 1)) - 1);
+        bytes.kinds.retain(|kind| mixture >> kind & 1 == 1);
         let positions = (0..points).map(|_| bytes.point(wild)).collect::<Vec<Vec3>>();
         let limit = if wild { points + 1 } else { points } as u32;
         let triangles = (0..bytes.byte() % 48).map(|_| [0; 3].map(|_: u32| u32::from(bytes.byte()) % limit)).collect();
         let mut rays = vec![];
-        while !bytes.0.is_empty() && rays.len() < 48 {
+        // Rays draw from more kinds than the mesh now and then, NaN and infinity among them.
+        let more = bytes.byte();
+        if more < 64 {
+            bytes.kinds.extend((0..KINDS).filter(|kind| more >> kind & 1 == 1).chain([KINDS - 1]));
+        }
+        while !bytes.left.is_empty() && rays.len() < 48 {
             let kind = bytes.byte();
             let from = if kind & 1 == 0 { bytes.point(true) } else { bytes.pick(&positions) };
             let to = match kind >> 1 & 3 {
@@ -212,11 +219,11 @@ fn same_on_all_levels(accel: &dyn DynAccel, rays: &[Ray]) -> Result<(), String> 
 }
 
 /// Kinds of floats that break traversals; the number of [`float_of`].
-pub const KINDS: u8 = 7;
+const KINDS: u8 = 7;
 
 /// A float of the kind `kind` below [`KINDS`]: k/8, a zero, a denormal, a power of two, any number of moderate size,
 /// any bits at all, NaN or infinity. `bits` chooses which.
-pub fn float_of(kind: u8, bits: u32) -> f32 {
+fn float_of(kind: u8, bits: u32) -> f32 {
     let signed = |x: f32| if bits >> 31 == 1 { -x } else { x };
     match kind {
         0 => (bits as u8 as i8 % 33) as f32 / 8.0,
@@ -229,18 +236,22 @@ pub fn float_of(kind: u8, bits: u32) -> f32 {
     }
 }
 
-/// What is left to read.
-struct Bytes<'a>(&'a [u8]);
+/// What is left to read, and the kinds of floats that are made of it.
+struct Bytes<'a> {
+    left: &'a [u8],
+    kinds: Vec<u8>,
+}
 
 impl Bytes<'_> {
     fn byte(&mut self) -> u8 {
-        let Some((&first, rest)) = self.0.split_first() else { return 0 };
-        self.0 = rest;
+        let Some((&first, rest)) = self.left.split_first() else { return 0 };
+        self.left = rest;
         first
     }
 
     fn float(&mut self) -> f32 {
-        let kind = self.byte() % KINDS;
+        let kind = usize::from(self.byte()) % self.kinds.len();
+        let kind = self.kinds[kind];
         let bits = match kind {
             0 => self.byte().into(),
             1 => u32::from(self.byte()) << 24,
