@@ -131,7 +131,7 @@ fn cases_of_equal_settings_are_a_dataset_and_what_was_measured_again_counts_once
     };
     let found = datasets(read());
     let all: Vec<Vec<String>> = found.iter().map(scenes).collect();
-    assert_eq!(all, [vec!["Sphere3", "Cube3", "Cube3"], vec!["Cube9"]]);
+    assert_eq!(all, [vec!["Cube3", "Cube3", "Sphere3"], vec!["Cube9"]]);
 
     // The same case again replaces the older one, and hosts are named.
     let mut elsewhere = open(&path).unwrap();
