@@ -8,20 +8,20 @@ use std::path::Path;
 /// and two names that differ in bytes which are not text would look alike.
 pub trait Escaped {
     /// The same name in one line: `\n` or `\u{1b}` for a control character, `\xff` for a byte that is not text.
-    fn escaped(&self) -> Shown<'_>;
+    fn escaped(&self) -> Escape<'_>;
 }
 
 impl<S: AsRef<OsStr> + ?Sized> Escaped for S {
-    fn escaped(&self) -> Shown<'_> {
-        Shown(self.as_ref())
+    fn escaped(&self) -> Escape<'_> {
+        Escape(self.as_ref())
     }
 }
 
 /// See [`Escaped::escaped`].
 #[derive(Clone, Copy)]
-pub struct Shown<'a>(&'a OsStr);
+pub struct Escape<'a>(&'a OsStr);
 
-impl Display for Shown<'_> {
+impl Display for Escape<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         for chunk in self.0.as_encoded_bytes().utf8_chunks() {
             for c in chunk.valid().chars() {

@@ -8,7 +8,7 @@ use clap::ArgMatches;
 
 use super::case::Case;
 use super::dataset::{Dataset, Measured};
-use super::join::{Joined, join};
+use super::join::{JoinedEpochs, join};
 use super::journal::{CaseFile, Journal, JournalError, of_all};
 use super::measure::{BuildWatch, Prepared, measure};
 use super::process::Processes;
@@ -233,7 +233,7 @@ impl Engine<'_> {
     }
 
     /// The measured cases of the plan that `is` picks.
-    fn joined(&self, is: impl Fn(&Case) -> bool) -> Joined {
+    fn joined(&self, is: impl Fn(&Case) -> bool) -> JoinedEpochs {
         let files = self.plan.cases.iter().filter(|case| is(case)).filter_map(|case| self.journal.get(case));
         join(files.map(|file| Measured { case: file.case.clone(), epoch: file.epoch.clone() }).collect())
     }
@@ -267,7 +267,7 @@ impl Engine<'_> {
     /// What all of it comes to.
     fn outcome(&mut self, stopped: bool, screen: &mut dyn Screen) -> Result<Outcome, JournalError> {
         // The journal may hold other scenes as well: those asked for are shown.
-        let Joined { mut measured, unchecked, failures, .. } = self.joined(|_| true);
+        let JoinedEpochs { mut measured, unchecked, failures, .. } = self.joined(|_| true);
         self.failures.extend(failures);
         if !stopped && !measured.is_empty() && measured.iter().all(|own| own.epoch.says_nothing()) {
             self.failures.push(StudyError::Nothing);

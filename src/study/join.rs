@@ -13,7 +13,7 @@ use crate::report::words::listed;
 
 /// Cases that a report can be made of, and why others are left out.
 #[derive(Debug, Default)]
-pub struct Joined {
+pub struct JoinedEpochs {
     /// In the order in which they were given.
     pub measured: Vec<Measured>,
     /// What ends a scene: its cases are left out.
@@ -26,8 +26,8 @@ pub struct Joined {
 
 /// Joins the epochs of each scene. A scene that counts [whole](super::case::Settings::whole) is left out where a
 /// structure lacks a time.
-pub fn join(mut measured: Vec<Measured>) -> Joined {
-    let mut joined = Joined::default();
+pub fn join(mut measured: Vec<Measured>) -> JoinedEpochs {
+    let mut joined = JoinedEpochs::default();
     let mut out = vec![];
     for mut places in scenes(&measured) {
         places.sort_by_key(|&place| measured[place].case.epoch);

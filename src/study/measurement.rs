@@ -73,7 +73,7 @@ pub struct Measurement {
 
 /// A structure that has no times on a scene, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Refused {
+pub struct UntimedStructure {
     /// As chosen.
     pub label: String,
     /// As tables name it.
@@ -89,11 +89,15 @@ pub fn measurements(dataset: &Dataset) -> Vec<Measurement> {
 }
 
 /// The structures that have no times, each with its scene.
-pub fn refused(dataset: &Dataset) -> Vec<Refused> {
-    let of_scene = |scene: &SceneEpochs| -> Vec<Refused> {
+pub fn refused(dataset: &Dataset) -> Vec<UntimedStructure> {
+    let of_scene = |scene: &SceneEpochs| -> Vec<UntimedStructure> {
         let first = scene.epochs[0];
         let refused = |structure: &Structure| {
-            Some(Refused { label: structure.label.clone(), scene: first.title(), reason: structure.refused.clone()? })
+            Some(UntimedStructure {
+                label: structure.label.clone(),
+                scene: first.title(),
+                reason: structure.refused.clone()?,
+            })
         };
         first.structures.iter().filter(|own| !own.is_twin()).filter_map(refused).collect()
     };

@@ -43,7 +43,7 @@ pub use dataset::{Dataset, Measured, SceneEpochs};
 pub use engine::{Outcome, Run, run};
 pub use epoch::Epoch;
 pub use error::StudyError;
-pub use join::{Joined, join};
+pub use join::{JoinedEpochs, join};
 pub use plan::{Plan, PlannedScene};
 pub use screen::Screen;
 pub use stage::Stage;

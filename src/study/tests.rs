@@ -47,17 +47,17 @@ fn measured(folder: &std::path::Path, without: &[(&str, usize)], change: fn(&Cas
 
 /// The titles of what is shown while a run goes on.
 #[derive(Default)]
-struct Shown {
+struct RecordingScreen {
     titles: Vec<String>,
 }
 
-impl Screen for Shown {
+impl Screen for RecordingScreen {
     fn table(&mut self, table: &Table) {
         self.titles.push(table.title.clone());
     }
 }
 
-fn outcome(folder: &std::path::Path, screen: &mut Shown) -> Outcome {
+fn outcome(folder: &std::path::Path, screen: &mut RecordingScreen) -> Outcome {
     let registry = Registry::builtin();
     let mut own = Run { registry: &registry, folder, keep_journal: Some(true), fresh: false, processes: None, screen };
     run(&TINY, &TINY.defaults(), &plan(), &mut own).unwrap()
@@ -73,7 +73,7 @@ fn scenes_that_fail_are_told_and_cut_no_mean() {
         }
     };
     measured(folder.path(), &[("b", 1)], other);
-    let mut screen = Shown::default();
+    let mut screen = RecordingScreen::default();
     let outcome = outcome(folder.path(), &mut screen);
     let told: Vec<String> = outcome.failures.iter().map(ToString::to_string).collect();
     assert!(told.len() == 2 && told[0].contains("b epoch 1") && told[1].contains("rays of c: epoch 0"), "{told:?}");

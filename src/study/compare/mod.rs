@@ -12,7 +12,7 @@ mod tradeoff;
 use clap::{ArgMatches, Args, Command, FromArgMatches};
 
 use super::claims::judge;
-use super::measurement::{Measurement, Refused, measurements, refused, samples};
+use super::measurement::{Measurement, UntimedStructure, measurements, refused, samples};
 use super::{Dataset, Plan, Presets, SceneEpochs, Study};
 use crate::measure::advice::{Conditions, of_own_clock, of_samples};
 use crate::measure::{Provenance, machine, median};
@@ -120,7 +120,7 @@ fn scene_warnings(scene: &SceneEpochs, provenance: &Provenance) -> Vec<String> {
 }
 
 /// A table of one scene, whose structures are all refused.
-fn nothing_measured(scene: &str, refused: &[Refused]) -> Table {
+fn nothing_measured(scene: &str, refused: &[UntimedStructure]) -> Table {
     let rows = refused.iter().map(|own| vec![own.label.as_str().into()]);
     Table::new(format!("{scene}: every structure is refused, or no ray is left"), ["structure"], rows).of_one_scene()
 }

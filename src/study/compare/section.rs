@@ -11,7 +11,7 @@ use crate::report::{Art, Block, Cell, Figure, Finding, Table};
 use crate::request::{BRUTE_FORCE, REPORT_TREE, SAH_TREE, known_defect};
 use crate::scene::{BUILTIN, Builtin};
 use crate::study::kendall::{kendall, mean};
-use crate::study::measurement::{Measurement, Refused, trace_noise};
+use crate::study::measurement::{Measurement, UntimedStructure, trace_noise};
 
 /// How many answers were checked and how many of them are wrong, and whose.
 pub fn checked(all: &[Measurement]) -> Option<Finding> {
@@ -90,13 +90,13 @@ pub fn bias() -> String {
 const OPEN: usize = 3;
 
 /// All blocks. The terminal prints the tables of scenes, in full where they are `wide`, then the means and the ranks.
-pub fn blocks(all: &[Measurement], refused: &[Refused], references: &[Reference], wide: bool) -> Vec<Block> {
+pub fn blocks(all: &[Measurement], refused: &[UntimedStructure], references: &[Reference], wide: bool) -> Vec<Block> {
     let last = &references[references.len().saturating_sub(1)..];
     let mut blocks = vec![];
     let titles = each_once(all.iter().map(Measurement::scene_title).chain(refused.iter().map(|own| own.scene.clone())));
     let mut scenes = by_scene(all);
     for title in &titles {
-        let own: Vec<Refused> = refused.iter().filter(|own| own.scene == *title).cloned().collect();
+        let own: Vec<UntimedStructure> = refused.iter().filter(|own| own.scene == *title).cloned().collect();
         let scene = scenes.iter().find(|scene| scene[0].scene_title() == *title);
         blocks.push(Block::from(match scene {
             Some(scene) if wide => scene_table(scene, references, &own, true),

@@ -7,7 +7,7 @@ use crate::report::number::{count, figures, plural};
 use crate::report::words::{distinct, listed};
 use crate::report::{Cell, Table, Tone, Value};
 use crate::request::{is_large, known_defect};
-use crate::study::measurement::{Measurement, Refused, trace_noise};
+use crate::study::measurement::{Measurement, UntimedStructure, trace_noise};
 use crate::triangle::{Exact, TriangleTest};
 
 /// What a structure is asked with that answers many rays in one call.
@@ -59,7 +59,7 @@ pub fn legend(all: &[Measurement], references: &[Reference]) -> Vec<String> {
 }
 
 /// Why structures are refused, each reason once for all tables.
-pub fn refusals(refused: &[Refused]) -> Vec<String> {
+pub fn refusals(refused: &[UntimedStructure]) -> Vec<String> {
     let reason = |reason: &String| {
         let of = refused.iter().filter(|r| r.reason == *reason).map(|r| &r.label);
         format!("Refused: {}: {reason}.", listed(&distinct(of)))
@@ -69,7 +69,7 @@ pub fn refusals(refused: &[Refused]) -> Vec<String> {
 
 /// One scene, one row for each structure, those that are refused last, with a column of ratios for each of the
 /// `references`; with all columns where it is `wide`.
-pub fn scene_table(all: &[Measurement], references: &[Reference], refused: &[Refused], wide: bool) -> Table {
+pub fn scene_table(all: &[Measurement], references: &[Reference], refused: &[UntimedStructure], wide: bool) -> Table {
     let Some(first) = all.first() else { return Table::default() };
     let workloads = distinct(all.iter().map(|r| &r.workload));
     let structures = distinct(all.iter().map(|r| &r.label));

@@ -8,7 +8,7 @@ fn epochs(scene: &str, numbers: &[usize]) -> Vec<Epoch> {
 }
 
 /// What comes of the epochs, each with its case of three planned ones, and why others are left out.
-fn joined_as(epochs: Vec<Epoch>, whole: bool) -> (Vec<Epoch>, Joined) {
+fn joined_as(epochs: Vec<Epoch>, whole: bool) -> (Vec<Epoch>, JoinedEpochs) {
     let measured = |epoch: Epoch| {
         let mut case = case(&epoch.scene, epoch.epoch, &[]);
         (case.epochs, case.settings.whole) = (3, whole);
@@ -18,7 +18,7 @@ fn joined_as(epochs: Vec<Epoch>, whole: bool) -> (Vec<Epoch>, Joined) {
     (std::mem::take(&mut joined.measured).into_iter().map(|own| own.epoch).collect(), joined)
 }
 
-fn joined(epochs: Vec<Epoch>) -> (Vec<Epoch>, Joined) {
+fn joined(epochs: Vec<Epoch>) -> (Vec<Epoch>, JoinedEpochs) {
     joined_as(epochs, false)
 }
 
@@ -26,7 +26,7 @@ fn joined(epochs: Vec<Epoch>) -> (Vec<Epoch>, Joined) {
 fn failure(change: impl Fn(&mut Epoch)) -> StudyError {
     let mut epochs = epochs("a", &[0, 1]);
     change(&mut epochs[1]);
-    let (cases, Joined { mut failures, .. }) = joined(epochs);
+    let (cases, JoinedEpochs { mut failures, .. }) = joined(epochs);
     assert!(cases.is_empty() && failures.len() == 1, "{failures:?}");
     failures.remove(0)
 }
@@ -34,7 +34,7 @@ fn failure(change: impl Fn(&mut Epoch)) -> StudyError {
 #[test]
 fn epochs_need_no_order_and_come_out_as_they_came_in() {
     let given = [epochs("a", &[2, 0]), epochs("b", &[1, 0, 2]), epochs("a", &[1])].concat();
-    let (cases, Joined { failures, unchecked, .. }) = joined(given.clone());
+    let (cases, JoinedEpochs { failures, unchecked, .. }) = joined(given.clone());
     assert_eq!(cases, given);
     assert!(failures.is_empty() && unchecked.is_empty());
 }
@@ -42,7 +42,7 @@ fn epochs_need_no_order_and_come_out_as_they_came_in() {
 #[test]
 fn a_scene_without_its_first_epoch_is_left_out_and_one_without_another_is_named() {
     let given = [epochs("a", &[1, 2]), epochs("b", &[0, 2]), epochs("c", &[0, 1, 2])].concat();
-    let (cases, Joined { unchecked, missing, .. }) = joined(given);
+    let (cases, JoinedEpochs { unchecked, missing, .. }) = joined(given);
     assert!(cases.len() == 5 && cases.iter().all(|epoch| epoch.scene != "a"));
     assert_eq!(unchecked, ["a: epoch 0 is not measured; epoch 0 checks the answers, so the scene is left out."]);
     assert_eq!(missing, ["b: epoch 1 is not measured."]);
@@ -58,7 +58,7 @@ fn what_the_first_epoch_found_wrong_has_no_time_anywhere() {
     assert!(one.ns.is_empty() && one.wrong && one.untimed.as_deref() == Some("3 wrong answers to 9 rays"));
     assert_eq!(cases[0].structures[1], given[0].structures[1]);
     // A study that compares all or nothing leaves the scene out.
-    let (cases, Joined { failures, .. }) = joined_as(given, true);
+    let (cases, JoinedEpochs { failures, .. }) = joined_as(given, true);
     assert!(cases.is_empty() && failures[0].is_wrong_answer(), "{failures:?}");
 }
 
@@ -122,7 +122,7 @@ fn a_structure_of_others_that_answers_otherwise_takes_no_part() {
     let mut given = epochs("a", &[0, 1]);
     given.iter_mut().for_each(|epoch| epoch.structures[1].name = "embree".into());
     given[1].structures[1].rays[0].checksum = 2;
-    let (cases, Joined { failures, .. }) = joined(given);
+    let (cases, JoinedEpochs { failures, .. }) = joined(given);
     assert!(failures.is_empty(), "{failures:?}");
     for epoch in cases {
         let refused: Vec<Option<&str>> = epoch.structures.iter().map(|s| s.refused.as_deref()).collect();
@@ -155,7 +155,7 @@ fn a_program_whose_clock_chose_otherwise_is_timed_on_the_rays_that_all_epochs_ha
         epoch.structures[1].rays[0].parts = parts(0);
         epoch
     };
-    let (cases, Joined { failures, .. }) = joined(vec![program(0, &[400, 100]), program(1, &[100, 25])]);
+    let (cases, JoinedEpochs { failures, .. }) = joined(vec![program(0, &[400, 100]), program(1, &[100, 25])]);
     assert!(failures.is_empty());
     for epoch in &cases {
         let [one, other] = [0, 1].map(|place| &epoch.structures[place].rays[0]);

@@ -10,7 +10,7 @@ use crate::measure::Provenance;
 use crate::report::number::plural;
 use crate::report::words::{each_once, listed};
 use crate::study::dataset::{Dataset, Measured};
-use crate::study::join::{Joined, join};
+use crate::study::join::{JoinedEpochs, join};
 
 /// Cases that one build has measured on one machine with the same settings.
 struct Group {
@@ -71,7 +71,7 @@ fn dataset(files: &[CaseFile]) -> Dataset {
     // They come from many machines in no order: small scenes first.
     kept.sort_by_key(|file| (file.epoch.triangles, file.case.scene_title(), file.case.epoch));
     let measured = kept.iter().map(|file| Measured { case: file.case.clone(), epoch: file.epoch.clone() });
-    let Joined { measured, failures, unchecked, missing } = join(measured.collect());
+    let JoinedEpochs { measured, failures, unchecked, missing } = join(measured.collect());
     let provenances: Vec<&Provenance> = files.iter().map(|file| &file.provenance).collect();
     let mut dataset = Dataset::new(of_all(&provenances), measured);
     dataset.notes.extend(failures.iter().map(|failure| format!("{failure}; the scene is left out.")));

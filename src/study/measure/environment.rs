@@ -33,14 +33,14 @@ impl Environment {
 }
 
 /// Looks at the thread before and after.
-pub struct Watch {
+pub struct EnvironmentProbe {
     start_ns: u64,
     interruptions: Option<u64>,
     core: usize,
     clock_rate: Option<f64>,
 }
 
-impl Watch {
+impl EnvironmentProbe {
     pub fn start(clock: &dyn Clock, core: usize) -> Self {
         let (interruptions, clock_rate) = (machine::interruptions(), machine::clock_rate(core));
         Self { start_ns: clock.now_ns(), interruptions, core, clock_rate }

@@ -266,7 +266,7 @@ impl<'a> Bench<'a> {
         let total = pairs.len() * allotted.allotment.runs;
         let mut told = |taken| progress(Stage::Trace(taken, total));
         let _pin = threads.pin();
-        let watch = environment::Watch::start(clock, threads.cores().map_or(0, |cores| cores[0]));
+        let watch = environment::EnvironmentProbe::start(clock, threads.cores().map_or(0, |cores| cores[0]));
         let taken = timing.take(&allotted, &is_timed, &plan, &mut told);
         let environment = watch.end(clock);
 

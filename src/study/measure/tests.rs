@@ -15,7 +15,7 @@ use crate::request::{SceneRequest, ViewArgs, WorkloadRequest, scene, with_twin};
 use crate::scene::WorkloadKind;
 use crate::study::case::tests::example;
 use crate::study::measurement::{Measurement, measurements};
-use crate::study::{Dataset, Joined, Measured, Status, join};
+use crate::study::{Dataset, JoinedEpochs, Measured, Status, join};
 use crate::triangle::{MollerTrumbore, TriangleTest};
 
 pub struct Flawed {
@@ -187,7 +187,7 @@ fn what_cannot_be_built_in_one_epoch_costs_nobody_else_a_measurement() {
         IS_AWAY.store(epoch == 1, Ordering::Relaxed);
         measured(&Case { epoch, ..case.clone() }, &mut |_| ()).unwrap()
     });
-    let Joined { measured, failures, .. } = join(epochs.into());
+    let JoinedEpochs { measured, failures, .. } = join(epochs.into());
     assert!(failures.is_empty() && measured.len() == 2, "{failures:?}");
     for Measured { epoch, .. } in &measured {
         let [kd, brute, away] = &epoch.structures[..] else { panic!("{epoch:?}") };
