@@ -1,4 +1,4 @@
-//! Names of commands, studies and options that went, and where their worth is now.
+//! Removed commands, studies and options, and what replaces them.
 
 pub const COMMANDS: [(&str, &str); 5] = [
     ("bench", "`sahara compare --export-json A.json` and `sahara diff A.json B.json --fail-on-regression PERCENT`"),
@@ -10,15 +10,15 @@ pub const COMMANDS: [(&str, &str); 5] = [
 
 pub const STUDIES: [(&str, &str); 10] = [
     ("predictions", "its claims are judged by the studies that measure them: `sahara study all`, then `sahara report`"),
-    ("crossover", "`sahara compare` on scenes of few and of many layers; papers/TUNING.md has what it found"),
+    ("crossover", "`sahara compare` on scenes with few and with many layers; its results are in papers/TUNING.md"),
     ("break-even", "the column \"pays off after\" of `sahara compare --wide`"),
-    ("threads", "`sahara compare --threads N`; papers/TUNING.md has what it found"),
-    ("binary", "`sahara compare -s sah-kd -s obvhs-bvh2`; papers/TUNING.md has what it found"),
+    ("threads", "`sahara compare --threads N`; its results are in papers/TUNING.md"),
+    ("binary", "`sahara compare -s sah-kd -s obvhs-bvh2`; its results are in papers/TUNING.md"),
     ("costs", "papers/TUNING.md has what a node and a triangle test cost"),
     ("parameters", "`sahara replicate` measures the report's settings"),
     ("partitions", "`sahara compare -s sah-kd-wide -s sah-kd-tight -s sah-hybrid -s sah-bvh`"),
     ("counts", "`sahara compare --wide`"),
-    ("self-intersection", "papers/TUNING.md has what it found about ray offsets"),
+    ("self-intersection", "its results on ray offsets are in papers/TUNING.md"),
 ];
 
 pub const OPTIONS: [(&str, &str); 2] = [
@@ -31,5 +31,5 @@ pub const OPTIONS: [(&str, &str); 2] = [
 
 pub fn said(kind: &str, names: &[(&str, &str)], name: &str) -> Option<String> {
     let (name, now) = names.iter().find(|(old, _)| *old == name)?;
-    Some(format!("the {kind} {name} went: {now}"))
+    Some(format!("the {kind} {name} was removed: {now}"))
 }

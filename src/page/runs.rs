@@ -1,4 +1,4 @@
-//! What was measured: cases of journals and exports, found out by their content.
+//! Reads measured cases from journals and exports. The content of a file, not its name, decides which it is.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -21,7 +21,7 @@ pub const COMPARE: &str = "compare";
 /// Everything that a page is made of.
 #[derive(Default)]
 pub struct Runs<'a> {
-    /// What was read, by name.
+    /// The files and journals read, in the order of the command line, by name within a folder.
     pub sources: Vec<Source>,
     /// What was measured of each study, in the order of the studies; those that were not measured are not there.
     pub studies: Vec<StudyRun<'a>>,
@@ -32,7 +32,7 @@ pub struct Runs<'a> {
 /// What was measured of a study, and what it says of that.
 pub struct StudyRun<'a> {
     pub study: &'a Study,
-    /// What is shown: of several settings, builds or machines the one with the most cases.
+    /// The dataset shown: the one with the most cases if there are several settings, builds or machines.
     pub dataset: Dataset,
     pub others: Vec<Dataset>,
     pub report: Report,
@@ -48,12 +48,12 @@ pub struct Source {
     pub commands: Vec<String>,
 }
 
-/// The kind of a file of a folder that is passed over.
-pub const NO_RUN: &str = "no run: left out";
+/// [`Source::kind`] of a file in a folder that is not a run and is ignored.
+pub const NO_RUN: &str = "not a run: ignored";
 
 impl<'a> Runs<'a> {
-    /// Reads files, and of folders all `.json` files and those of journals in them. An export counts as the cases that
-    /// it holds; of each scene the cases that were measured last count.
+    /// Reads files and folders: of a folder, all `.json` files in it and in its journals. An export counts as the cases
+    /// it holds; if a case was measured several times, the last one counts.
     pub fn read(paths: &[PathBuf], studies: &'a Studies) -> Result<Self, RunError> {
         let mut runs = Self::default();
         let mut cases = vec![];
@@ -198,7 +198,7 @@ fn folder(path: &Path, studies: &Studies) -> Result<Vec<PathBuf>, RunError> {
     Ok(files.collect::<Result<Vec<_>, _>>()?.concat())
 }
 
-/// Without the cases of an export that its journal holds as well.
+/// Removes duplicates: cases of an export that are also in a journal.
 fn each_measured_once(cases: Vec<CaseFile>) -> Vec<CaseFile> {
     let mut kept: Vec<CaseFile> = vec![];
     for file in cases {

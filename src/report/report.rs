@@ -1,4 +1,4 @@
-//! What a study says of a dataset: plain data, before it has a form.
+//! A study's report on a dataset, as plain data independent of the output format.
 
 use super::inspector::Inspector;
 use super::plot::Chart;
@@ -29,11 +29,11 @@ pub struct Report {
 pub struct Finding {
     /// Letters, digits and hyphens; no two findings of a study share one.
     pub key: String,
-    /// Ends with a full stop; empty where a number alone is found, which a claim is about.
+    /// Ends with a full stop; empty if the finding is only a number that a claim refers to.
     pub sentence: String,
     /// The number that the sentence is about, where it is about one.
     pub value: Option<Estimate>,
-    /// What the answer of a page is called: the label of the fastest structure.
+    /// Name that a page shows as its answer: the label of the fastest structure.
     pub name: Option<String>,
 }
 
@@ -58,7 +58,7 @@ pub struct Verdict {
     pub claim: String,
     /// What was expected of it: `at least 20`.
     pub expected: String,
-    /// What was measured, with the interval of one among all claims; nothing where it was not.
+    /// The measured value, with its interval corrected for the number of claims (Bonferroni); `None` if not measured.
     pub value: Option<Estimate>,
     pub outcome: Outcome,
 }
@@ -86,14 +86,14 @@ pub struct Failure {
     pub wrong: bool,
 }
 
-/// Something to look at, with all that is needed to do without looking.
+/// A figure with its caption, alternative text and the numbers behind it.
 #[derive(Clone, Debug)]
 pub struct Figure {
     /// Letters, digits and hyphens; no two figures share one. The name of its files.
     pub id: String,
     /// What it shows, and how to read it.
     pub caption: String,
-    /// What one sees, for those who do not.
+    /// Alternative text for readers who cannot see the figure.
     pub alt: String,
     pub art: Art,
     /// The numbers in it; a table without columns where it has none.

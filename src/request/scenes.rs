@@ -1,4 +1,4 @@
-//! Scenes by a word that every process resolves alike: a built-in name, a generator with its parameters, or a file.
+//! Resolves scene names the same way in every process: a built-in name, a generator with parameters, or a file.
 
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
@@ -36,7 +36,7 @@ pub struct SceneRequest {
 /// Digits of the hash of a scene in requests and keys.
 const DIGITS: usize = 16;
 
-/// What stands behind the name of a built-in scene, after a colon, to name it with the mesh that stands in for a real one.
+/// Suffix after `NAME:` that selects the stand-in mesh of a built-in scene instead of the real one.
 const STAND_IN: &str = "stand-in";
 
 /// The word for a built-in scene with the mesh that stands in for a real one.
@@ -63,7 +63,7 @@ impl SceneRequest {
     /// The scene.
     ///
     /// # Errors
-    /// If it is not there, or is another one than it was when it was planned.
+    /// If the scene is missing or has changed since it was planned.
     pub fn load(&self, registry: &Registry) -> anyhow::Result<Scene> {
         let scene = self.view.of(scene(registry, &self.word)?)?;
         anyhow::ensure!(
@@ -90,7 +90,7 @@ fn words(named: &[OsString]) -> Vec<OsString> {
 
 /// Each of the scenes once, with its word.
 fn loaded(registry: &Registry, words: &[OsString]) -> anyhow::Result<Vec<(OsString, Scene)>> {
-    // Large meshes take seconds to load; the first one that cannot be is named.
+    // Load in parallel, as large meshes take seconds; report the first failure in the order of `words`.
     let load = |word: &OsString| Ok((word.clone(), scene(registry, word)?));
     let scenes: Vec<anyhow::Result<(OsString, Scene)>> = words.par_iter().map(load).collect();
     distinct(scenes.into_iter().collect::<anyhow::Result<_>>()?)
@@ -202,7 +202,7 @@ pub enum Meshes {
     /// Stand-ins, and the real meshes where they have been fetched
     #[default]
     Both,
-    /// Real meshes alone: a scene whose mesh has not been fetched is refused
+    /// Real meshes only; fail if a mesh has not been fetched
     Real,
     /// Stand-ins alone
     StandIns,
@@ -219,8 +219,8 @@ pub struct ScenesAndMeshes {
 }
 
 impl ScenesAndMeshes {
-    /// The scenes named, all built-in ones without a name; of those with a stand-in both forms, if the meshes are to be
-    /// both. Each with its word.
+    /// The named scenes, or all built-in ones; with [`Meshes::Both`], a scene that has a stand-in is returned in both
+    /// forms. Each comes with its word.
     ///
     /// # Errors
     /// As [`scenes`], and if real meshes are asked for and one is not there.

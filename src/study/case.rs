@@ -35,13 +35,13 @@ pub struct Case {
 /// How a case is measured.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
-    /// Samples of every pair of structure and workload, at least 1; fewer where there is not time for them all.
+    /// Samples per structure and workload, at least 1; fewer if the budget runs out.
     pub runs: usize,
-    /// What the samples of an epoch of one scene may take together, nanoseconds: slow pairs are timed on fewer rays to
-    /// keep within it. Nothing: all rays are timed.
+    /// Nanoseconds for all samples of one scene and epoch. Slow pairs are timed on fewer rays to
+    /// stay within it. `None`: all rays are timed.
     pub budget_ns: Option<u64>,
-    /// A structure that takes more than so many times as long as the median one is timed on fewer rays; nothing where
-    /// none is.
+    /// A structure slower than the median by more than this factor is timed on fewer rays. `None`: the factor is
+    /// unlimited.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slowest: Option<f64>,
     pub check: Check,
@@ -111,8 +111,8 @@ impl Default for Check {
     }
 }
 
-/// Where pairs are compared each on its own rays, a structure that takes more than so many times as long as the median
-/// one is timed on fewer: its ratios hardly gain from more of them, and the run would be about it alone.
+/// Usual [`Settings::slowest`]: a structure slower than the median by more than this factor is timed on fewer
+/// rays: more rays hardly improve its ratios, and it would take up most of the run.
 pub const SLOWEST: f64 = 4.0;
 
 impl Settings {
@@ -134,7 +134,7 @@ impl Settings {
     }
 }
 
-/// As many triangles take the builds of an epoch a quarter of what all else takes, about.
+/// Building this many triangles takes about a quarter of the time of the rest of the epoch.
 const TRIANGLES: u64 = 12_000;
 
 impl Case {
@@ -161,7 +161,7 @@ impl Case {
         (4 + self.scene.triangles as u64 / TRIANGLES) * if self.epoch == 0 { 2 } else { 1 }
     }
 
-    /// Whether both are epochs of one measurement: all but the epoch is the same.
+    /// Whether both are epochs of one measurement: same study, scene, labels, structures, workloads and settings.
     pub fn is_beside(&self, other: &Self) -> bool {
         self.identity() == other.identity()
     }

@@ -46,23 +46,23 @@ pub struct Outcome {
     pub failures: Vec<StudyError>,
 }
 
-/// An epoch that takes so long is worth a first look.
+/// After a first epoch longer than this, the scene's tables are printed before the other epochs.
 const LONG_NS: u64 = 5_000_000_000;
 
-/// Where runs are kept that were interrupted, if their study keeps no journal otherwise: a folder in that of journals.
+/// Subfolder of the journal folder for interrupted runs of studies that otherwise keep no journal.
 const UNFINISHED: &str = "unfinished";
 
 /// Measures what `plan` asks for and the journal lacks, and reports.
 ///
 /// # Errors
-/// If the journal cannot be used, or nothing can be measured.
+/// If the journal or the threads cannot be used, or a case fails for a reason that is not specific to its scene.
 pub fn run(study: &Study, matches: &ArgMatches, plan: &Plan, run: &mut Run) -> anyhow::Result<Outcome> {
     let threads = plan.cases.first().map_or(1, |case| case.settings.threads);
     let threads = Threads::unstarted(threads);
     let provenance = Provenance { process_per_epoch: run.processes.is_some(), ..Provenance::of(&threads) };
     let keep = run.keep_journal.unwrap_or(plan.keep_journal);
     let unfinished = run.folder.join(UNFINISHED).join(format!("{}-{}", study.name, id(&plan.cases, &provenance)));
-    // A run that is ended by the clock is not gone on with.
+    // An interrupted run with a time limit is not saved for a resume.
     let may_go_on = !keep && plan.limit.is_none();
     let is_taken_up = may_go_on && !run.fresh && unfinished.exists();
     let scratch = tempfile::Builder::new().prefix("sahara-").tempdir()?;
@@ -204,7 +204,7 @@ impl Engine<'_> {
         Ok(false)
     }
 
-    /// The case without the structures that epoch 0 could not build in time.
+    /// The case, with the structures that epoch 0 could not build in time marked as skipped.
     fn without_skipped(&self, case: &Case) -> Case {
         let first = Case { epoch: 0, ..case.clone() };
         match self.journal.get(&first) {
@@ -279,7 +279,7 @@ impl Engine<'_> {
         screen.warn(&report.warnings);
         let (mut tables, mut foot) = (vec![], vec![]);
         if is_reported || !dataset.measured.is_empty() {
-            // A scene that was interrupted or failed would cut means over scenes to as many epochs as it has.
+            // Exclude interrupted and failed scenes: they would limit means over scenes to the epochs that they have.
             let lacks = |case: &Case| {
                 self.plan.cases.iter().any(|other| other.is_of_scene(case) && self.journal.get(other).is_none())
             };

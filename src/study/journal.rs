@@ -1,10 +1,10 @@
-//! The journal of a study: a folder with one file an epoch of a scene, so that a run that is killed goes on where it
-//! stopped, and runs of many machines add to one folder without talking to each other.
+//! The journal of a study: a folder with one file per scene and epoch. A killed run resumes where it
+//! stopped, and several machines can write to one folder without communicating.
 //!
-//! Each file has the case, provenance and what was measured. It is written whole, by one writer, and never changed: what
-//! begins with a dot is being written, or was when its writer was killed, and is no case. Its name has the case's key and
+//! Each file holds the case, its provenance and its results. One writer writes it whole, and it never changes. A file
+//! name that begins with a dot marks an unfinished write and is ignored. A case file's name has the case's key and
 //! a digest of settings, build and machine, so that cases of any settings lie side by side. Anybody may read at any time,
-//! and any number of jobs of a plan may write; of runs that measure what is missing there is one at a time.
+//! and any number of planned jobs may write; only one run at a time may measure the missing cases.
 
 mod case_file;
 mod error;
@@ -28,9 +28,9 @@ pub struct Journal {
     /// Of this process: cases of another build or machine are not its own.
     provenance: Provenance,
     files: Vec<CaseFile>,
-    /// How many of the files were there when it was opened, where these do not count.
+    /// Number of leading `files` to ignore: with `fresh`, those present when the journal was opened; otherwise 0.
     ignored: usize,
-    /// Where a run measures.
+    /// Held while a run measures into the folder.
     _lock: Option<Lock>,
 }
 
@@ -59,7 +59,7 @@ impl Journal {
         cases: &[Case],
     ) -> Result<Self, JournalError> {
         fs::create_dir_all(folder).map_err(|cause| JournalError::Write { path: folder.into(), cause })?;
-        // Before the cases are read: what another run has measured until it ended is among them.
+        // Take the lock before reading the cases, so that they include everything an earlier run wrote.
         let lock = Lock::take(folder);
         let journal = Self::open(folder, provenance, fresh)?;
         if cases.iter().all(|case| journal.get(case).is_some()) {
@@ -97,7 +97,7 @@ impl Journal {
         Ok(())
     }
 
-    /// Moves all files into `folder`: another run goes on with them.
+    /// Copies all files into `folder`, so that a later run can resume from them.
     ///
     /// # Errors
     /// If the folder cannot be made or takes no file.

@@ -155,17 +155,20 @@ fn lists_and_completions_name_everything() {
 #[test]
 fn old_names_are_answered_with_the_new_ones() {
     for (old, new) in [
-        ("bench", ["bench went", "--fail-on-regression"]),
+        ("bench", ["bench was removed", "--fail-on-regression"]),
         ("hard cube", ["", "validate --hard"]),
         ("compare-runs a b", ["", "diff"]),
         ("counts cube", ["", "compare --wide"]),
-        ("study counts", ["counts went", "compare --wide"]),
-        ("study predictions", ["predictions went", "study all"]),
+        ("study counts", ["counts was removed", "compare --wide"]),
+        ("study predictions", ["predictions was removed", "study all"]),
         ("study crossover", ["", "sahara compare"]),
         ("study partitions cube --quick", ["", "sah-kd-tight"]),
         ("study plan threads", ["", "--threads"]),
-        ("compare cube --save-baseline main", ["--save-baseline went: `sahara compare --export-json", "sahara diff"]),
-        ("compare cube --baseline=main", ["--baseline went", "sahara diff"]),
+        (
+            "compare cube --save-baseline main",
+            ["--save-baseline was removed: `sahara compare --export-json", "sahara diff"],
+        ),
+        ("compare cube --baseline=main", ["--baseline was removed", "sahara diff"]),
     ] {
         refuses_in_a_line(&words(old), &new);
     }

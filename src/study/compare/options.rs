@@ -23,11 +23,11 @@ pub struct CompareArgs {
     pub from: ViewArgs,
     #[command(flatten)]
     pub structures: Structures,
-    /// A program that runs as a structure and times itself, with its arguments; may be repeated; with `-s none` without
-    /// structures of the suite beside it. FORMAT.md of the ray files says what it reads and writes
+    /// External program (with arguments) to benchmark as a structure; it times itself. May be repeated; `-s none` omits
+    /// the built-in structures. FORMAT.md of the ray files specifies its input and output
     #[arg(long, value_name = "COMMAND")]
     pub runner: Vec<String>,
-    /// Seconds that such a program may take for an answer, a build among them
+    /// Timeout in seconds for each reply of an external program, including builds
     #[arg(long, value_name = "SECONDS", requires = "runner", default_value_t = RUNNER_LIMIT, allow_negative_numbers = true)]
     pub runner_limit: Seconds,
     /// The structure that speeds are related to; measured even if it is not among those named [default: median-kd and
@@ -46,7 +46,7 @@ pub struct CompareArgs {
     /// further epoch that would take a scene beyond 4 s
     #[arg(long, conflicts_with_all = ["epochs", "runs", "budget"])]
     pub quick: bool,
-    /// Seconds that a build may take, or none [default: 60 and 30 more a million triangles; 10 and 10 with --quick; none
+    /// Time limit of a build in seconds [default: 60 + 30 per million triangles; with --quick 10 + 10; none
     /// with --budget none]
     #[arg(long, value_name = "SECONDS|none", value_parser = Limit::parse, allow_negative_numbers = true)]
     pub build_limit: Option<Limit>,
@@ -90,7 +90,7 @@ impl CompareArgs {
             if let Some(other) = structures.iter().find(|other| other.spec == runner.spec) {
                 anyhow::ensure!(
                     other == &runner,
-                    "--runner {command:?} and another one have one name, {}: call a file otherwise",
+                    "--runner {command:?} and another one have one name, {}: rename one of the programs",
                     runner.spec
                 );
                 continue;
@@ -173,7 +173,7 @@ impl CompareArgs {
             structures.retain(|own| own.name() != BRUTE_FORCE);
             if structures.len() < before && !self.quick {
                 notes.push(format!(
-                    "{BRUTE_FORCE} is left out, which would take hours for all rays: --structure {BRUTE_FORCE} runs it."
+                    "{BRUTE_FORCE} is skipped (hours for all rays); pass --structure {BRUTE_FORCE} to run it."
                 ));
             }
         }
@@ -201,8 +201,7 @@ impl CompareArgs {
         plan.keep_journal = false;
         if self.quick {
             plan.limit = Some(QUICK);
-            plan.notes
-                .push("Coarse: few rays, few checks and up to three epochs. Without --quick it is measured.".into());
+            plan.notes.push("Coarse: few rays, few checks, up to three epochs. Omit --quick for a full run.".into());
         }
         Ok(plan)
     }

@@ -1,4 +1,4 @@
-//! Measuring one epoch of one scene: the only thing that is measured, whichever study asks.
+//! Measures one epoch of one scene, the unit of measurement of every study.
 
 mod build_watch;
 mod built;
@@ -91,7 +91,7 @@ pub fn measure(
         progress(Stage::Count);
         bench.count();
     }
-    // What has no time at all keeps no rays.
+    // A refused structure has no times: drop its rays.
     bench.structures.iter_mut().filter(|one| one.refused.is_some()).for_each(|one| one.rays.clear());
     let scene = &prepared.scene;
     Ok(Epoch {
@@ -115,7 +115,7 @@ struct Bench<'a> {
     structures: Vec<Structure>,
     /// Each of them, if it could be built.
     built: Vec<Option<Built>>,
-    /// Where they lie.
+    /// Keeps the memory placement of the structures alive.
     _placed: Placed,
 }
 
@@ -178,7 +178,7 @@ impl<'a> Bench<'a> {
         Ok(Self { case, prepared, workloads, structures, built, _placed: placed })
     }
 
-    /// Holds all structures against brute force, and says which have no time for it.
+    /// Checks all structures against brute force; those with wrong hits are not timed.
     fn check(
         &mut self,
         tests: usize,
@@ -239,8 +239,8 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// Takes the samples of everything that is timed. How much of it is decided by all that is asked for, right or
-    /// wrong: an epoch in which a program fails, or that checks nothing, decides the same.
+    /// Takes all samples. The number of rays and runs depends on all requested pairs, including failed and wrong
+    /// ones, so that an epoch with a failed program, or without checks, uses the same numbers.
     fn sample(&mut self, clock: &dyn Clock, progress: &mut dyn FnMut(Stage)) -> Environment {
         let settings = &self.case.settings;
         let plan = Plan {
@@ -293,7 +293,7 @@ impl<'a> Bench<'a> {
         environment
     }
 
-    /// Counts what is done for the rays, also where answers are wrong.
+    /// Counts the work per ray, including for structures with wrong hits.
     fn count(&mut self) {
         let settings = &self.case.settings;
         let mut events = (settings.threads == 1).then(Events::of_thread);
@@ -303,7 +303,7 @@ impl<'a> Bench<'a> {
             let counts = |rays: &Rays| rays.untimed.is_none() || rays.wrong;
             structure.refused.is_none() && structure.rays.get(pair.workload).is_some_and(counts)
         });
-        // What bounds the checks of a quick run bounds its counts.
+        // A quick run also counts fewer rays.
         let count = if settings.is_quick() { Counted::few } else { Counted::affordable };
         for (pair, counted) in pairs.iter().zip(count_all(&pairs, &self.built, &self.workloads, count)) {
             let Some(built) = &self.built[pair.structure] else { continue };
