@@ -9,7 +9,7 @@ use crate::escaped::Escaped as _;
 use crate::output::OutputFile;
 use crate::report::{Report, markdown};
 use crate::study::diff::{Comparison, Side, settings, tables, unlike};
-use crate::study::journal::{CaseFile, JournalError, datasets, files};
+use crate::study::journal::{CaseFile, JournalError, files, newest};
 use crate::study::{Dataset, Status};
 
 #[derive(Debug, clap::Args)]
@@ -70,7 +70,7 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     Ok(comparison.status())
 }
 
-/// The dataset of an export or of a folder of journals: there that of `compare`, or else the one with the most cases.
+/// The dataset of an export, or that of a folder of journals which was measured last, of `compare` if it has any.
 fn dataset(path: &Path) -> anyhow::Result<Dataset> {
     let advice = "give a file of `--export-json`, or a folder of `--dir`";
     let found = if path.is_dir() {
@@ -87,9 +87,10 @@ fn dataset(path: &Path) -> anyhow::Result<Dataset> {
                 Err(error) => return Err(error.into()),
             }
         }
-        let mut all = datasets(cases);
-        let compare = all.iter().position(|own| own.study() == Some("compare")).unwrap_or(0);
-        (compare < all.len()).then(|| all.swap_remove(compare))
+        if cases.iter().any(|own: &CaseFile| own.case.study == "compare") {
+            cases.retain(|own| own.case.study == "compare");
+        }
+        newest(cases)
     } else {
         let text = std::fs::read(path)
             .map_err(|cause| anyhow::anyhow!("cannot read {} ({cause}): {advice}", path.escaped()))?;

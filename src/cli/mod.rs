@@ -72,7 +72,7 @@ struct Global {
     level: Option<Level>,
 }
 
-/// Options of the processes that a run starts.
+// Options of the processes that a run starts. No doc comment: clap would take it for what the whole command does.
 #[derive(Debug, clap::Args)]
 struct Process {
     /// Measure this case: how a run or a scheduler starts a process

@@ -19,7 +19,7 @@ use crate::measure::Provenance;
 pub use case_file::CaseFile;
 pub use error::JournalError;
 use lock::Lock;
-pub use newest::{datasets, of_all};
+pub use newest::{datasets, newest, of_all};
 
 /// A folder of cases, and those of them that one build has measured on one machine.
 #[derive(Debug)]

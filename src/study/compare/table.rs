@@ -35,7 +35,7 @@ pub fn legend(all: &[Measurement], references: &[Reference]) -> Vec<String> {
         speeds += "; n/m wrong: wrong answers to n of m rays, and then no time";
     }
     if all.iter().any(|r| r.mrays_per_s.is_some() && r.sampled) {
-        speeds += "; ~: of a part of the rays, all would take too long";
+        speeds += "; ~: timed on a subset of the rays";
     }
     if all.iter().any(|r| r.query == Query::Any) {
         speeds += "; *: timed by any hit, the others by closest hit";

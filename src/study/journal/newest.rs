@@ -30,6 +30,27 @@ impl Group {
 /// newest. A case that was measured again counts as it was measured last; the notes of a dataset say so, and what is
 /// missing or does not join.
 pub fn datasets(files: Vec<CaseFile>) -> Vec<Dataset> {
+    let mut datasets: Vec<Dataset> = groups(files).iter().map(|group| dataset(&group.files)).collect();
+    datasets.retain(|dataset| !dataset.measured.is_empty());
+    datasets.sort_by_key(|dataset| std::cmp::Reverse((dataset.measured.len(), dataset.provenance.date.clone())));
+    datasets
+}
+
+/// The dataset of the group that was measured last, with a note if there are others.
+pub fn newest(files: Vec<CaseFile>) -> Option<Dataset> {
+    let groups = groups(files);
+    let date = |group: &&Group| group.files.iter().map(|file| file.provenance.date.clone()).max();
+    let mut dataset = dataset(&groups.iter().max_by_key(date)?.files);
+    if groups.len() > 1 {
+        let others = plural(groups.len() - 1, "group");
+        dataset
+            .notes
+            .push(format!("{others} of cases with other settings, builds or machines left out: the newest counts."));
+    }
+    Some(dataset)
+}
+
+fn groups(files: Vec<CaseFile>) -> Vec<Group> {
     let mut groups: Vec<Group> = vec![];
     for file in files {
         match groups.iter_mut().find(|group| group.admits(&file)) {
@@ -40,10 +61,7 @@ pub fn datasets(files: Vec<CaseFile>) -> Vec<Dataset> {
             }
         }
     }
-    let mut datasets: Vec<Dataset> = groups.iter().map(|group| dataset(&group.files)).collect();
-    datasets.retain(|dataset| !dataset.measured.is_empty());
-    datasets.sort_by_key(|dataset| std::cmp::Reverse((dataset.measured.len(), dataset.provenance.date.clone())));
-    datasets
+    groups
 }
 
 /// The dataset of files of one group, joined.

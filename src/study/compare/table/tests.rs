@@ -66,7 +66,7 @@ fn ratios_are_geometric_means_against_the_tree_and_the_better_bvh() {
     assert_eq!(cell(&table, "sah-kd", "primary"), "~8.00");
     assert!(!table.columns.iter().any(|column| column == "tests"), "what is unknown of all has no column");
     assert_eq!(cell(&table, "sah-kd", "sampled"), "50.0 %");
-    assert!(legend(&cube(), &[])[0].contains("~: of a part of the rays"));
+    assert!(legend(&cube(), &[])[0].contains("~: timed on a subset of the rays"));
     let whole: Vec<Measurement> = cube().into_iter().map(|record| Measurement { sampled: false, ..record }).collect();
     assert_eq!(cell(&scene_table(&whole, &[]), "sah-kd", "primary"), "8.00");
     assert!(!legend(&whole, &[])[0].contains('~'));
