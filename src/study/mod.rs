@@ -1,6 +1,6 @@
 //! Studies: each asks a question, plans cases and reports on what was measured.
 //!
-//! A [`Study`] is a value: two functions and their options. Measuring is not its business: [`engine`] measures the cases
+//! A [`Study`] is a value: two functions and their options. Measuring is not its business: `engine` measures the cases
 //! of a plan that the journal lacks, one [`Case`] a process, and hands the [`Dataset`] to the study's report.
 
 pub mod accuracy;

@@ -92,7 +92,7 @@ impl Reference {
     }
 
     /// The geometric mean of how many times faster the first of each pair is; a structure against itself has no
-    /// interval. `noise` as in [`speed`].
+    /// interval. `noise` as in `speed`.
     pub fn ratio(pairs: &[(&Measurement, &Measurement)], noise: &AaNoise) -> Option<Estimate> {
         let own = !pairs.is_empty() && pairs.iter().all(|(own, other)| own.label == other.label);
         if own {
