@@ -80,8 +80,13 @@ pub(super) fn told(message: clap::Error) -> ExitCode {
     ended(message.use_stderr().into())
 }
 
-/// Where --quick is no option, one that is written alike is no help: the command that has it is named instead.
+/// Without tips that do not help: no command takes an option behind `--`; and where --quick is no option, the command
+/// that has it is named instead of one that is written alike.
 fn advised(mut message: clap::Error) -> clap::Error {
+    if let Some(ContextValue::StyledStrs(mut tips)) = message.remove(ContextKind::Suggested) {
+        tips.retain(|tip| !tip.to_string().contains("as a value, use"));
+        message.insert(ContextKind::Suggested, ContextValue::StyledStrs(tips));
+    }
     let is_unknown = message.kind() == ErrorKind::UnknownArgument;
     if is_unknown && message.get(ContextKind::InvalidArg) == Some(&ContextValue::String("--quick".into())) {
         message.remove(ContextKind::SuggestedArg);

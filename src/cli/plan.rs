@@ -165,6 +165,8 @@ fn refused(mut error: clap::Error, study: &str, is_preset: bool) -> clap::Error 
         Some(ContextValue::StyledStrs(tips)) => tips,
         _ => vec![],
     };
+    // It begins with the name of the study, not with a command that one can type.
+    error.remove(ContextKind::Usage);
     tips.push(format!("these are options of the study {study}{own}").into());
     error.insert(ContextKind::Suggested, ContextValue::StyledStrs(tips));
     error

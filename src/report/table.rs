@@ -9,7 +9,6 @@ use super::{Cell, Value};
 pub struct Table {
     /// One line.
     pub title: String,
-    /// The first column is text, the others are numbers and stand to the right.
     pub columns: Vec<String>,
     /// As many cells as there are columns.
     pub rows: Vec<Vec<Cell>>,
@@ -80,6 +79,12 @@ impl Table {
         let columns = only(self.columns, &kept);
         let rows = self.rows.into_iter().map(|row| only(row, &kept)).collect();
         Self { columns, rows, ..self }
+    }
+
+    /// Whether the column holds words, which stand to the left; numbers stand to the right.
+    pub fn is_words(&self, column: usize) -> bool {
+        let mut cells = self.rows.iter().map(|row| &row[column]).filter(|cell| !cell.is_empty()).peekable();
+        column == 0 || cells.peek().is_some() && cells.all(Cell::is_text)
     }
 
     /// Whether it has rows that say something beside their names.

@@ -118,7 +118,8 @@ fn grid(table: &Table, columns: &[usize], screen: Screen) -> String {
     }
     for (i, column) in grid.column_iter_mut().enumerate() {
         column.set_padding((if i == 0 { INDENT as u16 } else { 0 }, PADDING as u16));
-        column.set_cell_alignment(if i == 0 { CellAlignment::Left } else { CellAlignment::Right });
+        let is_words = table.is_words(columns[i]);
+        column.set_cell_alignment(if is_words { CellAlignment::Left } else { CellAlignment::Right });
     }
     if screen.colour {
         grid.enforce_styling();

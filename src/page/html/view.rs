@@ -61,14 +61,10 @@ fn blocks(list: &[Block]) -> Vec<Value> {
 }
 
 fn table(table: &Table) -> Value {
-    // Numbers stand to the right, words to the left.
-    let class_of = |column: usize| {
-        let cells = || table.rows.iter().map(move |row| &row[column]).filter(|cell| !cell.is_empty());
-        match () {
-            () if cells().next().is_none() || cells().any(|cell| !cell.is_text()) => "",
-            () if cells().any(|cell| cell.text().chars().count() > 30) => "text",
-            () => "word",
-        }
+    let class_of = |column: usize| match () {
+        () if !table.is_words(column) => "",
+        () if table.rows.iter().any(|row| row[column].text().chars().count() > 30) => "text",
+        () => "word",
     };
     let classes: Vec<&str> = (0..table.columns.len()).map(class_of).collect();
     let cell = |(cell, class): (&Cell, &&str)| {

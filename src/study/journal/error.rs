@@ -33,7 +33,7 @@ pub enum JournalError {
         path.escaped()
     )]
     Schema { path: PathBuf, there: u32, here: u32 },
-    #[error("{} does not read: {problem}; remove it, and the same command measures its case again", path.escaped())]
+    #[error("{} does not read: {problem}; remove it, and the command that wrote it measures its case again", path.escaped())]
     Damaged { path: PathBuf, problem: String },
 }
 
