@@ -36,7 +36,9 @@ pub struct Args {
 
 fn percent(text: &str) -> Result<f64, String> {
     let percent = text.trim_end_matches('%').parse::<f64>().ok();
-    percent.filter(|percent| *percent > 0.0 && *percent <= 1000.0).ok_or("give per cent, above 0 and at most 1000".into())
+    percent
+        .filter(|percent| *percent > 0.0 && *percent <= 1000.0)
+        .ok_or("give per cent, above 0 and at most 1000".into())
 }
 
 pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {

@@ -51,7 +51,8 @@ pub fn table(table: &Table) -> String {
     let table = table.clone().without_empty_columns();
     let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
     let mut text = heading + &line(table.columns.iter().map(|name| escaped(name)).collect());
-    text += &line((0..table.columns.len()).map(|i| if table.is_words(i) { "---" } else { "---:" }.to_owned()).collect());
+    text +=
+        &line((0..table.columns.len()).map(|i| if table.is_words(i) { "---" } else { "---:" }.to_owned()).collect());
     for row in &table.rows {
         let cell = |cell: &super::Cell| match cell.tone {
             _ if cell.is_empty() => String::new(),
