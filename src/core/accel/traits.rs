@@ -148,13 +148,6 @@ pub trait DynAccel: Send + Sync {
         self.any_hits(rays, &mut hits);
         hits
     }
-    /// The closest hit of each ray, found on all threads of the pool, each of which takes `chunk` rays at a time.
-    fn closest_by_chunks(&self, rays: &[Ray], chunk: usize) -> Vec<Option<Hit>> {
-        let mut hits = vec![None; rays.len()];
-        let chunks = rays.par_chunks(chunk).zip(hits.par_chunks_mut(chunk));
-        chunks.for_each(|(rays, hits)| self.closest_hits(rays, hits));
-        hits
-    }
     /// As `closest_hits`, adding to `counts` what was done.
     fn closest_hits_counted(&self, rays: &[Ray], hits: &mut [Option<Hit>], counts: &mut Counts);
     /// As `any_hits`, adding to `counts` what was done.
@@ -176,6 +169,17 @@ pub trait DynAccel: Send + Sync {
     /// What is known of it besides, where it answers in a process of its own.
     fn remote(&self) -> Option<&dyn Remote> {
         None
+    }
+}
+
+// Compiled once, not once for each structure and triangle test.
+impl dyn DynAccel + '_ {
+    /// The closest hit of each ray, found on all threads of the pool, each of which takes `chunk` rays at a time.
+    pub fn closest_by_chunks(&self, rays: &[Ray], chunk: usize) -> Vec<Option<Hit>> {
+        let mut hits = vec![None; rays.len()];
+        let chunks = rays.par_chunks(chunk).zip(hits.par_chunks_mut(chunk));
+        chunks.for_each(|(rays, hits)| self.closest_hits(rays, hits));
+        hits
     }
 }
 
