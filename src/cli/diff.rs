@@ -1,16 +1,12 @@
 //! `diff`.
 
-use std::path::{Path, PathBuf};
-
-use serde_json::Value;
+use std::path::PathBuf;
 
 use super::terminal::Terminal;
-use crate::escaped::Escaped as _;
 use crate::output::OutputFile;
 use crate::report::{Report, markdown};
-use crate::study::diff::{Comparison, Side, settings, tables, unlike};
-use crate::study::journal::{CaseFile, JournalError, files, newest};
-use crate::study::{Dataset, Status};
+use crate::study::Status;
+use crate::study::diff::{Comparison, Side, read, sentences, settings, tables, unlike};
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -20,7 +16,8 @@ pub struct Args {
     /// The new run
     #[arg(value_name = "B")]
     new: PathBuf,
-    /// Exit with status 3 if a structure is slower by more than so many percent, with 4 if the samples do not tell
+    /// Exit with status 3 if a structure is slower by PERCENT or more and surely slower, with 4 if the interval contains
+    /// PERCENT
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     fail_on_regression: Option<f64>,
     /// How often the gate looks at most, measuring more in between: every look is a chance to be wrong
@@ -47,7 +44,7 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
         path.as_deref().map(|path| Ok(OutputFile::check(path)?.apart_from(inputs)?)).transpose()
     };
     let (json, markdown_file) = (check(&args.export_json)?, check(&args.export_markdown)?);
-    let (old, new) = (dataset(&args.old)?, dataset(&args.new)?);
+    let (old, new) = (read(&args.old)?, read(&args.new)?);
     let [a, b] = [&old, &new].map(Side::new);
     unlike(&a, &b, args.fail_on_regression.is_some())?;
 
@@ -61,6 +58,7 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     for (side, dataset) in [("Old", &old), ("New", &new)] {
         foot.extend(dataset.notes.iter().map(|note| format!("{side}: {note}")));
     }
+    foot.extend(sentences(&comparison));
     terminal.print_lines(&foot);
     if let Some(file) = json {
         file.write(&serde_json::to_vec_pretty(&comparison)?)?;
@@ -70,37 +68,4 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
         file.write(markdown::report(&report, &foot).as_bytes())?;
     }
     Ok(comparison.status())
-}
-
-/// The dataset of an export, or that of a folder of journals which was measured last, of `compare` if it has any.
-fn dataset(path: &Path) -> anyhow::Result<Dataset> {
-    let advice = "give a file of `--export-json`, or a folder of `--dir`";
-    let found = if path.is_dir() {
-        let mut paths = files(path)?;
-        for entry in std::fs::read_dir(path)?.flatten().filter(|entry| entry.path().is_dir()) {
-            paths.extend(files(&entry.path())?);
-        }
-        let mut cases = vec![];
-        for path in paths {
-            match CaseFile::read(&path) {
-                Ok(case) => cases.push(case),
-                // A folder may hold exports besides.
-                Err(JournalError::Foreign(_)) => {}
-                Err(error) => return Err(error.into()),
-            }
-        }
-        if cases.iter().any(|own: &CaseFile| own.case.study == "compare") {
-            cases.retain(|own| own.case.study == "compare");
-        }
-        newest(cases)
-    } else {
-        let text = std::fs::read(path)
-            .map_err(|cause| anyhow::anyhow!("cannot read {} ({cause}): {advice}", path.escaped()))?;
-        let value: Value = serde_json::from_slice(&text)
-            .map_err(|cause| anyhow::anyhow!("{} is torn or no JSON ({cause}): {advice}", path.escaped()))?;
-        anyhow::ensure!(Dataset::is_dataset(&value), "{} is no export of a study: {advice}", path.escaped());
-        Some(Dataset::read(path, value)?)
-    };
-    let found = found.filter(|own| !own.measured.is_empty());
-    found.ok_or_else(|| anyhow::anyhow!("{} holds nothing that was measured: {advice}", path.escaped()))
 }

@@ -10,26 +10,28 @@ use tempfile::TempDir;
 use super::command::{REGRESSION, RIGHT, path_text, prints, stderr, stdout, write};
 use super::runner::NOTHING;
 
-/// The script of the document over rays that hit nothing, with the runner alone and fewer epochs.
-fn script(rays: &str, runner: &str) -> String {
-    let document = include_str!("../../src/study/diff/GATE.md");
-    let script = document.split("```sh\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
-    let own = [
-        ("teapot starters cornellbox", format!("--rays {rays}")),
-        ("-s sah-kd -s sah-hybrid -s obvhs-bvh2", format!("-s none --runner {runner} --quiet")),
-        ("12 24 48", "3 6".into()),
-    ];
-    own.iter().fold(script.to_owned(), |script, (there, here)| {
+const DOCUMENT: &str = include_str!("../../src/study/diff/GATE.md");
+
+/// The script of the document over rays that hit nothing, with runners in place of the structure and of the yardstick, and
+/// fewer epochs.
+fn script(rays: &str, own: &str, yardstick: &str) -> String {
+    let script = DOCUMENT.split("```sh\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+    let runners = format!("--only $name --runner $name={own} --runner obvhs-bvh2={yardstick} --quiet");
+    let replaced =
+        [("teapot starters cornellbox", format!("--rays {rays}")), ("--only $name", runners), ("4 8 16", "3 6".into())];
+    replaced.iter().fold(script.to_owned(), |script, (there, here)| {
         assert!(script.contains(there), "{there:?} is not in {script}");
         script.replace(there, here)
     })
 }
 
-/// Runs the script with prescribed seconds of a pass on both sides, those of even and of odd epochs; what it says, and how
-/// many epochs of the branch were measured.
-fn gate(base: [f64; 2], branch: [f64; 2]) -> (Output, usize) {
+/// Runs the `nth` command of the document that runs the script, with prescribed seconds of a pass on both sides, those of
+/// even and of odd epochs; what it says, and how many epochs of the branch were measured.
+fn gate(nth: usize, base: [f64; 2], branch: [f64; 2]) -> (Output, usize) {
+    let command = DOCUMENT.lines().filter_map(|line| line.trim().strip_prefix("- run: sh gate.sh ")).nth(nth).unwrap();
     let folder = TempDir::new().unwrap();
     let program = |name: &str, text: &str| {
+        fs::create_dir_all(folder.path().join(name).parent().unwrap()).unwrap();
         let path = write(&folder, name, text);
         fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
         path
@@ -43,29 +45,34 @@ fn gate(base: [f64; 2], branch: [f64; 2]) -> (Output, usize) {
                   if [ $((n % 2)) -eq 1 ]; then own=$EVEN; else own=$ODD; fi\n";
     let runner = NOTHING.replacen("#!/bin/sh\n", &format!("#!/bin/sh\n{starts}"), 1);
     let runner = program("told.sh", &runner.replace("*) echo \"passed 0.001\"", "*) echo \"passed $own\""));
+    let yardstick = program("steady.sh", NOTHING);
+    program("gate.sh", &script(&rays, &runner, &yardstick));
     let sahara = env!("CARGO_BIN_EXE_sahara");
-    let side = |name: &str, [even, odd]: [f64; 2]| {
-        let starts = path_text(&folder.path().join(format!("{name}.starts")));
-        program(name, &format!("#!/bin/sh\nexport STARTS={starts} EVEN={even} ODD={odd}\nexec {sahara} \"$@\"\n"))
-    };
-    let sides = [side("base", base), side("branch", branch)];
-    let script = program("gate.sh", &script(&rays, &runner));
-    let output = Command::new("sh").arg(&script).args(&sides).current_dir(folder.path()).output().unwrap();
+    // The programs of both sides, where the workflow has built them.
+    let sides = command.split_whitespace().take(2).map(|word| word.trim_matches('"').replace("$RUNNER_TEMP/", ""));
+    for (path, [even, odd]) in sides.zip([base, branch]) {
+        let starts = path_text(&folder.path().join(path.replace('/', "-") + ".starts"));
+        program(&path, &format!("#!/bin/sh\nexport STARTS={starts} EVEN={even} ODD={odd}\nexec {sahara} \"$@\"\n"));
+    }
+    let mut shell = Command::new("sh");
+    shell.args(["-c", &format!("sh gate.sh {command}")]).env("RUNNER_TEMP", folder.path());
+    let output = shell.current_dir(folder.path()).output().unwrap();
     let epochs = fs::read_dir(folder.path().join("runs-branch/compare")).map_or(0, Iterator::count);
     (output, epochs)
 }
 
 #[test]
 fn the_gate_passes_what_is_unchanged_fails_what_is_slower_and_ends_where_it_cannot_tell() {
-    for (base, branch, status, epochs) in [
-        ([0.001; 2], [0.001; 2], RIGHT, 3),
-        ([0.001; 2], [0.0012; 2], REGRESSION, 3),
+    for (nth, base, branch, status, epochs, verdict) in [
+        (0, [0.001; 2], [0.001; 2], RIGHT, 3, "sah-hybrid: right on 64 checked rays; no change beyond noise"),
+        (0, [0.001; 2], [0.0012; 2], REGRESSION, 3, "% slower"),
         // Every other epoch is much slower: more epochs do not tell either.
-        ([0.001; 2], [0.0004, 0.0025], RIGHT, 6),
+        (0, [0.001; 2], [0.0004, 0.0025], RIGHT, 6, "inconclusive"),
+        (1, [0.001; 2], [0.0012; 2], REGRESSION, 3, "mybvh: right on 64 checked rays;"),
     ] {
-        let (output, measured) = gate(base, branch);
+        let (output, measured) = gate(nth, base, branch);
         let said = stdout(&output) + &stderr(&output);
         assert_eq!((output.status.code(), measured), (Some(status), epochs), "{base:?} {branch:?}: {said}");
-        assert_eq!(said.contains("too noisy to tell"), epochs == 6, "{said}");
+        assert!(said.contains(verdict), "{verdict:?} is not in {said}");
     }
 }

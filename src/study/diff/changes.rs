@@ -17,14 +17,15 @@ pub(super) fn all(
     let references = references(pairs);
     let noises = [old, new].map(trace_noise);
     let (mut structures, mut cells): (Vec<Change>, Vec<Change>) = (vec![], vec![]);
-    let labels = each_once(pairs.iter().map(|(old, _)| old.label.as_str()));
+    let labels = each_once(pairs.iter().map(|(_, new)| new.label.as_str()));
     let labels: Vec<&str> = labels.into_iter().filter(|label| !references.iter().any(|one| one == label)).collect();
     // All structures are judged together, as often as is looked; their cells decide nothing.
     let looks = looks * labels.len();
     for label in labels {
         let mut all: (Vec<_>, Vec<_>) = (vec![], vec![]);
         let mut missing = false;
-        for (before, after) in pairs.iter().filter(|(old, _)| old.label == label) {
+        let own = || pairs.iter().filter(|(_, new)| new.label == label);
+        for (before, after) in own() {
             let times = || {
                 Some((relative(before, old, after, new, &references)?, relative(after, new, before, old, &references)?))
             };
@@ -37,6 +38,7 @@ pub(super) fn all(
                 scene: Some(before.scene_title()),
                 workload: Some(before.workload.clone()),
                 cells: usize::from(time.is_some()),
+                checked_rays: after.checked_rays,
                 time,
                 finding: finding(time, threshold),
             });
@@ -61,6 +63,7 @@ pub(super) fn all(
             scene: None,
             workload: None,
             cells: n,
+            checked_rays: own().map(|(_, new)| new.checked_rays).sum(),
             time,
             finding: finding(time, threshold),
         });
@@ -74,12 +77,13 @@ fn change(old: &[Vec<Vec<f64>>], new: &[Vec<Vec<f64>>], noises: &[AaNoise; 2], r
     Some(Rerun::change(&epoch_values(old)?, &epoch_values(new)?, noises)?.ratio())
 }
 
+/// With a threshold, a regression is what has reached it and is surely slower, and what passes is surely below it.
 pub(super) fn finding(time: Option<Estimate>, threshold: Option<f64>) -> Finding {
     let Some(time) = time.filter(|time| time.interval.is_some()) else { return Finding::Unknown };
     let limit = threshold.map_or(f64::INFINITY, libm::exp);
     match () {
-        () if time.is_above(limit) => Finding::Regression,
-        () if time.high() > Some(limit) => Finding::Undecided,
+        () if time.estimate >= limit && time.is_above(1.0) => Finding::Regression,
+        () if threshold.is_some() && !time.is_below(limit) => Finding::Inconclusive,
         () if time.is_below(1.0) => Finding::Faster,
         () if time.is_above(1.0) => Finding::Slower,
         () => Finding::NoDifference,

@@ -14,6 +14,7 @@
 #![doc = include_str!("GATE.md")]
 
 mod changes;
+mod read;
 mod relative;
 mod table;
 #[cfg(test)]
@@ -26,10 +27,13 @@ use super::compare::is_reference;
 use super::measurement::{Measurement, measurements, trace_noise};
 use super::{Dataset, Status};
 use crate::measure::{AaNoise, Estimate, Provenance, Rerun, epoch_values};
+use crate::report::words::each_once;
 use crate::request::{REPORT_TREE, known_defect};
+use unlike::other_keys;
 
-pub use table::tables;
-pub use unlike::{Unlike, settings, unlike};
+pub use read::read;
+pub use table::{sentences, tables};
+pub use unlike::{Unlike, settings, unlike, unlike_plan};
 
 /// One of the two runs.
 #[derive(Clone, Debug)]
@@ -59,6 +63,8 @@ pub struct Comparison {
     pub cells: Vec<Change>,
     /// Answers that were right, or others, in the old run.
     pub wrong: Vec<Wrong>,
+    /// Keys and triangle tests of structures that differ, as `leaf of mybvh 4, now 8`.
+    pub differences: Vec<String>,
     /// Settings that differ.
     pub settings: Vec<String>,
     /// Processor and lanes of the old and of the new run, where they are not the same.
@@ -72,31 +78,34 @@ pub struct Comparison {
 /// How much longer a structure takes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Change {
+    /// As the new run names it.
     pub structure: String,
     /// Nothing for the mean over all cells.
     pub scene: Option<String>,
     pub workload: Option<String>,
     /// Cells in it that have a time in both runs.
     pub cells: usize,
+    /// Rays of the new run whose answers were checked.
+    pub checked_rays: usize,
     /// New time / old time; nothing where one of the runs has none.
     pub time: Option<Estimate>,
     pub finding: Finding,
 }
 
-/// What an interval says.
+/// What an estimate and its interval say.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Finding {
     /// The interval lies below 1.
     Faster,
-    /// The interval holds 1 or, with a threshold, lies below it.
+    /// The interval holds 1 and, with a threshold, lies below it.
     NoDifference,
-    /// The interval lies above 1, without a threshold or below it.
+    /// The interval lies above 1 and, with a threshold, below it.
     Slower,
-    /// The interval lies above the threshold.
+    /// The estimate has reached the threshold, and the interval lies above 1.
     Regression,
-    /// The interval holds the threshold: more samples or a quieter machine would tell.
-    Undecided,
+    /// Neither a regression nor an interval below the threshold: more samples or a quieter machine would tell.
+    Inconclusive,
     /// There is no time in one of the runs, or no interval, for one of them has a single epoch.
     Unknown,
 }
@@ -104,6 +113,8 @@ pub enum Finding {
 /// Answers that changed for the worse.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Wrong {
+    /// As the new run names it.
+    pub structure: String,
     /// Structure, scene and rays.
     pub case: String,
     /// What is wrong.
@@ -131,7 +142,7 @@ impl Comparison {
         let (old, new) = (&old.all[..], &new.all[..]);
         let pairs = pairs(old, new);
         let only = |own: &[Measurement], other: &[Measurement]| -> Vec<String> {
-            own.iter().filter(|record| counterpart(record, other).is_none()).map(case).collect()
+            own.iter().filter(|one| counterpart(one, own, other).is_none()).map(case).collect()
         };
         let threshold = threshold_percent.map(|percent| libm::log1p(percent / 100.0));
         let (structures, cells) = changes::all(old, new, &pairs, threshold, looks);
@@ -142,6 +153,7 @@ impl Comparison {
             structures,
             cells,
             wrong: pairs.iter().filter_map(|(old, new)| wrong(old, new)).collect(),
+            differences: differences(&pairs),
             settings: vec![],
             machines,
             only_old: only(old, new),
@@ -161,23 +173,47 @@ impl Comparison {
             () if !self.wrong.is_empty() => Status::Wrong,
             () if is_gate && !self.only_old.is_empty() => Status::Refused,
             () if self.has(Finding::Regression) => Status::Regression,
-            () if self.has(Finding::Undecided) => Status::Undecided,
+            () if self.has(Finding::Inconclusive) => Status::Undecided,
             () if is_gate && self.has(Finding::Unknown) => Status::Undecided,
             () => Status::Right,
         }
     }
 }
 
+/// What both runs measured, side by side.
 fn pairs<'a>(old: &'a [Measurement], new: &'a [Measurement]) -> Vec<(&'a Measurement, &'a Measurement)> {
-    old.iter().filter_map(|record| Some((record, counterpart(record, new)?))).collect()
+    old.iter().filter_map(|own| Some((own, counterpart(own, old, new)?))).collect()
 }
 
-fn counterpart<'a>(record: &Measurement, others: &'a [Measurement]) -> Option<&'a Measurement> {
-    let same = |other: &&Measurement| {
-        (&other.scene, other.stand_in, &other.workload, &other.label, &other.role)
-            == (&record.scene, record.stand_in, &record.workload, &record.label, &record.role)
+/// What `others` measured in place of `own`, which is of `run`: on the same scene and workload the structure with the same
+/// label. Where there is none, its keys have changed: then the one structure of its name that has no other counterpart.
+fn counterpart<'a>(own: &Measurement, run: &[Measurement], others: &'a [Measurement]) -> Option<&'a Measurement> {
+    fn labelled<'a>(own: &Measurement, others: &'a [Measurement]) -> Option<&'a Measurement> {
+        let cell = |m: &Measurement| (m.scene.clone(), m.stand_in, m.workload.clone(), m.role.clone());
+        others.iter().find(|other| other.label == own.label && cell(other) == cell(own))
+    }
+    labelled(own, others).or_else(|| {
+        let is_rival = |other: &&Measurement| {
+            (&other.scene, other.stand_in, &other.workload, &other.role, &other.structure)
+                == (&own.scene, own.stand_in, &own.workload, &own.role, &own.structure)
+        };
+        let mut left = others.iter().filter(is_rival).filter(|other| labelled(other, run).is_none());
+        let is_alone = run.iter().filter(is_rival).filter(|one| labelled(one, others).is_none()).count() == 1;
+        left.next().filter(|_| is_alone && left.next().is_none())
+    })
+}
+
+/// Keys and triangle tests that differ, each once.
+fn differences(pairs: &[(&Measurement, &Measurement)]) -> Vec<String> {
+    let of_pair = |(old, new): &(&Measurement, &Measurement)| {
+        let mut found = other_keys(&old.config, &new.config);
+        if old.triangle_test != new.triangle_test {
+            found.push(("triangle test".into(), old.triangle_test.clone(), new.triangle_test.clone()));
+        }
+        let name = new.structure.clone();
+        found.into_iter().map(move |(key, old, new)| format!("{key} of {name} {old}, now {new}"))
     };
-    others.iter().find(same)
+    each_once(pairs.iter().flat_map(of_pair))
 }
 
 fn other_machine(old: &Provenance, new: &Provenance) -> Option<[String; 2]> {
@@ -199,6 +235,9 @@ fn wrong(old: &Measurement, new: &Measurement) -> Option<Wrong> {
     let more = errors > 0 && !known && (old.structure_errors == 0 || rate(new) > 2.0 * rate(old));
     let what = if more {
         format!("{errors} of {checked} answers are wrong, {} of {} were", old.structure_errors, old.checked_rays)
+    } else if old.triangle_test != new.triangle_test {
+        // Another test has other hits: each is held against its own by the checks of its run.
+        return None;
     } else if old.counted_rays == new.counted_rays && old.hits != new.hits {
         format!("{} of {} rays hit, {} did", new.hits, new.counted_rays, old.hits)
     } else if old.rays == new.rays && old.answers.is_some() && new.answers.is_some() && old.answers != new.answers {
@@ -206,7 +245,7 @@ fn wrong(old: &Measurement, new: &Measurement) -> Option<Wrong> {
     } else {
         return None;
     };
-    Some(Wrong { case: case(new), what })
+    Some(Wrong { structure: new.label.clone(), case: case(new), what })
 }
 
 /// Holds the ratios of each run against the intervals of the other: of every structure to the report's tree and to the
@@ -221,7 +260,7 @@ fn reproduced(old: &[Measurement], new: &[Measurement]) -> Reproduced {
         };
         for base in old.iter().filter(to) {
             let values = |own: &Measurement, base: &Measurement| epoch_values(&[own.speed_against(base)?]);
-            let values = || Some([values(own, base)?, values(own_new, counterpart(base, new)?)?]);
+            let values = || Some([values(own, base)?, values(own_new, counterpart(base, old, new)?)?]);
             let Some([a, b]) = values() else { continue };
             let [noise_a, noise_b] = noises.each_ref().map(AaNoise::of_ratio);
             let ratio = |values: &[f64], epochs: usize, noise| {

@@ -1,13 +1,50 @@
 //! A comparison of runs for people.
 
 use super::{Change, Comparison, Finding, Reproduced};
-use crate::report::number::{figures, plural};
+use crate::measure::Estimate;
+use crate::report::number::{count, figures, plural};
 use crate::report::words::{each_once, listed};
 use crate::report::{Cell, Format, Table, Tone};
 
 /// One table of the structures, one of their cells.
 pub fn tables(comparison: &Comparison) -> Vec<Table> {
     [structures(comparison), cells(comparison)].map(Table::explained).into()
+}
+
+/// What a gate says of each structure, in a sentence: whether it is right, and how its time has changed.
+pub fn sentences(comparison: &Comparison) -> Vec<String> {
+    let Some(threshold) = comparison.threshold_percent.map(figures) else { return vec![] };
+    let sentence = |change: &Change| {
+        let wrong = comparison.wrong.iter().filter(|wrong| wrong.structure == change.structure).count();
+        let right = match wrong {
+            0 => format!("right on {} checked rays", count(change.checked_rays as u64)),
+            n => format!("wrong or other answers in {}", plural(n, "cell")),
+        };
+        let slower = || change.time.map_or(String::new(), slower);
+        let speed = match change.finding {
+            Finding::Faster | Finding::Slower | Finding::Regression => slower(),
+            Finding::NoDifference => format!("no change beyond noise, {}", slower()),
+            Finding::Inconclusive => format!("inconclusive, as the interval contains {threshold} %: {}", slower()),
+            Finding::Unknown if change.time.is_some() => {
+                "one epoch tells no change of time: measure more with --epochs".into()
+            }
+            Finding::Unknown => "no time to compare".into(),
+        };
+        format!("{}: {right}; {speed}.", change.structure)
+    };
+    comparison.structures.iter().map(sentence).collect()
+}
+
+/// `9.0 % slower [7.7, 10.4]`, or `4.1 % less time [2.0, 6.1]`.
+fn slower(time: Estimate) -> String {
+    let (of, word): (fn(f64) -> f64, _) =
+        if time.estimate < 1.0 { (|x| 100.0 * (1.0 - x), "less time") } else { (|x| 100.0 * (x - 1.0), "slower") };
+    let ends = time.interval.map_or(String::new(), |interval| {
+        let mut ends = [of(interval.low), of(interval.high)];
+        ends.sort_by(f64::total_cmp);
+        format!(" [{:.1}, {:.1}]", ends[0], ends[1])
+    });
+    format!("{:.1} % {word}{ends}", of(time.estimate))
 }
 
 fn structures(comparison: &Comparison) -> Table {
@@ -25,10 +62,9 @@ fn structures(comparison: &Comparison) -> Table {
         format!("Normalised by {}, measured in the same rounds.", comparison.references.join(" and "))
     };
     let looked_for = comparison.threshold_percent.map(|percent| {
+        let percent = figures(percent);
         format!(
-            "A regression is a change whose whole interval lies above {}%; too noisy: the interval holds {}%.",
-            figures(percent),
-            figures(percent)
+            "Regression: {percent}% slower or more, and surely slower. Inconclusive: the interval contains {percent}%."
         )
     });
     let mut notes = vec![by];
@@ -53,8 +89,14 @@ fn structures(comparison: &Comparison) -> Table {
             notes.push(format!("{} in the {whose} run alone, as {first}.", plural(only.len(), "case")));
         }
     }
+    let differ = if comparison.differences.is_empty() {
+        String::new()
+    } else {
+        format!("; differs: {}", comparison.differences.join("; "))
+    };
     let columns = ["structure", "time", "finding", "cells", "worst cell"];
-    Table::new("Change of time, geometric mean over cells, with 95 % interval", columns, rows).noted(notes)
+    let title = format!("Change of time, geometric mean over cells, with 95 % interval{differ}");
+    Table::new(title, columns, rows).noted(notes)
 }
 
 fn cells(comparison: &Comparison) -> Table {
@@ -102,7 +144,7 @@ fn word(change: &Change) -> Cell {
         Finding::NoDifference => "no difference".into(),
         Finding::Slower => "slower".into(),
         Finding::Regression => Cell::from("regression").with(Tone::Wrong),
-        Finding::Undecided => "too noisy".into(),
+        Finding::Inconclusive => "inconclusive".into(),
         Finding::Unknown if change.time.is_some() => "one epoch".into(),
         Finding::Unknown => "no time".into(),
     }

@@ -2,11 +2,13 @@
 
 use serde_json::{Map, Value};
 
-use super::{Side, case, counterpart, pairs};
-use crate::report::number::count;
+use super::{Side, case, pairs};
+use crate::measure::Provenance;
+use crate::report::number::{count, duration};
+use crate::report::words::each_once;
 use crate::request::is_obvhs;
-use crate::study::Case;
 use crate::study::compare::is_reference;
+use crate::study::{Case, Dataset};
 
 /// Why two runs cannot be compared: what differs, in the old run and in the new.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -24,20 +26,22 @@ const SAME_UNIT: &str = "on two machines only ratios to a structure of obvhs ove
 const SAME_INPUT: &str = "measure the old one again on the same scenes and rays";
 const SAME_BUILD: &str = "build both alike";
 const SAME_RAYS: &str = "measure both with --budget none, which times all rays";
+const YARDSTICK: &str = "a gate judges changes relative to obvhs-bvh2 or obvhs-cwbvh, measured in the same rounds: measure both sides \
+                         with --budget none, which measures obvhs-bvh2 as well";
 
-/// Refuses runs that differ in more than their code and moment, their settings, and their machine where no `gate` is
-/// asked for and both time the same structure of obvhs.
+fn differ(what: &str, old: &str, new: &str, advice: &'static str) -> Result<(), Unlike> {
+    if old == new { Ok(()) } else { Err(Unlike { what: what.into(), old: old.into(), new: new.into(), advice }) }
+}
+
+/// Refuses runs that differ in more than their code and moment, their settings, the keys and tests of structures, and
+/// their machine where no `gate` is asked for and both time the same structure of obvhs.
 ///
 /// # Errors
-/// The first difference: of machine, instructions, profile, compiler flags, references, scene, rays, or configuration of a
-/// structure; or that they have no case in common.
+/// The first difference: of machine, instructions, profile, compiler flags, references, scene or rays; that they have no
+/// case in common; or, of a gate, no structure of obvhs.
 pub fn unlike(old: &Side, new: &Side, gate: bool) -> Result<(), Unlike> {
     let pairs = pairs(&old.all, &new.all);
     let has_unit = pairs.iter().any(|(old, new)| is_reference(old) && old.trace_ns.is_some() && new.trace_ns.is_some());
-    let advice = if gate { SAME_MACHINE } else { SAME_UNIT };
-    let differ = |what: &str, old: &str, new: &str, advice| {
-        if old == new { Ok(()) } else { Err(Unlike { what: what.into(), old: old.into(), new: new.into(), advice }) }
-    };
     if pairs.is_empty() {
         let whose = |side: &Side| side.all.first().map_or("nothing".into(), case);
         let (old, new) = (whose(old), whose(new));
@@ -45,10 +49,7 @@ pub fn unlike(old: &Side, new: &Side, gate: bool) -> Result<(), Unlike> {
     }
     let (a, b) = (&old.provenance, &new.provenance);
     if gate || !has_unit {
-        differ("the processor", &a.cpu, &b.cpu, advice)?;
-        differ("the instruction set of our lanes", &a.simd, &b.simd, advice)?;
-        differ("the target", &a.target, &b.target, SAME_BUILD)?;
-        differ("the set of instructions for the compiler", &a.target_features, &b.target_features, SAME_BUILD)?;
+        other_machine(a, b, if gate { SAME_MACHINE } else { SAME_UNIT })?;
     }
     let words = [a, b].map(|p| if p.process_per_epoch { "an epoch each" } else { "all epochs" });
     differ("what a process measures", words[0], words[1], SAME_MACHINE)?;
@@ -57,27 +58,66 @@ pub fn unlike(old: &Side, new: &Side, gate: bool) -> Result<(), Unlike> {
     if pairs.iter().any(|(old, _)| is_obvhs(&old.structure)) {
         differ("the version of obvhs, the reference,", &a.obvhs, &b.obvhs, SAME_BUILD)?;
     }
-    for before in &old.all {
-        let Some(after) = counterpart(before, &new.all) else { continue };
+    for (before, after) in &pairs {
         let name = |what: &str| format!("{what} of {}", case(before));
         let scene = format!("the hash of the scene {}", before.scene);
         differ(&scene, &before.scene_hash, &after.scene_hash, SAME_INPUT)?;
         let rays = format!("the hash of the {} rays of {}", before.workload, before.scene);
         differ(&rays, &before.workload_hash, &after.workload_hash, SAME_INPUT)?;
         differ(&name("the query"), before.query.name(), after.query.name(), SAME_INPUT)?;
-        differ(&name("the triangle test"), &before.triangle_test, &after.triangle_test, SAME_MACHINE)?;
-        if let Some((key, a, b)) = other_key(&before.config, &after.config) {
-            differ(&format!("the key {key} of {}", before.label), &a, &b, SAME_MACHINE)?;
+        if let Some((key, a, b)) = other_keys(&before.config, &after.config).first().filter(|_| is_reference(before)) {
+            differ(&format!("the key {key} of {}", before.label), a, b, SAME_MACHINE)?;
         }
         if gate && before.trace_ns.is_some() && after.trace_ns.is_some() {
             let rays = |n: usize| count(n as u64);
             differ(&name("the number of timed rays"), &rays(before.rays), &rays(after.rays), SAME_RAYS)?;
         }
     }
+    if gate && !has_unit {
+        let timed = |side: &Side| {
+            let timed = side.all.iter().filter(|own| is_reference(own) && own.trace_ns.is_some());
+            let labels = each_once(timed.map(|own| own.label.as_str()));
+            if labels.is_empty() { "missing".to_owned() } else { labels.join(" and ") }
+        };
+        // What both have is timed on other scenes or rays.
+        let (old, new) = (timed(old), timed(new));
+        return Err(Unlike { what: "the yardstick".into(), old, new, advice: YARDSTICK });
+    }
     Ok(())
 }
 
-fn other_key(old: &Value, new: &Value) -> Option<(String, String, String)> {
+fn other_machine(old: &Provenance, new: &Provenance, advice: &'static str) -> Result<(), Unlike> {
+    differ("the processor", &old.cpu, &new.cpu, advice)?;
+    differ("the instruction set of our lanes", &old.simd, &new.simd, advice)?;
+    differ("the target", &old.target, &new.target, SAME_BUILD)?;
+    differ("the set of instructions for the compiler", &old.target_features, &new.target_features, SAME_BUILD)
+}
+
+/// Refuses cases that are about to be measured on `here` and that a gate could not compare with those of the run `old`.
+///
+/// # Errors
+/// The first difference: of machine, instructions or compiler flags; of a scene, its rays or how many of them are timed.
+pub fn unlike_plan(old: &Dataset, cases: &[Case], here: &Provenance) -> Result<(), Unlike> {
+    other_machine(&old.provenance, here, SAME_MACHINE)?;
+    differ("the version of obvhs, the reference,", &old.provenance.obvhs, &here.obvhs, SAME_BUILD)?;
+    for new in cases.iter().filter(|case| case.epoch == 0) {
+        let title = new.scene_title();
+        let Some(old) = old.measured.iter().map(|own| &own.case).find(|old| old.scene_title() == title) else {
+            return differ(&format!("the scene {title}"), "missing", "measured", SAME_INPUT);
+        };
+        differ(&format!("the hash of the scene {title}"), &old.scene.hash, &new.scene.hash, SAME_INPUT)?;
+        let rays = |case: &Case| serde_json::to_string(&case.workloads).expect("workloads are text");
+        differ(&format!("the choice of rays of {title}"), &rays(old), &rays(new), SAME_INPUT)?;
+        differ("the seed", &old.settings.seed.to_string(), &new.settings.seed.to_string(), SAME_INPUT)?;
+        differ("where secondary rays start", &old.settings.guide, &new.settings.guide, SAME_INPUT)?;
+        let budget = |case: &Case| case.settings.budget_ns.map_or("none".to_owned(), |ns| duration(ns as f64));
+        differ("the budget", &budget(old), &budget(new), SAME_RAYS)?;
+    }
+    Ok(())
+}
+
+/// Keys that are not the same: name, old and new.
+pub(super) fn other_keys(old: &Value, new: &Value) -> Vec<(String, String, String)> {
     let none = Map::new();
     // What tells one build of a program from another is what a comparison is about.
     let keys = |value: &'_ Value| -> Map<String, Value> {
@@ -86,7 +126,7 @@ fn other_key(old: &Value, new: &Value) -> Option<(String, String, String)> {
         map.remove("command");
         map
     };
-    differences(&keys(old), &keys(new)).into_iter().next()
+    differences(&keys(old), &keys(new))
 }
 
 /// What differs: name, old and new.

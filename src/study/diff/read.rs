@@ -1,0 +1,50 @@
+//! One side of a comparison: an export, or a folder of journals.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::escaped::Escaped as _;
+use crate::study::Dataset;
+use crate::study::journal::{CaseFile, JournalError, files, newest};
+
+/// Reads an export, or of a folder of journals the dataset which was measured last, of `compare` if it has any.
+///
+/// # Errors
+/// If there is nothing that was measured, or it cannot be read.
+pub fn read(path: &Path) -> anyhow::Result<Dataset> {
+    let found = if path.is_dir() { of_folder(path)? } else { Some(of_export(path)?) };
+    let found = found.filter(|own| !own.measured.is_empty());
+    found.ok_or_else(|| anyhow::anyhow!("{} holds nothing that was measured: {ADVICE}", path.escaped()))
+}
+
+const ADVICE: &str = "give a file of `--export-json`, or a folder of `--dir`";
+
+fn of_folder(path: &Path) -> anyhow::Result<Option<Dataset>> {
+    let mut paths = files(path)?;
+    for entry in std::fs::read_dir(path)?.flatten().filter(|entry| entry.path().is_dir()) {
+        paths.extend(files(&entry.path())?);
+    }
+    let mut cases = vec![];
+    for path in paths {
+        match CaseFile::read(&path) {
+            Ok(case) => cases.push(case),
+            // A folder may hold exports besides.
+            Err(JournalError::Foreign(_)) => {}
+            Err(error) => return Err(error.into()),
+        }
+    }
+    if cases.iter().any(|own: &CaseFile| own.case.study == "compare") {
+        cases.retain(|own| own.case.study == "compare");
+    }
+    Ok(newest(cases))
+}
+
+fn of_export(path: &Path) -> anyhow::Result<Dataset> {
+    let text =
+        std::fs::read(path).map_err(|cause| anyhow::anyhow!("cannot read {} ({cause}): {ADVICE}", path.escaped()))?;
+    let value: Value = serde_json::from_slice(&text)
+        .map_err(|cause| anyhow::anyhow!("{} is torn or no JSON ({cause}): {ADVICE}", path.escaped()))?;
+    anyhow::ensure!(Dataset::is_dataset(&value), "{} is no export of a study: {ADVICE}", path.escaped());
+    Ok(Dataset::read(path, value)?)
+}
