@@ -112,6 +112,7 @@ impl Registry {
             observed: A::OBSERVED,
             conventions: A::CONVENTIONS,
             capabilities: A::CAPABILITIES,
+            is_builtin: false,
             config,
             read: |config| parse::<A>(config).map(drop),
             build,

@@ -30,7 +30,9 @@ impl Registry {
             .offering::<ObvhsCwBvh<Over<MollerTrumbore>>>("obvhs-cwbvh", ObvhsConfig::default())
             .offering::<ObvhsCwBvh<Over<Exact>>>("obvhs-cwbvh", ObvhsConfig::default())
             .brute_force::<RtTest>();
-        with_obvhs.with_peers().with_generator("icosphere", spheres::generate)
+        let mut all = with_obvhs.with_peers().with_generator("icosphere", spheres::generate);
+        all.entries.iter_mut().for_each(|entry| entry.is_builtin = true);
+        all
     }
 
     /// Brute force over the triangle test `T`, the reference for structures over it.

@@ -54,7 +54,7 @@ impl Choice {
             shown.push(format!("test={}", entry.triangle_test));
         }
         for &(key, text) in overrides {
-            let known: Vec<&str> = keys.keys().map(String::as_str).collect();
+            let known: Vec<&str> = ["test"].into_iter().chain(keys.keys().map(String::as_str)).collect();
             let unknown = || ChoiceError::Key {
                 name: entry.name.clone(),
                 key: key.into(),

@@ -18,6 +18,8 @@ pub struct Entry {
     pub conventions: &'static [&'static str],
     /// [`Accel::CAPABILITIES`](crate::accel::Accel::CAPABILITIES).
     pub capabilities: Capabilities,
+    /// Whether it comes with this crate, as obvhs and the peers do: what a crate of its own registers does not.
+    pub is_builtin: bool,
     pub(super) config: Value,
     /// Checks whether a configuration can be parsed; its values may still contradict each other.
     pub(super) read: fn(&Value) -> Result<(), String>,

@@ -46,7 +46,9 @@ const MEANINGS: [(&str, &str); 24] = [
 impl Entry {
     /// The keys, in the order of the configuration.
     pub fn keys(&self) -> Vec<Key> {
-        let known = |name: &str| MEANINGS.iter().find(|(key, _)| *key == name).map_or("", |(_, meaning)| meaning);
+        // A structure of another crate may have a key of the same name with another meaning.
+        let meanings = if self.is_builtin { &MEANINGS[..] } else { &[] };
+        let known = |name: &str| meanings.iter().find(|(key, _)| *key == name).map_or("", |(_, meaning)| meaning);
         let key = |(name, value): (&String, &Value)| Key {
             name: name.clone(),
             meaning: known(name),
@@ -86,6 +88,7 @@ fn shown(value: &Value) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::*;
     use crate::registry::Registry;
 
     #[test]
@@ -98,5 +101,14 @@ mod tests {
                 assert!(known && !key.values.is_empty() && key.default.len() < 20, "{name}: {key:?}");
             }
         }
+    }
+
+    #[test]
+    fn a_key_of_another_crate_is_not_explained_with_our_words() {
+        let registry = Registry::builtin();
+        let ours = registry.entries().iter().find(|entry| entry.name == "sah-bvh").unwrap();
+        let theirs = Entry { is_builtin: false, ..ours.clone() };
+        assert!(ours.keys().iter().all(|key| !key.meaning.is_empty()));
+        assert!(theirs.keys().iter().all(|key| key.meaning.is_empty()));
     }
 }

@@ -20,6 +20,7 @@ impl Choice {
             Runner::build(&program, mesh).map(|runner| Box::new(runner) as Box<dyn DynAccel>)
         };
         let entry = Entry {
+            is_builtin: false,
             name: RUNNER.into(),
             triangle_test: "own",
             observed: Observed::NONE,
