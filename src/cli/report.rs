@@ -33,6 +33,11 @@ pub struct Args {
 pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     let folder = args.output.as_deref().map(OutputFolder::check).transpose()?;
     let results = args.results.as_deref().map(ResultsFolder::check).transpose()?;
+    anyhow::ensure!(
+        !args.runs.is_empty() || Path::new(RUNS).exists(),
+        "there is no folder {RUNS} here: `sahara compare --dir {RUNS}` keeps what it measures there; or name files of \
+         `--export-json`, or folders"
+    );
     let paths = if args.runs.is_empty() { vec![PathBuf::from(RUNS)] } else { args.runs.clone() };
     let runs = Runs::read(&paths, &suite.studies)?;
 
