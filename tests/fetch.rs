@@ -271,11 +271,8 @@ fn the_command_shows_the_licence_before_it_fetches() {
     let file = scene("mesh.obj", &url, &hash);
 
     let (code, printed, _) = run(&[&file, "--list", &file]);
-    assert!(
-        code == Some(0) && printed.contains("licence: free for tests") && server.requests().is_empty(),
-        "{printed}"
-    );
-    assert_eq!(printed.matches("licence:").count(), 1, "{printed}");
+    assert!(code == Some(0) && server.requests().is_empty(), "{printed}");
+    assert_eq!(printed.matches("licence: free for tests").count(), 1, "{printed}");
     let (code, printed, errors) = run(&[&file]);
     assert_eq!(code, Some(0), "{errors}");
     assert!(printed.find("free for tests").unwrap() < printed.find("SHA-256 verified").unwrap(), "{printed}");

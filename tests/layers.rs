@@ -63,7 +63,7 @@ impl Sources {
             let below = join(&module, segment);
             if !self.0.contains_key(&below) {
                 // A name that the module only hands on is at home elsewhere.
-                let exports = imports(self.0.get(&module)?).into_iter().filter(|used| used.public && rounds < 8);
+                let exports = imports(self.0.get(&module)?).into_iter().filter(|used| used.public == Some(true) && rounds < 8);
                 let mut targets = exports.filter_map(|used| self.absolute(&module, &used.path));
                 let target = targets.find(|target| target.rsplit("::").next() == Some(segment));
                 return target.map_or(Some(module), |target| self.home(&join(&target, after), rounds + 1));
@@ -75,15 +75,14 @@ impl Sources {
 
     /// The path from the root of the crate that a path written in `module` stands for; none for other crates.
     fn absolute(&self, module: &str, path: &str) -> Option<String> {
-        let mut own: Vec<&str> = module.split("::").filter(|segment| !segment.is_empty()).collect();
-        let mut segments = path.split("::").peekable();
-        match segments.peek().copied()? {
-            "crate" | "sahara_core" => own.clear(),
-            "self" | "super" => {}
-            child if self.0.contains_key(&join(module, child)) => {}
+        let base = match top(path) {
+            "crate" | "sahara_core" => "",
+            "self" | "super" => module,
+            child if self.0.contains_key(&join(module, child)) => module,
             _ => return None,
-        }
-        for segment in segments {
+        };
+        let mut own: Vec<&str> = base.split("::").filter(|segment| !segment.is_empty()).collect();
+        for segment in path.split("::") {
             match segment {
                 "crate" | "sahara_core" | "self" => {}
                 "super" => _ = own.pop(),
@@ -109,8 +108,12 @@ impl Sources {
     fn graph(&self) -> Graph {
         let mut graph = Graph::new();
         for (module, text) in self.0.iter().filter(|(module, _)| !["", "lib", "main"].contains(&module.as_str())) {
-            // What a folder hands on of its files is no import of its own.
-            let used = imports(text).into_iter().filter(|used| !used.public);
+            // What a folder hands on of its files is no import of its own, and what its code calls in them is in a `mod`.
+            let is_own = |used: &Import| match used.public {
+                Some(public) => !public,
+                None => ["crate", "super"].contains(&top(&used.path)),
+            };
+            let used = imports(text).into_iter().filter(is_own);
             let homes = used.filter_map(|used| self.home(&self.absolute(module, &used.path)?, 0));
             graph.insert(module.clone(), homes.filter(|home| home != module).collect());
         }
@@ -164,9 +167,9 @@ fn without_test_items(text: &str) -> (String, Vec<&str>) {
     (left + rest, items)
 }
 
-/// One path of a `use`, or a path in code.
+/// One path of a `use`, which may be public, or a path in code.
 struct Import {
-    public: bool,
+    public: Option<bool>,
     path: String,
 }
 
@@ -184,7 +187,7 @@ fn imports(text: &str) -> Vec<Import> {
             if word == "use" && (line.is_empty() || line.starts_with("pub")) {
                 public = Some(line.starts_with("pub"));
             } else if word.contains("::") {
-                found.push(Import { public: false, path: word.trim_end_matches(':').into() });
+                found.push(Import { public, path: word.trim_end_matches(':').into() });
             }
             continue;
         }
@@ -192,7 +195,7 @@ fn imports(text: &str) -> Vec<Import> {
         match &piece[word.len()..] {
             "{" => heads.push(path),
             _ if word.is_empty() || word == "as" || last == "as" => {}
-            _ => found.push(Import { public: public == Some(true), path: path.trim_end_matches(':').into() }),
+            _ => found.push(Import { public, path: path.trim_end_matches(':').into() }),
         }
         match &piece[word.len()..] {
             "}" => _ = heads.pop(),

@@ -94,32 +94,28 @@ const BOX: &str = "box of a grid";
 
 const FINDINGS: [Finding; 4] = [
     Finding {
-        name: "in the near face of a box",
-        cause: "0 / 0 is no number, and a box with one is missed",
+        cause: "in the near face of a box: 0 / 0 is no number, and a box with one is missed",
         structures: &["bvh"],
         mesh: BOX,
         ray: "0.375,3.875,-1.0 0.0,-1.0,0.0",
         kind: Kind::Lost,
     },
     Finding {
-        name: "in the far face of a box",
-        cause: "the same, and elsewhere 1 / 0 is a large number, which makes boxes half-open",
+        cause: "in the far face of a box: the same, and elsewhere 1 / 0 is a large number, which makes boxes half-open",
         structures: &["bvh", "parry", "tinybvh", "embree", "embree-robust"],
         mesh: BOX,
         ray: "0.375,3.875,1.0 0.0,-1.0,0.0",
         kind: Kind::Lost,
     },
     Finding {
-        name: "short direction",
-        cause: "direction components below 1.2e-7 (parry) and 1e-18 (Embree) are replaced by those",
+        cause: "short direction: direction components below 1.2e-7 (parry) and 1e-18 (Embree) are replaced by those",
         structures: &["parry", "embree", "embree-robust"],
         mesh: BOX,
         ray: "0.2,0.3,3.0 1e-20,2e-20,-1e-19",
         kind: Kind::Lost,
     },
     Finding {
-        name: "nothing wrong",
-        cause: "an ordinary ray",
+        cause: "nothing wrong: an ordinary ray",
         structures: &[],
         mesh: BOX,
         ray: "0.3,0.2,1.00005 0.1,0.2,-1.0",

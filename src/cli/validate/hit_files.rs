@@ -85,7 +85,7 @@ impl Run<'_> {
         notes.extend(note);
         notes.extend(found.worst.iter().map(|worst| format!("{name}: {worst}")));
         notes.extend(note_on_reference(&name, &found));
-        let rows = vec![row(&name, test, &found)];
+        let rows = vec![row(&name, test, Ok(&found))];
         self.terminal.print_table(&scene_table(scene, &rays, &reference_name, rows, notes));
         Ok(if choice.refutes(&found) { Status::Wrong } else { Status::Right })
     }

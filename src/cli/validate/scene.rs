@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::reference::{DEFAULT_RAYS, References};
-use super::table::{answer_table, answers, failure_row, note_on_reference, row, scene_table};
+use super::table::{answer_table, answers, note_on_reference, row, scene_table};
 use super::{BuildFailure, Run};
 use crate::cli::progress::spinner;
 use crate::geometry::Ray;
@@ -40,7 +40,7 @@ impl Run<'_> {
                         of_structures.push(answers(&choice.label, &accel, &rays, &scene.mesh, args.limit.duration()));
                     }
                     status = status.and(self.status(choice, &found, &mut notes));
-                    rows.push(row(&choice.label, choice.triangle_test(), &found));
+                    rows.push(row(&choice.label, choice.triangle_test(), Ok(&found)));
                     hits.push(found.hits);
                 }
                 Err(failure) => {
@@ -49,7 +49,7 @@ impl Run<'_> {
                         BuildFailure::Refused(_) => (Status::Refused, "refused"),
                     };
                     status = status.and(own);
-                    rows.push(failure_row(choice, word));
+                    rows.push(row(&choice.label, choice.triangle_test(), Err(word)));
                     notes.push(format!("{}: {failure}", choice.label));
                 }
             }

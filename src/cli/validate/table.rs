@@ -6,7 +6,6 @@ use std::time::Duration;
 
 use crate::accel::DynAccel;
 use crate::geometry::{Mesh, Ray};
-use crate::registry::Choice;
 use crate::report::number::{count, plural};
 use crate::report::{Cell, Table, Tone};
 use crate::scene::Scene;
@@ -47,28 +46,23 @@ pub const LEGEND: [&str; 4] = [
     "To trace a ray again: sahara validate SCENE --structure NAME --ray \"ox,oy,oz dx,dy,dz\"",
 ];
 
-pub fn failure_row(choice: &Choice, why: &str) -> Vec<Cell> {
-    let mut row = vec![Cell::empty(); COLUMNS.len()];
-    row[0] = choice.label.as_str().into();
-    row[1] = choice.triangle_test().into();
-    row[2] = Cell::from(why).with(Tone::Wrong);
-    row
-}
-
-pub fn row(label: &str, test: &str, found: &Validation) -> Vec<Cell> {
+/// What was found of a structure, or the word for why it was not built.
+pub fn row(label: &str, test: &str, found: Result<&Validation, &str>) -> Vec<Cell> {
+    let mut row: Vec<Cell> = vec![label.into(), test.into()];
     let errors = |n: u64| Cell::from(count(n)).with(if n > 0 { Tone::Wrong } else { Tone::Plain });
-    let own = found.errors() - found.answer_errors;
-    let hits = if found.rays == 0 && found.declined > 0 { "declined".into() } else { count(found.hits) };
-    vec![
-        label.into(),
-        test.into(),
-        hits.into(),
-        errors(own),
-        errors(found.answer_errors + found.depth_errors),
-        count(found.answer_errors).into(),
-        count(found.test_errors).into(),
-        count(found.ties).into(),
-    ]
+    match found {
+        Ok(found) => row.extend([
+            if found.rays == 0 && found.declined > 0 { "declined".into() } else { count(found.hits).into() },
+            errors(found.errors() - found.answer_errors),
+            errors(found.answer_errors + found.depth_errors),
+            count(found.answer_errors).into(),
+            count(found.test_errors).into(),
+            count(found.ties).into(),
+        ]),
+        Err(why) => row.push(Cell::from(why).with(Tone::Wrong)),
+    }
+    row.resize(COLUMNS.len(), Cell::empty());
+    row
 }
 
 /// One row per ray: number of the ray, t, triangle, and where on it.

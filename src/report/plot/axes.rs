@@ -158,7 +158,7 @@ pub fn legend<B: DrawingBackend>(area: &Area<B>, names: &[String], colours: &[Co
         [right, _] => area.split_horizontally(width as i32 - right),
     };
     for (i, (name, colour)) in names.iter().zip(colours).enumerate() {
-        let y = GAP + i as i32 * LINE;
+        let y = 3 * GAP / 2 + i as i32 * LINE;
         beside.draw(&Circle::new((GAP, y), DOT, colour.filled()))?;
         text(&beside, name, (2 * GAP, y), INK.light, HPos::Left)?;
     }
