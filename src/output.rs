@@ -51,13 +51,17 @@ impl OutputError {
     }
 }
 
-/// What `path` leads to where it is a link, otherwise `path`.
-fn target(path: &Path) -> PathBuf {
-    path.canonicalize().unwrap_or_else(|_| path.into())
+/// The one path of what is at `path` or will be there, with links followed.
+fn resolved(path: &Path) -> io::Result<PathBuf> {
+    path.canonicalize().or_else(|missing| {
+        let (Some(folder), Some(name)) = (path.parent(), path.file_name()) else { return Err(missing) };
+        Ok(Path::new(".").join(folder).canonicalize()?.join(name))
+    })
 }
 
+/// The folder of a path that is [`resolved`].
 fn folder_of(path: &Path) -> &Path {
-    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+    path.parent().unwrap_or(path)
 }
 
 /// Makes temporary files and folders; on Unix with the permissions `mode`, less what the process's umask takes.

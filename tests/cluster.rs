@@ -1,10 +1,6 @@
 //! The jobs of `study plan` on engines that people have: the test of `benches/cluster`, where they are installed.
 
 use std::process::Command;
-use std::sync::{Mutex, PoisonError};
-
-/// One cluster at a time.
-static CLUSTER: Mutex<()> = Mutex::new(());
 
 /// The plan on an engine, disturbed, and its result held against an undisturbed one; skipped where something is missing.
 #[track_caller]
@@ -17,7 +13,6 @@ fn disturbed(engine: &str, with_slurm: bool, with_snakemake: bool) {
         println!("skipped: there is no snakemake on the path");
         return;
     }
-    let _alone = CLUSTER.lock().unwrap_or_else(PoisonError::into_inner);
     let mut test = Command::new("python3");
     test.args(["benches/cluster/test/disturb.py", engine]).current_dir(env!("CARGO_MANIFEST_DIR"));
     let output = test.env("SAHARA", env!("CARGO_BIN_EXE_sahara")).env_remove("SAHARA_DATA").output();
@@ -33,12 +28,9 @@ fn snakemake_on_this_machine() {
     disturbed("local", false, true);
 }
 
+/// One cluster at a time.
 #[test]
-fn snakemake_on_slurm() {
+fn snakemake_and_a_job_array_on_slurm() {
     disturbed("slurm", true, true);
-}
-
-#[test]
-fn a_job_array_of_slurm() {
     disturbed("array", true, false);
 }

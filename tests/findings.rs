@@ -17,8 +17,7 @@ const BOTH: [&str; 4] = [BVH2[0], BVH2[1], CWBVH[0], CWBVH[1]];
 
 /// One ray that some structures get wrong whatever their triangle test.
 pub struct Finding {
-    pub name: &'static str,
-    /// Why, as their sources show.
+    /// What is special about it, and why it is lost, as their sources show.
     pub cause: &'static str,
     pub structures: &'static [&'static str],
     pub mesh: &'static str,
@@ -28,48 +27,42 @@ pub struct Finding {
 
 const FINDINGS: [Finding; 6] = [
     Finding {
-        name: "negative zero",
-        cause: "the octant is found by d < 0, the inverse by 1 / d: with -0.0 the two disagree",
+        cause: "negative zero: the octant is found by d < 0, the inverse by 1 / d: with -0.0 the two disagree",
         structures: &CWBVH,
         mesh: "box of a grid",
         ray: "0.25,0.125,-3.0 -0.0,-0.0,1.0",
         kind: Kind::Lost,
     },
     Finding {
-        name: "small t",
-        cause: "a box must be left after t = 1e-4, an absolute bound",
+        cause: "small t: a box must be left after t = 1e-4, an absolute bound",
         structures: &CWBVH,
         mesh: "box of a grid",
         ray: "0.3,0.2,1.00005 0.1,0.2,-1.0",
         kind: Kind::NearerLost,
     },
     Finding {
-        name: "in a box face",
-        cause: "1 / 0 is replaced by a large number, which makes boxes half-open: a ray in the far face leaves at t = 0",
+        cause: "in a box face: 1 / 0 is replaced by a large number, which makes boxes half-open: a ray in the far face leaves at t = 0",
         structures: &BOTH,
         mesh: "box of a grid",
         ray: "0.375,3.875,1.0 0.0,-1.0,0.0",
         kind: Kind::Lost,
     },
     Finding {
-        name: "short direction",
-        cause: "direction components below 1.2e-7 are replaced by 1.2e-7",
+        cause: "short direction: direction components below 1.2e-7 are replaced by 1.2e-7",
         structures: &BOTH,
         mesh: "box of a grid",
         ray: "0.2,0.3,3.0 1e-10,2e-10,-1e-9",
         kind: Kind::Lost,
     },
     Finding {
-        name: "box without a margin",
-        cause: "box entry and exit are rounded without slack, so that a hit at a corner of the box falls out",
+        cause: "box without a margin: box entry and exit are rounded without slack, so that a hit at a corner of the box falls out",
         structures: &BOTH,
         mesh: "box of a grid",
         ray: "3.6959038,2.4580703,-0.22391748 -4.645062,-1.4580703,-0.7760825",
         kind: Kind::Lost,
     },
     Finding {
-        name: "far origin",
-        cause: "the same rounding, which grows with the distance: boxes are missed from afar",
+        cause: "far origin: the same rounding, which grows with the distance: boxes are missed from afar",
         structures: &BOTH,
         mesh: "one triangle",
         ray: "0.055807248,2499999.5,0.341033 0.0,-1.0,0.0",
@@ -95,8 +88,8 @@ impl Finding {
     pub fn assert_on(&self, choice: &Choice, spec: &str) {
         let found = compared(choice, self.mesh, self.ray);
         let expected = self.structures.contains(&spec).then_some(self.kind);
-        assert!(found.hits == 1 || expected.is_none(), "{}: the ray hits by {}", self.name, choice.triangle_test());
-        assert_eq!(found.worst_error().map(|worst| worst.kind), expected, "{}, {}: {spec}", self.name, self.cause);
+        assert!(found.hits == 1 || expected.is_none(), "{}: the ray hits by {}", self.cause, choice.triangle_test());
+        assert_eq!(found.worst_error().map(|worst| worst.kind), expected, "{}: {spec}", self.cause);
     }
 }
 

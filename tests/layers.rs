@@ -1,4 +1,5 @@
 //! Imports go downward only, between modules of the crate and between their files: no circles, whatever path an import takes.
+//! Some crates of others are imported in one folder alone.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -20,6 +21,9 @@ const LAYERS: [&[&str]; 9] = [
 
 /// No structure imports another.
 const STRUCTURES: usize = 3;
+
+/// Crates of others, and the folder that alone may import them: who needs what they do asks that folder for it.
+const ENCLOSED: [(&str, &str); 2] = [("gltf", "scene::load"), ("tobj", "scene::load")];
 
 /// What each imports.
 type Graph = BTreeMap<String, BTreeSet<String>>;
@@ -46,8 +50,7 @@ impl Sources {
             tests.extend(names.map(|(_, name)| join(&module, name)));
             sources.insert(module, left);
         }
-        sources
-            .retain(|module, _| !tests.iter().any(|test| module == test || module.starts_with(&format!("{test}::"))));
+        sources.retain(|module, _| !tests.iter().any(|test| is_in(module, test)));
         Self(sources)
     }
 
@@ -60,7 +63,7 @@ impl Sources {
             let below = join(&module, segment);
             if !self.0.contains_key(&below) {
                 // A name that the module only hands on is at home elsewhere.
-                let exports = imports(self.0.get(&module)?).into_iter().filter(|used| used.public && rounds < 8);
+                let exports = imports(self.0.get(&module)?).into_iter().filter(|used| used.public == Some(true) && rounds < 8);
                 let mut targets = exports.filter_map(|used| self.absolute(&module, &used.path));
                 let target = targets.find(|target| target.rsplit("::").next() == Some(segment));
                 return target.map_or(Some(module), |target| self.home(&join(&target, after), rounds + 1));
@@ -72,15 +75,14 @@ impl Sources {
 
     /// The path from the root of the crate that a path written in `module` stands for; none for other crates.
     fn absolute(&self, module: &str, path: &str) -> Option<String> {
-        let mut own: Vec<&str> = module.split("::").filter(|segment| !segment.is_empty()).collect();
-        let mut segments = path.split("::").peekable();
-        match segments.peek().copied()? {
-            "crate" | "sahara_core" => own.clear(),
-            "self" | "super" => {}
-            child if self.0.contains_key(&join(module, child)) => {}
+        let base = match top(path) {
+            "crate" | "sahara_core" => "",
+            "self" | "super" => module,
+            child if self.0.contains_key(&join(module, child)) => module,
             _ => return None,
-        }
-        for segment in segments {
+        };
+        let mut own: Vec<&str> = base.split("::").filter(|segment| !segment.is_empty()).collect();
+        for segment in path.split("::") {
             match segment {
                 "crate" | "sahara_core" | "self" => {}
                 "super" => _ = own.pop(),
@@ -90,12 +92,28 @@ impl Sources {
         Some(own.join("::"))
     }
 
+    /// Imports of crates outside of the folders that they are kept to.
+    fn escaped(&self) -> Vec<String> {
+        let mut faults = vec![];
+        for (module, text) in &self.0 {
+            let crates = imports(text).into_iter().map(|used| used.path.trim_start_matches(':').to_owned());
+            let crates: BTreeSet<String> = crates.map(|path| top(&path).to_owned()).collect();
+            let is_fault = |(name, folder): &&(&str, &str)| crates.contains(*name) && !is_in(module, folder);
+            faults.extend(ENCLOSED.iter().filter(is_fault).map(|(name, _)| format!("{module} imports {name}")));
+        }
+        faults
+    }
+
     /// Which files each file imports.
     fn graph(&self) -> Graph {
         let mut graph = Graph::new();
         for (module, text) in self.0.iter().filter(|(module, _)| !["", "lib", "main"].contains(&module.as_str())) {
-            // What a folder hands on of its files is no import of its own.
-            let used = imports(text).into_iter().filter(|used| !used.public);
+            // What a folder hands on of its files is no import of its own, and what its code calls in them is in a `mod`.
+            let is_own = |used: &Import| match used.public {
+                Some(public) => !public,
+                None => ["crate", "super"].contains(&top(&used.path)),
+            };
+            let used = imports(text).into_iter().filter(is_own);
             let homes = used.filter_map(|used| self.home(&self.absolute(module, &used.path)?, 0));
             graph.insert(module.clone(), homes.filter(|home| home != module).collect());
         }
@@ -107,9 +125,14 @@ fn join(module: &str, name: &str) -> String {
     [module, name].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("::")
 }
 
-/// The module of the crate that a file belongs to.
-fn top(module: &str) -> &str {
-    module.split("::").next().unwrap_or(module)
+/// The first name of a path: of a file, the module of the crate that it belongs to.
+fn top(path: &str) -> &str {
+    path.split("::").next().unwrap_or(path)
+}
+
+/// Whether a file is that of a folder or lies in it.
+fn is_in(module: &str, folder: &str) -> bool {
+    module.strip_prefix(folder).is_some_and(|rest| rest.is_empty() || rest.starts_with("::"))
 }
 
 fn collect(folder: &Path, module: &str, found: &mut Vec<(String, String)>) {
@@ -144,47 +167,43 @@ fn without_test_items(text: &str) -> (String, Vec<&str>) {
     (left + rest, items)
 }
 
-/// One path of a `use`, or a path in code.
+/// One path of a `use`, which may be public, or a path in code.
 struct Import {
-    public: bool,
+    public: Option<bool>,
     path: String,
 }
 
-/// All paths of all `use` items, and the paths in code that begin with `crate` or `super`.
+/// All paths of all `use` items, their lists written out, and the paths in code.
 fn imports(text: &str) -> Vec<Import> {
-    let mut found = vec![];
-    for (at, _) in text.match_indices("use ") {
-        let line = text[..at].rsplit('\n').next().unwrap_or("").trim();
-        if let (true, Some((tree, _))) = (line.is_empty() || line.starts_with("pub"), text[at + 4..].split_once(';')) {
-            let public = line.starts_with("pub");
-            found.extend(expanded("", tree).into_iter().map(|path| Import { public, path }));
-        }
-    }
     let is_of_path = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
-    for (at, _) in ["crate::", "super::"].iter().flat_map(|start| text.match_indices(start)) {
-        let end = text[at..].find(|c: char| !is_of_path(c)).map_or(text.len(), |end| at + end);
-        // A longer word that ends so is another one; `super::super` begins before. Lists are those of `use`.
-        if !text[..at].ends_with(is_of_path) && !text[end..].starts_with('{') {
-            found.push(Import { public: false, path: text[at..end].trim_end_matches(':').into() });
-        }
-    }
-    found
-}
-
-/// The paths of a list, its braces written out.
-fn expanded(prefix: &str, list: &str) -> Vec<String> {
-    let (mut found, mut depth, mut start) = (vec![], 0, 0);
-    for (at, c) in list.char_indices().chain([(list.len(), ',')]) {
-        depth += i32::from(c == '{') - i32::from(c == '}');
-        if c != ',' || depth > 0 {
+    let mut found = vec![];
+    // Whether the `use` that is read is public, what stands before its open lists, and the word before.
+    let (mut public, mut heads, mut last, mut at) = (None, vec![String::new()], "", 0);
+    for piece in text.split_inclusive(|c| !is_of_path(c)) {
+        let word = piece.trim_end_matches(|c| !is_of_path(c));
+        let line = text[..at].rsplit('\n').next().unwrap_or("").trim();
+        at += piece.len();
+        if public.is_none() {
+            if word == "use" && (line.is_empty() || line.starts_with("pub")) {
+                public = Some(line.starts_with("pub"));
+            } else if word.contains("::") {
+                found.push(Import { public, path: word.trim_end_matches(':').into() });
+            }
             continue;
         }
-        let item = list[start..at].trim();
-        start = at + 1;
-        match item.strip_suffix('}').and_then(|item| item.split_once('{')) {
-            Some((head, inner)) => found.extend(expanded(&format!("{prefix}{}", head.trim()), inner)),
-            None if item.is_empty() => {}
-            None => found.push(format!("{prefix}{}", item.split(" as ").next().unwrap_or(item))),
+        let path = format!("{}{word}", heads.last().expect("braces are paired"));
+        match &piece[word.len()..] {
+            "{" => heads.push(path),
+            _ if word.is_empty() || word == "as" || last == "as" => {}
+            _ => found.push(Import { public, path: path.trim_end_matches(':').into() }),
+        }
+        match &piece[word.len()..] {
+            "}" => _ = heads.pop(),
+            ";" => public = None,
+            _ => {}
+        }
+        if !word.is_empty() {
+            last = word;
         }
     }
     found
@@ -212,8 +231,8 @@ fn upward(graph: &Graph) -> Vec<String> {
     faults.into_iter().collect()
 }
 
-/// The names of a graph that are in circles, or lie between two: those left when what imports nothing of the rest, and what
-/// nothing of the rest imports, is taken away again and again.
+/// The files that import each other in circles, or lie between two: those left when what imports nothing of the rest, and
+/// what nothing of the rest imports, is taken away again and again.
 fn circles(graph: &Graph) -> Vec<&str> {
     let mut left: Vec<&str> = graph.keys().map(String::as_str).collect();
     loop {
@@ -229,65 +248,69 @@ fn circles(graph: &Graph) -> Vec<&str> {
     }
 }
 
+/// Everything that is wrong, a line each.
+fn faults(sources: &Sources) -> Vec<String> {
+    let graph = sources.graph();
+    let circles = circles(&graph).into_iter().map(|file| format!("{file} is in a circle")).collect();
+    [upward(&graph), sources.escaped(), circles].concat()
+}
+
 #[test]
 fn imports_go_downward_without_circles() {
-    let graph = Sources::of_the_crate().graph();
-    assert!(graph.len() > 300, "the files of both crates are found");
-    let faults = upward(&graph);
-    assert!(faults.is_empty(), "imports must go downward:\n{}", faults.join("\n"));
-    let circles = circles(&graph);
-    assert!(circles.is_empty(), "files import each other in circles:\n{circles:#?}");
-}
-
-/// A small crate: each file's module and text.
-fn planted(files: &[(&str, &str)]) -> Graph {
-    Sources::new(files.iter().map(|(module, text)| (module.to_string(), text.to_string())).collect()).graph()
+    let sources = Sources::of_the_crate();
+    assert!(sources.0.len() > 300, "the files of both crates are found");
+    let faults = faults(&sources);
+    assert!(faults.is_empty(), "imports must go downward, and these crates into their folders:\n{}", faults.join("\n"));
 }
 
 #[test]
-fn planted_upward_imports_are_found() {
-    let modules = ["kdtree", "bvh8", "registry", "scene", "geometry", "cli"].map(|name| (name, ""));
-    for (source, count) in [
-        ("use crate::geometry::Ray;\nuse super::geometry::Mesh;", 0),
-        ("use crate::kdtree::KdTree;", 1),
-        ("use super::kdtree::KdTree;", 1),
-        ("fn f() { let x = crate::registry::Registry::builtin(); }", 1),
-        ("use crate::{geometry::{Mesh, Ray}, scene::Model, triangle};", 1),
-        ("use crate::{\n    kdtree,\n    cli::main,\n};", 2),
-        ("/// See [`crate::registry`].\n// use crate::cli;\nuse my_crate::cli;", 0),
-        ("#[cfg(test)]\nmod tests {\n    use crate::registry::Registry;\n}\n", 0),
-    ] {
-        assert_eq!(upward(&planted(&[&modules[..], &[("accel", source)]].concat())).len(), count, "{source}");
-    }
-    assert_eq!(upward(&planted(&[("attic", "")])).len(), 1, "a module without a layer is not overlooked");
-    let sideways = [("bvh8", "use crate::kdtree::KdTree;"), ("kdtree", "")];
-    assert_eq!(upward(&planted(&sideways)), ["bvh8 imports kdtree"], "structures do not know each other");
-    let modules = planted(&[("scene", "use crate::oracle::Tree;"), ("oracle", "use crate::scene::Model;")]);
-    assert_eq!(upward(&modules), ["scene imports oracle"], "no circles between modules");
-    let below = [("build::sah_cost", "use crate::bvh8::node::Node;"), ("build", ""), ("bvh8", ""), ("bvh8::node", "")];
-    assert_eq!(upward(&planted(&below)), ["build::sah_cost imports bvh8::node"]);
-}
-
-#[test]
-fn planted_circles_are_found() {
-    const FOLDER: &str = "mod node;\nmod stack;\npub use node::Node;\npub(crate) use stack::Stack;\n";
-    let of_two = |node: &str, stack: &str| planted(&[("bvh8", FOLDER), ("bvh8::node", node), ("bvh8::stack", stack)]);
-    for (node, stack, circle) in [
-        ("use super::stack::DEPTH;", "use super::node::Node;", true),
-        // What a folder re-exports is at home in its file.
-        ("use super::Stack;", "use crate::bvh8::Node;", true),
-        ("fn f() { super::stack::g() }", "use super::{node::Node};", true),
-        ("", "use crate::bvh8::Node;", false),
-    ] {
-        let expected = if circle { &["bvh8::node", "bvh8::stack"][..] } else { &[] };
-        assert_eq!(circles(&of_two(node, stack)), expected, "{node} {stack}");
-    }
-    let with_folder = [("bvh8", "mod node;\nuse node::Node;\nstruct Tree;"), ("bvh8::node", "use super::Tree;")];
-    assert_eq!(circles(&planted(&with_folder)), ["bvh8", "bvh8::node"], "a folder's own items count");
-    let in_tests = [
-        ("bvh8", "mod node;\n#[cfg(test)]\nmod tests;\n"),
-        ("bvh8::node", "#[cfg(test)]\nuse super::tests::mesh;"),
-        ("bvh8::tests", "use super::node::Node;"),
+fn planted_faults_are_found() {
+    const NODE: (&str, &str) = ("bvh8", "mod node;\nmod stack;\npub use node::Node;\npub(crate) use stack::Stack;\n");
+    const OF_TWO: &[&str] = &["bvh8::node is in a circle", "bvh8::stack is in a circle"];
+    let cases: [(&[(&str, &str)], &[&str]); 26] = [
+        (&[("accel", "use crate::geometry::Ray;\nuse super::geometry::Mesh;")], &[]),
+        (&[("accel", "use crate::kdtree::KdTree as Tree;")], &["accel imports kdtree"]),
+        (&[("accel", "use super::kdtree::KdTree;")], &["accel imports kdtree"]),
+        (&[("accel", "fn f() { let x = crate::registry::builtin(); }")], &["accel imports registry"]),
+        (&[("accel", "use crate::{geometry::{Mesh, Ray}, scene::Model, exact};")], &["accel imports scene"]),
+        (&[("accel", "use crate::{\n    kdtree,\n    cli::f,\n};")], &["accel imports cli", "accel imports kdtree"]),
+        (&[("accel", "/// See [`crate::registry`].\n// use crate::cli;\nuse my_crate::cli;")], &[]),
+        (&[("accel", "#[cfg(test)]\nmod tests {\n    use crate::registry::Registry;\n}\n")], &[]),
+        (&[("attic", "")], &["the module \"attic\" has no layer: add it to tests/layers.rs"]),
+        // Structures do not know each other, and modules of one layer import one way.
+        (&[("bvh8", "use crate::kdtree::KdTree;")], &["bvh8 imports kdtree"]),
+        (&[("scene", "use crate::oracle::Tree;"), ("oracle", "")], &["scene imports oracle"]),
+        (&[("build", "use crate::bvh8::node::Node;"), ("bvh8::node", "")], &["build imports bvh8::node"]),
+        // Crates that one folder alone imports.
+        (&[("scene::loaded", "use gltf::{Document, json};")], &["scene::loaded imports gltf"]),
+        (&[("scene", "use ::gltf as reader;")], &["scene imports gltf"]),
+        (&[("cli", "use std::{fs, io};\nfn f() { ::gltf::Gltf::open(path) }")], &["cli imports gltf"]),
+        (&[("cli", "fn f() { tobj::load_obj(path) }")], &["cli imports tobj"]),
+        (&[("cli", "use super::gltf;\nfn f(gltf: u32) { g(\"gltf\", gltf) }")], &[]),
+        (&[("cli", "#[cfg(test)]\nuse tobj::Model;")], &[]),
+        (&[("scene::load", "use gltf::Document;"), ("scene::load::obj", "fn f() { tobj::load_obj(path) }")], &[]),
+        // Files of one folder; what it re-exports is at home in its file, and its own items count.
+        (&[NODE, ("bvh8::node", "use super::stack::DEPTH;"), ("bvh8::stack", "use super::node::Node;")], OF_TWO),
+        (&[NODE, ("bvh8::node", "use super::Stack;"), ("bvh8::stack", "use crate::bvh8::Node;")], OF_TWO),
+        (&[NODE, ("bvh8::node", "fn f() { super::stack::g() }"), ("bvh8::stack", "use super::{node::Node};")], OF_TWO),
+        (&[NODE, ("bvh8::node", ""), ("bvh8::stack", "use crate::bvh8::Node;")], &[]),
+        (
+            &[("bvh8", "mod node;\nuse node::Node;\nstruct Tree;"), ("bvh8::node", "use super::Tree;")],
+            &["bvh8 is in a circle", "bvh8::node is in a circle"],
+        ),
+        (&[("bvh8", "mod node;\nfn f() { node::g() }"), ("bvh8::node", "")], &[]),
+        (
+            &[
+                ("bvh8", "mod node;\n#[cfg(test)]\nmod tests;\n"),
+                ("bvh8::node", "#[cfg(test)]\nuse super::tests::mesh;"),
+                ("bvh8::tests", "use super::node::Node;"),
+            ],
+            &[],
+        ),
     ];
-    assert_eq!(circles(&planted(&in_tests)), [""; 0]);
+    for (files, expected) in cases {
+        let others = ["kdtree", "bvh8", "registry", "scene", "geometry", "exact", "cli"].map(|name| (name, ""));
+        let all = others.iter().chain(files).map(|(module, text)| (module.to_string(), text.to_string()));
+        assert_eq!(faults(&Sources::new(all.collect())), expected, "{files:?}");
+    }
 }

@@ -86,23 +86,18 @@ fn bundles(mesh: &Mesh) -> Vec<Ray> {
     let mixed: Vec<Ray> = Stratum::ALL.into_iter().flat_map(|stratum| stratum.rays(mesh, 16, 5)).collect();
     let mut sorted = mixed.clone();
     sorted.sort_by_key(|ray| ray.direction.to_array().map(f32::is_sign_negative));
-    // Rays that differ by little, with ends that cut through the scene.
-    let neighbours = mixed.iter().step_by(5).flat_map(|ray| {
-        let step = |i: u32| {
-            let direction = ray.direction * (1.0 + i as f32 * 1e-3);
+    // Rays that differ by little, with ends that cut through the scene; and the same with directions of very different
+    // lengths: what is certain of the longest is not of the others.
+    let neighbours = |is_equal: bool| {
+        let step = move |i: u32, ray: &Ray| {
+            let longer = if is_equal { 1.0 } else { (3.0 * i as f32).exp2() };
+            let direction = ray.direction * (1.0 + i as f32 * 1e-3) / longer;
             let end = if i < 5 { 1.0 + i as f32 * 0.1 } else { f32::INFINITY };
-            Ray { direction, t_min: if i > 12 { 0.25 } else { 0.0 }, ..*ray }.until(end)
+            Ray { direction, t_min: if i > 12 { 0.25 * longer } else { 0.0 }, ..*ray }.until(end * longer)
         };
-        (0..16).map(step)
-    });
-    let near: Vec<Ray> = neighbours.collect();
-    // The same with directions of very different lengths: what is certain of the longest is not of the others.
-    let unequal = near.iter().enumerate().map(|(i, ray)| {
-        let longer = (3.0 * (i % 16) as f32).exp2();
-        Ray { direction: ray.direction / longer, t_min: ray.t_min * longer, ..*ray }.until(ray.t_max * longer)
-    });
-    let unequal: Vec<Ray> = unequal.collect();
-    [mixed, sorted, near, unequal].concat()
+        mixed.iter().step_by(5).flat_map(move |ray| (0..16).map(move |i| step(i, ray))).collect::<Vec<_>>()
+    };
+    [mixed.clone(), sorted, neighbours(true), neighbours(false)].concat()
 }
 
 /// Triangles on a coarse grid, so that many are hit at once, at 0 and -0, on edges, and by rays that lie in them.

@@ -32,23 +32,16 @@ const PEERS: [&str; 15] = [
     "embree-robust:packet=16",
 ];
 
-/// The peers that are present. Says which are skipped, and why.
-fn present(specs: &[&str]) -> Vec<Choice> {
+/// The peer, if it is present; says if it is skipped, and why.
+fn present(spec: &str) -> Option<Choice> {
     let registry = Registry::builtin();
-    let mut present = vec![];
-    for spec in specs {
-        let name = spec.split(':').next().unwrap();
-        if !registry.names().contains(&name) {
-            eprintln!("skipped: {spec}: its feature is off");
-            continue;
-        }
-        let choice = registry.choose(spec).unwrap();
-        match choice.entry.absence() {
-            Some(absence) => eprintln!("skipped: {spec}: {absence}"),
-            None => present.push(choice),
-        }
+    let is_on = registry.names().contains(&spec.split(':').next().unwrap());
+    let choice = is_on.then(|| registry.choose(spec).unwrap());
+    let absence = choice.as_ref().map_or(Some("its feature is off".into()), |choice| choice.entry.absence());
+    if let Some(absence) = &absence {
+        eprintln!("skipped: {spec}: {absence}");
     }
-    present
+    choice.filter(|_| absence.is_none())
 }
 
 /// The meshes that the peer admits.
@@ -75,19 +68,18 @@ const CLEAN: [(&str, &[Stratum], bool); 5] = {
 #[test]
 fn rays_without_a_named_cause_are_right() {
     for (name, clean, all_others_err) in CLEAN {
-        for choice in present(&[name]) {
-            for (stratum, wrong) in wrong_by_stratum(&choice, &meshes(&choice)) {
-                let is_clean = clean.contains(&stratum);
-                assert!(!is_clean || wrong.is_empty(), "{name}, {}: {wrong:#?}", stratum.name());
-                assert!(is_clean || !all_others_err || !wrong.is_empty(), "{name} errs no more: {}", stratum.name());
-            }
+        let Some(choice) = present(name) else { continue };
+        for (stratum, wrong) in wrong_by_stratum(&choice, &meshes(&choice)) {
+            let is_clean = clean.contains(&stratum);
+            assert!(!is_clean || wrong.is_empty(), "{name}, {}: {wrong:#?}", stratum.name());
+            assert!(is_clean || !all_others_err || !wrong.is_empty(), "{name} errs no more: {}", stratum.name());
         }
     }
 }
 
 #[test]
 fn every_configuration_is_right_on_random_rays_counts_and_has_a_possible_shape() {
-    for choice in present(&PEERS) {
+    for choice in PEERS.into_iter().filter_map(present) {
         let (subject, meshes) = (choice.subject(), meshes(&choice));
         passes(counting(&subject, &meshes, 10));
         passes(shapes(&subject, &meshes));
@@ -102,32 +94,28 @@ const BOX: &str = "box of a grid";
 
 const FINDINGS: [Finding; 4] = [
     Finding {
-        name: "in the near face of a box",
-        cause: "0 / 0 is no number, and a box with one is missed",
+        cause: "in the near face of a box: 0 / 0 is no number, and a box with one is missed",
         structures: &["bvh"],
         mesh: BOX,
         ray: "0.375,3.875,-1.0 0.0,-1.0,0.0",
         kind: Kind::Lost,
     },
     Finding {
-        name: "in the far face of a box",
-        cause: "the same, and elsewhere 1 / 0 is a large number, which makes boxes half-open",
+        cause: "in the far face of a box: the same, and elsewhere 1 / 0 is a large number, which makes boxes half-open",
         structures: &["bvh", "parry", "tinybvh", "embree", "embree-robust"],
         mesh: BOX,
         ray: "0.375,3.875,1.0 0.0,-1.0,0.0",
         kind: Kind::Lost,
     },
     Finding {
-        name: "short direction",
-        cause: "direction components below 1.2e-7 (parry) and 1e-18 (Embree) are replaced by those",
+        cause: "short direction: direction components below 1.2e-7 (parry) and 1e-18 (Embree) are replaced by those",
         structures: &["parry", "embree", "embree-robust"],
         mesh: BOX,
         ray: "0.2,0.3,3.0 1e-20,2e-20,-1e-19",
         kind: Kind::Lost,
     },
     Finding {
-        name: "nothing wrong",
-        cause: "an ordinary ray",
+        cause: "nothing wrong: an ordinary ray",
         structures: &[],
         mesh: BOX,
         ray: "0.3,0.2,1.00005 0.1,0.2,-1.0",
@@ -137,38 +125,30 @@ const FINDINGS: [Finding; 4] = [
 
 #[test]
 fn each_finding_is_still_there() {
-    for finding in FINDINGS {
-        for (name, ..) in CLEAN {
-            present(&[name]).iter().for_each(|choice| finding.assert_on(choice, name));
-        }
-    }
-}
-
-/// Embree's default and tinybvh are open at the beginning, and declare it: what lies at the origin is not counted.
-#[test]
-fn what_lies_at_the_start_of_an_open_interval_is_not_counted() {
-    for (name, declined) in [("embree", 1), ("tinybvh", 1), ("embree-robust", 0)] {
-        for choice in present(&[name]) {
-            let found = compared(&choice, BOX, "0.3,0.2,1.0 0.1,0.2,-1.0");
-            assert_eq!((found.hits, found.errors(), found.test_errors, found.declined), (1, 0, 0, declined), "{name}");
-        }
+    for (name, ..) in CLEAN {
+        let Some(choice) = present(name) else { continue };
+        FINDINGS.iter().for_each(|finding| finding.assert_on(&choice, name));
+        // Embree's default and tinybvh are open at the beginning, and declare it: what lies at the origin is not counted.
+        let declined = match name {
+            "embree" | "tinybvh" => 1,
+            "embree-robust" => 0,
+            _ => continue,
+        };
+        let found = compared(&choice, BOX, "0.3,0.2,1.0 0.1,0.2,-1.0");
+        assert_eq!((found.hits, found.errors(), found.test_errors, found.declined), (1, 0, 0, declined), "{name}");
     }
 }
 
 #[test]
-fn the_stack_of_bvh_panics_on_a_deep_tree() {
-    for choice in present(&["bvh"]) {
+fn deep_trees_overflow_the_stack_of_bvh_and_are_refused_for_that_of_tinybvh() {
+    if let Some(choice) = present("bvh") {
         let deep = mesh("exponential sequence");
         let accel = choice.build(&deep).unwrap();
         let rays: Vec<Ray> = Stratum::ALL.iter().flat_map(|stratum| stratum.rays(&deep, 200, 1)).collect();
         let traced = panic::catch_unwind(AssertUnwindSafe(|| accel.closest(&rays)));
         assert!(traced.is_err(), "its stack has grown");
     }
-}
-
-#[test]
-fn tinybvh_is_kept_from_trees_that_overflow_its_stack() {
-    for choice in present(&["tinybvh"]) {
+    if let Some(choice) = present("tinybvh") {
         let refused = choice.build(&mesh("2000 coincident")).err().expect("refused").to_string();
         assert!(refused.contains("stack of 256 nodes"), "{refused}");
     }

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 use std::time::Instant;
 
-use super::progress::Waiting;
+use super::progress::spinner;
 use super::study::{Common, RUNS, run_as};
 use super::{Session, interrupt};
 use crate::escaped::Escaped as _;
@@ -43,7 +43,7 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
         Common { dir: Some(args.dir.clone()), fresh: args.fresh, in_process: args.in_process, ..Common::default() };
     if !args.scenes.is_empty() {
         // What is not there is refused before the studies that have scenes of their own are measured.
-        let _waiting = Waiting::show("loads scenes".into(), terminal);
+        let _waiting = spinner("loads scenes", terminal);
         scenes(&suite.registry, &args.scenes)?;
     }
     let mut outcome = Status::Right;

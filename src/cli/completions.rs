@@ -20,29 +20,24 @@ pub struct Args {
 }
 
 pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
-    let mut output = vec![];
-    match args.form.parse::<Shell>() {
-        Ok(shell) => {
-            let mut command = told(&suite.registry, super::shown(&suite.studies));
-            clap_complete::generate(shell, &mut command, "sahara", &mut output);
-            // Where a scene is expected, a file is right as well: zsh offers what is listed and nothing else.
-            let scenes = scenes().join(" ");
-            let both = format!(":{{ compadd {scenes}; _files }}");
-            output = String::from_utf8_lossy(&output).replace(&format!(":({scenes})"), &both).into_bytes();
-        }
-        // The manual page is for no shell.
-        Err(_) => manual(super::shown(&suite.studies), &mut output)?,
-    }
-    terminal.print(&String::from_utf8_lossy(&output));
+    terminal.print(&text(suite, &args.form)?);
     Ok(Status::Right)
 }
 
-/// The manual page of the command, then those of all that it can be told to do.
-fn manual(command: Command, output: &mut Vec<u8>) -> std::io::Result<()> {
-    let mut command = command.disable_help_subcommand(true);
-    command.build();
-    Man::new(command.clone()).render(output)?;
-    command.get_subcommands().try_for_each(|own| Man::new(own.clone()).render(output))
+fn text(suite: &Suite, form: &str) -> anyhow::Result<String> {
+    let (mut output, mut command) = (vec![], super::shown(&suite.studies));
+    let Ok(shell) = form.parse::<Shell>() else {
+        // The page of the command, then those of all that it can be told to do.
+        command = command.disable_help_subcommand(true);
+        command.build();
+        Man::new(command.clone()).render(&mut output)?;
+        command.get_subcommands().try_for_each(|own| Man::new(own.clone()).render(&mut output))?;
+        return Ok(String::from_utf8(output)?);
+    };
+    clap_complete::generate(shell, &mut told(&suite.registry, command), "sahara", &mut output);
+    // Where a scene is expected, a file is right as well: zsh offers what is listed and nothing else.
+    let scenes = scenes().join(" ");
+    Ok(String::from_utf8(output)?.replace(&format!(":({scenes})"), &format!(":{{ compadd {scenes}; _files }}")))
 }
 
 /// `command` as a shell is told of it: with names in the place of what is free text for the command itself, which takes
@@ -76,33 +71,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_manual_has_every_command_with_its_options() {
-        let mut page = vec![];
-        manual(super::super::shown(&Suite::from(Registry::builtin()).studies), &mut page).unwrap();
-        let page = String::from_utf8(page).unwrap();
-        assert!(page.starts_with(".ie") || page.starts_with(".TH"), "{}", &page[..80]);
-        for part in ["sahara\\-compare", "sahara\\-report", "\\-\\-fail\\-on\\-regression", "\\-\\-results"] {
-            assert!(page.contains(part), "{part}");
-        }
-    }
-
-    #[test]
-    fn shells_know_scenes_structures_workloads_and_views_and_nothing_hidden() {
+    fn the_manual_and_the_scripts_name_everything_and_nothing_hidden() {
         let suite = Suite::from(Registry::builtin());
-        let whole = || super::super::shown(&suite.studies);
-        for shell in [Shell::Bash, Shell::Zsh, Shell::Fish] {
-            let mut script = vec![];
-            clap_complete::generate(shell, &mut told(&suite.registry, whole()), "sahara", &mut script);
-            let script = String::from_utf8(script).unwrap();
-            for word in ["replicate", "dragon", "sah-hybrid", "image-shadow", "heat", "attribution"] {
-                assert!(script.contains(word), "{shell}: {word}");
+        let manual = &["sahara\\-compare", "sahara\\-report", "\\-\\-fail\\-on\\-regression", "\\-\\-results"][..];
+        let names = &["replicate", "dragon", "sah-hybrid", "image-shadow", "heat", "attribution"];
+        for (form, parts) in [("man", manual), ("bash", names), ("zsh", names), ("fish", names)] {
+            let text = text(&suite, form).unwrap();
+            for part in parts {
+                assert!(text.contains(part), "{form}: {part}");
             }
             for hidden in [crate::cli::validate::CHILD, "--case", "compare-runs"] {
-                assert!(!script.contains(hidden), "{shell}: {hidden}");
+                assert!(!text.contains(hidden), "{form}: {hidden}");
             }
         }
         // The command itself takes more than names.
         let args = ["sahara", "compare", "my-mesh.obj", "-s", "sah-kd:leaf=4", "--reference", "median-kd:leaf=8"];
+        let whole = || super::super::shown(&suite.studies);
         assert!(whole().try_get_matches_from(args).is_ok());
         assert!(told(&suite.registry, whole()).try_get_matches_from(args).is_err());
     }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::error::{ContextKind, ContextValue};
 use clap_lex::OsStrExt as _;
 
-use super::progress::Waiting;
+use super::progress::spinner;
 use super::study::RUNS;
 use super::{Session, study as command};
 use crate::escaped::{Escaped as _, quoted};
@@ -127,7 +127,7 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
     }
     let (mut lines, mut warnings) = (String::new(), vec![]);
     for (study, words, matches) in commands {
-        let waiting = Waiting::show(format!("plans {}", study.name), terminal);
+        let waiting = spinner(format!("plans {}", study.name), terminal);
         let plan = (study.plan)(&matches, &suite.registry)?;
         drop(waiting);
         warnings.extend(plan.warnings);

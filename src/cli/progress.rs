@@ -5,7 +5,7 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
 
 use super::interrupt;
 use super::terminal::Terminal;
@@ -20,9 +20,10 @@ fn style(template: &str) -> ProgressStyle {
     ProgressStyle::with_template(template).expect("the template is valid")
 }
 
+/// A bar that is gone when it is dropped.
 fn bar(steps: Option<u64>, template: &str, terminal: &Terminal) -> ProgressBar {
     let target = if terminal.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
-    ProgressBar::with_draw_target(steps, target).with_style(style(template))
+    ProgressBar::with_draw_target(steps, target).with_style(style(template)).with_finish(ProgressFinish::AndClear)
 }
 
 /// The bar of a download of `bytes`, if that is known; told how many there are.
@@ -35,24 +36,10 @@ pub fn download(name: &str, bytes: Option<u64>, terminal: &Terminal) -> Progress
 const TICK: Duration = Duration::from_secs(1);
 
 /// Says what is done and for how long already, until it is dropped; for work that nobody times.
-pub struct Waiting(ProgressBar);
-
-impl Waiting {
-    pub fn show(what: String, terminal: &Terminal) -> Self {
-        let bar = bar(None, SPINNER, terminal).with_message(what);
-        bar.enable_steady_tick(TICK);
-        Self(bar)
-    }
-
-    pub fn says(&self, what: String) {
-        self.0.set_message(what);
-    }
-}
-
-impl Drop for Waiting {
-    fn drop(&mut self) {
-        self.0.finish_and_clear();
-    }
+pub fn spinner(what: impl Into<String>, terminal: &Terminal) -> ProgressBar {
+    let bar = bar(None, SPINNER, terminal).with_message(what.into());
+    bar.enable_steady_tick(TICK);
+    bar
 }
 
 /// How often a log, which shows no bar, is told how far a run has come.
@@ -98,8 +85,7 @@ pub struct OnTerminal<'a> {
 
 impl<'a> OnTerminal<'a> {
     pub fn new(terminal: &'a Terminal) -> Self {
-        let bar = bar(None, SPINNER, terminal).with_message("loads scenes");
-        bar.enable_steady_tick(TICK);
+        let bar = spinner("loads scenes", terminal);
         let own = bar.clone();
         let watch = watch(LIMIT, move |stage| {
             let limit = LIMIT.as_secs();
@@ -107,18 +93,9 @@ impl<'a> OnTerminal<'a> {
                 "if it hangs, end this run; `sahara validate` gives it up after --limit seconds and names the ray";
             own.suspend(|| crate::output::tell(format_args!("{stage} for more than {limit} s: {advice}")));
         });
-        Self {
-            terminal,
-            bar,
-            watch,
-            watched: false,
-            case: String::new(),
-            work: 0,
-            done: 0,
-            logged: (!terminal.quiet && !io::stderr().is_terminal()).then(Instant::now),
-            warned: vec![],
-            is_job: false,
-        }
+        let logged = (!terminal.quiet && !io::stderr().is_terminal()).then(Instant::now);
+        let case = String::new();
+        Self { terminal, bar, watch, watched: false, case, work: 0, done: 0, logged, warned: vec![], is_job: false }
     }
 
     /// That of a job, which says what it measures in a line that is there in a log as well.

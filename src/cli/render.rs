@@ -4,8 +4,9 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
+use indicatif::ProgressBar;
 
-use super::progress::Waiting;
+use super::progress::spinner;
 use super::terminal::Terminal;
 use crate::accel::{DynAccel, Observed};
 use crate::escaped::Escaped as _;
@@ -48,11 +49,11 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let choice = request::structure(registry, &args.structure)?;
     let file = request::output(registry, &args.output, std::slice::from_ref(&args.scene), None)?;
     is_png(&args.output)?;
-    let waiting = Waiting::show(format!("loads {}", args.scene.escaped()), terminal);
+    let waiting = spinner(format!("loads {}", args.scene.escaped()), terminal);
     let scene = args.from.of(request::scene(registry, &args.scene)?)?;
     let size = scene.size;
 
-    waiting.says(format!("{} builds {}", scene.name, choice.label));
+    waiting.set_message(format!("{} builds {}", scene.name, choice.label));
     let accel = choice.build(&scene.mesh)?;
     let scaled_alone = args.hottest.is_none() && is_large(scene.mesh.len());
     let scale = match (args.view, args.hottest) {
@@ -60,7 +61,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         (ViewKind::Heat, None) => common_scale(registry, &scene, &waiting)?,
         (_, hottest) => hottest.unwrap_or(1),
     };
-    waiting.says(format!("{} is drawn by {}", scene.name, choice.label));
+    waiting.set_message(format!("{} is drawn by {}", scene.name, choice.label));
     let drawn = guarded(|| -> Result<_, ViewError> {
         let errors = (args.view == ViewKind::Error).then(|| ErrorMap::new(&scene, accel.as_ref(), size));
         let picture = match &errors {
@@ -118,12 +119,12 @@ fn own_scale(choice: &Choice, scene: &Scene, accel: &dyn DynAccel) -> anyhow::Re
 }
 
 /// One scale for the heat of all structures: the hottest of the trees. Brute force would darken all of them.
-fn common_scale(registry: &Registry, scene: &Scene, waiting: &Waiting) -> anyhow::Result<u64> {
+fn common_scale(registry: &Registry, scene: &Scene, waiting: &ProgressBar) -> anyhow::Result<u64> {
     let size = coarse_size(scene);
     let mut scale = 1;
     for choice in request::structures(registry, &[])? {
         if choice.entry.name != BRUTE_FORCE && choice.entry.observed == Observed::ALL {
-            waiting.says(format!("{} builds {} for the scale", scene.name, choice.label));
+            waiting.set_message(format!("{} builds {} for the scale", scene.name, choice.label));
             scale = scale.max(hottest(&costs(scene, choice.build(&scene.mesh)?.as_ref(), size)?));
         }
     }

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::Suite;
-use super::progress::Waiting;
+use super::progress::spinner;
 use super::study::RUNS;
 use super::terminal::Terminal;
 use crate::escaped::Escaped as _;
@@ -43,8 +43,8 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
 
     let mut pictures = left_out();
     if folder.is_some() && !args.no_pictures {
-        let waiting = Waiting::show("loads scenes".into(), terminal);
-        pictures = draw(&runs, &suite.registry, &mut |what| waiting.says(what));
+        let waiting = spinner("loads scenes", terminal);
+        pictures = draw(&runs, &suite.registry, &mut |what| waiting.set_message(what));
     }
     let document = document(&runs, &suite.studies, if folder.is_some() { pictures } else { vec![] });
     if let Some(results) = &results {

@@ -53,7 +53,10 @@ impl Common {
     /// Refuses files that cannot be written. Scenes take seconds to load, and only then it is known what the files must not be.
     fn check_places(&self) -> anyhow::Result<()> {
         let exports = [&self.export_json, &self.export_csv, &self.export_markdown].into_iter().flatten();
-        exports.chain(&self.plot).try_for_each(|path| Ok(OutputFile::check_place(path)?))
+        for path in exports.chain(&self.plot) {
+            OutputFile::check_place(path)?;
+        }
+        Ok(())
     }
 
     /// Checks all files before the long run; none of them is one of `inputs`.

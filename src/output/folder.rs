@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::TempDir;
 
-use super::{OutputError, folder_of, target, temporary};
+use super::{OutputError, folder_of, resolved, temporary};
 
 /// The file that marks a folder as written by sahara: it lists the folder's files.
 const MARK: &str = "sahara-files.json";
@@ -13,17 +13,18 @@ const MARK: &str = "sahara-files.json";
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OutputFolder {
     path: PathBuf,
+    resolved: PathBuf,
 }
 
 impl OutputFolder {
     /// Checks that `path` may be written: it does not exist, is empty or holds only what was written there before.
     /// Leaves nothing behind.
     pub fn check(path: &Path) -> Result<Self, OutputError> {
-        let folder = Self { path: path.into() };
         if path.exists() && !path.is_dir() {
             return Err(OutputError::File(path.into()));
         }
         let failed = |cause| OutputError::write(path, cause);
+        let folder = Self { path: path.into(), resolved: resolved(path).map_err(failed)? };
         if let Some(other) = folder.foreign().map_err(failed)? {
             return Err(OutputError::Foreign { path: path.into(), other });
         }
@@ -33,8 +34,7 @@ impl OutputFolder {
 
     /// The same folder, if none of `inputs`, the files that its contents are made from, is in it, by whatever path.
     pub fn apart_from<'a>(self, inputs: impl IntoIterator<Item = &'a Path>) -> Result<Self, OutputError> {
-        let Ok(own) = self.path.canonicalize() else { return Ok(self) };
-        let is_inside = |input: &&Path| input.canonicalize().is_ok_and(|input| input.starts_with(&own));
+        let is_inside = |input: &&Path| input.canonicalize().is_ok_and(|input| input.starts_with(&self.resolved));
         match inputs.into_iter().find(is_inside) {
             Some(input) => Err(OutputError::InputInside { path: self.path, input: input.into() }),
             None => Ok(self),
@@ -57,18 +57,17 @@ impl OutputFolder {
         let mark = serde_json::to_vec_pretty(&names).expect("names are text");
         for (name, bytes) in names.iter().zip(files.iter().map(|(_, bytes)| bytes).chain([&mark])) {
             let path = new.path().join(name);
-            fs::create_dir_all(path.parent().expect("it is in the folder"))?;
+            fs::create_dir_all(folder_of(&path))?;
             fs::write(path, bytes)?;
         }
 
         // Move the old folder aside, and back if the new one cannot take its place.
-        let target = target(&self.path);
         let aside = self.temporary()?;
         let old = aside.path().join("old");
-        if target.exists() {
-            fs::rename(&target, &old)?;
+        if self.resolved.exists() {
+            fs::rename(&self.resolved, &old)?;
         }
-        fs::rename(new.path(), &target).inspect_err(|_| drop(fs::rename(&old, &target)))?;
+        fs::rename(new.path(), &self.resolved).inspect_err(|_| drop(fs::rename(&old, &self.resolved)))?;
         // It has moved: nothing is left to remove.
         let _ = new.keep();
         Ok(())
@@ -76,20 +75,17 @@ impl OutputFolder {
 
     /// The first name in the folder that is not on its list.
     fn foreign(&self) -> io::Result<Option<String>> {
-        if !self.path.exists() {
+        if !self.resolved.exists() {
             return Ok(None);
         }
-        let listed: Vec<String> = match fs::read(self.path.join(MARK)) {
-            Ok(mark) => serde_json::from_slice(&mark).unwrap_or_default(),
-            Err(cause) if cause.kind() == io::ErrorKind::NotFound => vec![],
-            Err(cause) => return Err(cause),
-        };
-        Ok(names_below(&self.path, "")?.into_iter().filter(|name| !listed.contains(name)).min())
+        let mark = fs::read(self.resolved.join(MARK)).unwrap_or_default();
+        let listed: Vec<String> = serde_json::from_slice(&mark).unwrap_or_default();
+        Ok(names_below(&self.resolved, "")?.into_iter().filter(|name| !listed.contains(name)).min())
     }
 
     /// A new folder beside this one; it is removed when it is dropped.
     fn temporary(&self) -> io::Result<TempDir> {
-        temporary(0o777).tempdir_in(folder_of(&target(&self.path)))
+        temporary(0o777).tempdir_in(folder_of(&self.resolved))
     }
 }
 
@@ -110,30 +106,20 @@ fn names_below(folder: &Path, prefix: &str) -> io::Result<Vec<String>> {
 mod tests {
     use super::*;
 
-    fn files(text: &str) -> [(String, Vec<u8>); 2] {
-        ["index.html", "data/a.csv"].map(|name| (name.to_owned(), text.as_bytes().to_vec()))
-    }
-
     #[test]
-    fn earlier_results_are_replaced_and_nothing_is_left_beside() {
+    fn earlier_results_are_replaced_and_what_others_wrote_stays() {
         let parent = tempfile::tempdir().unwrap();
         let path = parent.path().join("out");
-        // An empty folder is taken.
+        let count = |folder: &Path| fs::read_dir(folder).unwrap().count();
+        // An empty folder is taken. Files that the new one does not have are gone with the old one.
         fs::create_dir(&path).unwrap();
-        for text in ["one", "two"] {
-            OutputFolder::check(&path).unwrap().write(&files(text)).unwrap();
-            assert_eq!(fs::read_to_string(path.join("data/a.csv")).unwrap(), text);
+        for names in [&["index.html", "data/a.csv"][..], &["index.html", "data/a.csv"], &["data/b.csv"]] {
+            let files: Vec<_> = names.iter().map(|name| (name.to_string(), b"text".to_vec())).collect();
+            OutputFolder::check(&path).unwrap().write(&files).unwrap();
+            assert!(names.iter().all(|name| fs::read(path.join(name)).unwrap() == b"text"));
+            assert_eq!([count(parent.path()), count(&path)], [1, names.len() + 1]);
         }
-        // Files that the new one does not have are gone with the old one.
-        OutputFolder::check(&path).unwrap().write(&files("three")[..1]).unwrap();
-        assert_eq!([parent.path(), &path].map(|folder| fs::read_dir(folder).unwrap().count()), [1, 2]);
-    }
 
-    #[test]
-    fn files_of_others_stay() {
-        let parent = tempfile::tempdir().unwrap();
-        let path = parent.path().join("out");
-        OutputFolder::check(&path).unwrap().write(&files("one")).unwrap();
         for name in ["notes.txt", "data/notes.txt"] {
             fs::write(path.join(name), "mine").unwrap();
             let error = OutputFolder::check(&path).unwrap_err().to_string();
@@ -142,7 +128,6 @@ mod tests {
         }
         fs::create_dir(path.join("empty")).unwrap();
         assert!(matches!(OutputFolder::check(&path), Err(OutputError::Foreign { .. })));
-
         let file = parent.path().join("file");
         fs::write(&file, "mine").unwrap();
         assert!(matches!(OutputFolder::check(&file), Err(OutputError::File(_))));

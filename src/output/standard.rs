@@ -29,11 +29,6 @@ pub(super) fn take_stdout() -> bool {
     !TO_STDOUT.swap(true, Ordering::Relaxed)
 }
 
-#[cfg(test)]
-pub(super) fn leave_stdout() {
-    TO_STDOUT.store(false, Ordering::Relaxed);
-}
-
 /// Writes to standard output; [`take_failure`] tells whether that failed.
 pub(crate) fn print(bytes: &[u8]) {
     let mut out = io::stdout().lock();

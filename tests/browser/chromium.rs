@@ -37,15 +37,18 @@ const KEYS: [(&str, u32, &str); 8] = [
 ];
 
 impl Chromium {
-    /// Nothing where there is none.
+    /// Nothing where there is none, which is said.
     pub fn launch() -> Option<Self> {
         // Names under which systems have it.
-        let program = ["chromium", "chromium-browser", "google-chrome"].iter().find_map(|name| on_path(name))?;
+        let program = ["chromium", "chromium-browser", "google-chrome"].iter().find_map(|name| on_path(name));
+        if program.is_none() {
+            eprintln!("skipped: no chromium on the path");
+        }
         let profile = TempDir::new().unwrap();
         // The pipe is descriptors 3 and 4: its own standard ones.
         let mut process = Command::new("sh")
             .args(["-c", "exec \"$0\" \"$@\" 3<&0 4>&1 </dev/null >/dev/null 2>/dev/null"])
-            .arg(program)
+            .arg(program?)
             .args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"])
             .args(["--disable-background-networking", "--disable-component-update", "--disable-sync"])
             .args(["--remote-debugging-pipe", "--force-prefers-reduced-motion"])

@@ -27,19 +27,6 @@ fn report() -> PathBuf {
     folder.path().join("page/index.html")
 }
 
-/// A browser; without one the test is skipped.
-macro_rules! browser {
-    () => {
-        match Chromium::launch() {
-            Some(browser) => browser,
-            None => {
-                eprintln!("skipped: no chromium on the path");
-                return;
-            }
-        }
-    };
-}
-
 /// Presses Tab until the focus is on what the selector names.
 fn tab_to(browser: &mut Chromium, selector: &str) {
     for _ in 0..500 {
@@ -82,7 +69,7 @@ fn asked_again(browser: &mut Chromium, figure: &str) -> String {
 
 #[test]
 fn the_ray_inspector_works_by_keyboard_alone_and_shows_what_the_command_prints() {
-    let mut browser = browser!();
+    let Some(mut browser) = Chromium::launch() else { return };
     browser.open(&report(), 1400, false);
     tab_to(&mut browser, &format!("{HEAT} .stage"));
     let start = pixel(&mut browser, HEAT);
@@ -127,7 +114,7 @@ fn the_ray_inspector_works_by_keyboard_alone_and_shows_what_the_command_prints()
 
 #[test]
 fn a_click_asks_the_nearest_pixel_of_any_picture() {
-    let mut browser = browser!();
+    let Some(mut browser) = Chromium::launch() else { return };
     browser.open(&report(), 1400, true);
     for (selector, [across, down]) in [(".stage", [0.25, 0.4]), (".maps li:nth-child(2) img", [0.7, 0.6])] {
         browser.click(&format!("{HEAT} {selector}"), [across, down]);
@@ -155,7 +142,7 @@ fn a_click_asks_the_nearest_pixel_of_any_picture() {
 
 #[test]
 fn the_scatter_plot_shows_every_case_and_what_is_done_first() {
-    let mut browser = browser!();
+    let Some(mut browser) = Chromium::launch() else { return };
     browser.open(&report(), 1400, false);
     let circles = "document.querySelectorAll('#figure-tradeoff .scatter circle').length";
     let asked = |part: &str| format!("#figure-tradeoff [data-part={part}]");
@@ -191,48 +178,14 @@ fn the_scatter_plot_shows_every_case_and_what_is_done_first() {
 }
 
 /// The texts whose contrast to what is behind them is less than WCAG asks for, with that contrast.
-const PALE: &str = r#"(() => {
-  const channels = (text) => {
-    const numbers = text.match(/[\d.e-]+/g).map(Number), scale = text.startsWith("color(") ? 1 : 255;
-    return [...numbers.slice(0, 3).map((n) => n / scale), numbers.length > 3 ? numbers[3] : 1];
-  };
-  const light = (c) => c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4;
-  const luminance = ([r, g, b]) => 0.2126 * light(r) + 0.7152 * light(g) + 0.0722 * light(b);
-  const behind = (element) => {
-    for (let e = element; e; e = e.parentElement) {
-      const colour = channels(getComputedStyle(e).backgroundColor);
-      if (colour[3] > 0) return colour;
-    }
-  };
-  const own = (element) => [...element.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim());
-  const seen = [...document.querySelectorAll("body *")].filter((e) => own(e) && e.checkVisibility() && !e.closest("script, option"));
-  return seen.flatMap((element) => {
-    const svg = element.closest("svg");
-    // Text within bars has a colour of its own beside it.
-    if (svg && !element.closest(".scatter")) return [];
-    const style = getComputedStyle(element);
-    const [a, b] = [channels(svg ? style.fill : style.color), behind(svg ? svg.parentElement : element)].map(luminance);
-    const contrast = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
-    return contrast < 4.5 ? [`${element.textContent.trim().slice(0, 40)}: ${contrast}`] : [];
-  });
-})()"#;
+const PALE: &str = include_str!("pale.js");
 
 /// What is wider than the window, and columns of ratios that are not seen without scrolling.
-const WIDE: &str = r#"(() => {
-  const page = document.scrollingElement;
-  const found = page.scrollWidth > innerWidth ? [`the page is ${page.scrollWidth} wide`] : [];
-  if (innerWidth < 1400) return found;
-  for (const head of document.querySelectorAll(".table th")) {
-    const edge = head.closest(".scroll").getBoundingClientRect().right;
-    const isRatio = head.textContent.startsWith("x ") && head.checkVisibility();
-    if (isRatio && head.getBoundingClientRect().right > edge + 1) found.push(head.textContent);
-  }
-  return found;
-})()"#;
+const WIDE: &str = include_str!("wide.js");
 
 #[test]
 fn the_page_is_read_in_light_and_dark_on_a_desk_and_on_a_telephone() {
-    let mut browser = browser!();
+    let Some(mut browser) = Chromium::launch() else { return };
     for (width, dark) in [(1400, false), (1400, true), (400, false), (400, true)] {
         browser.open(&report(), width, dark);
         let paper = browser.text("getComputedStyle(document.documentElement).backgroundColor");

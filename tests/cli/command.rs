@@ -40,8 +40,14 @@ pub fn stderr(output: &Output) -> String {
 /// What a command that succeeds prints.
 #[track_caller]
 pub fn prints(args: &[&str]) -> String {
-    let output = sahara(args);
-    assert_eq!(output.status.code(), Some(RIGHT), "{args:?}: {}", stderr(&output));
+    printed(&mut command(args))
+}
+
+/// As [`prints`].
+#[track_caller]
+pub fn printed(command: &mut Command) -> String {
+    let output = command.output().expect("the command runs");
+    assert_eq!(output.status.code(), Some(RIGHT), "{command:?}: {}{}", stdout(&output), stderr(&output));
     stdout(&output)
 }
 

@@ -1,6 +1,7 @@
 //! Studies of several epochs from outside: what they keep, add and refuse; each epoch of a scene is measured in a process of
 //! its own.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::Write;
 use std::path::Path;
@@ -111,12 +112,9 @@ const TWO_SCENES: [&str; 13] =
     ["compare", "cube", "torus", "-s", "sah-kd", "-s", "sah-bvh", "-w", "diffuse", "--rays", "256", "--epochs", "2"];
 
 /// The numbers of the processes that have measured the cases of a journal.
-fn processes(folder: &Path) -> Vec<u64> {
+fn processes(folder: &Path) -> BTreeSet<u64> {
     let process = |path| json(path)["epoch"]["environment"]["process"].as_u64().unwrap();
-    let mut all: Vec<u64> = cases(folder, "compare").iter().map(process).collect();
-    all.sort_unstable();
-    all.dedup();
-    all
+    cases(folder, "compare").iter().map(process).collect()
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::fs;
 use std::io::{BufRead, BufReader, Read};
 use std::os::unix::process::{CommandExt, ExitStatusExt};
 use std::path::{Path, PathBuf};
-use std::process::{Child, ChildStdout, Command, Stdio};
+use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread;
 use std::time::Duration;
 
@@ -40,33 +40,28 @@ fn spawn(mut command: Command, way: SigHandler) -> Child {
     command.spawn().unwrap()
 }
 
-/// Reads up to the blank line after the first table.
-fn first_table(child: &mut Child) -> (String, BufReader<ChildStdout>) {
+/// Interrupts a run after its first table, that of the smallest scene; how it ends, and all that it says.
+fn signalled(folder: &Path, more: &[&str], way: SigHandler) -> (ExitStatus, String) {
+    let mut child = spawn(compare(folder, more), way);
     let mut reader = BufReader::new(child.stdout.take().unwrap());
     let mut text = String::new();
     while !text.ends_with("\n\n") {
         assert!(reader.read_line(&mut text).unwrap() > 0, "it ended without a table: {text}");
     }
-    (text, reader)
-}
-
-fn rest(mut reader: BufReader<ChildStdout>) -> String {
-    let mut text = String::new();
-    reader.read_to_string(&mut text).unwrap();
-    text
-}
-
-/// Interrupts a run after its first table; all that it says, once it has ended.
-fn interrupted(folder: &Path, more: &[&str]) -> String {
-    let mut child = spawn(compare(folder, more), SigHandler::SigDfl);
-    let (first, reader) = first_table(&mut child);
+    assert!(text.starts_with("Cube: 12 triangles\n"), "{text}");
     kill(Pid::from_raw(child.id() as i32), Signal::SIGINT).unwrap();
-    let text = first + &rest(reader);
-    assert_eq!(child.wait().unwrap().signal(), Some(Signal::SIGINT as i32), "{text}");
+    reader.read_to_string(&mut text).unwrap();
+    (child.wait().unwrap(), text)
+}
+
+/// What a run says that is interrupted.
+fn interrupted(folder: &Path, more: &[&str]) -> String {
+    let (status, text) = signalled(folder, more, SigHandler::SigDfl);
+    assert_eq!(status.signal(), Some(Signal::SIGINT as i32), "{text}");
     text
 }
 
-/// How many cases an interrupted run says that it has measured.
+/// How many cases an interrupted run says that it has measured: the first scene, and not all of the second.
 fn measured(text: &str) -> usize {
     let said = text.split("Interrupted: ").nth(1).unwrap_or_else(|| panic!("it does not say so: {text}"));
     let number = said.split(' ').next().unwrap().parse().unwrap();
@@ -88,17 +83,6 @@ fn is_left(folder: &Path) {
         processes(folder) == 0
     });
     assert!(is_left, "{} processes go on", processes(folder));
-}
-
-#[test]
-fn the_table_of_the_smallest_scene_is_there_before_the_next_one_is_measured() {
-    let folder = tempfile::tempdir().unwrap();
-    let mut child = compare(folder.path(), &[]).spawn().unwrap();
-    let (first, reader) = first_table(&mut child);
-    child.kill().unwrap();
-    child.wait().unwrap();
-    assert!(first.starts_with("Cube: 12 triangles\n"), "{first}");
-    assert!(!rest(reader).contains("Torus"), "the other scene was measured already");
 }
 
 #[test]
@@ -148,9 +132,13 @@ fn a_journal_that_was_interrupted_is_only_added_to() {
     assert!(whole.len() == CASES && kept.iter().all(|(path, bytes)| whole.get(path) == Some(bytes)));
 }
 
-/// A process ends at once, as if nobody had caught the signal: a shell ends its script then.
+/// A process says this and is ended by a signal at once, as if nobody had caught it: a shell ends its script then.
 #[track_caller]
-fn ends_by(signal: Signal, child: &mut Child) {
+fn ends_by(signal: Signal, command: Command, said: &str) {
+    let mut child = spawn(command, SigHandler::SigDfl);
+    let mut line = String::new();
+    BufReader::new(child.stderr.take().unwrap()).read_line(&mut line).unwrap();
+    assert_eq!(line, said);
     kill(Pid::from_raw(child.id() as i32), signal).unwrap();
     assert_eq!(child.wait().unwrap().signal(), Some(signal as i32));
 }
@@ -162,11 +150,7 @@ fn a_job_ends_at_once_and_leaves_nothing() {
     let long = ["attribution", "--scenes", "sphere", "--runs", "1000", "--budget", "30", "--epochs", "2"];
     let lines = plan(folder.path(), &long);
     for signal in [Signal::SIGINT, Signal::SIGKILL] {
-        let mut child = spawn(job(&lines[1]), SigHandler::SigDfl);
-        let mut said = String::new();
-        BufReader::new(child.stderr.take().unwrap()).read_line(&mut said).unwrap();
-        assert_eq!(said, "measures attribution, epoch 2 of 2: Sphere\n");
-        ends_by(signal, &mut child);
+        ends_by(signal, job(&lines[1]), "measures attribution, epoch 2 of 2: Sphere\n");
         assert_eq!(fs::read_dir(file(&lines[1]).parent().unwrap()).unwrap().count(), 0);
     }
 }
@@ -174,32 +158,18 @@ fn a_job_ends_at_once_and_leaves_nothing() {
 #[test]
 fn what_was_started_to_ignore_ctrl_c_goes_on() {
     let folder = tempfile::tempdir().unwrap();
-    let mut child = spawn(compare(folder.path(), &[]), SigHandler::SigIgn);
-    let (first, reader) = first_table(&mut child);
-    kill(Pid::from_raw(child.id() as i32), Signal::SIGINT).unwrap();
-    let text = first + &rest(reader);
-    assert!(child.wait().unwrap().code() == Some(RIGHT) && !text.contains("Interrupted"), "{text}");
+    let (status, text) = signalled(folder.path(), &[], SigHandler::SigIgn);
+    assert!(status.code() == Some(RIGHT) && !text.contains("Interrupted"), "{text}");
 }
 
 #[test]
-fn what_a_runner_has_started_ends_with_the_run() {
+fn what_a_runner_has_started_ends_with_the_run_and_one_that_does_not_answer_with_the_command() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().canonicalize().unwrap();
     interrupted(&path, &["--runner", &format!("{} leaves", nothing(&folder))]);
     is_left(&path);
-}
-
-#[test]
-fn a_runner_that_does_not_answer_ends_with_the_command() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().canonicalize().unwrap();
     for signal in [Signal::SIGINT, Signal::SIGTERM] {
-        let hangs = ["--runner", "sh -c 'echo here >&2; sleep 600; exit'"];
-        let mut child = spawn(compare(&path, &hangs), SigHandler::SigDfl);
-        let mut said = String::new();
-        BufReader::new(child.stderr.take().unwrap()).read_line(&mut said).unwrap();
-        assert_eq!(said, "here\n");
-        ends_by(signal, &mut child);
+        ends_by(signal, compare(&path, &["--runner", "sh -c 'echo here >&2; sleep 600; exit'"]), "here\n");
         is_left(&path);
     }
 }

@@ -44,6 +44,7 @@ fn a_verdict_outlives_the_reader_of_its_output() {
         ("completions man", RIGHT),
         ("render cube -o - --size 4x4", RIGHT),
         ("rays record cube -o - --rays 4", RIGHT),
+        ("compare cube -s sah-kd --rays 64 --epochs 1", RIGHT),
         ("compare cube -s sah-kd --rays 64 --epochs 1 --export-json -", RIGHT),
         ("study accuracy cube -s sah-kd --rays 64 --in-process", RIGHT),
         (wrong, WRONG),

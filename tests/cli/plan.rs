@@ -1,5 +1,6 @@
 //! `study plan`: jobs that need each other in nothing, one file each, what they measure, and what becomes of them.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -62,29 +63,27 @@ fn a_plan_is_one_command_a_case_with_a_file_of_its_own() {
     let lines = plan(&dir, &args);
     assert_eq!(lines.len(), 4, "two epochs of two scenes");
     assert_eq!(plan(&dir, &args), lines, "the same plan has the same names");
-    let mut files: Vec<PathBuf> = lines.iter().map(|line| file(line)).collect();
+    let files: BTreeSet<PathBuf> = lines.iter().map(|line| file(line)).collect();
     for path in &files {
         assert_eq!(path.parent().unwrap(), dir.join("attribution"));
         let name = path.file_name().unwrap().to_str().unwrap().strip_suffix(".json").unwrap();
         assert!(name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-'), "{name}");
     }
-    files.sort();
-    files.dedup();
-    assert_eq!(files.len(), 4);
-    assert!(!dir.exists(), "nothing is made");
+    assert!(files.len() == 4 && !dir.exists(), "nothing is made");
+
+    // A study that is named twice is planned once; scenes are added up, as everywhere.
+    let planned = |names: &[&str]| plan(&dir, &[names, &["--scenes", "cube"]].concat());
+    assert_eq!(planned(&["compare", "compare"]), planned(&["compare"]));
+    let torus = ["compare", "--scenes", "torus"];
+    assert_eq!(planned(&torus), plan(&dir, &[&torus[..], &["cube"]].concat()));
 
     // All studies, in the quick form.
-    let output = sahara(&["study", "plan", "--quick", "--dir", "r"]);
-    let (text, said) = (stdout(&output), stderr(&output));
-    assert_eq!(output.status.code(), Some(RIGHT), "{said}");
-    let mut names: Vec<String> = text.lines().map(|line| file(line).to_str().unwrap().to_owned()).collect();
+    let text = prints(&["study", "plan", "--quick", "--dir", "r"]);
+    let files: BTreeSet<PathBuf> = text.lines().map(file).collect();
     for study in ["compare", "replicate", "attribution", "scaling", "accuracy"] {
-        assert!(names.iter().any(|name| name.starts_with(&format!("r/{study}/"))), "{study}: {names:?}");
+        assert!(files.iter().any(|file| file.starts_with(format!("r/{study}"))), "{study}: {files:?}");
     }
-    let count = names.len();
-    names.sort();
-    names.dedup();
-    assert_eq!(names.len(), count);
+    assert_eq!(files.len(), text.lines().count());
 }
 
 #[test]
@@ -171,32 +170,21 @@ fn a_report_shows_the_newest_of_each_scene_and_names_what_else_there_is() {
 }
 
 #[test]
-fn a_study_that_is_named_twice_is_planned_once() {
-    let folder = tempfile::tempdir().unwrap();
-    let planned = |names: &[&str]| plan(folder.path(), &[names, &["--scenes", "cube"]].concat());
-    assert_eq!(planned(&["compare", "compare"]), planned(&["compare"]));
-    // Scenes are added up, as everywhere.
-    let torus = ["compare", "--scenes", "torus"];
-    assert_eq!(planned(&torus), plan(folder.path(), &[&torus[..], &["cube"]].concat()));
-}
-
-#[test]
-fn a_job_on_fewer_cores_than_threads_measures_nothing() {
-    let folder = TempDir::new().unwrap();
-    let cores = std::thread::available_parallelism().unwrap().get();
-    let threads = (cores + 1).to_string();
-    let lines = plan(folder.path(), &[&SMALL[..], &["--scenes", "cube", "--threads", &threads]].concat());
-    refused_in_a_line(&run(&lines[0]), &["cannot be measured", &format!("{threads} threads share {cores} core")]);
-    assert!(!file(&lines[0]).exists());
-}
-
-#[test]
 fn a_job_measures_once_and_refuses_what_is_not_its_own() {
     let folder = TempDir::new().unwrap();
     let mesh = write(&folder, "square.obj", SQUARE);
     let lines = plan(folder.path(), &[&SMALL[..], &["--scenes", &mesh]].concat());
-    done(&lines[0]);
+    // Of two at one file one wins, and both are content.
+    let both = [0, 1].map(|_| job(&lines[0]).spawn().unwrap());
+    let both = both.map(|child| child.wait_with_output().unwrap());
+    assert!(both.iter().all(|output| output.status.code() == Some(RIGHT)), "{both:?}");
+    let is_other = |output: &&Output| {
+        ["holds this case already", "its case is kept"].iter().any(|part| stderr(output).contains(part))
+    };
+    assert_eq!(both.iter().filter(is_other).count(), 1, "{both:?}");
+    assert_eq!(fs::read_dir(folder.path().join("attribution")).unwrap().count(), 1);
     let path = file(&lines[0]);
+    assert_eq!(json(&path)["case"]["study"], "attribution");
     let before = fs::read(&path).unwrap();
     // What is repeated loads nothing.
     let away = folder.path().join("away.obj");
@@ -210,26 +198,15 @@ fn a_job_measures_once_and_refuses_what_is_not_its_own() {
     let refused = |line: &str, part: &str| refused_in_a_line(&run(line), &[part]);
     refused(&lines[1].replace(file(&lines[1]).to_str().unwrap(), path.to_str().unwrap()), "holds another case");
     assert_eq!(fs::read(&path).unwrap(), before);
-    // Its scene must be what it was when it was planned.
+    // Its scene must be what it was when it was planned, and each thread needs a core.
     let hash = lines[1].split("\"hash\":\"").nth(1).unwrap()[..16].to_owned();
     refused(&lines[1].replace(&hash, "0123456789abcdef"), "plan it anew");
     refused(&lines[1].replace(&format!("\"word\":\"{mesh}"), "\"word\":\"torus"), "plan it anew");
-    assert!(!file(&lines[1]).exists());
-}
-
-#[test]
-fn of_two_jobs_at_one_file_one_wins_and_both_are_content() {
-    let folder = TempDir::new().unwrap();
-    let lines = plan(folder.path(), &[&SMALL[..], &["--scenes", "cube"]].concat());
-    let both = [0, 1].map(|_| job(&lines[0]).spawn().unwrap());
-    let both = both.map(|child| child.wait_with_output().unwrap());
-    assert!(both.iter().all(|output| output.status.code() == Some(RIGHT)), "{both:?}");
-    let is_other = |output: &&Output| {
-        ["holds this case already", "its case is kept"].iter().any(|part| stderr(output).contains(part))
-    };
-    assert_eq!(both.iter().filter(is_other).count(), 1, "{both:?}");
-    assert_eq!(fs::read_dir(folder.path().join("attribution")).unwrap().count(), 1);
-    assert_eq!(json(file(&lines[0]))["case"]["study"], "attribution");
+    let cores = std::thread::available_parallelism().unwrap().get();
+    let threads = (cores + 1).to_string();
+    let many = plan(folder.path(), &[&SMALL[..], &["--scenes", &mesh, "--threads", &threads]].concat());
+    refused_in_a_line(&run(&many[0]), &["cannot be measured", &format!("{threads} threads share {cores} core")]);
+    assert!(!file(&lines[1]).exists() && !file(&many[0]).exists());
 }
 
 #[test]

@@ -1,29 +1,29 @@
 //! Files of rays and hits, from outside: what is recorded is replayed to the bit, and what is damaged is refused.
 
 use std::fs;
-use std::process::Output;
+use std::process::Command;
 
 use tempfile::TempDir;
 
-use super::command::{RIGHT, WRONG, command, refused_in_a_line, stderr, stdout};
+use super::command::{WRONG, command, printed, refused_in_a_line, stdout};
 use super::journal::rows;
 
-fn sahara(folder: &TempDir, args: &[&str]) -> Output {
-    command(args).current_dir(folder).output().unwrap()
+fn sahara(folder: &TempDir, args: &[&str]) -> Command {
+    let mut command = command(args);
+    command.current_dir(folder);
+    command
 }
 
 /// What the command prints; it must succeed.
 #[track_caller]
 fn right(folder: &TempDir, args: &[&str]) -> String {
-    let output = sahara(folder, args);
-    assert_eq!(output.status.code(), Some(RIGHT), "{args:?}: {}{}", stdout(&output), stderr(&output));
-    stdout(&output)
+    printed(&mut sahara(folder, args))
 }
 
 /// The command refuses in one line that holds all of `parts`.
 #[track_caller]
 fn refuses(folder: &TempDir, args: &[&str], parts: &[&str]) {
-    refused_in_a_line(&sahara(folder, args), parts);
+    refused_in_a_line(&sahara(folder, args).output().unwrap(), parts);
 }
 
 #[test]
@@ -77,7 +77,7 @@ fn answers_go_out_and_come_back_and_wrong_ones_are_found() {
         fs::write(&path, bytes).unwrap();
         for test in [&["--test", "exact"][..], &[]] {
             let args = [&exchange[..], &["--hits", "f.hits"], test].concat();
-            let output = sahara(&folder, &args);
+            let output = sahara(&folder, &args).output().unwrap();
             assert_eq!(output.status.code(), Some(WRONG));
             assert!(stdout(&output).contains("lost: ray \""), "{}", stdout(&output));
         }

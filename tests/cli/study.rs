@@ -27,11 +27,9 @@ fn accuracy_prints_exports_and_draws_what_it_finds() {
     let rows = journal::rows(&export);
     assert_eq!(rows.len(), 4, "{rows:?}");
     let wrong = |row: &Value| ["missed", "false_hits", "wrong_depth"].map(|kind| row["errors"][kind].as_u64().unwrap());
-    let exact = || rows.iter().filter(|row| row["triangle_test"] == "exact");
-    assert!(
-        exact().count() == 2 && exact().all(|row| wrong(row) == [0; 3] && row["errors"]["rays"] == 300),
-        "{rows:?}"
-    );
+    let exact: Vec<&Value> = rows.iter().filter(|row| row["triangle_test"] == "exact").collect();
+    assert_eq!(exact.len(), 2);
+    assert!(exact.iter().all(|row| wrong(row) == [0; 3] && row["errors"]["rays"] == 300), "{rows:?}");
     // A process has measured them, and the whole names the run.
     let provenance = &json(&export)["provenance"];
     assert_eq!(provenance["process_per_epoch"], true);

@@ -46,21 +46,14 @@ fn validate_and_render_look_from_there_as_well() {
     let outside = prints(&["validate", &room, "-s", "sah-kd", "--size", "20x10", "--rays", "600"]);
     assert!(!validated.contains("seen from outside") && outside.contains("seen from outside"), "{outside}");
     prints(&[&["render"], &inside[..], &["-o", &picture, "--view", "primitive"]].concat());
-    let picture = Picture::read(Path::new(&picture)).unwrap();
-    assert_eq!(picture.size(), [20, 10]);
+    assert_eq!(Picture::read(Path::new(&picture)).unwrap().size(), [20, 10]);
+    let errors = ["render", "cube", "-o", &picture, "--size", "24x24", "--view", "error", "-s", "sah-kd:test=exact"];
+    let text = prints(&errors);
+    assert!(text.contains("missed 0 (vermilion)"), "what its colours mean: {text}");
+    assert_eq!(Picture::read(Path::new(&picture)).unwrap().size()[0], 24);
 
     refuses(&["compare", &room, "--inside", "--camera", "0,1,0 0,1,3"], &["--inside", "--camera"]);
     refuses_in_a_line(&["compare", &room, "--camera", "0,1,0 0,1,0"], &["--camera", "same point"]);
     let point = write(&folder, "point.obj", "v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n");
     refuses_in_a_line(&["compare", &point, "--inside"], &["--inside", "same point"]);
-}
-
-#[test]
-fn the_error_view_says_what_its_colours_mean() {
-    let directory = tempfile::tempdir().unwrap();
-    let picture = path_text(&directory.path().join("error.png"));
-    let args = ["render", "cube", "-o", &picture, "--size", "24x24", "--view", "error", "-s", "sah-kd:test=exact"];
-    let text = prints(&args);
-    assert!(text.contains("missed 0 (vermilion)"), "{text}");
-    assert_eq!(Picture::read(Path::new(&picture)).unwrap().size()[0], 24);
 }

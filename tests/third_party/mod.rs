@@ -38,15 +38,11 @@ fn registry() -> Registry {
 }
 
 #[test]
-fn a_registered_structure_is_chosen_like_the_others() {
+fn a_registered_structure_is_chosen_like_the_others_and_draws_the_golden_images() {
     let choice = registry().choose("grid:resolution=3").unwrap();
     assert_eq!((choice.label.as_str(), choice.triangle_test()), ("grid:resolution=3", "exact"));
     let refusal = registry().choose("grid:resolution=0").map(|_| ()).unwrap_err().to_string();
     assert!(refusal.contains("resolution must be from 1 to 256"), "{refusal}");
-}
-
-#[test]
-fn it_draws_the_golden_images() {
     let choice = registry().choose("grid").unwrap();
     for name in ["cube", "torus", "cornellbox"] {
         let scene = Builtin::find(name).unwrap().scene(None).unwrap();
@@ -110,10 +106,9 @@ fn a_structure_that_hangs_is_given_up_and_the_ray_is_named() {
 #[test]
 fn builders_that_panic_or_hang_are_told_from_each_other() {
     let of = |fault| answers(&subject(fault), &meshes(), 1).unwrap_err();
-    assert!(
-        of(Fault::BuilderPanics).contains("does not build over \"crossing needles\": it panics: it says \"no triangle")
-    );
-    assert!(of(Fault::BuilderHangs).contains("does not build over \"crossing needles\": it hangs"));
+    let words = "does not build over \"crossing needles\": it";
+    assert!(of(Fault::BuilderPanics).contains(&format!("{words} panics: it says \"no triangle")));
+    assert!(of(Fault::BuilderHangs).contains(&format!("{words} hangs")));
     assert!(shapes(&subject(Fault::BuilderHangs), &meshes()).unwrap_err().contains("it hangs"));
 }
 

@@ -10,8 +10,10 @@ use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
+use indicatif::ProgressBar;
+
 use crate::accel::Query;
-use crate::cli::progress::Waiting;
+use crate::cli::progress::spinner;
 use crate::cli::terminal::Terminal;
 use crate::escaped::Escaped as _;
 use crate::exact;
@@ -66,7 +68,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let all = || BUILTIN.iter().map(|builtin| builtin.name.into()).collect();
     let named = if args.scenes.is_empty() { all() } else { args.scenes.clone() };
 
-    let waiting = Waiting::show("loads scenes".into(), terminal);
+    let waiting = spinner("loads scenes", terminal);
     // Our own meshes are the same everywhere.
     let own = |name: &OsString| if Builtin::find(name).is_ok() { stand_in(name) } else { name.clone() };
     let scenes = request::scenes(registry, &named.iter().map(own).collect::<Vec<OsString>>())?;
@@ -85,7 +87,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         files.extend(part.files);
     }
 
-    waiting.says(format!("writes {}", folder.path().escaped()));
+    waiting.set_message(format!("writes {}", folder.path().escaped()));
     let sums = sums(&files);
     let digest_of_sums = digest(sums.as_bytes());
     files.insert(SUMS.into(), sums.into_bytes());
@@ -130,15 +132,15 @@ impl Part {
     }
 }
 
-fn part(scene: &Scene, args: &Args, waiting: &Waiting) -> anyhow::Result<Part> {
+fn part(scene: &Scene, args: &Args, waiting: &ProgressBar) -> anyhow::Result<Part> {
     let stem = slug(&scene.name);
     let mut part = Part { files: Files::new(), rays: 0, hits: 0 };
     part.files.insert(format!("{stem}.ply"), mesh_bytes(&scene.mesh));
-    waiting.says(format!("{} builds the oracle", scene.name));
+    waiting.set_message(format!("{} builds the oracle", scene.name));
     let oracle = Oracle::new(&scene.mesh);
     for kind in RayKind::ALL {
         let name = kind.name();
-        waiting.says(format!("{} answers {} exactly: {name}", scene.name, plural(args.rays as usize, "ray")));
+        waiting.set_message(format!("{} answers {} exactly: {name}", scene.name, plural(args.rays as usize, "ray")));
         let (file, truth) = answered(scene, kind, args.rays as usize, args.seed, &oracle).map_err(|problem| {
             anyhow::anyhow!("no {name} rays can be made for {}: {problem}: scale the mesh", scene.name)
         })?;

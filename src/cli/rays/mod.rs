@@ -9,7 +9,7 @@ use anyhow::Context;
 use clap::Subcommand;
 
 use crate::accel::Query;
-use crate::cli::progress::Waiting;
+use crate::cli::progress::spinner;
 use crate::cli::terminal::Terminal;
 use crate::escaped::Escaped as _;
 use crate::geometry::Ray;
@@ -96,12 +96,12 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
 
 fn record(registry: &Registry, args: &Record, terminal: &Terminal) -> anyhow::Result<Status> {
     let output = request::output(registry, &args.output, std::slice::from_ref(&args.scene), None)?;
-    let waiting = Waiting::show(format!("loads {}", args.scene.escaped()), terminal);
+    let waiting = spinner(format!("loads {}", args.scene.escaped()), terminal);
     let scene = request::scene(registry, &args.scene)?;
     let guide = request::guide(registry)?;
-    waiting.says(format!("{} builds {}", scene.name, guide.label));
+    waiting.set_message(format!("{} builds {}", scene.name, guide.label));
     let guide = guide.build(&scene.mesh)?;
-    waiting.says(format!("{} makes {} rays", scene.name, args.workload.name()));
+    waiting.set_message(format!("{} makes {} rays", scene.name, args.workload.name()));
     let sampling = Sampling::some(&scene, args.rays, args.seed);
     let workload = Workload::new(&scene, args.workload, &sampling, guide.as_ref());
     drop(waiting);
@@ -111,14 +111,14 @@ fn record(registry: &Registry, args: &Record, terminal: &Terminal) -> anyhow::Re
 
 fn import(registry: &Registry, args: &Import, terminal: &Terminal) -> anyhow::Result<Status> {
     let output = request::output(registry, &args.output, args.scene.as_slice(), [args.text.as_path()])?;
-    let waiting = Waiting::show(format!("reads {}", args.text.escaped()), terminal);
+    let waiting = spinner(format!("reads {}", args.text.escaped()), terminal);
     let text = std::fs::read_to_string(&args.text).with_context(|| format!("cannot read {}", args.text.escaped()))?;
     let rays = parse(&text).map_err(|problem| anyhow::anyhow!("{}: {problem}", args.text.escaped()))?;
     let query = if args.any { Query::Any } else { Query::Closest };
     let workload = Workload { name: args.name.clone(), query, rays };
     let file = match &args.scene {
         Some(scene) => {
-            waiting.says(format!("loads {}", scene.escaped()));
+            waiting.set_message(format!("loads {}", scene.escaped()));
             RayFile::new(&request::scene(registry, scene)?, workload)
         }
         None => RayFile { scene: String::new(), scene_hash: None, workload },
@@ -147,7 +147,7 @@ fn finish(file: &RayFile, output: &OutputFile, terminal: &Terminal) -> anyhow::R
 }
 
 fn show(args: &Show, terminal: &Terminal) -> anyhow::Result<Status> {
-    let waiting = Waiting::show(format!("reads {}", args.file.escaped()), terminal);
+    let waiting = spinner(format!("reads {}", args.file.escaped()), terminal);
     let file = RayFile::read(&args.file)?;
     drop(waiting);
     if args.text {

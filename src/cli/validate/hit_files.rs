@@ -4,12 +4,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use anyhow::Context;
+use indicatif::ProgressBar;
 
 use super::Run;
 use super::reference::closest_hits;
 use super::table::{note_on_reference, row, scene_table};
 use crate::accel::{DynAccel, Query};
-use crate::cli::progress::Waiting;
 use crate::escaped::Escaped as _;
 use crate::geometry::{Hit, Ray};
 use crate::report::number::plural;
@@ -23,7 +23,13 @@ use crate::validate::{validate_answers, validate_any_answers, watched};
 const BATCH: usize = 256;
 
 impl Run<'_> {
-    pub fn export_hits(&self, scene: &Scene, file: &RayFile, to: &Path, waiting: Waiting) -> anyhow::Result<Status> {
+    pub fn export_hits(
+        &self,
+        scene: &Scene,
+        file: &RayFile,
+        to: &Path,
+        waiting: ProgressBar,
+    ) -> anyhow::Result<Status> {
         let (args, workload) = (self.args, &file.workload);
         let [choice] = &self.structures[..] else {
             anyhow::bail!("a file holds the answers of one structure: name one with --structure");
@@ -37,7 +43,7 @@ impl Run<'_> {
             anyhow::bail!("{label} declines {what}, which these rays need");
         }
         let rays = workload.rays.len();
-        waiting.says(format!("{}: {label} traces {}", scene.name, plural(rays, "ray")));
+        waiting.set_message(format!("{}: {label} traces {}", scene.name, plural(rays, "ray")));
         let mut hits = vec![];
         for batch in workload.rays.chunks(BATCH) {
             let (accel, query, batch) = (Arc::clone(&accel), workload.query, batch.to_vec());
@@ -52,7 +58,7 @@ impl Run<'_> {
         Ok(Status::Right)
     }
 
-    pub fn check_hits(&self, scene: &Scene, file: &RayFile, waiting: Waiting) -> anyhow::Result<Status> {
+    pub fn check_hits(&self, scene: &Scene, file: &RayFile, waiting: ProgressBar) -> anyhow::Result<Status> {
         let (args, choice) = (self.args, &self.reference);
         let path = args.hits.as_deref().context("the caller has seen it")?;
         anyhow::ensure!(args.test.len() < 2, "answers come from one triangle test: name one");
@@ -79,7 +85,7 @@ impl Run<'_> {
         notes.extend(note);
         notes.extend(found.worst.iter().map(|worst| format!("{name}: {worst}")));
         notes.extend(note_on_reference(&name, &found));
-        let rows = vec![row(&name, test, &found)];
+        let rows = vec![row(&name, test, Ok(&found))];
         self.terminal.print_table(&scene_table(scene, &rays, &reference_name, rows, notes));
         Ok(if choice.refutes(&found) { Status::Wrong } else { Status::Right })
     }

@@ -1,6 +1,5 @@
 //! `validate`.
 
-mod answers;
 mod hard;
 mod hit_files;
 mod reference;
@@ -12,8 +11,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use anyhow::Context;
+use indicatif::ProgressBar;
 
-use super::progress::Waiting;
+use super::progress::spinner;
 use super::terminal::Terminal;
 use crate::accel::{BuildError, DynAccel};
 use crate::geometry::Ray;
@@ -108,7 +108,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let structures = request::structures_at(registry, &args.structure, args.quality.as_deref())?;
     let reference = ReferenceChoice::named(registry, &args.against)?;
     let run = Run { registry, args, structures, reference, terminal };
-    let waiting = Waiting::show("loads scenes".into(), terminal);
+    let waiting = spinner("loads scenes", terminal);
     let replay = recorded(registry, &args.source(), &args.scenes)?;
     if replay.is_some() {
         args.from.is_unasked()?;
@@ -149,8 +149,8 @@ impl Args {
         self.rays.clone().unwrap_or(RaySource::Count(DEFAULT_RAYS))
     }
 
-    fn build(&self, choice: &Choice, scene: &Scene, waiting: &Waiting) -> Result<Arc<dyn DynAccel>, BuildFailure> {
-        waiting.says(format!("{} builds {}", scene.name, choice.label));
+    fn build(&self, choice: &Choice, scene: &Scene, waiting: &ProgressBar) -> Result<Arc<dyn DynAccel>, BuildFailure> {
+        waiting.set_message(format!("{} builds {}", scene.name, choice.label));
         let (own, mesh) = (choice.clone(), Arc::clone(&scene.mesh));
         let limit = self.limit.duration() * u32::try_from(1 + mesh.len() / 1_000_000).unwrap_or(u32::MAX);
         // The registry catches a panic of the builder: what ends without a result hangs.

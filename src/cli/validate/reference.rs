@@ -5,8 +5,8 @@ use std::fmt;
 use std::sync::Arc;
 
 use anyhow::Context;
+use indicatif::ProgressBar;
 
-use crate::cli::progress::Waiting;
 use crate::geometry::{Hit, Ray};
 use crate::measure::spread;
 use crate::registry::{Choice, Registry};
@@ -26,42 +26,30 @@ const FILE_TESTS: u32 = 36;
 /// Triangle tests after which brute force reports its progress: about a second.
 const PROGRESS_TESTS: usize = 1 << 29;
 
-pub enum ReferenceChoice {
-    /// Brute force with the triangle test of each structure.
-    SameTest,
-    /// A structure that was chosen for its hits; brute force with a test of its own is one of them.
-    Structure(Box<Choice>),
-}
+/// A structure that was chosen for its hits, brute force with a test of its own among them; without one brute force with
+/// the triangle test of each structure.
+pub struct ReferenceChoice(Option<Choice>);
 
 impl ReferenceChoice {
     /// What --against names: brute force by its bare name shares each structure's test.
     pub fn named(registry: &Registry, name: &str) -> anyhow::Result<Self> {
-        if name.eq_ignore_ascii_case(BRUTE_FORCE) {
-            return Ok(Self::SameTest);
-        }
-        Ok(Self::Structure(Box::new(request::structure(registry, name)?)))
+        let is_shared = name.eq_ignore_ascii_case(BRUTE_FORCE);
+        Ok(Self(if is_shared { None } else { Some(request::structure(registry, name)?) }))
     }
 
     pub fn build(&self, scene: &Scene, test: &str) -> anyhow::Result<Reference> {
-        match self {
-            Self::SameTest => Ok(Reference::of_test(test, &scene.mesh)?),
-            Self::Structure(choice) => {
-                let built = choice.build(&scene.mesh);
-                let failure = || format!("{} cannot be built over {}", choice.label, scene.name);
-                Ok(Reference::structure(built.with_context(failure)?))
-            }
-        }
+        let Some(choice) = &self.0 else { return Ok(Reference::of_test(test, &scene.mesh)?) };
+        let failure = || format!("{} cannot be built over {}", choice.label, scene.name);
+        Ok(Reference::structure(choice.build(&scene.mesh).with_context(failure)?))
     }
 
     /// `reference` in words, for hits from a file that this triangle test found.
     pub fn name_for_file(&self, reference: &Reference, test: &str) -> String {
-        match self {
-            Self::SameTest if reference.knows_structure_errors() => format!("brute force with {test}"),
-            Self::SameTest => {
-                let other = MollerTrumbore::NAME;
-                format!("brute force with {other}, where they differ judged by exact arithmetic")
-            }
-            Self::Structure(_) => self.to_string(),
+        let other = MollerTrumbore::NAME;
+        match self.0 {
+            Some(_) => self.to_string(),
+            None if reference.knows_structure_errors() => format!("brute force with {test}"),
+            None => format!("brute force with {other}, where they differ judged by exact arithmetic"),
         }
     }
 
@@ -86,28 +74,22 @@ impl ReferenceChoice {
 
     /// Rays for which brute force, which tests every triangle, runs no more than so many tests.
     fn most(&self, triangles: usize, tests: usize) -> usize {
-        let is_brute_force = match self {
-            Self::SameTest => true,
-            Self::Structure(choice) => choice.entry.name == BRUTE_FORCE,
-        };
+        let is_brute_force = self.0.as_ref().is_none_or(|choice| choice.entry.name == BRUTE_FORCE);
         if is_brute_force { (tests / triangles.max(1)).max(1) } else { usize::MAX }
     }
 
     /// Whether hits are wrong. Their depths are judged strictly where the reference was chosen for its hits.
     pub fn refutes(&self, found: &Validation) -> bool {
-        let errors = match self {
-            Self::SameTest => found.errors(),
-            Self::Structure(_) => found.strict_errors(),
-        };
+        let errors = if self.0.is_some() { found.strict_errors() } else { found.errors() };
         errors > 0
     }
 }
 
 impl fmt::Display for ReferenceChoice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::SameTest => write!(f, "brute force with the same triangle test"),
-            Self::Structure(choice) => write!(f, "{} over {}", choice.label, choice.triangle_test()),
+        match &self.0 {
+            Some(choice) => write!(f, "{} over {}", choice.label, choice.triangle_test()),
+            None => write!(f, "brute force with the same triangle test"),
         }
     }
 }
@@ -124,8 +106,8 @@ pub struct References<'a> {
 }
 
 impl References<'_> {
-    pub fn get(&mut self, test: &'static str, waiting: &Waiting) -> anyhow::Result<&ReferenceHits> {
-        let key = matches!(self.choice, ReferenceChoice::SameTest).then_some(test);
+    pub fn get(&mut self, test: &'static str, waiting: &ProgressBar) -> anyhow::Result<&ReferenceHits> {
+        let key = self.choice.0.is_none().then_some(test);
         if !self.known.contains_key(&key) {
             let reference = self.choice.build(self.scene, test)?;
             let over = key.map(|test| format!(" ({test})")).unwrap_or_default();
@@ -143,11 +125,11 @@ pub fn closest_hits(
     scene: &Scene,
     rays: &[Ray],
     name: &str,
-    waiting: &Waiting,
+    waiting: &ProgressBar,
 ) -> Vec<Option<Hit>> {
     let mut hits = Vec::with_capacity(rays.len());
     for some in rays.chunks((PROGRESS_TESTS / scene.mesh.len().max(1)).max(1)) {
-        waiting.says(format!("{}: {name} traces {} of {} rays", scene.name, hits.len(), rays.len()));
+        waiting.set_message(format!("{}: {name} traces {} of {} rays", scene.name, hits.len(), rays.len()));
         hits.extend(reference.closest_hits(some));
     }
     hits
@@ -156,6 +138,7 @@ pub fn closest_hits(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cli::progress::spinner;
     use crate::cli::terminal::{Colour, Terminal};
     use crate::scene::Builtin;
 
@@ -184,7 +167,7 @@ mod tests {
     #[test]
     fn one_structure_for_all_tests_is_built_and_traced_once() {
         let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
-        let waiting = Waiting::show(String::new(), &Terminal::new(Colour::Never, true));
+        let waiting = spinner(String::new(), &Terminal::new(Colour::Never, true));
         for (choice, is_shared) in choices([BRUTE_FORCE, "sah-kd"]).iter().zip([false, true]) {
             let mut references = References { scene: &scene, rays: &[], choice, known: BTreeMap::new() };
             let [one, other, again] =

@@ -2,11 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::answers::{answers, table};
 use super::reference::{DEFAULT_RAYS, References};
-use super::table::{failure_row, note_on_reference, row, scene_table};
+use super::table::{answer_table, answers, note_on_reference, row, scene_table};
 use super::{BuildFailure, Run};
-use crate::cli::progress::Waiting;
+use crate::cli::progress::spinner;
 use crate::geometry::Ray;
 use crate::registry::Choice;
 use crate::report::number::plural;
@@ -30,18 +29,18 @@ impl Run<'_> {
                 notes.push(left_out(scene));
                 continue;
             }
-            let waiting = Waiting::show(String::new(), terminal);
+            let waiting = spinner(String::new(), terminal);
             let (reference, expected) = references.get(choice.triangle_test(), &waiting)?;
             match args.build(choice, scene, &waiting) {
                 Ok(accel) => {
-                    waiting.says(format!("{} checks {}", scene.name, choice.label));
+                    waiting.set_message(format!("{} checks {}", scene.name, choice.label));
                     let found =
                         validate_watched(&accel, reference, expected, &scene.mesh, &rays, args.limit.duration());
                     if !args.ray.is_empty() {
                         of_structures.push(answers(&choice.label, &accel, &rays, &scene.mesh, args.limit.duration()));
                     }
                     status = status.and(self.status(choice, &found, &mut notes));
-                    rows.push(row(&choice.label, choice.triangle_test(), &found));
+                    rows.push(row(&choice.label, choice.triangle_test(), Ok(&found)));
                     hits.push(found.hits);
                 }
                 Err(failure) => {
@@ -50,7 +49,7 @@ impl Run<'_> {
                         BuildFailure::Refused(_) => (Status::Refused, "refused"),
                     };
                     status = status.and(own);
-                    rows.push(failure_row(choice, word));
+                    rows.push(row(&choice.label, choice.triangle_test(), Err(word)));
                     notes.push(format!("{}: {failure}", choice.label));
                 }
             }
@@ -60,7 +59,7 @@ impl Run<'_> {
         }
         terminal.print_table(&scene_table(scene, &rays, &self.reference, rows, notes));
         if !args.ray.is_empty() {
-            terminal.print_table(&table(&scene.name, &of_structures));
+            terminal.print_table(&answer_table(&scene.name, &of_structures));
         }
         Ok(status)
     }
@@ -89,7 +88,7 @@ impl Run<'_> {
         if !args.ray.is_empty() {
             return Ok(args.ray.clone());
         }
-        let _waiting = Waiting::show(format!("{} makes rays", scene.name), terminal);
+        let _waiting = spinner(format!("{} makes rays", scene.name), terminal);
         let affordable = reference.affordable(scene.mesh.len());
         if args.rays.is_none() && affordable < DEFAULT_RAYS {
             notes.push(format!(

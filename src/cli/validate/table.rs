@@ -1,13 +1,16 @@
-//! The table of a scene: one row for each structure.
+//! The tables of a scene: a row for each structure, and what each returns for rays that are given one by one.
 
 use std::fmt;
+use std::sync::Arc;
+use std::time::Duration;
 
-use crate::geometry::Ray;
-use crate::registry::Choice;
+use crate::accel::DynAccel;
+use crate::geometry::{Mesh, Ray};
 use crate::report::number::{count, plural};
 use crate::report::{Cell, Table, Tone};
 use crate::scene::Scene;
-use crate::validate::Validation;
+use crate::scene::offset::barycentrics;
+use crate::validate::{Validation, watched};
 
 pub fn scene_table(
     scene: &Scene,
@@ -43,26 +46,59 @@ pub const LEGEND: [&str; 4] = [
     "To trace a ray again: sahara validate SCENE --structure NAME --ray \"ox,oy,oz dx,dy,dz\"",
 ];
 
-pub fn failure_row(choice: &Choice, why: &str) -> Vec<Cell> {
-    let mut row = vec![Cell::empty(); COLUMNS.len()];
-    row[0] = choice.label.as_str().into();
-    row[1] = choice.triangle_test().into();
-    row[2] = Cell::from(why).with(Tone::Wrong);
+/// What was found of a structure, or the word for why it was not built.
+pub fn row(label: &str, test: &str, found: Result<&Validation, &str>) -> Vec<Cell> {
+    let mut row: Vec<Cell> = vec![label.into(), test.into()];
+    let errors = |n: u64| Cell::from(count(n)).with(if n > 0 { Tone::Wrong } else { Tone::Plain });
+    match found {
+        Ok(found) => row.extend([
+            if found.rays == 0 && found.declined > 0 { "declined".into() } else { count(found.hits).into() },
+            errors(found.errors() - found.answer_errors),
+            errors(found.answer_errors + found.depth_errors),
+            count(found.answer_errors).into(),
+            count(found.test_errors).into(),
+            count(found.ties).into(),
+        ]),
+        Err(why) => row.push(Cell::from(why).with(Tone::Wrong)),
+    }
+    row.resize(COLUMNS.len(), Cell::empty());
     row
 }
 
-pub fn row(label: &str, test: &str, found: &Validation) -> Vec<Cell> {
-    let errors = |n: u64| Cell::from(count(n)).with(if n > 0 { Tone::Wrong } else { Tone::Plain });
-    let own = found.errors() - found.answer_errors;
-    let hits = if found.rays == 0 && found.declined > 0 { "declined".into() } else { count(found.hits) };
-    vec![
-        label.into(),
-        test.into(),
-        hits.into(),
-        errors(own),
-        errors(found.answer_errors + found.depth_errors),
-        count(found.answer_errors).into(),
-        count(found.test_errors).into(),
-        count(found.ties).into(),
-    ]
+/// One row per ray: number of the ray, t, triangle, and where on it.
+pub fn answers(label: &str, accel: &Arc<dyn DynAccel>, rays: &[Ray], mesh: &Mesh, limit: Duration) -> Vec<Vec<Cell>> {
+    let row = |(i, ray): (usize, &Ray)| {
+        let mut row: Vec<Cell> = vec![label.into(), format!("{} ({ray})", i + 1).into()];
+        row.extend(answer(accel, ray, mesh, limit));
+        row.resize(ANSWERS.len(), Cell::empty());
+        row
+    };
+    rays.iter().enumerate().map(row).collect()
+}
+
+fn answer(accel: &Arc<dyn DynAccel>, ray: &Ray, mesh: &Mesh, limit: Duration) -> Vec<Cell> {
+    if let Some(what) = accel.capabilities().declines(ray) {
+        return vec![format!("declines {what}").into()];
+    }
+    let (own, ray) = (Arc::clone(accel), *ray);
+    match watched(limit, move || own.closest(&[ray])[0]) {
+        Err(_) => vec![Cell::from("no answer").with(Tone::Wrong)],
+        Ok(None) => vec!["no hit".into()],
+        Ok(Some(hit)) => {
+            let index = hit.prim.index();
+            let weights = ((index as usize) < mesh.len()).then(|| barycentrics(&ray, mesh.corners(index)));
+            let [u, v] = [weights.map(|w| w.y), weights.map(|w| w.z)].map(|x| x.map(|x| format!("{x:.9}")).into());
+            vec![hit.t.to_string().into(), index.to_string().into(), u, v]
+        }
+    }
+}
+
+const ANSWERS: [&str; 6] = ["structure", "ray", "t", "triangle", "u", "v"];
+
+pub fn answer_table(scene: &str, of_structures: &[Vec<Vec<Cell>>]) -> Table {
+    let rays = of_structures.first().map_or(0, Vec::len);
+    let rows = (0..rays).flat_map(|ray| of_structures.iter().map(move |rows| rows[ray].clone()));
+    let note = "u, v: weights of the second and third corner of the triangle where the ray meets its plane, in f64. \
+                Triangles count from 0.";
+    Table::new(format!("{scene}: answers"), ANSWERS, rows).noted(vec![note.into()])
 }

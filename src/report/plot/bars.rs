@@ -9,11 +9,10 @@ use plotters::style::Color;
 use plotters::style::text_anchor::HPos;
 
 use super::axes::{self, Axes, AxisLabels, BOTTOM_WITHOUT_TITLE, GAP, axes, height_with_legend, legend, legend_room};
-use super::canvas::{Area, Canvas, DrawResult, Place, TEXT, widest, width_of};
+use super::canvas::{Area, DrawResult, Place, TEXT, line, text, widest, width_of};
 use super::palette::{Colour, INK, MIDDLE, PAPER, PARTS, colours};
 use crate::measure::Estimate;
 use crate::report::number::figures;
-use crate::report::words::interval;
 
 /// Groups of bars that share labels, order and axis.
 #[derive(Clone, Debug, PartialEq)]
@@ -128,9 +127,9 @@ impl Bars {
         height_with_legend(self.layout(width - right).height + FOOT, &self.parts, width)
     }
 
-    pub fn draw<B: DrawingBackend>(&self, canvas: &Canvas<B>) -> DrawResult<B> {
+    pub fn draw<B: DrawingBackend>(&self, whole: &Area<B>) -> DrawResult<B> {
         let part_colours: Vec<Colour> = (0..self.parts.len()).map(|part| part_colours(part)[0]).collect();
-        let area = legend(&canvas.area, &self.parts, &part_colours)?;
+        let area = legend(whole, &self.parts, &part_colours)?;
         let width = area.dim_in_pixel().0 as i32;
         let layout = self.layout(width);
         let across: Vec<i32> = (1..layout.columns as i32).map(|i| layout.left + i * layout.column).collect();
@@ -138,17 +137,17 @@ impl Bars {
         for (i, (group, cell)) in self.groups.iter().zip(area.split_by_breakpoints(across, down)).enumerate() {
             // Labels stand to the left of the first of the groups that are side by side.
             let left = if i % layout.columns == 0 { layout.left } else { 0 };
-            self.draw_group(canvas, group, &layout, &cell, left)?;
+            self.draw_group(whole, group, &layout, &cell, left)?;
         }
         // In the middle below all groups, unless it would leave the drawing.
         let half = width_of(&self.x_title) / 2;
         let middle = ((width + layout.left) / 2).min(width - half).max(half);
-        canvas.text(&self.x_title, (middle, layout.height + FOOT / 2), MIDDLE.light, HPos::Center)
+        text(whole, &self.x_title, (middle, layout.height + FOOT / 2), MIDDLE.light, HPos::Center)
     }
 
     fn draw_group<B: DrawingBackend>(
         &self,
-        canvas: &Canvas<B>,
+        whole: &Area<B>,
         group: &BarGroup,
         layout: &Layout,
         cell: &Area<B>,
@@ -162,52 +161,31 @@ impl Bars {
         let y_text = |middle: &i32| self.labels[(middle / layout.step) as usize].clone();
         let top = layout.head;
         let labels = AxisLabels { x_title: "", y_title: "", y_text: &y_text, top, left, right: NUMBER };
-        let chart = BarChart { canvas, layout, axes: axes(cell, x, y, &labels)? };
+        let chart = BarChart { whole, layout, axes: axes(cell, x, y, &labels)? };
         let start = chart.axes.x_range().start;
-        canvas.text(&group.title, chart.place(start, -top / 2), INK.light, HPos::Left)?;
-        canvas.line(&[chart.place(1.0, 0), chart.place(1.0, bottom)], MIDDLE.light, 3)?;
+        text(whole, &group.title, chart.place(start, -top / 2), INK.light, HPos::Left)?;
+        line(whole, &[chart.place(1.0, 0), chart.place(1.0, bottom)], MIDDLE.light, 3)?;
         let colours = colours(&self.labels);
         for (row, bar) in group.bars.iter().enumerate() {
-            let label = &self.labels[row];
+            let middle = layout.middle(row);
             if layout.left == 0 {
-                let place = chart.place(start, layout.middle(row) - layout.row / 2 - 6);
-                canvas.text(label, place, INK.light, HPos::Left)?;
+                let place = chart.place(start, middle - layout.row / 2 - 6);
+                text(whole, &self.labels[row], place, INK.light, HPos::Left)?;
             }
             match bar {
                 Bar::Missing(why) => {
-                    let (x, y) = chart.place(1.0, layout.middle(row));
-                    canvas.text(why, (x + 12, y), MIDDLE.light, HPos::Left)?;
+                    let (x, y) = chart.place(1.0, middle);
+                    text(whole, why, (x + 12, y), MIDDLE.light, HPos::Left)?;
                 }
                 Bar::Of(value) => {
                     chart.bar(row, [1.0, value.estimate], colours[row])?;
-                    let title = &group.title;
-                    chart.value(row, *value, bar.reach()[1], 0, format!("{label}, {title}: {}", interval(*value)))?;
+                    chart.value(row, *value, bar.reach()[1], 0)?;
                 }
-                Bar::Product(factors, whole) => {
-                    let told = format!("{label}, the whole: {} times", interval(*whole));
+                Bar::Product(factors, product) => {
                     // The whole below its parts, which it must equal within its interval.
-                    chart.value(row, *whole, bar.reach()[1], layout.bar / 2 + 10, told)?;
-                    self.draw_factors(&chart, row, factors)?;
+                    chart.value(row, *product, bar.reach()[1], layout.bar / 2 + 10)?;
+                    chart.factors(row, factors)?;
                 }
-            }
-        }
-        Ok(())
-    }
-
-    fn draw_factors<B: DrawingBackend>(&self, chart: &BarChart<B>, row: usize, factors: &[f64]) -> DrawResult<B> {
-        let (mut up, mut down) = (1.0, 1.0);
-        for (part, &factor) in factors.iter().enumerate() {
-            let side = if factor >= 1.0 { &mut up } else { &mut down };
-            let ends = [*side, *side * factor];
-            *side = ends[1];
-            let [colour, on_it] = part_colours(part);
-            let [min, max] = chart.bar(row, ends, colour)?;
-            let text = figures(factor);
-            let told = format!("{}, {}: {text} times", self.labels[row], self.parts[part]);
-            chart.canvas.tip(min, max, told);
-            if width_of(&text) + 16 < max.0 - min.0 {
-                let middle = ((min.0 + max.0) / 2, (min.1 + max.1) / 2);
-                chart.canvas.text(&text, middle, on_it, HPos::Center)?;
             }
         }
         Ok(())
@@ -227,7 +205,7 @@ impl Bars {
 
 /// The axes of a group. Their vertical values are pixels from the top of the rows.
 struct BarChart<'a, B: DrawingBackend> {
-    canvas: &'a Canvas<B>,
+    whole: &'a Area<B>,
     layout: &'a Layout,
     axes: Axes<'a, B, WithKeyPoints<RangedCoordi32>>,
 }
@@ -241,24 +219,38 @@ impl<B: DrawingBackend> BarChart<'_, B> {
     fn bar(&self, row: usize, [from, to]: [f64; 2], colour: Colour) -> DrawResult<B, [Place; 2]> {
         let (middle, half) = (self.layout.middle(row), self.layout.bar / 2);
         let corners = [self.place(from.min(to), middle - half), self.place(from.max(to), middle + half)];
-        self.canvas.area.draw(&Rectangle::new(corners, colour.filled()))?;
+        self.whole.draw(&Rectangle::new(corners, colour.filled()))?;
         Ok(corners)
     }
 
-    /// Draws the interval of a value, `below` the middle of its row, and the number behind it and behind `end`, where
-    /// the bar ends; a pointer at the row is `told` something.
-    fn value(&self, row: usize, value: Estimate, end: f64, below: i32, told: String) -> DrawResult<B> {
-        let (x_range, middle) = (self.axes.x_range(), self.layout.middle(row));
-        let [low, high] = [value.low(), value.high()].map(|end| end.unwrap_or(value.estimate));
-        if value.interval.is_some() {
-            self.whisker([low, high], middle + below)?;
+    /// Draws the factors of a product as bars, those above 1 to the right and those below it to the left.
+    fn factors(&self, row: usize, factors: &[f64]) -> DrawResult<B> {
+        let (mut up, mut down) = (1.0, 1.0);
+        for (part, &factor) in factors.iter().enumerate() {
+            let side = if factor >= 1.0 { &mut up } else { &mut down };
+            let ends = [*side, *side * factor];
+            *side = ends[1];
+            let [colour, on_it] = part_colours(part);
+            let [min, max] = self.bar(row, ends, colour)?;
+            let number = figures(factor);
+            if width_of(&number) + 16 < max.0 - min.0 {
+                let middle = ((min.0 + max.0) / 2, (min.1 + max.1) / 2);
+                text(self.whole, &number, middle, on_it, HPos::Center)?;
+            }
         }
-        let (x, y) = self.place(end.max(high).min(x_range.end), middle);
-        let number = figures(value.estimate);
-        self.canvas.text(&number, (x + 14, y), INK.light, HPos::Left)?;
-        let (left, half) = (self.place(x_range.start, middle).0, self.layout.row / 2);
-        self.canvas.tip((left, y - half), (x + 14 + width_of(&number), y + half), told);
         Ok(())
+    }
+
+    /// Draws the interval of a value, `below` the middle of its row, and the number behind it and behind `end`, where
+    /// the bar ends.
+    fn value(&self, row: usize, value: Estimate, end: f64, below: i32) -> DrawResult<B> {
+        let (axis, middle) = (self.axes.x_range(), self.layout.middle(row));
+        let high = value.high().unwrap_or(value.estimate);
+        if let Some(interval) = value.interval {
+            self.whisker([interval.low, high], middle + below)?;
+        }
+        let (x, y) = self.place(end.max(high).min(axis.end), middle);
+        text(self.whole, &figures(value.estimate), (x + 14, y), INK.light, HPos::Left)
     }
 
     /// An interval as an error bar, on a plate of its own so that it is seen on a bar. An end beyond the axis has no
@@ -266,11 +258,11 @@ impl<B: DrawingBackend> BarChart<'_, B> {
     fn whisker(&self, ends: [f64; 2], y: i32) -> DrawResult<B> {
         let axis = self.axes.x_range();
         let stem = ends.map(|end| self.place(end.clamp(axis.start, axis.end), y));
-        self.canvas.line(&stem, PAPER.light, 7)?;
-        self.canvas.line(&stem, INK.light, 3)?;
+        line(self.whole, &stem, PAPER.light, 7)?;
+        line(self.whole, &stem, INK.light, 3)?;
         for end in ends.into_iter().filter(|end| (axis.start..=axis.end).contains(end)) {
             let (x, y) = self.place(end, y);
-            self.canvas.line(&[(x, y - 8), (x, y + 8)], INK.light, 3)?;
+            line(self.whole, &[(x, y - 8), (x, y + 8)], INK.light, 3)?;
         }
         Ok(())
     }

@@ -1,9 +1,8 @@
-//! What all charts draw with: areas of any backend, text in the one font, and tips for a pointer.
+//! What all charts draw with: areas of any backend, and text in the one font.
 //!
 //! Lengths are pixels, two for each unit of width that a chart is asked for: pictures are sharp where they are shown
 //! smaller.
 
-use std::cell::RefCell;
 use std::sync::Once;
 
 use plotters::coord::Shift;
@@ -52,44 +51,11 @@ pub fn widest<'a>(texts: impl IntoIterator<Item = &'a String>) -> i32 {
     texts.into_iter().map(|text| width_of(text)).max().unwrap_or(0)
 }
 
-pub struct Canvas<B: DrawingBackend> {
-    pub area: Area<B>,
-    /// Elements of an SVG file, in the order in which they are drawn: later ones are on top.
-    tips: RefCell<String>,
+/// Draws a line of text, which begins, has its middle or ends at `place`, at half its height.
+pub fn text<B: DrawingBackend>(area: &Area<B>, text: &str, place: Place, colour: Colour, side: HPos) -> DrawResult<B> {
+    area.draw_text(text, &text_style(colour).pos(Pos::new(side, VPos::Center)), place)
 }
 
-impl<B: DrawingBackend> Canvas<B> {
-    pub fn new(area: Area<B>) -> Self {
-        Self { area, tips: RefCell::default() }
-    }
-
-    /// What a pointer is told in all places. Pictures of pixels do not have it.
-    pub fn into_tips(self) -> String {
-        self.tips.into_inner()
-    }
-
-    /// Tells a pointer between two corners a text.
-    pub fn tip(&self, (x, y): Place, max: Place, text: String) {
-        let text = text.replace('&', "&amp;").replace('<', "&lt;");
-        let (width, height) = (max.0 - x, max.1 - y);
-        *self.tips.borrow_mut() += &format!(
-            "<rect class=\"tip\" x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" fill=\"none\" pointer-events=\"all\">\
-             <title>{text}</title></rect>\n"
-        );
-    }
-
-    /// As [`tip`](Self::tip), about a point.
-    pub fn tip_at(&self, (x, y): Place, text: String) {
-        const REACH: i32 = 16;
-        self.tip((x - REACH, y - REACH), (x + REACH, y + REACH), text);
-    }
-
-    /// A line of text, which begins, has its middle or ends at `place`, at half its height.
-    pub fn text(&self, text: &str, place: Place, colour: Colour, side: HPos) -> DrawResult<B> {
-        self.area.draw_text(text, &text_style(colour).pos(Pos::new(side, VPos::Center)), place)
-    }
-
-    pub fn line(&self, points: &[Place], colour: Colour, width: u32) -> DrawResult<B> {
-        self.area.draw(&PathElement::new(points, colour.stroke_width(width)))
-    }
+pub fn line<B: DrawingBackend>(area: &Area<B>, points: &[Place], colour: Colour, width: u32) -> DrawResult<B> {
+    area.draw(&PathElement::new(points, colour.stroke_width(width)))
 }

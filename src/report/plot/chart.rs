@@ -5,7 +5,7 @@ use std::path::Path;
 use plotters::drawing::IntoDrawingArea;
 use plotters::prelude::{BitMapBackend, DrawingBackend, SVGBackend};
 
-use super::canvas::{Area, Canvas, DrawResult, register};
+use super::canvas::{Area, DrawResult, register};
 use super::palette::PAPER;
 use super::{Bars, Curves, Scatter, Tradeoff};
 use crate::escaped::Escaped as _;
@@ -59,28 +59,22 @@ impl Chart {
         (width as u32, height as u32)
     }
 
-    fn draw<B: DrawingBackend>(&self, area: Area<B>) -> DrawResult<B, String> {
+    fn draw<B: DrawingBackend>(&self, area: &Area<B>) -> DrawResult<B> {
         register();
         area.fill(&PAPER.light)?;
-        let width = area.dim_in_pixel().0 as i32;
-        let canvas = Canvas::new(area);
         match self {
-            Self::Bars(bars) => bars.draw(&canvas)?,
-            Self::Curves(curves) => curves.draw(&canvas)?,
-            Self::Scatter(scatter) => scatter.draw(&canvas, width)?,
-            Self::Tradeoff(tradeoff) => tradeoff.scatter().draw(&canvas, width)?,
+            Self::Bars(bars) => bars.draw(area)?,
+            Self::Curves(curves) => curves.draw(area)?,
+            Self::Scatter(scatter) => scatter.draw(area)?,
+            Self::Tradeoff(tradeoff) => tradeoff.scatter().draw(area)?,
         }
-        canvas.area.present()?;
-        Ok(canvas.into_tips())
+        area.present()
     }
 
     /// The text of an SVG file, `width` units wide if it can be; a unit is half as long as one of the file's view box.
     pub fn svg(&self, width: f64) -> String {
         let mut text = String::new();
-        let area = SVGBackend::with_string(&mut text, self.size(width)).into_drawing_area();
-        let tips = self.draw(area).expect(DRAWN);
-        let end = text.rfind("</svg>").unwrap_or(text.len());
-        text.insert_str(end, &tips);
+        self.draw(&SVGBackend::with_string(&mut text, self.size(width)).into_drawing_area()).expect(DRAWN);
         text
     }
 
@@ -88,8 +82,7 @@ impl Chart {
     pub fn png(&self, width: f64) -> Vec<u8> {
         let (width, height) = self.size(width);
         let mut bytes = vec![255; width as usize * height as usize * 3];
-        let area = BitMapBackend::with_buffer(&mut bytes, (width, height)).into_drawing_area();
-        self.draw(area).expect(DRAWN);
+        self.draw(&BitMapBackend::with_buffer(&mut bytes, (width, height)).into_drawing_area()).expect(DRAWN);
         let (colours, _) = bytes.as_chunks::<3>();
         Picture::new([width, height], colours.to_vec()).png()
     }

@@ -5,9 +5,8 @@ use plotters::series::LineSeries;
 use plotters::style::Color;
 
 use super::axes::{GAP, height_with_legend, legend, log_log, padded};
-use super::canvas::{Canvas, DrawResult};
+use super::canvas::{Area, DrawResult};
 use super::palette::{Colour, colours};
-use crate::report::number::figures;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curves {
@@ -47,21 +46,17 @@ impl Curves {
         height_with_legend((4 * width / 5).min(860), &self.names(), width)
     }
 
-    pub fn draw<B: DrawingBackend>(&self, canvas: &Canvas<B>) -> DrawResult<B> {
+    pub fn draw<B: DrawingBackend>(&self, area: &Area<B>) -> DrawResult<B> {
         let labels: Vec<String> = self.lines.iter().map(|line| line.label.clone()).collect();
         let colours = colours(&labels);
         let ordered: Vec<Colour> = self.order().into_iter().map(|i| colours[i]).collect();
-        let area = legend(&canvas.area, &self.names(), &ordered)?;
+        let area = legend(area, &self.names(), &ordered)?;
         let points = || self.lines.iter().flat_map(|line| &line.points);
         let ends = [padded(points().map(|(x, _)| *x), [0.02; 2]), padded(points().map(|(_, y)| *y), [0.08; 2])];
         let mut axes = log_log(&area, GAP, [&self.x_title, &self.y_title], ends)?;
         for (line, &colour) in self.lines.iter().zip(&colours) {
             let style = colour.filled().stroke_width(4);
             axes.draw_series(LineSeries::new(line.points.iter().copied(), style).point_size(6))?;
-            for point in &line.points {
-                let [x, y] = [point.0, point.1].map(figures);
-                canvas.tip_at(axes.backend_coord(point), format!("{} at {x}: {y}", line.label));
-            }
         }
         Ok(())
     }

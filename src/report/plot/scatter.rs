@@ -8,10 +8,9 @@ use plotters::style::Color;
 use plotters::style::text_anchor::HPos;
 
 use super::axes::{GAP, height_with_legend, is_roomy, legend, log_log, padded};
-use super::canvas::{Canvas, DrawResult, Place, TEXT, width_of};
+use super::canvas::{Area, DrawResult, Place, TEXT, line, text, width_of};
 use super::labels::{Corners, place};
 use super::palette::{Colour, INK, MIDDLE, PAPER, colours};
-use crate::report::number::figures;
 use crate::report::words::distinct;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -71,12 +70,12 @@ impl Scatter {
         height_with_legend(width.min(880), &self.names(width), width)
     }
 
-    pub fn draw<B: DrawingBackend>(&self, canvas: &Canvas<B>, width: i32) -> DrawResult<B> {
-        let (groups, names) = (self.groups(), self.names(width));
+    pub fn draw<B: DrawingBackend>(&self, whole: &Area<B>) -> DrawResult<B> {
+        let (groups, names) = (self.groups(), self.names(whole.dim_in_pixel().0 as i32));
         let colours = colours(&groups);
-        let area = legend(&canvas.area, &names, &colours)?;
+        let area = legend(whole, &names, &colours)?;
         let top = if self.title.is_empty() { GAP } else { TITLE };
-        canvas.text(&self.title, (GAP, TITLE / 2), INK.light, HPos::Left)?;
+        text(whole, &self.title, (GAP, TITLE / 2), INK.light, HPos::Left)?;
         // Room on the right for a label, below for the arrows of bounds.
         let x_ends = padded(self.points.iter().map(|point| point.x), [0.1, 0.2]);
         let y_ends = padded(self.points.iter().map(|point| point.y), [0.15, 0.1]);
@@ -91,7 +90,7 @@ impl Scatter {
 
         let (x, y) = axes.plotting_area().get_pixel_range();
         let front = front(&dots, x.end);
-        canvas.line(&front, MIDDLE.light, 4)?;
+        line(whole, &front, MIDDLE.light, 4)?;
         let lines = front.windows(2).map(|ends| {
             let [(left, y), (right, end)] = [ends[0], ends[1]];
             [(left - 4, y.min(end) - 4), (right + 4, y.max(end) + 4)]
@@ -101,25 +100,9 @@ impl Scatter {
         let is_shown = |dot: &&Dot| dots.len() <= LABELLED || dot.point.is_front;
         let is_said = |dot: &&Dot| !names.is_empty() && dot.point.label == dot.point.group;
         let labelled: Vec<&Dot> = dots.iter().filter(|dot| is_shown(dot) && !is_said(dot)).collect();
-        draw_labels(canvas, &labelled, &obstacles, [(x.start + 12, y.start), (x.end - 4, y.end - 8)])?;
+        draw_labels(whole, &labelled, &obstacles, [(x.start + 12, y.start), (x.end - 4, y.end - 8)])?;
         // What is on the front is drawn last, so that it is on top.
-        dots.iter().rev().try_for_each(|dot| self.draw_dot(canvas, dot))
-    }
-
-    fn draw_dot<B: DrawingBackend>(&self, canvas: &Canvas<B>, dot: &Dot) -> DrawResult<B> {
-        let Dot { point, place: (x, y), colour } = *dot;
-        if point.is_bound {
-            let (tip, wings) = (y + ARROW, y + ARROW - 14);
-            canvas.line(&[(x, y), (x, wings)], colour, 4)?;
-            canvas.area.draw(&Polygon::new([(x - 9, wings), (x + 9, wings), (x, tip)], colour.filled()))?;
-        }
-        let inside = if point.is_front { colour } else { PAPER.light };
-        canvas.area.draw(&Circle::new((x, y), RADIUS, inside.filled()))?;
-        canvas.area.draw(&Circle::new((x, y), RADIUS, colour.stroke_width(4)))?;
-        let bound = if point.is_bound { "at most " } else { "" };
-        let [across, up] = [point.x, point.y].map(figures);
-        canvas.tip_at((x, y), format!("{}: {bound}{up}, {}; {across}, {}", point.label, self.y_title, self.x_title));
-        Ok(())
+        dots.iter().rev().try_for_each(|dot| dot.draw(whole))
     }
 }
 
@@ -129,6 +112,18 @@ impl Dot<'_> {
         let ((x, y), around) = (self.place, RADIUS + 4);
         let below = if self.point.is_bound { ARROW + 4 } else { around };
         [(x - around, y - around), (x + around, y + below)]
+    }
+
+    fn draw<B: DrawingBackend>(&self, area: &Area<B>) -> DrawResult<B> {
+        let Self { point, place: (x, y), colour } = *self;
+        if point.is_bound {
+            let (tip, wings) = (y + ARROW, y + ARROW - 14);
+            line(area, &[(x, y), (x, wings)], colour, 4)?;
+            area.draw(&Polygon::new([(x - 9, wings), (x + 9, wings), (x, tip)], colour.filled()))?;
+        }
+        let inside = if point.is_front { colour } else { PAPER.light };
+        area.draw(&Circle::new((x, y), RADIUS, inside.filled()))?;
+        area.draw(&Circle::new((x, y), RADIUS, colour.stroke_width(4)))
     }
 }
 
@@ -143,7 +138,7 @@ fn front(dots: &[Dot], end: i32) -> Vec<Place> {
 
 /// Draws the labels of some points, the first of which choose first.
 fn draw_labels<B: DrawingBackend>(
-    canvas: &Canvas<B>,
+    area: &Area<B>,
     dots: &[&Dot],
     obstacles: &[Corners],
     frame: Corners,
@@ -155,13 +150,13 @@ fn draw_labels<B: DrawingBackend>(
         let (x, y) = dot.place;
         let end = (x.clamp(min.0, max.0), y.clamp(min.1, max.1));
         if (end.0 - x).abs().max((end.1 - y).abs()) > 36 {
-            canvas.line(&[(x, y), end], MIDDLE.light, 2)?;
+            line(area, &[(x, y), end], MIDDLE.light, 2)?;
         }
     }
     for (dot, [min, max]) in dots.iter().zip(boxes) {
         // What is under a label must not cross it.
-        canvas.area.draw(&Rectangle::new([min, max], PAPER.light.filled()))?;
-        canvas.text(&dot.point.label, (min.0, (min.1 + max.1) / 2), dot.colour, HPos::Left)?;
+        area.draw(&Rectangle::new([min, max], PAPER.light.filled()))?;
+        text(area, &dot.point.label, (min.0, (min.1 + max.1) / 2), dot.colour, HPos::Left)?;
     }
     Ok(())
 }

@@ -40,13 +40,11 @@ fn both_forms_hold_the_picture() {
 
 #[test]
 fn charts_without_anything_to_show_have_their_axes() {
+    let curves = Curves { x_title: "n".into(), y_title: "error".into(), lines: vec![] };
+    let bars = Bars { x_title: "error".into(), labels: vec![], parts: vec![], groups: vec![] };
     let scatter = Scatter { points: vec![], ..scatter() };
-    let curves = Curves { x_title: "n".into(), y_title: "ns".into(), lines: vec![] };
-    let bars = Bars { x_title: "times".into(), labels: vec![], parts: vec![], groups: vec![] };
-    for (chart, title) in
-        [(Chart::Scatter(scatter), "error"), (Chart::Curves(curves), "ns"), (Chart::Bars(bars), "times")]
-    {
-        assert!([360.0, 900.0].iter().all(|width| chart.svg(*width).contains(&format!("\n{title}\n"))), "{title}");
+    for chart in [Chart::Scatter(scatter), Chart::Curves(curves), Chart::Bars(bars)] {
+        assert!([360.0, 900.0].iter().all(|width| chart.svg(*width).contains("\nerror\n")), "{chart:?}");
     }
 }
 
@@ -98,21 +96,13 @@ fn the_ending_tells_the_form() {
 
 #[test]
 fn long_names_leave_bars_their_room() {
-    let long = "sah-hybrid:test=moller-trumbore,batch=packets,quality=high".to_owned();
     // Its interval is drawn within the axis, which must have room: an axis that ends before it begins would panic.
     let value = Estimate::between(2.0, 1.8, 2.2);
-    let bars = |labels: Vec<String>| {
-        let bars = labels.iter().map(|_| Bar::Of(value)).collect();
-        let groups = vec![BarGroup { title: "rays".into(), bars }];
-        Chart::Bars(Bars { x_title: "times".into(), labels, parts: vec![], groups })
-    };
-    let products = |label: String| {
-        Chart::Bars(Bars::of_products("times", vec!["plane".into()], [(label, Bar::Product(vec![2.0], value))]))
-    };
-    // On a narrow screen names stand above their bars, which makes the drawing higher.
-    for (short, long) in
-        [(bars(vec!["a".into(); 2]), bars(vec![long.clone(); 2])), (products("a".into()), products(long.clone()))]
-    {
+    for (bar, parts) in [(Bar::Of(value), vec![]), (Bar::Product(vec![2.0], value), vec!["plane".to_owned()])] {
+        let of =
+            |label: &str| Chart::Bars(Bars::of_products("times", parts.clone(), [(label.to_owned(), bar.clone())]));
+        let (short, long) = (of("a"), of("sah-hybrid:test=moller-trumbore,batch=packets,quality=high"));
+        // On a narrow screen names stand above their bars, which makes the drawing higher.
         assert!(height(&long, 360.0) > height(&short, 360.0));
         assert_eq!(height(&long, 1600.0), height(&short, 1600.0));
         assert!(long.svg(360.0).contains("packets"));

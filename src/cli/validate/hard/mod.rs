@@ -12,7 +12,7 @@ use std::time::Duration;
 use anyhow::Context;
 
 use super::Args;
-use crate::cli::progress::Waiting;
+use crate::cli::progress::spinner;
 use crate::cli::terminal::Terminal;
 use crate::measure::Provenance;
 use crate::output::OutputFile;
@@ -47,10 +47,10 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
     let json = args.export_json.as_deref().map(OutputFile::check).transpose()?;
 
     let mut columns: Vec<Column> = choices.iter().map(|choice| Column { choice, scores: vec![] }).collect();
-    let waiting = Waiting::show(String::new(), terminal);
+    let waiting = spinner(String::new(), terminal);
     let mut records = vec![];
     for (i, case) in cases.iter().enumerate() {
-        waiting.says(format!("{} of {}: {}", i + 1, cases.len(), case.name));
+        waiting.set_message(format!("{} of {}: {}", i + 1, cases.len(), case.name));
         let scores = scores(case, &choices, rays, args.limit.duration())?;
         for (column, score) in columns.iter_mut().zip(scores) {
             records.push(record(case, column.choice, &score));
