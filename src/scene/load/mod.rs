@@ -28,7 +28,7 @@ pub use error::{LoadError, Location};
 /// arrays.
 ///
 /// Files that the file refers to are read if their path stays below its folder; a symbolic link there may lead
-/// anywhere. A file is checked before memory is allocated for its contents, and the memory is limited by its size: a
+/// anywhere. A file is checked before memory is allocated for its triangles, and the memory is limited by its size: a
 /// glTF file has at most 2^24 triangles and vertices more than its files have bytes, its text at most 2^16 objects and
 /// one for each 48 bytes, and a face of a PLY file at most 2^20 corners.
 ///

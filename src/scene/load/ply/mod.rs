@@ -1,123 +1,129 @@
 //! PLY, the Stanford polygon format (Turk 1994), ASCII and binary.
 
-mod body;
-mod header;
-mod value;
+mod element;
+mod number;
 
 use glam::Vec3;
 
-use self::body::Body;
-use self::header::{CORNERS, Header};
+use self::element::{Element, Header, STRIPS, VECTORS};
 use super::error::Fault;
 use super::notes::{Notes, SMALL_FACES};
 use super::polygon::Splitter;
 use crate::scene::{Material, Model};
 
-/// The properties of a vertex that are read.
-const VECTORS: [&str; 6] = ["x", "y", "z", "nx", "ny", "nz"];
-
-/// Reads a PLY file: the positions and, if there are any, normals of its vertices, and the triangles of its faces.
+/// Reads a PLY file: the positions and, if there are any, normals of its vertices, and the triangles of its faces and
+/// strips.
 ///
-/// All rows are read twice: the first pass checks everything and keeps nothing, so that a rejected file takes no memory
+/// Faces are read twice: the first pass checks them and keeps nothing, so that a rejected file takes little memory
 /// beyond its own bytes.
 pub(super) fn read(bytes: &[u8]) -> Result<Model, Fault> {
-    let (header, rest) = Header::read(bytes)?;
-    let Some((vertex, face)) = header.element("vertex").zip(header.element("face")) else {
-        return Err(Fault::file("the PLY header declares no mesh"));
-    };
-    let checked = check(&header, vertex.count, Body::new(&header, rest))?;
-
-    let smooth = VECTORS.iter().all(|name| vertex.property(name).is_some());
+    let (elements, mut rows) = Header::read(bytes)?;
+    let vertex = elements.iter().find(|element| element.name == "vertex");
+    let vertex = vertex.ok_or_else(|| Fault::file("the PLY header declares no element `vertex`: there is no mesh"))?;
     let mut model = Model { materials: vec![Material::named("default")], ..Model::default() };
-    model.positions.reserve_exact(vertex.count);
-    model.normals.reserve_exact(if smooth { vertex.count } else { 0 });
-    model.triangles.reserve_exact(checked.triangles);
-    let CheckedBody { mut vertices, mut faces, .. } = checked;
-    vertices.rows(vertex, &VECTORS, |_, values| {
-        model.positions.push(vector(&values[..3]));
-        if smooth {
-            model.normals.push(vector(&values[3..]));
+    let (mut surfaces, mut triangles, mut small) = (vec![], 0, 0);
+    for element in &elements {
+        match element.name.as_str() {
+            "vertex" => vertices(element, &mut rows, &mut model)?,
+            "face" | STRIPS => {
+                surfaces.push((element, rows));
+                polygons(element, &mut rows, vertex.count, |corners| {
+                    triangles += corners.len().saturating_sub(2);
+                    small += usize::from(corners.len() < 3);
+                })?;
+            }
+            _ => element.read(&mut rows, |_| Ok(()))?,
         }
-        Ok(())
-    })?;
-    let (mut splitter, mut points) = (Splitter::default(), Vec::new());
-    faces.rows(face, &CORNERS, |_, lists| {
-        let corners = corners(lists);
-        points.clear();
-        points.extend(corners.iter().map(|&c| model.positions[c as usize]));
-        let triangles = splitter.split(&points).iter();
-        model.triangles.extend(triangles.map(|triangle| triangle.map(|i| corners[i] as u32)));
-        Ok(())
-    })?;
-    if smooth {
-        model.normal_indices = model.triangles.clone();
+    }
+    rows = rows.trim_ascii_start();
+    if !rows.iter().all(|byte| byte.is_ascii_whitespace() || *byte == 0) {
+        let problem = format!("{} bytes follow the last row: the counts in the header are too small", rows.len());
+        return Err(Fault::file(problem));
+    }
+    if triangles == 0 {
+        let problem = "no element `face` or `tristrips` has a row with three corners: point clouds are no meshes";
+        return Err(Fault::file(format!("it holds no triangles: {} vertices, but {problem}", vertex.count)));
     }
 
+    model.triangles.reserve_exact(triangles);
+    let (mut splitter, mut points) = (Splitter::default(), vec![]);
+    for (element, mut rows) in surfaces {
+        polygons(element, &mut rows, vertex.count, |corners| {
+            if let &[a, b, c] = corners {
+                return model.triangles.push([a, b, c]);
+            }
+            points.clear();
+            points.extend(corners.iter().map(|&corner| model.positions[corner as usize]));
+            let triangles = splitter.split(&points).iter();
+            model.triangles.extend(triangles.map(|triangle| triangle.map(|i| corners[i])));
+        })?;
+    }
+    if !model.normals.is_empty() {
+        model.normal_indices = model.triangles.clone();
+    }
     let mut notes = Notes::default();
-    notes.count(checked.small_faces, SMALL_FACES);
+    notes.count(small, SMALL_FACES);
     splitter.note(&mut notes);
     model.notes = notes.into_vec();
     Ok(model)
 }
 
-/// The rows of vertices and faces, once all of them have been checked.
-struct CheckedBody<'a> {
-    /// The body from the first vertex on, and the body from the first face on.
-    vertices: Body<'a>,
-    faces: Body<'a>,
-    triangles: usize,
-    /// Faces with fewer than three corners.
-    small_faces: usize,
-}
-
-/// Checks that all rows fit the header and make a mesh.
-fn check<'a>(header: &Header, vertices: usize, mut body: Body<'a>) -> Result<CheckedBody<'a>, Fault> {
-    let mut checked = CheckedBody { vertices: body.clone(), faces: body.clone(), triangles: 0, small_faces: 0 };
-    let mut faces = 0;
-    for element in &header.elements {
-        match element.name.as_str() {
-            "vertex" => {
-                checked.vertices = body.clone();
-                body.rows(element, &VECTORS, |number, values| {
-                    let [x, y, z] = vector(&values[..3]).to_array();
-                    if [x, y, z].iter().all(|coordinate| coordinate.is_finite()) {
-                        return Ok(());
-                    }
-                    let problem = format!("its coordinates ({x:?}, {y:?}, {z:?}) are not finite numbers");
-                    Err(Fault::part(format!("vertex {number}"), problem))
-                })?;
-            }
-            "face" => {
-                (checked.faces, faces) = (body.clone(), element.count);
-                body.rows(element, &CORNERS, |number, lists| {
-                    let corners = corners(lists);
-                    if let Some(corner) = corners.iter().find(|&&c| c < 0.0 || c >= vertices as f64) {
-                        let problem = format!("its corner {corner} is none of the {vertices} vertices");
-                        return Err(Fault::part(format!("face {number}"), problem));
-                    }
-                    checked.small_faces += usize::from(corners.len() < 3);
-                    checked.triangles += corners.len().saturating_sub(2);
-                    Ok(())
-                })?;
-            }
-            _ => body.rows(element, &[], |_, _| Ok(()))?,
+fn vertices(element: &Element, rows: &mut &[u8], model: &mut Model) -> Result<(), Fault> {
+    let has = |column: &usize| element.properties.iter().any(|property| property.column == Some(*column));
+    if let Some(axis) = (0..3).find(|axis| !has(axis)) {
+        return Err(Fault::part("element vertex", format!("the property `{}` is missing", VECTORS[axis])));
+    }
+    let smooth = (3..VECTORS.len()).all(|column| has(&column));
+    // A vertex takes three bytes or more.
+    model.positions.reserve_exact(element.count.min(rows.len() / 3));
+    model.normals.reserve_exact(if smooth { model.positions.capacity() } else { 0 });
+    let mut vectors = [0.0; VECTORS.len()];
+    element.read(rows, |number| {
+        if let Some((column, number)) = number {
+            vectors[column] = number as f32;
+            return Ok(());
         }
-    }
-    body.end()?;
-    if checked.triangles == 0 {
-        let problem =
-            format!("it holds no triangles: {vertices} vertices, {faces} faces with fewer than three corners");
-        return Err(Fault::part("element face", problem));
-    }
-    Ok(checked)
+        let [x, y, z, normal @ ..] = vectors;
+        if ![x, y, z].into_iter().all(f32::is_finite) {
+            return Err(format!("its coordinates ({x:?}, {y:?}, {z:?}) are not finite numbers"));
+        }
+        model.positions.push(Vec3::new(x, y, z));
+        model.normals.extend(smooth.then_some(Vec3::from_array(normal)));
+        Ok(())
+    })
 }
 
-/// The first number of each column, zero where there is none.
-fn vector(columns: &[Vec<f64>]) -> Vec3 {
-    Vec3::from_array(std::array::from_fn(|axis| columns[axis].first().map_or(0.0, |&value| value as f32)))
-}
-
-/// The list of corners, under either of its names.
-fn corners(lists: &[Vec<f64>]) -> &[f64] {
-    lists.iter().find(|list| !list.is_empty()).map_or(&[], |list| list)
+/// Reads faces and passes on the corners of each, or triangle strips and passes on those of each triangle.
+fn polygons(element: &Element, rows: &mut &[u8], vertices: usize, mut take: impl FnMut(&[u32])) -> Result<(), Fault> {
+    if element.properties.iter().filter(|property| property.column.is_some()).count() != 1 {
+        let problem = "it must have one list of corners, with the name `vertex_indices`";
+        return Err(Fault::part(format!("element {}", element.name), problem));
+    }
+    let is_strip = element.name == STRIPS;
+    let (mut corners, mut triangles) = (vec![], 0);
+    element.read(rows, |number| {
+        match number {
+            Some((_, corner)) if corner >= 0.0 && corner < vertices as f64 => {
+                corners.push(corner as u32);
+                if is_strip && corners.len() == 3 {
+                    take(&corners);
+                    // The next triangle lies beyond the last edge and has its ends in the reverse order.
+                    corners.swap_remove(triangles % 2);
+                    triangles += 1;
+                }
+            }
+            Some((_, corner)) if !is_strip || corner != -1.0 => {
+                return Err(format!("its corner {corner} is none of the {vertices} vertices"));
+            }
+            // The end of a row, or of a strip within it.
+            _ => {
+                if !is_strip || triangles == 0 && !corners.is_empty() {
+                    take(&corners);
+                }
+                corners.clear();
+                triangles = 0;
+            }
+        }
+        Ok(())
+    })
 }

@@ -172,7 +172,8 @@ fn the_geometry_is_what_tobj_reads() {
         text += &match i % 4 {
             0 => format!("g part {i}\nf {a}/{a}/{a} {b}/1/2 {a}/2/{b}\n"),
             1 => format!("f {a}/1/1 {b}/1/1 {}/1/3 {}/1/4\n", a + 1, a + 2),
-            2 => format!("o thing\nf {a}/1/5 {b}/1/1 {}/1/3 {}/1/4 1/1/1 {}/1/2\nl 1 2\n", a + 1, a + 2, a + 3),
+            // There and back: without area, it becomes a fan in both.
+            2 => format!("o thing\nf {a}/1/5 {b}/1/1 {c}/1/3 1/1/4 {c}/1/1 {}/1/2\nl 1 2\n", a + 2, c = a + 1),
             _ => format!("usemtl m{i}\nf {a}/1/1 {b}/1/1 {}/1/3\n", a + 1),
         };
     }

@@ -74,7 +74,7 @@ fn faces_may_stand_before_vertices_and_be_concave() {
     assert_eq!(model.triangles.len(), 2);
     assert!(face_normals(&model).iter().all(|normal| normal.z > 0.0), "{:?}", model.triangles);
     let none = file.replace("face 1", "face 0").replace("4 0 1 2 3\n", "");
-    assert_refused("a.ply", none.as_bytes(), &["element face:", "no triangles: 4 vertices, 0 faces"]);
+    assert_refused("a.ply", none.as_bytes(), &["no triangles: 4 vertices", "`face`", "point clouds"]);
 }
 
 #[test]
@@ -90,6 +90,53 @@ fn binary_of_both_orders_and_all_integers() {
             }
         }
     }
+}
+
+/// Seven vertices and the given elements, whose rows are all numbers of the type `int`.
+fn with_vertices(elements: &str, numbers: &[i32]) -> Vec<u8> {
+    let vertices = "element vertex 7\nproperty char x\nproperty char y\nproperty char z\n";
+    let header = format!("ply\nformat binary_little_endian 1.0\n{vertices}{elements}end_header\n");
+    let rows = (0..21).chain(numbers.iter().flat_map(|number| number.to_le_bytes()));
+    header.into_bytes().into_iter().chain(rows).collect()
+}
+
+#[test]
+fn strips_begin_anew_at_minus_one_and_their_winding_alternates() {
+    let strips = |rows: usize| format!("element tristrips {rows}\nproperty list int int vertex_indices\n");
+    let face = "element face 1\nproperty list int int vertex_index\n";
+    let model = ply(&with_vertices(&strips(1), &[8, 0, 1, 2, 3, -1, 4, 5, 6]));
+    assert_eq!(model.triangles, [[0, 1, 2], [2, 1, 3], [4, 5, 6]]);
+    assert!(model.notes.is_empty());
+    let model = ply(&with_vertices(&strips(2), &[5, 0, 1, 2, 3, 4, 3, 4, 5, 6]));
+    assert_eq!(model.triangles, [[0, 1, 2], [2, 1, 3], [2, 3, 4], [4, 5, 6]], "the end of a row ends its strip");
+    // Both are drawn, in the order of the file.
+    let model = ply(&with_vertices(&(strips(1) + face), &[3, 0, 1, 2, 3, 4, 5, 6]));
+    assert_eq!(model.triangles, [[0, 1, 2], [4, 5, 6]]);
+    // Strips without a triangle are told, but not the nothing between two -1.
+    let model = ply(&with_vertices(&strips(1), &[9, -1, 3, 4, -1, -1, 0, 1, 2, -1]));
+    assert_eq!((&model.triangles[..], model.notes.len()), (&[[0, 1, 2]][..], 1));
+    assert!(model.notes[0].starts_with("1 face with fewer than three corners"), "{:?}", model.notes);
+    // More entries than the corners of a face may be.
+    let long: Vec<i32> = [2_000_000].into_iter().chain((0..2_000_000).map(|i| i % 7)).collect();
+    assert_eq!(ply(&with_vertices(&strips(1), &long)).triangles.len(), 1_999_998);
+
+    let refused = |elements: &str, numbers: &[i32], words: &[&str]| {
+        assert_refused("a.ply", &with_vertices(elements, numbers), words);
+    };
+    refused(&strips(1), &[4, 0, 1, 2, -2], &["tristrips 0:", "corner -2 is none of the 7"]);
+    refused(&strips(1), &[4, 0, 1, 2, 7], &["tristrips 0:", "corner 7"]);
+    refused(&strips(1), &[-1, 0, 1, 2], &["tristrips 0:", "-1 entries"]);
+    refused(&strips(1), &[9, 0, 1, 2], &["tristrips 0:", "truncated"]);
+    refused(&strips(1), &[2, 0, 1], &["no triangles"]);
+    refused(&strips(1).replace("int int", "int float"), &[3, 0, 0, 0], &["line 8:", "a list of integers"]);
+    refused(&strips(1).replace("indices", "colours"), &[3, 0, 1, 2], &["element tristrips:", "`vertex_indices`"]);
+    refused(face, &[3, 0, 1, -1], &["face 0:", "corner -1"]);
+}
+
+#[test]
+fn a_length_in_text_may_exceed_its_type() {
+    let tags = format!("300{}", " 7".repeat(300));
+    assert_eq!(ply(ASCII.replace("2 7 8", &tags).as_bytes()), ply(ASCII.as_bytes()));
 }
 
 #[test]
@@ -114,25 +161,28 @@ fn malformed_files_are_refused_by_name_and_number() {
         ("face 2", "face 1", ["edge 0:", "too many"]),
         ("edge 1\n", "edge 0\n", ["4 bytes follow", "counts"]),
         ("face 2", "face 4000000000000", ["element face:", "truncated"]),
-        ("face 2", "face 99999999999999999999999", ["line 10:", "too large"]),
-        ("ascii 1.0", "ascii 99999999999999999999999.0", ["line 2:", "too large"]),
-        ("element face 2", "element faces 2", ["no element `face`", "point clouds"]),
+        ("face 2", "face 99999999999999999999999", ["line 10:", "no line of a PLY header"]),
+        ("ascii 1.0", "ascii 99999999999999999999999.0", ["line 2:", "no line of a PLY header"]),
+        ("element face 2", "element faces 2", ["no triangles: 5 vertices", "point clouds"]),
         ("element vertex 5", "element points 5", ["no element `vertex`", "no mesh"]),
         ("double y", "double w", ["element vertex:", "`y` is missing"]),
-        ("double y", "list uchar int y", ["element vertex:", "not a list"]),
-        ("vertex_indices", "indices", ["element face:", "`vertex_indices` is missing"]),
-        ("uchar int vertex_indices", "uchar float vertex_indices", ["element face:", "integers"]),
-        ("property uchar flags", "property list uchar int vertex_index", ["element face:", "two lists"]),
-        ("uchar flags", "uchar vertex_indices", ["line", "declared twice"]),
+        ("double y", "list uchar int y", ["line 6:", "a coordinate is a number"]),
+        ("vertex_indices", "indices", ["element face:", "one list of corners, with the name `vertex_indices`"]),
+        ("uchar int vertex_indices", "uchar float vertex_indices", ["line 12:", "a list of integers"]),
+        ("property uchar flags", "property list uchar int vertex_index", ["element face:", "one list of corners"]),
+        ("uchar flags", "uchar vertex_indices", ["line 11:", "a list of integers"]),
+        ("uchar flags", "list uchar int vertex_indices", ["line 12:", "declared twice"]),
+        ("list uchar int tags", "list float int tags", ["line 9:", "a length is an integer"]),
+        ("format ascii 1.0", "comment ascii 1.0", ["line 4:", "no line of a PLY header"]),
         ("element edge", "element vertex", ["line", "declared twice"]),
         ("end_header", "end_head", ["line 16:", "no line of a PLY header"]),
         ("end_header", "comment", ["line 17:", "no line of a PLY header"]),
-        ("\n1 4 0 1 2 3\n", "\n1 9999999 0 1 2 3\n", ["face 0:", "1048576 are taken for a mistake"]),
+        ("\n1 4 0 1 2 3\n", "\n1 9999999 0 1 2 3\n", ["face 0:", "9999999 entries: all but 0 to 1048576"]),
         ("\n1 4 0 1 2 3\n", "\n1 4 0 1 2 5\n", ["face 0:", "corner 5 is none of the 5"]),
         ("\n1 4 0 1 2 3\n", "\n1 4 0 1 2 -1\n", ["face 0:", "corner -1"]),
         ("\n1 4 0 1 2 3\n", "\n1 18446744073709551615 0 1 2 3\n", ["face 0:", "for a mistake"]),
         ("\n1 4 0 1 2 3\n", "\n1 5 0 1 2 3\n", ["face 0:", "too few"]),
-        ("\n1 4 0 1 2 3\n", "\n1 -4 0 1 2 3\n", ["face 0:", "not the length"]),
+        ("\n1 4 0 1 2 3\n", "\n1 -4 0 1 2 3\n", ["face 0:", "-4 entries"]),
         ("\n1 1 0", "\n1 x 0", ["vertex 2:", "numbers"]),
         ("\n1 1 0", "\nnan 1 0", ["vertex 2:", "numbers"]),
         ("\n1 1 0", "\n1e39 1 0", ["vertex 2:", "finite"]),

@@ -1,0 +1,159 @@
+//! The elements of a PLY file, as its header declares them, and their rows.
+
+use std::collections::HashSet;
+
+use super::number::{ENCODINGS, Kind, word};
+use crate::scene::load::error::{Fault, quoted};
+use crate::scene::load::text::plain;
+
+pub(super) const STRIPS: &str = "tristrips";
+
+/// The properties of a vertex that are read.
+pub(super) const VECTORS: [&str; 6] = ["x", "y", "z", "nx", "ny", "nz"];
+
+/// The two names in use for the corners of a face or strip.
+const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
+
+/// The most bytes of a header, and entries of a list.
+const LONGEST: usize = 1 << 20;
+
+/// The lines of a header so far.
+#[derive(Default)]
+pub(super) struct Header {
+    elements: Vec<Element>,
+    /// The number of the encoding, once its line has been read.
+    encoding: Option<usize>,
+    /// The names of elements, and of properties after that of their element.
+    names: HashSet<String>,
+}
+
+impl Header {
+    /// Reads the elements that a file declares. Also returns the rows that follow.
+    pub fn read(bytes: &[u8]) -> Result<(Vec<Element>, &[u8]), Fault> {
+        let bytes = plain(bytes)?;
+        if !bytes.starts_with(b"ply") {
+            return Err(Fault::line(1, "a PLY file begins with the line `ply`: this is another format"));
+        }
+        // A first byte of the rows may look like the second one of a line end.
+        let line_end = if bytes.get(3) == Some(&b'\r') && bytes.get(4) != Some(&b'\n') { b'\r' } else { b'\n' };
+        let (mut header, mut number, mut read) = (Self::default(), 1, 0);
+        let text = &bytes[..bytes.len().min(LONGEST)];
+        while let Some(length) = text[read..].iter().position(|&byte| byte == line_end) {
+            // Comments may be in any encoding.
+            let line = String::from_utf8_lossy(text[read..read + length].trim_ascii());
+            read += length + 1;
+            match &*line {
+                "ply" if number == 1 => {}
+                "end_header" => return Ok((header.elements, &bytes[read..])),
+                line => header.line(line).map_err(|problem| Fault::line(number, problem))?,
+            }
+            number += 1;
+        }
+        let problem = "the PLY header does not end with a line `end_header`: the file is truncated or no PLY file";
+        Err(Fault::line(number, problem))
+    }
+
+    fn line(&mut self, line: &str) -> Result<(), String> {
+        let unknown = || format!("{} is no line of a PLY header, or not in its place", quoted(line));
+        let named = |name| Kind::named(name).ok_or_else(unknown);
+        let words: Vec<&str> = line.split_ascii_whitespace().collect();
+        let full_name = match (&words[..], self.encoding, self.elements.last_mut()) {
+            (["comment" | "obj_info", ..], ..) => return Ok(()),
+            (["format", name, "1.0"], ..) => {
+                self.encoding = Some(ENCODINGS.iter().position(|encoding| encoding == name).ok_or_else(unknown)?);
+                return Ok(());
+            }
+            (&["element", name, count], Some(encoding), _) => {
+                let count = count.parse().map_err(|_| unknown())?;
+                self.elements.push(Element { name: name.into(), count, properties: vec![], encoding });
+                name.into()
+            }
+            (&["property", ref types @ .., name], _, Some(element)) => {
+                let (length, kind) = match *types {
+                    ["list", length, entry] => (Some(named(length)?), named(entry)?),
+                    [number] => (None, named(number)?),
+                    _ => return Err(unknown()),
+                };
+                let (columns, is_right): (&[&str], _) = match element.name.as_str() {
+                    "vertex" => (&VECTORS, length.is_none()),
+                    "face" | STRIPS => (&CORNERS, length.is_some() && kind.is_integer),
+                    _ => (&[], true),
+                };
+                let column = columns.iter().position(|column| *column == name);
+                if column.is_some() && !is_right || length.is_some_and(|length| !length.is_integer) {
+                    let types = "a coordinate is a number, corners are a list of integers, a length is an integer";
+                    return Err(format!("{} has the wrong type: {types}", quoted(line)));
+                }
+                // In text a length may exceed the width of its type.
+                let length = if element.encoding == 0 && length.is_some() { Some(named("double")?) } else { length };
+                element.properties.push(Property { column, length, kind });
+                format!("{} {name}", element.name)
+            }
+            _ => return Err(unknown()),
+        };
+        let is_new = self.names.insert(full_name);
+        if is_new { Ok(()) } else { Err(format!("{} is declared twice: give each its own name", quoted(line))) }
+    }
+}
+
+pub(super) struct Element {
+    pub name: String,
+    pub count: usize,
+    pub properties: Vec<Property>,
+    /// The number of the encoding, 0 for text.
+    pub encoding: usize,
+}
+
+pub(super) struct Property {
+    /// What is passed on with its numbers; nothing if they are skipped.
+    pub column: Option<usize>,
+    /// The type of the length, if it is a list.
+    pub length: Option<Kind>,
+    pub kind: Kind,
+}
+
+/// A number and its column, or the end of a row.
+pub(super) type Next = Option<(usize, f64)>;
+
+impl Element {
+    /// Takes all rows of the element from the front of `rows` and passes on their numbers.
+    pub fn read(&self, rows: &mut &[u8], mut take: impl FnMut(Next) -> Result<(), String>) -> Result<(), Fault> {
+        let Self { name, count, properties, encoding } = self;
+        // Each number takes a byte. The last line may lack its line break.
+        if count.saturating_mul(properties.len().max(1)) > rows.len() + 1 {
+            let problem = format!("the header declares {count} rows for {} bytes: the file is truncated", rows.len());
+            return Err(Fault::part(format!("element {name}"), problem));
+        }
+        for number in 0..*count {
+            let start = if *encoding == 0 { rows.trim_ascii_start() } else { *rows };
+            *rows = start;
+            self.row(rows, &mut take).map_err(|problem| {
+                let line = start.split(|byte| matches!(byte, b'\n' | b'\r')).next().filter(|_| *encoding == 0);
+                let line = line.map(|line| format!(": {}", quoted(line))).unwrap_or_default();
+                Fault::part(format!("{name} {number}"), problem + &line)
+            })?;
+        }
+        Ok(())
+    }
+
+    fn row(&self, rows: &mut &[u8], take: &mut impl FnMut(Next) -> Result<(), String>) -> Result<(), String> {
+        // A file may be a single strip.
+        let longest = if self.name == STRIPS { rows.len() } else { LONGEST };
+        for property in &self.properties {
+            let length = property.length.map_or(Ok(1.0), |kind| (kind.readers[self.encoding])(rows))?;
+            let count = length as usize;
+            if count as f64 != length || count > longest {
+                return Err(format!("a list has {length} entries: all but 0 to {longest} are taken for a mistake"));
+            }
+            let read = property.kind.readers[self.encoding];
+            for _ in 0..count {
+                let number = read(rows)?;
+                property.column.map_or(Ok(()), |column| take(Some((column, number))))?;
+            }
+        }
+        if self.encoding == 0 && word(rows).is_some() {
+            return Err("the line has too many numbers".into());
+        }
+        take(None)
+    }
+}

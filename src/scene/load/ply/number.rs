@@ -1,0 +1,62 @@
+//! Numbers of all types of PLY, in text and in bytes.
+
+pub(super) const ENCODINGS: [&str; 3] = ["ascii", "binary_little_endian", "binary_big_endian"];
+
+/// A number type. `f64` holds each value of each of them exactly.
+#[derive(Clone, Copy)]
+pub(super) struct Kind {
+    pub is_integer: bool,
+    /// For each of the encodings, what takes a number from the front of the rows.
+    pub readers: [fn(&mut &[u8]) -> Result<f64, &'static str>; ENCODINGS.len()],
+}
+
+macro_rules! kind {
+    ($type:ty, is_integer: $is_integer:literal) => {
+        Kind {
+            is_integer: $is_integer,
+            readers: [
+                parse::<$type>,
+                |rows| chunk(rows).map(|bytes| <$type>::from_le_bytes(bytes).into()),
+                |rows| chunk(rows).map(|bytes| <$type>::from_be_bytes(bytes).into()),
+            ],
+        }
+    };
+}
+
+impl Kind {
+    /// The type with this name; each has two.
+    pub fn named(name: &str) -> Option<Self> {
+        Some(match name {
+            "char" | "int8" => kind!(i8, is_integer: true),
+            "uchar" | "uint8" => kind!(u8, is_integer: true),
+            "short" | "int16" => kind!(i16, is_integer: true),
+            "ushort" | "uint16" => kind!(u16, is_integer: true),
+            "int" | "int32" => kind!(i32, is_integer: true),
+            "uint" | "uint32" => kind!(u32, is_integer: true),
+            "float" | "float32" => kind!(f32, is_integer: false),
+            "double" | "float64" => kind!(f64, is_integer: false),
+            _ => return None,
+        })
+    }
+}
+
+fn chunk<const BYTES: usize>(rows: &mut &[u8]) -> Result<[u8; BYTES], &'static str> {
+    let (&number, rest) = rows.split_first_chunk().ok_or("the file ends within this row: it is truncated")?;
+    *rows = rest;
+    Ok(number)
+}
+
+fn parse<N: std::str::FromStr + Into<f64>>(rows: &mut &[u8]) -> Result<f64, &'static str> {
+    let word = word(rows).ok_or("the line has too few numbers, or the file is truncated")?;
+    let word = std::str::from_utf8(word).map_err(|_| "the line is no ASCII text")?;
+    word.parse().map(N::into).map_err(|_| "the line does not hold the numbers that the header declares")
+}
+
+/// Takes the next word of the line.
+pub(super) fn word<'a>(rows: &mut &'a [u8]) -> Option<&'a [u8]> {
+    let start = rows.iter().position(|byte| matches!(byte, b'\n' | b'\r') || !byte.is_ascii_whitespace())?;
+    let line = &rows[start..];
+    let (word, rest) = line.split_at(line.iter().position(u8::is_ascii_whitespace).unwrap_or(line.len()));
+    *rows = rest;
+    (!word.is_empty()).then_some(word)
+}
