@@ -8,6 +8,7 @@ mod placement;
 mod shape;
 mod text;
 
+use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
@@ -48,15 +49,15 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
     let mut shapes = HashMap::new();
     let mut totals = [0_usize; 4];
     for placement in &placements {
-        if !shapes.contains_key(&placement.mesh.index()) {
-            shapes.insert(placement.mesh.index(), Shape::count(&placement.mesh)?);
-        }
+        let shape: &Shape = match shapes.entry(placement.mesh.index()) {
+            Entry::Occupied(shape) => shape.into_mut(),
+            Entry::Vacant(shape) => shape.insert(Shape::count(&placement.mesh)?),
+        };
         let [copies, joints] = placement.sizes(accessors)?;
-        let [vertices, normals, triangles, influences] = shapes[&placement.mesh.index()].sizes();
-        let others = if placement.skin.is_some() { influences.saturating_add(joints) } else { 1 };
-        for (total, size) in totals.iter_mut().zip([vertices, normals, triangles, others]) {
+        for (total, size) in totals.iter_mut().zip(shape.sizes) {
             *total = total.saturating_add(size.saturating_mul(copies));
         }
+        totals[3] = totals[3].saturating_add(copies).saturating_add(joints);
     }
     let mut model = Model::default();
     if totals[2] == 0 {

@@ -29,10 +29,11 @@ pub(super) enum Pose {
 }
 
 impl<'a> Placement<'a> {
-    /// How often the mesh is shown, and by how many joints.
+    /// How often the mesh is shown, and how many joints or matrices that takes.
     pub fn sizes(&self, accessors: Accessors) -> Result<[usize; 2], Fault> {
         if let Some(skin) = &self.skin {
-            return Ok([1, skin.joints().len()]);
+            let matrices = skin.inverse_bind_matrices().map_or(0, |matrices| matrices.count());
+            return Ok([1, skin.joints().len().max(matrices)]);
         }
         let mut copies = None;
         for accessor in self.instances.into_iter().flatten() {
@@ -48,7 +49,9 @@ impl<'a> Placement<'a> {
     pub fn poses(&self, worlds: &[DMat4], accessors: Accessors<'a>) -> Elements<'a, Pose> {
         let world = self.world;
         if let Some(skin) = &self.skin {
-            let mut joints: Vec<DMat4> = skin.joints().map(|joint| worlds[joint.index()]).collect();
+            // Vertices name joints by at most 16 bits.
+            let named = skin.joints().take(1 << 16);
+            let mut joints: Vec<DMat4> = named.map(|joint| worlds[joint.index()]).collect();
             if let Some(matrices) = skin.inverse_bind_matrices() {
                 let (number, count) = (matrices.index(), matrices.count());
                 if count < joints.len() {

@@ -13,6 +13,8 @@ pub(super) struct Shape<'a> {
     pub positions: IndexSet<Attribute>,
     pub normals: IndexSet<Attribute>,
     pub parts: Vec<Part<'a>>,
+    /// The numbers of vertices, normals and triangles, and of what else is read to place them.
+    pub sizes: [usize; 4],
     /// Primitives that are points or lines, or have no positions.
     pub left_out: usize,
     /// Primitives with morph targets.
@@ -75,13 +77,16 @@ impl<'a> Shape<'a> {
             shape.morphed += usize::from(primitive.morph_targets().len() > 0);
             shape.parts.push(Part { primitive, mesh: mesh.index(), vertices, corners, positions, normals });
         }
+        shape.sizes = shape.sizes();
         Ok(shape)
     }
 
-    /// The numbers of vertices, normals and triangles, and of sets of joints and weights.
-    pub fn sizes(&self) -> [usize; 4] {
+    fn sizes(&self) -> [usize; 4] {
         let sum = |numbers: &mut dyn Iterator<Item = usize>| numbers.fold(0, usize::saturating_add);
-        let influences = self.positions.iter().map(|vectors| vectors.count.saturating_mul(vectors.influences.len()));
+        // A part takes time even if it has no triangles.
+        let influences =
+            |attribute: &Attribute| attribute.influences.len().saturating_mul(attribute.count.saturating_add(1));
+        let others = self.positions.iter().map(influences).chain([self.parts.len()]);
         [
             sum(&mut self.positions.iter().map(|positions| positions.count)),
             sum(&mut self.normals.iter().map(|normals| normals.count)),
@@ -89,7 +94,7 @@ impl<'a> Shape<'a> {
                 Mode::Triangles => part.corners / 3,
                 _ => part.corners.saturating_sub(2),
             })),
-            sum(&mut { influences }),
+            sum(&mut { others }),
         ]
     }
 }

@@ -231,6 +231,20 @@ fn a_mesh_shown_too_often_is_refused_before_it_is_expanded() {
     assert!(error.to_string().contains("from files of"), "{error}");
 }
 
+/// Nothing of it makes the scene larger, but all of it would be visited.
+#[test]
+fn many_empty_primitives_shown_often_are_refused() {
+    let mut document = document();
+    let empty = json!({"attributes": {"POSITION": 0}, "indices": 5});
+    document["accessors"].as_array_mut().unwrap().push(json!({"componentType": 5121, "type": "SCALAR", "count": 0}));
+    let primitives = document["meshes"][0]["primitives"].as_array_mut().unwrap();
+    primitives.extend(std::iter::repeat_n(empty, 20_000));
+    document["nodes"] = (0..20_000).map(|_| json!({"mesh": 0})).collect();
+    document["scenes"][0]["nodes"] = (0..20_000).collect();
+    let error = loaded(document.to_string().as_bytes()).unwrap_err().to_string();
+    assert!(error.contains("its nodes show 40000 triangles") && error.contains("do not fit"), "{error}");
+}
+
 #[test]
 fn malformed_binary_files_are_refused() {
     let file = binary();
