@@ -1,12 +1,15 @@
 //! The buffers of a glTF file.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use super::document::Buffer;
+use gltf::json::Buffer;
+use percent_encoding::percent_decode_str;
+
 use crate::scene::load::below;
 use crate::scene::load::error::{Fault, message, quoted};
 
@@ -14,51 +17,39 @@ use crate::scene::load::error::{Fault, message, quoted};
 pub(super) type Bytes = Rc<Vec<u8>>;
 
 pub(super) fn size(buffers: &[Bytes]) -> usize {
-    let mut distinct: Vec<&Bytes> = buffers.iter().collect();
-    distinct.sort_by_key(|data| Rc::as_ptr(data));
-    distinct.dedup_by(|a, b| Rc::ptr_eq(a, b));
-    distinct.iter().map(|data| data.len()).sum()
+    let distinct: HashMap<_, _> = buffers.iter().map(|data| (Rc::as_ptr(data), data.len())).collect();
+    distinct.values().sum()
 }
 
 /// Reads the files of the buffers, each once, and takes embedded data out of the document.
 pub(super) fn read(list: &mut [Buffer], mut chunk: Option<Vec<u8>>, folder: &Path) -> Result<Vec<Bytes>, Fault> {
-    let fault = |number: usize| move |problem: String| Fault::part(format!("buffer {number}"), problem);
-    let mut files: Vec<Option<PathBuf>> = vec![None; list.len()];
-    // Read no more of a file than its longest buffer needs.
-    let mut longest: HashMap<PathBuf, u64> = HashMap::new();
-    for (number, buffer) in list.iter().enumerate() {
-        if let Some(uri) = buffer.uri.as_deref().filter(|uri| !uri.starts_with("data:")) {
-            let path = file(uri, folder).map_err(fault(number))?;
-            let length = longest.entry(path.clone()).or_default();
-            *length = buffer.byte_length.max(*length);
-            files[number] = Some(path);
-        }
-    }
-
-    let mut read: HashMap<PathBuf, Bytes> = HashMap::new();
-    let mut buffers = Vec::with_capacity(files.len());
-    for (number, (buffer, path)) in list.iter_mut().zip(files).enumerate() {
-        let data = match (buffer.uri.take(), path) {
-            (_, Some(path)) => match read.get(&path) {
-                Some(data) => Rc::clone(data),
-                None => {
-                    let data = read_start(&path, longest[&path]).map_err(fault(number))?;
-                    read.insert(path, Rc::clone(&data));
-                    data
+    // No more is read of any file.
+    let longest = list.iter().map(|buffer| buffer.byte_length.0).max().unwrap_or(0);
+    let mut files: HashMap<PathBuf, Bytes> = HashMap::new();
+    let mut read = |number: usize, uri: Option<String>| {
+        Ok(match uri {
+            Some(uri) if uri.starts_with("data:") => Rc::new(embedded(&uri)?),
+            Some(uri) => match files.entry(file(&uri, folder)?) {
+                Entry::Occupied(file) => Rc::clone(file.get()),
+                Entry::Vacant(file) => {
+                    let data = read_start(file.key(), longest)?;
+                    Rc::clone(file.insert(Rc::new(data)))
                 }
             },
-            (Some(uri), None) => Rc::new(embedded(&uri).map_err(fault(number))?),
-            (None, None) if number > 0 => {
-                return Err(fault(number)("it has no URI, and only buffer 0 may lie in a binary chunk".to_owned()));
-            }
-            (None, None) => {
+            None if number > 0 => return Err("it has no URI, and only buffer 0 may lie in a binary chunk".to_owned()),
+            None => {
                 let none = "it has no URI and the file has no binary chunk for it: export the file again";
-                Rc::new(chunk.take().ok_or_else(|| fault(number)(none.to_owned()))?)
+                Rc::new(chunk.take().ok_or(none)?)
             }
-        };
-        if (data.len() as u64) < buffer.byte_length {
-            let (owed, found) = (buffer.byte_length, data.len());
-            return Err(fault(number)(format!("it should have {owed} bytes and has {found}: it is truncated")));
+        })
+    };
+    let mut buffers = Vec::new();
+    for (number, buffer) in list.iter_mut().enumerate() {
+        let fault = |problem: String| Fault::part(format!("buffer {number}"), problem);
+        let data = read(number, buffer.uri.take()).map_err(fault)?;
+        let (owed, found) = (buffer.byte_length.0, data.len());
+        if (found as u64) < owed {
+            return Err(fault(format!("it should have {owed} bytes and has {found}: it is truncated")));
         }
         buffers.push(data);
     }
@@ -70,7 +61,7 @@ fn embedded(uri: &str) -> Result<Vec<u8>, String> {
     base64::decode(data).map_err(|error| format!("its data URI cannot be read: {}", message(error)))
 }
 
-fn read_start(path: &Path, length: u64) -> Result<Bytes, String> {
+fn read_start(path: &Path, length: u64) -> Result<Vec<u8>, String> {
     let mut data = Vec::new();
     File::open(path)
         .and_then(|file| {
@@ -78,7 +69,7 @@ fn read_start(path: &Path, length: u64) -> Result<Bytes, String> {
             file.take(length).read_to_end(&mut data)
         })
         .map_err(|cause| format!("its file {} cannot be read ({cause})", quoted(path.to_string_lossy().as_bytes())))?;
-    Ok(Rc::new(data))
+    Ok(data)
 }
 
 /// The canonical path of the file that a URI names; the file must be below this one's folder.
@@ -89,28 +80,14 @@ fn file(uri: &str, folder: &Path) -> Result<PathBuf, String> {
     if uri.contains(':') {
         return Err(format!("its URI {} is no relative path: put the buffer beside the file", quoted(uri)));
     }
-    let name = unescape(uri).ok_or_else(|| format!("its URI {} is not in UTF-8", quoted(uri)))?;
-    let outside = || format!("its file {} is not below the folder of this one: put it there", quoted(&name));
+    let not_text = |_| format!("its URI {} is not in UTF-8", quoted(uri));
+    let name = percent_decode_str(uri).decode_utf8().map_err(not_text)?;
+    let shown = quoted(name.as_bytes());
+    let outside = || format!("its file {shown} is not below the folder of this one: put it there");
     let path = below(folder, &name).ok_or_else(outside)?;
     match fs::metadata(&path) {
         Ok(file) if file.is_file() => Ok(fs::canonicalize(&path).unwrap_or(path)),
-        Ok(_) => Err(format!("its file {} is not a regular file: name the file of the buffer", quoted(&name))),
-        Err(cause) => Err(format!("its file {} cannot be read ({cause}): put it beside this one", quoted(&name))),
+        Ok(_) => Err(format!("its file {shown} is not a regular file: name the file of the buffer")),
+        Err(cause) => Err(format!("its file {shown} cannot be read ({cause}): put it beside this one")),
     }
-}
-
-/// The text with `%xx` replaced by the byte of that number.
-fn unescape(uri: &str) -> Option<String> {
-    let mut bytes = Vec::with_capacity(uri.len());
-    let mut rest = uri.as_bytes();
-    while let Some((&first, after)) = rest.split_first() {
-        let hex = |b: &u8| char::from(*b).to_digit(16);
-        let escaped = match (first, after) {
-            (b'%', [high, low, ..]) => hex(high).zip(hex(low)).map(|(high, low)| (high * 16 + low) as u8),
-            _ => None,
-        };
-        bytes.push(escaped.unwrap_or(first));
-        rest = if escaped.is_some() { &after[2..] } else { after };
-    }
-    String::from_utf8(bytes).ok()
 }

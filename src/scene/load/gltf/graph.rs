@@ -1,102 +1,97 @@
 //! The node graph of a glTF file.
 
 use glam::{DMat4, DQuat, DVec3};
+use gltf::scene::Transform;
+use gltf::{Document, Node};
 
-use super::document::{Document, Node};
+use super::placement::Placement;
+use super::text::Instances;
 use crate::scene::load::error::Fault;
 
 /// Deeper graphs are rejected.
 const DEEPEST: usize = 1024;
 
-pub(super) struct Placement {
-    pub node: usize,
-    pub mesh: usize,
-    pub transform: DMat4,
-}
-
 /// The meshes of the default scene, or of all roots when the file names no default scene, in the order of a walk that
-/// visits a node before its children.
+/// visits a node before its children; and the transforms of all nodes to world space.
 ///
 /// # Errors
 /// A graph that is not a forest: a node with two parents, a cycle, a scene that shows a node twice or names one that is
 /// no root; or a graph deeper than 1024 nodes.
-pub(super) fn placements(document: &Document) -> Result<Vec<Placement>, Fault> {
-    let nodes = &document.nodes;
-    let mut parent: Vec<Option<usize>> = vec![None; nodes.len()];
-    for (number, node) in nodes.iter().enumerate() {
-        for &child in &node.children {
-            if let Some(first) = parent[child].replace(number) {
-                let problem = format!("it is a child of node {first} and of node {number}: give it one parent");
-                return Err(Fault::part(format!("node {child}"), problem));
+pub(super) fn placements<'a>(
+    document: &'a Document,
+    instances: &Instances,
+) -> Result<(Vec<Placement<'a>>, Vec<DMat4>), Fault> {
+    let fault = |node: usize, problem: String| Err(Fault::part(format!("node {node}"), problem));
+    let nodes: Vec<Node> = document.nodes().collect();
+    let mut parents: Vec<Option<usize>> = vec![None; nodes.len()];
+    for node in &nodes {
+        for child in node.children().map(|child| child.index()) {
+            if let Some(first) = parents[child].replace(node.index()) {
+                let problem = format!("it is a child of node {first} and of node {}: give it one parent", node.index());
+                return fault(child, problem);
             }
         }
     }
-    let roots = || (0..nodes.len()).filter(|&n| parent[n].is_none());
-    let seen = walk(nodes, roots(), |_, _, _| ())?;
-    if let Some(number) = seen.iter().position(|seen| !seen) {
-        return Err(Fault::part(format!("node {number}"), "it is its own ancestor: remove the cycle"));
-    }
-
-    if let Some(scene) = document.scene {
-        let shown = &document.scenes[scene].nodes;
-        if let Some(at) = shown.iter().position(|&node| parent[node].is_some()) {
-            let problem = format!("node {} is a child of another one: list roots only", shown[at]);
-            return Err(Fault::part(format!("scenes[{scene}].nodes[{at}]"), problem));
+    let is_root = |node: usize| parents[node].is_none();
+    let shown: Vec<usize> = match document.default_scene() {
+        Some(scene) => scene.nodes().map(|node| node.index()).collect(),
+        None => (0..nodes.len()).filter(|&node| is_root(node)).collect(),
+    };
+    let mut is_shown = vec![false; nodes.len()];
+    for &node in &shown {
+        if std::mem::replace(&mut is_shown[node], true) {
+            return fault(node, "the scene shows it twice: list roots only, each once".to_owned());
         }
     }
 
+    // Visit all nodes, those that are shown first.
+    let hidden = (0..nodes.len()).filter(|&node| !is_shown[node]);
+    let roots = hidden.chain(shown.iter().rev().copied()).filter(|&node| is_root(node));
+    let mut waiting: Vec<(usize, DMat4, usize)> = roots.map(|node| (node, DMat4::IDENTITY, 1)).collect();
+    let mut worlds = vec![None; nodes.len()];
     let mut placements = Vec::new();
-    let place = |number: usize, node: &Node, transform| {
-        if let Some(mesh) = node.mesh {
-            placements.push(Placement { node: number, mesh, transform });
-        }
-    };
-    match document.scene {
-        Some(scene) => walk(nodes, document.scenes[scene].nodes.iter().copied(), place)?,
-        None => walk(nodes, roots(), place)?,
-    };
-    Ok(placements)
-}
-
-/// Visits the nodes below `roots` with their transforms to world space. Returns which were visited.
-fn walk(
-    nodes: &[Node],
-    roots: impl Iterator<Item = usize>,
-    mut visit: impl FnMut(usize, &Node, DMat4),
-) -> Result<Vec<bool>, Fault> {
-    let mut seen = vec![false; nodes.len()];
-    let mut waiting: Vec<(usize, DMat4, usize)> = roots.map(|n| (n, DMat4::IDENTITY, 1)).collect();
-    waiting.reverse();
     while let Some((number, above, depth)) = waiting.pop() {
-        if std::mem::replace(&mut seen[number], true) {
-            return Err(Fault::part(format!("node {number}"), "the scene shows it twice: list roots only, each once"));
-        }
         if depth > DEEPEST {
-            let problem = format!("it lies deeper than {DEEPEST} nodes: flatten the hierarchy");
-            return Err(Fault::part(format!("node {number}"), problem));
+            return fault(number, format!("it lies deeper than {DEEPEST} nodes: flatten the hierarchy"));
         }
         let node = &nodes[number];
-        let transform = above * local(node);
-        visit(number, node, transform);
+        let world = above * local(node.transform());
+        worlds[number] = Some(world);
+        if let Some(mesh) = node.mesh().filter(|_| is_shown[number]) {
+            let instances = instances.get(&number).copied().unwrap_or_default();
+            placements.push(Placement { node: number, world, mesh, skin: node.skin(), instances });
+        }
         let first = waiting.len();
-        waiting.extend(node.children.iter().map(|&child| (child, transform, depth + 1)));
+        for child in node.children().map(|child| child.index()) {
+            is_shown[child] = is_shown[number];
+            waiting.push((child, world, depth + 1));
+        }
         waiting[first..].reverse();
     }
-    Ok(seen)
+    if let Some(node) = worlds.iter().position(Option::is_none) {
+        return fault(node, "it is its own ancestor: remove the cycle".to_owned());
+    }
+    if let (Some(scene), Some(i)) = (document.default_scene(), shown.iter().position(|&node| !is_root(node))) {
+        let problem = format!("node {} is a child of another one: list roots only", shown[i]);
+        return Err(Fault::part(format!("scenes[{}].nodes[{i}]", scene.index()), problem));
+    }
+    Ok((placements, worlds.into_iter().flatten().collect()))
 }
 
-fn local(node: &Node) -> DMat4 {
-    if let Some(matrix) = node.matrix {
-        return DMat4::from_cols_array(&matrix.map(f64::from));
+pub(super) fn local(transform: Transform) -> DMat4 {
+    match transform {
+        Transform::Matrix { matrix } => double(matrix),
+        Transform::Decomposed { translation, rotation, scale } => {
+            // A unit quaternion in f32 is not of unit length in f64.
+            let rotation = DQuat::from_array(rotation.map(f64::from));
+            let length = rotation.length();
+            let rotation = if length > 0.0 && length.is_finite() { rotation / length } else { DQuat::IDENTITY };
+            let vector = |v: [f32; 3]| DVec3::from(v.map(f64::from));
+            DMat4::from_scale_rotation_translation(vector(scale), rotation, vector(translation))
+        }
     }
-    let vector = |v: Option<[f32; 3]>, default| v.map_or(default, |v| DVec3::from(v.map(f64::from)));
-    // A unit quaternion in f32 is not of unit length in f64.
-    let rotation = node.rotation.map_or(DQuat::IDENTITY, |r| DQuat::from_array(r.map(f64::from)));
-    let length = rotation.length();
-    let rotation = if length > 0.0 && length.is_finite() { rotation / length } else { DQuat::IDENTITY };
-    DMat4::from_scale_rotation_translation(
-        vector(node.scale, DVec3::ONE),
-        rotation,
-        vector(node.translation, DVec3::ZERO),
-    )
+}
+
+pub(super) fn double(columns: [[f32; 4]; 4]) -> DMat4 {
+    DMat4::from_cols_array_2d(&columns.map(|column| column.map(f64::from)))
 }

@@ -1,130 +1,126 @@
 //! A mesh of a glTF file, in its own space.
 
-use glam::DVec3;
+use gltf::mesh::Mode;
+use gltf::{Mesh, Primitive, Semantic};
+use indexmap::IndexSet;
 
 use super::accessors::Accessors;
-use super::document::{Mesh, TRIANGLE_FAN, TRIANGLE_STRIP, TRIANGLES};
 use crate::scene::load::error::Fault;
 
-pub(super) const NO_MATERIAL: u32 = u32::MAX;
-
-/// The accessors of a mesh, checked but not yet read. Its primitives often share accessors.
+/// A mesh whose accessors are counted, but not yet read. Its primitives often share accessors.
 #[derive(Default)]
-pub(super) struct Shape {
-    /// Indices of accessors.
-    pub positions: Vec<usize>,
-    pub normals: Vec<usize>,
-    pub parts: Vec<TriangleAccessors>,
-    /// The box of all positions.
-    pub bounds: Option<[DVec3; 2]>,
+pub(super) struct Shape<'a> {
+    pub positions: IndexSet<Attribute>,
+    pub normals: IndexSet<Attribute>,
+    pub parts: Vec<Part<'a>>,
+    /// The numbers of vertices, normals and triangles, and of what else is read to place them.
+    pub sizes: [usize; 4],
     /// Primitives that are points or lines, or have no positions.
     pub left_out: usize,
     /// Primitives with morph targets.
     pub morphed: usize,
 }
 
-pub(super) struct TriangleAccessors {
-    /// Index into [`Shape::positions`].
-    pub positions: usize,
-    /// Index into [`Shape::normals`]; that accessor is as long as the positions.
-    pub normals: Option<usize>,
-    /// The accessor of vertex indices; none if the corners are the vertices in order.
-    corners: Option<usize>,
-    /// The number of corners.
-    count: usize,
-    mode: u32,
-    pub material: u32,
+/// The accessors of vectors, and of the sets of joints and weights by which a skin moves them; all of one length.
+#[derive(PartialEq, Eq, Hash)]
+pub(super) struct Attribute {
+    pub vectors: usize,
+    pub influences: Vec<[usize; 2]>,
+    pub count: usize,
 }
 
-impl Shape {
-    /// Checks the triangles of a mesh and their accessors.
-    pub fn check(number: usize, mesh: &Mesh, accessors: &Accessors) -> Result<Self, Fault> {
+/// The triangles of a primitive.
+pub(super) struct Part<'a> {
+    pub primitive: Primitive<'a>,
+    mesh: usize,
+    vertices: usize,
+    corners: usize,
+    /// Index into [`Shape::positions`].
+    pub positions: usize,
+    /// Index into [`Shape::normals`].
+    pub normals: Option<usize>,
+}
+
+impl<'a> Shape<'a> {
+    pub fn count(mesh: &Mesh<'a>) -> Result<Self, Fault> {
         let mut shape = Self::default();
-        for (i, primitive) in mesh.primitives.iter().enumerate() {
-            let fault = |problem: String| Fault::part(format!("mesh {number}, primitive {i}"), problem);
-            let Some(position) = primitive.attributes.position.filter(|_| primitive.mode >= TRIANGLES) else {
+        for primitive in mesh.primitives() {
+            let fault = |problem| fault(mesh.index(), &primitive, problem);
+            let is_surface = !matches!(primitive.mode(), Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip);
+            let Some(positions) = primitive.get(&Semantic::Positions).filter(|_| is_surface) else {
                 shape.left_out += 1;
                 continue;
             };
-            let [min, max] = accessors.check_positions(position)?;
-            let [all_min, all_max] = shape.bounds.unwrap_or([min, max]);
-            shape.bounds = Some([all_min.min(min), all_max.max(max)]);
-            let vertices = accessors.count(position);
-            let positions = place(&mut shape.positions, position);
-
-            let normals = match primitive.attributes.normal {
-                None => None,
-                Some(normal) if accessors.count(normal) != vertices => {
-                    let problem = format!("it has {} normals for {vertices} vertices", accessors.count(normal));
-                    return Err(fault(problem));
+            let vertices = positions.count();
+            let attribute = |semantic: Semantic| match primitive.get(&semantic) {
+                Some(accessor) if accessor.count() != vertices => {
+                    let (name, count) = (semantic.to_string(), accessor.count());
+                    Err(fault(format!("its {name} has {count} elements for {vertices} vertices")))
                 }
-                Some(normal) => {
-                    accessors.check_vectors(normal)?;
-                    Some(place(&mut shape.normals, normal))
-                }
+                accessor => Ok(accessor.map(|accessor| accessor.index())),
             };
-            let corners = primitive.indices;
-            if let Some(accessor) = corners
-                && let Some((number, index)) = accessors.check_indices(accessor)?
-                && index as usize >= vertices
-            {
-                let problem = format!("its index {number} names vertex {index}, but there are only {vertices}");
-                return Err(fault(problem));
+            let mut influences = Vec::new();
+            for set in 0.. {
+                match (attribute(Semantic::Joints(set))?, attribute(Semantic::Weights(set))?) {
+                    (Some(joints), Some(weights)) => influences.push([joints, weights]),
+                    _ => break,
+                }
             }
-            let count = corners.map_or(vertices, |accessor| accessors.count(accessor));
-            if primitive.mode == TRIANGLES && count % 3 != 0 {
-                return Err(fault(format!("its {count} corners do not make whole triangles")));
+            let normals = attribute(Semantic::Normals)?;
+            let corners = primitive.indices().map_or(vertices, |indices| indices.count());
+            if primitive.mode() == Mode::Triangles && corners % 3 != 0 {
+                return Err(fault(format!("its {corners} corners do not make whole triangles")));
             }
-            shape.morphed += usize::from(!primitive.targets.is_empty());
-            let material = primitive.material.map_or(NO_MATERIAL, |material| material as u32);
-            shape.parts.push(TriangleAccessors { positions, normals, corners, count, mode: primitive.mode, material });
+            let whole = |vectors| Attribute { vectors, influences: influences.clone(), count: vertices };
+            let positions = shape.positions.insert_full(whole(positions.index())).0;
+            let normals = normals.map(|normals| shape.normals.insert_full(whole(normals)).0);
+            shape.morphed += usize::from(primitive.morph_targets().len() > 0);
+            shape.parts.push(Part { primitive, mesh: mesh.index(), vertices, corners, positions, normals });
         }
+        shape.sizes = shape.sizes();
         Ok(shape)
     }
 
-    /// The numbers of vertices, normals and triangles.
-    pub fn sizes(&self, accessors: &Accessors) -> [usize; 3] {
-        let total = |list: &[usize]| list.iter().map(|&n| accessors.count(n)).fold(0, usize::saturating_add);
-        let triangles = self.parts.iter().map(TriangleAccessors::triangles).fold(0, usize::saturating_add);
-        [total(&self.positions), total(&self.normals), triangles]
+    fn sizes(&self) -> [usize; 4] {
+        let sum = |numbers: &mut dyn Iterator<Item = usize>| numbers.fold(0, usize::saturating_add);
+        // A part takes time even if it has no triangles.
+        let influences =
+            |attribute: &Attribute| attribute.influences.len().saturating_mul(attribute.count.saturating_add(1));
+        let others = self.positions.iter().map(influences).chain([self.parts.len()]);
+        [
+            sum(&mut self.positions.iter().map(|positions| positions.count)),
+            sum(&mut self.normals.iter().map(|normals| normals.count)),
+            sum(&mut self.parts.iter().map(|part| match part.primitive.mode() {
+                Mode::Triangles => part.corners / 3,
+                _ => part.corners.saturating_sub(2),
+            })),
+            sum(&mut { others }),
+        ]
     }
 }
 
-/// The index of an accessor in a list; adds it if it is missing.
-fn place(list: &mut Vec<usize>, accessor: usize) -> usize {
-    list.iter().position(|&other| other == accessor).unwrap_or_else(|| {
-        list.push(accessor);
-        list.len() - 1
-    })
-}
-
-impl TriangleAccessors {
-    fn triangles(&self) -> usize {
-        if self.mode == TRIANGLES { self.count / 3 } else { self.count.saturating_sub(2) }
-    }
-
-    /// Calls `take` with the vertex indices of each triangle.
-    pub fn for_each(&self, accessors: &Accessors, mut take: impl FnMut([u32; 3])) {
-        let corners: Box<dyn Iterator<Item = u32>> = match self.corners {
-            Some(accessor) => Box::new(accessors.indices(accessor)),
-            None => Box::new(0..self.count as u32),
+impl<'a> Part<'a> {
+    /// The vertices of its triangles.
+    pub fn triangles(&self, accessors: Accessors<'a>) -> Result<Vec<[u32; 3]>, Fault> {
+        let corners: Vec<u32> = match self.primitive.indices() {
+            Some(indices) => accessors.indices(indices)?.collect(),
+            None => (0..self.vertices as u32).collect(),
         };
-        let [mut a, mut b] = [0; 2];
-        for (i, c) in corners.enumerate() {
-            let last = match self.mode {
-                TRIANGLE_STRIP if i % 2 == 1 => [a, c, b],
-                _ => [a, b, c],
-            };
-            if i % 3 == 2 || i > 2 && self.mode != TRIANGLES {
-                take(last);
-            }
-            match self.mode {
-                TRIANGLE_STRIP => [a, b] = [b, c],
-                TRIANGLE_FAN if i == 0 => a = c,
-                TRIANGLE_FAN => b = c,
-                _ if i % 3 == 0 => a = c,
-                _ => b = c,
-            }
+        if let Some(i) = corners.iter().position(|&vertex| vertex as usize >= self.vertices) {
+            let problem = format!("its index {i} names vertex {}, but there are only {}", corners[i], self.vertices);
+            return Err(fault(self.mesh, &self.primitive, problem));
         }
+        Ok(match self.primitive.mode() {
+            Mode::TriangleStrip => {
+                let turned = |(i, c): (usize, &[u32])| if i % 2 == 0 { [c[0], c[1], c[2]] } else { [c[0], c[2], c[1]] };
+                corners.windows(3).enumerate().map(turned).collect()
+            }
+            Mode::TriangleFan => corners.windows(2).skip(1).map(|c| [corners[0], c[0], c[1]]).collect(),
+            _ => corners.as_chunks().0.to_vec(),
+        })
     }
+}
+
+fn fault(mesh: usize, primitive: &Primitive, problem: String) -> Fault {
+    Fault::part(format!("mesh {mesh}, primitive {}", primitive.index()), problem)
 }

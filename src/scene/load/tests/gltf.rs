@@ -1,4 +1,6 @@
 mod faults;
+mod geometry;
+mod tolerance;
 
 use glam::Vec3;
 use serde_json::{Value, json};
@@ -132,7 +134,10 @@ fn strips_and_fans_and_what_is_no_triangle() {
     assert_eq!(mode(6).triangles, [[0, 1, 2], [0, 2, 3]]);
     let primitive = |mode: u32| json!({"attributes": {"POSITION": 0}, "mode": mode});
     for lines in 0..4 {
-        refused(&[("/meshes/0/primitives/0", primitive(lines))], &["no triangles", "only points, lines"]);
+        refused(
+            &[("/meshes/0/primitives/0", primitive(lines))],
+            &["no triangles", "0 primitives of triangles, and 1 of points, lines"],
+        );
         let both = gltf(&[("/meshes/0/primitives/-", primitive(lines))]);
         assert!(both.triangles.len() == 2 && both.notes[0].starts_with("1 primitive is points"), "{:?}", both.notes);
     }

@@ -7,17 +7,22 @@ use super::{binary, changed, data, document, gltf, loaded, refused};
 
 #[test]
 fn files_that_show_nothing_are_refused_with_a_reason() {
-    let plain = |changes: &[(&str, Value)], word: &str| refused(changes, &["no triangles", word]);
-    plain(&[("/scenes/0/nodes", json!([]))], "scene 0, its default, has no nodes");
-    plain(&[("/nodes/0", json!({"name": "empty"}))], "no node of scene 0, its default, has a mesh");
-    plain(&[("/meshes", json!([])), ("/nodes", json!([{}]))], "it has no meshes");
+    let shown = |nodes, meshes, surfaces, others| {
+        let nodes = format!("it shows no triangles: of its {nodes} nodes and {meshes} meshes it shows");
+        format!("{nodes} {surfaces} primitives of triangles, and {others} of points, lines or without positions")
+    };
+    let plain = |changes: &[(&str, Value)], shown: String| refused(changes, &[&shown]);
+    plain(&[("/scenes/0/nodes", json!([]))], shown(1, 1, 0, 0));
+    plain(&[("/nodes/0", json!({"name": "empty"}))], shown(1, 1, 0, 0));
+    plain(&[("/meshes", json!([])), ("/nodes", json!([{}]))], shown(1, 0, 0, 0));
+    plain(&[("/meshes/0/primitives", json!([]))], shown(1, 1, 0, 0));
     plain(
         &[
             ("/meshes/0/primitives/0/indices", json!(null)),
             ("/accessors/0/count", json!(0)),
             ("/accessors/1/count", json!(0)),
         ],
-        "too few corners for a triangle",
+        shown(1, 1, 1, 0),
     );
     let mut all = document();
     for key in ["scene", "scenes", "nodes"] {
@@ -27,18 +32,15 @@ fn files_that_show_nothing_are_refused_with_a_reason() {
         let message = loaded(all.to_string().as_bytes()).unwrap_err().to_string();
         assert!(message.ends_with(why), "{message}");
     };
-    assert_why(&all, "it has no nodes, which would show its meshes, 1");
+    assert_why(&all, &shown(0, 1, 0, 0));
     all["nodes"] = json!([{}]);
-    assert_why(&all, "no node has a mesh");
     all["scenes"] = json!([{"name": "empty"}]);
     all["scene"] = json!(0);
-    assert_why(&all, "scene 0, its default, has no nodes");
+    assert_why(&all, &shown(1, 1, 0, 0));
     all["nodes"] = json!([{"mesh": 0}]);
     all["scenes"] = json!([{"nodes": [0]}, {"name": "empty"}]);
     let whole = loaded(all.to_string().as_bytes()).unwrap();
     assert!(!whole.triangles.is_empty(), "a second scene may be empty");
-    all["meshes"][0]["primitives"] = json!([]);
-    assert_why(&all, "its meshes have no primitives");
 }
 
 #[test]
@@ -86,7 +88,7 @@ fn node_graphs_that_are_no_forest_are_refused() {
     nodes(json!([{"mesh": 0}, {"children": [0]}, {"children": [0]}]), &["node 0:", "node 1 and of node 2"]);
     nodes(json!([{"mesh": 0}, {"children": [2]}, {"children": [1]}]), &["node 1:", "own ancestor"]);
     nodes(json!([{"mesh": 0, "children": [0]}]), &["node 0:", "own ancestor"]);
-    nodes(json!([{"mesh": 0}, {"children": [9]}]), &["nodes[1]", "out of bounds"]);
+    nodes(json!([{"mesh": 0}, {"children": [9]}]), &["nodes[1].children[0]", "out of bounds"]);
     refused(&[("/scenes/0/nodes", json!([0, 0]))], &["node 0:", "twice"]);
     let child = [("/nodes", json!([{"children": [1]}, {"mesh": 0}])), ("/scenes/0/nodes", json!([1]))];
     refused(&child, &["scenes[0].nodes[0]", "node 1 is a child of another one"]);
@@ -102,33 +104,45 @@ fn malformed_files_are_refused_with_their_part() {
         (
             "/extensionsRequired",
             json!(["KHR_draco_mesh_compression"]),
-            ["requires `KHR_draco_mesh_compression`", "export"],
+            ["extensionsRequired: the file requires `KHR_draco_mesh_compression`", "`gltf-transform cp IN OUT`"],
         ),
         (
             "/meshes/0/primitives/0/attributes/POSITION",
             json!(77),
-            ["meshes[0].primitives[0].attributes.POSITION:", "index 77 is out of bounds"],
+            ["meshes[0].primitives[0].attributes:", "index 77 is out of bounds"],
         ),
         (
             "/meshes/0/primitives/0/attributes/NORMAL",
             json!(77),
-            ["meshes[0].primitives[0].attributes.NORMAL:", "index 77 is out of bounds"],
+            ["meshes[0].primitives[0].attributes:", "index 77 is out of bounds"],
         ),
-        ("/meshes/0/primitives/0/attributes/POSITION", json!(3), ["accessor 3:", "VEC3 of f32"]),
-        ("/meshes/0/primitives/0/indices", json!(0), ["accessor 0:", "SCALAR and unsigned"]),
-        ("/meshes/0/primitives/0/material", json!(9), ["meshes[0].primitives[0].material:", "index 9 is out of"]),
-        ("/meshes/0/primitives/0/material", json!(u64::MAX), ["primitives[0].material:", "is out of bounds"]),
-        ("/meshes/0/primitives/0/mode", json!(9), ["meshes[0]", "invalid"]),
+        (
+            "/meshes/0/primitives/0/attributes",
+            json!({"POSITION": 3}),
+            ["accessor 3: it must be Vec3", "not Scalar of U16"],
+        ),
+        (
+            "/meshes/0/primitives/0",
+            json!({"attributes": {"POSITION": 0}, "indices": 0, "mode": 5}),
+            ["accessor 0: it must be Scalar of unsigned", "not Vec3 of F32"],
+        ),
+        ("/meshes/0/primitives/0/material", json!(9), ["meshes[0].primitives[0].material:", "index out of bounds"]),
+        (
+            "/meshes/0/primitives/0/material",
+            json!(u64::MAX),
+            ["primitives[0].material:", "index 18446744073709551615 is out of bounds"],
+        ),
+        ("/meshes/0/primitives/0/mode", json!(9), ["meshes[0].primitives[0].mode:", "invalid value"]),
         ("/accessors/0/count", json!(5), ["accessor 0:", "5 elements reach beyond the 48 bytes"]),
         ("/accessors/0/count", json!(u64::MAX), ["accessor 0:", "reach beyond"]),
-        ("/accessors/0/count", json!(2), ["mesh 0, primitive 0:", "4 normals for 2 vertices"]),
-        ("/accessors/0/count", json!(0), ["mesh 0, primitive 0:", "4 normals for 0 vertices"]),
+        ("/accessors/0/count", json!(2), ["mesh 0, primitive 0:", "its NORMAL has 4 elements for 2 vertices"]),
+        ("/accessors/0/count", json!(0), ["mesh 0, primitive 0:", "its NORMAL has 4 elements for 0 vertices"]),
         ("/accessors/0/byteOffset", json!(u64::MAX), ["accessor 0:", "reach beyond"]),
         ("/accessors/3/count", json!(5), ["mesh 0, primitive 0:", "5 corners"]),
         ("/bufferViews/0/byteLength", json!(1000), ["accessor 0:", "buffer view 0 reaches beyond"]),
         ("/bufferViews/0/byteOffset", json!(u64::MAX), ["accessor 0:", "buffer view 0 reaches beyond"]),
         ("/bufferViews/0/byteStride", json!(8), ["accessor 0:", "overlap"]),
-        ("/bufferViews/0/buffer", json!(5), ["accessor 0:", "of buffer 5, there are 1"]),
+        ("/bufferViews/0/buffer", json!(5), ["bufferViews[0].buffer:", "index out of bounds"]),
         ("/bufferViews/3/byteOffset", json!(48), ["primitive 0:", "names vertex"]),
         ("/buffers/0/byteLength", json!(1000), ["buffer 0:", "should have 1000 bytes and has 140"]),
         ("/buffers/0/uri", json!(""), ["buffer 0:", "its URI is empty"]),
@@ -145,13 +159,57 @@ fn malformed_files_are_refused_with_their_part() {
         ),
         ("/nodes/0/mesh", json!(1_u64 << 32), ["nodes[0].mesh:", "index 4294967296 is out of bounds"]),
         ("/scenes/0/nodes/0", json!(1_u64 << 32), ["scenes[0].nodes[0]:", "index 4294967296 is out of bounds"]),
-        ("/scene", json!(3), ["scene:", "it names scene 3, but the file has 1 scenes"]),
+        (
+            "/meshes/0/primitives/0/attributes/POSITION",
+            json!(1_u64 << 32),
+            ["attributes.POSITION:", "is out of bounds"],
+        ),
+        ("/meshes/0/primitives/0/mode", json!((1_u64 << 32) + 4), ["primitives[0].mode:", "is out of bounds"]),
+        ("/accessors/0/componentType", json!((1_u64 << 32) + 5126), ["componentType:", "is out of bounds"]),
+        ("/accessors/0/componentType", json!(5125), ["accessor 0: it must be Vec3", "not Vec3 of U32"]),
+        ("/accessors/0/componentType", json!(5124), ["accessors[0].componentType:", "invalid value"]),
+        ("/accessors/0/type", json!("VEC2"), ["accessor 0: it must be Vec3", "not Vec2 of F32"]),
+        ("/accessors/0/type", json!("VEC5"), ["accessors[0].type:", "invalid value"]),
+        ("/accessors/0/count", json!((1_u64 << 62) + 1), ["accessor 0:", "reach beyond"]),
+        ("/accessors/0/count", json!("4"), ["accessors[0].count:", "invalid type"]),
+        ("/accessors/3/componentType", json!(5126), ["accessor 3:", "reach beyond the 12 bytes"]),
+        ("/accessors/3/componentType", json!(5122), ["accessor 3: it must be Scalar of unsigned", "not Scalar of I16"]),
+        ("/materials", json!([[]]), ["materials:", "a list stands where glTF has none"]),
+        ("/meshes", json!({"a": {}}), ["meshes:", "invalid type: map"]),
+        ("/nodes/0/rotation", json!([1, 2]), ["nodes[0].rotation", "invalid length 2"]),
+        ("/asset", json!([]), ["asset:", "a list stands where glTF has none"]),
+        ("/scene", json!(3), ["scene:", "index out of bounds"]),
     ];
     for (pointer, value, words) in cases {
         refused(&[(pointer, value.clone())], words);
     }
+    let float = [("/accessors/4/componentType", json!(5126)), ("/meshes/0/primitives/0/indices", json!(4))];
+    refused(&float, &["accessor 4: it must be Scalar of unsigned", "not Scalar of F32"]);
+    for (key, value, words) in [
+        ("count", json!(0), "0 of its 4 elements are sparse"),
+        ("count", json!(5), "5 of its 4 elements are sparse"),
+        ("indices", json!({"bufferView": 2, "byteOffset": u64::MAX, "componentType": 5121}), "reach beyond"),
+        ("values", json!({"bufferView": 0, "byteOffset": u64::MAX}), "reach beyond"),
+        ("values", json!({"bufferView": 9}), "index out of bounds"),
+        ("indices", json!({"bufferView": 2, "componentType": 5126}), "invalid value"),
+    ] {
+        let indices = json!({"bufferView": 2, "componentType": 5121});
+        let mut sparse = json!({"count": 1, "indices": indices, "values": {"bufferView": 0}});
+        sparse[key] = value;
+        refused(&[("/accessors/0/sparse", sparse)], &["accessor", words]);
+    }
     let zeros = json!({"componentType": 5126, "type": "VEC3", "count": 4_000_000_000_u64, "sparse": {"count": 1, "indices": {"bufferView": 2, "componentType": 5121}, "values": {"bufferView": 0}}});
-    refused(&[("/accessors/0", zeros)], &["accessor 0:", "without data"]);
+    let bare = ("/meshes/0/primitives/0/attributes", json!({"POSITION": 0}));
+    refused(&[("/accessors/0", zeros), bare], &["4000000000 vertices", "do not fit"]);
+}
+
+/// Nine million bytes of nodes would take more than half a gigabyte of memory.
+#[test]
+fn a_document_of_too_many_objects_is_refused_before_it_is_parsed() {
+    let text = format!("{{\"asset\":{{\"version\":\"2.0\"}},\"nodes\":[{}{{}}]}}", "{},".repeat(3_000_000));
+    assert_refused("a.gltf", text.as_bytes(), &["its text describes 3000003 objects", "split the file"]);
+    let text = format!("{{\"asset\":{{\"version\":\"2.0\"}},\"extras\":[{}[]]}}", "[],".repeat(3_000_000));
+    assert_refused("a.gltf", text.as_bytes(), &["entries", "split the file"]);
 }
 
 #[test]
@@ -173,6 +231,20 @@ fn a_mesh_shown_too_often_is_refused_before_it_is_expanded() {
     assert!(error.to_string().contains("from files of"), "{error}");
 }
 
+/// Nothing of it makes the scene larger, but all of it would be visited.
+#[test]
+fn many_empty_primitives_shown_often_are_refused() {
+    let mut document = document();
+    let empty = json!({"attributes": {"POSITION": 0}, "indices": 5});
+    document["accessors"].as_array_mut().unwrap().push(json!({"componentType": 5121, "type": "SCALAR", "count": 0}));
+    let primitives = document["meshes"][0]["primitives"].as_array_mut().unwrap();
+    primitives.extend(std::iter::repeat_n(empty, 20_000));
+    document["nodes"] = (0..20_000).map(|_| json!({"mesh": 0})).collect();
+    document["scenes"][0]["nodes"] = (0..20_000).collect();
+    let error = loaded(document.to_string().as_bytes()).unwrap_err().to_string();
+    assert!(error.contains("its nodes show 40000 triangles") && error.contains("do not fit"), "{error}");
+}
+
 #[test]
 fn malformed_binary_files_are_refused() {
     let file = binary();
@@ -185,7 +257,7 @@ fn malformed_binary_files_are_refused() {
         file
     };
     assert_refused("a.glb", &with(4, 1), &["binary glTF 1"]);
-    assert_refused("a.glb", &with(8, 3), &["a length of 3 bytes"]);
+    assert_refused("a.glb", &with(8, 3), &["its first chunk is no whole JSON chunk"]);
     assert_refused("a.glb", &with(8, u32::MAX), &["truncated"]);
     assert_refused("a.glb", &with(12, u32::MAX), &["no glTF 2.0 file"]);
     let mut longer = file.clone();

@@ -1,0 +1,207 @@
+//! Quantised positions, instances and skins; extensions.
+
+use glam::{Quat, Vec3};
+use serde_json::{Value, json};
+
+use super::super::{face_normals, load_files};
+use super::{gltf, refused};
+use crate::scene::Model;
+
+/// The square with its corners as integers at 0 and `one`, `stride` bytes apart; as sparse elements if `is_sparse`.
+fn quantised(component: u32, one: [u8; 4], stride: usize, is_normalized: bool, is_sparse: bool) -> Model {
+    let size = if component < 5122 { 1 } else { 2 };
+    let mut bytes = vec![0; 4 * stride];
+    for (element, corner) in bytes.chunks_mut(stride).zip([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]) {
+        for (bytes, _) in element.chunks_mut(size).zip(corner).filter(|(_, c)| *c == 1) {
+            bytes.copy_from_slice(&one[..size]);
+        }
+    }
+    bytes.extend([0, 1, 2, 3]);
+    let mut positions =
+        json!({"bufferView": 0, "componentType": component, "type": "VEC3", "count": 4, "normalized": is_normalized});
+    if is_sparse {
+        positions.as_object_mut().unwrap().remove("bufferView");
+        let indices = json!({"bufferView": 1, "componentType": 5121});
+        positions["sparse"] = json!({"count": 4, "indices": indices, "values": {"bufferView": 0}});
+    }
+    let document = json!({
+        "asset": {"version": "2.0"},
+        "extensionsUsed": ["KHR_mesh_quantization"],
+        "extensionsRequired": ["KHR_mesh_quantization"],
+        "buffers": [{"uri": "a.bin", "byteLength": bytes.len()}],
+        "bufferViews": [
+            {"buffer": 0, "byteLength": 4 * stride, "byteStride": stride},
+            {"buffer": 0, "byteOffset": 4 * stride, "byteLength": 4}
+        ],
+        "accessors": [positions],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "mode": 6}]}],
+        "nodes": [{"mesh": 0}]
+    });
+    load_files(&[("a.gltf", document.to_string().as_bytes()), ("a.bin", &bytes)]).unwrap()
+}
+
+#[test]
+fn positions_are_integers_of_every_kind() {
+    for (component, one, normalized) in [
+        (5120, [0x81, 0, 0, 0], -1.0),
+        (5120, [0x80, 0, 0, 0], -1.0),
+        (5120, [3, 0, 0, 0], 3.0 / 127.0),
+        (5121, [0xff, 0, 0, 0], 1.0),
+        (5121, [3, 0, 0, 0], 3.0 / 255.0),
+        (5122, [0, 0x80, 0, 0], -1.0),
+        (5122, [1, 1, 0, 0], 257.0 / 32767.0),
+        (5123, [0xff, 0xff, 0, 0], 1.0),
+        (5123, [1, 1, 0, 0], 257.0_f32 / 65535.0),
+    ] {
+        let plain = match component {
+            5120 => f32::from(one[0] as i8),
+            5121 => f32::from(one[0]),
+            5122 => f32::from(i16::from_le_bytes([one[0], one[1]])),
+            _ => f32::from(u16::from_le_bytes([one[0], one[1]])),
+        };
+        for (stride, is_normalized, is_sparse) in
+            [(8, false, false), (8, true, false), (12, true, true), (8, false, true)]
+        {
+            let one_is = if is_normalized { normalized } else { plain };
+            let model = quantised(component, one, stride, is_normalized, is_sparse);
+            let corners = [Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y].map(|corner| corner * one_is);
+            assert_eq!(model.positions, corners, "{component} {one:?} {stride} {is_normalized} {is_sparse}");
+            assert_eq!(model.triangles, [[0, 1, 2], [0, 2, 3]]);
+            assert!(model.notes.is_empty());
+        }
+    }
+}
+
+/// A change of the node, with accessors of instances: translations, rotations and scales.
+fn instances(node: Value, required: bool) -> Vec<(&'static str, Value)> {
+    let bytes: Vec<u8> = [
+        [0.0, 0.0, 0.0],
+        [0.0, 0.0, 5.0],
+        // Two quaternions: none, and half a turn about z.
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0_f32],
+        // Scales.
+        [1.0, 1.0, 1.0],
+        [2.0, -1.0, 1.0],
+    ]
+    .as_flattened()
+    .iter()
+    .flat_map(|c| c.to_le_bytes())
+    .collect();
+    let mut changes = vec![
+        ("/buffers/-", json!({"uri": format!("data:;base64,{}", base64::encode(&bytes)), "byteLength": bytes.len()})),
+        ("/bufferViews/-", json!({"buffer": 1, "byteLength": bytes.len()})),
+    ];
+    for (kind, offset) in [("VEC3", 0), ("VEC4", 24), ("VEC3", 60)] {
+        let accessor = json!({"bufferView": 5, "byteOffset": offset, "componentType": 5126, "type": kind, "count": 2});
+        changes.push(("/accessors/-", accessor));
+    }
+    changes.push(("/nodes/0", node));
+    changes.push(("/extensionsUsed", json!(["EXT_mesh_gpu_instancing"])));
+    if required {
+        changes.push(("/extensionsRequired", json!(["EXT_mesh_gpu_instancing"])));
+    }
+    changes
+}
+
+fn instanced(attributes: Value) -> Value {
+    json!({"mesh": 0, "translation": [7, 0, 0], "extensions": {"EXT_mesh_gpu_instancing": {"attributes": attributes}}})
+}
+
+#[test]
+fn instances_are_expanded() {
+    for required in [false, true] {
+        let model = gltf(&instances(instanced(json!({"TRANSLATION": 5})), required));
+        assert_eq!((model.triangles.len(), model.notes.len()), (4, 0));
+        assert_eq!((model.positions[0], model.positions[4]), (Vec3::X * 7.0, Vec3::new(7.0, 0.0, 5.0)));
+    }
+    let all = gltf(&instances(instanced(json!({"TRANSLATION": 5, "ROTATION": 6, "SCALE": 7})), true));
+    // The corner (1, 1, 0), scaled and mirrored to (2, -1, 0), turned to (-2, 1, 0), shifted by the instance and the node.
+    let expected = Quat::from_xyzw(0.0, 0.0, 1.0, 0.0) * Vec3::new(2.0, -1.0, 0.0) + Vec3::new(7.0, 0.0, 5.0);
+    assert_eq!(all.positions[6], expected);
+    assert_eq!(all.triangles[2..], [[4, 6, 5], [4, 7, 6]], "a mirror turns the corners round");
+    assert!(face_normals(&all).iter().all(|normal| normal.z > 0.0));
+
+    let refused = |attributes: Value, words: &[&str]| refused(&instances(instanced(attributes), true), words);
+    refused(json!({"TRANSLATION": 5, "SCALE": 0}), &["accessor 0: it has 4 elements", "same instances"]);
+    refused(json!({"TRANSLATION": 6}), &["accessor 6: it must be Vec3"]);
+    refused(json!({"ROTATION": 5}), &["accessor 5: it must be Vec4"]);
+    for number in [json!(99), json!(u64::MAX), json!("5"), json!(-1)] {
+        refused(json!({"TRANSLATION": number}), &["accessor", "the document has 8 accessors"]);
+    }
+}
+
+/// The square, moved by two joints: its left side by one at x = 100, its right side by one at y = 5.
+fn skinned() -> Vec<(&'static str, Value)> {
+    let mut bytes: Vec<u8> = [[0, 0, 0, 0], [1, 0, 0, 0], [1, 0, 0, 0], [0, 0, 0, 0]].concat();
+    // Weights that do not sum to one.
+    bytes.extend([[255, 0, 0, 0], [100, 0, 0, 0], [128, 128, 0, 0], [255, 0, 0, 0_u8]].concat());
+    for z in [0.0, -1.0] {
+        let matrix = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, z, 1.0_f32];
+        bytes.extend(matrix.iter().flat_map(|c| c.to_le_bytes()));
+    }
+    let accessor = |offset, component, kind, count| json!({"bufferView": 5, "byteOffset": offset, "componentType": component, "type": kind, "count": count, "normalized": offset == 16});
+    let attributes = json!({"POSITION": 0, "NORMAL": 1, "JOINTS_0": 5, "WEIGHTS_0": 6});
+    vec![
+        ("/buffers/-", json!({"uri": format!("data:;base64,{}", base64::encode(&bytes)), "byteLength": bytes.len()})),
+        ("/bufferViews/-", json!({"buffer": 1, "byteLength": bytes.len()})),
+        ("/accessors/-", accessor(0, 5121, "VEC4", 4)),
+        ("/accessors/-", accessor(16, 5121, "VEC4", 4)),
+        ("/accessors/-", accessor(32, 5126, "MAT4", 2)),
+        ("/skins", json!([{"joints": [1, 2], "inverseBindMatrices": 7}])),
+        ("/nodes/0", json!({"mesh": 0, "skin": 0, "translation": [1000, 0, 0]})),
+        ("/nodes/-", json!({"translation": [100, 0, 0], "children": [2]})),
+        ("/nodes/-", json!({"translation": [-100, 5, 1]})),
+        ("/scenes/0/nodes", json!([0, 1])),
+        ("/meshes/0/primitives/0/attributes", attributes),
+    ]
+}
+
+#[test]
+fn joints_place_a_mesh_with_a_skin_and_its_node_does_not() {
+    let model = gltf(&skinned());
+    // The third corner is moved by half of each joint.
+    let expected = [Vec3::X * 100.0, Vec3::new(1.0, 5.0, 0.0), Vec3::new(51.0, 3.5, 0.0), Vec3::new(100.0, 1.0, 0.0)];
+    for (position, expected) in model.positions.iter().zip(expected) {
+        assert!(position.abs_diff_eq(expected, 1e-4), "{position} {expected}");
+    }
+    assert_eq!((&model.normals[..], model.notes.len()), (&[Vec3::Z; 4][..], 0));
+
+    let mut mirrored = skinned();
+    mirrored.push(("/nodes/1/scale", json!([-1, 1, 1])));
+    assert_eq!(gltf(&mirrored).triangles, [[0, 2, 1], [0, 3, 2]]);
+
+    let with = |change: (&'static str, Value)| [skinned(), vec![change]].concat();
+    refused(&with(("/skins/0/joints", json!([1]))), &["accessor 5: it names joint 1, and the skin has 1"]);
+    refused(&with(("/skins/0/joints", json!([1, 2, 0]))), &["accessor 7: it has 2 matrices for 3 joints"]);
+    refused(&with(("/skins/0/joints", json!([1, 99]))), &["skins[0].joints[1]:", "index out of bounds"]);
+    refused(&with(("/skins/0/inverseBindMatrices", json!(0))), &["accessor 0: it must be Mat4"]);
+    refused(&with(("/accessors/5/count", json!(3))), &["its JOINTS_0 has 3 elements for 4 vertices"]);
+    refused(&with(("/nodes/0/skin", json!(1))), &["nodes[0].skin:", "index out of bounds"]);
+
+    let bare = gltf(&with(("/meshes/0/primitives/0/attributes", json!({"POSITION": 0}))));
+    assert_eq!(bare.positions, gltf(&[]).positions, "unposed, around the origin");
+    assert!(bare.notes[0].starts_with("1 node has a skin without joints"), "{:?}", bare.notes);
+}
+
+#[test]
+fn extensions_are_read_noted_or_refused_by_name() {
+    let requires = |name: &str| [("/extensionsRequired", json!([name])), ("/extensionsUsed", json!([name]))];
+    for shading in ["KHR_materials_unlit", "KHR_texture_transform", "EXT_texture_webp", "KHR_lights_punctual"] {
+        let model = gltf(&requires(shading));
+        assert_eq!((model.triangles.len(), model.notes.len()), (2, 1), "{:?}", model.notes);
+        assert!(model.notes[0].contains(&format!("`{shading}` changes no triangle")), "{:?}", model.notes);
+        assert!(gltf(&requires(shading)[1..]).notes.is_empty());
+    }
+    for (name, words) in [
+        ("EXT_meshopt_compression", "`gltfpack -noq"),
+        ("KHR_draco_mesh_compression", "`gltf-transform cp"),
+        ("MINE_subdivision", "export the file without it"),
+    ] {
+        refused(&requires(name), &["extensionsRequired: the file requires", name, words]);
+        let notes = gltf(&requires(name)[1..]).notes;
+        let noted = notes.iter().any(|note| note.contains("`MINE_subdivision` is left out"));
+        assert_eq!(noted, name == "MINE_subdivision", "{notes:?}");
+    }
+}
