@@ -59,9 +59,9 @@ pub fn load(path: &Path) -> Result<Model, LoadError> {
 }
 
 /// The path of the file `name` in `folder` or below it; none if it leads out of it.
-fn below(folder: &Path, name: &str) -> Option<PathBuf> {
+fn below(folder: &Path, name: impl AsRef<Path>) -> Option<PathBuf> {
     let mut depth = 0_usize;
-    for component in Path::new(name).components() {
+    for component in name.as_ref().components() {
         match component {
             Component::Normal(_) => depth += 1,
             Component::CurDir => {}

@@ -1,6 +1,6 @@
-//! Wavefront MTL, the materials of OBJ files.
+//! Wavefront MTL, the materials of OBJ files, by tobj.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -8,148 +8,145 @@ use glam::Vec3;
 
 use super::error::quoted;
 use super::notes::Notes;
-use super::text::{after_keyword, lines, number, plain, words};
+use super::text::{lines, name, plain, words};
 use super::{below, read_file};
 use crate::escaped::Escaped as _;
 use crate::scene::Material;
 
 /// The most libraries that are read, more than any exporter writes.
-const MOST_LIBRARIES: usize = 64;
+pub(super) const MOST_LIBRARIES: usize = 64;
 
-#[derive(Default)]
-pub(super) struct Libraries {
-    named: Vec<String>,
-    more: usize,
-}
+/// A material, and whether it has a texture.
+type Known = HashMap<Vec<u8>, (Material, bool)>;
 
-impl Libraries {
-    pub fn add(&mut self, line: String) {
-        match self.named.contains(&line) {
-            true => {}
-            false if self.named.len() < MOST_LIBRARIES => self.named.push(line),
-            false => self.more += 1,
-        }
+/// Reads the materials whose names are keys of `used`, each library once. A library that cannot be read gives a note and
+/// not an error, because the mesh is complete without it. Of two materials with one name the later counts.
+pub(super) fn read(
+    libraries: &[Vec<u8>],
+    used: &HashMap<Vec<u8>, u32>,
+    folder: &Path,
+    notes: &mut Notes,
+) -> HashMap<Vec<u8>, Material> {
+    let paths = libraries.iter().flat_map(|names| paths(names, folder));
+    let mut paths: Vec<_> = paths.take(MOST_LIBRARIES + 1).collect();
+    if paths.len() > MOST_LIBRARIES {
+        paths.pop();
+        notes.add(format!("of the material files, only the first {MOST_LIBRARIES} are read"));
     }
-
-    /// Reads the materials that are keys of `used`, each library once. A library that cannot be read gives a note and
-    /// not an error, because the mesh is complete without it. Of two materials with one name the later counts.
-    pub fn read(&self, used: &HashMap<String, u32>, folder: &Path, notes: &mut Notes) -> HashMap<String, Material> {
-        let mut reader = Reader { known: HashMap::new(), used, textured: HashSet::new() };
-        let mut files: Vec<PathBuf> = Vec::new();
-        for path in self.named.iter().flat_map(|line| paths(line, folder)) {
-            let path = match path {
-                Ok(path) => path,
-                Err(problem) => {
-                    notes.add(problem);
-                    continue;
-                }
-            };
-            // The same file may have several names.
-            let file = fs::canonicalize(&path).unwrap_or_else(|_| path.clone());
-            if files.contains(&file) {
+    let mut known = Known::new();
+    let mut files: Vec<PathBuf> = vec![];
+    for path in paths {
+        let path = match path {
+            Ok(path) => path,
+            Err(problem) => {
+                notes.add(problem);
                 continue;
             }
-            if files.len() == MOST_LIBRARIES {
-                notes.add(format!("of the material files, only the first {MOST_LIBRARIES} are read"));
-                break;
-            }
-            files.push(file);
-            match read_file(&path) {
-                Ok(bytes) => reader.read(&bytes, &path, notes),
-                Err(cause) => notes.add(format!("the materials in {} cannot be read ({cause})", path.escaped())),
-            }
+        };
+        // The same file may have several names.
+        let file = fs::canonicalize(&path).unwrap_or_else(|_| path.clone());
+        if files.contains(&file) {
+            continue;
         }
-        let [one, many] = [("line", "is"), ("lines", "are")]
-            .map(|(lines, are)| format!("mtllib {lines} after the first {MOST_LIBRARIES} {are} not followed"));
-        notes.count(self.more, [&one, &many]);
-        let textured = [
-            "material has a texture, which is left out: it shows Kd as it is",
-            "materials have textures, which are left out: they show Kd as it is",
-        ];
-        notes.count(reader.textured.len(), textured);
-        reader.known
+        files.push(file);
+        match read_file(&path) {
+            Ok(bytes) => read_library(&bytes, &path, used, &mut known, notes),
+            Err(cause) => notes.add(format!("the materials in {} cannot be read ({cause})", path.escaped())),
+        }
     }
+    let textured = [
+        "material has a texture, which is left out: it shows Kd as it is",
+        "materials have textures, which are left out: they show Kd as it is",
+    ];
+    notes.count(known.values().filter(|(_, has_texture)| *has_texture).count(), textured);
+    known.into_iter().map(|(name, (material, _))| (name, material)).collect()
 }
 
 /// The files that a line names: one file whose name contains spaces, if it exists, otherwise several.
-fn paths(line: &str, folder: &Path) -> Vec<Result<PathBuf, String>> {
-    let path = |name: &str| {
-        let outside =
-            || format!("the material file {} is not below the folder of this file: it is not read", quoted(name));
-        below(folder, &name.replace('\\', "/")).ok_or_else(outside)
+fn paths<'a>(names: &'a [u8], folder: &'a Path) -> Box<dyn Iterator<Item = Result<PathBuf, String>> + 'a> {
+    let path = move |name: &[u8]| {
+        let slashes = name.iter().map(|&byte| if byte == b'\\' { b'/' } else { byte }).collect();
+        below(folder, file_name(slashes)).ok_or_else(|| {
+            format!("the material file {} is not below the folder of this file: it is not read", quoted(name))
+        })
     };
-    match path(line) {
-        Ok(whole) if whole.is_file() => vec![Ok(whole)],
-        _ => line.split_whitespace().map(path).collect(),
+    match path(names) {
+        Ok(whole) if whole.is_file() => Box::new(std::iter::once(Ok(whole))),
+        _ => Box::new(words(names).map(path)),
     }
 }
 
-struct Reader<'a> {
-    known: HashMap<String, Material>,
-    used: &'a HashMap<String, u32>,
-    /// Names of used materials with a texture.
-    textured: HashSet<String>,
+/// The file whose name has these bytes, which need not be text.
+#[cfg(unix)]
+fn file_name(bytes: Vec<u8>) -> PathBuf {
+    use std::os::unix::ffi::OsStringExt as _;
+    std::ffi::OsString::from_vec(bytes).into()
 }
 
-impl Reader<'_> {
-    fn read(&mut self, bytes: &[u8], path: &Path, notes: &mut Notes) {
-        let text = match plain(bytes) {
-            Ok(text) => text,
-            Err(fault) => return notes.add(format!("{}: {}", path.escaped(), fault.problem)),
-        };
-        // The current material; none if no face uses it.
-        let mut current: Option<String> = None;
-        for (number, line) in lines(text) {
-            if self.line(line, &mut current).is_err() {
-                notes.add(format!("{}, line {number}: {} is ignored", path.escaped(), quoted(line)));
-            }
-        }
-    }
+#[cfg(not(unix))]
+fn file_name(bytes: Vec<u8>) -> PathBuf {
+    String::from_utf8_lossy(&bytes).into_owned().into()
+}
 
-    /// Reads a line. Unused statements are skipped; wrong numbers are an error.
-    fn line(&mut self, line: &[u8], current: &mut Option<String>) -> Result<(), ()> {
-        let mut words = words(line);
-        let Some(keyword) = words.next() else { return Ok(()) };
-        if keyword == b"newmtl" {
-            // The empty name is valid: `usemtl` alone refers to it.
-            let name = after_keyword(line);
-            *current = self.used.contains_key(&name).then_some(name);
-            if let Some(name) = current {
-                self.known.insert(name.clone(), Material::named(name.clone()));
-                self.textured.remove(name);
-            }
-            return Ok(());
+fn read_library(bytes: &[u8], path: &Path, used: &HashMap<Vec<u8>, u32>, known: &mut Known, notes: &mut Notes) {
+    let text = match plain(bytes) {
+        Ok(text) => text,
+        Err(fault) => return notes.add(format!("{}: {}", path.escaped(), fault.problem)),
+    };
+    // The current material; none if no face uses it.
+    let mut current = None;
+    for (number, line) in lines(text) {
+        // tobj refuses the empty name, to which `usemtl` alone refers, and keeps a comment after a name.
+        if words(line).next() == Some(b"newmtl") {
+            let name = name(line);
+            let new = (Material::named(String::from_utf8_lossy(name)), false);
+            current = used.contains_key(name).then(|| known.entry(name.to_vec()).insert_entry(new).into_mut());
+        } else if let Some(material) = &mut current
+            && read_value(line, material).is_none()
+        {
+            notes.add(format!("{}, line {number}: {} is ignored", path.escaped(), quoted(line)));
         }
-        let Some(material) = current.as_ref().and_then(|name| self.known.get_mut(name)) else { return Ok(()) };
-        match keyword {
-            b"Ka" => material.ambient = colour(words)?,
-            b"Kd" => material.diffuse = colour(words)?,
-            b"Ks" => material.specular = colour(words)?,
-            b"Ns" => material.shininess = finite(words.next().ok_or(())?)?.max(0.0),
-            _ if is_texture(keyword) && words.next().is_some() => {
-                self.textured.insert(material.name.clone());
-            }
-            _ => {}
-        }
-        Ok(())
     }
+}
+
+/// Reads a line about a material; none if its numbers are wrong.
+fn read_value(line: &[u8], (material, has_texture): &mut (Material, bool)) -> Option<()> {
+    let mut words = words(line);
+    match words.next() {
+        Some(b"Ka" | b"Kd" | b"Ks" | b"Ns") => {
+            let values = values(line)?;
+            for (own, colour) in [
+                (&mut material.ambient, values.ambient),
+                (&mut material.diffuse, values.diffuse),
+                (&mut material.specular, values.specular),
+            ] {
+                *own = colour.map_or(*own, |colour| Vec3::from(colour).clamp(Vec3::ZERO, Vec3::ONE));
+            }
+            material.shininess = values.shininess.map_or(material.shininess, |shininess| shininess.max(0.0));
+        }
+        Some(keyword) if is_texture(keyword) => *has_texture |= words.next().is_some(),
+        _ => {}
+    }
+    Some(())
 }
 
 fn is_texture(keyword: &[u8]) -> bool {
     keyword.starts_with(b"map_") || [&b"bump"[..], b"norm", b"disp", b"decal"].contains(&keyword)
 }
 
-/// Three numbers, or one for a grey, from 0 to 1.
-fn colour<'a>(words: impl Iterator<Item = &'a [u8]>) -> Result<Vec3, ()> {
-    let numbers: Vec<f32> = words.take(3).map(finite).collect::<Result<_, ()>>()?;
-    match numbers[..] {
-        [grey] => Ok(Vec3::splat(grey)),
-        [r, g, b] => Ok(Vec3::new(r, g, b)),
-        _ => Err(()),
-    }
-    .map(|colour| colour.clamp(Vec3::ZERO, Vec3::ONE))
-}
-
-fn finite(word: &[u8]) -> Result<f32, ()> {
-    number::<f32>(word).filter(|number| number.is_finite()).ok_or(())
+/// The values of a statement, none if it is wrong. tobj gets each by itself, because one that it refuses voids the whole
+/// library; it panics on a colour of fewer than three numbers, of which one is a grey, and takes nan and inf.
+fn values(line: &[u8]) -> Option<tobj::Material> {
+    let line = str::from_utf8(line).ok()?;
+    let words: Vec<&str> = line.split_whitespace().take_while(|word| !word.starts_with('#')).collect();
+    let statement = match words[..] {
+        [colour, grey] if colour != "Ns" => [colour, grey, grey, grey].join(" "),
+        ["Ns", ..] | [_, _, _, _, ..] => words.join(" "),
+        _ => return None,
+    };
+    let (materials, _) = tobj::load_mtl_buf(&mut format!("newmtl a\n{statement}").as_bytes()).ok()?;
+    let values = materials.into_iter().next()?;
+    let colours = [values.ambient, values.diffuse, values.specular];
+    let mut numbers = colours.iter().flatten().flatten().chain(&values.shininess);
+    numbers.all(|number| number.is_finite()).then_some(values)
 }

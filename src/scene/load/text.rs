@@ -1,5 +1,7 @@
 //! Text files as bytes: numbers and keywords are ASCII, names may be in any encoding.
 
+use std::borrow::Cow;
+
 use super::error::Fault;
 
 /// The text without a UTF-8 byte order mark.
@@ -33,14 +35,50 @@ pub(super) fn lines(text: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
     })
 }
 
+/// Statements with the numbers of the lines that they begin on: a line whose last character is `\` goes on in the next,
+/// unless it ends in a comment.
+pub(super) fn statements(text: &[u8]) -> impl Iterator<Item = (usize, Cow<'_, [u8]>)> {
+    let mut lines = lines(text);
+    std::iter::from_fn(move || {
+        let (number, mut line) = lines.next()?;
+        if continued(line).is_none() {
+            return Some((number, Cow::Borrowed(line)));
+        }
+        let mut whole = Vec::new();
+        while let Some(head) = continued(line) {
+            whole.extend_from_slice(head);
+            whole.push(b' ');
+            line = lines.next().map_or(&[], |(_, line)| line);
+        }
+        whole.extend_from_slice(line);
+        Some((number, Cow::Owned(whole)))
+    })
+}
+
+fn continued(line: &[u8]) -> Option<&[u8]> {
+    let head = line.strip_suffix(b"\\")?;
+    let has_comment = all_words(line).any(|word| word.starts_with(b"#"));
+    (!has_comment).then_some(head)
+}
+
+/// The words of a statement before its comment.
 pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
+    all_words(line).take_while(|word| !word.starts_with(b"#"))
+}
+
+fn all_words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
     line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
 }
 
-pub(super) fn after_keyword(line: &[u8]) -> String {
+/// The name after a keyword, without a comment: that follows a `#` of its own, for `Material #2` is a name.
+pub(super) fn name(line: &[u8]) -> &[u8] {
     let line = line.trim_ascii_start();
     let keyword = line.iter().position(u8::is_ascii_whitespace).unwrap_or(line.len());
-    String::from_utf8_lossy(line[keyword..].trim_ascii()).into_owned()
+    let name = &line[keyword..];
+    let is_space = |byte: Option<&u8>| byte.is_none_or(u8::is_ascii_whitespace);
+    let is_comment = |&i: &usize| name[i] == b'#' && is_space(name.get(i - 1)) && is_space(name.get(i + 1));
+    let end = (1..name.len()).find(is_comment).unwrap_or(name.len());
+    name[..end].trim_ascii()
 }
 
 pub(super) fn number<N: std::str::FromStr>(word: &[u8]) -> Option<N> {

@@ -1,23 +1,18 @@
-//! Wavefront OBJ.
+//! Wavefront OBJ, by tobj behind a filter.
 //!
-//! tobj is not used, because it renumbers the vertices of every group, drops vertices without a face, invents normals
-//! for corners without any, and gives no line numbers in its errors. A test compares the geometry of both.
-//!
-//! A file is read in three passes. The first checks everything and keeps nothing, so that a rejected file takes no
-//! memory beyond its own bytes. The second reads vertices, the third faces, which may refer to later vertices.
+//! Vertices and normals keep the order of the file; those that no face uses are left out, because tobj does not tell them.
 
-mod check;
-mod line;
+mod filter;
+mod vectors;
 
-use std::collections::HashMap;
+use std::mem;
 use std::path::Path;
 
-use glam::Vec3;
+use tobj::{LoadOptions, load_obj_buf};
 
-use self::check::Check;
-use self::line::{Line, corners, statements, vector};
+use self::filter::{Contents, Filter};
 use super::error::{Fault, quoted};
-use super::mtl::Libraries;
+use super::mtl;
 use super::notes::Notes;
 use super::polygon::Splitter;
 use super::text::plain;
@@ -25,122 +20,87 @@ use crate::scene::{Material, Model};
 
 /// Reads the text of an OBJ file and the MTL files that it names, which are searched in `folder`.
 ///
-/// Vertices keep their order and number. A face is flat unless all its corners have normals.
+/// A face is flat unless all its corners have normals.
 pub(super) fn read(bytes: &[u8], folder: &Path) -> Result<Model, Fault> {
-    let text = plain(bytes)?;
-    let check = Check::over(text)?;
-    let mut model = vertices(text, &check);
+    // tobj takes a byte order mark for a part of the first keyword, and finds nothing in UTF-16.
+    let mut filter = Filter::new(plain(bytes)?);
+    let (parts, _) = match load_obj_buf(&mut filter, &LoadOptions::default(), |_| Ok(Default::default())) {
+        Ok(read) => read,
+        Err(error) => return Err(filter.fault(error)),
+    };
     let mut notes = Notes::default();
-    check.note(&mut notes);
-
-    let mut faces = Faces { smooth: check.smooth, ..Faces::default() };
-    let (mut positions, mut normals) = (0, 0);
-    for (number, line) in statements(text) {
-        match Line::of(&line) {
-            Line::Vertex(_) => positions += 1,
-            Line::Normal(_) => normals += 1,
-            Line::Face(words) => {
-                faces.corners.clear();
-                for corner in corners(words, positions, normals) {
-                    faces.corners.push(corner.map_err(|problem| Fault::line(number, problem))?);
-                }
-                faces.add(&mut model);
-            }
-            Line::Material(name) => (faces.current, faces.material) = (Some(name), None),
-            Line::Library(name) => faces.libraries.add(name),
-            Line::Shape | Line::Skipped | Line::Empty | Line::Unknown(_) => {}
-        }
-    }
-    faces.finish(&mut model, folder, &mut notes);
+    let mut contents = filter.finish(&mut notes)?;
+    let mut model = triangles(parts, &mut contents, &mut notes);
+    model.materials = materials(contents, folder, &mut notes);
     model.notes = notes.into_vec();
     Ok(model)
 }
 
-/// A model with the vertices and normals of the file, and room for its triangles.
-fn vertices(text: &[u8], check: &Check) -> Model {
-    let mut model = Model::default();
-    model.positions.reserve_exact(check.vertices);
-    model.triangles.reserve_exact(check.triangles);
-    if check.smooth {
-        model.normals.reserve_exact(check.normals);
-        model.normal_indices.reserve_exact(check.triangles);
-    }
-    for (_, line) in statements(text) {
-        match Line::of(&line) {
-            Line::Vertex(words) => model.positions.extend(vector(words)),
-            Line::Normal(words) if check.smooth => model.normals.extend(vector(words)),
-            _ => {}
+fn triangles(parts: Vec<tobj::Model>, contents: &mut Contents, notes: &mut Notes) -> Model {
+    let positions = parts.iter().flat_map(|part| part.mesh.positions.chunks_exact(3));
+    let (positions, vertices) = mem::take(&mut contents.vertices).place(positions);
+    let normals = parts.iter().flat_map(|part| part.mesh.normals.chunks_exact(3));
+    let (normals, normal_numbers) = mem::take(&mut contents.normals).place(normals);
+
+    let is_smooth = contents.sections.iter().any(|section| section.is_smooth);
+    let has_materials = contents.materials.len() > 1;
+    let room = |is_needed: bool| if is_needed { contents.triangles } else { 0 };
+    let mut model = Model {
+        positions,
+        triangles: Vec::with_capacity(contents.triangles),
+        normals: if is_smooth { normals } else { vec![] },
+        normal_indices: Vec::with_capacity(room(is_smooth)),
+        material_of: Vec::with_capacity(room(has_materials)),
+        ..Model::default()
+    };
+
+    let (mut splitter, mut points) = (Splitter::default(), vec![]);
+    let (mut vertices, mut normals) = (&vertices[..], &normal_numbers[..]);
+    let (mut sections, mut face) = (contents.sections.iter().peekable(), 0);
+    let mut section = contents.sections[0];
+    for mesh in parts.into_iter().map(|part| part.mesh) {
+        // tobj leaves the sizes out where all faces are triangles.
+        let (mut sizes, mut start) = (mesh.face_arities.iter(), 0);
+        while start < mesh.indices.len() {
+            let size = sizes.next().map_or(3, |&size| size as usize);
+            while let Some(next) = sections.next_if(|next| next.first <= face) {
+                section = *next;
+            }
+            let vertex = |i: usize| vertices[mesh.indices[start + i] as usize];
+            points.clear();
+            points.extend((0..size).map(|i| model.positions[vertex(i) as usize]));
+            for triangle in splitter.split(&points) {
+                model.triangles.push(triangle.map(vertex));
+                if section.is_smooth {
+                    let normal = |i: usize| normals[mesh.normal_indices[start + i] as usize];
+                    model.normal_indices.push(triangle.map(normal));
+                } else if is_smooth {
+                    model.normal_indices.push([Model::FLAT; 3]);
+                }
+                if has_materials {
+                    model.material_of.push(section.material);
+                }
+            }
+            (start, face) = (start + size, face + 1);
         }
+        vertices = &vertices[mesh.positions.len() / 3..];
+        normals = &normals[mesh.normals.len() / 3..];
     }
+    splitter.note(notes);
     model
 }
 
-#[derive(Default)]
-struct Faces {
-    /// Whether any face has normals.
-    smooth: bool,
-    /// Material names in the order of their first use, and the same by name.
-    used: Vec<String>,
-    number_of: HashMap<String, u32>,
-    /// The current material name, and its number once a face uses it.
-    current: Option<String>,
-    material: Option<u32>,
-    libraries: Libraries,
-    /// Corners of the face being read: vertex number and normal number or [`Model::FLAT`].
-    corners: Vec<(u32, u32)>,
-    points: Vec<Vec3>,
-    splitter: Splitter,
-}
-
-impl Faces {
-    fn add(&mut self, model: &mut Model) {
-        if self.corners.len() < 3 {
-            return;
-        }
-        let material = self.material();
-        if material > 0 && model.material_of.is_empty() {
-            model.material_of.resize(model.triangles.len(), 0);
-        }
-        self.points.clear();
-        self.points.extend(self.corners.iter().map(|&(vertex, _)| model.positions[vertex as usize]));
-        let smooth = self.corners.iter().all(|&(_, normal)| normal != Model::FLAT);
-        for triangle in self.splitter.split(&self.points) {
-            let triangle = triangle.map(|i| self.corners[i]);
-            model.triangles.push(triangle.map(|(vertex, _)| vertex));
-            if self.smooth {
-                let normals = if smooth { triangle.map(|(_, normal)| normal) } else { [Model::FLAT; 3] };
-                model.normal_indices.push(normals);
+fn materials(contents: Contents, folder: &Path, notes: &mut Notes) -> Vec<Material> {
+    let mut known = mtl::read(&contents.libraries, &contents.materials, folder, notes);
+    let mut names: Vec<_> = contents.materials.into_iter().collect();
+    names.sort_unstable_by_key(|(_, number)| *number);
+    let material = |(name, _): (Vec<u8>, u32)| {
+        known.remove(&name).unwrap_or_else(|| {
+            if name != b"default" {
+                notes.add(format!("material {} is in no .mtl file: it is shaded light grey", quoted(&name)));
             }
-            if self.used.len() > 1 {
-                model.material_of.push(material);
-            }
-        }
-    }
-
-    fn material(&mut self) -> u32 {
-        if let Some(number) = self.material {
-            return number;
-        }
-        let name = self.current.as_deref().unwrap_or("default");
-        let number = *self.number_of.entry(name.to_owned()).or_insert_with(|| {
-            self.used.push(name.to_owned());
-            self.used.len() as u32 - 1
-        });
-        self.material = Some(number);
-        number
-    }
-
-    fn finish(self, model: &mut Model, folder: &Path, notes: &mut Notes) {
-        self.splitter.note(notes);
-        let mut known = self.libraries.read(&self.number_of, folder, notes);
-        for name in self.used {
-            let material = known.remove(&name).unwrap_or_else(|| {
-                if name != "default" {
-                    notes.add(format!("material {} is in no .mtl file: it is shaded light grey", quoted(&name)));
-                }
-                Material::named(name)
-            });
-            model.materials.push(material);
-        }
-    }
+            Material::named(String::from_utf8_lossy(&name))
+        })
+    };
+    names.into_iter().map(material).collect()
 }

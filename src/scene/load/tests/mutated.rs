@@ -1,8 +1,10 @@
 //! Damaged files: whatever they contain, the result is a model or an error of one line.
 
+use std::time::{Duration, Instant};
+
 use proptest::prelude::*;
 use proptest::sample::Index;
-use proptest::test_runner::RngSeed;
+use proptest::test_runner::{RngSeed, TestRunner};
 
 use super::{gltf, load_files, ply};
 use crate::geometry::Mesh;
@@ -46,23 +48,61 @@ fn patch() -> impl Strategy<Value = Vec<u8>> {
     ]
 }
 
-/// Truncates the file, then overwrites bytes (`true`) or inserts some.
-type Damage = (Option<Index>, Vec<(Index, bool, Vec<u8>)>);
-
-fn damage() -> impl Strategy<Value = Damage> {
-    let places = prop::collection::vec((any::<Index>(), any::<bool>(), patch()), 0..5);
-    (prop::option::weighted(0.2, any::<Index>()), places)
+/// A change of a file: of its bytes, or of its pieces, which are words and the signs between them.
+#[derive(Clone, Debug)]
+enum Damage {
+    Cut(Index),
+    Insert(Index, Vec<u8>),
+    Overwrite(Index, Vec<u8>),
+    Drop([Index; 2]),
+    Repeat([Index; 2], usize),
+    Swap([Index; 2]),
 }
 
-fn damaged(file: &[u8], (cut, places): &Damage) -> Vec<u8> {
+fn damage() -> impl Strategy<Value = Damage> {
+    let [one, two, three] = [any::<[Index; 2]>; 3];
+    prop_oneof![
+        1 => any::<Index>().prop_map(Damage::Cut),
+        3 => (any::<Index>(), patch()).prop_map(|(place, patch)| Damage::Insert(place, patch)),
+        3 => (any::<Index>(), patch()).prop_map(|(place, patch)| Damage::Overwrite(place, patch)),
+        2 => one().prop_map(Damage::Drop),
+        2 => (two(), 2_usize..30).prop_map(|(ends, times)| Damage::Repeat(ends, times)),
+        2 => three().prop_map(Damage::Swap),
+    ]
+}
+
+fn damaged(file: &[u8], damages: &[Damage]) -> Vec<u8> {
     let mut file = file.to_vec();
-    if let Some(cut) = cut {
-        file.truncate(cut.index(file.len()));
-    }
-    for (place, overwrite, patch) in places {
-        let start = place.index(file.len() + 1);
-        let end = if *overwrite { (start + patch.len()).min(file.len()) } else { start };
-        file.splice(start..end, patch.iter().copied());
+    for damage in damages {
+        let pieces: Vec<&[u8]> = file.split_inclusive(|byte| b" \n,:/{}[]".contains(byte)).collect();
+        // Neighbours, so that most of the file stays.
+        let range = |[start, length]: &[Index; 2]| {
+            let start = start.index(pieces.len() + 1);
+            start..(start + 1 + length.index(8)).min(pieces.len()).max(start)
+        };
+        file = match damage {
+            Damage::Cut(end) => file[..end.index(file.len() + 1)].to_vec(),
+            Damage::Insert(place, patch) => {
+                let (before, after) = file.split_at(place.index(file.len() + 1));
+                [before, patch, after].concat()
+            }
+            Damage::Overwrite(place, patch) => {
+                let (before, after) = file.split_at(place.index(file.len() + 1));
+                [before, patch, &after[patch.len().min(after.len())..]].concat()
+            }
+            Damage::Drop(ends) => [&pieces[..range(ends).start], &pieces[range(ends).end..]].concat().concat(),
+            Damage::Repeat(ends, times) => {
+                let repeated = pieces[range(ends)].repeat(*times);
+                [&pieces[..range(ends).start], &repeated, &pieces[range(ends).end..]].concat().concat()
+            }
+            Damage::Swap(places) if !pieces.is_empty() => {
+                let mut pieces = pieces.clone();
+                let [a, b] = places.each_ref().map(|place| place.index(pieces.len()));
+                pieces.swap(a, b);
+                pieces.concat()
+            }
+            Damage::Swap(_) => continue,
+        };
     }
     file
 }
@@ -86,33 +126,42 @@ fn assert_whole(name: &str, files: &[(&str, &[u8])]) {
     }
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
+/// Files that belong together, the first of them to be loaded.
+type Files = Vec<(&'static str, Vec<u8>)>;
 
-    #[test]
-    fn obj(to_obj in damage(), to_mtl in damage()) {
-        let files = [("a.obj", damaged(OBJ.as_bytes(), &to_obj)), ("a.mtl", damaged(MTL.as_bytes(), &to_mtl))];
-        assert_whole("a.obj", &files.each_ref().map(|(name, bytes)| (*name, &bytes[..])));
+/// Loads as many damaged files of each format, always the same.
+fn assert_damaged_files_are_safe(cases: u32) {
+    let formats: [Files; 6] = [
+        vec![("a.obj", OBJ.into()), ("a.mtl", MTL.into())],
+        vec![("a.ply", ply::ASCII.into())],
+        vec![("a.ply", ply::binary(true, "short", "uchar"))],
+        vec![("a.ply", ply::binary(false, "uint", "int"))],
+        vec![("a.gltf", gltf::text())],
+        vec![("a.glb", gltf::binary())],
+    ];
+    for files in formats {
+        let damages = prop::collection::vec(prop::collection::vec(damage(), 0..5), files.len());
+        let config =
+            ProptestConfig { cases, failure_persistence: None, rng_seed: RngSeed::Fixed(1), ..Default::default() };
+        let whole = TestRunner::new(config).run(&damages, |damages| {
+            let start = Instant::now();
+            let damaged: Files =
+                files.iter().zip(&damages).map(|((name, file), own)| (*name, damaged(file, own))).collect();
+            assert_whole(files[0].0, &damaged.iter().map(|(name, file)| (*name, &file[..])).collect::<Vec<_>>());
+            prop_assert!(start.elapsed() < Duration::from_secs(10), "it takes too long");
+            Ok(())
+        });
+        whole.unwrap();
     }
+}
 
-    #[test]
-    fn ply_text(damage in damage()) {
-        assert_whole("a.ply", &[("a.ply", &damaged(ply::ASCII.as_bytes(), &damage))]);
-    }
+#[test]
+fn damaged_files_are_safe() {
+    assert_damaged_files_are_safe(100);
+}
 
-    #[test]
-    fn ply_binary(damage in damage(), big in any::<bool>(), short in any::<bool>()) {
-        let file = if short { ply::binary(big, "short", "uchar") } else { ply::binary(big, "uint", "int") };
-        assert_whole("a.ply", &[("a.ply", &damaged(&file, &damage))]);
-    }
-
-    #[test]
-    fn gltf_text(damage in damage()) {
-        assert_whole("a.gltf", &[("a.gltf", &damaged(&gltf::text(), &damage))]);
-    }
-
-    #[test]
-    fn gltf_binary(damage in damage()) {
-        assert_whole("a.glb", &[("a.glb", &damaged(&gltf::binary(), &damage))]);
-    }
+#[test]
+#[ignore = "it takes a minute"]
+fn many_damaged_files_are_safe() {
+    assert_damaged_files_are_safe(3000);
 }
