@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use image::RgbImage;
 use plotters::drawing::IntoDrawingArea;
 use plotters::prelude::{BitMapBackend, DrawingBackend, SVGBackend};
 
@@ -9,7 +10,7 @@ use super::canvas::{Area, Canvas, DrawResult, register};
 use super::palette::PAPER;
 use super::{Bars, Curves, Scatter, Tradeoff};
 use crate::escaped::Escaped as _;
-use crate::render::Picture;
+use crate::render::png;
 
 /// Width of drawings that stand alone, in their units.
 pub const WIDTH: f64 = 900.0;
@@ -90,7 +91,6 @@ impl Chart {
         let mut bytes = vec![255; width as usize * height as usize * 3];
         let area = BitMapBackend::with_buffer(&mut bytes, (width, height)).into_drawing_area();
         self.draw(area).expect(DRAWN);
-        let (colours, _) = bytes.as_chunks::<3>();
-        Picture::new([width, height], colours.to_vec()).png()
+        png(&RgbImage::from_raw(width, height, bytes).expect("all pixels are there"))
     }
 }
