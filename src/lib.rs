@@ -40,4 +40,5 @@ pub mod validate;
 pub use anyhow;
 pub use clap;
 pub use glam;
+pub use image;
 pub use serde;

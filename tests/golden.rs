@@ -1,11 +1,13 @@
 //! Golden images: every structure over the exact triangle test draws every built-in scene byte for byte as committed, and so does
 //! the SAH tree over the default test.
 
+use std::fs;
 use std::path::Path;
 
-use sahara::golden::{GoldenError, Goldens, TRIANGLE_TEST};
+use sahara::golden::{GoldenError, Goldens, Layout, TRIANGLE_TEST, read, write};
+use sahara::image::{DynamicImage, RgbaImage};
 use sahara::registry::{Choice, Registry};
-use sahara::scene::BUILTIN;
+use sahara::scene::{BUILTIN, Builtin};
 
 /// Pixels of the baseline that differ: structure, scene, number of pixels and cause. A pixel more, a pixel fewer or another
 /// scene fails the test.
@@ -66,4 +68,111 @@ fn draw_as_committed(choices: &[Choice]) -> usize {
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     found
+}
+
+#[test]
+fn alpha_and_depth_of_a_golden_image_count() {
+    let committed = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/cube/golden.png");
+    let colours = read(&committed).unwrap().into_rgb8();
+    let mut clear: RgbaImage = DynamicImage::from(colours.clone()).into_rgba8();
+    clear.pixels_mut().for_each(|pixel| pixel.0[3] = 0);
+    let deep = DynamicImage::from(colours.clone()).into_rgb16();
+    assert_eq!(deep.get_pixel(0, 0).0, colours.get_pixel(0, 0).0.map(|value| 257 * u16::from(value)));
+
+    let folder = tempfile::tempdir().unwrap();
+    let goldens = Goldens::new(folder.path().join("scenes"), folder.path().join("out"));
+    let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
+    let tree = Registry::builtin().choose(&format!("sah-kd:test={TRIANGLE_TEST}")).unwrap();
+    let accel = tree.build(&scene.mesh).unwrap();
+    for (golden, channels, bits) in [(clear.into(), 4, 8), (deep.into(), 3, 16)] {
+        write(&goldens.path(&scene), &golden).unwrap();
+        let refused = goldens.check(&scene, "sah-kd", &*accel).unwrap_err();
+        let GoldenError::Layout { expected, found, .. } = refused else { panic!("{refused}") };
+        assert_eq!((expected, found), (Layout { channels, bits, ..found }, Layout::of(&colours.clone().into())));
+        assert!(goldens.update(&scene, &*accel).unwrap(), "it is another picture");
+        goldens.check(&scene, "sah-kd", &*accel).unwrap();
+        assert!(fs::read(goldens.path(&scene)).unwrap() == fs::read(&committed).unwrap(), "the committed bytes");
+    }
+}
+
+/// Other formats than PNG.
+#[cfg(feature = "pictures")]
+mod pictures {
+    use sahara::golden::{Match, check_image};
+    use sahara::image::{ColorType, ImageFormat, Rgb32FImage, RgbImage};
+
+    use super::*;
+
+    fn colours() -> RgbImage {
+        RgbImage::from_fn(40, 30, |x, y| Rgb([6 * x as u8, 8 * y as u8, 128]))
+    }
+
+    fn floats() -> Rgb32FImage {
+        Rgb32FImage::from_fn(40, 30, |x, y| Rgb([x as f32 / 7.0, -0.1 * y as f32, 1e-9]))
+    }
+
+    /// A picture of each format, and its bytes with a width and height that no memory takes.
+    fn of_each_format() -> [(DynamicImage, ImageFormat, fn(&mut [u8])); 3] {
+        [
+            (colours().into(), ImageFormat::Jpeg, |bytes| {
+                let frame = place(bytes, b"\xff\xc0");
+                bytes[frame + 5..frame + 9].fill(0xff);
+            }),
+            (colours().into(), ImageFormat::WebP, |bytes| {
+                let size = place(bytes, b"VP8L") + 9;
+                bytes[size..size + 3].fill(0xff);
+                bytes[size + 3] |= 0x0f;
+            }),
+            (floats().into(), ImageFormat::OpenExr, |bytes| {
+                for mark in [&b"dataWindow\0box2i\0"[..], b"displayWindow\0box2i\0"] {
+                    let corner = place(bytes, mark) + mark.len() + 4 + 8;
+                    bytes[corner..corner + 8].copy_from_slice(&[0, 0, 1, 0, 0, 0, 1, 0]);
+                }
+            }),
+        ]
+    }
+
+    fn place(bytes: &[u8], mark: &[u8]) -> usize {
+        bytes.windows(mark.len()).position(|part| part == mark).unwrap()
+    }
+
+    #[test]
+    fn golden_images_may_be_jpeg_webp_or_exr() {
+        let folder = tempfile::tempdir().unwrap();
+        // The name says nothing.
+        let (golden, out) = (folder.path().join("golden.png"), folder.path().join("out"));
+        for (picture, format, _) in of_each_format() {
+            picture.save_with_format(&golden, format).unwrap();
+            let how = if format == ImageFormat::Jpeg { Match::Within(20) } else { Match::Exact };
+            check_image(&golden, &picture, how, &out).unwrap();
+        }
+        assert_eq!(read(&golden).unwrap().color(), ColorType::Rgb32F);
+        let mut other = floats();
+        other.get_pixel_mut(7, 3).0[1] += 0.5;
+        let refused = check_image(&golden, &other.into(), Match::Within(127), &out).unwrap_err().to_string();
+        assert!(refused.contains("column 7, row 3, by up to 0.5 of 1"), "{refused}");
+    }
+
+    #[test]
+    fn damaged_pictures_are_refused_in_a_line_that_names_them() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("golden.png");
+        for (picture, format, enlarge) in of_each_format() {
+            picture.save_with_format(&path, format).unwrap();
+            let bytes = fs::read(&path).unwrap();
+            let refusal = |bytes: &[u8]| {
+                fs::write(&path, bytes).unwrap();
+                let refused = read(&path).map(|_| bytes.len()).unwrap_err().to_string();
+                assert!(refused.contains("golden.png") && refused.lines().count() == 1, "{format:?}: {refused}");
+                refused
+            };
+            for part in 0..16 {
+                println!("{format:?} {part}: {}", refusal(&bytes[..bytes.len() * part / 16]));
+            }
+            let mut huge = bytes.clone();
+            enlarge(&mut huge);
+            let refused = refusal(&huge);
+            assert!(refused.contains("512 MiB"), "{format:?}: {refused}");
+        }
+    }
 }

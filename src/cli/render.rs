@@ -11,7 +11,7 @@ use super::terminal::Terminal;
 use crate::accel::{DynAccel, Observed};
 use crate::escaped::Escaped as _;
 use crate::registry::{Choice, Registry};
-use crate::render::{ErrorMap, ViewError, ViewKind, coarse_size, costs, draw, heat_bar, hottest};
+use crate::render::{ErrorMap, ViewError, ViewKind, coarse_size, costs, draw, hottest, png, with_heat_bar};
 use crate::report::number::count;
 use crate::request::{self, BRUTE_FORCE, SAH_TREE, ViewArgs, is_large};
 use crate::scene::Scene;
@@ -74,17 +74,21 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let (mut picture, errors) = drawn.with_context(|| format!("{}: {PANICKED}", choice.label))??;
     let mut legend = String::new();
     if args.view == ViewKind::Heat {
-        picture = picture.above(&heat_bar(size[0], scale));
+        picture = with_heat_bar(picture, scale);
         legend = format!(
             "; below it the colours from 0 to {} tests and steps, marked at 1 and each power of ten",
             count(scale)
         );
     }
-    file.write(&picture.png())?;
+    file.write(&png(&picture))?;
 
-    let size = picture.size();
     let what = format!("{} view of {} by {}", args.view.name(), scene.name, choice.label);
-    terminal.print(&format!("{}: {} x {} pixels, {what}{legend}\n", args.output.escaped(), size[0], size[1]));
+    terminal.print(&format!(
+        "{}: {} x {} pixels, {what}{legend}\n",
+        args.output.escaped(),
+        picture.width(),
+        picture.height()
+    ));
     let notes: Vec<String> = scene.notes.iter().map(|note| format!("{}: {note}", scene.name)).collect();
     terminal.print_lines(&notes);
     if args.view == ViewKind::Heat && scaled_alone {

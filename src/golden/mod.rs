@@ -1,17 +1,23 @@
 //! Golden images: each built-in scene must look the same with every structure, byte for byte. [`assert_image`] is for
 //! the tests of other crates.
 
-mod image;
+mod assert;
+mod difference;
+mod file;
 
 use std::path::{Path, PathBuf};
 
+use image::DynamicImage;
+
 use crate::accel::DynAccel;
 use crate::escaped::Escaped as _;
-use crate::render::{Difference, Picture, PictureError, render};
+use crate::render::{of_colours, render};
 use crate::scene::Scene;
 use crate::triangle::{Exact, TriangleTest};
 
-pub use image::{Match, UPDATE, assert_image, check_image};
+pub use assert::{Match, UPDATE, assert_image, check_image};
+pub use difference::{Difference, Layout, difference_picture};
+pub use file::{PictureError, read, write};
 
 /// The folders of golden images and of the pictures of failures.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -32,24 +38,22 @@ pub enum GoldenError {
     #[error("{cause}: {remedy}")]
     Missing { cause: PictureError, remedy: &'static str },
     #[error(
-        "the golden image {} has {expected:?} pixels, and what was drawn has {found:?}: see {}-actual.png and -expected.png; \
+        "the golden image {} has {expected}, and what was drawn has {found}: see {}-actual.png and -expected.png; \
          if it is right, {remedy}",
         path.escaped(), shown.escaped()
     )]
-    Size { path: PathBuf, expected: [u32; 2], found: [u32; 2], shown: PathBuf, remedy: &'static str },
+    Layout { path: PathBuf, expected: Layout, found: Layout, shown: PathBuf, remedy: &'static str },
     #[error(
-        "{label}: {} of {} pixels differ from {}, first at column {}, row {}, by up to {} of 255: see {}-actual.png, \
+        "{label}: {} of {} pixels differ from {}, first at column {}, row {}, by up to {} of {}: see {}-actual.png, \
          -expected.png and -difference.png",
         difference.pixels, size[0] * size[1], path.escaped(), difference.first[0], difference.first[1],
-        difference.largest, shown.escaped()
+        difference.largest, difference.full_scale, shown.escaped()
     )]
     Differs { label: String, path: PathBuf, difference: Difference, size: [u32; 2], shown: PathBuf },
     #[error("{refusal}; but these could not be written: {cause}")]
     NotShown { refusal: Box<GoldenError>, cause: Box<GoldenError> },
     #[error(transparent)]
     Picture(#[from] PictureError),
-    #[error("cannot make the directory {}: {cause}", path.escaped())]
-    Directory { path: PathBuf, cause: std::io::Error },
 }
 
 impl Goldens {
@@ -95,16 +99,16 @@ impl Goldens {
     pub fn update(&self, scene: &Scene, accel: &dyn DynAccel) -> Result<bool, GoldenError> {
         let path = self.path(scene);
         let picture = draw(scene, accel);
-        if Picture::read(&path).is_ok_and(|there| there == picture) {
+        if file::read(&path).is_ok_and(|there| there == picture) {
             return Ok(false);
         }
-        put(&path, &picture)?;
+        file::write(&path, &picture)?;
         Ok(true)
     }
 }
 
-fn draw(scene: &Scene, accel: &dyn DynAccel) -> Picture {
-    Picture::of_colours(SIZE, &render(scene, accel, SIZE).0)
+fn draw(scene: &Scene, accel: &dyn DynAccel) -> DynamicImage {
+    of_colours(SIZE, &render(scene, accel, SIZE).0).into()
 }
 
 /// A golden image, with the names of the message and of the pictures of a failure.
@@ -117,19 +121,20 @@ struct Golden<'a> {
 
 impl Golden<'_> {
     /// Whether `actual` is the golden image, or the difference is `allowed`.
-    fn check(self, actual: &Picture, allowed: impl Fn(&Difference) -> bool) -> Result<(), GoldenError> {
+    fn check(self, actual: &DynamicImage, allowed: impl Fn(&Difference) -> bool) -> Result<(), GoldenError> {
         let Self { path, label, shown, remedy } = self;
-        let expected = Picture::read(path).map_err(|cause| match cause {
+        let expected = file::read(path).map_err(|cause| match cause {
             PictureError::Read { .. } => GoldenError::Missing { cause, remedy },
             cause => GoldenError::Picture(cause),
         })?;
-        let (path, size) = (path.to_path_buf(), actual.size());
-        let refusal = if expected.size() != size {
-            GoldenError::Size { path, expected: expected.size(), found: size, shown: shown.clone(), remedy }
+        let path = path.to_path_buf();
+        let [found, layout] = [actual, &expected].map(Layout::of);
+        let refusal = if found != layout {
+            GoldenError::Layout { path, expected: layout, found, shown: shown.clone(), remedy }
         } else {
-            match actual.difference(&expected) {
+            match Difference::between(actual, &expected) {
                 Some(difference) if !allowed(&difference) => {
-                    GoldenError::Differs { label, path, difference, size, shown: shown.clone() }
+                    GoldenError::Differs { label, path, difference, size: found.size, shown: shown.clone() }
                 }
                 _ => return Ok(()),
             }
@@ -142,24 +147,23 @@ impl Golden<'_> {
     }
 }
 
-/// Writes the pictures of a failure: `SHOWN-actual.png`, `-expected.png` and, of pictures of one size,
+/// Writes the pictures of a failure: `SHOWN-actual.png`, `-expected.png` and, of pictures of one layout,
 /// `-difference.png`.
-fn leave(shown: &Path, actual: &Picture, expected: &Picture) -> Result<(), GoldenError> {
-    let write = |what: &str, picture: &Picture| put(&PathBuf::from(format!("{}-{what}.png", shown.display())), picture);
+fn leave(shown: &Path, actual: &DynamicImage, expected: &DynamicImage) -> Result<(), GoldenError> {
+    let write = |what: &str, picture: &DynamicImage| {
+        let path = PathBuf::from(format!("{}-{what}.png", shown.display()));
+        // PNG has no floats; to look at, 8 bits are enough.
+        if Layout::of(picture).bits > 16 {
+            return file::write(&path, &picture.to_rgba8().into());
+        }
+        file::write(&path, picture)
+    };
     write("actual", actual)?;
     write("expected", expected)?;
-    if actual.size() == expected.size() {
-        write("difference", &actual.difference_picture(expected))?;
+    if Layout::of(actual) == Layout::of(expected) {
+        write("difference", &difference_picture(actual, expected).into())?;
     }
     Ok(())
-}
-
-/// Writes a picture, its folders included.
-fn put(path: &Path, picture: &Picture) -> Result<(), GoldenError> {
-    if let Some(folder) = path.parent() {
-        std::fs::create_dir_all(folder).map_err(|cause| GoldenError::Directory { path: folder.into(), cause })?;
-    }
-    Ok(picture.write(path)?)
 }
 
 /// `text` with everything but letters, digits and `.`, `-`, `_` replaced.
@@ -194,10 +198,10 @@ mod tests {
         let error = goldens.check(&scene, "sah-kd:leaf=1", &tree).unwrap_err();
         let GoldenError::Differs { difference, shown, .. } = &error else { panic!("{error}") };
         assert_eq!(difference.first, [0, 0]);
-        assert!(difference.pixels > 10_000 && difference.largest >= 127, "{error}");
-        let picture = |what: &str| Picture::read(&PathBuf::from(format!("{}-{what}.png", shown.display()))).unwrap();
-        assert_eq!(picture("actual").difference(&picture("expected")), Some(*difference));
-        assert_eq!(picture("difference"), picture("actual").difference_picture(&picture("expected")));
+        assert!(difference.pixels > 10_000 && difference.largest >= 127.0, "{error}");
+        let picture = |what: &str| file::read(&PathBuf::from(format!("{}-{what}.png", shown.display()))).unwrap();
+        assert_eq!(Difference::between(&picture("actual"), &picture("expected")), Some(*difference));
+        assert_eq!(picture("difference"), difference_picture(&picture("actual"), &picture("expected")).into());
         assert!(error.to_string().contains("Cube with sah-kd:leaf=1"), "{error}");
         assert_eq!(std::fs::read_dir(directory.path().join("out")).unwrap().count(), 3);
     }

@@ -1,6 +1,8 @@
 //! The colour map of the heat view.
 
-use super::Picture;
+use image::RgbImage;
+
+use super::picture::from_pixels;
 
 /// Nine colours of the map "inferno" at equal distances: lightness rises evenly, also in grey and for colour-blind
 /// eyes.
@@ -36,8 +38,16 @@ pub fn heat(cost: u64, hottest: u64) -> [u8; 3] {
     std::array::from_fn(|c| ((u32::from(below[c]) * (255 - part) + u32::from(above[c]) * part + 127) / 255) as u8)
 }
 
-/// The colours of all costs from 0 to `hottest` as a bar of so many pixels, below it a mark at 1 and each power of ten.
-pub fn bar(width: u32, hottest: u64) -> Picture {
+/// A picture with the colours of all costs from 0 to `hottest` as a bar below it.
+pub fn with_bar(picture: RgbImage, hottest: u64) -> RgbImage {
+    let (width, bar) = (picture.width(), bar(picture.width(), hottest));
+    let height = picture.height() + bar.height();
+    let rows = [picture.into_raw(), bar.into_raw()].concat();
+    RgbImage::from_raw(width, height, rows).expect("both have one width")
+}
+
+/// The bar of so many pixels, below it a mark at 1 and each power of ten.
+fn bar(width: u32, hottest: u64) -> RgbImage {
     let black = vec![[0; 3]; width as usize];
     let (last, whole) = (f64::from(width.max(2) - 1), libm::log1p(hottest as f64));
     let colour = |x: u32| heat(libm::round(libm::expm1(f64::from(x) / last * whole)) as u64, hottest);
@@ -46,7 +56,7 @@ pub fn bar(width: u32, hottest: u64) -> Picture {
     tens.for_each(|ten| marks[libm::round(libm::log1p(ten as f64) / whole * f64::from(width - 1)) as usize] = [255; 3]);
     let colours: Vec<[u8; 3]> = (0..width).map(colour).collect();
     let rows = [vec![black; 2], vec![colours; 10], vec![marks; 3]].concat();
-    Picture::new([width, rows.len() as u32], rows.concat())
+    from_pixels([width, rows.len() as u32], rows.concat())
 }
 
 #[cfg(test)]
@@ -56,13 +66,17 @@ mod tests {
     #[test]
     fn a_bar_has_every_colour_of_the_scale_and_marks_at_powers_of_ten() {
         let bar = bar(101, 999);
-        let row = |y: usize| &bar.pixels()[101 * y..101 * (y + 1)];
-        assert_eq!((row(5)[0], row(5)[100], bar.size()), (INFERNO[0], INFERNO[8], [101, 15]));
+        let row = |y: u32| (0..101).map(|x| bar.get_pixel(x, y).0).collect::<Vec<_>>();
+        assert_eq!((row(5)[0], row(5)[100], bar.dimensions()), (INFERNO[0], INFERNO[8], (101, 15)));
         assert_eq!(row(5)[50], heat(31, 999), "the root of 1000, less one, is in the middle");
         let marks: Vec<usize> = (0..101).filter(|&x| row(14)[x] != [0; 3]).collect();
         assert_eq!(marks, [10, 35, 67], "1, 10 and 100 of 999");
         // A scale of one cost, and one pixel.
-        assert_eq!(super::bar(1, 1).size(), [1, 15]);
+        assert_eq!(super::bar(1, 1).dimensions(), (1, 15));
+
+        let picture = RgbImage::from_pixel(101, 2, image::Rgb([7; 3]));
+        let both = with_bar(picture, 999);
+        assert_eq!((both.height(), both.get_pixel(100, 1).0, both.get_pixel(0, 2 + 5).0), (17, [7; 3], INFERNO[0]));
     }
 
     #[test]

@@ -1,8 +1,9 @@
 //! Where a structure or its triangle test is wrong, pixel by pixel.
 
+use image::RgbImage;
 use rayon::prelude::*;
 
-use super::Picture;
+use super::picture::from_pixels;
 use crate::accel::DynAccel;
 use crate::geometry::{Hit, Ray};
 use crate::oracle::{Oracle, Truth};
@@ -98,7 +99,7 @@ impl ErrorMap {
     }
 
     /// Errors in colours, enlarged, over a dim depth view of right hits.
-    pub fn picture(&self) -> Picture {
+    pub fn picture(&self) -> RgbImage {
         let right = |(outcome, hit): &(Outcome, Option<Hit>)| hit.filter(|_| *outcome == Outcome::Right);
         let nearest = self.pixels.iter().filter_map(right).fold(f32::INFINITY, |near, hit| near.min(hit.t));
         let colour = |pixel: &(Outcome, Option<Hit>)| {
@@ -123,13 +124,15 @@ impl ErrorMap {
                 }
             }
         }
-        Picture::new(self.size, colours)
+        from_pixels(self.size, colours)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use std::sync::Arc;
+
+    use image::Rgb;
 
     use super::*;
     use crate::accel::Accel;
@@ -145,8 +148,8 @@ mod tests {
         let map = ErrorMap::new(&scene, &tree, [48, 48]);
         assert!(map.count(Outcome::Right) > 0 && map.count(Outcome::Nothing) > 0, "{}", map.legend());
         assert_eq!(map.count(Outcome::Right) + map.count(Outcome::Nothing), 48 * 48);
-        assert!(map.picture().pixels().iter().all(|[r, g, b]| r == g && g == b && f32::from(*r) <= BRIGHTEST));
-        assert_eq!(map.picture().pixels()[0], [0; 3]);
+        assert!(map.picture().pixels().all(|Rgb([r, g, b])| r == g && g == b && f32::from(*r) <= BRIGHTEST));
+        assert_eq!(map.picture().get_pixel(0, 0), &Rgb([0; 3]));
     }
 
     #[test]
@@ -161,11 +164,11 @@ mod tests {
         let nothing = KdTree::<Exact>::build(&empty, &KdConfig::SAH).unwrap();
         let missed = ErrorMap::new(&scene, &nothing, size);
         assert_eq!(missed.count(Outcome::Missed), hits);
-        assert!(missed.picture().pixels().contains(&[213, 94, 0]), "{}", missed.legend());
+        assert!(missed.picture().pixels().any(|pixel| pixel.0 == [213, 94, 0]), "{}", missed.legend());
         scene.mesh = empty;
         let invented = ErrorMap::new(&scene, &tree, size);
         assert_eq!(invented.count(Outcome::FalseHit), hits);
-        assert!(invented.picture().pixels().contains(&[240, 228, 66]));
+        assert!(invented.picture().pixels().any(|pixel| pixel.0 == [240, 228, 66]));
         assert!(invented.legend().contains(&format!("false hit {hits} (yellow)")), "{}", invented.legend());
     }
 }

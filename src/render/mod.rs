@@ -12,9 +12,9 @@ mod report_ray_counts;
 #[cfg(test)]
 mod tests;
 
-pub use colour_map::{bar as heat_bar, heat as heat_colour};
+pub use colour_map::{heat as heat_colour, with_bar as with_heat_bar};
 pub use error_map::{ErrorMap, ExactPicture, error_name};
 pub use integrator::{RayCounts, render};
-pub use picture::{Difference, Picture, PictureError};
+pub use picture::{from_pixels, of_colours, png, png_encoder};
 pub use view::{ViewError, ViewKind, coarse_size, costs, draw, hottest, size_of};
 pub use work::Work;

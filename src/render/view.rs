@@ -2,8 +2,10 @@
 
 use std::str::FromStr;
 
-use super::picture::quantised;
-use super::{ErrorMap, Picture, Work, colour_map, render};
+use image::RgbImage;
+
+use super::picture::{from_pixels, of_colours, quantised};
+use super::{ErrorMap, Work, colour_map, render};
 use crate::accel::{DynAccel, Observed};
 use crate::geometry::{Hit, Ray};
 use crate::names::{Unknown, find, named_enum};
@@ -55,9 +57,9 @@ pub fn draw(
     view: ViewKind,
     size: [u32; 2],
     hottest: u64,
-) -> Result<Picture, ViewError> {
+) -> Result<RgbImage, ViewError> {
     Ok(match view {
-        ViewKind::Shaded => Picture::of_colours(size, &render(scene, accel, size).0),
+        ViewKind::Shaded => of_colours(size, &render(scene, accel, size).0),
         ViewKind::Depth => depth(scene, accel, size),
         ViewKind::Normal => from_hits(size, &hits(scene, accel, size), |ray, hit| {
             (scene.surface(ray, hit).shading_normal * 0.5 + 0.5).to_array().map(quantised)
@@ -65,7 +67,7 @@ pub fn draw(
         ViewKind::Primitive => from_hits(size, &hits(scene, accel, size), |_, hit| identity(hit.prim.index())),
         ViewKind::Heat => {
             let colours = costs(scene, accel, size)?.into_iter().map(|cost| colour_map::heat(cost, hottest));
-            Picture::new(size, colours.collect())
+            from_pixels(size, colours.collect())
         }
         ViewKind::Error => ErrorMap::new(scene, accel, size).picture(),
     })
@@ -113,11 +115,11 @@ fn hits(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Vec<(Ray, Option
     rays.into_iter().zip(hits).collect()
 }
 
-fn from_hits(size: [u32; 2], hits: &[(Ray, Option<Hit>)], colour: impl Fn(&Ray, Hit) -> [u8; 3]) -> Picture {
-    Picture::new(size, hits.iter().map(|(ray, hit)| hit.map_or([0; 3], |hit| colour(ray, hit))).collect())
+fn from_hits(size: [u32; 2], hits: &[(Ray, Option<Hit>)], colour: impl Fn(&Ray, Hit) -> [u8; 3]) -> RgbImage {
+    from_pixels(size, hits.iter().map(|(ray, hit)| hit.map_or([0; 3], |hit| colour(ray, hit))).collect())
 }
 
-fn depth(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Picture {
+fn depth(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> RgbImage {
     let hits = hits(scene, accel, size);
     let seen = hits.iter().filter_map(|(_, hit)| hit.map(|hit| hit.t));
     let (near, far) = seen.fold((f32::INFINITY, 0.0f32), |(near, far), t| (near.min(t), far.max(t)));
@@ -159,7 +161,7 @@ mod tests {
         let all = BruteForce::<MollerTrumbore>::build(&scene.mesh, &Default::default()).unwrap();
         let colours = |view: ViewKind, accel: &dyn DynAccel| {
             let picture = draw(&scene, accel, view, [64, 64], 14).unwrap();
-            (picture.pixels()[0], picture.pixels().iter().copied().collect::<HashSet<_>>())
+            (picture.get_pixel(0, 0).0, picture.pixels().map(|pixel| pixel.0).collect::<HashSet<_>>())
         };
         for view in [ViewKind::Shaded, ViewKind::Depth, ViewKind::Normal, ViewKind::Primitive] {
             assert_eq!(draw(&scene, &tree, view, [64, 64], 1), draw(&scene, &all, view, [64, 64], 9), "{view:?}");

@@ -1,9 +1,8 @@
 //! `sahara study`: what is printed, exported and drawn.
 
 use std::fs;
-use std::path::Path;
 
-use sahara::render::Picture;
+use sahara::image;
 use serde_json::Value;
 
 use super::command::{command, json, path_text, prints, refused_in_a_line, sahara, small, stderr, words};
@@ -35,7 +34,7 @@ fn accuracy_prints_exports_and_draws_what_it_finds() {
     assert_eq!(provenance["process_per_epoch"], true);
     assert!(!provenance["command"].as_str().unwrap().contains("--case"), "{provenance}");
     assert!(fs::read_to_string(svg).unwrap().contains("moller-trumbore"));
-    assert_eq!(Picture::read(Path::new(&png)).unwrap().size()[0], 1600);
+    assert_eq!(image::image_dimensions(&png).unwrap().0, 1600);
 }
 
 #[test]

@@ -1,8 +1,6 @@
 //! `--camera`, `--inside` and `--size` mean the same in all commands that look at a scene.
 
-use std::path::Path;
-
-use sahara::render::Picture;
+use sahara::image;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -46,11 +44,11 @@ fn validate_and_render_look_from_there_as_well() {
     let outside = prints(&["validate", &room, "-s", "sah-kd", "--size", "20x10", "--rays", "600"]);
     assert!(!validated.contains("seen from outside") && outside.contains("seen from outside"), "{outside}");
     prints(&[&["render"], &inside[..], &["-o", &picture, "--view", "primitive"]].concat());
-    assert_eq!(Picture::read(Path::new(&picture)).unwrap().size(), [20, 10]);
+    assert_eq!(image::image_dimensions(&picture).unwrap(), (20, 10));
     let errors = ["render", "cube", "-o", &picture, "--size", "24x24", "--view", "error", "-s", "sah-kd:test=exact"];
     let text = prints(&errors);
     assert!(text.contains("missed 0 (vermilion)"), "what its colours mean: {text}");
-    assert_eq!(Picture::read(Path::new(&picture)).unwrap().size()[0], 24);
+    assert_eq!(image::image_dimensions(&picture).unwrap(), (24, 24));
 
     refuses(&["compare", &room, "--inside", "--camera", "0,1,0 0,1,3"], &["--inside", "--camera"]);
     refuses_in_a_line(&["compare", &room, "--camera", "0,1,0 0,1,0"], &["--camera", "same point"]);

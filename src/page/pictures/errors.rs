@@ -4,7 +4,7 @@ use super::camera_rays::{CameraRays, StructureWork};
 use super::inspect::{inspector, most_rays};
 use super::{hex, introduced};
 use crate::page::document::Section;
-use crate::render::ErrorMap;
+use crate::render::{ErrorMap, png};
 use crate::report::inspector::Inspector;
 use crate::report::number::{count, plural};
 use crate::report::words::{listed, slug};
@@ -41,7 +41,7 @@ fn figure(camera: &CameraRays, wrong: &[(&StructureWork, ErrorMap)], right: &[&s
             name: structure.label.clone(),
             alt: format!("Wrong answers of {} on {}: {errors}", structure.label, camera.name),
             note: errors,
-            png: map.picture().png(),
+            png: png(&map.picture()),
             size: camera.exact.size,
         }
     };

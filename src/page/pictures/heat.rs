@@ -5,8 +5,7 @@ use super::inspect::{inspector, most_rays};
 use super::{hex, introduced};
 use crate::accel::Observed;
 use crate::page::document::Section;
-use crate::render;
-use crate::render::{Work, heat_colour, hottest};
+use crate::render::{Work, from_pixels, heat_colour, hottest, png};
 use crate::report::inspector::Inspector;
 use crate::report::number::{count, figures};
 use crate::report::plot::tick_text;
@@ -41,7 +40,7 @@ pub fn block(camera: &CameraRays) -> Option<(Block, String)> {
             name: heat.label.into(),
             note: format!("{mean} a ray"),
             alt: format!("Heat map of {} on {name}: {mean} tests and steps a ray on average", heat.label),
-            png: render::Picture::new(size, colours.collect()).png(),
+            png: png(&from_pixels(size, colours.collect())),
             size,
         }
     };

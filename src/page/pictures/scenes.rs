@@ -1,9 +1,11 @@
 //! The scenes, as the report's course shades them.
 
+use image::{Rgb, RgbImage};
+
 use super::loaded_scene::LoadedScene;
 use crate::page::document::Section;
 use crate::registry::Registry;
-use crate::render::{self, ViewKind, draw, size_of};
+use crate::render::{ViewKind, draw, png, size_of};
 use crate::report::number::count;
 use crate::report::words::{listed, scene_name};
 use crate::report::{Art, Block, Cell, Figure, Picture, Table};
@@ -27,20 +29,16 @@ pub fn picture(loaded: &LoadedScene, registry: &Registry) -> Option<Picture> {
         alt: format!("{name}, rendered"),
         note: format!("{} triangles", count(scene.mesh.len() as u64)),
         name,
-        png: halved(&fine).png(),
+        png: png(&halved(&fine)),
         size,
     })
 }
 
-fn halved(fine: &render::Picture) -> render::Picture {
-    let [width, height] = fine.size().map(|side| side / 2);
-    let pixel = |x: u32, y: u32| fine.pixels()[(y * fine.size()[0] + x) as usize];
-    let mean = |x: u32, y: u32| {
-        let four = [pixel(x, y), pixel(x + 1, y), pixel(x, y + 1), pixel(x + 1, y + 1)];
-        std::array::from_fn(|c| (four.iter().map(|p| u32::from(p[c])).sum::<u32>().div_ceil(4)).min(255) as u8)
-    };
-    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| mean(2 * x, 2 * y)));
-    render::Picture::new([width, height], pixels.collect())
+fn halved(fine: &RgbImage) -> RgbImage {
+    RgbImage::from_fn(fine.width() / 2, fine.height() / 2, |x, y| {
+        let four = [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[right, down]| fine.get_pixel(2 * x + right, 2 * y + down));
+        Rgb(std::array::from_fn(|c| four.iter().map(|pixel| u32::from(pixel[c])).sum::<u32>().div_ceil(4) as u8))
+    })
 }
 
 fn caption(loaded: &[LoadedScene]) -> String {

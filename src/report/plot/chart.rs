@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use image::RgbImage;
 use plotters::drawing::IntoDrawingArea;
 use plotters::prelude::{BitMapBackend, DrawingBackend, SVGBackend};
 
@@ -9,7 +10,7 @@ use super::canvas::{Area, DrawResult, register};
 use super::palette::PAPER;
 use super::{Bars, Curves, Scatter, Tradeoff};
 use crate::escaped::Escaped as _;
-use crate::render::Picture;
+use crate::render::png;
 
 /// Width of drawings that stand alone, in their units.
 pub const WIDTH: f64 = 900.0;
@@ -83,7 +84,6 @@ impl Chart {
         let (width, height) = self.size(width);
         let mut bytes = vec![255; width as usize * height as usize * 3];
         self.draw(&BitMapBackend::with_buffer(&mut bytes, (width, height)).into_drawing_area()).expect(DRAWN);
-        let (colours, _) = bytes.as_chunks::<3>();
-        Picture::new([width, height], colours.to_vec()).png()
+        png(&RgbImage::from_raw(width, height, bytes).expect("all pixels are there"))
     }
 }

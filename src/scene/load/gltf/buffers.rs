@@ -84,7 +84,7 @@ fn file(uri: &str, folder: &Path) -> Result<PathBuf, String> {
     let name = percent_decode_str(uri).decode_utf8().map_err(not_text)?;
     let shown = quoted(name.as_bytes());
     let outside = || format!("its file {shown} is not below the folder of this one: put it there");
-    let path = below(folder, &name).ok_or_else(outside)?;
+    let path = below(folder, &*name).ok_or_else(outside)?;
     match fs::metadata(&path) {
         Ok(file) if file.is_file() => Ok(fs::canonicalize(&path).unwrap_or(path)),
         Ok(_) => Err(format!("its file {shown} is not a regular file: name the file of the buffer")),

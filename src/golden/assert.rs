@@ -1,0 +1,146 @@
+//! Golden images for the tests of other crates.
+
+use std::path::Path;
+
+use image::DynamicImage;
+
+use super::{Golden, GoldenError, file, file_name};
+
+/// When a picture is accepted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Match {
+    /// All values are equal, as with a deterministic renderer.
+    Exact,
+    /// No channel of a pixel differs by more than this, of 255 at any depth: other machines may round differently.
+    Within(u8),
+}
+
+/// The environment variable that makes [`assert_image`] write golden images instead of comparing, if it is `update`.
+pub const UPDATE: &str = "SAHARA_GOLDEN";
+
+/// The folder for the pictures of failures, relative to the current directory, which is the crate's folder in tests.
+const OUT: &str = "out/golden";
+
+/// Compares `actual` with the golden image `path`, in its channels (alpha as any other) and with its bits a channel; for
+/// tests.
+///
+/// With the environment variable `SAHARA_GOLDEN=update` the file is written instead as PNG, folders included.
+///
+/// ```
+/// use sahara::golden::{Match, assert_image};
+/// use sahara::image::{Rgb, RgbImage};
+///
+/// # let folder = tempfile::tempdir().unwrap();
+/// # let golden = folder.path().join("sunset.png");
+/// let mut drawn = RgbImage::from_pixel(64, 64, Rgb([200, 90, 40]));
+/// # sahara::golden::write(&golden, &drawn.clone().into()).unwrap();
+/// assert_image(&golden, drawn.clone(), Match::Exact);
+///
+/// // Another machine rounds one pixel differently: not equal, but near.
+/// drawn.get_pixel_mut(36, 1).0[0] += 1;
+/// assert_image(&golden, drawn.clone(), Match::Within(1));
+/// # assert!(sahara::golden::check_image(&golden, &drawn.into(), Match::Exact, &folder.path().join("out")).is_err());
+/// ```
+///
+/// # Panics
+/// If the picture is not accepted, has another size, other channels or another depth, or there is no golden image. Then
+/// `out/golden` holds the actual and the expected picture under the golden image's file name, and their difference if
+/// they are of one layout.
+#[track_caller]
+pub fn assert_image(path: impl AsRef<Path>, actual: impl Into<DynamicImage>, how: Match) {
+    let (path, actual) = (path.as_ref(), actual.into());
+    let result = match std::env::var(UPDATE).as_deref() {
+        Ok("update") => file::write(path, &actual).map_err(GoldenError::from),
+        _ => check_image(path, &actual, how, Path::new(OUT)),
+    };
+    if let Err(error) = result {
+        panic!("{error}");
+    }
+}
+
+/// As [`assert_image`], without a panic and with the pictures of a failure in `out`.
+///
+/// # Errors
+/// If the picture is not accepted, or the golden image cannot be read.
+pub fn check_image(path: &Path, actual: &DynamicImage, how: Match, out: &Path) -> Result<(), GoldenError> {
+    let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
+    let golden = Golden {
+        path,
+        label: stem.clone().into_owned(),
+        shown: out.join(file_name(&stem)),
+        remedy: "run the test once with SAHARA_GOLDEN=update to make the golden image",
+    };
+    golden.check(actual, |difference| match how {
+        Match::Exact => false,
+        Match::Within(step) => difference.largest * 255.0 <= f64::from(step) * difference.full_scale,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use image::{ImageBuffer, Rgb, Rgb32FImage, RgbImage, RgbaImage};
+
+    use super::*;
+    use crate::golden::{read, write};
+
+    fn picture(shade: u8) -> DynamicImage {
+        RgbImage::from_pixel(16, 16, Rgb([shade, 50, 50])).into()
+    }
+
+    #[test]
+    fn each_refusal_says_why_and_leaves_pictures() {
+        let directory = tempfile::tempdir().unwrap();
+        let (golden, out) = (directory.path().join("a/b.png"), directory.path().join("out"));
+        let refusal = |actual: &DynamicImage, how| check_image(&golden, actual, how, &out).unwrap_err().to_string();
+        assert!(refusal(&picture(10), Match::Exact).contains("SAHARA_GOLDEN=update"));
+        write(&golden, &picture(10)).unwrap();
+        check_image(&golden, &picture(10), Match::Exact, &out).unwrap();
+        assert!(!out.exists());
+
+        assert!(refusal(&picture(11), Match::Exact).contains("256 of 256 pixels differ"));
+        check_image(&golden, &picture(11), Match::Within(1), &out).unwrap();
+        assert!(refusal(&picture(255), Match::Within(244)).contains("by up to 245 of 255"));
+        assert_eq!(read(&out.join("b-actual.png")).unwrap(), picture(255));
+        assert_eq!(std::fs::read_dir(&out).unwrap().count(), 3);
+        let small = refusal(&RgbImage::new(1, 1).into(), Match::Exact);
+        assert!(small.contains("1 x 1 pixels") && small.contains("SAHARA_GOLDEN=update"), "{small}");
+        assert_eq!(read(&out.join("b-actual.png")).unwrap().width(), 1);
+
+        // The reason is in the message even if the pictures cannot be written.
+        std::fs::remove_dir_all(&out).unwrap();
+        std::fs::write(&out, b"no folder").unwrap();
+        let reason = refusal(&picture(11), Match::Exact);
+        assert!(reason.contains("256 of 256 pixels differ") && reason.contains("could not be written"), "{reason}");
+    }
+
+    #[test]
+    fn the_same_colours_in_another_layout_are_not_the_golden_image() {
+        let directory = tempfile::tempdir().unwrap();
+        let (golden, out) = (directory.path().join("a.png"), directory.path().join("out"));
+        let drawn = RgbImage::from_fn(4, 4, |x, y| Rgb([x as u8, y as u8, 255]));
+        let clear = RgbaImage::from_fn(4, 4, |x, y| image::Rgba([x as u8, y as u8, 255, 0]));
+        let opaque = DynamicImage::from(drawn.clone()).to_rgba8();
+        let deep = ImageBuffer::from_fn(4, 4, |x, y| Rgb([257 * x as u16, 257 * y as u16, 65535]));
+        for (other, channels) in [
+            (DynamicImage::from(clear), "RGBA with 8 bits"),
+            (opaque.into(), "RGBA with 8 bits"),
+            (deep.into(), "RGB with 16 bits"),
+        ] {
+            write(&golden, &other).unwrap();
+            check_image(&golden, &other, Match::Exact, &out).unwrap();
+            let refused = check_image(&golden, &drawn.clone().into(), Match::Within(255), &out).unwrap_err();
+            let text = refused.to_string();
+            assert!(text.contains(channels) && text.contains("has 4 x 4 pixels of RGB with 8 bits"), "{text}");
+            assert_eq!(read(&out.join("a-expected.png")).unwrap(), other);
+        }
+        // A step of 255 is 257 of 65535.
+        let shade = |shade: u16| DynamicImage::from(ImageBuffer::from_pixel(2, 2, image::Luma([shade])));
+        write(&golden, &shade(1000)).unwrap();
+        check_image(&golden, &shade(1257), Match::Within(1), &out).unwrap();
+        let refused = check_image(&golden, &shade(1258), Match::Within(1), &out).unwrap_err();
+        assert!(refused.to_string().contains("by up to 258 of 65535"), "{refused}");
+        // Floats are shown as well.
+        check_image(&golden, &Rgb32FImage::new(2, 2).into(), Match::Exact, &out).unwrap_err();
+        assert_eq!(read(&out.join("a-actual.png")).unwrap().width(), 2);
+    }
+}

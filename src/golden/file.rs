@@ -1,0 +1,204 @@
+//! Files of pictures: read within bounds, written as PNG.
+
+use std::io::Error;
+use std::path::{Path, PathBuf};
+
+use image::{DynamicImage, ImageEncoder, ImageError, ImageReader, Limits};
+
+use crate::escaped::Escaped as _;
+use crate::output::{OutputError, OutputFile};
+use crate::render::png_encoder;
+
+/// MiB that the pixels of a picture take at most, and besides them what its decoder needs.
+const LARGEST: u64 = 512;
+
+/// Why a picture cannot be read or written.
+#[derive(Debug, thiserror::Error)]
+pub enum PictureError {
+    #[error("cannot read the picture {}: {cause}", path.escaped())]
+    Read { path: PathBuf, cause: Error },
+    #[error("cannot read the picture {}, {}: {}", path.escaped(), reason(cause), in_a_line(cause))]
+    Decode { path: PathBuf, cause: ImageError },
+    #[error("cannot write the picture {} as PNG, which takes 8 or 16 bits a channel: {}", path.escaped(), in_a_line(cause))]
+    Encode { path: PathBuf, cause: ImageError },
+    #[error("cannot make the directory {}: {cause}", path.escaped())]
+    Directory { path: PathBuf, cause: Error },
+    #[error(transparent)]
+    Write(#[from] OutputError),
+}
+
+fn reason(cause: &ImageError) -> String {
+    match cause {
+        ImageError::Limits(_) => format!("which takes more than {LARGEST} MiB"),
+        ImageError::Unsupported(_) if cfg!(feature = "pictures") => "which is not PNG, JPEG, WebP or EXR".into(),
+        ImageError::Unsupported(_) => "which is not PNG (JPEG, WebP and EXR need the feature `pictures`)".into(),
+        _ => "which is damaged, cut off or of another format".into(),
+    }
+}
+
+/// Some causes of the decoders end lines.
+fn in_a_line(cause: &ImageError) -> String {
+    cause.to_string().lines().collect::<Vec<_>>().join(" ")
+}
+
+/// Reads a picture of the channels and the bits a channel that the file has: grey of less than 8 bits has 8, a palette
+/// is RGB, or RGBA if it has transparency. The file's content tells its format, not its name.
+///
+/// # Errors
+/// If there is no such file, or it is no picture, or one of more than 512 MiB.
+pub fn read(path: &Path) -> Result<DynamicImage, PictureError> {
+    let opened = ImageReader::open(path).and_then(ImageReader::with_guessed_format);
+    let mut reader = opened.map_err(|cause| PictureError::Read { path: path.into(), cause })?;
+    let mut limits = Limits::default();
+    limits.max_alloc = Some(LARGEST << 20);
+    reader.limits(limits);
+    reader.decode().map_err(|cause| PictureError::Decode { path: path.into(), cause })
+}
+
+/// Writes a PNG file, whole or not at all, and the folders that it is in.
+///
+/// # Errors
+/// If there is no room, the folder takes no file, or PNG has no such pixels.
+pub fn write(path: &Path, picture: &DynamicImage) -> Result<(), PictureError> {
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder).map_err(|cause| PictureError::Directory { path: folder.into(), cause })?;
+    }
+    let mut bytes = vec![];
+    // Other ways to write would convert what PNG does not take.
+    png_encoder(&mut bytes)
+        .write_image(picture.as_bytes(), picture.width(), picture.height(), picture.color().into())
+        .map_err(|cause| PictureError::Encode { path: path.into(), cause })?;
+    Ok(OutputFile::check(path)?.write(&bytes)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use image::{ColorType, Rgb32FImage, Rgba, RgbaImage};
+
+    use super::*;
+
+    /// One black and one white pixel of 1 bit.
+    const GREY_1: &str = "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABAQAAAADcWUInAAAACklEQVR4nGNwAAAAQgBBKTf07wAAAABJRU5ErkJggg==";
+
+    #[test]
+    fn pictures_of_another_writer_keep_their_channels_and_depth() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        // Written by Pillow 12.
+        for (text, color, values) in [
+            (GREY_1, ColorType::L8, &[0, 255][..]),
+            // A palette, the same with its second colour transparent, and RGB with a colour that is.
+            (
+                "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABAQMAAADO7O3JAAAABlBMVEUHCAkBAgNf59QzAAAACklEQVR4nGNwAAAAQgBBKTf07wAAAABJ\
+                 RU5ErkJggg==",
+                ColorType::Rgb8,
+                &[7, 8, 9, 1, 2, 3],
+            ),
+            (
+                "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABAQMAAADO7O3JAAAABlBMVEUHCAkBAgNf59QzAAAAAnRSTlP/AOW3MEoAAAAKSURBVHicY3AA\
+                 AABCAEEpN/TvAAAAAElFTkSuQmCC",
+                ColorType::Rgba8,
+                &[7, 8, 9, 255, 1, 2, 3, 0],
+            ),
+            (
+                "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAIAAAB7QOjdAAAABnRSTlMAAQACAAPJS6v1AAAAD0lEQVR4nGNg5+BkZGIGAACHAB9spMAl\
+                 AAAAAElFTkSuQmCC",
+                ColorType::Rgba8,
+                &[7, 8, 9, 255, 1, 2, 3, 0],
+            ),
+            // Grey of 16 bits: 258 and 65535.
+            (
+                "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABEAAAAACB2fwVAAAADUlEQVR4nGNgZPr/HwADDAICGwGttwAAAABJRU5ErkJggg==",
+                ColorType::L16,
+                &[258, 65535],
+            ),
+        ] {
+            fs::write(&path, base64::decode(text).unwrap()).unwrap();
+            let picture = read(&path).unwrap();
+            let found: Vec<u16> = match &picture {
+                DynamicImage::ImageLuma16(grey) => grey.to_vec(),
+                other => other.as_bytes().iter().copied().map(u16::from).collect(),
+            };
+            assert_eq!((picture.color(), &found[..]), (color, values), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_written_is_read_back_and_leaves_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        let colours = RgbaImage::from_fn(5, 3, |x, y| Rgba([x as u8, y as u8, 200, 10 * x as u8]));
+        let colours = DynamicImage::from(colours);
+        for picture in [
+            DynamicImage::from(colours.to_luma8()),
+            colours.to_luma_alpha8().into(),
+            colours.to_rgb8().into(),
+            colours.clone(),
+            colours.to_luma16().into(),
+            colours.to_luma_alpha16().into(),
+            colours.to_rgb16().into(),
+            colours.to_rgba16().into(),
+        ] {
+            write(&path, &picture).unwrap();
+            assert_eq!(read(&path).unwrap(), picture);
+        }
+        let refusal = write(&path, &Rgb32FImage::new(1, 1).into()).unwrap_err().to_string();
+        assert!(refusal.contains("a.png") && refusal.contains("8 or 16 bits"), "{refusal}");
+        assert_eq!(read(&path).unwrap().color(), ColorType::Rgba16, "after a failure the older file is there");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn what_is_no_picture_is_refused_in_a_line_that_names_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        let refusal = |part: &str| {
+            let error = read(&path).unwrap_err();
+            let text = error.to_string();
+            assert!(text.contains("a.png") && text.contains(part) && text.lines().count() == 1, "{text}");
+            error
+        };
+        assert!(matches!(refusal("No such file"), PictureError::Read { .. }));
+        fs::create_dir(&path).unwrap();
+        assert!(matches!(refusal("directory"), PictureError::Read { .. }));
+        fs::remove_dir(&path).unwrap();
+
+        let good = base64::decode(GREY_1).unwrap();
+        for length in 0..good.len() {
+            fs::write(&path, &good[..length]).unwrap();
+            // All pixels are there before the last chunk, which says nothing.
+            if length < good.len() - 12 {
+                refusal("damaged, cut off or of another format");
+            }
+        }
+        for bytes in [&b"not a picture"[..], b"<html>", &[0; 4096]] {
+            fs::write(&path, bytes).unwrap();
+            refusal("damaged, cut off or of another format");
+        }
+        let other = if cfg!(feature = "pictures") { "not PNG, JPEG, WebP or EXR" } else { "feature `pictures`" };
+        for bytes in [&b"GIF89a\x01\0\x01\0\0\0\0"[..], b"BM\0\0\0\0\0\0\0\0"] {
+            fs::write(&path, bytes).unwrap();
+            refusal(other);
+        }
+    }
+
+    #[test]
+    fn a_picture_of_more_than_memory_is_refused_before_it_is_decoded() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        // Of RGB with 16 bits: 16,384 x 16,384 pixels, a line of 2^31 - 1, and as many lines.
+        for text in [
+            "iVBORw0KGgoAAAANSUhEUgAAQAAAAEAAEAIAAAB2OluQAAAADElEQVR4nGNgoD0AAABkAAGGZDw1",
+            "iVBORw0KGgoAAAANSUhEUn////8AAAABEAIAAAB/xHjJAAAADElEQVR4nGNgoD0AAABkAAGGZDw1",
+            "iVBORw0KGgoAAAANSUhEUn////9/////EAIAAADLO0ByAAAADElEQVR4nGNgoD0AAABkAAGGZDw1",
+        ] {
+            fs::write(&path, base64::decode(text).unwrap()).unwrap();
+            let error = read(&path).unwrap_err();
+            assert!(matches!(error, PictureError::Decode { cause: ImageError::Limits(_), .. }), "{error:?}");
+            let text = error.to_string();
+            assert!(text.contains("a.png") && text.contains("512 MiB") && text.lines().count() == 1, "{text}");
+        }
+    }
+}
