@@ -1,10 +1,9 @@
 //! The node graph of a glTF file.
 
-use glam::{DMat4, DQuat, DVec3};
-use gltf::scene::Transform;
+use glam::DMat4;
 use gltf::{Document, Node};
 
-use super::placement::Placement;
+use super::placement::{Placement, local};
 use super::text::Instances;
 use crate::scene::load::error::Fault;
 
@@ -76,22 +75,4 @@ pub(super) fn placements<'a>(
         return Err(Fault::part(format!("scenes[{}].nodes[{i}]", scene.index()), problem));
     }
     Ok((placements, worlds.into_iter().flatten().collect()))
-}
-
-pub(super) fn local(transform: Transform) -> DMat4 {
-    match transform {
-        Transform::Matrix { matrix } => double(matrix),
-        Transform::Decomposed { translation, rotation, scale } => {
-            // A unit quaternion in f32 is not of unit length in f64.
-            let rotation = DQuat::from_array(rotation.map(f64::from));
-            let length = rotation.length();
-            let rotation = if length > 0.0 && length.is_finite() { rotation / length } else { DQuat::IDENTITY };
-            let vector = |v: [f32; 3]| DVec3::from(v.map(f64::from));
-            DMat4::from_scale_rotation_translation(vector(scale), rotation, vector(translation))
-        }
-    }
-}
-
-pub(super) fn double(columns: [[f32; 4]; 4]) -> DMat4 {
-    DMat4::from_cols_array_2d(&columns.map(|column| column.map(f64::from)))
 }

@@ -2,12 +2,11 @@
 
 use std::iter::{once, repeat, repeat_with};
 
-use glam::DMat4;
+use glam::{DMat4, DQuat, DVec3};
 use gltf::scene::Transform;
 use gltf::{Mesh, Skin};
 
 use super::accessors::{Accessors, Elements, fault};
-use super::graph::{double, local};
 use super::shape::Attribute;
 use crate::scene::load::error::Fault;
 
@@ -104,4 +103,23 @@ impl Pose {
             if total == 0.0 { DMat4::IDENTITY } else { sum * total.recip() }
         })))
     }
+}
+
+/// The transform of a node or an instance relative to what it belongs to.
+pub(super) fn local(transform: Transform) -> DMat4 {
+    match transform {
+        Transform::Matrix { matrix } => double(matrix),
+        Transform::Decomposed { translation, rotation, scale } => {
+            // A unit quaternion in f32 is not of unit length in f64.
+            let rotation = DQuat::from_array(rotation.map(f64::from));
+            let length = rotation.length();
+            let rotation = if length > 0.0 && length.is_finite() { rotation / length } else { DQuat::IDENTITY };
+            let vector = |v: [f32; 3]| DVec3::from(v.map(f64::from));
+            DMat4::from_scale_rotation_translation(vector(scale), rotation, vector(translation))
+        }
+    }
+}
+
+fn double(columns: [[f32; 4]; 4]) -> DMat4 {
+    DMat4::from_cols_array_2d(&columns.map(|column| column.map(f64::from)))
 }
