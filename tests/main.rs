@@ -15,6 +15,7 @@ mod hard_cases;
 mod hostile_files;
 mod layers;
 mod levels;
+mod licences;
 mod oracle;
 mod peers;
 mod properties;
