@@ -99,7 +99,7 @@ fn alpha_and_depth_of_a_golden_image_count() {
 #[cfg(feature = "pictures")]
 mod pictures {
     use sahara::golden::{Match, check_image};
-    use sahara::image::{ColorType, ImageFormat, Rgb32FImage, RgbImage};
+    use sahara::image::{ColorType, ImageFormat, Rgb, Rgb32FImage, RgbImage};
 
     use super::*;
 

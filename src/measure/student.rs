@@ -30,8 +30,8 @@ pub fn factor(freedom: f64, level: f64) -> f64 {
 }
 
 /// The t that is exceeded in magnitude with probability `level`; of many degrees of freedom by the series of Cornish and
-/// Fisher (Abramowitz, Stegun, "Handbook of mathematical functions", 1964, 26.7.5), because `statrs` becomes less and
-/// less precise, and does not end at infinity. Its relative error is below 1e-10.
+/// Fisher (Abramowitz, Stegun, "Handbook of mathematical functions", 1964, 26.7.5), because `statrs` is off by 3e-6 at
+/// 10^5 and does not end at 10^8. Its relative error is below 1e-10.
 fn quantile(freedom: f64, level: f64) -> f64 {
     const MANY: f64 = 1000.0;
     if freedom <= MANY {
