@@ -1,7 +1,7 @@
 //! `attribution`: how much of the SAH speedup comes from the split plane, the stop rule and the traversal?
 //!
 //! One kind of tree in every combination of six planes, three stop rules and two traversals, over one triangle test, on
-//! the same rays: the factorial [`design`]. In every epoch all trees are built anew and timed in rounds, each round
+//! the same rays: the factorial design. In every epoch all trees are built anew and timed in rounds, each round
 //! every tree once, in random order. The report's tree and the SAH tree are built twice; the twins show the A/A noise.
 //! The role of a structure is its cell of the design.
 

@@ -18,12 +18,10 @@ use crate::measure::advice::{Conditions, of_own_clock, of_samples};
 use crate::measure::{Provenance, machine, median};
 use crate::report::words::each_once_by;
 use crate::report::{Failure, Report};
-use options::CompareArgs;
+use options::{CompareArgs, NAME};
 pub use rank::FASTEST;
 use rank::Ranking;
 pub use reference::{Reference, is_reference};
-
-const NAME: &str = "compare";
 
 /// The structures of `study all`: all names, and each again over a triangle test of the other precision.
 const FULL: &str = "-s all -s sah-hybrid:batch=packets -s median-kd:test=moller-trumbore -s sah-kd:test=moller-trumbore \

@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::time::Duration;
 
-use super::NAME;
 use crate::registry::Registry;
 use crate::report::words::each_once_by;
 use crate::request::{
@@ -14,6 +13,8 @@ use crate::request::{
 use crate::scene::{Scene, WorkloadKind};
 use crate::study::case::SLOWEST;
 use crate::study::{Check, Plan, PlannedScene, Settings};
+
+pub const NAME: &str = "compare";
 
 #[derive(Clone, Debug, clap::Args)]
 pub struct CompareArgs {

@@ -77,10 +77,11 @@ pub fn blocks(dataset: &Dataset, references: &[Reference], wide: bool) -> Vec<Bl
         let (own, first) = (of_scene(&scene), scene.epochs[0]);
         let refused: Vec<&Structure> =
             first.structures.iter().filter(|own| own.refused.is_some() && !own.is_twin()).collect();
-        blocks.push(Block::Table(match &own[..] {
-            [] => nothing_measured(&first.title(), &refused),
-            _ => scene_table(&own, shown, &refused, wide),
-        }));
+        if !own.is_empty() {
+            blocks.push(Block::Table(scene_table(&own, shown, &refused, wide)));
+        } else if !refused.is_empty() {
+            blocks.push(Block::Table(nothing_measured(&first.title(), &refused)));
+        }
         all_refused.extend(refused);
         scenes.extend(Some(own).filter(|own| !own.is_empty()));
     }
