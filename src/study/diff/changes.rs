@@ -1,7 +1,7 @@
 //! Changes of time, each with what its interval says.
 
 use super::relative::{references, relative, weighted};
-use super::{Change, ChangeKind};
+use super::{Change, Finding};
 use crate::measure::{AaNoise, Estimate, Rerun, cut_to_shared_epochs, epoch_values};
 use crate::report::words::each_once;
 use crate::study::measurement::{Measurement, trace_noise};
@@ -74,14 +74,14 @@ fn change(old: &[Vec<Vec<f64>>], new: &[Vec<Vec<f64>>], noises: &[AaNoise; 2], r
     Some(Rerun::change(&epoch_values(old)?, &epoch_values(new)?, noises)?.ratio())
 }
 
-pub(super) fn finding(time: Option<Estimate>, threshold: Option<f64>) -> ChangeKind {
-    let Some(time) = time.filter(|time| time.interval.is_some()) else { return ChangeKind::Unknown };
+pub(super) fn finding(time: Option<Estimate>, threshold: Option<f64>) -> Finding {
+    let Some(time) = time.filter(|time| time.interval.is_some()) else { return Finding::Unknown };
     let limit = threshold.map_or(f64::INFINITY, libm::exp);
     match () {
-        () if time.is_above(limit) => ChangeKind::Regression,
-        () if time.high() > Some(limit) => ChangeKind::Undecided,
-        () if time.is_below(1.0) => ChangeKind::Faster,
-        () if time.is_above(1.0) => ChangeKind::Slower,
-        () => ChangeKind::NoDifference,
+        () if time.is_above(limit) => Finding::Regression,
+        () if time.high() > Some(limit) => Finding::Undecided,
+        () if time.is_below(1.0) => Finding::Faster,
+        () if time.is_above(1.0) => Finding::Slower,
+        () => Finding::NoDifference,
     }
 }

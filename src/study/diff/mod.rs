@@ -80,13 +80,13 @@ pub struct Change {
     pub cells: usize,
     /// New time / old time; nothing where one of the runs has none.
     pub time: Option<Estimate>,
-    pub finding: ChangeKind,
+    pub finding: Finding,
 }
 
 /// What an interval says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum ChangeKind {
+pub enum Finding {
     /// The interval lies below 1.
     Faster,
     /// The interval holds 1 or, with a threshold, lies below it.
@@ -150,7 +150,7 @@ impl Comparison {
         }
     }
 
-    fn has(&self, finding: ChangeKind) -> bool {
+    fn has(&self, finding: Finding) -> bool {
         self.structures.iter().any(|change| change.finding == finding)
     }
 
@@ -160,9 +160,9 @@ impl Comparison {
         match () {
             () if !self.wrong.is_empty() => Status::Wrong,
             () if is_gate && !self.only_old.is_empty() => Status::Refused,
-            () if self.has(ChangeKind::Regression) => Status::Regression,
-            () if self.has(ChangeKind::Undecided) => Status::Undecided,
-            () if is_gate && self.has(ChangeKind::Unknown) => Status::Undecided,
+            () if self.has(Finding::Regression) => Status::Regression,
+            () if self.has(Finding::Undecided) => Status::Undecided,
+            () if is_gate && self.has(Finding::Unknown) => Status::Undecided,
             () => Status::Right,
         }
     }

@@ -1,6 +1,6 @@
 //! A comparison of runs for people.
 
-use super::{Change, ChangeKind, Comparison, Reproduced};
+use super::{Change, Comparison, Finding, Reproduced};
 use crate::report::number::{figures, plural};
 use crate::report::words::{each_once, listed};
 use crate::report::{Cell, Format, Table, Tone};
@@ -65,7 +65,7 @@ fn cells(comparison: &Comparison) -> Table {
         let of = |change: &Change| {
             let own = |cell: &&Change| cell.structure == change.structure && place(cell) == *row;
             comparison.cells.iter().find(own).map_or(Cell::empty(), |cell| {
-                let tone = if cell.finding == ChangeKind::Regression { Tone::Wrong } else { Tone::Plain };
+                let tone = if cell.finding == Finding::Regression { Tone::Wrong } else { Tone::Plain };
                 percent(cell).with(tone)
             })
         };
@@ -98,12 +98,12 @@ fn percent(change: &Change) -> Cell {
 
 fn word(change: &Change) -> Cell {
     match change.finding {
-        ChangeKind::Faster => Cell::from("faster").with(Tone::Best),
-        ChangeKind::NoDifference => "no difference".into(),
-        ChangeKind::Slower => "slower".into(),
-        ChangeKind::Regression => Cell::from("regression").with(Tone::Wrong),
-        ChangeKind::Undecided => "too noisy".into(),
-        ChangeKind::Unknown if change.time.is_some() => "one epoch".into(),
-        ChangeKind::Unknown => "no time".into(),
+        Finding::Faster => Cell::from("faster").with(Tone::Best),
+        Finding::NoDifference => "no difference".into(),
+        Finding::Slower => "slower".into(),
+        Finding::Regression => Cell::from("regression").with(Tone::Wrong),
+        Finding::Undecided => "too noisy".into(),
+        Finding::Unknown if change.time.is_some() => "one epoch".into(),
+        Finding::Unknown => "no time".into(),
     }
 }

@@ -46,7 +46,7 @@ fn a_slower_machine_is_no_slower_structure() {
     let (median, sah) = (change_of(&comparison, "median-kd"), change_of(&comparison, "sah-kd"));
     assert!((sah.time.unwrap().estimate - 1.1).abs() < 1e-9 && sah.cells == 2);
     assert!((median.time.unwrap().estimate - 1.0).abs() < 1e-9);
-    assert_eq!((sah.finding, median.finding), (ChangeKind::Regression, ChangeKind::NoDifference));
+    assert_eq!((sah.finding, median.finding), (Finding::Regression, Finding::NoDifference));
     assert_eq!((comparison.structures.len(), comparison.cells.len()), (2, 4), "references are not judged");
     assert!(comparison.wrong.is_empty() && comparison.only_old.is_empty() && comparison.only_new.is_empty());
 }
@@ -61,7 +61,7 @@ fn what_has_our_triangle_test_is_no_reference() {
     assert_eq!(comparison.references, ["obvhs-bvh2", "obvhs-cwbvh"]);
     let time = change_of(&comparison, "sah-kd").time.unwrap();
     assert!((time.estimate - 1.2).abs() < 1e-9, "all of our slowdown: {time:?}");
-    assert_eq!(change_of(&comparison, "obvhs-bvh2:test=exact").finding, ChangeKind::Slower);
+    assert_eq!(change_of(&comparison, "obvhs-bvh2:test=exact").finding, Finding::Slower);
 }
 
 #[test]
@@ -70,7 +70,7 @@ fn without_references_times_count_as_they_are() {
     let comparison = compare(&without(1.0), &without(1.5), None, 1);
     assert!(comparison.references.is_empty());
     assert!((change_of(&comparison, "sah-kd").time.unwrap().estimate - 1.5).abs() < 1e-9);
-    assert_eq!(change_of(&comparison, "sah-kd").finding, ChangeKind::Slower);
+    assert_eq!(change_of(&comparison, "sah-kd").finding, Finding::Slower);
     assert!(tables(&comparison)[0].notes[0].contains("as they are"));
 }
 
@@ -79,15 +79,15 @@ fn what_an_interval_says() {
     let interval = |low, high| Some(Estimate::between((low + high) / 2.0, low, high));
     let limit = Some(libm::log(1.05));
     let cases = [
-        (interval(1.06, 1.14), limit, ChangeKind::Regression),
-        (interval(1.02, 1.14), limit, ChangeKind::Undecided),
-        (interval(0.90, 1.14), limit, ChangeKind::Undecided),
-        (interval(1.01, 1.04), limit, ChangeKind::Slower),
-        (interval(0.97, 1.04), limit, ChangeKind::NoDifference),
-        (interval(0.90, 0.95), limit, ChangeKind::Faster),
-        (interval(1.06, 1.14), None, ChangeKind::Slower),
-        (interval(0.90, 1.14), None, ChangeKind::NoDifference),
-        (None, limit, ChangeKind::Unknown),
+        (interval(1.06, 1.14), limit, Finding::Regression),
+        (interval(1.02, 1.14), limit, Finding::Undecided),
+        (interval(0.90, 1.14), limit, Finding::Undecided),
+        (interval(1.01, 1.04), limit, Finding::Slower),
+        (interval(0.97, 1.04), limit, Finding::NoDifference),
+        (interval(0.90, 0.95), limit, Finding::Faster),
+        (interval(1.06, 1.14), None, Finding::Slower),
+        (interval(0.90, 1.14), None, Finding::NoDifference),
+        (None, limit, Finding::Unknown),
     ];
     for (interval, limit, expected) in cases {
         assert_eq!(finding(interval, limit), expected, "{interval:?}");
@@ -246,7 +246,7 @@ fn cases_of_one_run_alone_are_named() {
     new = run(1.0, 1.0);
     (new[1].samples_ns, new[1].trace_ns) = (vec![], None);
     let comparison = compare(&old, &new, Some(5.0), 1);
-    assert_eq!(change_of(&comparison, "sah-kd").finding, ChangeKind::Unknown);
+    assert_eq!(change_of(&comparison, "sah-kd").finding, Finding::Unknown);
 }
 
 #[test]
@@ -286,7 +286,7 @@ fn twelve_structures_and_several_looks_do_not_make_a_false_alarm() {
         let alarm = |seed: &u64| {
             let (old, new) = (noise(12, 2 * seed), noise(12, 2 * seed + 1));
             let comparison = compare(&old, &new, Some(1e-6), looks);
-            comparison.has(ChangeKind::Regression) || comparison.has(ChangeKind::Faster)
+            comparison.has(Finding::Regression) || comparison.has(Finding::Faster)
         };
         (0..400).filter(alarm).count() as f64 / 4.0
     };
@@ -319,6 +319,6 @@ fn of_one_epoch_nothing_is_found() {
     };
     let comparison = compare(&one(run(1.0, 1.0)), &one(run(1.0, 3.0)), Some(5.0), 1);
     let change = change_of(&comparison, "sah-kd");
-    assert_eq!((change.finding, change.time.unwrap().interval), (ChangeKind::Unknown, None));
+    assert_eq!((change.finding, change.time.unwrap().interval), (Finding::Unknown, None));
     assert_eq!(tables(&comparison)[0].rows[1][2].text(), "one epoch");
 }
