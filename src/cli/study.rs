@@ -9,7 +9,7 @@ use super::progress::OnTerminal;
 use crate::output::OutputFile;
 use crate::report::plot::{Format, WIDTH};
 use crate::report::{Figure, csv, markdown};
-use crate::study::{self, Outcome, Run, Status, Study};
+use crate::study::{self, Run, RunOutcome, Status, Study};
 
 pub const RUNS: &str = "runs";
 
@@ -107,7 +107,7 @@ pub fn run_as(session: &Session, study: &Study, matches: &ArgMatches, common: &C
     let outcome = study::run(study, matches, &plan, &mut run)?;
     drop(screen);
 
-    let Outcome { dataset, report, tables, foot, status, failures } = outcome;
+    let RunOutcome { dataset, report, tables, foot, status, failures } = outcome;
     tables.iter().for_each(|table| terminal.print_table(table));
     terminal.print_lines(&foot);
     failures.iter().for_each(crate::output::tell_error);

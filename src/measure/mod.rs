@@ -40,7 +40,7 @@ pub use provenance::Provenance;
 pub use query_results::checksum;
 pub use ray_allotment::{Allotment, Cost, allot, level_by_clock, pilot_level};
 pub use remote_pass::{Failure, RemotePass};
-pub use samples::{Part, Plan, Samples, Timed, take};
+pub use samples::{SamplePlan, Samples, SubsetSamples, Timed, take};
 pub use student::{LEVEL, factor};
 pub use summary::{geometric_mean, median};
 pub use threads::Threads;

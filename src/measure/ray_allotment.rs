@@ -1,7 +1,7 @@
 //! How many rays of each case are timed, and how often. It is decided before any sample, from the cost per ray.
 
 use super::tiles::{last_level, level_within, rays_at};
-use super::{Plan, Stopwatch, Timed, median};
+use super::{SamplePlan, Stopwatch, Timed, median};
 
 /// A case before it is timed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,7 +27,7 @@ pub struct Allotment {
 
 /// Finds how many rays of each case and how many samples fit the budget. It depends on its arguments only, so all
 /// epochs agree, on any machine.
-pub fn allot(cases: &[Cost], plan: &Plan) -> Allotment {
+pub fn allot(cases: &[Cost], plan: &SamplePlan) -> Allotment {
     let mut levels: Vec<usize> = cases.iter().map(|case| level_within(case.rays, plan.most_rays)).collect();
     let cost = |case: usize, level: usize| {
         let Cost { rays, ps, .. } = cases[case];
@@ -95,20 +95,21 @@ pub fn level_by_clock(watch: &Stopwatch, case: &mut dyn Timed, from: usize, most
 mod tests {
     use super::*;
 
-    const PLAN: Plan = Plan { runs: 5, budget_ns: 0, slowest: 8.0, most_rays: usize::MAX, seed: 3, epoch: 0 };
+    const PLAN: SamplePlan =
+        SamplePlan { runs: 5, budget_ns: 0, slowest: 8.0, most_rays: usize::MAX, seed: 3, epoch: 0 };
 
     fn cases(ns: &[u64]) -> Vec<Cost> {
         ns.iter().enumerate().map(|(group, ns)| Cost { rays: 65_536, ps: 1000 * ns, group }).collect()
     }
 
-    fn rays(cases: &[Cost], plan: &Plan) -> (usize, Vec<usize>) {
+    fn rays(cases: &[Cost], plan: &SamplePlan) -> (usize, Vec<usize>) {
         let Allotment { runs, levels, .. } = allot(cases, plan);
         (runs, levels.iter().map(|&level| rays_at(65_536, level)).collect())
     }
 
     #[test]
     fn the_slow_do_with_fewer_rays_then_all_with_fewer_samples_and_then_with_fewer_rays() {
-        let of = |budget_ns| rays(&cases(&[10, 15, 10_000]), &Plan { budget_ns, ..PLAN });
+        let of = |budget_ns| rays(&cases(&[10, 15, 10_000]), &SamplePlan { budget_ns, ..PLAN });
         // All rays of the two fast ones take 1.84 ms with their lead-ins, those of the slow one 737 ms, and 2.88 ms
         // where it takes no more than eight times as long as the middle one.
         assert_eq!(of(4_000_000_000), (5, vec![65_536, 65_536, 256]));
@@ -117,7 +118,7 @@ mod tests {
         assert_eq!(of(2_700_000), (1, vec![65_536, 65_536, 64]));
         assert_eq!(of(1_000_000), (1, vec![16_384, 4096, 64]));
         // Without a limit for slow cases, samples are left out first and all rays stay.
-        let patient = Plan { slowest: f64::INFINITY, budget_ns: 1_000_000_000, ..PLAN };
+        let patient = SamplePlan { slowest: f64::INFINITY, budget_ns: 1_000_000_000, ..PLAN };
         assert_eq!(rays(&cases(&[10, 15, 10_000]), &patient), (1, vec![65_536; 3]));
         // At least one ray is always left.
         assert_eq!(of(1), (1, vec![rays_at(65_536, last_level(65_536)); 3]));
@@ -126,7 +127,7 @@ mod tests {
 
     #[test]
     fn no_more_rays_are_timed_than_asked_for_and_alike_cases_take_as_many() {
-        let plan = Plan { most_rays: 20_000, budget_ns: 30_000_000, ..PLAN };
+        let plan = SamplePlan { most_rays: 20_000, budget_ns: 30_000_000, ..PLAN };
         let mut cases = cases(&[10, 900, 10]);
         assert_eq!(rays(&cases, &plan).1, [16_384, 1024, 16_384]);
         cases[1].group = 0;
@@ -135,7 +136,8 @@ mod tests {
 
     #[test]
     fn what_is_not_known_gets_a_share_of_the_budget_and_no_more_than_the_slowest_may_take() {
-        let share = |slowest, budget_ns| allot(&cases(&[100, 100]), &Plan { slowest, budget_ns, ..PLAN }).share_ns;
+        let share =
+            |slowest, budget_ns| allot(&cases(&[100, 100]), &SamplePlan { slowest, budget_ns, ..PLAN }).share_ns;
         // 65,536 rays of 100 ns and a lead-in.
         assert_eq!(share(4.0, u64::MAX), 4 * 7_372_800);
         assert_eq!(share(f64::INFINITY, 1_000_000_000), 100_000_000);

@@ -30,7 +30,7 @@ pub trait Timed {
 
 /// How samples are taken.
 #[derive(Clone, Copy, Debug)]
-pub struct Plan {
+pub struct SamplePlan {
     /// Samples per case and epoch, at least 1; fewer if the budget runs out.
     pub runs: usize,
     /// Time for the samples of all cases in an epoch, nanoseconds. If it is too short, fewer samples are taken; if it
@@ -60,7 +60,7 @@ pub struct Samples {
     /// Nanoseconds of each sample, in the order of the rounds: those of two cases with the same index are a pair.
     pub ns: Vec<u64>,
     /// The same samples for a part of their rays, to compare with slower cases that are timed on that part only.
-    pub parts: Vec<Part>,
+    pub parts: Vec<SubsetSamples>,
     /// Whether the same rays had the same results every time.
     pub is_steady: bool,
 }
@@ -68,7 +68,7 @@ pub struct Samples {
 /// A part of the samples of a case.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Part {
+pub struct SubsetSamples {
     /// Rays of the part.
     pub rays: usize,
     /// Nanoseconds of the part in each sample.
@@ -101,7 +101,7 @@ pub fn take(
     clock: &dyn Clock,
     cases: &mut [Box<dyn Timed + '_>],
     compared: &[usize],
-    plan: &Plan,
+    plan: &SamplePlan,
     samples: &mut [Samples],
     progress: &mut dyn FnMut(usize),
 ) {

@@ -51,6 +51,12 @@ impl Table {
         Self::new(title, columns, rows.into_iter().map(|row| row.map(Cell::from).into()))
     }
 
+    /// Adds a column with one cell for each row.
+    pub fn push_column(&mut self, name: impl Into<String>, cells: impl IntoIterator<Item = Cell>) {
+        self.columns.push(name.into());
+        self.rows.iter_mut().zip(cells).for_each(|(row, cell)| row.push(cell));
+    }
+
     pub fn noted(self, notes: Vec<String>) -> Self {
         Self { notes, ..self }
     }

@@ -11,7 +11,7 @@ mod view;
 
 pub use measuring::{Limit, Measuring};
 pub use ray_kind::RayKind;
-pub use rays::{RaySource, Rays, WORKLOADS, WorkloadRequest, each_kind, rays_or_all, recorded};
+pub use rays::{RaySource, Rays, WORKLOADS, WorkloadRequest, each_kind, rays_or_all, recorded, replayed};
 pub use scenes::{
     Meshes, SceneRequest, Scenes, ScenesAndMeshes, named_notes, output, scene, scene_files, scenes, stand_in,
 };

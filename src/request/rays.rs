@@ -49,6 +49,11 @@ pub enum WorkloadRequest {
 }
 
 impl WorkloadRequest {
+    /// At most `rays` rays of each of the kinds; all of them where that is the largest number.
+    pub fn of_scene(kinds: Vec<WorkloadKind>, rays: usize) -> Self {
+        Self::Scene { kinds, rays: Some(rays).filter(|&rays| rays < usize::MAX) }
+    }
+
     /// The same rays for all structures; those that start on a surface start where `guide` finds it. What a scene has no
     /// rays of is left out. `progress` is told what is made.
     ///
@@ -127,8 +132,7 @@ pub struct Rays {
 impl Rays {
     /// The workloads named, else `own`.
     pub fn request(&self, own: &[WorkloadKind]) -> WorkloadRequest {
-        let rays = Some(self.rays).filter(|&rays| rays < usize::MAX);
-        WorkloadRequest::Scene { kinds: each_kind(&self.workload, own), rays }
+        WorkloadRequest::of_scene(each_kind(&self.workload, own), self.rays)
     }
 }
 
@@ -238,6 +242,25 @@ pub fn recorded(
     let scene = scene(registry, name)?;
     file.check_scene(&scene).map_err(|problem| anyhow::anyhow!("{}: {problem}", path.escaped()))?;
     Ok(Some(((name.into(), scene), file)))
+}
+
+/// What a study measures of the file that `source` names: its scene with its word, and its rays, of which at most `rays`
+/// are timed. Nothing where rays are to be made. `workloads` are those named beside it: there must be none.
+///
+/// # Errors
+/// As [`recorded`].
+pub fn replayed<K>(
+    registry: &Registry,
+    source: &RaySource,
+    named: &[OsString],
+    workloads: &[K],
+    rays: Option<usize>,
+) -> anyhow::Result<Option<((OsString, Scene), WorkloadRequest)>> {
+    let (Some((scene, file)), Some(path)) = (recorded(registry, source, named)?, source.file()) else {
+        return Ok(None);
+    };
+    anyhow::ensure!(workloads.is_empty(), "the rays are those of the file: leave --workload out");
+    Ok(Some((scene, WorkloadRequest::File { path: path.into(), hash: file.workload.hash(), rays })))
 }
 
 #[cfg(test)]

@@ -33,7 +33,7 @@ pub struct Run<'a> {
 }
 
 /// What came of a run.
-pub struct Outcome {
+pub struct RunOutcome {
     /// What was measured. Nothing where it was interrupted, or no scene could be measured: then no file is written.
     pub dataset: Option<Dataset>,
     pub report: Report,
@@ -56,7 +56,7 @@ const UNFINISHED: &str = "unfinished";
 ///
 /// # Errors
 /// If the journal or the threads cannot be used, or a case fails for a reason that is not specific to its scene.
-pub fn run(study: &Study, matches: &ArgMatches, plan: &Plan, run: &mut Run) -> anyhow::Result<Outcome> {
+pub fn run(study: &Study, matches: &ArgMatches, plan: &Plan, run: &mut Run) -> anyhow::Result<RunOutcome> {
     let threads = plan.cases.first().map_or(1, |case| case.settings.threads);
     let threads = Threads::unstarted(threads);
     let provenance = Provenance { process_per_epoch: run.processes.is_some(), ..Provenance::of(&threads) };
@@ -172,7 +172,7 @@ impl Engine<'_> {
             if self.journal.get(case).is_none() {
                 run.screen.case(&case.title(), case.work());
                 let out = self.journal.place(case);
-                match self.measure_case(&self.without_skipped(case), &out, run, &clock) {
+                match self.measure_case(&self.with_skipped(case), &out, run, &clock) {
                     Ok(()) => self.journal.add(&out)?,
                     Err(_) if run.screen.is_interrupted() => {}
                     Err(error) if error.is_of_one_scene() => {
@@ -205,7 +205,7 @@ impl Engine<'_> {
     }
 
     /// The case, with the structures that epoch 0 could not build in time marked as skipped.
-    fn without_skipped(&self, case: &Case) -> Case {
+    fn with_skipped(&self, case: &Case) -> Case {
         let first = Case { epoch: 0, ..case.clone() };
         match self.journal.get(&first) {
             Some(file) if case.epoch > 0 => Case { structures: file.case.structures.clone(), ..case.clone() },
@@ -265,7 +265,7 @@ impl Engine<'_> {
     }
 
     /// What all of it comes to.
-    fn outcome(&mut self, stopped: bool, screen: &mut dyn Screen) -> Result<Outcome, JournalError> {
+    fn outcome(&mut self, stopped: bool, screen: &mut dyn Screen) -> Result<RunOutcome, JournalError> {
         // The journal may hold other scenes as well: those asked for are shown.
         let JoinedEpochs { mut measured, unchecked, failures, .. } = self.joined(|_| true);
         self.failures.extend(failures);
@@ -298,6 +298,6 @@ impl Engine<'_> {
         let failed = |error: &StudyError| if error.is_wrong_answer() { Status::Wrong } else { Status::Failed };
         let status = self.failures.iter().map(failed).fold(Status::of(&report.failures), Status::and);
         let failures = std::mem::take(&mut self.failures);
-        Ok(Outcome { dataset: is_reported.then_some(dataset), report, tables, foot, status, failures })
+        Ok(RunOutcome { dataset: is_reported.then_some(dataset), report, tables, foot, status, failures })
     }
 }

@@ -6,7 +6,7 @@ use serde_json::Value;
 use super::StudyError;
 use super::measure::Environment;
 use crate::accel::{Query, TreeShape};
-use crate::measure::Part;
+use crate::measure::SubsetSamples;
 use crate::registry::RUNNER;
 use crate::report::Failure;
 use crate::report::words::{each_once, scene_name};
@@ -96,7 +96,7 @@ pub struct Rays {
     /// Nanoseconds of each sample; those of two structures with the same index are a pair. None where there is no time.
     pub ns: Vec<u64>,
     /// The same samples, for as many of their rays as slower structures are timed on.
-    pub parts: Vec<Part>,
+    pub parts: Vec<SubsetSamples>,
     /// Why there is no time: a clause.
     pub untimed: Option<String>,
     /// Whether that is for wrong answers.

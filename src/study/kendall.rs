@@ -1,5 +1,7 @@
 //! Do two measures put things in the same order?
 
+use std::collections::BTreeMap;
+
 use super::claims::CLAIMS;
 use crate::measure::{Estimate, Rerun, Variance};
 
@@ -57,9 +59,20 @@ impl Order {
 
 /// The mean of the taus of several scenes, with the interval of one among all claims for as many other scenes, cut to
 /// what a tau can be.
-pub fn mean(taus: &[f64]) -> Option<Estimate> {
+fn mean(taus: &[f64]) -> Option<Estimate> {
     let mean = Rerun::of(taus, Variance::NONE)?.plain().among(CLAIMS);
     Some(mean.map(|tau| tau.clamp(-1.0, 1.0)))
+}
+
+/// That [`mean`] of taus of several scenes. Taus of one scene are not independent: trees are the same whatever the rays,
+/// and a stand-in is built after the real mesh. They count as their mean.
+pub fn mean_of_scenes<'a>(taus: impl IntoIterator<Item = (&'a str, f64)>) -> Option<Estimate> {
+    let mut scenes: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
+    for (scene, tau) in taus {
+        scenes.entry(scene).or_default().push(tau);
+    }
+    let means = scenes.values().map(|taus| taus.iter().sum::<f64>() / taus.len() as f64);
+    mean(&means.collect::<Vec<_>>())
 }
 
 #[cfg(test)]

@@ -3,10 +3,11 @@
 use serde_json::Value;
 
 use super::dataset::{Dataset, SceneEpochs};
-use super::epoch::{Checked, Rays, Shape, Structure};
+use super::epoch::{Checked, Rays, Shape};
 use crate::accel::Query;
-use crate::measure::{AaNoise, Part, log_ratios, median};
+use crate::measure::{AaNoise, SubsetSamples, log_ratios, median};
 use crate::report::words::scene_name;
+use crate::report::{Cell, Table};
 
 /// One structure on one workload of one scene. What is not known is nothing, never 0.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -36,7 +37,7 @@ pub struct Measurement {
     /// Whether that is a part of the workload.
     pub sampled: bool,
     /// The same samples for a part of their rays, as many as a slower structure is timed on.
-    pub parts: Vec<Part>,
+    pub parts: Vec<SubsetSamples>,
     /// Rays that hits, tests, steps, instructions and branch misses are of.
     pub counted_rays: usize,
     pub hits: usize,
@@ -71,36 +72,62 @@ pub struct Measurement {
     pub structure_errors: usize,
 }
 
-/// A structure that has no times on a scene, and why.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct UntimedStructure {
-    /// As chosen.
-    pub label: String,
-    /// As tables name it.
-    pub scene: String,
-    /// A sentence without its full stop.
-    pub reason: String,
+/// The name of a column, and what it says of a measurement.
+pub type MeasurementColumn = (&'static str, fn(&Measurement) -> Cell);
+
+/// Columns of tables for programs.
+pub const COLUMNS: [MeasurementColumn; 38] = [
+    ("scene", |own| (&own.scene).into()),
+    ("scene_hash", |own| (&own.scene_hash).into()),
+    ("stand_in", |own| own.stand_in.into()),
+    ("triangles", |own| own.triangles.into()),
+    ("structure", |own| (&own.structure).into()),
+    ("label", |own| (&own.label).into()),
+    ("triangle_test", |own| (&own.triangle_test).into()),
+    ("config", |own| own.config.to_string().into()),
+    ("workload", |own| (&own.workload).into()),
+    ("query", |own| own.query.name().into()),
+    ("workload_hash", |own| (&own.workload_hash).into()),
+    ("workload_rays", |own| own.workload_rays.into()),
+    ("rays", |own| own.rays.into()),
+    ("epochs", |own| own.epochs.into()),
+    ("runs", |own| own.samples_ns.len().into()),
+    ("build_ns", |own| own.build_ns.into()),
+    ("build_peak_bytes", |own| own.build_peak_bytes.into()),
+    ("trace_ns", |own| own.trace_ns.into()),
+    ("mrays_per_s", |own| own.mrays_per_s.into()),
+    ("tests_per_ray", |own| own.tests_per_ray.into()),
+    ("steps_per_ray", |own| own.steps_per_ray.into()),
+    ("leaf_steps_per_ray", |own| own.leaf_steps_per_ray.into()),
+    ("empty_leaf_steps_per_ray", |own| own.empty_leaf_steps_per_ray.into()),
+    ("tests_over_minimum", |own| own.tests_over_minimum.into()),
+    ("instructions_per_ray", |own| own.instructions_per_ray.into()),
+    ("branch_misses_per_ray", |own| own.branch_misses_per_ray.into()),
+    ("bytes", |own| own.shape.bytes.into()),
+    ("inner_nodes", |own| own.shape.inner_nodes.into()),
+    ("leaves", |own| own.shape.leaves.into()),
+    ("references", |own| own.shape.references.into()),
+    ("references_per_triangle", |own| own.references_per_triangle().into()),
+    ("depth", |own| own.shape.depth.into()),
+    ("sah_cost", |own| own.shape.sah_cost.into()),
+    ("hits", |own| own.hits.into()),
+    ("counted_rays", |own| own.counted_rays.into()),
+    ("declined", |own| own.declined.as_ref().into()),
+    ("checked_rays", |own| own.checked_rays.into()),
+    ("structure_errors", |own| own.structure_errors.into()),
+];
+
+/// Adds the columns of these names to a table with a row for each of the measurements.
+pub fn push_columns(table: &mut Table, names: &[&str], rows: &[&Measurement]) {
+    for name in names {
+        let (_, cell) = COLUMNS.iter().find(|(known, _)| known == name).expect("a measurement has such a column");
+        table.push_column(*name, rows.iter().map(|own| cell(own)));
+    }
 }
 
 /// Those of all scenes, structure by structure and workload by workload. Twins are part of the structure that they are
 /// the twin of.
 pub fn measurements(dataset: &Dataset) -> Vec<Measurement> {
-    dataset.scenes().iter().flat_map(of_scene).collect()
-}
-
-/// The structures that have no times, each with its scene.
-pub fn refused(dataset: &Dataset) -> Vec<UntimedStructure> {
-    let of_scene = |scene: &SceneEpochs| -> Vec<UntimedStructure> {
-        let first = scene.epochs[0];
-        let refused = |structure: &Structure| {
-            Some(UntimedStructure {
-                label: structure.label.clone(),
-                scene: first.title(),
-                reason: structure.refused.clone()?,
-            })
-        };
-        first.structures.iter().filter(|own| !own.is_twin()).filter_map(refused).collect()
-    };
     dataset.scenes().iter().flat_map(of_scene).collect()
 }
 
@@ -188,8 +215,8 @@ fn measurement(scene: &SceneEpochs, place: usize, twin: Option<usize>, kind: usi
     }
 }
 
-fn parts(scene: &SceneEpochs, place: usize, kind: usize) -> Vec<Part> {
-    let mut all: Vec<Part> = vec![];
+fn parts(scene: &SceneEpochs, place: usize, kind: usize) -> Vec<SubsetSamples> {
+    let mut all: Vec<SubsetSamples> = vec![];
     for part in rays(scene, place, kind).flat_map(|rays| &rays.parts) {
         match all.iter_mut().find(|other| other.rays == part.rays) {
             Some(other) => other.ns.extend_from_slice(&part.ns),
@@ -219,6 +246,10 @@ impl Measurement {
     /// The scene as tables name it.
     pub fn scene_title(&self) -> String {
         scene_name(&self.scene, self.stand_in)
+    }
+
+    pub fn references_per_triangle(&self) -> f64 {
+        self.shape.references as f64 / self.triangles.max(1) as f64
     }
 
     /// Whether wrong answers cost it its time.
@@ -318,7 +349,7 @@ pub(crate) mod tests {
 
     #[test]
     fn both_sides_of_a_ratio_are_of_the_same_rays() {
-        let part = |rays, ns: [u64; 2]| Part { rays, ns: ns.into() };
+        let part = |rays, ns: [u64; 2]| SubsetSamples { rays, ns: ns.into() };
         let whole = Measurement { parts: vec![part(100, [10, 20])], ..example("a", "primary", &[100.0, 200.0], 2) };
         let few = Measurement { rays: 100, ..example("b", "primary", &[40.0, 40.0], 2) };
         let logs = whole.speed_against(&few).unwrap();

@@ -40,7 +40,7 @@ use crate::report::Report;
 
 pub use case::{Case, Check, Settings};
 pub use dataset::{Dataset, Measured, SceneEpochs};
-pub use engine::{Outcome, Run, run};
+pub use engine::{Run, RunOutcome, run};
 pub use epoch::Epoch;
 pub use error::StudyError;
 pub use join::{JoinedEpochs, join};

@@ -57,7 +57,7 @@ impl Screen for RecordingScreen {
     }
 }
 
-fn outcome(folder: &std::path::Path, screen: &mut RecordingScreen) -> Outcome {
+fn outcome(folder: &std::path::Path, screen: &mut RecordingScreen) -> RunOutcome {
     let registry = Registry::builtin();
     let mut own = Run { registry: &registry, folder, keep_journal: Some(true), fresh: false, processes: None, screen };
     run(&TINY, &TINY.defaults(), &plan(), &mut own).unwrap()

@@ -79,7 +79,7 @@ impl Bench {
     }
 
     /// Samples of as many rays as the plan allows.
-    fn take<'a>(&'a self, cases: &mut [Box<dyn Timed + 'a>], plan: &Plan) -> Vec<Samples> {
+    fn take<'a>(&'a self, cases: &mut [Box<dyn Timed + 'a>], plan: &SamplePlan) -> Vec<Samples> {
         let none = |rays: usize| Samples::none(rays, level_within(rays, plan.most_rays));
         let mut samples: Vec<Samples> = cases.iter().map(|case| none(case.rays())).collect();
         let mut progress = vec![];
@@ -89,13 +89,14 @@ impl Bench {
     }
 }
 
-const PLAN: Plan = Plan { runs: 5, budget_ns: 1_000_000, slowest: 8.0, most_rays: usize::MAX, seed: 3, epoch: 0 };
+const PLAN: SamplePlan =
+    SamplePlan { runs: 5, budget_ns: 1_000_000, slowest: 8.0, most_rays: usize::MAX, seed: 3, epoch: 0 };
 
 #[test]
 fn only_the_pass_is_timed_in_rounds_of_changing_order() {
     let bench = Bench::default();
     let mut cases = [('a', 10), ('b', 20), ('c', 30)].map(|(name, ns)| bench.case(name, ns, 1000));
-    let samples = bench.take(&mut cases, &Plan { runs: 12, ..PLAN });
+    let samples = bench.take(&mut cases, &SamplePlan { runs: 12, ..PLAN });
     let taken = |ns| Samples { checksum: 7, ns: vec![ns; 12], ..Samples::none(1000, 0) };
     assert_eq!(samples, [10_000, 20_000, 30_000].map(taken));
     assert_eq!(samples[1].ns_per_ray(), [20.0; 12]);
@@ -117,7 +118,7 @@ fn a_case_with_changing_results_is_not_steady_and_the_others_go_on() {
         let bench = Bench::default();
         let fickle = Mock { fickle_at, ..bench.mock('a', 10, 64) };
         let mut cases: [Box<dyn Timed + '_>; 2] = [Box::new(fickle), bench.case('b', 10, 64)];
-        let samples = bench.take(&mut cases, &Plan { runs, most_rays, ..PLAN });
+        let samples = bench.take(&mut cases, &SamplePlan { runs, most_rays, ..PLAN });
         assert!(!samples[0].is_steady && samples[1].is_steady, "{runs} {most_rays}");
         assert_eq!(samples[1].ns.len(), runs);
         let passes = bench.log.borrow().iter().filter(|&&name| name == 'a').count();
@@ -129,11 +130,11 @@ fn a_case_with_changing_results_is_not_steady_and_the_others_go_on() {
 fn parts_are_timed_along() {
     let bench = Bench::default();
     let mut samples = [Samples::none(65_536, 0)];
-    samples[0].parts = [1024, 64].map(|rays| Part { rays, ns: vec![] }).into();
+    samples[0].parts = [1024, 64].map(|rays| SubsetSamples { rays, ns: vec![] }).into();
     let mut cases = [bench.case('a', 10, 65_536)];
-    take(&bench, &mut cases, &[0], &Plan { runs: 2, ..PLAN }, &mut samples, &mut |_| {});
+    take(&bench, &mut cases, &[0], &SamplePlan { runs: 2, ..PLAN }, &mut samples, &mut |_| {});
     assert_eq!(samples[0].ns, [655_360; 2]);
-    assert_eq!(samples[0].parts, [(1024, 10_240), (64, 640)].map(|(rays, ns)| Part { rays, ns: vec![ns; 2] }));
+    assert_eq!(samples[0].parts, [(1024, 10_240), (64, 640)].map(|(rays, ns)| SubsetSamples { rays, ns: vec![ns; 2] }));
 }
 
 #[test]
@@ -142,7 +143,7 @@ fn another_epoch_has_the_checksum_of_the_first_unless_its_results_differ() {
         let bench = Bench::default();
         let checksum = |right: u64, epoch: usize| {
             let mut cases: [Box<dyn Timed + '_>; 1] = [Box::new(Mock { right, ..bench.mock('a', 10, whole) })];
-            let samples = bench.take(&mut cases, &Plan { most_rays: 16_384, epoch, ..PLAN });
+            let samples = bench.take(&mut cases, &SamplePlan { most_rays: 16_384, epoch, ..PLAN });
             assert_eq!((samples[0].rays, samples[0].asked, samples[0].ns.len()), (rays, asked, 5));
             samples[0].checksum
         };

@@ -43,7 +43,7 @@ pub enum Bar {
 }
 
 impl Bar {
-    fn value(&self) -> Option<Estimate> {
+    pub fn value(&self) -> Option<Estimate> {
         match self {
             Self::Of(value) | Self::Product(_, value) => Some(*value),
             Self::Missing(_) => None,

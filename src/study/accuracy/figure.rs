@@ -1,10 +1,11 @@
 //! Error against time.
 
 use super::judged::{Judged, JudgedRays};
+use super::table::table;
 use crate::report::number::{count, figures};
 use crate::report::plot::{Chart, LABELLED, Point, Scatter};
 use crate::report::words::slug;
-use crate::report::{Art, Cell, Figure, Table};
+use crate::report::{Art, Figure};
 
 /// That of one scene and kind of rays, the one of this number.
 pub fn figure(number: usize, of_kind: &JudgedRays) -> Figure {
@@ -35,18 +36,7 @@ pub fn figure(number: usize, of_kind: &JudgedRays) -> Figure {
             front.join("; ")
         ),
         art: Art::Chart(Chart::Scatter(scatter(of_kind))),
-        data: Table::of(
-            "",
-            structures,
-            &[
-                ("structure", &|own| own.structure.label.as_str().into()),
-                ("triangle test", &|own| own.structure.triangle_test.as_str().into()),
-                ("ns per ray", &|own| own.ns_per_ray.into()),
-                ("error", &|own| own.error.into()),
-                ("error at most", &|own| own.error_bound.into()),
-                ("on the front", &|own| own.dominated_by.is_none().then(|| Cell::from("yes")).into()),
-            ],
-        ),
+        data: table(of_kind),
     }
 }
 

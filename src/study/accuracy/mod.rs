@@ -21,7 +21,7 @@ use crate::report::words::each_once_by;
 use crate::report::{Block, Failure, Report};
 use crate::request::{
     BRUTE_FORCE, RayKind, RaySource, Scenes, Seconds, StructureRequest, WorkloadRequest, each_kind, guide,
-    known_defect, known_tests, recorded, scene_files, specs, structure,
+    known_defect, known_tests, replayed, scene_files, specs, structure,
 };
 use crate::scene::Scene;
 use crate::triangle::{Exact, TriangleTest};
@@ -34,7 +34,7 @@ pub const STUDY: Study = Study {
         full: "dragon cornellbox -w uniform -w vertex -w grazing",
         quick: "cube -w vertex --rays 500 --runs 2 --budget 1",
     },
-    options,
+    options: || AccuracyArgs::augment_args(Command::new("accuracy")),
     plan,
     report,
 };
@@ -77,19 +77,12 @@ const SMALL: usize = 5000;
 /// A structure that takes more than so many times as long as the median one is timed on fewer rays.
 const SLOWEST: f64 = 30.0;
 
-fn options() -> Command {
-    AccuracyArgs::augment_args(Command::new(STUDY.name))
-}
-
 fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     let args = AccuracyArgs::from_arg_matches(matches)?;
     let structures = structures(registry, &args.structure, &args.test)?;
-    let (scenes, workloads) = match (recorded(registry, &args.rays, &args.scenes.scenes)?, args.rays.file()) {
-        (Some((scene, file)), Some(path)) => {
-            anyhow::ensure!(args.workload.is_empty(), "the rays are those of the file: leave --workload out");
-            (vec![scene], WorkloadRequest::File { path: path.into(), hash: file.workload.hash(), rays: None })
-        }
-        _ => {
+    let (scenes, workloads) = match replayed(registry, &args.rays, &args.scenes.scenes, &args.workload, None)? {
+        Some((scene, rays)) => (vec![scene], rays),
+        None => {
             let (kinds, count) = (each_kind(&args.workload, &RayKind::ALL), args.rays.number()?);
             (args.scenes.read(registry, &[])?, WorkloadRequest::Hard { kinds, count })
         }
@@ -152,18 +145,15 @@ fn structures(registry: &Registry, named: &[String], tests: &[String]) -> anyhow
 
 fn report(dataset: &Dataset, _: &ArgMatches) -> Report {
     let all = judged(dataset);
-    let mut blocks = vec![];
-    if !all.is_empty() {
-        blocks.push(Block::Text(
-            "Exact arithmetic decides for every ray what it truly meets. Kinds of rays are never added up: each fails \
-             in its own way. On the front are those that nothing beats in both speed and error."
-                .into(),
-        ));
-    }
+    let mut blocks = vec![Block::Text(
+        "Exact arithmetic decides for every ray what it truly meets. Kinds of rays are never added up: each fails in \
+         its own way. On the front are those that nothing beats in both speed and error."
+            .into(),
+    )];
     for (i, of_kind) in all.iter().enumerate() {
         blocks.extend([Block::figure(figure::figure(i, of_kind)), Block::Table(table::table(of_kind))]);
     }
-    blocks.extend(table::LEGEND.iter().filter(|_| !all.is_empty()).map(|words| Block::Note((*words).into())));
+    blocks.extend(table::LEGEND.map(|words| Block::Note(words.into())));
     Report {
         findings: all.iter().filter_map(findings::finding).collect(),
         blocks,

@@ -26,10 +26,6 @@ pub fn table(of_kind: &JudgedRays) -> Table {
         let [few, all] = [own.rays.rays as u64, timed].map(count);
         notes.push(format!("{}: timed on {few} of the {all} rays that the others are timed on", own.structure.label));
     }
-    cells(title, structures).noted(notes).of_one_scene()
-}
-
-fn cells(title: String, structures: &[Judged]) -> Table {
     let tone = |own: &Judged| if own.dominated_by.is_none() { Tone::Best } else { Tone::Plain };
     let errors = |n: u64| Cell::from(n).with(if n > 0 { Tone::Wrong } else { Tone::Plain });
     Table::of(
@@ -51,6 +47,8 @@ fn cells(title: String, structures: &[Judged]) -> Table {
             ("dominated by", &|own| own.dominated_by.into()),
         ],
     )
+    .noted(notes)
+    .of_one_scene()
 }
 
 fn ulps(own: &Judged, value: fn(&Ulps) -> f64) -> Cell {
@@ -65,8 +63,7 @@ pub const LEGEND: [&str; 4] = [
      Pearson (no error in n rays: about 3/n).",
     "primitive: hits at a triangle that is not the nearest, by whatever little; not part of the error. ulps: error of \
      t where the triangle is right; at most 0.5 is correctly rounded.",
-    "dominated by: at most as slow and at most as wrong, and better in one of the two; blank on the front. Kinds of \
-     rays are never added up.",
+    "dominated by: at most as slow and at most as wrong, and better in one of the two; blank on the front.",
 ];
 
 /// One row for each structure and kind of rays.

@@ -1,6 +1,7 @@
 //! The cells of the factorial design: every plane with every stop rule and every traversal.
 
 use crate::names::named_enum;
+use crate::request::TWIN;
 
 named_enum! {
     /// What is varied.
@@ -43,19 +44,13 @@ const TRAVERSALS: [Level; 2] =
 /// `sah-kd`.
 const COMMON: &str = "traversal_cost=1.0,intersection_cost=0.7,empty_bonus=0.2,duplication=8.0";
 
-impl Factor {
-    /// Its values: the report's first, that of the SAH tree last.
-    pub fn levels(self) -> &'static [Level] {
-        match self {
-            Self::Plane => &PLANES,
-            Self::Stop => &STOPS,
-            Self::Traversal => &TRAVERSALS,
-        }
-    }
-}
-
 /// Trees that are built a second time, for the A/A noise.
 pub const TWINS: [Treatment; 2] = [Treatment::REPORT, Treatment::SAH];
+
+/// The trees of a case with their roles: those of the design in their order, then the twins.
+pub fn trees() -> impl Iterator<Item = (Treatment, String)> {
+    Treatment::all().map(|cell| (cell, cell.role())).chain(TWINS.map(|cell| (cell, TWIN.into())))
+}
 
 /// Cells of the design.
 pub const CELLS: usize = PLANES.len() * STOPS.len() * TRAVERSALS.len();
@@ -71,12 +66,9 @@ impl Treatment {
     pub const SAH: Self = Self([PLANES.len() - 1, STOPS.len() - 1, TRAVERSALS.len() - 1]);
 
     /// All cells; a cell stands at its [number](Self::number).
-    pub fn all() -> Vec<Self> {
-        (0..CELLS)
-            .map(|i| {
-                Self([i / (STOPS.len() * TRAVERSALS.len()), i / TRAVERSALS.len() % STOPS.len(), i % TRAVERSALS.len()])
-            })
-            .collect()
+    pub fn all() -> impl Iterator<Item = Self> {
+        let [stops, traversals] = [STOPS.len(), TRAVERSALS.len()];
+        (0..CELLS).map(move |i| Self([i / traversals / stops, i / traversals % stops, i % traversals]))
     }
 
     /// Where it stands among all.
@@ -85,30 +77,20 @@ impl Treatment {
         (plane * STOPS.len() + stop) * TRAVERSALS.len() + traversal
     }
 
-    /// The number of its level of `factor`.
-    pub fn level(self, factor: Factor) -> usize {
-        self.0[factor as usize]
-    }
-
-    /// Names of its levels.
-    pub fn names(self) -> [&'static str; 3] {
-        Factor::ALL.map(|factor| factor.levels()[self.level(factor)].0)
+    /// The level of each factor, in the order of [`Factor::ALL`].
+    pub fn levels(self) -> [Level; 3] {
+        let [plane, stop, traversal] = self.0;
+        [PLANES[plane], STOPS[stop], TRAVERSALS[traversal]]
     }
 
     /// What its tree stands for in the study: `SAH exact / SAH / plane intervals`.
     pub fn role(self) -> String {
-        self.names().join(" / ")
-    }
-
-    /// The report's tree with the factors of `switched` (bits in the order of [`Factor::ALL`]) as in the SAH tree.
-    pub fn corner(switched: usize) -> Self {
-        Self(std::array::from_fn(|f| if switched >> f & 1 == 1 { Self::SAH.0[f] } else { Self::REPORT.0[f] }))
+        self.levels().map(|(name, _)| name).join(" / ")
     }
 
     /// The structure, as the command line takes it, over the triangle test `test`.
     pub fn spec(self, test: &str) -> String {
-        let keys: Vec<&str> = Factor::ALL.iter().map(|&factor| factor.levels()[self.level(factor)].1).collect();
-        format!("median-kd:test={test},{},{COMMON}", keys.join(","))
+        format!("median-kd:test={test},{},{COMMON}", self.levels().map(|(_, keys)| keys).join(","))
     }
 }
 
@@ -120,13 +102,11 @@ mod tests {
 
     #[test]
     fn cells_stand_where_they_say() {
-        let cells = Treatment::all();
+        let cells: Vec<Treatment> = Treatment::all().collect();
         assert_eq!((cells.len(), cells[0], cells[CELLS - 1]), (36, Treatment::REPORT, Treatment::SAH));
         for (i, cell) in cells.iter().enumerate() {
             assert_eq!(cell.number(), i);
         }
-        assert_eq!((Treatment::corner(0), Treatment::corner(7)), (Treatment::REPORT, Treatment::SAH));
-        assert_eq!(Treatment::corner(0b010), Treatment([0, STOPS.len() - 1, 0]));
         assert_eq!(Treatment::SAH.role(), "SAH exact / SAH / plane intervals");
     }
 

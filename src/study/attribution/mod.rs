@@ -1,12 +1,11 @@
 //! `attribution`: how much of the SAH speedup comes from the split plane, the stop rule and the traversal?
 //!
 //! One kind of tree in every combination of six planes, three stop rules and two traversals, over one triangle test, on
-//! the same rays: the factorial [`design`]. In every epoch all trees are built anew and timed in rounds, each round
+//! the same rays: the factorial design. In every epoch all trees are built anew and timed in rounds, each round
 //! every tree once, in random order. The report's tree and the SAH tree are built twice; the twins show the A/A noise.
 //! The role of a structure is its cell of the design.
 
-pub mod design;
-pub mod effects;
+mod design;
 mod findings;
 mod result;
 mod tables;
@@ -19,11 +18,10 @@ use super::{Dataset, Plan, PlannedScene, Presets, Settings, Study, claims};
 use crate::registry::Registry;
 use crate::report::Report;
 use crate::request::{
-    Measuring, ScenesAndMeshes, StructureRequest, TWIN, WorkloadRequest, known_tests, rays_or_all, scene_files,
-    structure,
+    Measuring, ScenesAndMeshes, StructureRequest, WorkloadRequest, known_tests, rays_or_all, scene_files, structure,
 };
 use crate::scene::WorkloadKind;
-use design::{TWINS, Treatment};
+use design::{Treatment, trees};
 
 const NAME: &str = "attribution";
 
@@ -54,22 +52,14 @@ struct AttributionArgs {
     measuring: Measuring<8, 3, 5>,
 }
 
-/// The trees of the design in their order, then the twins.
-fn structures(registry: &Registry, test: &str) -> anyhow::Result<Vec<StructureRequest>> {
-    let cells = Treatment::all().into_iter().map(|cell| (cell, cell.role()));
-    let all = cells.chain(TWINS.map(|cell| (cell, TWIN.into())));
-    let request = |(cell, role): (Treatment, String)| {
-        Ok(StructureRequest { role, ..StructureRequest::from(&structure(registry, &cell.spec(test))?) })
-    };
-    all.map(request).collect()
-}
-
 fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     let args = AttributionArgs::from_arg_matches(matches)?;
     known_tests(registry, std::slice::from_ref(&args.test))?;
-    let structures = structures(registry, &args.test)?;
-    let rays = Some(args.rays).filter(|&rays| rays < usize::MAX);
-    let workloads = WorkloadRequest::Scene { kinds: vec![args.workload], rays };
+    let request = |(cell, role): (Treatment, String)| {
+        anyhow::Ok(StructureRequest::new(structure(registry, &cell.spec(&args.test))?.label, role))
+    };
+    let structures = trees().map(request).collect::<anyhow::Result<Vec<_>>>()?;
+    let workloads = WorkloadRequest::of_scene(vec![args.workload], args.rays);
     let settings = Settings { whole: true, ..Settings::new(&args.measuring, registry)? };
     let scenes = args.scenes.read(registry)?;
     let epochs = args.measuring.epochs.into();

@@ -1,74 +1,46 @@
 //! What came of each scene. Pure functions of what was measured.
 
-use super::design::{CELLS, Factor, TWINS, Treatment};
-use super::effects::{self, Weights, value};
+use super::design::{CELLS, Factor, TWINS, Treatment, trees};
 use crate::measure::{AaNoise, Estimate, median};
-use crate::study::Dataset;
-use crate::study::epoch::{Epoch, RayCounts, Structure};
 use crate::study::epoch_medians::{epoch_medians, ratio, values};
+use crate::study::measurement::{Measurement, of_scene};
+use crate::study::{Dataset, Epoch, SceneEpochs};
 
 /// One scene.
 pub struct Attribution<'a> {
-    /// Each with the trees of the design in their order, then the twins. The first one has counts.
-    pub epochs: Vec<(&'a Epoch, Vec<&'a Structure>)>,
+    /// Each has the [`trees`] of the design.
+    pub epochs: Vec<&'a Epoch>,
+    /// Of each cell, in their order.
+    pub trees: Vec<Measurement>,
     /// Of each epoch the logarithms of the times of its trees.
     medians: Vec<Vec<f64>>,
     /// Of all scenes.
     pub noise: AaNoise,
 }
 
-/// How many times less the SAH tree takes than the report's tree, as the product of three parts.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Split {
-    pub whole: Estimate,
-    parts: [Part; 3],
-}
-
-/// What the whole owes to one factor.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Part {
-    /// The geometric mean over all orders in which the factors can be switched (Shapley 1953).
-    pub times: Estimate,
-    /// The least and the most over those orders; they differ by the interactions.
-    pub least: f64,
-    pub most: f64,
-}
-
-/// One result for each scene. A scene without its first epoch has none; an epoch without all trees is passed over.
+/// One result for each scene with the trees of the design.
 pub fn results(dataset: &Dataset) -> Vec<Attribution<'_>> {
-    let scenes = dataset.scenes();
-    let mut results: Vec<Attribution> = scenes.iter().filter_map(|scene| Attribution::new(&scene.epochs)).collect();
+    let roles: Vec<String> = trees().map(|(_, role)| role).collect();
+    let is_designed = |epoch: &&Epoch| epoch.structures.iter().map(|own| &own.role).eq(&roles);
+    let scenes = dataset.scenes().into_iter().filter(|scene| scene.epochs.iter().all(is_designed));
+    let mut results: Vec<Attribution> = scenes.map(Attribution::new).collect();
     let noise = AaNoise::new(&results.iter().flat_map(Attribution::twins).collect::<Vec<_>>());
     results.iter_mut().for_each(|result| result.noise = noise.clone());
     results
 }
 
-/// The trees of the design and the twins. Nothing where one is not there or has no time.
-fn trees(epoch: &Epoch) -> Option<Vec<&Structure>> {
-    let tree = |cell: Treatment| epoch.in_role(&cell.role());
-    let twin = |cell| {
-        let label = &tree(cell)?.label;
-        epoch.structures.iter().find(|other| other.is_twin() && other.label == *label)
-    };
-    let is_timed = |tree: &&Structure| tree.rays.first().is_some_and(|rays| !rays.ns.is_empty() && rays.rays > 0);
-    let cells = Treatment::all().into_iter().map(tree);
-    cells.chain(TWINS.map(twin)).map(|tree| tree.filter(is_timed)).collect()
-}
-
-/// Nanoseconds a ray in every sample, on the rays that all trees are timed on.
-fn paces(epoch: &Epoch, tree: &Structure) -> Vec<f64> {
-    tree.rays[0].paces(epoch.common_rays(&tree.rays[0].workload))
+/// Nanoseconds a ray in every sample of a tree, on the rays that all trees are timed on.
+fn paces(epoch: &Epoch, tree: usize) -> Vec<f64> {
+    let rays = &epoch.structures[tree].rays[0];
+    rays.paces(epoch.common_rays(&rays.workload))
 }
 
 impl<'a> Attribution<'a> {
-    fn new(epochs: &[&'a Epoch]) -> Option<Self> {
-        let epochs: Vec<_> = epochs.iter().filter_map(|epoch| Some((*epoch, trees(epoch)?))).collect();
-        let is_counted = epochs.first()?.1.iter().all(|tree| tree.rays[0].counts.is_some());
-        let logs = |epoch: &Epoch, tree: &Structure| paces(epoch, tree).into_iter().map(libm::log).collect();
-        let of_epoch =
-            |(epoch, trees): &(&Epoch, Vec<&Structure>)| trees.iter().map(|tree| logs(epoch, tree)).collect();
-        let medians = epoch_medians(epochs.iter().map(of_epoch).collect());
-        is_counted.then(|| Self { epochs, medians, noise: AaNoise::default() })
+    fn new(scene: SceneEpochs<'a>) -> Self {
+        let logs = |epoch: &Epoch, tree| paces(epoch, tree).into_iter().map(libm::log).collect();
+        let of_epoch = |epoch: &&Epoch| (0..CELLS + TWINS.len()).map(|tree| logs(epoch, tree)).collect();
+        let medians = epoch_medians(scene.epochs.iter().map(of_epoch).collect());
+        Self { trees: of_scene(&scene), epochs: scene.epochs, medians, noise: AaNoise::default() }
     }
 
     /// Cells of the A/A noise.
@@ -77,71 +49,100 @@ impl<'a> Attribution<'a> {
         [0, 1].map(|i| log(i).into_iter().map(|log| vec![log]).collect())
     }
 
-    pub fn first(&self) -> &'a Epoch {
-        self.epochs[0].0
-    }
-
-    /// That of the tree in the first epoch.
-    pub fn tree(&self, cell: Treatment) -> &'a Structure {
-        self.epochs[0].1[cell.number()]
-    }
-
-    pub fn counts(&self, cell: Treatment) -> RayCounts {
-        self.tree(cell).rays[0].counts.unwrap_or_default()
-    }
-
-    pub fn workload(&self) -> &'a str {
-        &self.tree(Treatment::REPORT).rays[0].workload
+    /// That of the report's tree, for what all trees of the scene share.
+    pub fn first(&self) -> &Measurement {
+        &self.trees[0]
     }
 
     /// Nanoseconds a ray, the median over all samples.
     pub fn ns_per_ray(&self, cell: Treatment) -> f64 {
-        let of_epoch = |(epoch, trees): &(&Epoch, Vec<&Structure>)| paces(epoch, trees[cell.number()]);
-        median(&self.epochs.iter().flat_map(of_epoch).collect::<Vec<_>>()).expect("every tree is timed")
+        let paces = self.epochs.iter().flat_map(|epoch| paces(epoch, cell.number()));
+        median(&paces.collect::<Vec<_>>()).expect("every tree is timed")
     }
 
     /// How many times less time is taken.
     pub fn speedup(&self, weights: &Weights) -> Estimate {
-        ratio(&self.medians, |logs| value(weights, logs), self.noise.weighted(weights))
+        let sum = |logs: &[f64]| weights.iter().zip(logs).map(|(weight, log)| weight * log).sum();
+        ratio(&self.medians, sum, self.noise.weighted(weights))
+    }
+
+    /// How many times less the SAH tree takes than the report's tree.
+    pub fn whole(&self) -> Estimate {
+        self.speedup(&gain(Treatment::REPORT, Treatment::SAH))
+    }
+
+    /// What the whole owes to `factor`; the three parts multiply to it.
+    pub fn part(&self, factor: Factor) -> Estimate {
+        self.speedup(&part(factor))
+    }
+
+    /// The least and the most that `factor` gives, over the orders of switching; they differ by the interactions.
+    pub fn range(&self, factor: Factor) -> [f64; 2] {
+        let orders = parts_by_order(factor).map(|order| self.speedup(&order).estimate);
+        [orders.iter().copied().fold(f64::INFINITY, f64::min), orders.iter().copied().fold(0.0, f64::max)]
     }
 
     /// How many times faster the exact SAH plane is than the report's, where both stop at eight triangles, as far as
     /// planes divide them, and have plane intervals.
     pub fn plane_alone(&self) -> Estimate {
-        self.speedup(&effects::gain(Treatment([0, 1, 1]), Treatment([5, 1, 1])))
-    }
-
-    /// The split of the speedup.
-    pub fn time(&self) -> Split {
-        Split::new(|weights| self.speedup(weights))
-    }
-
-    /// Likewise of what is counted for each ray.
-    pub fn counted(&self, count: fn(&RayCounts) -> Option<f64>) -> Split {
-        let log = |cell| {
-            let counts = self.counts(cell);
-            // Nothing done counts as one in all, so that there is a logarithm.
-            libm::log(count(&counts).unwrap_or(0.0).max(1.0 / counts.rays as f64))
-        };
-        let logs: Vec<f64> = Treatment::all().into_iter().map(log).collect();
-        Split::new(|weights| Estimate::exact(libm::exp(value(weights, &logs))))
+        self.speedup(&gain(Treatment([0, 1, 1]), Treatment([5, 1, 1])))
     }
 }
 
-impl Split {
-    fn new(of: impl Fn(&Weights) -> Estimate) -> Self {
-        let part = |factor: Factor| {
-            let orders: Vec<f64> = effects::parts_by_order(factor).iter().map(|order| of(order).estimate).collect();
-            Part {
-                times: of(&effects::part(factor)),
-                least: orders.iter().copied().fold(f64::INFINITY, f64::min),
-                most: orders.iter().copied().fold(0.0, f64::max),
-            }
-        };
-        Self { whole: of(&effects::gain(Treatment::REPORT, Treatment::SAH)), parts: Factor::ALL.map(part) }
+/// One weight for each cell.
+type Weights = [f64; CELLS];
+
+/// How much less `to` takes than `from`.
+pub fn gain(from: Treatment, to: Treatment) -> Weights {
+    let mut weights = [0.0; CELLS];
+    weights[from.number()] += 1.0;
+    weights[to.number()] -= 1.0;
+    weights
+}
+
+/// What the whole step from the report's tree to the SAH tree owes to `factor`: its gain, averaged over all orders in
+/// which the three factors can be switched (Shapley, "A value for n-person games", 1953). The three parts add up to the
+/// whole.
+fn part(factor: Factor) -> Weights {
+    let mut sum = [0.0; CELLS];
+    for gain in parts_by_order(factor) {
+        sum.iter_mut().zip(gain).for_each(|(sum, weight)| *sum += weight / ORDERS.len() as f64);
+    }
+    sum
+}
+
+/// The gain of `factor` in every order of switching.
+fn parts_by_order(factor: Factor) -> [Weights; 6] {
+    ORDERS.map(|order| {
+        let before = order.into_iter().take_while(|&other| other != factor as usize);
+        let mut from = Treatment::REPORT;
+        before.for_each(|other| from.0[other] = Treatment::SAH.0[other]);
+        let mut to = from;
+        to.0[factor as usize] = Treatment::SAH.0[factor as usize];
+        gain(from, to)
+    })
+}
+
+const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn close(a: f64, b: f64) {
+        assert!((a - b).abs() < 1e-12, "{a} {b}");
     }
 
-    pub fn part(&self, factor: Factor) -> Part {
-        self.parts[factor as usize]
+    #[test]
+    fn parts_add_up_to_the_whole_whatever_the_cells_hold() {
+        let logs: Vec<f64> = (0..CELLS).map(|i| libm::sin(i as f64 * 1.7) * 3.0).collect();
+        let value = |weights: Weights| -> f64 { weights.iter().zip(&logs).map(|(weight, log)| weight * log).sum() };
+        let parts: f64 = Factor::ALL.into_iter().map(|factor| value(part(factor))).sum();
+        close(parts, value(gain(Treatment::REPORT, Treatment::SAH)));
+        // Contrasts take no notice of what all cells share.
+        for factor in Factor::ALL {
+            close(part(factor).iter().sum(), 0.0);
+        }
     }
 }

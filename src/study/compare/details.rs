@@ -1,26 +1,22 @@
 //! What `--wide` prints beside times, and the table for programs.
 
+use crate::report::words::distinct;
 use crate::report::{Cell, Format, Table};
 use crate::request::BRUTE_FORCE;
-use crate::study::measurement::Measurement;
+use crate::study::measurement::{COLUMNS, Measurement, MeasurementColumn, push_columns};
 
-/// Adds the columns of builds, memory, the shape of the trees, counts and checks to a table whose rows begin with the
-/// label of a structure.
-pub fn details(all: &[Measurement], workloads: &[String], columns: &mut Vec<String>, rows: &mut [Vec<Cell>]) {
-    type Column = (&'static str, fn(&Measurement) -> Cell);
-    let own: [Column; 13] = [
-        // A program that times itself may say nothing of its build.
-        ("build", |r| if r.build_ns > 0 { Cell::duration(r.build_ns as f64) } else { Cell::empty() }),
-        ("peak", |r| r.build_peak_bytes.map(Cell::bytes).unwrap_or_default()),
-        // A program that does not know its memory says 0.
-        ("memory", |r| if r.shape.bytes > 0 { Cell::bytes(r.shape.bytes) } else { Cell::empty() }),
-        ("nodes", |r| known(r.shape.inner_nodes)),
-        ("leaves", |r| known(r.shape.leaves)),
-        ("refs a triangle", |r| {
-            let per_triangle = r.shape.references as f64 / r.triangles.max(1) as f64;
-            if r.shape.references > 0 { per_triangle.into() } else { Cell::empty() }
-        }),
-        ("depth", |r| known(r.shape.depth)),
+/// Adds the columns of builds, memory, the shape of the trees, counts and checks to a table with a row for each of the
+/// `structures`.
+pub fn add_columns(table: &mut Table, all: &[Measurement], structures: &[String]) {
+    let own: [MeasurementColumn; 13] = [
+        // A program that times itself may say nothing of its build, and one that does not know its memory says 0.
+        ("build", |r| known(r.build_ns as usize).map(|ns| Cell::duration(ns as f64)).into()),
+        ("peak", |r| r.build_peak_bytes.map(Cell::bytes).into()),
+        ("memory", |r| known(r.shape.bytes).map(Cell::bytes).into()),
+        ("nodes", |r| known(r.shape.inner_nodes).into()),
+        ("leaves", |r| known(r.shape.leaves).into()),
+        ("refs a triangle", |r| known(r.shape.references).map(|_| r.references_per_triangle()).into()),
+        ("depth", |r| known(r.shape.depth).into()),
         ("SAH cost", |r| r.shape.sah_cost.into()),
         ("tests", |r| r.tests_per_ray.into()),
         ("steps", |r| r.steps_per_ray.into()),
@@ -28,22 +24,18 @@ pub fn details(all: &[Measurement], workloads: &[String], columns: &mut Vec<Stri
         ("checked", |r| r.checked_rays.into()),
         ("sampled", |r| Cell::number(r.rays as f64 / r.workload_rays.max(1) as f64, Format::Percent)),
     ];
-    columns.extend(own.iter().map(|(name, _)| (*name).to_owned()));
-    columns.extend(workloads.iter().map(|workload| format!("pays off: {workload}")));
-    for row in rows {
-        let label = row[0].text();
-        let first = all.iter().find(|r| r.label == label);
-        row.extend(own.iter().map(|(_, cell)| first.map_or(Cell::empty(), cell)));
-        let pays = |workload: &String| {
-            let measured = all.iter().find(|r| r.label == label && r.workload == *workload);
-            measured.and_then(|own| pays_off_after(all, own)).into()
-        };
-        row.extend(workloads.iter().map(pays));
+    let find = |label: &String, is: &dyn Fn(&Measurement) -> bool| all.iter().find(|r| r.label == *label && is(r));
+    for (name, cell) in own {
+        table.push_column(name, structures.iter().map(|label| find(label, &|_| true).map(cell).into()));
+    }
+    for workload in distinct(all.iter().map(|r| &r.workload)) {
+        let pays = |label| find(label, &|r| r.workload == workload).and_then(|own| pays_off_after(all, own)).into();
+        table.push_column(format!("pays off: {workload}"), structures.iter().map(pays));
     }
 }
 
-fn known(n: usize) -> Cell {
-    if n > 0 { n.into() } else { Cell::empty() }
+fn known(n: usize) -> Option<usize> {
+    Some(n).filter(|&n| n > 0)
 }
 
 /// After how many rays of its workload a structure has made up for the time that its build takes longer than that of the
@@ -78,50 +70,10 @@ pub fn legend(first: &str) -> Vec<String> {
 
 /// One row for each structure and workload of a scene.
 pub fn data(all: &[Measurement]) -> Table {
-    Table::of(
-        "",
-        all,
-        &[
-            ("scene", &|r| (&r.scene).into()),
-            ("scene_hash", &|r| (&r.scene_hash).into()),
-            ("stand_in", &|r| r.stand_in.into()),
-            ("triangles", &|r| r.triangles.into()),
-            ("structure", &|r| (&r.structure).into()),
-            ("label", &|r| (&r.label).into()),
-            ("triangle_test", &|r| (&r.triangle_test).into()),
-            ("config", &|r| r.config.to_string().into()),
-            ("workload", &|r| (&r.workload).into()),
-            ("query", &|r| r.query.name().into()),
-            ("workload_hash", &|r| (&r.workload_hash).into()),
-            ("workload_rays", &|r| r.workload_rays.into()),
-            ("rays", &|r| r.rays.into()),
-            ("epochs", &|r| r.epochs.into()),
-            ("runs", &|r| r.samples_ns.len().into()),
-            ("build_ns", &|r| r.build_ns.into()),
-            ("build_peak_bytes", &|r| r.build_peak_bytes.into()),
-            ("trace_ns", &|r| r.trace_ns.into()),
-            ("mrays_per_s", &|r| r.mrays_per_s.into()),
-            ("tests_per_ray", &|r| r.tests_per_ray.into()),
-            ("steps_per_ray", &|r| r.steps_per_ray.into()),
-            ("leaf_steps_per_ray", &|r| r.leaf_steps_per_ray.into()),
-            ("empty_leaf_steps_per_ray", &|r| r.empty_leaf_steps_per_ray.into()),
-            ("tests_over_minimum", &|r| r.tests_over_minimum.into()),
-            ("instructions_per_ray", &|r| r.instructions_per_ray.into()),
-            ("branch_misses_per_ray", &|r| r.branch_misses_per_ray.into()),
-            ("bytes", &|r| r.shape.bytes.into()),
-            ("inner_nodes", &|r| r.shape.inner_nodes.into()),
-            ("leaves", &|r| r.shape.leaves.into()),
-            ("references", &|r| r.shape.references.into()),
-            ("depth", &|r| r.shape.depth.into()),
-            ("sah_cost", &|r| r.shape.sah_cost.into()),
-            ("pays_off_after_rays", &|r| pays_off_after(all, r).into()),
-            ("hits", &|r| r.hits.into()),
-            ("counted_rays", &|r| r.counted_rays.into()),
-            ("declined", &|r| r.declined.as_ref().into()),
-            ("checked_rays", &|r| r.checked_rays.into()),
-            ("structure_errors", &|r| r.structure_errors.into()),
-        ],
-    )
+    let mut table = Table::new("", [""; 0], all.iter().map(|_| vec![]));
+    push_columns(&mut table, &COLUMNS.map(|(name, _)| name), &all.iter().collect::<Vec<_>>());
+    table.push_column("pays_off_after_rays", all.iter().map(|own| pays_off_after(all, own).into()));
+    table
 }
 
 #[cfg(test)]

@@ -4,16 +4,17 @@ use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::time::Duration;
 
-use super::NAME;
 use crate::registry::Registry;
 use crate::report::words::each_once_by;
 use crate::request::{
     BRUTE_FORCE, Limit, Measuring, RaySource, SceneRequest, Scenes, Seconds, StructureRequest, Structures, ViewArgs,
-    WORKLOADS, WorkloadRequest, each_kind, left_out, recorded, scene_files, structures_at, with_twin,
+    WORKLOADS, WorkloadRequest, each_kind, left_out, replayed, scene_files, structures_at, with_twin,
 };
 use crate::scene::{Scene, WorkloadKind};
 use crate::study::case::SLOWEST;
 use crate::study::{Check, Plan, PlannedScene, Settings};
+
+pub const NAME: &str = "compare";
 
 #[derive(Clone, Debug, clap::Args)]
 pub struct CompareArgs {
@@ -87,14 +88,11 @@ impl CompareArgs {
         let quality = self.structures.quality.as_deref();
         for command in &self.runner {
             let runner = StructureRequest::of_runner(command, self.runner_limit.seconds())?;
-            if let Some(other) = structures.iter().find(|other| other.spec == runner.spec) {
-                anyhow::ensure!(
-                    other == &runner,
-                    "--runner {command:?} and another one have one name, {}: rename one of the programs",
-                    runner.spec
-                );
-                continue;
-            }
+            anyhow::ensure!(
+                structures.iter().all(|other| other.spec != runner.spec || *other == runner),
+                "--runner {command:?} and another one have one name, {}: rename one of the programs",
+                runner.spec
+            );
             structures.push(runner);
         }
         if let Some(spec) = &self.reference
@@ -116,17 +114,15 @@ impl CompareArgs {
     /// The scenes as they are seen, and their rays.
     fn scenes(&self, registry: &Registry) -> anyhow::Result<(Vec<(OsString, Scene)>, WorkloadRequest)> {
         let quick = self.quick.then_some(QUICK_RAYS);
-        if let Some((scene, file)) = recorded(registry, &self.rays, &self.scenes.scenes)? {
+        if let Some((scene, rays)) = replayed(registry, &self.rays, &self.scenes.scenes, &self.workload, quick)? {
             self.from.is_unasked()?;
-            anyhow::ensure!(self.workload.is_empty(), "the rays are those of the file: leave --workload out");
-            let path = self.rays.file().expect("they are those of a file").to_owned();
-            return Ok((vec![scene], WorkloadRequest::File { path, hash: file.workload.hash(), rays: quick }));
+            return Ok((vec![scene], rays));
         }
         let seen = |(word, scene)| Ok((word, self.from.of(scene)?));
         let scenes = self.scenes.read(registry, &[])?.into_iter().map(seen);
-        let rays = quick.or(Some(self.rays.count())).filter(|&rays| rays < usize::MAX);
-        let kinds = each_kind(&self.workload, &WORKLOADS);
-        Ok((scenes.collect::<anyhow::Result<_>>()?, WorkloadRequest::Scene { kinds, rays }))
+        let rays = quick.unwrap_or(self.rays.count());
+        let workloads = WorkloadRequest::of_scene(each_kind(&self.workload, &WORKLOADS), rays);
+        Ok((scenes.collect::<anyhow::Result<_>>()?, workloads))
     }
 
     /// What a build over so many triangles may take, seconds.
@@ -167,16 +163,15 @@ impl CompareArgs {
         let (mut scenes, workloads) = self.scenes(registry)?;
         scenes.sort_by_key(|(_, scene)| scene.mesh.len());
         let is_bounded = self.measuring.budget.ns().is_some() && !self.quick;
+        let is_skipped =
+            |own: &StructureRequest| own.name() == BRUTE_FORCE && !is_bounded && !named.names_brute_force();
         let mut notes = vec![];
-        if !is_bounded && !named.names_brute_force() {
-            let before = structures.len();
-            structures.retain(|own| own.name() != BRUTE_FORCE);
-            if structures.len() < before && !self.quick {
-                notes.push(format!(
-                    "{BRUTE_FORCE} is skipped (hours for all rays); pass --structure {BRUTE_FORCE} to run it."
-                ));
-            }
+        if structures.iter().any(is_skipped) && !self.quick {
+            notes.push(format!(
+                "{BRUTE_FORCE} is skipped (hours for all rays); pass --structure {BRUTE_FORCE} to run it."
+            ));
         }
+        structures.retain(|own| !is_skipped(own));
         let structures = with_twin(structures);
         let settings = self.settings(registry, &structures, workloads.kinds())?;
         let epochs = if self.quick { QUICK_EPOCHS } else { self.measuring.epochs };

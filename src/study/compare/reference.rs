@@ -1,7 +1,6 @@
 //! What a table relates speeds to, and ratios between measurements, with their intervals.
 
 use crate::measure::{AaNoise, Estimate, Rerun, cut_to_shared_epochs, epoch_values};
-use crate::report::Cell;
 use crate::request::{REPORT_TREE, is_obvhs};
 use crate::study::measurement::Measurement;
 
@@ -12,8 +11,8 @@ pub fn speed<'a>(
     pairs: impl IntoIterator<Item = (&'a Measurement, &'a Measurement)>,
     noise: &AaNoise,
 ) -> Option<Estimate> {
-    let cells: Option<Vec<_>> = pairs.into_iter().map(|(own, other)| own.speed_against(other)).collect();
-    let mut cells = cells?;
+    let cells = pairs.into_iter().map(|(own, other)| own.speed_against(other));
+    let mut cells: Vec<_> = cells.collect::<Option<_>>()?;
     // Where time ran out, scenes have different numbers of them.
     cut_to_shared_epochs(&mut cells);
     Some(Rerun::of(&epoch_values(&cells)?, noise.of_mean(cells.len()))?.ratio())
@@ -36,8 +35,9 @@ pub enum Reference {
 impl Reference {
     /// The one that is `named`; else the report's tree and obvhs, of these what was measured; else the first structure.
     pub fn of(all: &[Measurement], named: Option<&str>) -> Vec<Self> {
-        if let Some(label) = named {
-            return vec![Self::Structure(label.into())];
+        if let Some(spec) = named {
+            let known = all.iter().map(|own| own.label.as_str()).find(|label| label.eq_ignore_ascii_case(spec));
+            return vec![Self::Structure(known.unwrap_or(spec).into())];
         }
         let mut found = vec![];
         if all.iter().any(|own| own.label == REPORT_TREE) {
@@ -100,9 +100,4 @@ impl Reference {
         }
         speed(pairs.iter().copied(), noise)
     }
-}
-
-/// A ratio, marked where it is not distinguishable from 1.
-pub fn cell(ratio: Option<Estimate>) -> Cell {
-    ratio.map_or(Cell::empty(), Cell::ratio)
 }

@@ -1,38 +1,38 @@
-//! What a page shows of a comparison: bars with intervals against the report's tree, tables beside.
+//! What is said and shown of a comparison: findings, then tables and figures.
 
-use std::collections::BTreeMap;
-
-use super::table::{legend, refusals, scene_table};
-use super::{Reference, by_scene, details, means, nothing_measured, rank, tradeoff};
+use super::means::mean_table;
+use super::table::{legend, nothing_measured, refusals, scene_table};
+use super::{Reference, details, tradeoff};
 use crate::report::number::count;
 use crate::report::plot::{Bar, BarGroup, Bars, Chart};
 use crate::report::words::{distinct, each_once, interval, listed, slug};
 use crate::report::{Art, Block, Cell, Figure, Finding, Table};
 use crate::request::{BRUTE_FORCE, REPORT_TREE, SAH_TREE, known_defect};
 use crate::scene::{BUILTIN, Builtin};
-use crate::study::kendall::{kendall, mean};
-use crate::study::measurement::{Measurement, UntimedStructure, trace_noise};
+use crate::study::Dataset;
+use crate::study::epoch::Structure;
+use crate::study::kendall::{kendall, mean_of_scenes};
+use crate::study::measurement::{Measurement, of_scene, trace_noise};
 
 /// How many answers were checked and how many of them are wrong, and whose.
 pub fn checked(all: &[Measurement]) -> Option<Finding> {
-    let is_own = |r: &&Measurement| r.declined.is_none() && known_defect(&r.structure).is_none();
-    let own = || all.iter().filter(is_own);
-    let wrong: usize = own().map(|r| r.structure_errors).sum();
-    let rays: usize = own().map(|r| r.checked_rays).sum();
+    let sum = |is: &dyn Fn(&&Measurement) -> bool| {
+        let own = || all.iter().filter(is);
+        (own().map(|r| r.structure_errors).sum::<usize>() as u64, own().map(|r| r.checked_rays).sum::<usize>() as u64)
+    };
     let of = |label: &String| {
-        let own = || all.iter().filter(|r| r.label == *label);
-        let errors: usize = own().map(|r| r.structure_errors).sum();
-        let checked: usize = own().map(|r| r.checked_rays).sum();
-        (errors > 0).then(|| format!("{label} ({} of {} checked rays)", count(errors as u64), count(checked as u64)))
+        let (errors, rays) = sum(&|r| r.label == *label);
+        (errors > 0).then(|| format!("{label} ({} of {} checked rays)", count(errors), count(rays)))
     };
     let erring: Vec<String> = distinct(all.iter().map(|r| &r.label)).iter().filter_map(of).collect();
     let erring =
         if erring.is_empty() { String::new() } else { format!(" Wrong answers, and so no time: {}.", listed(&erring)) };
-    let wrong = if wrong == 0 { "none".into() } else { count(wrong as u64) };
+    let (wrong, rays) = sum(&|r| r.declined.is_none() && known_defect(&r.structure).is_none());
+    let wrong = if wrong == 0 { "none".into() } else { count(wrong) };
     let sentence = format!(
         "Of {} answers of structures without known defects, held against brute force over the same triangle test, {wrong} is \
          wrong.{erring}",
-        count(rays as u64)
+        count(rays)
     );
     (rays > 0).then(|| Finding::new("checked", sentence))
 }
@@ -47,22 +47,14 @@ pub fn tau(all: &[Measurement]) -> Option<Finding> {
     let is_asked =
         |r: &&Measurement| r.structure != BRUTE_FORCE && r.trace_ns.is_some() && Builtin::find(&r.scene).is_ok();
     let timed: Vec<&Measurement> = all.iter().filter(is_asked).collect();
-    // Trees of a scene are the same whatever the rays, and a stand-in is built after the real mesh: taus of one scene are
-    // not independent, and count as their mean.
-    let mut scenes: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
-    for (hash, workload) in each_once(timed.iter().map(|r| (&r.scene_hash, &r.workload))) {
-        let group: Vec<&&Measurement> =
-            timed.iter().filter(|r| (&r.scene_hash, &r.workload) == (hash, workload)).collect();
-        let known =
-            group.iter().filter_map(|r| Some((family(&r.structure), (r.shape.sah_cost?, r.trace_ns? / r.rays as f64))));
-        let known: Vec<(&str, (f64, f64))> = known.collect();
-        let pairs: Vec<(f64, f64)> = known.iter().map(|(_, pair)| *pair).collect();
-        if let Some(tau) = kendall(&pairs, |i, j| known[i].0 != known[j].0) {
-            scenes.entry(&group[0].scene).or_default().push(tau);
-        }
-    }
-    let means: Vec<f64> = scenes.values().map(|taus| taus.iter().sum::<f64>() / taus.len() as f64).collect();
-    Some(Finding::number("tau", mean(&means)?))
+    let groups = each_once(timed.iter().map(|r| (&r.scene, &r.scene_hash, &r.workload)));
+    let taus = groups.into_iter().filter_map(|group| {
+        let own = timed.iter().filter(|r| (&r.scene, &r.scene_hash, &r.workload) == group);
+        let known = own.filter_map(|r| Some((family(&r.structure), (r.shape.sah_cost?, r.trace_ns? / r.rays as f64))));
+        let (families, pairs): (Vec<&str>, Vec<(f64, f64)>) = known.unzip();
+        Some((group.0.as_str(), kendall(&pairs, |i, j| families[i] != families[j])?))
+    });
+    Some(Finding::number("tau", mean_of_scenes(taus)?))
 }
 
 /// What a structure has in common with those whose cells and nodes are of the same kind.
@@ -74,92 +66,69 @@ fn family(structure: &str) -> &str {
     }
 }
 
-/// The meshes that the builders and layouts of our trees were tuned on; `papers/TUNING.md` has what was tried.
-const TUNED_ON: [&str; 6] = ["kitchen", "Sponza", "Dragon", "Lucy", "bunny", "engine"];
-
-/// Where our figures may be biased.
-pub fn bias() -> String {
-    format!(
-        "The builders and layouts of our trees were tuned on {} (papers/TUNING.md has what was tried); neither the defaults of obvhs \
-         nor any other peer was tuned by us.",
-        listed(&TUNED_ON)
-    )
-}
-
 /// Scenes shown at once on a page; the figures of the others are folded.
 const OPEN: usize = 3;
 
-/// All blocks. The terminal prints the tables of scenes, in full where they are `wide`, then the means and the ranks.
-pub fn blocks(all: &[Measurement], refused: &[UntimedStructure], references: &[Reference], wide: bool) -> Vec<Block> {
-    let last = &references[references.len().saturating_sub(1)..];
-    let mut blocks = vec![];
-    let titles = each_once(all.iter().map(Measurement::scene_title).chain(refused.iter().map(|own| own.scene.clone())));
-    let mut scenes = by_scene(all);
-    for title in &titles {
-        let own: Vec<UntimedStructure> = refused.iter().filter(|own| own.scene == *title).cloned().collect();
-        let scene = scenes.iter().find(|scene| scene[0].scene_title() == *title);
-        blocks.push(Block::from(match scene {
-            Some(scene) if wide => scene_table(scene, references, &own, true),
-            Some(scene) => scene_table(scene, last, &own, false),
-            None => nothing_measured(title, &own),
-        }));
+/// All blocks. The terminal prints the tables of scenes, in full where they are `wide`, then the means.
+pub fn blocks(dataset: &Dataset, references: &[Reference], wide: bool) -> Vec<Block> {
+    let shown = if wide { references } else { &references[references.len().saturating_sub(1)..] };
+    let (mut blocks, mut scenes, mut all_refused) = (vec![], vec![], vec![]);
+    for scene in dataset.scenes() {
+        let (own, first) = (of_scene(&scene), scene.epochs[0]);
+        let refused: Vec<&Structure> =
+            first.structures.iter().filter(|own| own.refused.is_some() && !own.is_twin()).collect();
+        if !own.is_empty() {
+            blocks.push(Block::Table(scene_table(&own, shown, &refused, wide)));
+        } else if !refused.is_empty() {
+            blocks.push(Block::Table(nothing_measured(&first.title(), &refused)));
+        }
+        all_refused.extend(refused);
+        scenes.extend(Some(own).filter(|own| !own.is_empty()));
     }
-    if all.is_empty() {
-        blocks.extend(refusals(refused).into_iter().map(Block::Note));
-        return blocks;
+    let all = scenes.concat();
+    let mut notes = refusals(&all_refused);
+    if let Some(first) = all.first() {
+        let means = (scenes.len() > 1).then(|| mean_table(&all, shown));
+        blocks.extend(means.filter(Table::says_something).map(Block::from));
+        let columns = if wide { details::legend(&first.workload) } else { vec![] };
+        notes.splice(0..0, legend(&all, shown).into_iter().chain(columns));
     }
-    let several = scenes.len() > 1;
-    let means = several.then(|| means::mean_table(all, if wide { references } else { last }));
-    blocks.extend(means.filter(Table::says_something).map(Block::from));
-    blocks.extend(legend(all, if wide { references } else { last }).into_iter().map(Block::Note));
-    let columns = || details::legend(&all[0].workload).into_iter().map(Block::Note);
-    if wide {
-        blocks.extend(columns());
-    }
-    blocks.extend(refusals(refused).into_iter().map(Block::Note));
+    blocks.extend(notes.into_iter().map(Block::Note));
 
-    let ranks = rank::ranks(all, references.last()).map_or(vec![], |ranks| ranks.tables(all));
-    if !ranks.is_empty() {
-        let bias = Block::Note(format!("We are judges in our own cause. {}", bias()));
-        let name = "Ranks over all scenes and workloads".to_owned();
-        blocks.push(Block::Fold(name, ranks.into_iter().map(Block::from).chain([bias]).collect()));
-    }
     // The largest scenes are what the question is about.
     scenes.sort_by_key(|scene| std::cmp::Reverse(scene[0].triangles));
     blocks.extend(tradeoff::figure(&scenes, references).map(Block::figure));
-    let rest = scenes.split_off(scenes.len().min(OPEN));
-    blocks.extend(scenes.iter().map(|scene| Block::figure(bars(scene))));
-    if !rest.is_empty() {
-        let figures = rest.iter().map(|scene| Block::figure(bars(scene))).collect();
-        blocks.push(Block::Fold(format!("Figures of the other {} scenes", rest.len()), figures));
+    let mut figures: Vec<Block> = scenes.iter().map(|scene| Block::figure(bars(scene))).collect();
+    let others = figures.split_off(figures.len().min(OPEN));
+    blocks.extend(figures);
+    if !others.is_empty() {
+        blocks.push(Block::Fold(format!("Figures of the other {} scenes", others.len()), others));
     }
-    if !wide {
-        let tables = scenes.iter().chain(&rest).map(|scene| scene_table(scene, references, &[], true).into());
-        blocks.push(Block::Fold("All columns".into(), tables.chain(columns()).collect()));
+    if let Some(first) = all.first().filter(|_| !wide) {
+        let tables = scenes.iter().map(|scene| scene_table(scene, references, &[], true).into());
+        let columns = details::legend(&first.workload).into_iter().map(Block::Note);
+        blocks.push(Block::Fold("All columns".into(), tables.chain(columns).collect()));
     }
     blocks
 }
 
-/// Speed as a multiple of the report's tree, kind by kind.
+/// Speed as a multiple of the report's tree, workload by workload.
 fn bars(all: &[Measurement]) -> Figure {
     let noise = trace_noise(all);
-    let labels = distinct(all.iter().map(|r| &r.label));
-    let has = |label: &str| labels.iter().any(|l| l == label);
-    let baseline = [REPORT_TREE, BRUTE_FORCE].into_iter().find(|label| has(label)).unwrap_or(&labels[0]).to_owned();
-    // Where it is the unit itself, brute force is so far away that it hides what lies between the others.
-    let labels: Vec<String> =
-        labels.into_iter().filter(|label| baseline == BRUTE_FORCE || label != BRUTE_FORCE).collect();
+    let mut labels = distinct(all.iter().map(|r| &r.label));
+    let units = [REPORT_TREE, BRUTE_FORCE].map(String::from);
+    let unit = units.into_iter().find(|unit| labels.contains(unit)).unwrap_or_else(|| labels[0].clone());
+    // Where it is not the unit itself, brute force is so far away that it hides what lies between the others.
+    labels.retain(|label| unit == BRUTE_FORCE || label != BRUTE_FORCE);
     let workloads = distinct(all.iter().map(|r| &r.workload));
-    let find = |workload: &String, label: &String| all.iter().find(|r| r.workload == *workload && r.label == *label);
+    let reference = Reference::Structure(unit.clone());
     let bar = |workload: &String, label: &String| {
-        let Some(own) = find(workload, label) else { return Bar::Missing("not measured".into()) };
-        match (own.trace_ns, find(workload, &baseline)) {
-            _ if own.declined.is_some() => Bar::Missing("declined".into()),
-            (None, _) if own.is_disqualified() => Bar::Missing("wrong answers".into()),
-            (Some(_), Some(baseline)) if baseline.trace_ns.is_some() => {
-                Reference::ratio(&[(own, baseline)], &noise).map_or(Bar::Missing("no pairs".into()), Bar::Of)
-            }
-            _ => Bar::Missing("not timed".into()),
+        let ratio = |own| Reference::ratio(&reference.pairs(all, [own]), &noise);
+        match all.iter().find(|r| r.workload == *workload && r.label == *label) {
+            None => Bar::Missing("not measured".into()),
+            Some(own) if own.declined.is_some() => Bar::Missing("declined".into()),
+            Some(own) if own.is_disqualified() => Bar::Missing("wrong answers".into()),
+            Some(own) => ratio(own).map_or(Bar::Missing("not timed".into()), Bar::Of),
         }
     };
     let group = |workload: &String| BarGroup {
@@ -167,45 +136,33 @@ fn bars(all: &[Measurement]) -> Figure {
         bars: labels.iter().map(|label| bar(workload, label)).collect(),
     };
     let groups: Vec<BarGroup> = workloads.iter().map(group).collect();
+
+    let mut data = Table::of("", &labels, &[("structure", &|label| (*label).into())]);
+    for (workload, group) in workloads.iter().zip(&groups) {
+        let cell = |bar: &Bar| if let Bar::Missing(why) = bar { Cell::from(why) } else { bar.value().into() };
+        data.push_column(workload, group.bars.iter().map(cell));
+    }
+    let fastest = groups.iter().filter_map(|group| {
+        let values = group.bars.iter().zip(&labels).filter_map(|(bar, label)| Some((bar.value()?, label)));
+        let (value, label) = values.max_by(|a, b| a.0.estimate.total_cmp(&b.0.estimate))?;
+        Some(format!("{}: {label}, {}", group.title, interval(value)))
+    });
+    let fastest = fastest.collect::<Vec<_>>().join("; ");
     let name = all[0].scene_title();
     Figure {
         id: format!("speed-{}", slug(&all[0].scene)),
         caption: format!(
-            "{name}, {} triangles: speed as a multiple of {baseline} on the same rays, longer is faster. Whiskers are 95 % intervals; \
+            "{name}, {} triangles: speed as a multiple of {unit} on the same rays, longer is faster. Whiskers are 95 % intervals; \
              the axis is logarithmic.",
             count(all[0].triangles as u64)
         ),
-        alt: alt(&name, &labels, &groups, &baseline),
-        data: data(&labels, &groups, &workloads),
+        alt: format!("Bar chart for {name}. Fastest against {unit} by workload: {fastest}."),
+        data,
         art: Art::Chart(Chart::Bars(Bars {
-            x_title: format!("times as fast as {baseline}"),
+            x_title: format!("times as fast as {unit}"),
             labels,
             parts: vec![],
             groups,
         })),
     }
-}
-
-fn data(labels: &[String], groups: &[BarGroup], workloads: &[String]) -> Table {
-    let row = |(i, label): (usize, &String)| {
-        let cell = |group: &BarGroup| match &group.bars[i] {
-            Bar::Of(value) | Bar::Product(_, value) => Cell::from(*value),
-            Bar::Missing(why) => Cell::from(why),
-        };
-        std::iter::once(Cell::from(label)).chain(groups.iter().map(cell)).collect()
-    };
-    let columns = std::iter::once("structure").chain(workloads.iter().map(String::as_str));
-    Table::new("", columns, labels.iter().enumerate().map(row))
-}
-
-fn alt(name: &str, labels: &[String], groups: &[BarGroup], baseline: &str) -> String {
-    let best = groups.iter().filter_map(|group| {
-        let values = group.bars.iter().zip(labels).filter_map(|(bar, label)| match bar {
-            Bar::Of(value) | Bar::Product(_, value) => Some((value, label)),
-            Bar::Missing(_) => None,
-        });
-        let (value, label) = values.max_by(|a, b| a.0.estimate.total_cmp(&b.0.estimate))?;
-        Some(format!("{}: {label}, {}", group.title, interval(*value)))
-    });
-    format!("Bar chart for {name}. Fastest against {baseline} by workload: {}.", best.collect::<Vec<_>>().join("; "))
 }

@@ -1,13 +1,14 @@
 //! One scene as a table for people.
 
-use super::details::details;
-use super::reference::{Reference, cell};
+use super::details;
+use super::reference::Reference;
 use crate::accel::Query;
 use crate::report::number::{count, figures, plural};
-use crate::report::words::{distinct, listed};
+use crate::report::words::{distinct, each_once, listed};
 use crate::report::{Cell, Table, Tone, Value};
 use crate::request::{is_large, known_defect};
-use crate::study::measurement::{Measurement, UntimedStructure, trace_noise};
+use crate::study::epoch::Structure;
+use crate::study::measurement::{Measurement, trace_noise};
 use crate::triangle::{Exact, TriangleTest};
 
 /// What a structure is asked with that answers many rays in one call.
@@ -27,9 +28,12 @@ fn few_checked(all: &[Measurement]) -> Option<String> {
 
 /// What the other columns of the tables of these all mean, once for all tables.
 pub fn legend(all: &[Measurement], references: &[Reference]) -> Vec<String> {
-    let columns: Vec<String> = references.iter().map(|reference| format!("x {}", reference.name())).collect();
-    let against: Vec<String> = references.iter().map(|reference| format!("against {}", reference.words())).collect();
-    let (columns, against) = (columns.join(", "), listed(&against));
+    let column = |own: &Reference| format!("x {}: speed against {}", own.name(), own.words());
+    let mut ratios = references.iter().map(column).collect::<Vec<_>>().join("; ");
+    ratios += ", geometric mean over the row on the same rays";
+    if all.iter().any(|r| r.epochs > 1) {
+        ratios += ", with 95 % prediction intervals for a rerun on a quiet machine; =: not distinguishable from 1";
+    }
     let mut speeds = "Under each kind of rays: million rays a second, median".to_owned();
     if all.iter().any(Measurement::is_disqualified) {
         speeds += "; n/m wrong: wrong answers to n of m rays, and then no time";
@@ -40,16 +44,7 @@ pub fn legend(all: &[Measurement], references: &[Reference]) -> Vec<String> {
     if all.iter().any(|r| r.query == Query::Any) {
         speeds += "; *: timed by any hit, the others by closest hit";
     }
-    let intervals = match all.iter().any(|r| r.epochs > 1) {
-        true => {
-            ", with the interval that holds the ratio of another run, as little disturbed, in 95 % of cases; =: not distinguishable from 1"
-        }
-        false => "",
-    };
-    let mut legend = vec![
-        speeds + ".",
-        format!("{columns}: speed {against}, geometric mean over the row on the same rays{intervals}."),
-    ];
+    let mut legend = vec![speeds + ".", ratios + "."];
     let has = |part: &str| all.iter().any(|r| r.label.contains(part));
     if has(PACKETS) {
         let obvhs = if has("obvhs") { "; obvhs has no such call, and answers ray by ray" } else { "" };
@@ -59,69 +54,63 @@ pub fn legend(all: &[Measurement], references: &[Reference]) -> Vec<String> {
 }
 
 /// Why structures are refused, each reason once for all tables.
-pub fn refusals(refused: &[UntimedStructure]) -> Vec<String> {
+pub fn refusals(refused: &[&Structure]) -> Vec<String> {
     let reason = |reason: &String| {
-        let of = refused.iter().filter(|r| r.reason == *reason).map(|r| &r.label);
+        let of = refused.iter().filter(|own| own.refused.as_ref() == Some(reason)).map(|own| &own.label);
         format!("Refused: {}: {reason}.", listed(&distinct(of)))
     };
-    distinct(refused.iter().map(|r| &r.reason)).iter().map(reason).collect()
+    distinct(refused.iter().filter_map(|own| own.refused.as_ref())).iter().map(reason).collect()
+}
+
+/// A scene whose structures are all refused.
+pub fn nothing_measured(scene: &str, refused: &[&Structure]) -> Table {
+    let title = format!("{scene}: every structure is refused, or no ray is left");
+    Table::of(title, refused, &[("structure", &|own| (&own.label).into())]).of_one_scene()
 }
 
 /// One scene, one row for each structure, those that are refused last, with a column of ratios for each of the
 /// `references`; with all columns where it is `wide`.
-pub fn scene_table(all: &[Measurement], references: &[Reference], refused: &[UntimedStructure], wide: bool) -> Table {
+pub fn scene_table(all: &[Measurement], references: &[Reference], refused: &[&Structure], wide: bool) -> Table {
     let Some(first) = all.first() else { return Table::default() };
-    let workloads = distinct(all.iter().map(|r| &r.workload));
-    let structures = distinct(all.iter().map(|r| &r.label));
-    let of = |label: &str| -> Vec<&Measurement> { all.iter().filter(|r| r.label == label).collect() };
-    let noise = trace_noise(all);
-    let best_of = |workload: &String| {
-        let speeds = all.iter().filter(|r| r.workload == *workload).filter_map(|r| r.mrays_per_s);
-        speeds.max_by(f64::total_cmp).unwrap_or(f64::INFINITY)
-    };
-    let best: Vec<f64> = workloads.iter().map(best_of).collect();
-
-    let mut columns = vec!["structure".to_owned()];
-    for workload in &workloads {
-        let any = all.iter().any(|r| r.workload == *workload && r.query == Query::Any);
-        columns.push(format!("{workload}{}", if any { "*" } else { "" }));
-    }
-    columns.extend(references.iter().map(|reference| format!("x {}", reference.name())));
-    let row = |label: &String| {
-        let of = of(label);
-        let mut row = vec![Cell::from(label)];
-        for (workload, best) in workloads.iter().zip(&best) {
-            row.push(of.iter().find(|r| r.workload == *workload).map_or(Cell::empty(), |r| speed(r, *best)));
-        }
-        // A row that lacks a time, other than one that it declines, has no mean.
-        let timed: Vec<&Measurement> = of.iter().copied().filter(|r| r.declined.is_none()).collect();
-        row.extend(references.iter().map(|reference| {
-            let pairs = reference.pairs(all, timed.iter().copied());
-            let whole = pairs.len() == timed.len();
-            let mean = cell(if whole { Reference::ratio(&pairs, &noise) } else { None });
-            let is_part = timed.len() < of.len() && !mean.is_empty();
-            if is_part { mean.noted(format!("{} of {}", timed.len(), of.len())) } else { mean }
-        }));
-        row
-    };
-    let mut rows: Vec<Vec<Cell>> = structures.iter().map(row).collect();
-    let width = columns.len();
-    rows.extend(refused.iter().map(|refused| {
-        let mut row = vec![Cell::empty(); width];
-        row[0] = Cell::from(&refused.label);
-        row[1] = Cell::from("refused").with(Tone::Wrong);
-        row
-    }));
-    if wide {
-        details(all, &workloads, &mut columns, &mut rows);
-    }
-
     let degenerate = match first.degenerate {
         0 => String::new(),
         n => format!(" ({} degenerate)", count(n as u64)),
     };
     let stand_in = if first.stand_in { ", stand-in" } else { "" };
     let title = format!("{}: {}{degenerate}{stand_in}", first.scene, plural(first.triangles, "triangle"));
+    let structures = distinct(all.iter().map(|r| &r.label));
+    let mut table = Table::of(title, &structures, &[("structure", &|label| (*label).into())]);
+    for workload in distinct(all.iter().map(|r| &r.workload)) {
+        let own = || all.iter().filter(|r| r.workload == workload);
+        let best = own().filter_map(|r| r.mrays_per_s).max_by(f64::total_cmp).unwrap_or(f64::INFINITY);
+        let cell = |label: &String| own().find(|r| r.label == *label).map(|r| speed(r, best)).into();
+        let mark = if own().any(|r| r.query == Query::Any) { "*" } else { "" };
+        table.push_column(format!("{workload}{mark}"), structures.iter().map(cell));
+    }
+    let noise = trace_noise(all);
+    for reference in references {
+        let mean = |label: &String| {
+            // A row that lacks a time, other than one that it declines, has no mean.
+            let own: Vec<&Measurement> = all.iter().filter(|r| r.label == *label).collect();
+            let timed: Vec<&Measurement> = own.iter().copied().filter(|r| r.declined.is_none()).collect();
+            let pairs = reference.pairs(all, timed.iter().copied());
+            let ratio = Reference::ratio(&pairs, &noise).filter(|_| pairs.len() == timed.len());
+            let mean = Cell::from(ratio.map(Cell::ratio));
+            let is_part = timed.len() < own.len() && !mean.is_empty();
+            if is_part { mean.noted(format!("{} of {}", timed.len(), own.len())) } else { mean }
+        };
+        table.push_column(format!("x {}", reference.name()), structures.iter().map(mean));
+    }
+    if wide {
+        details::add_columns(&mut table, all, &structures);
+    }
+    for own in refused {
+        let mut row = vec![Cell::empty(); table.columns.len()];
+        row[0] = Cell::from(&own.label);
+        row[1] = Cell::from("refused").with(Tone::Wrong);
+        table.rows.push(row);
+    }
+
     let mut notes = vec![];
     for own in all {
         let Some(what) = &own.declined else { continue };
@@ -131,7 +120,7 @@ pub fn scene_table(all: &[Measurement], references: &[Reference], refused: &[Unt
     notes.extend(unfit_tests(all));
     notes.extend(few_checked(all));
     notes.extend(control(all));
-    Table::new(title, columns, rows).noted(notes).without_empty_columns().of_one_scene().explained()
+    table.noted(notes).without_empty_columns().of_one_scene().explained()
 }
 
 /// A footnote about the A/A ratios, where there are any.
@@ -150,19 +139,16 @@ pub(super) fn control(all: &[Measurement]) -> Option<String> {
 
 /// A footnote for each baseline that gives wrong answers for a known reason.
 fn defects(all: &[Measurement]) -> Vec<String> {
-    let mut notes = vec![];
-    for label in distinct(all.iter().map(|r| &r.label)) {
-        let wrong = |r: &&Measurement| r.label == label && r.is_disqualified();
+    let note = |label: &String| {
+        let wrong = || all.iter().filter(|r| r.label == *label && r.is_disqualified());
+        let defect = known_defect(&wrong().next()?.structure)?;
         let share = |r: &Measurement| {
             format!("{} of {} {}", count(r.structure_errors as u64), count(r.checked_rays as u64), r.workload)
         };
-        let shares: Vec<String> = all.iter().filter(wrong).map(share).collect();
-        let structure = all.iter().find(wrong).map(|r| r.structure.as_str());
-        if let Some(defect) = structure.and_then(known_defect) {
-            notes.push(format!("{label} answers {} rays wrong; its known defects: {defect}.", shares.join(", ")));
-        }
-    }
-    notes
+        let shares: Vec<String> = wrong().map(share).collect();
+        Some(format!("{label} answers {} rays wrong; its known defects: {defect}.", shares.join(", ")))
+    };
+    distinct(all.iter().map(|r| &r.label)).iter().filter_map(note).collect()
 }
 
 /// A footnote for each triangle test that finds another number of hits than the exact one, by more than 1 %: no check of a structure by its
@@ -172,22 +158,18 @@ fn unfit_tests(all: &[Measurement]) -> Vec<String> {
         let same = |r: &&Measurement| r.workload_hash == of.workload_hash && r.counted_rays == of.counted_rays;
         all.iter().filter(|r| r.triangle_test == Exact::NAME).find(same).map(|r| r.hits)
     };
-    let mut notes: Vec<String> = vec![];
-    for record in all.iter().filter(|r| r.mrays_per_s.is_some()) {
-        let Some(hits) = exact(record).filter(|&hits| 100 * hits.abs_diff(record.hits) > hits) else { continue };
-        let note = format!(
+    let note = |own: &Measurement| {
+        let hits = exact(own).filter(|&hits| 100 * hits.abs_diff(own.hits) > hits)?;
+        Some(format!(
             "By {} {} of {} {} rays hit something, by exact arithmetic {}: its speed is one of wrong answers.",
-            record.triangle_test,
-            count(record.hits as u64),
-            count(record.counted_rays as u64),
-            record.workload,
+            own.triangle_test,
+            count(own.hits as u64),
+            count(own.counted_rays as u64),
+            own.workload,
             count(hits as u64)
-        );
-        if !notes.contains(&note) {
-            notes.push(note);
-        }
-    }
-    notes
+        ))
+    };
+    each_once(all.iter().filter(|r| r.mrays_per_s.is_some()).filter_map(note))
 }
 
 fn speed(own: &Measurement, best: f64) -> Cell {

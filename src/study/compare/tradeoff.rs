@@ -43,31 +43,28 @@ pub fn figure(scenes: &[Vec<Measurement>], references: &[Reference]) -> Option<F
 
 fn cases(all: &[Measurement], reference: Option<&Reference>) -> Vec<TradeoffCase> {
     let noise = trace_noise(all);
-    // All on the same rays: as many as the slowest is timed on.
-    let drawn = |workload: &str| -> Vec<&Measurement> {
+    let ratio = |own: &Measurement| {
+        let reference = reference?;
+        let ratio = Reference::ratio(&reference.pairs(all, [own]), &noise)?;
+        Some(format!("{} times as fast as {}", interval(ratio), reference.words()))
+    };
+    let case = |workload: &String| {
         let is_drawn =
-            |r: &&Measurement| r.workload == workload && r.structure != BRUTE_FORCE && r.mrays_per_s.is_some();
-        all.iter().filter(is_drawn).collect()
-    };
-    let point = |record: &Measurement| {
-        let common = drawn(&record.workload).iter().map(|r| r.rays).min()?;
-        let ns_per_ray = record.ns_per_ray_of(common)?;
-        let ratio = reference.and_then(|reference| {
-            let ratio = Reference::ratio(&reference.pairs(all, [record]), &noise)?;
-            Some(format!("{} times as fast as {}", interval(ratio), reference.words()))
-        });
-        Some(TradeoffPoint {
-            label: record.label.clone(),
-            bytes: record.shape.bytes.max(1) as f64,
-            build_ns: record.build_ns.max(1) as f64,
-            ns_per_ray,
-            ratio: ratio.unwrap_or_default(),
-        })
-    };
-    let case = |workload: &String| TradeoffCase {
-        scene: all[0].scene_title(),
-        workload: workload.clone(),
-        points: drawn(workload).into_iter().filter_map(point).collect(),
+            |r: &&Measurement| r.workload == *workload && r.structure != BRUTE_FORCE && r.mrays_per_s.is_some();
+        let drawn = || all.iter().filter(is_drawn);
+        // All on the same rays: as many as the slowest is timed on.
+        let common = drawn().map(|own| own.rays).min().unwrap_or(0);
+        let point = |own: &Measurement| {
+            Some(TradeoffPoint {
+                label: own.label.clone(),
+                bytes: own.shape.bytes.max(1) as f64,
+                build_ns: own.build_ns.max(1) as f64,
+                ns_per_ray: own.ns_per_ray_of(common)?,
+                ratio: ratio(own).unwrap_or_default(),
+            })
+        };
+        let points = drawn().filter_map(point).collect();
+        TradeoffCase { scene: all[0].scene_title(), workload: workload.clone(), points }
     };
     let workloads = distinct(all.iter().map(|r| &r.workload));
     workloads.iter().map(case).filter(|case| case.points.len() > 1).collect()
@@ -86,7 +83,7 @@ fn table(cases: &[TradeoffCase]) -> Table {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::Part;
+    use crate::measure::SubsetSamples;
     use crate::study::measurement::tests::example;
 
     #[test]
@@ -113,7 +110,7 @@ mod tests {
         assert!(super::figure(&[all[..2].to_vec()], &[]).is_none());
 
         // One that is timed on a part of the rays, which take it less than the others, is compared on them.
-        let part = Part { rays: 25, ns: vec![10_000] };
+        let part = SubsetSamples { rays: 25, ns: vec![10_000] };
         let mut all = all;
         all[1].parts = vec![part.clone()];
         all[2] = Measurement { rays: 25, samples_ns: vec![5_000.0], ..all[2].clone() };

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use serde_json::{Value, json};
 
 use super::*;
-use crate::measure::Part;
+use crate::measure::SubsetSamples;
 use crate::request::{RayKind, RunnerRequest, StructureRequest, TWIN, WorkloadRequest};
 use crate::study::case::tests::example as case;
 use crate::study::epoch::tests::example as epoch;
@@ -43,7 +43,7 @@ fn with_all_fields() -> Dataset {
     for structure in &mut measured.structures {
         (structure.wrong, structure.outside) = (true, Some(1.0));
         structure.rays = vec![Rays {
-            parts: vec![Part { rays: 10, ns: vec![10] }],
+            parts: vec![SubsetSamples { rays: 10, ns: vec![10] }],
             wrong: true,
             declined: Some("t_min".into()),
             counts: Some(RayCounts { whole_tests: Some(1), ..RayCounts::default() }),

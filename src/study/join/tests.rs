@@ -1,5 +1,5 @@
 use super::*;
-use crate::measure::Part;
+use crate::measure::SubsetSamples;
 use crate::study::case::tests::example as case;
 use crate::study::epoch::tests::{example, rays};
 
@@ -148,7 +148,8 @@ fn scenes_of_other_labels_are_joined_each_by_itself() {
 fn a_program_whose_clock_chose_otherwise_is_timed_on_the_rays_that_all_epochs_have() {
     let program = |number: usize, counts: &[usize]| {
         let mut epoch = example("a", 10, number, &[("p", 50, &[1000]), ("y", 10, &[500])]);
-        let parts = |from: usize| counts[from..].iter().map(|&rays| Part { rays, ns: vec![rays as u64] }).collect();
+        let parts =
+            |from: usize| counts[from..].iter().map(|&rays| SubsetSamples { rays, ns: vec![rays as u64] }).collect();
         let ns = vec![counts[0] as u64];
         epoch.structures[0].name = RUNNER.into();
         epoch.structures[0].rays = vec![Rays { ns, parts: parts(1), rays: counts[0], ..rays("primary") }];

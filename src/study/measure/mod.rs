@@ -5,13 +5,13 @@ mod built;
 mod check;
 mod counted;
 mod environment;
-mod failed;
 mod guarded;
 mod judge;
 mod pair;
 mod placed;
 mod ray_cost;
 mod room;
+mod sample_failure;
 mod slowest;
 mod timing;
 
@@ -19,17 +19,17 @@ use super::case::{Case, Check};
 use super::epoch::{Epoch, RayCounts, Rays, Shape, Structure};
 use super::{Stage, StudyError};
 use crate::accel::{BuildError, DynAccel, Remote};
-use crate::measure::{Clock, Plan, Threads, spread};
+use crate::measure::{Clock, SamplePlan, Threads, spread};
 use crate::oracle::Oracle;
 use crate::registry::{Choice, Registry};
 use crate::scene::{Scene, Workload};
 use built::Built;
 use check::{Checks, declined};
 use counted::{Counted, Events, count_all};
-use failed::Failed;
 use judge::Judge;
 use pair::Pair;
 use placed::Placed;
+use sample_failure::SampleFailure;
 use slowest::slowest;
 use timing::Timing;
 
@@ -243,7 +243,7 @@ impl<'a> Bench<'a> {
     /// ones, so that an epoch with a failed program, or without checks, uses the same numbers.
     fn sample(&mut self, clock: &dyn Clock, progress: &mut dyn FnMut(Stage)) -> Environment {
         let settings = &self.case.settings;
-        let plan = Plan {
+        let plan = SamplePlan {
             runs: settings.runs,
             budget_ns: settings.budget_ns.unwrap_or(u64::MAX),
             slowest: settings.slowest.filter(|_| settings.budget_ns.is_some()).unwrap_or(f64::INFINITY),
@@ -276,7 +276,7 @@ impl<'a> Bench<'a> {
             let samples = match samples {
                 Ok(samples) => samples,
                 Err(cause) => {
-                    structure.wrong |= cause == Failed::Unsteady && !structure.may_err();
+                    structure.wrong |= cause == SampleFailure::Unsteady && !structure.may_err();
                     structure.refused = Some(cause.to_string());
                     continue;
                 }

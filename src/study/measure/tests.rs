@@ -174,7 +174,7 @@ fn a_structure_with_other_answers_in_the_next_round_is_refused_and_the_others_go
     .unwrap();
     let [kd, turning] = &epoch.structures[..] else { panic!("{epoch:?}") };
     assert_eq!((kd.rays[0].ns.len(), &kd.refused), (2, &None));
-    assert_eq!(turning.refused, Some(Failed::Unsteady.to_string()));
+    assert_eq!(turning.refused, Some(SampleFailure::Unsteady.to_string()));
     assert!(turning.rays.is_empty(), "what is refused keeps no rays");
     assert_eq!(Status::of(&epoch.failures()), Status::Wrong);
 }

@@ -1,14 +1,14 @@
 //! Samples of many structures on many workloads: the one place where studies take time.
 
 use super::built::Built;
-use super::failed::Failed;
 use super::guarded::Guarded;
 use super::pair::Pair;
 use super::ray_cost;
+use super::sample_failure::SampleFailure;
 use crate::measure::tiles::{last_level, rays_at};
 use crate::measure::{
-    Allotment, Clock, Cost, CpuClock, Failure, Part, Pass, Plan, RemotePass, Samples, Stopwatch, Threads, Timed, allot,
-    level_by_clock, pilot_level, take,
+    Allotment, Clock, Cost, CpuClock, Failure, Pass, RemotePass, SamplePlan, Samples, Stopwatch, SubsetSamples,
+    Threads, Timed, allot, level_by_clock, pilot_level, take,
 };
 use crate::registry::Choice;
 use crate::scene::Workload;
@@ -38,7 +38,7 @@ pub struct Allotted {
 impl Timing<'_> {
     /// How many rays of each of `cases` are timed, and how often, by what their rays cost. What could not be built and
     /// what is declined are among them: so an epoch in which a program fails decides the same for the others.
-    pub fn allot(&self, cases: &[Pair], plan: &Plan) -> Allotted {
+    pub fn allot(&self, cases: &[Pair], plan: &SamplePlan) -> Allotted {
         // Twins, structures of one label, take as many rays.
         let group = |case: &Pair| {
             let label = |structure: usize| &self.choices[structure].label;
@@ -62,9 +62,9 @@ impl Timing<'_> {
         &self,
         allotted: &Allotted,
         is_timed: &dyn Fn(&Pair) -> bool,
-        plan: &Plan,
+        plan: &SamplePlan,
         progress: &mut dyn FnMut(usize),
-    ) -> Vec<Result<Samples, Failed>> {
+    ) -> Vec<Result<Samples, SampleFailure>> {
         let Allotted { cases: all, allotment: Allotment { runs, levels, share_ns } } = allotted;
         let timed: Vec<usize> = (0..all.len()).filter(|&i| is_timed(&all[i])).collect();
         let pass = |&i: &usize| {
@@ -103,11 +103,11 @@ impl Timing<'_> {
             .collect();
         let mut samples: Vec<Samples> = timed.iter().map(|&i| none(&cases[i], &cases)).collect();
         let compared: Vec<usize> = timed.iter().map(|&i| all[i].workload).collect();
-        take(clock, &mut passes, &compared, &Plan { runs: *runs, ..*plan }, &mut samples, progress);
+        take(clock, &mut passes, &compared, &SamplePlan { runs: *runs, ..*plan }, &mut samples, progress);
         let taken = |(samples, failure): (Samples, &Failure)| match failure.borrow().clone() {
-            Some(clause) => Err(Failed::Ended(clause)),
+            Some(clause) => Err(SampleFailure::Ended(clause)),
             None if samples.is_steady => Ok(samples),
-            None => Err(Failed::Unsteady),
+            None => Err(SampleFailure::Unsteady),
         };
         samples.into_iter().zip(&failures).map(taken).collect()
     }
@@ -137,7 +137,7 @@ fn none(case: &Of, cases: &[Of]) -> Samples {
     fewer.dedup();
     // Whatever rays it is timed on, its answers to the same ones are kept.
     let asked = if case.is_by_clock { Some(pilot_level(case.all)) } else { own.asked };
-    Samples { asked, parts: fewer.into_iter().map(|rays| Part { rays, ns: vec![] }).collect(), ..own }
+    Samples { asked, parts: fewer.into_iter().map(|rays| SubsetSamples { rays, ns: vec![] }).collect(), ..own }
 }
 
 #[cfg(test)]

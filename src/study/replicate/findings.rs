@@ -14,22 +14,22 @@ pub fn findings(main: &[Replicated], hard: &[Replicated]) -> Vec<Finding> {
     let mut findings: Vec<Finding> = [faster(hard), rays(main)].into_iter().flatten().collect();
     let number =
         |key: &str, own: &Replicated, value| Finding::number(format!("{key}-{}", slug(own.report.scene)), value);
-    findings.extend(hard.iter().map(|own| number("hard", own, own.faster)));
+    findings.extend(hard.iter().map(|own| number("hard", own, own.faster())));
     let difference = |own: &Replicated| Estimate::exact(own.total() as f64 - own.report.rays as f64);
     let theirs = main.iter().filter(|own| own.report.scene != OWN);
     findings.extend(theirs.map(|own| number("rays", own, difference(own))));
     findings.extend(t_prime(main).map(|factor| Finding::number("t-prime", factor)));
-    findings.extend(order(main).map(|(order, _)| Finding::number("order", order.tau)));
+    findings.extend(order(main));
     let crowded = main.iter().find(|own| own.report.scene == CROWDED.0);
     for (key, setting) in [("crowded", DEFAULT), ("crowded-50", CROWDED.1)] {
-        let tests = crowded.and_then(|own| own.times(&setting.role())?.tests);
+        let tests = crowded.and_then(|own| own.tests(&setting.role()));
         findings.extend(tests.map(|tests| Finding::number(key, Estimate::exact(tests))));
     }
     findings
 }
 
 fn faster(hard: &[Replicated]) -> Option<Finding> {
-    let scenes = hard.iter().map(|own| format!("{} {} times", own.title, interval(own.faster)));
+    let scenes = hard.iter().map(|own| format!("{} {} times", own.first().title(), interval(own.faster())));
     let scenes: Vec<String> = scenes.collect();
     let mean = mean(hard)?;
     let told = match () {
@@ -51,7 +51,8 @@ const OWN: &str = "Starters";
 
 fn rays(main: &[Replicated]) -> Option<Finding> {
     let off = |own: &Replicated| own.total().abs_diff(own.report.rays);
-    let told = |own: &Replicated| format!("{} is {} of {} off", own.title, count(off(own)), count(own.report.rays));
+    let told =
+        |own: &Replicated| format!("{} is {} of {} off", own.first().title(), count(off(own)), count(own.report.rays));
     let far: Vec<String> = main.iter().filter(|own| off(own) > CLOSE).map(told).collect();
     let exceptions = if far.is_empty() { String::new() } else { format!("; {}", listed(&far)) };
     let (close, all) = (main.len() - far.len(), plural(main.len(), "scene"));
@@ -62,7 +63,7 @@ fn rays(main: &[Replicated]) -> Option<Finding> {
 
 /// The largest `t'` of brute force over the smallest, of all scenes.
 fn t_prime(main: &[Replicated]) -> Option<Estimate> {
-    let all: Vec<Estimate> = main.iter().filter_map(|own| Some(own.times(BRUTE)?.t_prime)).collect();
+    let all: Vec<Estimate> = main.iter().filter_map(|own| own.t_prime(BRUTE)).collect();
     let by_size = |one: &&Estimate, other: &&Estimate| one.estimate.total_cmp(&other.estimate);
     let (most, least) = (all.iter().max_by(by_size)?, all.iter().min_by(by_size)?);
     (all.len() == MAIN.len()).then(|| most.over(*least))
@@ -82,13 +83,12 @@ const ORDER: [(&str, usize); MAIN.len()] = [
 ];
 
 /// How well the improvements have the order that was expected of them, and what surely has not: about all scenes.
-pub fn order(main: &[Replicated]) -> Option<(Order, Option<String>)> {
-    let improvement = |name: &str| main.iter().find(|own| own.report.scene == name)?.improvement;
+fn order(main: &[Replicated]) -> Option<Finding> {
+    let improvement = |name: &str| main.iter().find(|own| own.report.scene == name)?.improvement();
     let ranked = ORDER.iter().map(|&(name, rank)| Some((improvement(name)?, rank)));
     let order = Order::of(&ranked.collect::<Option<Vec<_>>>()?, CLAIMS);
-    let reversed =
-        order.reversed.iter().map(|&[more, less]| format!("{} gains less than {}", ORDER[more].0, ORDER[less].0));
-    let reversed: Vec<String> = reversed.collect();
-    let told = (!reversed.is_empty()).then(|| format!("Surely not in the order expected: {}.", listed(&reversed)));
-    Some((order, told))
+    let reversed = order.reversed.iter().map(|&[more, less]| [ORDER[more].0, ORDER[less].0].join(" gains less than "));
+    let reversed = listed(&reversed.collect::<Vec<_>>());
+    let told = format!("Surely not in the order expected: {reversed}.");
+    Some(Finding::new("order", if reversed.is_empty() { String::new() } else { told }).of(order.tau))
 }

@@ -20,14 +20,14 @@ use crate::report::{Block, Report};
 use crate::request::{BRUTE_FORCE, Measuring, REPORT_TREE, SAH_TREE, Scenes, StructureRequest, TWIN, WorkloadRequest};
 use crate::scene::Scene;
 use findings::findings;
-use original::{CROWDED, DEFAULT, HARD, MAIN, Row, SWEEP};
+use original::{CROWDED, DEFAULT, HARD, MAIN, Row, SWEEP, SweepRow};
 use replication::{BRUTE, SAH, TREE, replicated};
 
 pub const STUDY: Study = Study {
     name: "replicate",
     question: "Reproduce the source report's tables and test its conclusion",
     presets: Presets { full: "", quick: "--epochs 2 --runs 2 --budget 1" },
-    options,
+    options: || ReplicateArgs::augment_args(Command::new("replicate")),
     plan,
     report,
 };
@@ -43,10 +43,6 @@ struct ReplicateArgs {
 /// exact test decides edges otherwise, and with them a few rays.
 const GUIDE: &str = "sah-kd:test=moller-trumbore";
 
-fn options() -> Command {
-    ReplicateArgs::augment_args(Command::new(STUDY.name))
-}
-
 fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     let ReplicateArgs { measuring } = ReplicateArgs::from_arg_matches(matches)?;
     let guide = registry.choose(GUIDE)?.label;
@@ -56,7 +52,9 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     let planned = |(own, row): (&(OsString, Scene), &&Row)| {
         let (workloads, table) =
             if row.is_hard() { (WorkloadRequest::PrimaryPicture, "hard") } else { (WorkloadRequest::Picture, "main") };
-        let settings = Settings { whole_counts: whole_counts(row), ..settings.clone() };
+        let counted = [DEFAULT, CROWDED.1].iter().filter(|_| row.scene == CROWDED.0);
+        let whole_counts = counted.map(SweepRow::spec).collect();
+        let settings = Settings { whole_counts, ..settings.clone() };
         let structures = structures(registry, row)?;
         let planned = PlannedScene::new(own, &structures, &workloads, &settings, measuring.epochs.into());
         anyhow::Ok(planned.labelled("table", table))
@@ -74,22 +72,18 @@ fn structures(registry: &Registry, row: &Row) -> anyhow::Result<Vec<StructureReq
     roles.into_iter().map(|(spec, role)| Ok(StructureRequest::new(registry.choose(&spec)?.label, role))).collect()
 }
 
-/// What is counted over all rays of a scene.
-fn whole_counts(row: &Row) -> Vec<String> {
-    if row.scene == CROWDED.0 { [DEFAULT, CROWDED.1].map(|setting| setting.spec()).into() } else { vec![] }
-}
-
 fn report(dataset: &Dataset, _: &ArgMatches) -> Report {
-    let [main, hard] = [&MAIN[..], &HARD].map(|rows| replicated(dataset, rows));
+    let all = replicated(dataset);
+    let (main, hard) = all.split_at(all.partition_point(|own| !own.report.is_hard()));
     let text = "Rays, seconds and settings as in the source report, ours beside its own. Seconds are of different \
                 machines and code: compare their ratios.";
-    let tables = tables::tables(&main, &hard).into_iter().map(Block::Table);
-    let findings = findings(&main, &hard);
+    let tables = tables::tables(&all, main, hard).into_iter().map(Block::Table);
+    let findings = findings(main, hard);
     Report {
         blocks: std::iter::once(Block::Text(text.into())).chain(tables).collect(),
         verdicts: claims::judge(STUDY.name, &findings),
         failures: dataset.failures(),
-        data: tables::data(main.iter().chain(&hard)),
+        data: tables::data(&all),
         findings,
         ..Report::default()
     }

@@ -106,15 +106,10 @@ impl Row {
         self.build_s.is_some()
     }
 
-    /// `t'` of so many of the report's seconds.
+    /// `t'` of so many of the report's seconds: seconds / (rays x triangles).
     pub fn t_prime(&self, seconds: f64) -> f64 {
-        t_prime(seconds, self.rays, self.triangles)
+        seconds / (self.rays as f64 * self.triangles as f64)
     }
-}
-
-/// `t'` = seconds / (rays x triangles).
-pub fn t_prime(seconds: f64, rays: u64, triangles: usize) -> f64 {
-    seconds / (rays as f64 * triangles as f64)
 }
 
 #[cfg(test)]

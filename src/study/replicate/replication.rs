@@ -1,71 +1,39 @@
-//! The report's tables with our figures in them.
+//! The report's scenes as they were measured.
 
-use super::original::{DEFAULT, Row, t_prime};
+use super::original::{DEFAULT, HARD, MAIN, Row};
 use crate::accel::Query;
 use crate::measure::{AaNoise, Estimate, Rerun, cut_to_shared_epochs, epoch_values, median};
 use crate::request::TWIN;
-use crate::study::epoch::Structure;
 use crate::study::whole_times::WholeTimes;
 use crate::study::{Dataset, Epoch};
 
 /// Roles of structures. The settings of the sweep have [roles](original::SweepRow::role) of their own.
 pub const BRUTE: &str = "brute force";
 pub const SAH: &str = "sah";
-/// The report's tree on a hard scene.
+/// The report's tree. On an easy scene it is one of the sweep, by whose role it goes there.
 pub const TREE: &str = "tree";
 
 /// A scene of the report, ours beside its own.
-#[derive(Debug)]
-pub struct Replicated {
+pub struct Replicated<'a> {
     pub report: &'static Row,
-    /// As tables name it.
-    pub title: String,
-    pub triangles: usize,
-    /// Rays of a 512 x 512 picture.
-    pub primary: u64,
-    pub mirror: u64,
-    pub shadow: u64,
-    /// The role of the report's tree.
-    tree: String,
-    /// Of each role but the twin's.
-    times: Vec<(String, Times)>,
-    /// Seconds with every ray against every triangle / seconds with the report's tree; nothing on hard scenes.
-    pub improvement: Option<Estimate>,
-    /// Seconds with the report's tree / seconds with the SAH tree: how many times faster SAH is.
-    pub faster: Estimate,
-    /// Its logarithm in each epoch, and that of the time of the report's tree over that of its twin.
-    log_ratios: Vec<Vec<f64>>,
-    log_aa_ratios: Vec<Vec<f64>>,
+    epochs: Vec<&'a Epoch>,
 }
 
-/// How long a structure takes for a picture.
-#[derive(Clone, Copy, Debug)]
-pub struct Times {
-    /// Geometric mean over the epochs.
-    pub seconds: f64,
-    /// `t'`: seconds / (rays x triangles).
-    pub t_prime: Estimate,
-    /// Whether a part of the rays was timed and stands for all.
-    pub sampled: bool,
-    /// Seconds of the build, median over the epochs.
-    pub build_s: f64,
-    /// Triangle tests for each ray and triangle; nothing where they are not counted.
-    pub tests: Option<f64>,
-}
-
-/// The measured scenes of the report, in the order of `rows`.
-pub fn replicated(dataset: &Dataset, rows: &'static [Row]) -> Vec<Replicated> {
+/// The measured scenes of the report, the hard ones last.
+pub fn replicated(dataset: &Dataset) -> Vec<Replicated<'_>> {
     let scenes = dataset.scenes();
-    let of =
-        |row: &'static Row| scenes.iter().filter(|own| own.epochs[0].scene == row.scene).map(move |own| (own, row));
-    rows.iter().flat_map(of).map(|(own, row)| Replicated::of(&own.epochs, row)).collect()
+    let of = |report: &'static Row| {
+        let own = scenes.iter().filter(|scene| scene.epochs[0].scene == report.scene);
+        own.map(move |scene| Replicated { report, epochs: scene.epochs.clone() })
+    };
+    MAIN.iter().chain(&HARD).flat_map(of).collect()
 }
 
 /// How many times faster the SAH tree is: the geometric mean over the hard scenes, so far as they are measured.
 pub fn mean(hard: &[Replicated]) -> Option<Estimate> {
-    let cells = |of: fn(&Replicated) -> &Vec<Vec<f64>>| hard.iter().map(|own| of(own).clone()).collect::<Vec<_>>();
-    let noise = AaNoise::new(&cells(|own| &own.log_aa_ratios)).of_mean(hard.len());
-    let mut ratios = cells(|own| &own.log_ratios);
+    let ratios = |other: &str| hard.iter().map(|own| own.log_ratios(other)).collect::<Vec<_>>();
+    let noise = AaNoise::new(&ratios(TWIN)).of_mean(hard.len());
+    let mut ratios = ratios(SAH);
     // What is not measured to its end has scenes that lack an epoch.
     cut_to_shared_epochs(&mut ratios);
     Some(Rerun::of(&epoch_values(&ratios)?, noise)?.ratio())
@@ -74,65 +42,82 @@ pub fn mean(hard: &[Replicated]) -> Option<Estimate> {
 /// Pixels of the report's pictures, each with one primary ray.
 const PIXELS: u64 = 512 * 512;
 
-impl Replicated {
-    fn of(epochs: &[&Epoch], report: &'static Row) -> Self {
-        let first = epochs[0];
-        let tree = if report.is_hard() { TREE.into() } else { DEFAULT.role() };
-        let all = WholeTimes { epochs };
-        let log_aa_ratios = all.log_ratios(&tree, TWIN);
-        let noise = AaNoise::new(std::slice::from_ref(&log_aa_ratios));
-        let of = |structure: &Structure| Times::of(structure, epochs, all.seconds(&structure.role, &noise));
-        let structures = first.structures.iter().filter(|structure| !structure.is_twin());
-        let times: Vec<(String, Times)> = structures.map(|own| (own.role.clone(), of(own))).collect();
-        let [closest, shadow] = [Query::Closest, Query::Any].map(|query| rays(&first.structures[0], &[query]));
+impl Replicated<'_> {
+    pub fn first(&self) -> &Epoch {
+        self.epochs[0]
+    }
+
+    /// Rays of a 512 x 512 picture: primary, mirror and shadow rays.
+    pub fn rays(&self) -> [u64; 3] {
+        let all = |query| {
+            let asked = self.first().structures[0].rays.iter().filter(|rays| rays.query == query);
+            asked.map(|rays| rays.all as u64).sum::<u64>()
+        };
+        let closest = all(Query::Closest);
         let primary = closest.min(PIXELS);
-        Self {
-            report,
-            title: first.title(),
-            triangles: first.triangles,
-            primary,
-            mirror: closest - primary,
-            shadow,
-            times,
-            improvement: (!report.is_hard()).then(|| all.ratio(BRUTE, &tree, &noise)),
-            faster: all.ratio(&tree, SAH, &noise),
-            log_ratios: all.log_ratios(&tree, SAH),
-            log_aa_ratios,
-            tree,
-        }
+        [primary, closest - primary, all(Query::Any)]
     }
 
     pub fn total(&self) -> u64 {
-        self.primary + self.mirror + self.shadow
+        self.rays().iter().sum()
     }
 
-    /// With the report's tree.
-    pub fn tree(&self) -> Option<&Times> {
-        self.times(&self.tree)
+    fn role(&self, role: &str) -> String {
+        if role == TREE && !self.report.is_hard() { DEFAULT.role() } else { role.into() }
     }
 
-    /// Of the structure in this role.
-    pub fn times(&self, role: &str) -> Option<&Times> {
-        self.times.iter().find(|(own, _)| own == role).map(|(_, times)| times)
+    fn times(&self) -> WholeTimes<'_> {
+        WholeTimes { epochs: &self.epochs }
     }
-}
 
-/// Rays of the picture that ask one of the `queries`.
-fn rays(structure: &Structure, queries: &[Query]) -> u64 {
-    structure.rays.iter().filter(|rays| queries.contains(&rays.query)).map(|rays| rays.all as u64).sum()
-}
+    /// ln of the time of the report's tree over that of another structure, in each epoch.
+    fn log_ratios(&self, other: &str) -> Vec<Vec<f64>> {
+        self.times().log_ratios(&self.role(TREE), other)
+    }
 
-impl Times {
-    fn of(structure: &Structure, epochs: &[&Epoch], seconds: Estimate) -> Self {
-        let (all, triangles) = (rays(structure, &[Query::Closest, Query::Any]), epochs[0].triangles);
-        let builds = epochs.iter().filter_map(|epoch| epoch.in_role(&structure.role)).map(|own| own.build_ns as f64);
-        let tests = structure.rays.iter().map(|rays| rays.counts?.whole_tests).sum::<Option<u64>>();
-        Self {
-            seconds: seconds.estimate,
-            t_prime: seconds.map(|seconds| t_prime(seconds, all, triangles)),
-            sampled: structure.rays.iter().any(|rays| rays.rays < rays.all),
-            build_s: median(&builds.collect::<Vec<_>>()).expect("every epoch builds") * 1e-9,
-            tests: tests.map(|tests| tests as f64 / (all as f64 * triangles as f64)),
-        }
+    fn noise(&self) -> AaNoise {
+        AaNoise::new(&[self.log_ratios(TWIN)])
+    }
+
+    /// Seconds for the picture with the structure in this role: the geometric mean over the epochs.
+    pub fn seconds(&self, role: &str) -> Option<Estimate> {
+        let role = self.role(role);
+        self.first().in_role(&role).map(|_| self.times().seconds(&role, &self.noise()))
+    }
+
+    /// `t'`: seconds / (rays x triangles).
+    pub fn t_prime(&self, role: &str) -> Option<Estimate> {
+        let rays_and_triangles = self.total() as f64 * self.first().triangles as f64;
+        Some(self.seconds(role)?.map(|seconds| seconds / rays_and_triangles))
+    }
+
+    /// Whether a part of the rays was timed and stands for all.
+    pub fn is_sampled(&self, role: &str) -> Option<bool> {
+        let structure = self.first().in_role(&self.role(role))?;
+        Some(structure.rays.iter().any(|rays| rays.rays < rays.all))
+    }
+
+    /// Seconds of the build, median over the epochs.
+    pub fn build_s(&self, role: &str) -> Option<f64> {
+        let role = self.role(role);
+        let builds = self.epochs.iter().filter_map(|epoch| epoch.in_role(&role)).map(|own| own.build_ns as f64);
+        Some(median(&builds.collect::<Vec<_>>())? * 1e-9)
+    }
+
+    /// Triangle tests for each ray and triangle; nothing where they are not counted.
+    pub fn tests(&self, role: &str) -> Option<f64> {
+        let structure = self.first().in_role(&self.role(role))?;
+        let tests: u64 = structure.rays.iter().map(|rays| rays.counts?.whole_tests).sum::<Option<_>>()?;
+        Some(tests as f64 / (self.total() as f64 * self.first().triangles as f64))
+    }
+
+    /// Seconds with every ray against every triangle / seconds with the report's tree; nothing on hard scenes.
+    pub fn improvement(&self) -> Option<Estimate> {
+        (!self.report.is_hard()).then(|| self.times().ratio(BRUTE, &self.role(TREE), &self.noise()))
+    }
+
+    /// Seconds with the report's tree / seconds with the SAH tree: how many times faster SAH is.
+    pub fn faster(&self) -> Estimate {
+        self.times().ratio(&self.role(TREE), SAH, &self.noise())
     }
 }

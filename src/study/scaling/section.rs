@@ -8,6 +8,7 @@ use crate::report::words::{listed, slug, written};
 use crate::report::{Art, Block, Cell, Figure, Finding, Format, Table};
 use crate::request::{REPORT_TREE, SAH_TREE};
 use crate::scene::WorkloadKind;
+use crate::study::measurement::{Measurement, push_columns};
 
 struct Quantity {
     id: &'static str,
@@ -192,25 +193,20 @@ fn points(family: &[Growth]) -> Table {
 
 /// One row for each structure on each mesh and workload.
 pub fn data(growths: &[Growth]) -> Table {
-    Table::of(
+    let mut table = Table::of(
         "",
         all_points(growths),
         &[
             ("family", &|(growth, _)| growth.family.into()),
-            ("scene", &|(_, point)| point.measurement.scene.as_str().into()),
-            ("triangles", &|(_, point)| point.triangles().into()),
-            ("stand_in", &|(_, point)| point.measurement.stand_in.into()),
-            ("structure", &|(_, point)| point.measurement.structure.as_str().into()),
-            ("label", &|(growth, _)| growth.label.as_str().into()),
-            ("workload", &|(growth, _)| growth.workload.as_str().into()),
             ("fitted", &|(_, point)| point.is_fitted().into()),
             ("mrays_per_s", &|(_, point)| (1e3 / point.ns_per_ray).into()),
             ("ns_per_ray", &|(_, point)| point.ns_per_ray.into()),
-            ("tests_per_ray", &|(_, point)| point.measurement.tests_per_ray.into()),
-            ("steps_per_ray", &|(_, point)| point.measurement.steps_per_ray.into()),
             ("build_ns", &|(_, point)| point.build_ns.into()),
-            ("bytes", &|(_, point)| point.measurement.shape.bytes.into()),
-            ("leaves", &|(_, point)| point.measurement.shape.leaves.into()),
         ],
-    )
+    );
+    let names = ["scene", "triangles", "stand_in", "structure", "label", "workload"];
+    let counts = ["tests_per_ray", "steps_per_ray", "bytes", "leaves"];
+    let measured: Vec<&Measurement> = all_points(growths).map(|(_, point)| &point.measurement).collect();
+    push_columns(&mut table, &[&names[..], &counts].concat(), &measured);
+    table
 }

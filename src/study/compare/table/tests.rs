@@ -15,7 +15,7 @@ fn record(scene: &str, label: &str, workload: &str, mrays_per_s: Option<f64>) ->
     }
 }
 
-fn scene_table(all: &[Measurement], refused: &[UntimedStructure]) -> Table {
+fn scene_table(all: &[Measurement], refused: &[&Structure]) -> Table {
     super::scene_table(all, &Reference::of(all, None), refused, true)
 }
 

@@ -1,6 +1,6 @@
 /// Why the samples of a case mean nothing.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Failed {
+pub enum SampleFailure {
     /// The structure panicked, or the program that it runs in failed: a clause.
     #[error("{0}")]
     Ended(String),
