@@ -63,7 +63,8 @@ impl Sources {
             let below = join(&module, segment);
             if !self.0.contains_key(&below) {
                 // A name that the module only hands on is at home elsewhere.
-                let exports = imports(self.0.get(&module)?).into_iter().filter(|used| used.public == Some(true) && rounds < 8);
+                let exports =
+                    imports(self.0.get(&module)?).into_iter().filter(|used| used.public == Some(true) && rounds < 8);
                 let mut targets = exports.filter_map(|used| self.absolute(&module, &used.path));
                 let target = targets.find(|target| target.rsplit("::").next() == Some(segment));
                 return target.map_or(Some(module), |target| self.home(&join(&target, after), rounds + 1));
@@ -263,11 +264,14 @@ fn imports_go_downward_without_circles() {
     assert!(faults.is_empty(), "imports must go downward, and these crates into their folders:\n{}", faults.join("\n"));
 }
 
+/// Modules and their texts.
+type Files<'a> = &'a [(&'a str, &'a str)];
+
 #[test]
 fn planted_faults_are_found() {
     const NODE: (&str, &str) = ("bvh8", "mod node;\nmod stack;\npub use node::Node;\npub(crate) use stack::Stack;\n");
     const OF_TWO: &[&str] = &["bvh8::node is in a circle", "bvh8::stack is in a circle"];
-    let cases: [(&[(&str, &str)], &[&str]); 26] = [
+    let cases: [(Files, &[&str]); 26] = [
         (&[("accel", "use crate::geometry::Ray;\nuse super::geometry::Mesh;")], &[]),
         (&[("accel", "use crate::kdtree::KdTree as Tree;")], &["accel imports kdtree"]),
         (&[("accel", "use super::kdtree::KdTree;")], &["accel imports kdtree"]),

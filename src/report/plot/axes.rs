@@ -119,8 +119,10 @@ pub fn log_log<'a, B: DrawingBackend>(
     let texts: Vec<String> = y.bold_points().iter().map(|tick| tick_text(*tick)).collect();
     // The title beside the labels is as wide as text is high.
     let left = widest(&texts) + GAP + TEXT;
-    let x = across(x_ends, width as i32 - left - 2 * GAP);
-    axes(area, x, y, &AxisLabels { x_title, y_title, y_text: &|y| tick_text(*y), top, left, right: GAP })
+    // A number below the end of the axis reaches beyond it by half its width.
+    let right = 3 * GAP;
+    let x = across(x_ends, width as i32 - left - GAP - right);
+    axes(area, x, y, &AxisLabels { x_title, y_title, y_text: &|y| tick_text(*y), top, left, right })
 }
 
 /// Whether a drawing is so wide that there is room beside its axes.
