@@ -1,15 +1,17 @@
 //! Files of pictures: read within bounds, written as PNG.
 
-use std::io::Error;
+use std::fs::File;
+use std::io::{Cursor, Error, Read};
 use std::path::{Path, PathBuf};
 
-use image::{DynamicImage, ImageEncoder, ImageError, ImageReader, Limits};
+use image::error::DecodingError;
+use image::{DynamicImage, ImageEncoder, ImageError, ImageFormat, ImageReader, ImageResult, Limits};
 
 use crate::escaped::Escaped as _;
 use crate::output::{OutputError, OutputFile};
 use crate::render::png_encoder;
 
-/// MiB that the pixels of a picture take at most, and besides them what its decoder needs.
+/// MiB that a file and its pixels take at most, and besides them what the decoder needs.
 const LARGEST: u64 = 512;
 
 /// Why a picture cannot be read or written.
@@ -32,7 +34,7 @@ fn reason(cause: &ImageError) -> String {
         ImageError::Limits(_) => format!("which takes more than {LARGEST} MiB"),
         ImageError::Unsupported(_) if cfg!(feature = "pictures") => "which is not PNG, JPEG, WebP or EXR".into(),
         ImageError::Unsupported(_) => "which is not PNG (JPEG, WebP and EXR need the feature `pictures`)".into(),
-        _ => "which is damaged, cut off or of another format".into(),
+        _ => "which is damaged or cut off".into(),
     }
 }
 
@@ -47,12 +49,36 @@ fn in_a_line(cause: &ImageError) -> String {
 /// # Errors
 /// If there is no such file, or it is no picture, or one of more than 512 MiB.
 pub fn read(path: &Path) -> Result<DynamicImage, PictureError> {
-    let opened = ImageReader::open(path).and_then(ImageReader::with_guessed_format);
-    let mut reader = opened.map_err(|cause| PictureError::Read { path: path.into(), cause })?;
+    let mut bytes = vec![];
+    // One byte more shows that there are more.
+    let file = File::open(path).and_then(|file| file.take((LARGEST << 20) + 1).read_to_end(&mut bytes));
+    file.map_err(|cause| PictureError::Read { path: path.into(), cause })?;
+    decode(&bytes).map_err(|cause| PictureError::Decode { path: path.into(), cause })
+}
+
+fn decode(bytes: &[u8]) -> ImageResult<DynamicImage> {
     let mut limits = Limits::default();
     limits.max_alloc = Some(LARGEST << 20);
+    limits.reserve_usize(bytes.len())?;
+    let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
     reader.limits(limits);
-    reader.decode().map_err(|cause| PictureError::Decode { path: path.into(), cause })
+    let format = reader.format();
+    let picture = reader.decode()?;
+    if format == Some(ImageFormat::Jpeg) && !is_whole_jpeg(bytes) {
+        return Err(ImageError::Decoding(DecodingError::new(
+            ImageFormat::Jpeg.into(),
+            "the end of its pixels is missing",
+        )));
+    }
+    Ok(picture)
+}
+
+/// Whether the last scan of a JPEG file is followed by the mark of the picture's end. The decoder takes pixels that are
+/// missing as grey.
+fn is_whole_jpeg(bytes: &[u8]) -> bool {
+    let last = |mark: [u8; 2]| bytes.windows(2).rposition(|pair| pair == mark);
+    let (scan, end) = (last([0xFF, 0xDA]), last([0xFF, 0xD9]));
+    end > scan
 }
 
 /// Writes a PNG file, whole or not at all, and the folders that it is in.
@@ -168,17 +194,15 @@ mod tests {
         let good = base64::decode(GREY_1).unwrap();
         for length in 0..good.len() {
             fs::write(&path, &good[..length]).unwrap();
-            // All pixels are there before the last chunk, which says nothing.
-            if length < good.len() - 12 {
-                refusal("damaged, cut off or of another format");
+            // Eight bytes tell the format, and all pixels are there before the last chunk, which says nothing.
+            if (8..good.len() - 12).contains(&length) {
+                refusal("damaged or cut off");
             }
         }
-        for bytes in [&b"not a picture"[..], b"<html>", &[0; 4096]] {
-            fs::write(&path, bytes).unwrap();
-            refusal("damaged, cut off or of another format");
-        }
         let other = if cfg!(feature = "pictures") { "not PNG, JPEG, WebP or EXR" } else { "feature `pictures`" };
-        for bytes in [&b"GIF89a\x01\0\x01\0\0\0\0"[..], b"BM\0\0\0\0\0\0\0\0"] {
+        for bytes in
+            [&good[..7], b"", b"not a picture", b"<html>", &[0; 4096], b"GIF89a\x01\0\x01\0\0\0\0", b"BM\0\0\0\0"]
+        {
             fs::write(&path, bytes).unwrap();
             refusal(other);
         }
