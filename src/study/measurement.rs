@@ -8,6 +8,7 @@ use crate::accel::Query;
 use crate::measure::{AaNoise, SubsetSamples, log_ratios, median};
 use crate::report::words::scene_name;
 use crate::report::{Cell, Table};
+use crate::request::is_obvhs;
 
 /// One structure on one workload of one scene. What is not known is nothing, never 0.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -123,6 +124,11 @@ pub fn push_columns(table: &mut Table, names: &[&str], rows: &[&Measurement]) {
         let (_, cell) = COLUMNS.iter().find(|(known, _)| known == name).expect("a measurement has such a column");
         table.push_column(*name, rows.iter().map(|own| cell(own)));
     }
+}
+
+/// Whether it is of one of the BVHs from outside over their own triangle test, with nothing of ours in it.
+pub fn is_reference(own: &Measurement) -> bool {
+    is_obvhs(&own.structure) && !own.label.contains("test=")
 }
 
 /// Those of all scenes, structure by structure and workload by workload. Twins are part of the structure that they are

@@ -2,16 +2,19 @@
 
 use std::collections::BTreeSet;
 use std::ffi::OsString;
+use std::path::PathBuf;
 use std::time::Duration;
 
+use crate::measure::{Provenance, Threads};
 use crate::registry::Registry;
 use crate::report::words::each_once_by;
 use crate::request::{
     BRUTE_FORCE, Limit, Measuring, RaySource, SceneRequest, Scenes, Seconds, StructureRequest, Structures, ViewArgs,
-    WORKLOADS, WorkloadRequest, each_kind, left_out, replayed, scene_files, structures_at, with_twin,
+    WORKLOADS, WorkloadRequest, each_kind, is_obvhs, left_out, replayed, scene_files, structures_at, with_twin,
 };
 use crate::scene::{Scene, WorkloadKind};
 use crate::study::case::SLOWEST;
+use crate::study::diff::{read, unlike_plan};
 use crate::study::{Check, Plan, PlannedScene, Settings};
 
 pub const NAME: &str = "compare";
@@ -35,6 +38,13 @@ pub struct CompareArgs {
     /// the better obvhs BVH; without them the first one]
     #[arg(long, value_name = "NAME[:key=value,..]")]
     pub reference: Option<String>,
+    /// A gate: measure this structure, or the --runner of this name, and obvhs-bvh2 as the yardstick, nothing else
+    #[arg(long, value_name = "NAME[:key=value,..]", conflicts_with_all = ["structure", "reference", "quick"])]
+    pub only: Option<String>,
+    /// Refuse, before anything is built, what `diff` could not compare with this run: a file of --export-json, or a folder
+    /// of --dir
+    #[arg(long, value_name = "RUN")]
+    pub like: Option<PathBuf>,
     /// A workload; may be repeated [default: primary, shadow, diffuse, random]
     #[arg(long, short, value_name = "KIND")]
     pub workload: Vec<WorkloadKind>,
@@ -72,6 +82,9 @@ const QUICK_CHECKS_NS: u64 = 1_000_000_000;
 /// The structures that are compared beside one of each name where none is named: for users who have slices of rays.
 const PACKETS: &str = "sah-hybrid:batch=packets";
 
+/// What a gate judges changes relative to: no change of a user touches its code.
+const YARDSTICK: &str = "obvhs-bvh2";
+
 /// Names no structure of the suite: programs alone are compared.
 const NONE: &str = "none";
 
@@ -79,8 +92,10 @@ impl CompareArgs {
     /// The structures, the reference among them.
     fn chosen(&self, registry: &Registry) -> anyhow::Result<Vec<StructureRequest>> {
         let is_none = matches!(&self.structures.structure[..], [word] if word == NONE) && !self.runner.is_empty();
-        let mut structures = if is_none { vec![] } else { self.structures.chosen(registry, &[])? };
-        if let Some(packets) = registry.choose(PACKETS).ok().filter(|_| self.structures.structure.is_empty()) {
+        let named_alone = is_none || self.only.is_some();
+        let mut structures = if named_alone { vec![] } else { self.structures.chosen(registry, &[])? };
+        let is_default = self.structures.structure.is_empty() && !named_alone;
+        if let Some(packets) = registry.choose(PACKETS).ok().filter(|_| is_default) {
             let place =
                 structures.iter().position(|own| own.spec == "sah-hybrid").map_or(structures.len(), |at| at + 1);
             structures.insert(place, (&packets).into());
@@ -101,13 +116,29 @@ impl CompareArgs {
             let choice = structures_at(registry, std::slice::from_ref(spec), quality)?.remove(0);
             structures.push((&choice).into());
         }
+        if let Some(name) = &self.only {
+            if structures.iter().all(|own| own.spec != *name) {
+                structures.insert(0, (&structures_at(registry, std::slice::from_ref(name), quality)?.remove(0)).into());
+            }
+            let other = structures.iter().skip(1).find(|own| own.spec != *name && !is_obvhs(own.name()));
+            anyhow::ensure!(
+                other.is_none(),
+                "--only {name} measures nothing else: leave the runner {} out",
+                other.map_or("", |own| &own.spec)
+            );
+        }
+        // Both sides of a gate are timed on all rays.
+        let is_gate = self.only.is_some() || self.measuring.budget == Limit(None);
+        if is_gate && structures.iter().all(|own| !is_obvhs(own.name()) || own.spec.contains("test=")) {
+            structures.extend(registry.choose(YARDSTICK).ok().map(|choice| (&choice).into()));
+        }
         Ok(each_once_by(structures, |one, other| one.spec == other.spec))
     }
 
     /// What is named, the reference among it.
     fn named(&self) -> Structures {
         let mut named = self.structures.clone();
-        named.structure.extend(self.reference.clone());
+        named.structure.extend(self.reference.iter().chain(&self.only).cloned());
         named
     }
 
@@ -194,6 +225,11 @@ impl CompareArgs {
         plan.inputs.extend(self.rays.file().map(Into::into));
         plan.notes.extend(notes);
         plan.keep_journal = false;
+        if let Some(path) = &self.like {
+            let here = Provenance::of(&Threads::unstarted(self.measuring.threads.into()));
+            unlike_plan(&read(path)?, &plan.cases, &here)?;
+            plan.inputs.push(path.clone());
+        }
         if self.quick {
             plan.limit = Some(QUICK);
             plan.notes.push("Coarse: few rays, few checks, up to three epochs. Omit --quick for a full run.".into());
@@ -251,5 +287,18 @@ mod tests {
         }
         // With the twin.
         assert_eq!(labels.len(), registry.names().len() + super::super::FULL.matches("-s ").count());
+    }
+
+    #[test]
+    fn a_gate_measures_its_structure_and_the_yardstick() {
+        let distinct = |words: &[&str]| {
+            let mut specs = specs(&[&["cube"], words].concat());
+            specs.dedup();
+            specs
+        };
+        assert_eq!(distinct(&["--only", "sah-bvh"]), ["sah-bvh", "obvhs-bvh2"]);
+        assert_eq!(distinct(&["-s", "sah-kd", "--budget", "none"]), ["sah-kd", "obvhs-bvh2"]);
+        assert_eq!(distinct(&["-s", "obvhs-cwbvh", "--budget", "none"]), ["obvhs-cwbvh"], "a yardstick is there");
+        assert!(!specs(&["cube", "-s", "sah-kd"]).contains(&YARDSTICK.into()));
     }
 }

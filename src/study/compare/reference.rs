@@ -1,8 +1,8 @@
 //! What a table relates speeds to, and ratios between measurements, with their intervals.
 
 use crate::measure::{AaNoise, Estimate, Rerun, cut_to_shared_epochs, epoch_values};
-use crate::request::{REPORT_TREE, is_obvhs};
-use crate::study::measurement::Measurement;
+use crate::request::REPORT_TREE;
+use crate::study::measurement::{Measurement, is_reference};
 
 /// The geometric mean of how many times faster the first of each pair is than the second, with its
 /// [interval](mod@crate::measure::interval), over the epochs that all pairs have. Nothing where one of them has no time,
@@ -16,11 +16,6 @@ pub fn speed<'a>(
     // Where time ran out, scenes have different numbers of them.
     cut_to_shared_epochs(&mut cells);
     Some(Rerun::of(&epoch_values(&cells)?, noise.of_mean(cells.len()))?.ratio())
-}
-
-/// Whether it is of one of the BVHs from outside over their own triangle test, with nothing of ours in it.
-pub fn is_reference(own: &Measurement) -> bool {
-    is_obvhs(&own.structure) && !own.label.contains("test=")
 }
 
 /// The other side of a column of ratios.

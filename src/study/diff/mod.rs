@@ -23,7 +23,7 @@ mod unlike;
 
 use serde::Serialize;
 
-use super::compare::is_reference;
+use super::measurement::is_reference;
 use super::measurement::{Measurement, measurements, trace_noise};
 use super::{Dataset, Status};
 use crate::measure::{AaNoise, Estimate, Provenance, Rerun, epoch_values};

@@ -7,7 +7,7 @@ use crate::measure::Provenance;
 use crate::report::number::{count, duration};
 use crate::report::words::each_once;
 use crate::request::is_obvhs;
-use crate::study::compare::is_reference;
+use crate::study::measurement::is_reference;
 use crate::study::{Case, Dataset};
 
 /// Why two runs cannot be compared: what differs, in the old run and in the new.
