@@ -2,12 +2,14 @@
 
 pub(super) const ENCODINGS: [&str; 3] = ["ascii", "binary_little_endian", "binary_big_endian"];
 
+type Readers = [fn(&mut &[u8]) -> Result<f64, &'static str>; ENCODINGS.len()];
+
 /// A number type. `f64` holds each value of each of them exactly.
 #[derive(Clone, Copy)]
 pub(super) struct Kind {
     pub is_integer: bool,
     /// For each of the encodings, what takes a number from the front of the rows.
-    pub readers: [fn(&mut &[u8]) -> Result<f64, &'static str>; ENCODINGS.len()],
+    pub readers: Readers,
 }
 
 macro_rules! kind {
@@ -41,9 +43,8 @@ impl Kind {
 }
 
 fn chunk<const BYTES: usize>(rows: &mut &[u8]) -> Result<[u8; BYTES], &'static str> {
-    let (&number, rest) = rows.split_first_chunk().ok_or("the file ends within this row: it is truncated")?;
-    *rows = rest;
-    Ok(number)
+    let bytes = rows.split_off(..BYTES).and_then(|bytes| bytes.try_into().ok());
+    bytes.ok_or("the file ends within this row: it is truncated")
 }
 
 fn parse<N: std::str::FromStr + Into<f64>>(rows: &mut &[u8]) -> Result<f64, &'static str> {
@@ -55,8 +56,7 @@ fn parse<N: std::str::FromStr + Into<f64>>(rows: &mut &[u8]) -> Result<f64, &'st
 /// Takes the next word of the line.
 pub(super) fn word<'a>(rows: &mut &'a [u8]) -> Option<&'a [u8]> {
     let start = rows.iter().position(|byte| matches!(byte, b'\n' | b'\r') || !byte.is_ascii_whitespace())?;
-    let line = &rows[start..];
-    let (word, rest) = line.split_at(line.iter().position(u8::is_ascii_whitespace).unwrap_or(line.len()));
-    *rows = rest;
-    (!word.is_empty()).then_some(word)
+    *rows = &rows[start..];
+    let end = rows.iter().position(u8::is_ascii_whitespace).unwrap_or(rows.len());
+    rows.split_off(..end).filter(|word| !word.is_empty())
 }
