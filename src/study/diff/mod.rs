@@ -14,6 +14,7 @@
 #![doc = include_str!("GATE.md")]
 
 mod changes;
+mod keys;
 mod read;
 mod relative;
 mod table;
@@ -29,7 +30,7 @@ use super::{Dataset, Status};
 use crate::measure::{AaNoise, Estimate, Provenance, Rerun, epoch_values};
 use crate::report::words::each_once;
 use crate::request::{REPORT_TREE, known_defect};
-use unlike::other_keys;
+use keys::other_keys;
 
 pub use read::read;
 pub use table::{sentences, tables};

@@ -232,7 +232,8 @@ fn a_plan_that_a_gate_could_not_compare_is_refused_before_it_is_measured() {
     };
     assert_eq!(refused(&|_, _| {}), Ok(()));
     assert_eq!(refused(&|case, _| case.structures.clear()), Ok(()), "structures may differ");
-    let edits: [(&str, &dyn Fn(&mut crate::study::Case, &mut Provenance)); 6] = [
+    type Edit = dyn Fn(&mut crate::study::Case, &mut Provenance);
+    let edits: [(&str, &Edit); 6] = [
         ("the processor", &|_, here| here.cpu = "Other".into()),
         ("the hash of the scene Cube", &|case, _| case.scene.hash = "0".into()),
         ("the scene Sphere is missing in the old", &|case, _| case.scene.name = "Sphere".into()),

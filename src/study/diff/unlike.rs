@@ -1,7 +1,6 @@
 //! Runs that cannot be compared.
 
-use serde_json::{Map, Value};
-
+use super::keys::{differences, other_keys};
 use super::{Side, case, pairs};
 use crate::measure::Provenance;
 use crate::report::number::{count, duration};
@@ -114,31 +113,6 @@ pub fn unlike_plan(old: &Dataset, cases: &[Case], here: &Provenance) -> Result<(
         differ("the budget", &budget(old), &budget(new), SAME_RAYS)?;
     }
     Ok(())
-}
-
-/// Keys that are not the same: name, old and new.
-pub(super) fn other_keys(old: &Value, new: &Value) -> Vec<(String, String, String)> {
-    let none = Map::new();
-    // What tells one build of a program from another is what a comparison is about.
-    let keys = |value: &'_ Value| -> Map<String, Value> {
-        let mut map = value.as_object().unwrap_or(&none).clone();
-        map.remove("build");
-        map.remove("command");
-        map
-    };
-    differences(&keys(old), &keys(new))
-}
-
-/// What differs: name, old and new.
-fn differences(old: &Map<String, Value>, new: &Map<String, Value>) -> Vec<(String, String, String)> {
-    let text = |value: Option<&Value>| match value {
-        None => "absent".to_owned(),
-        Some(Value::String(text)) => text.clone(),
-        Some(other) => other.to_string(),
-    };
-    let names = old.keys().chain(new.keys().filter(|name| !old.contains_key(*name)));
-    let different = names.filter(|name| old.get(*name) != new.get(*name));
-    different.map(|name| (name.clone(), text(old.get(name)), text(new.get(name)))).collect()
 }
 
 /// Settings that differ, such as threads, as `threads 1 and 2`.

@@ -277,7 +277,7 @@ fn what_tobj_misreads_in_a_library_is_read() {
         "Ns inf",
     ] {
         let model = read(format!("newmtl a\n{bad}\nKd 1 0 0\nillum x\nd\nmap_Kd\n").as_bytes());
-        assert_eq!(model.materials, [red.clone()], "{bad:?}");
+        assert_eq!(model.materials, std::slice::from_ref(&red), "{bad:?}");
         assert_eq!(model.notes.len(), 1, "{:?}", model.notes);
         assert!(model.notes[0].contains("line 2: `"), "{:?}", model.notes);
     }

@@ -1,0 +1,28 @@
+//! Keys of structures and of settings that differ.
+
+use serde_json::{Map, Value};
+
+/// Keys that are not the same: name, old and new.
+pub fn other_keys(old: &Value, new: &Value) -> Vec<(String, String, String)> {
+    let none = Map::new();
+    // What tells one build of a program from another is what a comparison is about.
+    let keys = |value: &'_ Value| -> Map<String, Value> {
+        let mut map = value.as_object().unwrap_or(&none).clone();
+        map.remove("build");
+        map.remove("command");
+        map
+    };
+    differences(&keys(old), &keys(new))
+}
+
+/// What differs: name, old and new.
+pub fn differences(old: &Map<String, Value>, new: &Map<String, Value>) -> Vec<(String, String, String)> {
+    let text = |value: Option<&Value>| match value {
+        None => "absent".to_owned(),
+        Some(Value::String(text)) => text.clone(),
+        Some(other) => other.to_string(),
+    };
+    let names = old.keys().chain(new.keys().filter(|name| !old.contains_key(*name)));
+    let different = names.filter(|name| old.get(*name) != new.get(*name));
+    different.map(|name| (name.clone(), text(old.get(name)), text(new.get(name)))).collect()
+}
