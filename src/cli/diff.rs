@@ -23,6 +23,9 @@ pub struct Args {
     /// How often the gate looks at most, measuring more in between: every look is a chance to be wrong
     #[arg(long, value_name = "N", default_value_t = 1, requires = "fail_on_regression", value_parser = clap::value_parser!(u8).range(1..=100))]
     looks: u8,
+    /// The structure that changes are judged relative to, one that is the same in both runs [default: those of obvhs]
+    #[arg(long, value_name = "NAME")]
+    reference: Option<String>,
     /// Write the comparison as JSON
     #[arg(long, value_name = "FILE")]
     export_json: Option<PathBuf>,
@@ -45,7 +48,7 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     };
     let (json, markdown_file) = (check(&args.export_json)?, check(&args.export_markdown)?);
     let (old, new) = (read(&args.old)?, read(&args.new)?);
-    let [a, b] = [&old, &new].map(Side::new);
+    let [a, b] = [&old, &new].map(|run| Side::new(run, args.reference.as_deref()));
     unlike(&a, &b, args.fail_on_regression.is_some())?;
 
     let mut comparison = Comparison::new(&a, &b, args.fail_on_regression, args.looks.into());

@@ -12,9 +12,14 @@ use crate::runner::{Program, Runner};
 pub const RUNNER: &str = "runner";
 
 impl Choice {
+    /// The label of a program of this name.
+    pub fn own_clock(name: &str) -> String {
+        format!("{name} (own clock)")
+    }
+
     /// The structure that `program` implements. Its label says whose clock times it.
     pub fn of_program(program: Program) -> Self {
-        let label = format!("{} (own clock)", program.name());
+        let label = Self::own_clock(&program.name());
         let config = json!({ "command": program.command(), "build": program.build_id(), "clock": "own" });
         let build = move |mesh: &Arc<_>, _: &_| {
             Runner::build(&program, mesh).map(|runner| Box::new(runner) as Box<dyn DynAccel>)

@@ -12,6 +12,8 @@ use crate::measure::program::file_id;
 /// A program that implements the protocol, with the time limit for its replies.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Program {
+    /// The name before the first `=`, of letters, digits, `-` and `_`.
+    name: Option<String>,
     command: String,
     /// The command, split as a shell does.
     words: Vec<String>,
@@ -24,9 +26,12 @@ impl Program {
     /// # Errors
     /// A sentence, if the command is empty, cannot be started or does not implement the protocol.
     pub fn new(command: &str, limit: Duration) -> Result<Self, String> {
-        let words = shlex::split(command).filter(|words| !words.is_empty());
+        let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+        let named = command.split_once('=').filter(|(name, _)| !name.is_empty() && name.chars().all(is_plain));
+        let (name, line) = named.map_or((None, command), |(name, line)| (Some(name.to_owned()), line));
+        let words = shlex::split(line).filter(|words| !words.is_empty());
         let words = words.ok_or("a runner is a program and its arguments, in quotes where they hold spaces")?;
-        let program = Self { command: command.into(), words, limit };
+        let program = Self { name, command: command.into(), words, limit };
         program.start(1).map(|_| program)
     }
 
@@ -35,8 +40,11 @@ impl Program {
         &self.command
     }
 
-    /// The name of the program without its folder, and the arguments.
+    /// The name that it was given; else that of the program without its folder, and the arguments.
     pub fn name(&self) -> String {
+        if let Some(name) = &self.name {
+            return name.clone();
+        }
         let file = Path::new(&self.words[0]).file_name().unwrap_or_default().to_string_lossy().into_owned();
         [&[file], &self.words[1..]].concat().join(" ")
     }
@@ -96,7 +104,7 @@ mod tests {
             [("python", "elf"), ("run.py", "1"), ("cache.bin", "2")].map(|(name, text)| write(name, text));
         let id = |words: &[&str]| {
             let words = words.iter().map(|word| (*word).to_owned()).collect();
-            Program { command: String::new(), words, limit: Duration::ZERO }.build_id()
+            Program { name: None, command: String::new(), words, limit: Duration::ZERO }.build_id()
         };
         let of = |word: &str| id(&[word]).unwrap();
         assert_eq!(id(&[&python, "-u", &script, &data]).unwrap(), format!("{} {}", of(&python), of(&script)));

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use crate::measure::{Provenance, Threads};
-use crate::registry::Registry;
+use crate::registry::{Choice, Registry};
 use crate::report::words::each_once_by;
 use crate::request::{
     BRUTE_FORCE, Limit, Measuring, RaySource, SceneRequest, Scenes, Seconds, StructureRequest, Structures, ViewArgs,
@@ -29,7 +29,7 @@ pub struct CompareArgs {
     pub structures: Structures,
     /// External program (with arguments) to benchmark as a structure; it times itself. May be repeated; `-s none` omits
     /// the built-in structures. FORMAT.md of the ray files specifies its input and output
-    #[arg(long, value_name = "COMMAND")]
+    #[arg(long, value_name = "[NAME=]COMMAND")]
     pub runner: Vec<String>,
     /// Timeout in seconds for each reply of an external program, including builds
     #[arg(long, value_name = "SECONDS", requires = "runner", default_value_t = RUNNER_LIMIT, allow_negative_numbers = true)]
@@ -38,8 +38,8 @@ pub struct CompareArgs {
     /// the better obvhs BVH; without them the first one]
     #[arg(long, value_name = "NAME[:key=value,..]")]
     pub reference: Option<String>,
-    /// A gate: measure this structure, or the --runner of this name, and obvhs-bvh2 as the yardstick, nothing else
-    #[arg(long, value_name = "NAME[:key=value,..]", conflicts_with_all = ["structure", "reference", "quick"])]
+    /// A gate: measure this structure, or the --runner of this name, and the reference, by default obvhs-bvh2, nothing else
+    #[arg(long, value_name = "NAME[:key=value,..]", conflicts_with_all = ["structure", "quick"])]
     pub only: Option<String>,
     /// Refuse, before anything is built, what `diff` could not compare with this run: a file of --export-json, or a folder
     /// of --dir
@@ -111,24 +111,25 @@ impl CompareArgs {
             structures.push(runner);
         }
         if let Some(spec) = &self.reference
-            && structures.iter().all(|own| own.spec != *spec)
+            && !structures.iter().any(|own| own.spec == *spec || own.spec == Choice::own_clock(spec))
         {
             let choice = structures_at(registry, std::slice::from_ref(spec), quality)?.remove(0);
             structures.push((&choice).into());
         }
+        let is_named = |own: &StructureRequest, name: &str| own.spec == name || own.spec == Choice::own_clock(name);
         if let Some(name) = &self.only {
-            if structures.iter().all(|own| own.spec != *name) {
+            if !structures.iter().any(|own| is_named(own, name)) {
                 structures.insert(0, (&structures_at(registry, std::slice::from_ref(name), quality)?.remove(0)).into());
             }
-            let other = structures.iter().skip(1).find(|own| own.spec != *name && !is_obvhs(own.name()));
-            anyhow::ensure!(
-                other.is_none(),
-                "--only {name} measures nothing else: leave the runner {} out",
-                other.map_or("", |own| &own.spec)
-            );
+            let asked = || [Some(name), self.reference.as_ref()].into_iter().flatten();
+            let other =
+                structures.iter().find(|own| own.runner.is_some() && !asked().any(|asked| is_named(own, asked)));
+            if let Some(other) = other {
+                anyhow::bail!("--only {name} measures nothing else: leave the runner {} out", other.spec);
+            }
         }
         // Both sides of a gate are timed on all rays.
-        let is_gate = self.only.is_some() || self.measuring.budget == Limit(None);
+        let is_gate = self.reference.is_none() && (self.only.is_some() || self.measuring.budget == Limit(None));
         if is_gate && structures.iter().all(|own| !is_obvhs(own.name()) || own.spec.contains("test=")) {
             structures.extend(registry.choose(YARDSTICK).ok().map(|choice| (&choice).into()));
         }

@@ -24,10 +24,10 @@ mod unlike;
 
 use serde::Serialize;
 
-use super::measurement::is_reference;
 use super::measurement::{Measurement, measurements, trace_noise};
-use super::{Dataset, Status};
+use super::{Dataset, Status, measurement};
 use crate::measure::{AaNoise, Estimate, Provenance, Rerun, epoch_values};
+use crate::registry::Choice;
 use crate::report::words::each_once;
 use crate::request::{REPORT_TREE, known_defect};
 use keys::other_keys;
@@ -43,10 +43,28 @@ pub struct Side {
     pub all: Vec<Measurement>,
 }
 
+/// The role of what the other structures are judged relative to.
+const REFERENCE: &str = "reference";
+
 impl Side {
-    pub fn new(dataset: &Dataset) -> Self {
-        Self { provenance: dataset.provenance.clone(), all: measurements(dataset) }
+    /// A run, judged relative to the structure of the label `reference`; without one to those of obvhs.
+    pub fn new(dataset: &Dataset, reference: Option<&str>) -> Self {
+        Self::of(dataset.provenance.clone(), measurements(dataset), reference)
     }
+
+    fn of(provenance: Provenance, mut all: Vec<Measurement>, reference: Option<&str>) -> Self {
+        let is_named = |own: &Measurement, name: &str| own.label == name || own.label == Choice::own_clock(name);
+        for own in &mut all {
+            if reference.map_or_else(|| measurement::is_reference(own), |name| is_named(own, name)) {
+                own.role = REFERENCE.into();
+            }
+        }
+        Self { provenance, all }
+    }
+}
+
+fn is_reference(own: &Measurement) -> bool {
+    own.role == REFERENCE
 }
 
 /// Two runs side by side.

@@ -1,9 +1,9 @@
 //! Times relative to those of obvhs in the same rounds, which runs of different days and machines have in common.
 
+use super::is_reference;
 use crate::measure::{AaNoise, Variance};
 use crate::report::words::distinct;
 use crate::study::measurement::Measurement;
-use crate::study::measurement::is_reference;
 
 /// What the A/A noise of a run adds to the variance of a mean over `cells` cells of times relative to so many references: the luck of each
 /// cell is its own.

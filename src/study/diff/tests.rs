@@ -13,7 +13,7 @@ fn record(label: &str, workload: &str, ns: f64) -> Measurement {
 }
 
 fn side(all: Vec<Measurement>) -> Side {
-    Side { provenance: Provenance::capture(1), all }
+    Side::of(Provenance::capture(1), all, None)
 }
 
 /// A run in which the machine is `slow` times as slow and the SAH tree takes `sah` times its time.
@@ -65,8 +65,18 @@ fn what_has_our_triangle_test_is_no_reference() {
 }
 
 #[test]
+fn another_reference_can_be_named() {
+    let of = |sah: f64| Side::of(Provenance::capture(1), run(1.0, sah), Some("sah-kd"));
+    let (old, new) = (of(1.0), of(0.5));
+    assert_eq!(unlike(&old, &new, true), Ok(()));
+    let comparison = Comparison::new(&old, &new, None, 1);
+    assert_eq!(comparison.references, ["sah-kd"]);
+    assert!((change_of(&comparison, "obvhs-bvh2").time.unwrap().estimate - 2.0).abs() < 1e-9);
+}
+
+#[test]
 fn without_references_times_count_as_they_are() {
-    let without = |slow: f64| run(slow, 1.0).into_iter().filter(|r| !is_reference(r)).collect::<Vec<_>>();
+    let without = |slow: f64| run(slow, 1.0).into_iter().filter(|r| !measurement::is_reference(r)).collect::<Vec<_>>();
     let comparison = compare(&without(1.0), &without(1.5), None, 1);
     assert!(comparison.references.is_empty());
     assert!((change_of(&comparison, "sah-kd").time.unwrap().estimate - 1.5).abs() < 1e-9);

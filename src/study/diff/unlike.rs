@@ -1,12 +1,11 @@
 //! Runs that cannot be compared.
 
 use super::keys::{differences, other_keys};
-use super::{Side, case, pairs};
+use super::{Side, case, is_reference, pairs};
 use crate::measure::Provenance;
 use crate::report::number::{count, duration};
 use crate::report::words::each_once;
 use crate::request::is_obvhs;
-use crate::study::measurement::is_reference;
 use crate::study::{Case, Dataset};
 
 /// Why two runs cannot be compared: what differs, in the old run and in the new.
@@ -25,8 +24,8 @@ const SAME_UNIT: &str = "on two machines only ratios to a structure of obvhs ove
 const SAME_INPUT: &str = "measure the old one again on the same scenes and rays";
 const SAME_BUILD: &str = "build both alike";
 const SAME_RAYS: &str = "measure both with --budget none, which times all rays";
-const YARDSTICK: &str = "a gate judges changes relative to obvhs-bvh2 or obvhs-cwbvh, measured in the same rounds: measure both sides \
-                         with --budget none, which measures obvhs-bvh2 as well";
+const YARDSTICK: &str = "a gate judges changes relative to a reference in the same rounds: measure both sides with --budget none, \
+                         which measures obvhs-bvh2 as well, or name another structure with --reference";
 
 fn differ(what: &str, old: &str, new: &str, advice: &'static str) -> Result<(), Unlike> {
     if old == new { Ok(()) } else { Err(Unlike { what: what.into(), old: old.into(), new: new.into(), advice }) }
