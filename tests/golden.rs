@@ -111,8 +111,11 @@ mod pictures {
         Rgb32FImage::from_fn(40, 30, |x, y| Rgb([x as f32 / 7.0, -0.1 * y as f32, 1e-9]))
     }
 
-    /// A picture of each format, and its bytes with a width and height that no memory takes.
-    fn of_each_format() -> [(DynamicImage, ImageFormat, fn(&mut [u8])); 3] {
+    /// Writes a width and a height that no memory takes into the bytes of a picture.
+    type Enlarge = fn(&mut [u8]);
+
+    /// A picture of each format, and how its bytes are made to describe one that is too large.
+    fn of_each_format() -> [(DynamicImage, ImageFormat, Enlarge); 3] {
         [
             (colours().into(), ImageFormat::Jpeg, |bytes| {
                 let frame = place(bytes, b"\xff\xc0");
