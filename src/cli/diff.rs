@@ -50,6 +50,12 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     let (old, new) = (read(&args.old)?, read(&args.new)?);
     let [a, b] = [&old, &new].map(|run| Side::new(run, args.reference.as_deref()));
     unlike(&a, &b, args.fail_on_regression.is_some())?;
+    if let Some(name) = &args.reference {
+        anyhow::ensure!(
+            a.has_reference() && b.has_reference(),
+            "--reference {name}: the runs have no such structure in common; name one that both have measured"
+        );
+    }
 
     let mut comparison = Comparison::new(&a, &b, args.fail_on_regression, args.looks.into());
     if let (Some(a), Some(b)) = (old.measured.first(), new.measured.first()) {

@@ -11,15 +11,17 @@ use crate::runner::{Program, Runner};
 /// The name of all runners; each has its command as configuration.
 pub const RUNNER: &str = "runner";
 
-impl Choice {
-    /// The label of a program of this name.
-    pub fn own_clock(name: &str) -> String {
-        format!("{name} (own clock)")
-    }
+const OWN_CLOCK: &str = " (own clock)";
 
+/// Whether a user who types `name` means the structure of this label: of a program it is the name alone.
+pub fn is_named(label: &str, name: &str) -> bool {
+    label.strip_suffix(OWN_CLOCK).unwrap_or(label).eq_ignore_ascii_case(name.strip_suffix(OWN_CLOCK).unwrap_or(name))
+}
+
+impl Choice {
     /// The structure that `program` implements. Its label says whose clock times it.
     pub fn of_program(program: Program) -> Self {
-        let label = Self::own_clock(&program.name());
+        let label = program.name() + OWN_CLOCK;
         let config = json!({ "command": program.command(), "build": program.build_id(), "clock": "own" });
         let build = move |mesh: &Arc<_>, _: &_| {
             Runner::build(&program, mesh).map(|runner| Box::new(runner) as Box<dyn DynAccel>)

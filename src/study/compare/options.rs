@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use crate::measure::{Provenance, Threads};
-use crate::registry::{Choice, Registry};
+use crate::registry::{Registry, is_named};
 use crate::report::words::each_once_by;
 use crate::request::{
     BRUTE_FORCE, Limit, Measuring, RaySource, SceneRequest, Scenes, Seconds, StructureRequest, Structures, ViewArgs,
@@ -111,19 +111,18 @@ impl CompareArgs {
             structures.push(runner);
         }
         if let Some(spec) = &self.reference
-            && !structures.iter().any(|own| own.spec == *spec || own.spec == Choice::own_clock(spec))
+            && !structures.iter().any(|own| is_named(&own.spec, spec))
         {
             let choice = structures_at(registry, std::slice::from_ref(spec), quality)?.remove(0);
             structures.push((&choice).into());
         }
-        let is_named = |own: &StructureRequest, name: &str| own.spec == name || own.spec == Choice::own_clock(name);
         if let Some(name) = &self.only {
-            if !structures.iter().any(|own| is_named(own, name)) {
+            if !structures.iter().any(|own| is_named(&own.spec, name)) {
                 structures.insert(0, (&structures_at(registry, std::slice::from_ref(name), quality)?.remove(0)).into());
             }
             let asked = || [Some(name), self.reference.as_ref()].into_iter().flatten();
             let other =
-                structures.iter().find(|own| own.runner.is_some() && !asked().any(|asked| is_named(own, asked)));
+                structures.iter().find(|own| own.runner.is_some() && !asked().any(|asked| is_named(&own.spec, asked)));
             if let Some(other) = other {
                 anyhow::bail!("--only {name} measures nothing else: leave the runner {} out", other.spec);
             }

@@ -1,6 +1,7 @@
 //! What a table relates speeds to, and ratios between measurements, with their intervals.
 
 use crate::measure::{AaNoise, Estimate, Rerun, cut_to_shared_epochs, epoch_values};
+use crate::registry::is_named;
 use crate::request::REPORT_TREE;
 use crate::study::measurement::{Measurement, is_reference};
 
@@ -31,7 +32,7 @@ impl Reference {
     /// The one that is `named`; else the report's tree and obvhs, of these what was measured; else the first structure.
     pub fn of(all: &[Measurement], named: Option<&str>) -> Vec<Self> {
         if let Some(spec) = named {
-            let known = all.iter().map(|own| own.label.as_str()).find(|label| label.eq_ignore_ascii_case(spec));
+            let known = all.iter().map(|own| own.label.as_str()).find(|label| is_named(label, spec));
             return vec![Self::Structure(known.unwrap_or(spec).into())];
         }
         let mut found = vec![];

@@ -27,7 +27,7 @@ use serde::Serialize;
 use super::measurement::{Measurement, measurements, trace_noise};
 use super::{Dataset, Status, measurement};
 use crate::measure::{AaNoise, Estimate, Provenance, Rerun, epoch_values};
-use crate::registry::Choice;
+use crate::registry::is_named;
 use crate::report::words::each_once;
 use crate::request::{REPORT_TREE, known_defect};
 use keys::other_keys;
@@ -53,16 +53,21 @@ impl Side {
     }
 
     fn of(provenance: Provenance, mut all: Vec<Measurement>, reference: Option<&str>) -> Self {
-        let is_named = |own: &Measurement, name: &str| own.label == name || own.label == Choice::own_clock(name);
         for own in &mut all {
-            if reference.map_or_else(|| measurement::is_reference(own), |name| is_named(own, name)) {
+            if reference.map_or_else(|| measurement::is_reference(own), |name| is_named(&own.label, name)) {
                 own.role = REFERENCE.into();
             }
         }
         Self { provenance, all }
     }
+
+    /// Whether the run has what the others are judged relative to.
+    pub fn has_reference(&self) -> bool {
+        self.all.iter().any(is_reference)
+    }
 }
 
+/// Whether the others are judged relative to it.
 fn is_reference(own: &Measurement) -> bool {
     own.role == REFERENCE
 }

@@ -1,3 +1,5 @@
+mod unlike;
+
 use super::changes::finding;
 use super::*;
 use crate::measure::Estimate;
@@ -143,49 +145,6 @@ fn known_errors_are_no_new_ones() {
     assert!(compare(&erring(2, 0, 100), &erring(2, 5, 100), None, 1).wrong.is_empty(), "obvhs has defects");
 }
 
-type Edit = dyn Fn(&mut Side);
-
-/// A run, edited.
-fn edited(slow: f64, sah: f64, edit: &dyn Fn(&mut Side)) -> Side {
-    let mut side = side(run(slow, sah));
-    edit(&mut side);
-    side
-}
-
-#[test]
-fn runs_that_differ_in_more_than_their_code_are_unlike() {
-    let old = side(run(1.0, 1.0));
-    let with = |edit: &Edit| unlike(&old, &edited(1.0, 1.0, edit), true).map_err(|error| error.to_string());
-    assert_eq!(with(&|_| {}), Ok(()));
-    assert_eq!(with(&|side| side.provenance.commit = "other".into()), Ok(()));
-    assert_eq!(with(&|side| side.provenance.threads = 2), Ok(()), "the heading names it");
-    let refusals: [(&str, &Edit); 11] = [
-        ("the yardstick is obvhs-bvh2 and obvhs-cwbvh in the old and missing in the new", &|side| {
-            side.all.iter_mut().filter(|own| is_reference(own)).for_each(|own| own.trace_ns = None);
-        }),
-        ("the key threshold of obvhs-bvh2", &|side| {
-            side.all[2].config = serde_json::json!({ "leaf": 8, "threshold": 0.8 });
-        }),
-        ("the processor", &|side| side.provenance.cpu = "Other".into()),
-        ("the instruction set", &|side| side.provenance.simd = "portable".into()),
-        ("the profile", &|side| side.provenance.profile = "other".into()),
-        ("for the compiler", &|side| side.provenance.target_features = "sse2".into()),
-        ("the version of obvhs", &|side| side.provenance.obvhs = "0.5.0".into()),
-        ("the hash of the scene Cube", &|side| side.all[0].scene_hash = "ff".into()),
-        ("the hash of the primary rays of Cube", &|side| side.all[0].workload_hash = "ff".into()),
-        ("the number of timed rays of sah-kd", &|side| side.all[1].rays = 250),
-        ("every case", &|side| side.all.iter_mut().for_each(|own| own.scene = "Sphere".into())),
-    ];
-    for (part, edit) in refusals {
-        let refused = with(edit).unwrap_err();
-        assert!(refused.contains(part), "{part:?} is not in {refused:?}");
-    }
-    // A program of another build is what is to be judged, and without a gate parts of the rays may be compared.
-    let build = |side: &mut Side| side.all[0].config = serde_json::json!({ "leaf": 8, "threshold": 0.7, "build": "x" });
-    assert_eq!(with(&build), Ok(()));
-    assert_eq!(unlike(&old, &edited(1.0, 1.0, &|side| side.all[1].rays = 250), false), Ok(()));
-}
-
 #[test]
 fn a_structure_is_compared_with_itself_whatever_its_keys_and_its_test() {
     let old = run(1.0, 1.0);
@@ -224,69 +183,6 @@ fn a_gate_ends_in_a_sentence_a_structure() {
     let found = sentences(&compare(&run(1.0, 1.0), &wrong, Some(10.0), 1))[1].clone();
     assert!(found.starts_with("sah-kd: wrong or other answers in 1 cell;"), "{found}");
     assert!(sentences(&compare(&run(1.0, 1.0), &wrong, None, 1)).is_empty(), "no gate");
-}
-
-#[test]
-fn a_plan_that_a_gate_could_not_compare_is_refused_before_it_is_measured() {
-    use crate::study::case::tests::example;
-    use crate::study::dataset::Measured;
-    use crate::study::epoch::tests::example as epoch;
-    let case = example("Cube", 0, &["sah-kd"]);
-    let epoch = epoch("Cube", 12, 0, &[("sah-kd", 1, &[1])]);
-    let here = Provenance::capture(1);
-    let old = Dataset::new(here.clone(), vec![Measured { case: case.clone(), epoch }]);
-    let refused = |edit: &dyn Fn(&mut crate::study::Case, &mut Provenance)| {
-        let (mut case, mut here) = (case.clone(), here.clone());
-        edit(&mut case, &mut here);
-        unlike_plan(&old, &[case], &here).map_err(|error| error.to_string())
-    };
-    assert_eq!(refused(&|_, _| {}), Ok(()));
-    assert_eq!(refused(&|case, _| case.structures.clear()), Ok(()), "structures may differ");
-    type Edit = dyn Fn(&mut crate::study::Case, &mut Provenance);
-    let edits: [(&str, &Edit); 6] = [
-        ("the processor", &|_, here| here.cpu = "Other".into()),
-        ("the hash of the scene Cube", &|case, _| case.scene.hash = "0".into()),
-        ("the scene Sphere is missing in the old", &|case, _| case.scene.name = "Sphere".into()),
-        ("the seed is 1 in the old and 2 in the new", &|case, _| case.settings.seed = 2),
-        ("the choice of rays of Cube", &|case, _| case.workloads = crate::request::WorkloadRequest::Picture),
-        ("the budget is", &|case, _| case.settings.budget_ns = Some(7)),
-    ];
-    for (part, edit) in edits {
-        let said = refused(edit).unwrap_err();
-        assert!(said.contains(part), "{part:?} is not in {said:?}");
-    }
-}
-
-#[test]
-fn on_two_machines_ratios_to_obvhs_are_compared_and_nothing_else() {
-    let elsewhere = |edit: &dyn Fn(&mut Side)| {
-        let mut side = side(run(3.0, 1.1));
-        let p = &mut side.provenance;
-        (p.cpu, p.simd) = ("Other".into(), "avx2".into());
-        (p.target, p.target_features) = ("aarch64".into(), "neon".into());
-        edit(&mut side);
-        side
-    };
-    let (old, new) = (side(run(1.0, 1.0)), elsewhere(&|_| {}));
-    assert_eq!(unlike(&old, &new, false), Ok(()));
-    assert!(unlike(&old, &new, true).is_err(), "a gate wants one machine");
-    let comparison = Comparison::new(&old, &new, None, 1);
-    assert!((change_of(&comparison, "sah-kd").time.unwrap().estimate - 1.1).abs() < 1e-9);
-    let has_note = |comparison: &Comparison, part: &str| tables(comparison)[0].notes.iter().any(|n| n.contains(part));
-    assert!(has_note(&comparison, "Two machines, ") && has_note(&comparison, "Other (avx2)"));
-    assert_eq!(compare(&old.all, &run(3.0, 1.1), None, 1).machines, None);
-    // Another set of lanes on one machine is no other machine.
-    let lanes = edited(1.0, 1.1, &|side| side.provenance.simd = "others".into());
-    assert!(has_note(&Comparison::new(&old, &lanes, None, 1), "Two sets of lanes, "));
-
-    // Other rays are refused there as well, and so are times without a unit.
-    let refused = |edit: &Edit| unlike(&old, &elsewhere(edit), false).unwrap_err().to_string();
-    assert!(refused(&|side| side.all[0].workload_hash = "ff".into()).contains("the primary rays of Cube"));
-    assert!(refused(&|side| side.provenance.obvhs = "0.5.0".into()).contains("the version of obvhs"));
-    let untimed = refused(&|side| {
-        side.all.iter_mut().filter(|own| is_reference(own)).for_each(|own| own.trace_ns = None);
-    });
-    assert!(untimed.contains("the processor is") && untimed.contains("ratios to a structure of obvhs"), "{untimed}");
 }
 
 #[test]
@@ -408,4 +304,23 @@ fn of_one_epoch_nothing_is_found() {
     let change = change_of(&comparison, "sah-kd");
     assert_eq!((change.finding, change.time.unwrap().interval), (Finding::Unknown, None));
     assert_eq!(tables(&comparison)[0].rows[1][2].text(), "one epoch");
+}
+
+#[test]
+fn every_key_of_the_export_is_documented() {
+    let schema = include_str!("../SCHEMA.md").split("\n## Comparison\n").nth(1).unwrap();
+    let mut comparison = compare(&run(1.0, 1.0), &run(1.0, 1.0), Some(5.0), 1);
+    comparison.wrong = vec![Wrong { structure: "a".into(), case: "a".into(), what: "lost".into() }];
+    let export = serde_json::to_value(&comparison).unwrap();
+    let lists = ["structures", "wrong"].map(|list| &export[list][0]);
+    for key in
+        lists.into_iter().chain([&export, &export["reproduced"]]).flat_map(|value| value.as_object().unwrap().keys())
+    {
+        assert!(schema.contains(&format!("`{key}`")), "{key} is not documented");
+    }
+    for finding in [Finding::Faster, Finding::NoDifference, Finding::Slower, Finding::Regression, Finding::Inconclusive]
+    {
+        let word = serde_json::to_value(finding).unwrap();
+        assert!(schema.contains(&format!("`{}`", word.as_str().unwrap())), "{word} is not documented");
+    }
 }

@@ -159,7 +159,7 @@ impl<'a> Filter<'a> {
                 (Reading::Faces, b"vn") => contents.normals.so_far += 1,
                 (Reading::Faces, b"f") => contents.face(words, to_tobj)?,
                 (Reading::Faces, b"usemtl") => contents.material = Some(name(&statement).to_vec()),
-                (Reading::Faces, b"mtllib") => contents.library(name(&statement)),
+                (Reading::Faces, b"mtllib") => contents.add_library(name(&statement)),
                 (Reading::Faces, _) | (_, b"f" | b"usemtl" | b"mtllib") => {}
                 // tobj makes a face of a line with three or more vertices.
                 (_, keyword) if is_among(SHAPES, keyword) => contents.shapes += 1,
@@ -254,7 +254,7 @@ impl Contents {
     }
 
     /// Keeps one library more than are read, so that it can be noted.
-    fn library(&mut self, names: &[u8]) {
+    fn add_library(&mut self, names: &[u8]) {
         if self.libraries.len() <= MOST_LIBRARIES && !self.libraries.iter().any(|known| known == names) {
             self.libraries.push(names.to_vec());
         }
