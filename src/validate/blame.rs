@@ -2,12 +2,10 @@
 
 use std::cmp::Ordering;
 
+use super::rounding::{Margin, Precision, nearest_sure};
 use super::{DepthRule, Kind, Reference, ScalarTest};
 use crate::exact::{self, ExactT};
 use crate::geometry::{Hit, Mesh, PrimId, Ray};
-
-/// How far from the box of a primitive a hit on it may be, relatively: what float tests round.
-const OUTSIDE: f64 = 1e-3;
 
 /// The verdict on a difference.
 pub(super) struct Blame {
@@ -27,16 +25,9 @@ pub(super) fn blame(
         (_, None, None) => None,
         (_, Some(e), Some(f)) if e.same_bits(f) => None,
         (Some(test), ..) => Some(same_test(test, mesh, ray, expected, found)),
-        (None, Some(e), Some(f)) if close(e.t, f.t, e.prim == f.prim) => {
-            if !may_be_at(mesh, ray, f) {
-                let sentence = format!("the point hit lies outside the box of {:?}", f.prim);
-                return Some(verdict(Kind::WrongPrimitive, sentence));
-            }
-            let strictly = DepthRule::STRICT.allows(e.t.into(), f.t, e.prim == f.prim);
-            (!strictly).then(|| strict(mesh, ray, e, f))
-        }
+        (None, Some(e), Some(f)) if e.prim == f.prim && DepthRule::STRICT.allows(e.t.into(), f.t, true) => None,
         (None, ..) => {
-            let verdict = other_test(mesh, ray, expected, found);
+            let verdict = other_test(reference.precision, mesh, ray, expected, found)?;
             Some(match reference.disputed {
                 Some(own) => own_test(own, mesh, ray, expected, found, verdict),
                 None => verdict,
@@ -59,7 +50,7 @@ fn own_test(own: ScalarTest, mesh: &Mesh, ray: &Ray, expected: Option<Hit>, foun
         },
         // What its test gives, whatever is true, it may return.
         (Kind::WrongT | Kind::Invented, Some(f)) => match of(found) {
-            Some(t) if close(t, f.t, true) => by_the_test("so says the structure's own test"),
+            Some(t) if DepthRule::COARSE.allows(t.into(), f.t, true) => by_the_test("so says the structure's own test"),
             _ => other,
         },
         _ => other,
@@ -133,56 +124,91 @@ fn tie(mesh: &Mesh, ray: &Ray, expected: Hit, found: Hit) -> Blame {
     verdict(Kind::Tie, "both primitives have this computed t".into())
 }
 
-/// Whether the point of a hit lies in the box of its primitive, up to what float tests round. That of a neighbour across an
-/// edge does, that of a wrong number hardly ever.
-fn may_be_at(mesh: &Mesh, ray: &Ray, hit: Hit) -> bool {
-    if hit.prim.index() as usize >= mesh.len() {
-        return false;
-    }
-    let bounds = mesh.triangle_bounds(hit.prim.index());
-    (0..3).all(|axis| {
-        let (start, way) = (f64::from(ray.origin[axis]), f64::from(ray.direction[axis]) * f64::from(hit.t));
-        let slack = OUTSIDE * (start.abs() + way.abs());
-        let (low, high) = (f64::from(bounds.min[axis]), f64::from(bounds.max[axis]));
-        (low - slack..=high + slack).contains(&(start + way))
-    })
-}
-
-/// Two hits that agree but for their depth: the exact answer tells which of them is off.
-fn strict(mesh: &Mesh, ray: &Ray, expected: Hit, found: Hit) -> Blame {
-    let Some((t, prim)) = nearest(mesh, ray, Some(expected), Some(found)) else {
-        return verdict(Kind::TriangleTest, "exactly, neither is a hit in the interval".into());
-    };
-    let rounded = t.round();
-    let sure = format!("exactly, {prim:?} is hit at {rounded:?}");
-    if DepthRule::STRICT.allows(t.approximate(), found.t, found.prim == prim) {
-        return verdict(Kind::Reference, sure);
-    }
-    verdict(Kind::Depth, format!("{sure}, {} ulps away", rounded.to_bits().abs_diff(found.t.to_bits())))
-}
-
 /// The nearest of two hits that truly is one.
 fn nearest(mesh: &Mesh, ray: &Ray, expected: Option<Hit>, found: Option<Hit>) -> Option<(ExactT, PrimId)> {
     let truths = [expected, found].map(|hit| Some((true_hit(mesh, ray, hit?)?, hit?.prim)));
     truths.into_iter().flatten().min_by(|(a, _), (b, _)| a.cmp(b))
 }
 
-/// Two tests round differently: only the exact answer can judge, and it judges structure and test together.
-fn other_test(mesh: &Mesh, ray: &Ray, expected: Option<Hit>, found: Option<Hit>) -> Blame {
-    match (nearest(mesh, ray, expected, found), found) {
-        (None, None) => verdict(Kind::Reference, "exactly, nothing is hit there in the interval".into()),
-        (None, Some(f)) => verdict(Kind::Invented, format!("exactly, {:?} is not hit in the interval", f.prim)),
-        (Some((t, prim)), None) => verdict(Kind::Lost, format!("exactly, {prim:?} is hit at {:?}", t.round())),
-        (Some((t, prim)), Some(f)) => {
-            let t = t.round();
-            let sure = format!("exactly, {prim:?} is hit at {t:?}");
-            match (close(t, f.t, f.prim == prim), f.t > t, f.prim == prim) {
-                (true, ..) => verdict(Kind::Reference, sure),
-                (false, _, true) => verdict(Kind::WrongT, sure),
-                (false, true, false) => verdict(Kind::NearerLost, sure),
-                (false, false, false) => verdict(Kind::Invented, sure),
-            }
+/// The structure's test is not that of the reference. Exact arithmetic judges structure and test together; what a test of
+/// this precision may round is blamed on the test.
+fn other_test(
+    precision: Precision,
+    mesh: &Mesh,
+    ray: &Ray,
+    expected: Option<Hit>,
+    found: Option<Hit>,
+) -> Option<Blame> {
+    let truth = nearest(mesh, ray, expected, found);
+    let limit = match found.map(|hit| returned(precision, mesh, ray, hit, truth.as_ref())) {
+        None => f64::INFINITY,
+        Some(Ok(margin)) => margin.earliest(),
+        Some(Err(blame)) => return Some(blame),
+    };
+    let is_found = |t: &ExactT, prim| {
+        found.is_some_and(|f| f.prim == prim || DepthRule::STRICT.allows(t.approximate(), f.t, false))
+    };
+    if let Some((t, prim)) = truth.as_ref().filter(|(t, prim)| !is_found(t, *prim)) {
+        let margin = Margin::new(ray, mesh.corners(prim.index()), precision);
+        let kind = if found.is_some() { Kind::NearerLost } else { Kind::Lost };
+        if margin.latest() < limit && !margin.may_miss(ray) {
+            return Some(verdict(kind, format!("exactly, {prim:?} is hit at {:?}", t.round())));
         }
+        // A test may miss the nearest triangle or take it for a later one, but not one behind it.
+        if precision == Precision::Single
+            && let Some((t, prim)) = nearest_sure(mesh, ray, limit)
+        {
+            return Some(verdict(kind, format!("exactly, {prim:?} is hit at {:?}", t as f32)));
+        }
+    }
+    rounded(truth, expected, found)
+}
+
+/// The margin of the triangle of a hit, or why no test of this precision returns that hit.
+fn returned(
+    precision: Precision,
+    mesh: &Mesh,
+    ray: &Ray,
+    found: Hit,
+    truth: Option<&(ExactT, PrimId)>,
+) -> Result<Margin, Blame> {
+    let is_there = truth.is_some_and(|(t, _)| DepthRule::COARSE.allows(t.approximate(), found.t, false));
+    let wrong = |sentence| verdict(if is_there { Kind::WrongPrimitive } else { Kind::Invented }, sentence);
+    if found.prim.index() as usize >= mesh.len() {
+        return Err(wrong(format!("the mesh has no {:?}", found.prim)));
+    }
+    let margin = Margin::new(ray, mesh.corners(found.prim.index()), precision);
+    match true_hit(mesh, ray, found) {
+        Some(t) if DepthRule::STRICT.allows(t.approximate(), found.t, true) || margin.may_round_to(found.t) => Ok(margin),
+        Some(t) => {
+            let ulps = t.round().to_bits().abs_diff(found.t.to_bits());
+            let sentence = format!("exactly, {:?} is hit at {:?}, {ulps} ulps away", found.prim, t.round());
+            Err(verdict(Kind::WrongT, sentence))
+        }
+        None if margin.may_hit(ray, found.t) => Ok(margin),
+        None => Err(wrong(format!("exactly, {:?} is not hit in the interval", found.prim))),
+    }
+}
+
+/// Nothing is lost or invented that rounding could not: who of the two is off?
+fn rounded(truth: Option<(ExactT, PrimId)>, expected: Option<Hit>, found: Option<Hit>) -> Option<Blame> {
+    let is_right = |hit: Option<Hit>| match (&truth, hit) {
+        (None, None) => true,
+        (Some((t, _)), Some(hit)) => DepthRule::STRICT.allows(t.approximate(), hit.t, true),
+        _ => false,
+    };
+    let sure = match &truth {
+        Some((t, prim)) => format!("exactly, {prim:?} is hit at {:?}", t.round()),
+        None => "exactly, nothing is hit there in the interval".into(),
+    };
+    match (is_right(expected), is_right(found), &truth, found) {
+        (true, true, ..) => None,
+        (false, true, ..) => Some(verdict(Kind::Reference, sure)),
+        (_, false, Some((t, prim)), Some(f)) if *prim == f.prim => {
+            let ulps = t.round().to_bits().abs_diff(f.t.to_bits());
+            Some(verdict(Kind::Depth, format!("{sure}, {ulps} ulps away")))
+        }
+        _ => Some(verdict(Kind::TriangleTest, format!("{sure}; single precision may round that away"))),
     }
 }
 
@@ -194,8 +220,4 @@ fn verdict(kind: Kind, sentence: String) -> Blame {
 fn true_hit(mesh: &Mesh, ray: &Ray, hit: Hit) -> Option<ExactT> {
     let exists = (hit.prim.index() as usize) < mesh.len() && ray.is_valid();
     exists.then(|| exact::hit(ray, mesh.corners(hit.prim.index())))?.filter(|t| t.is_within(ray))
-}
-
-fn close(expected: f32, found: f32, same_primitive: bool) -> bool {
-    DepthRule::COARSE.allows(expected.into(), found, same_primitive)
 }

@@ -3,7 +3,8 @@
 //! Two errors are told apart. A *structure error* is a hit that the traversal lost or invented, although its own triangle
 //! test, run over all triangles, says otherwise: a correct structure has none, on any ray. A *triangle-test error* is caused by
 //! the triangle test: it returns a hit where exactly there is none, and the traversal was free to cull it.
-//! Where structure and reference have different tests, the two cannot be separated: then there are *answer errors*.
+//! Where the structure's test is its own, exact arithmetic decides: what a test in single precision may round is a
+//! triangle-test error, everything else an *answer error*, which no rounding explains.
 
 pub mod adversarial;
 mod blame;
@@ -15,6 +16,8 @@ pub mod hard_cases;
 mod query_clock;
 mod rate;
 mod reference;
+mod remote;
+mod rounding;
 mod sampler;
 mod validation;
 mod watchdog;
@@ -26,6 +29,8 @@ pub use error_counts::{DepthRule, ErrorCounts, Outcome, Ulps, count_errors, outc
 pub use rate::Rate;
 pub(crate) use reference::HasReference;
 pub use reference::{Reference, ScalarTest};
+pub use rounding::Precision;
 pub use sampler::Sampler;
+pub use remote::validate_remote;
 pub use validation::{Kind, Validation, WorstRay};
 pub use watchdog::{LIMIT, WatchError, validate_watched, watched};

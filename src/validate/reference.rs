@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
+use super::Precision;
 use crate::accel::{BuildError, DynAccel};
 use crate::brute_force::{BruteForce, BruteForceConfig};
 #[cfg(feature = "peer-bvh")]
@@ -62,6 +63,8 @@ pub struct Reference {
     /// The triangle test that the structure and the reference share: their hits must be the same bits, and the reference has
     /// tested every triangle. `None` when the tests differ, or when the reference may itself have lost hits.
     pub test: Option<ScalarTest>,
+    /// Of the structure's triangle test, where the reference does not share it: what that may round is no error of the tree.
+    pub precision: Precision,
     /// The structure's own triangle test, where it is known but too slow to be run over all triangles. Run on the triangles
     /// in dispute, it tells what the structure lost from what its test did not find.
     pub disputed: Option<ScalarTest>,
@@ -69,8 +72,8 @@ pub struct Reference {
 
 impl Reference {
     /// Brute force with the triangle test named `test` ([`TRIANGLE_TEST`](crate::accel::Accel::TRIANGLE_TEST)); for a test
-    /// that this crate does not have, brute force with Möller-Trumbore, which shares nothing; for one that it has only as a
-    /// scene of one triangle, brute force with `exact`, and that test in disputes.
+    /// that this crate does not have, or has only as a scene of one triangle, brute force with `exact`; the latter test is run
+    /// in disputes.
     ///
     /// # Errors
     /// If it cannot be built over the mesh.
@@ -82,7 +85,7 @@ impl Reference {
             <embree::Robust as embree::Mode>::TEST => Self::in_disputes(embree::alone::<embree::Robust>, mesh),
             test => match REFERENCES.iter().find(|(name, _)| *name == test) {
                 Some((_, reference)) => reference(mesh),
-                None => Ok(Self { test: None, ..Self::brute_force::<MollerTrumbore>(mesh)? }),
+                None => Ok(Self { test: None, ..Self::brute_force::<Exact>(mesh)? }),
             },
         }
     }
@@ -96,7 +99,7 @@ impl Reference {
         BruteForce<T>: Offered<Config = BruteForceConfig>,
     {
         let accel = BruteForce::<T>::boxed(mesh, &BruteForceConfig::default())?;
-        Ok(Self { accel, test: Some(scalar_hit::<T>), disputed: None })
+        Ok(Self { accel, test: Some(scalar_hit::<T>), precision: Precision::Single, disputed: None })
     }
 
     #[cfg(feature = "peer-embree")]
@@ -114,8 +117,10 @@ impl Reference {
         self.test.is_some() || self.disputed.is_some()
     }
 
-    /// Any other structure: it may have lost hits, so the exact oracle decides wherever the hits differ.
-    pub fn structure(accel: Box<dyn DynAccel>) -> Self {
-        Self { accel, test: None, disputed: None }
+    /// Any other structure: it may have lost hits, so the exact oracle decides wherever the hits differ from those of a
+    /// structure over the triangle test named `test`.
+    pub fn structure(accel: Box<dyn DynAccel>, test: &str) -> Self {
+        let precision = if test == Exact::NAME { Precision::Exact } else { Precision::Single };
+        Self { accel, test: None, precision, disputed: None }
     }
 }

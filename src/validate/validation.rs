@@ -2,6 +2,8 @@
 
 use std::fmt::{Display, Formatter};
 
+use serde::{Deserialize, Serialize};
+
 use super::query_clock::Call;
 use crate::geometry::{Hit, Ray};
 use crate::names::named_enum;
@@ -16,7 +18,7 @@ pub struct Validation {
     /// Rays that hit something by the reference.
     pub hits: u64,
     /// Rays with another `t` than the reference, bit for bit, or with a hit where it has none or the reverse. Where the
-    /// triangle tests differ: rays on which the two differ by more than both tests round; one of the two is wrong.
+    /// triangle tests differ: rays on which the two differ by more than 4 ulps and 1e-6.
     pub differing: u64,
     /// Hits lost or invented by the structure; zero in a correct one.
     pub structure_errors: u64,
@@ -24,11 +26,11 @@ pub struct Validation {
     pub test_errors: u64,
     /// Differences that the reference causes, which has another triangle test: the hit is right.
     pub reference_errors: u64,
-    /// Wrong hits of a structure whose triangle test the reference does not share; of depths those that are wrong by
-    /// [`DepthRule::COARSE`](super::DepthRule::COARSE).
+    /// Wrong hits of a structure whose triangle test the reference does not share, which no rounding of such a test
+    /// explains.
     pub answer_errors: u64,
-    /// Depths of such a structure that are wrong by [`DepthRule::STRICT`](super::DepthRule::STRICT) alone. Mostly they are
-    /// what tests in `f32` round, and not the structure's fault; for hits that must be exact they are errors.
+    /// Depths of such a structure that are wrong by [`DepthRule::STRICT`](super::DepthRule::STRICT), and that a test in single
+    /// precision may round so.
     pub depth_errors: u64,
     /// Rays for which any hit and closest hit contradict each other.
     pub any_hit_errors: u64,
@@ -66,11 +68,13 @@ pub struct WorstRay {
 
 named_enum! {
     /// How a hit differs, the worst first.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
     pub enum Kind {
         /// A query does not return in time.
         Hangs = "hangs",
         /// The structure panics.
+        #[serde(rename = "panics")]
         Panicked = "panics",
         /// A true hit, and the structure returns none.
         Lost = "lost",
@@ -86,7 +90,7 @@ named_enum! {
         AnyHitDisagrees = "any-hit-disagrees",
         /// In a batch the ray has another hit than alone.
         Unrepeatable = "unrepeatable",
-        /// Right but for a `t` that is off by more than the strict rule of depth allows, and by less than the coarse one.
+        /// Right but for a `t` that is off by more than the strict rule of depth allows, and by no more than rounding.
         Depth = "depth",
         /// An error of the triangle test, not of the structure.
         TriangleTest = "triangle-test",
@@ -110,14 +114,9 @@ impl Validation {
     /// How many rays are kept.
     pub const WORST: usize = 10;
 
-    /// Wrong hits of all kinds, depths judged coarsely; 0 in a correct structure that shares its test with the reference.
+    /// Wrong hits of all kinds that no rounding explains; 0 in a correct structure.
     pub fn errors(&self) -> u64 {
         self.structure_errors + self.answer_errors + self.any_hit_errors + self.unrepeatable + self.panics + self.hangs
-    }
-
-    /// The same, depths judged strictly.
-    pub fn strict_errors(&self) -> u64 {
-        self.errors() + self.depth_errors
     }
 
     /// The worst ray whose hit is wrong.

@@ -1,0 +1,111 @@
+//! What a user wants to know of a structure: is it right?
+
+use serde::{Deserialize, Serialize};
+
+use crate::report::number::{count, plural};
+use crate::validate::{Kind, Validation};
+
+/// The outcome of all rays that a structure was checked on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Verdict {
+    /// Rays checked.
+    pub rays: u64,
+    /// Rays with a wrong hit that no rounding explains.
+    pub wrong: u64,
+    /// Rays with a hit that differs from the exact one by what the triangle test rounds.
+    #[serde(default)]
+    pub rounded: u64,
+    /// The worst kind of wrong hit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fault: Option<Kind>,
+}
+
+impl From<&Validation> for Verdict {
+    fn from(found: &Validation) -> Self {
+        Self {
+            rays: found.rays,
+            wrong: found.errors().min(found.rays),
+            rounded: found.test_errors + found.depth_errors,
+            fault: found.worst_error().map(|worst| worst.kind),
+        }
+    }
+}
+
+impl Verdict {
+    /// That of these rays and further ones.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        let fault = self.fault.into_iter().chain(other.fault).min();
+        Self {
+            rays: self.rays + other.rays,
+            wrong: self.wrong + other.wrong,
+            rounded: self.rounded + other.rounded,
+            fault,
+        }
+    }
+
+    /// One sentence about the structure `name`.
+    pub fn sentence(self, name: &str) -> String {
+        let of = |rays: u64| format!("{} of {}", count(rays), plural(self.rays as usize, "ray"));
+        match (self.rays, self.wrong, self.rounded) {
+            (0, 0, _) => format!("{name} was not checked: no ray that it accepts was traced."),
+            (rays, 0, 0) => format!("{name} is right on {}.", plural(rays as usize, "ray")),
+            (_, 0, rounded) => format!(
+                "{name} differs on {}, each within rounding: the triangle test rounds, the tree is right so far.",
+                of(rounded)
+            ),
+            (_, wrong, _) => {
+                let (does, so) = self.fault.map_or(("is wrong", "the tree is wrong"), fault);
+                format!("{name} {does}, on {}: {so}.", of(wrong))
+            }
+        }
+    }
+}
+
+/// What a structure with such hits does, and what follows.
+fn fault(kind: Kind) -> (&'static str, &'static str) {
+    const TREE: &str = "the tree is wrong";
+    const EITHER: &str = "the tree or its triangle test is wrong";
+    match kind {
+        Kind::Hangs => ("does not return", TREE),
+        Kind::Panicked => ("panics or ends", TREE),
+        Kind::Lost | Kind::NearerLost => ("loses hits that no rounding could hide", TREE),
+        Kind::Invented => ("returns hits that no rounding could make", EITHER),
+        Kind::WrongT => ("returns depths that no rounding could give", EITHER),
+        Kind::WrongPrimitive => ("names triangles that are not hit there", TREE),
+        Kind::AnyHitDisagrees => ("contradicts itself: any hit and closest hit disagree", TREE),
+        Kind::Unrepeatable => ("returns other hits in a batch than alone", TREE),
+        _ => ("is wrong", EITHER),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sentence_says_how_wrong_a_structure_is_and_what_follows() {
+        let right = Verdict { rays: 60_000, ..Verdict::default() };
+        let rounds = Verdict { rays: 10_000, rounded: 3, ..Verdict::default() };
+        let lost = Verdict { rays: 10_000, wrong: 12, rounded: 1, fault: Some(Kind::Lost) };
+        let off = Verdict { wrong: 1, fault: Some(Kind::WrongT), ..right };
+        for (verdict, expected) in [
+            (Verdict::default(), "mine was not checked: no ray that it accepts was traced."),
+            (right, "mine is right on 60,000 rays."),
+            (
+                right.and(rounds),
+                "mine differs on 3 of 70,000 rays, each within rounding: the triangle test rounds, the tree is right so far.",
+            ),
+            (
+                rounds.and(lost),
+                "mine loses hits that no rounding could hide, on 12 of 20,000 rays: the tree is wrong.",
+            ),
+            (
+                off.and(lost),
+                "mine loses hits that no rounding could hide, on 13 of 70,000 rays: the tree is wrong.",
+            ),
+        ] {
+            assert_eq!(verdict.sentence("mine"), expected);
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! What a triangle test in single precision may round: a structure whose own test is not known is wrong only where no
+//! such rounding could hide a hit.
+
+use glam::{DVec3, Vec3};
+
+use crate::geometry::{Mesh, PrimId, Ray};
+
+/// Half a unit in the last place of 1, the largest relative error of one operation.
+const ROUNDOFF: f64 = 1.0 / (1_u64 << 24) as f64;
+
+/// How many such errors a test may add up: a dozen operations on three coordinates, and as much again for tests that
+/// store planes or transformations instead of corners.
+const OPERATIONS: f64 = 32.0;
+
+/// Products from here on overflow in single precision, and determinants below underflow or have no finite reciprocal.
+const LARGEST: f64 = (1_u128 << 125) as f64;
+const SMALLEST: f64 = 1.0 / (1_u128 << 102) as f64;
+
+/// The precision of a triangle test.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Precision {
+    /// Its hits are mathematically right; `t` is the nearest `f32`.
+    Exact,
+    /// It computes with at least 24 bits, from differences of corners and origin or from stored planes.
+    Single,
+}
+
+/// A line and a triangle, and the bounds for a test that computes with corners A times as far from the origin of the
+/// coordinates as numbers get: a barycentric weight is off by `OPERATIONS` roundings of A times an edge over the
+/// determinant, a depth by as many of A times the square of an edge over the determinant, and of itself.
+///
+/// # References
+/// Higham: Accuracy and Stability of Numerical Algorithms, 2nd edition, 2002 (running error of inner products).
+pub struct Margin {
+    /// The smallest of the three weights, negative outside.
+    weight: f64,
+    weight_error: f64,
+    /// Where the line meets the plane.
+    t: f64,
+    t_error: f64,
+    /// Whether all intermediate results are normal numbers.
+    is_in_range: bool,
+    precision: Precision,
+}
+
+impl Margin {
+    pub fn new(ray: &Ray, corners: [Vec3; 3], precision: Precision) -> Self {
+        let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
+        let [a, b, c] = corners.map(|corner| corner.as_dvec3() - origin);
+        let normal = (b - a).cross(c - a);
+        let determinant = direction.dot(normal);
+        let volumes = [b.cross(c), c.cross(a), a.cross(b)].map(|area| direction.dot(area));
+        let weight = volumes.into_iter().map(|volume| volume / determinant).fold(f64::INFINITY, f64::min);
+        let t = a.dot(normal) / determinant;
+
+        let length = direction.length();
+        let edge = [b - a, c - b, a - c].map(DVec3::length).into_iter().fold(0.0, f64::max);
+        let size = corners.map(|corner| corner.as_dvec3().length()).into_iter().fold(origin.length(), f64::max);
+        let rounded = OPERATIONS * ROUNDOFF / determinant.abs();
+        let largest = [length * edge * size, edge * edge * size, length * edge * edge].into_iter().fold(0.0, f64::max);
+        Self {
+            weight,
+            weight_error: rounded * size * edge * length,
+            t,
+            t_error: rounded * size * edge * edge + OPERATIONS * ROUNDOFF * t.abs(),
+            is_in_range: largest < LARGEST && determinant.abs() > SMALLEST,
+            precision,
+        }
+    }
+
+    /// Whether a test that rounds may miss a triangle that is hit: near an edge, near an end of the ray's interval, along
+    /// the plane, or where its numbers are too large or too small.
+    pub fn may_miss(&self, ray: &Ray) -> bool {
+        let (t_min, t_max) = ray.interval();
+        let is_inside = self.weight > self.weight_error
+            && self.t - self.t_error > f64::from(t_min)
+            && self.t + self.t_error < f64::from(t_max);
+        self.precision == Precision::Single && !(is_inside && self.is_in_range)
+    }
+
+    /// Whether a test that rounds may return a hit at `t` on a triangle that is missed, or hit outside of the interval.
+    pub fn may_hit(&self, ray: &Ray, t: f32) -> bool {
+        // Along the plane any weight and depth may come out, and a triangle without area has none.
+        let is_along = self.weight_error.is_nan() || self.weight_error >= 1.0;
+        let is_near = self.weight >= -self.weight_error && self.may_round_to(t);
+        let (t_min, t_max) = ray.interval();
+        let is_within = (t_min..=t_max).contains(&t);
+        self.precision == Precision::Single && is_within && (is_along || is_near || !self.is_in_range)
+    }
+
+    /// Whether a test that rounds may compute `t` where the plane is met.
+    pub fn may_round_to(&self, t: f32) -> bool {
+        let is_near = (f64::from(t) - self.t).abs() <= self.t_error || self.t_error.is_nan();
+        self.precision == Precision::Single && (is_near || !self.is_in_range)
+    }
+
+    /// Where the plane is met at the latest, as computed.
+    pub fn latest(&self) -> f64 {
+        self.t + if self.precision == Precision::Single { self.t_error } else { 0.0 }
+    }
+
+    /// Where the plane is met at the earliest, as computed.
+    pub fn earliest(&self) -> f64 {
+        self.t - if self.precision == Precision::Single { self.t_error } else { 0.0 }
+    }
+}
+
+/// The nearest triangle of all that no rounding hides, and that is hit before `limit`, whatever rounds.
+pub fn nearest_sure(mesh: &Mesh, ray: &Ray, limit: f64) -> Option<(f64, PrimId)> {
+    let all = (0..mesh.len() as u32).filter(|&index| !mesh.is_degenerate(index));
+    let margins = all.map(|index| (Margin::new(ray, mesh.corners(index), Precision::Single), PrimId::new(index)));
+    let sure = margins.filter(|(margin, _)| !margin.may_miss(ray) && margin.latest() < limit);
+    sure.map(|(margin, prim)| (margin.t, prim)).min_by(|(one, _), (other, _)| one.total_cmp(other))
+}
