@@ -41,7 +41,7 @@ fn faults<'a>(case: &HardCase, choices: impl IntoIterator<Item = &'a Choice>) ->
             Err(error) => Some(error.to_string()),
             Ok(answers) => match truth.score(choice.triangle_test(), answers).unwrap() {
                 Score::Rays(score) => {
-                    let lost = score.structure_errors != Some(0) || score.contradictions > 0;
+                    let lost = score.validation.errors() > 0 || score.contradictions > 0;
                     let inexact = choice.triangle_test() == "exact" && score.inexact > 0;
                     let wrong = score.judged.missed + score.judged.false_hits + score.judged.wrong_depth;
                     let f64_is_wrong = IN_F64.contains(&choice.triangle_test()) && ranked && wrong > 0;

@@ -67,6 +67,9 @@ struct Global {
     /// Show no progress and no warnings
     #[arg(long, short, global = true)]
     quiet: bool,
+    /// Print all columns of tables, and what they mean
+    #[arg(long, global = true)]
+    verbose: bool,
     /// Run on these instructions instead of the best ones here: portable, avx2 or avx512, where this build has them; the answers are the same
     #[arg(long, global = true)]
     level: Option<Level>,
@@ -186,7 +189,7 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, starts_proc
     if let Some(level) = global.level {
         level.choose();
     }
-    let terminal = Terminal::new(global.color, global.quiet);
+    let terminal = Terminal::new(global.color, global.quiet).verbose(global.verbose);
     // What `validate --hard` runs in a process of its own tells it of a panic by ending with one.
     let may_panic = matches.subcommand_name() == Some(validate::CHILD);
     let level = global.level.iter().flat_map(|level| ["--level", level.name()]).map(OsString::from);

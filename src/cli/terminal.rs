@@ -27,6 +27,8 @@ pub struct Terminal {
     shown: bool,
     /// Whether progress is left out.
     pub quiet: bool,
+    /// Whether tables are printed with all their columns.
+    pub verbose: bool,
 }
 
 impl Terminal {
@@ -40,7 +42,12 @@ impl Terminal {
         };
         // Some terminals do not know their width, and say zero.
         let width = if shown { Probe::new().width().filter(|&width| width > 0) } else { None };
-        Self { screen: Screen { width, colour }, shown, quiet }
+        Self { screen: Screen { width, colour }, shown, quiet, verbose: false }
+    }
+
+    /// The same, which prints tables with all their columns if `verbose`.
+    pub fn verbose(self, verbose: bool) -> Self {
+        Self { verbose, ..self }
     }
 
     /// Whether somebody looks who may want to see what is not final.
@@ -67,7 +74,8 @@ impl Terminal {
 
     /// Prints a table, but for columns in which no row says anything, with a blank line after it.
     pub fn print_table(&self, table: &Table) {
-        self.print(&(terminal::table(table, self.screen) + "\n"));
+        let table = if self.verbose { table.clone() } else { table.clone().without_details() };
+        self.print(&(terminal::table(&table, self.screen) + "\n"));
     }
 
     /// Prints lines of text, broken where the screen ends.

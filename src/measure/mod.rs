@@ -37,7 +37,7 @@ pub use order::RandomOrder;
 pub use pass::{Pass, spread};
 pub use pin::{Pin, keep_to, on_all_cores};
 pub use provenance::Provenance;
-pub use query_results::checksum;
+pub use query_results::{QueryResults, checksum};
 pub use ray_allotment::{Allotment, Cost, allot, level_by_clock, pilot_level};
 pub use remote_pass::{Failure, RemotePass};
 pub use samples::{SamplePlan, Samples, SubsetSamples, Timed, take};

@@ -5,12 +5,12 @@ use std::ops::Range;
 use crate::accel::{Loaded, Query};
 use crate::geometry::{Hit, PrimId};
 
-pub(super) enum QueryResults {
+pub enum QueryResults {
     Closest(Vec<Option<Hit>>),
     Any(Vec<bool>),
 }
 
-pub(super) enum ResultSlots<'a> {
+pub enum ResultSlots<'a> {
     Closest(&'a mut [Option<Hit>]),
     Any(&'a mut [bool]),
 }

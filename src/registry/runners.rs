@@ -39,4 +39,9 @@ impl Choice {
         };
         Self { entry, config, label }
     }
+
+    /// The command line of a program.
+    pub fn command(&self) -> Option<&str> {
+        (self.entry.name == RUNNER).then(|| self.config["command"].as_str())?
+    }
 }

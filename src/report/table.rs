@@ -14,6 +14,8 @@ pub struct Table {
     pub rows: Vec<Vec<Cell>>,
     /// One sentence each.
     pub notes: Vec<String>,
+    /// Names of columns that the terminal shows with `--verbose` alone; exports have them all.
+    pub details: Vec<String>,
     /// Whether it depends on one scene alone: a run prints it as soon as that scene is measured.
     pub of_scene: bool,
 }
@@ -55,6 +57,17 @@ impl Table {
     pub fn push_column(&mut self, name: impl Into<String>, cells: impl IntoIterator<Item = Cell>) {
         self.columns.push(name.into());
         self.rows.iter_mut().zip(cells).for_each(|(row, cell)| row.push(cell));
+    }
+
+    /// The same table, in which these columns are details.
+    pub fn with_details<'a>(self, names: impl IntoIterator<Item = &'a str>) -> Self {
+        Self { details: names.into_iter().map(String::from).collect(), ..self }
+    }
+
+    /// The same table without details.
+    pub fn without_details(self) -> Self {
+        let details = self.details.clone();
+        self.without_columns(&details.iter().map(String::as_str).collect::<Vec<_>>())
     }
 
     pub fn noted(self, notes: Vec<String>) -> Self {

@@ -95,7 +95,11 @@ impl From<&Choice> for StructureRequest {
     }
 }
 
-fn runner(command: &str, limit_s: f64) -> anyhow::Result<Choice> {
+/// The structure of a program, `[NAME=]COMMAND`, that has so many seconds for an answer.
+///
+/// # Errors
+/// If there is no such program, or it does not follow the protocol.
+pub fn runner(command: &str, limit_s: f64) -> anyhow::Result<Choice> {
     let program = Program::new(command, Duration::from_secs_f64(limit_s));
     let program = program.map_err(|problem| anyhow::anyhow!("--runner {command:?}: {problem}"))?;
     Ok(Choice::of_program(program))

@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::StudyError;
 use super::measure::Environment;
+use super::{StudyError, Verdict};
 use crate::accel::{Query, TreeShape};
 use crate::measure::SubsetSamples;
 use crate::registry::RUNNER;
@@ -12,7 +12,7 @@ use crate::report::Failure;
 use crate::report::words::{each_once, scene_name};
 use crate::request::{TWIN, known_defect};
 use crate::triangle::{Exact, TriangleTest};
-use crate::validate::ErrorCounts;
+use crate::validate::{ErrorCounts, Kind, Validation};
 
 /// One epoch of one scene: all structures are built anew and timed on all workloads in rounds, each round every pair
 /// once, in random order, one workload after the other.
@@ -119,12 +119,42 @@ pub struct Rays {
     pub slowest_ns: Option<u64>,
 }
 
-/// Rays held against brute force.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+/// Rays whose answers were checked: some against brute force, and all that are timed against another tree, with brute force
+/// and exact arithmetic as the judges where the two differ.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Checked {
     pub rays: usize,
-    /// Those of them with a wrong answer.
+    /// Those of them with a wrong answer, which no rounding explains.
     pub errors: usize,
+    /// Those with an answer that the triangle test rounds.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub rounded: usize,
+    /// The worst kind of wrong answer.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fault: Option<Kind>,
+    /// The ray with the worst answer, and what is wrong with that.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub example: Option<(String, String)>,
+}
+
+fn is_zero(n: &usize) -> bool {
+    *n == 0
+}
+
+impl From<&Validation> for Checked {
+    fn from(found: &Validation) -> Self {
+        let Verdict { rays, wrong, rounded, fault } = found.into();
+        let [rays, errors, rounded] = [rays, wrong, rounded].map(|n| n as usize);
+        let example = found.worst_error().map(|worst| (worst.ray.to_string(), worst.to_string()));
+        Self { rays, errors, rounded, fault, example }
+    }
+}
+
+impl Checked {
+    pub fn verdict(&self) -> Verdict {
+        let [rays, wrong, rounded] = [self.rays, self.errors, self.rounded].map(|n| n as u64);
+        Verdict { rays, wrong, rounded, fault: self.fault }
+    }
 }
 
 /// What no machine changes, but for the processor's own counters: of all rays of the workload, or an even sample of
@@ -323,7 +353,7 @@ pub(crate) mod tests {
             all: 1000,
             rays: 1000,
             checksum: 1,
-            checked: Some(Checked { rays: 100, errors: 0 }),
+            checked: Some(Checked { rays: 100, ..Checked::default() }),
             counts: Some(RayCounts {
                 rays: 1000,
                 hits: 500,

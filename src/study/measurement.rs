@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::dataset::{Dataset, SceneEpochs};
-use super::epoch::{Checked, Rays, Shape};
+use super::epoch::{Rays, Shape};
 use crate::accel::Query;
 use crate::measure::{AaNoise, SubsetSamples, log_ratios, median};
 use crate::report::words::scene_name;
@@ -176,7 +176,7 @@ fn measurement(scene: &SceneEpochs, place: usize, twin: Option<usize>, kind: usi
     let twin_samples = twin.map(|twin| samples(scene, twin, kind)).filter(|samples| !samples.is_empty());
     let counts = first.counts.unwrap_or_default();
     let per_ray = |n: Option<u64>| Some(n? as f64 / counts.rays.max(1) as f64);
-    let Checked { rays: checked_rays, errors: structure_errors } = first.checked.unwrap_or_default();
+    let (checked_rays, structure_errors) = first.checked.as_ref().map_or((0, 0), |own| (own.rays, own.errors));
     Measurement {
         scene: epoch.scene.clone(),
         scene_hash: epoch.scene_hash.clone(),

@@ -29,6 +29,7 @@ mod stage;
 mod status;
 #[cfg(test)]
 mod tests;
+mod verdict;
 mod whole_times;
 
 use std::ffi::{OsStr, OsString};
@@ -48,6 +49,7 @@ pub use plan::{Plan, PlannedScene};
 pub use screen::Screen;
 pub use stage::Stage;
 pub use status::Status;
+pub use verdict::Verdict;
 
 /// A question, how it is measured, and what is said of what was measured.
 pub struct Study {

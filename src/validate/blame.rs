@@ -172,18 +172,21 @@ fn returned(
     found: Hit,
     truth: Option<&(ExactT, PrimId)>,
 ) -> Result<Margin, Blame> {
-    let is_there = truth.is_some_and(|(t, _)| DepthRule::COARSE.allows(t.approximate(), found.t, false));
+    let is_there =
+        truth.is_some_and(|(t, prim)| *prim != found.prim && DepthRule::COARSE.allows(t.approximate(), found.t, false));
     let wrong = |sentence| verdict(if is_there { Kind::WrongPrimitive } else { Kind::Invented }, sentence);
     if found.prim.index() as usize >= mesh.len() {
         return Err(wrong(format!("the mesh has no {:?}", found.prim)));
     }
     let margin = Margin::new(ray, mesh.corners(found.prim.index()), precision);
     match true_hit(mesh, ray, found) {
-        Some(t) if DepthRule::STRICT.allows(t.approximate(), found.t, true) || margin.may_round_to(found.t) => Ok(margin),
+        Some(t) if DepthRule::STRICT.allows(t.approximate(), found.t, true) || margin.may_round_to(found.t) => {
+            Ok(margin)
+        }
         Some(t) => {
             let ulps = t.round().to_bits().abs_diff(found.t.to_bits());
             let sentence = format!("exactly, {:?} is hit at {:?}, {ulps} ulps away", found.prim, t.round());
-            Err(verdict(Kind::WrongT, sentence))
+            Err(verdict(if is_there { Kind::WrongPrimitive } else { Kind::WrongT }, sentence))
         }
         None if margin.may_hit(ray, found.t) => Ok(margin),
         None => Err(wrong(format!("exactly, {:?} is not hit in the interval", found.prim))),

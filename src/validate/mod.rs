@@ -23,14 +23,14 @@ mod validation;
 mod watchdog;
 
 pub use adversarial::Stratum;
-pub use compare::{validate, validate_answers, validate_any_answers, validate_known};
+pub use compare::{differences, validate, validate_answers, validate_any_answers, validate_known};
 pub use degenerate::degenerate_meshes;
 pub use error_counts::{DepthRule, ErrorCounts, Outcome, Ulps, count_errors, outcome};
 pub use rate::Rate;
 pub(crate) use reference::HasReference;
 pub use reference::{Reference, ScalarTest};
+pub use remote::validate_remote;
 pub use rounding::Precision;
 pub use sampler::Sampler;
-pub use remote::validate_remote;
 pub use validation::{Kind, Validation, WorstRay};
 pub use watchdog::{LIMIT, WatchError, validate_watched, watched};

@@ -52,13 +52,6 @@ pub fn validate_remote(
     sums
 }
 
-fn worst(
-    index: usize,
-    ray: &Ray,
-    expected: Option<Hit>,
-    found: Option<Hit>,
-    kind: Kind,
-    verdict: String,
-) -> WorstRay {
+fn worst(index: usize, ray: &Ray, expected: Option<Hit>, found: Option<Hit>, kind: Kind, verdict: String) -> WorstRay {
     WorstRay { index: index as u64, ray: *ray, expected, found, kind, verdict, gap: f64::INFINITY }
 }

@@ -112,3 +112,12 @@ pub fn nearest_sure(mesh: &Mesh, ray: &Ray, limit: f64) -> Option<(f64, PrimId)>
     let sure = margins.filter(|(margin, _)| !margin.may_miss(ray) && margin.latest() < limit);
     sure.map(|(margin, prim)| (margin.t, prim)).min_by(|(one, _), (other, _)| one.total_cmp(other))
 }
+
+/// Whether a test in single precision may return a hit on any triangle.
+pub fn may_be_hit(mesh: &Mesh, ray: &Ray) -> bool {
+    (0..mesh.len() as u32).any(|index| {
+        let margin = Margin::new(ray, mesh.corners(index), Precision::Single);
+        let (t_min, t_max) = ray.interval();
+        margin.may_hit(ray, (margin.t as f32).clamp(t_min, t_max))
+    })
+}

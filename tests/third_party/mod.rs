@@ -2,6 +2,7 @@
 //! structures that are broken.
 
 mod broken;
+mod faulty;
 mod grid;
 mod question;
 
@@ -9,6 +10,7 @@ use std::process::{Command, ExitCode, Stdio};
 use std::time::Duration;
 
 use broken::{Broken, BrokenConfig, Fault, Modest, picks};
+use faulty::{Faulty, FaultyConfig};
 use grid::{Grid, GridConfig};
 use question::{DUPLICATION, staircase};
 use sahara::cli::Suite;
@@ -34,6 +36,7 @@ fn registry() -> Registry {
         .with::<Grid<Exact>>("grid", GridConfig::default())
         .with::<Broken>("broken", BrokenConfig::default())
         .with::<Modest>("modest", GridConfig::default())
+        .with::<Faulty>("mybvh", FaultyConfig::default())
         .with_generator("staircase", staircase)
 }
 

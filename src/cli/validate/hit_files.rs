@@ -7,8 +7,9 @@ use anyhow::Context;
 use indicatif::ProgressBar;
 
 use super::Run;
+use super::outcome::Outcome;
 use super::reference::closest_hits;
-use super::table::{note_on_reference, row, scene_table};
+use super::table::{note_on_reference, scene_table};
 use crate::accel::{DynAccel, Query};
 use crate::escaped::Escaped as _;
 use crate::geometry::{Hit, Ray};
@@ -58,7 +59,7 @@ impl Run<'_> {
         Ok(Status::Right)
     }
 
-    pub fn check_hits(&self, scene: &Scene, file: &RayFile, waiting: ProgressBar) -> anyhow::Result<Status> {
+    pub fn check_hits(&self, scene: &Scene, file: &RayFile, waiting: ProgressBar) -> anyhow::Result<Outcome> {
         let (args, choice) = (self.args, &self.reference);
         let path = args.hits.as_deref().context("the caller has seen it")?;
         anyhow::ensure!(args.test.len() < 2, "answers come from one triangle test: name one");
@@ -85,9 +86,17 @@ impl Run<'_> {
         notes.extend(note);
         notes.extend(found.worst.iter().map(|worst| format!("{name}: {worst}")));
         notes.extend(note_on_reference(&name, &found));
-        let rows = vec![row(&name, test, Ok(&found))];
-        self.terminal.print_table(&scene_table(scene, &rays, &reference_name, rows, notes));
-        Ok(if choice.refutes(&found) { Status::Wrong } else { Status::Right })
+        let outcome = Outcome {
+            scene: scene.name.clone(),
+            label: name,
+            triangle_test: test.into(),
+            is_brought: true,
+            has_known_defect: false,
+            found: Ok(found),
+        };
+        let outcomes = std::slice::from_ref(&outcome);
+        self.terminal.print_table(&scene_table(scene, &rays, &reference_name, outcomes, notes));
+        Ok(outcome)
     }
 }
 

@@ -1,7 +1,9 @@
 //! `validate`.
 
+mod export;
 mod hard;
 mod hit_files;
+mod outcome;
 mod reference;
 mod scene;
 mod table;
@@ -23,8 +25,9 @@ use crate::scene::Scene;
 use crate::study::Status;
 use crate::validate::{LIMIT, watched};
 
+use export::Export;
 use reference::{DEFAULT_RAYS, ReferenceChoice};
-use table::LEGEND;
+use table::{LEGEND, RETRACE};
 
 pub use hard::{CHILD, ChildArgs, described, run_child};
 
@@ -38,6 +41,9 @@ pub struct Args {
     /// A structure, with keys that differ from their defaults; may be repeated [default: all, one of each name]
     #[arg(long, short, value_name = "NAME[:key=value,..]")]
     structure: Vec<String>,
+    /// A program in another language as a structure, with its arguments; NAME is how tables call it; may be repeated
+    #[arg(long, value_name = "[NAME=]COMMAND", allow_hyphen_values = true)]
+    runner: Vec<String>,
     /// Default build quality of eight-wide trees
     #[arg(long, value_parser = request::QUALITIES)]
     quality: Option<String>,
@@ -63,13 +69,16 @@ pub struct Args {
         conflicts_with_all = ["rays", "seed", "camera", "inside", "size"])]
     ray: Vec<Ray>,
     /// Check the hits of this file, for the rays of the file of --rays, instead of structures
-    #[arg(long, value_name = "F.hits", conflicts_with_all = ["structure", "quality", "export_hits", "limit"])]
+    #[arg(long, value_name = "F.hits", conflicts_with_all = ["structure", "runner", "quality", "export_hits", "limit"])]
     hits: Option<PathBuf>,
     /// With --hits the triangle test that found them [default: an unknown one, judged by exact arithmetic]; with --hard the test of all
     /// structures that offer it, may be repeated [default: each structure's own]
     #[arg(long, short, value_name = "NAME")]
     test: Vec<String>,
-    /// Write the results of --hard as JSON
+    /// Fail, with status 2, also where a triangle test rounds and the tree is right
+    #[arg(long)]
+    strict: bool,
+    /// Write verdicts, counts and the worst rays as JSON
     #[arg(long, value_name = "FILE")]
     export_json: Option<PathBuf>,
     /// Write the hits of one structure for the rays of the file of --rays
@@ -98,14 +107,12 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         args.test.is_empty() || args.hard.is_some() || args.hits.is_some(),
         "--test is for --hits and --hard: here name it with the structure, as in sah-kd:test=exact"
     );
-    anyhow::ensure!(
-        args.export_json.is_none() || args.hard.is_some(),
-        "--export-json is for --hard: here answers are written by --export-hits"
-    );
     if let Some(cases) = &args.hard {
         return hard::run(registry, args, cases, terminal);
     }
-    let structures = request::structures_at(registry, &args.structure, args.quality.as_deref())?;
+    let structures = args.structures(registry)?;
+    let json = args.export_json.as_deref().map(|to| request::output(registry, to, &args.scenes, args.source().file()));
+    let json = json.transpose()?;
     let reference = ReferenceChoice::named(registry, &args.against)?;
     let run = Run { registry, args, structures, reference, terminal };
     let waiting = spinner("loads scenes", terminal);
@@ -117,36 +124,62 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         replay.is_none() || args.seed.is_none() && !args.adversarial,
         "the rays are those of the file: leave --adversarial and --seed out"
     );
-    if args.hits.is_some() || args.export_hits.is_some() {
-        let ((_, scene), file) = replay.context("answers belong to rays of a file: give one with --rays F.rays")?;
-        return match &args.export_hits {
-            Some(output) => run.export_hits(&scene, &file, output, waiting),
-            None => run.check_hits(&scene, &file, waiting),
+    if let Some(output) = &args.export_hits {
+        let ((_, scene), file) = replay.context(NEEDS_RAYS)?;
+        return run.export_hits(&scene, &file, output, waiting);
+    }
+    let outcomes = if args.hits.is_some() {
+        let ((_, scene), file) = replay.context(NEEDS_RAYS)?;
+        vec![run.check_hits(&scene, &file, waiting)?]
+    } else {
+        let (scenes, recorded) = match replay {
+            Some(((_, scene), file)) => (vec![scene], Some(file.workload.rays)),
+            None => {
+                // Where the scene is seen from matters to the rays of the workloads alone.
+                let is_seen = args.ray.is_empty() && !args.adversarial;
+                let seen = |scene| if is_seen { args.from.of(scene) } else { Ok(scene) };
+                let scenes = request::scenes(registry, &args.scenes)?.into_iter().map(seen);
+                (scenes.collect::<anyhow::Result<Vec<Scene>>>()?, None)
+            }
         };
-    }
-    let (scenes, recorded) = match replay {
-        Some(((_, scene), file)) => (vec![scene], Some(file.workload.rays)),
-        None => {
-            // Where the scene is seen from matters to the rays of the workloads alone.
-            let is_seen = args.ray.is_empty() && !args.adversarial;
-            let seen = |scene| if is_seen { args.from.of(scene) } else { Ok(scene) };
-            let scenes = request::scenes(registry, &args.scenes)?.into_iter().map(seen);
-            (scenes.collect::<anyhow::Result<Vec<Scene>>>()?, None)
+        drop(waiting);
+        let mut outcomes = vec![];
+        for scene in &scenes {
+            outcomes.extend(run.validate(scene, recorded.as_deref())?);
         }
+        outcomes
     };
-    drop(waiting);
 
-    let mut status = Status::Right;
-    for scene in &scenes {
-        status = status.and(run.validate(scene, recorded.as_deref())?);
+    terminal.print_lines(&[RETRACE].map(String::from));
+    if terminal.verbose {
+        terminal.print_lines(&LEGEND.map(String::from));
     }
-    terminal.print_lines(&LEGEND.map(String::from));
-    Ok(status)
+    let verdicts = outcome::verdicts(&outcomes);
+    terminal.print_lines(&outcome::sentences(&verdicts));
+    if let Some(file) = json {
+        let results = outcomes.iter().map(outcome::Outcome::record).collect();
+        file.write(&serde_json::to_vec_pretty(&Export::new(&verdicts, results))?)?;
+    }
+    Ok(outcomes.iter().fold(Status::Right, |status, own| status.and(own.status(args.strict))))
 }
+
+const NEEDS_RAYS: &str = "answers belong to rays of a file: give one with --rays F.rays";
 
 impl Args {
     fn source(&self) -> RaySource {
         self.rays.clone().unwrap_or(RaySource::Count(DEFAULT_RAYS))
+    }
+
+    /// The structures to check: with --runner and without --structure the programs alone.
+    fn structures(&self, registry: &Registry) -> anyhow::Result<Vec<Choice>> {
+        let mut structures = vec![];
+        if self.runner.is_empty() || !self.structure.is_empty() {
+            structures = request::structures_at(registry, &self.structure, self.quality.as_deref())?;
+        }
+        for command in &self.runner {
+            structures.push(request::runner(command, self.limit.seconds())?);
+        }
+        Ok(structures)
     }
 
     fn build(&self, choice: &Choice, scene: &Scene, waiting: &ProgressBar) -> Result<Arc<dyn DynAccel>, BuildFailure> {

@@ -13,8 +13,8 @@ use crate::registry::{Choice, Registry};
 use crate::report::number::count;
 use crate::request::{self, BRUTE_FORCE, SAH_TREE};
 use crate::scene::Scene;
-use crate::triangle::{MollerTrumbore, TriangleTest};
-use crate::validate::{Reference, Validation};
+use crate::triangle::{Exact, TriangleTest};
+use crate::validate::Reference;
 
 /// Default number of rays of a scene, and how many triangle tests brute force may run for them with each triangle test.
 pub const DEFAULT_RAYS: usize = 10_000;
@@ -40,16 +40,15 @@ impl ReferenceChoice {
     pub fn build(&self, scene: &Scene, test: &str) -> anyhow::Result<Reference> {
         let Some(choice) = &self.0 else { return Ok(Reference::of_test(test, &scene.mesh)?) };
         let failure = || format!("{} cannot be built over {}", choice.label, scene.name);
-        Ok(Reference::structure(choice.build(&scene.mesh).with_context(failure)?))
+        Ok(Reference::structure(choice.build(&scene.mesh).with_context(failure)?, test))
     }
 
     /// `reference` in words, for hits from a file that this triangle test found.
     pub fn name_for_file(&self, reference: &Reference, test: &str) -> String {
-        let other = MollerTrumbore::NAME;
         match self.0 {
             Some(_) => self.to_string(),
             None if reference.knows_structure_errors() => format!("brute force with {test}"),
-            None => format!("brute force with {other}, where they differ judged by exact arithmetic"),
+            None => format!("brute force with {}", Exact::NAME),
         }
     }
 
@@ -77,12 +76,6 @@ impl ReferenceChoice {
         let is_brute_force = self.0.as_ref().is_none_or(|choice| choice.entry.name == BRUTE_FORCE);
         if is_brute_force { (tests / triangles.max(1)).max(1) } else { usize::MAX }
     }
-
-    /// Whether hits are wrong. Their depths are judged strictly where the reference was chosen for its hits.
-    pub fn refutes(&self, found: &Validation) -> bool {
-        let errors = if self.0.is_some() { found.strict_errors() } else { found.errors() };
-        errors > 0
-    }
 }
 
 impl fmt::Display for ReferenceChoice {
@@ -107,7 +100,8 @@ pub struct References<'a> {
 
 impl References<'_> {
     pub fn get(&mut self, test: &'static str, waiting: &ProgressBar) -> anyhow::Result<&ReferenceHits> {
-        let key = self.choice.0.is_none().then_some(test);
+        // A structure that was chosen for its hits is one for all tests that round.
+        let key = (self.choice.0.is_none() || test == Exact::NAME).then_some(test);
         if !self.known.contains_key(&key) {
             let reference = self.choice.build(self.scene, test)?;
             let over = key.map(|test| format!(" ({test})")).unwrap_or_default();
@@ -164,15 +158,16 @@ mod tests {
         assert_eq!(tree.sample(&recorded, 10_000_000), (recorded, None));
     }
 
+    /// What a test may round decides who is wrong, so `exact` has a reference of its own.
     #[test]
-    fn one_structure_for_all_tests_is_built_and_traced_once() {
+    fn one_structure_for_all_tests_that_round_is_built_and_traced_once() {
         let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
         let waiting = spinner(String::new(), &Terminal::new(Colour::Never, true));
         for (choice, is_shared) in choices([BRUTE_FORCE, "sah-kd"]).iter().zip([false, true]) {
             let mut references = References { scene: &scene, rays: &[], choice, known: BTreeMap::new() };
-            let [one, other, again] =
-                ["exact", "watertight", "exact"].map(|test| Arc::clone(&references.get(test, &waiting).unwrap().0));
-            assert!(Arc::ptr_eq(&one, &again));
+            let [one, other, again, exact] = ["plucker", "watertight", "plucker", "exact"]
+                .map(|test| Arc::clone(&references.get(test, &waiting).unwrap().0));
+            assert!(Arc::ptr_eq(&one, &again) && !Arc::ptr_eq(&one, &exact));
             assert_eq!(Arc::ptr_eq(&one, &other), is_shared, "{choice}");
         }
     }

@@ -2,79 +2,76 @@
 
 use std::collections::BTreeMap;
 
+use super::Run;
+use super::outcome::Outcome;
 use super::reference::{DEFAULT_RAYS, References};
-use super::table::{answer_table, answers, note_on_reference, row, scene_table};
-use super::{BuildFailure, Run};
+use super::table::{answer_table, answers, note_on_reference, scene_table};
 use crate::cli::progress::spinner;
 use crate::geometry::Ray;
 use crate::registry::Choice;
 use crate::report::number::plural;
 use crate::request::{self, RaySource, Structures, known_defect, left_out};
 use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
-use crate::study::Status;
-use crate::validate::{Stratum, Validation, validate_watched};
+use crate::validate::{Stratum, Validation, validate_remote, validate_watched};
 
 impl Run<'_> {
     /// Compares all structures with the reference, on recorded rays or others, and prints the table.
-    pub fn validate(&self, scene: &Scene, recorded: Option<&[Ray]>) -> anyhow::Result<Status> {
+    pub fn validate(&self, scene: &Scene, recorded: Option<&[Ray]>) -> anyhow::Result<Vec<Outcome>> {
         let Self { args, terminal, .. } = self;
         let triangles = scene.mesh.len();
         let mut notes = scene.notes.clone();
         let rays = self.rays(scene, recorded, &mut notes)?;
         let named = Structures { structure: args.structure.clone(), quality: None };
         let mut references = References { scene, rays: &rays, choice: &self.reference, known: BTreeMap::new() };
-        let (mut status, mut rows, mut of_structures, mut hits) = (Status::Right, vec![], vec![], vec![]);
+        let (mut outcomes, mut of_structures) = (vec![], vec![]);
         for choice in &self.structures {
-            if named.leaves_out(&choice.entry.name, triangles) {
+            if args.runner.is_empty() && named.leaves_out(&choice.entry.name, triangles) {
                 notes.push(left_out(scene));
                 continue;
             }
             let waiting = spinner(String::new(), terminal);
             let (reference, expected) = references.get(choice.triangle_test(), &waiting)?;
-            match args.build(choice, scene, &waiting) {
-                Ok(accel) => {
-                    waiting.set_message(format!("{} checks {}", scene.name, choice.label));
-                    let found =
-                        validate_watched(&accel, reference, expected, &scene.mesh, &rays, args.limit.duration());
-                    if !args.ray.is_empty() {
-                        of_structures.push(answers(&choice.label, &accel, &rays, &scene.mesh, args.limit.duration()));
-                    }
-                    status = status.and(self.status(choice, &found, &mut notes));
-                    rows.push(row(&choice.label, choice.triangle_test(), Ok(&found)));
-                    hits.push(found.hits);
+            let found = args.build(choice, scene, &waiting).map(|accel| {
+                waiting.set_message(format!("{} checks {}", scene.name, choice.label));
+                let limit = args.limit.duration();
+                if !args.ray.is_empty() {
+                    of_structures.push(answers(&choice.label, &accel, &rays, &scene.mesh, limit));
                 }
-                Err(failure) => {
-                    let (own, word) = match failure {
-                        BuildFailure::Hangs(_) => (Status::Wrong, "hangs"),
-                        BuildFailure::Refused(_) => (Status::Refused, "refused"),
-                    };
-                    status = status.and(own);
-                    rows.push(row(&choice.label, choice.triangle_test(), Err(word)));
-                    notes.push(format!("{}: {failure}", choice.label));
+                match accel.remote() {
+                    Some(_) => validate_remote(accel.as_ref(), reference, expected, &scene.mesh, &rays),
+                    None => validate_watched(&accel, reference, expected, &scene.mesh, &rays, limit),
                 }
-            }
+            });
+            let outcome = Outcome::new(&scene.name, choice, found);
+            notes.extend(self.notes(choice, &outcome));
+            outcomes.push(outcome);
         }
+        let hits: Vec<u64> = outcomes.iter().filter_map(|own| Some(own.found.as_ref().ok()?.hits)).collect();
         if args.ray.is_empty() && !hits.is_empty() && hits.iter().all(|&hits| hits == 0) {
             notes.push("No ray hits anything by the reference: no hit could be lost, and this shows little.".into());
         }
-        terminal.print_table(&scene_table(scene, &rays, &self.reference, rows, notes));
+        terminal.print_table(&scene_table(scene, &rays, &self.reference, &outcomes, notes));
         if !args.ray.is_empty() {
             terminal.print_table(&answer_table(&scene.name, &of_structures));
         }
-        Ok(status)
+        Ok(outcomes)
     }
 
-    /// What a comparison means for the run; adds what is to be said of it.
-    fn status(&self, choice: &Choice, found: &Validation, notes: &mut Vec<String>) -> Status {
+    /// What is to be said of an outcome beside its row.
+    fn notes(&self, choice: &Choice, outcome: &Outcome) -> Vec<String> {
         let label = &choice.label;
-        let defect = known_defect(&choice.entry.name).filter(|_| self.reference.refutes(found));
-        notes.extend(
-            defect.map(|defect| format!("{label}: its known defects, which do not change the exit status: {defect}")),
-        );
+        let found = match &outcome.found {
+            Ok(found) => found,
+            Err(failure) => return vec![format!("{label}: {failure}")],
+        };
+        let mut notes = vec![];
+        if let Some(defect) = known_defect(&choice.entry.name).filter(|_| found.errors() > 0) {
+            notes.push(format!("{label}: its known defects, which do not change the exit status: {defect}"));
+        }
         notes.extend(declined(choice, found));
         notes.extend(found.worst.iter().map(|worst| format!("{label}: {worst}")));
         notes.extend(note_on_reference(label, found));
-        if self.reference.refutes(found) && defect.is_none() { Status::Wrong } else { Status::Right }
+        notes
     }
 
     /// Recorded or given rays, or else rays of every workload or stratum, of each the same number.

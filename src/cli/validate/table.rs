@@ -4,29 +4,62 @@ use std::fmt;
 use std::sync::Arc;
 use std::time::Duration;
 
+use super::BuildFailure;
+use super::outcome::Outcome;
 use crate::accel::DynAccel;
 use crate::geometry::{Mesh, Ray};
 use crate::report::number::{count, plural};
 use crate::report::{Cell, Table, Tone};
 use crate::scene::Scene;
 use crate::scene::offset::barycentrics;
+use crate::study::Verdict;
 use crate::validate::{Validation, watched};
 
 pub fn scene_table(
     scene: &Scene,
     rays: &[Ray],
     reference: &dyn fmt::Display,
-    rows: Vec<Vec<Cell>>,
+    outcomes: &[Outcome],
     notes: Vec<String>,
 ) -> Table {
     let stand_in = if scene.stand_ins.is_empty() { "" } else { ", stand-in" };
     let (triangles, rays) = (plural(scene.mesh.len(), "triangle"), plural(rays.len(), "ray"));
     let title = format!("{}: {triangles}{stand_in}; {rays} against {reference}", scene.name);
-    Table::new(title, COLUMNS, rows).noted(notes)
+    let row = |own: &Outcome| COLUMNS.iter().map(|(_, cell)| cell(own)).collect();
+    let table = Table::new(title, COLUMNS.map(|(name, _)| name), outcomes.iter().map(row));
+    table.with_details(COLUMNS.iter().skip(5).map(|(name, _)| *name)).noted(notes)
 }
 
-const COLUMNS: [&str; 8] =
-    ["structure", "triangle test", "hits", "structure errors", "answer errors", "coarse", "test errors", "ties"];
+const COLUMNS: [(&str, fn(&Outcome) -> Cell); 10] = [
+    ("structure", |own| own.label.as_str().into()),
+    ("triangle test", |own| own.triangle_test.as_str().into()),
+    ("hits", hits),
+    ("wrong", |own| errors(own, |found| Verdict::from(found).wrong)),
+    ("rounded", |own| number(own, |found| Verdict::from(found).rounded)),
+    ("structure errors", |own| errors(own, |found| found.errors() - found.answer_errors)),
+    ("answer errors", |own| errors(own, |found| found.answer_errors)),
+    ("depth errors", |own| number(own, |found| found.depth_errors)),
+    ("test errors", |own| number(own, |found| found.test_errors)),
+    ("ties", |own| number(own, |found| found.ties)),
+];
+
+fn hits(own: &Outcome) -> Cell {
+    match &own.found {
+        Err(BuildFailure::Hangs(_)) => Cell::from("hangs").with(Tone::Wrong),
+        Err(BuildFailure::Refused(_)) => Cell::from("refused").with(Tone::Wrong),
+        Ok(found) if found.rays == 0 && found.declined > 0 => "declined".into(),
+        Ok(found) => count(found.hits).into(),
+    }
+}
+
+fn number(own: &Outcome, of: fn(&Validation) -> u64) -> Cell {
+    own.found.as_ref().map_or(Cell::empty(), |found| count(of(found)).into())
+}
+
+fn errors(own: &Outcome, of: fn(&Validation) -> u64) -> Cell {
+    let is_wrong = own.found.as_ref().is_ok_and(|found| of(found) > 0);
+    number(own, of).with(if is_wrong { Tone::Wrong } else { Tone::Plain })
+}
 
 /// Where the reference has another triangle test, exact arithmetic may find either of the two wrong.
 pub fn note_on_reference(name: &str, found: &Validation) -> Option<String> {
@@ -34,36 +67,19 @@ pub fn note_on_reference(name: &str, found: &Validation) -> Option<String> {
     (found.reference_errors > 0).then(|| format!("On {rays} the reference is wrong and not {name}: no errors of it."))
 }
 
-pub const LEGEND: [&str; 4] = [
-    "hits: rays that hit something by the reference. structure errors: hits lost or invented although the structure's own \
-     triangle test, run over all triangles, says otherwise, contradictions, panics and queries that never return; none in a \
-     correct structure. answer errors: wrong hits where the reference has another triangle test.",
-    "A depth is wrong if it is off by more than 4 ulps and more than 1e-6. coarse: the answer errors that remain if up to 1 %, \
-     or 0.1 % on another triangle, is allowed; the others are common where tests in f32 meet grazing rays, and without \
-     --against they do not change the exit status.",
+pub const RETRACE: &str = "To trace a ray again: sahara validate SCENE --structure NAME --ray \"ox,oy,oz dx,dy,dz\"";
+
+/// What the columns mean.
+pub const LEGEND: [&str; 3] = [
+    "hits: rays that hit something by the reference. wrong: hits that no rounding of the triangle test explains, contradictions, \
+     panics and queries that never return; none in a correct structure. rounded: hits that differ from the reference by what the \
+     triangle test rounds; they change the exit status under --strict alone.",
+    "structure errors: hits lost or invented although the structure's own triangle test, run over all triangles, says otherwise. \
+     answer errors: wrong hits of a structure with a test of its own, by exact arithmetic and a bound of rounding. depth errors: of \
+     those, depths that are off by more than 4 ulps and more than 1e-6, and by no more than the bound.",
     "test errors: those that the triangle test causes, not the structure. ties: hits on another triangle at the same depth; no \
      errors.",
-    "To trace a ray again: sahara validate SCENE --structure NAME --ray \"ox,oy,oz dx,dy,dz\"",
 ];
-
-/// What was found of a structure, or the word for why it was not built.
-pub fn row(label: &str, test: &str, found: Result<&Validation, &str>) -> Vec<Cell> {
-    let mut row: Vec<Cell> = vec![label.into(), test.into()];
-    let errors = |n: u64| Cell::from(count(n)).with(if n > 0 { Tone::Wrong } else { Tone::Plain });
-    match found {
-        Ok(found) => row.extend([
-            if found.rays == 0 && found.declined > 0 { "declined".into() } else { count(found.hits).into() },
-            errors(found.errors() - found.answer_errors),
-            errors(found.answer_errors + found.depth_errors),
-            count(found.answer_errors).into(),
-            count(found.test_errors).into(),
-            count(found.ties).into(),
-        ]),
-        Err(why) => row.push(Cell::from(why).with(Tone::Wrong)),
-    }
-    row.resize(COLUMNS.len(), Cell::empty());
-    row
-}
 
 /// One row per ray: number of the ray, t, triangle, and where on it.
 pub fn answers(label: &str, accel: &Arc<dyn DynAccel>, rays: &[Ray], mesh: &Mesh, limit: Duration) -> Vec<Vec<Cell>> {

@@ -112,8 +112,7 @@ impl Checks<'_> {
                 Some(_) => validate_remote(accel, reference, &answers, self.scene, &rays, workload.query),
                 None => validate_known(accel, reference, &answers, &self.scene.mesh, &rays),
             };
-            let errors = found.errors().min(found.rays) as usize;
-            (found.panics == 0).then_some(Checked { rays: found.rays as usize, errors })
+            (found.panics == 0).then(|| Checked::from(&found))
         };
         batches.iter().zip(answers).zip(self.workloads).map(of_batch).collect()
     }

@@ -13,12 +13,16 @@ mod ray_cost;
 mod room;
 mod sample_failure;
 mod slowest;
+mod timed_check;
 mod timing;
 
+use std::ffi::OsStr;
+
 use super::case::{Case, Check};
-use super::epoch::{Epoch, RayCounts, Rays, Shape, Structure};
+use super::epoch::{Checked, Epoch, RayCounts, Rays, Shape, Structure};
 use super::{Stage, StudyError};
 use crate::accel::{BuildError, DynAccel, Remote};
+use crate::escaped::Escaped as _;
 use crate::measure::{Clock, SamplePlan, Threads, spread};
 use crate::oracle::Oracle;
 use crate::registry::{Choice, Registry};
@@ -31,6 +35,7 @@ use pair::Pair;
 use placed::Placed;
 use sample_failure::SampleFailure;
 use slowest::slowest;
+use timed_check::TimedCheck;
 use timing::Timing;
 
 pub use build_watch::BuildWatch;
@@ -88,6 +93,9 @@ pub fn measure(
     }
     let environment = bench.sample(clock, progress);
     if is_first {
+        if let Check::BruteForce { tests, .. } = case.settings.check {
+            bench.check_timed(tests, progress)?;
+        }
         progress(Stage::Count);
         bench.count();
     }
@@ -197,11 +205,29 @@ impl<'a> Bench<'a> {
                 continue;
             };
             for (rays, check) in structure.rays.iter_mut().zip(checks) {
-                rays.checked = Some(check);
-                rays.wrong = rays.untimed.is_none() && check.errors > 0;
-                if rays.wrong {
-                    rays.untimed = Some(format!("{} wrong answers to {} rays", check.errors, check.rays));
-                }
+                settle(rays, check, &self.case.scene.word, built);
+            }
+        }
+        Ok(())
+    }
+
+    /// Checks all answers that were timed; those with wrong hits lose their times.
+    fn check_timed(&mut self, tests: usize, progress: &mut dyn FnMut(Stage)) -> Result<(), StudyError> {
+        let Prepared { scene, .. } = self.prepared;
+        let mut checks = TimedCheck::new(scene, &self.workloads, self.case.epochs, tests);
+        for pair in Pair::all(self.structures.len(), self.workloads.len()) {
+            let (structure, built) = (&mut self.structures[pair.structure], &self.built[pair.structure]);
+            let Some(built) = built.as_ref().filter(|_| structure.refused.is_none()) else { continue };
+            let timed = structure.rays[pair.workload].rays;
+            if timed == 0 {
+                continue;
+            }
+            progress(Stage::Check((&structure.label).into()));
+            let check = checks.check(built, &pair, timed).map_err(StudyError::of_build("sah-bvh", &scene.name))?;
+            let failure = built.accel.remote().and_then(Remote::failure);
+            match check.filter(|_| failure.is_none()) {
+                Some(check) => settle(&mut structure.rays[pair.workload], check, &self.case.scene.word, built),
+                None => structure.refused = Some(failure.unwrap_or_else(|| PANICKED.into())),
             }
         }
         Ok(())
@@ -324,6 +350,24 @@ impl<'a> Bench<'a> {
             structure.refused = structure.refused.take().or(failure);
         }
     }
+}
+
+/// Records what was checked; wrong answers have no time, and the ray that shows it is named.
+fn settle(rays: &mut Rays, check: Checked, scene: &OsStr, built: &Built) {
+    rays.wrong = check.errors > 0 && (rays.untimed.is_none() || rays.wrong);
+    if rays.wrong {
+        let structure = match built.choice.command() {
+            Some(command) => format!("--runner {command:?}"),
+            None => format!("-s {}", built.choice.label),
+        };
+        let go_on = check.example.as_ref().map_or(String::new(), |(ray, sentence)| {
+            format!("; {sentence}; go on with: sahara validate {} {structure} --ray \"{ray}\"", scene.escaped())
+        });
+        let counts = format!("{} wrong answers to {} rays", check.errors, check.rays);
+        *rays =
+            Rays { untimed: Some(counts + &go_on), ns: vec![], parts: vec![], rays: 0, checksum: 0, ..rays.clone() };
+    }
+    rays.checked = Some(check);
 }
 
 /// A structure on a workload before it is checked and timed.

@@ -105,19 +105,24 @@ fn other_damage_is_told_apart() {
     }
 }
 
-/// 1e-4 is far more than a test in `f64` rounds, and less than grazing rays have in `f32`.
+/// A test in single precision may round by a few millionths here, but not by a tenth of a thousandth.
 #[test]
-fn depths_are_judged_strictly_beside() {
-    let off = |_, hit: Option<Hit>| hit.map(|h| Hit { t: h.t * 1.0001, ..h });
-    let v = damaged(off, |any| any, false).unwrap();
-    assert!(v.depth_errors > 1000 && v.depth_errors == v.differing, "{v:?}");
-    assert_eq!((v.errors(), v.strict_errors()), (0, v.depth_errors));
+fn depths_are_judged_by_a_bound_of_rounding() {
+    let near = |_, hit: Option<Hit>| hit.map(|h| Hit { t: h.t * (1.0 + 2e-6), ..h });
+    let v = damaged(near, |any| any, false).unwrap();
+    assert!(v.depth_errors > 1000 && v.depth_errors + v.reference_errors == v.differing, "{v:?}");
+    assert_eq!(v.errors(), 0);
     let worst = &v.worst[0];
     assert!(worst.kind == Kind::Depth && worst.verdict.contains("ulps away"), "{worst}");
     assert_eq!(v.worst_error(), None);
     // With the same test they owe each other the bits.
-    let v = damaged(off, |any| any, true).unwrap();
+    let v = damaged(near, |any| any, true).unwrap();
     assert_eq!((v.depth_errors, v.structure_errors), (0, v.differing));
+
+    let far = |_, hit: Option<Hit>| hit.map(|h| Hit { t: h.t * 1.0001, ..h });
+    let v = damaged(far, |any| any, false).unwrap();
+    assert!(v.answer_errors > 1000 && v.depth_errors < 100, "{v:?}");
+    assert_eq!(v.worst_error().map(|worst| worst.kind), Some(Kind::WrongT));
 }
 
 #[test]
@@ -143,7 +148,7 @@ fn a_farther_hit_is_a_lost_nearer_one() {
     let rays = Stratum::Random.rays(&mesh, 3000, 2);
     let v = validate(&half, &reference, &mesh, &rays);
     assert!(v.structure_errors > 500 && v.any_hit_errors == 0);
-    let answers = validate(&half, &Reference::structure(reference.accel), &mesh, &rays);
+    let answers = validate(&half, &Reference::structure(reference.accel, "own"), &mesh, &rays);
     assert!(answers.answer_errors > 500 && answers.structure_errors == 0);
     let kinds = |v: &Validation| v.worst.iter().all(|w| w.kind == Kind::Lost);
     assert!(kinds(&v) && kinds(&answers), "lost outright comes before lost behind another");

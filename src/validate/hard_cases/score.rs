@@ -9,7 +9,7 @@ use super::case::{HardCase, Property};
 use super::set::Set;
 use crate::accel::BuildError;
 use crate::oracle::{Oracle, Truth};
-use crate::validate::{DepthRule, ErrorCounts, Reference, count_errors, validate_answers};
+use crate::validate::{DepthRule, ErrorCounts, Reference, Validation, count_errors, validate_answers};
 
 /// The mesh, rays and truth of one case, made once for all structures.
 pub struct CaseTruth {
@@ -50,11 +50,10 @@ pub struct RayScore {
     pub judged: ErrorCounts,
     /// Wrong depths by the coarse rule: what shows in a picture.
     pub coarse_depth: u64,
-    /// Hits that were lost or invented although the structure's own triangle test, run over all triangles, says otherwise.
-    /// Nothing where that test is not known.
-    pub structure_errors: Option<u64>,
-    /// The worst of them, in a sentence.
-    pub example: Option<String>,
+    /// Against brute force: errors of the structure, and those that its triangle test rounds.
+    pub validation: Validation,
+    /// Whether that has the structure's own triangle test, run over all triangles.
+    pub knows_structure_errors: bool,
     /// Rays for which any hit contradicts closest hit, or a batch a single ray.
     pub contradictions: u64,
     /// Hits that are not the nearest `f32` of the true `t`, or not at the lowest number of the nearest primitives. An exact
@@ -104,10 +103,8 @@ impl CaseTruth {
             self.references.insert(test, Reference::of_test(test, &set.mesh)?);
         }
         let reference = &self.references[test];
-        let own = reference.knows_structure_errors().then(|| {
-            let expected = reference.closest_hits(&set.rays);
-            validate_answers(reference, &expected, &set.mesh, &set.rays, &answers.hits)
-        });
+        let expected = reference.closest_hits(&set.rays);
+        let validation = validate_answers(reference, &expected, &set.mesh, &set.rays, &answers.hits);
 
         let inexact = truths.iter().zip(&answers.hits).filter(|(truth, hit)| match (truth, hit) {
             (Some(truth), Some(hit)) => {
@@ -119,8 +116,8 @@ impl CaseTruth {
             judged: count_errors(truths, &answers.hits, DepthRule::STRICT),
             coarse_depth: count_errors(truths, &answers.hits, DepthRule::COARSE).wrong_depth,
             inexact: inexact.count() as u64,
-            structure_errors: own.as_ref().map(|own| own.structure_errors),
-            example: own.as_ref().and_then(|own| own.worst_error().map(ToString::to_string)),
+            validation,
+            knows_structure_errors: reference.knows_structure_errors(),
             contradictions: answers.any_hit_errors + answers.unrepeatable,
             slowness: answers.slowness,
             build_ns: answers.build_ns,
@@ -157,7 +154,13 @@ impl Score {
 }
 
 impl RayScore {
+    /// No hit that the structure lost or invented, whatever its triangle test rounds, and no contradiction.
     fn is_sound(&self) -> bool {
-        self.structure_errors.unwrap_or(0) == 0 && self.contradictions == 0
+        self.validation.errors() == 0 && self.contradictions == 0
+    }
+
+    /// The worst wrong hit, in a sentence.
+    pub fn example(&self) -> Option<String> {
+        self.validation.worst_error().map(ToString::to_string)
     }
 }

@@ -8,8 +8,10 @@ use crate::accel::BuildError;
 use crate::measure::subprocess::{output_within, same_program};
 use crate::measure::{SystemClock, process_group};
 use crate::registry::{Choice, Registry};
+use crate::request;
 use crate::simd::Level;
 use crate::study::Status;
+use crate::validate::LIMIT;
 use crate::validate::hard_cases::{Answers, Failure, HardCase, find, run};
 
 /// The hidden command that a child runs.
@@ -20,7 +22,14 @@ pub struct Args {
     /// Name of a hard case
     name: String,
     /// A structure, with keys that differ from their defaults
-    structure: String,
+    #[arg(required_unless_present = "runner")]
+    structure: Option<String>,
+    /// A program in its place
+    #[arg(long, allow_hyphen_values = true)]
+    runner: Option<String>,
+    /// Seconds that the program may take for an answer
+    #[arg(long, default_value_t = LIMIT.as_secs_f64())]
+    limit: f64,
     /// Rays at most
     #[arg(long)]
     rays: u32,
@@ -31,7 +40,12 @@ const PANICKED: i32 = 101;
 /// The child's side: writes what the structure returns to standard output.
 pub fn run_child(registry: &Registry, args: &Args) -> anyhow::Result<Status> {
     process_group::end_with_parent();
-    let (case, choice) = (find(&args.name)?, registry.choose(&args.structure)?);
+    let case = find(&args.name)?;
+    let choice = match (&args.runner, &args.structure) {
+        (Some(command), _) => request::runner(command, args.limit)?,
+        (None, Some(structure)) => registry.choose(structure)?,
+        (None, None) => anyhow::bail!("a structure or a runner is needed"),
+    };
     match run(case, &choice.subject(), args.rays as usize, &SystemClock::start()) {
         Ok(answers) => {
             crate::output::print(&serde_json::to_vec(&answers)?);
@@ -46,7 +60,12 @@ pub fn run_child(registry: &Registry, args: &Args) -> anyhow::Result<Status> {
 /// The parent's side: runs a case of at most `rays` rays in a child. The outer error is that none can be started.
 pub fn answers(case: &HardCase, choice: &Choice, rays: u32, limit: Duration) -> io::Result<Result<Answers, Failure>> {
     let (rays, level) = (rays.to_string(), Level::current().name());
-    let mut command = same_program([COMMAND, case.name, &choice.label, "--rays", &rays, "--level", level]);
+    let limit_s = limit.as_secs_f64().to_string();
+    let structure = match choice.command() {
+        Some(command) => vec!["--runner", command, "--limit", &limit_s],
+        None => vec![&*choice.label],
+    };
+    let mut command = same_program([&[COMMAND, case.name, "--rays", &rays, "--level", level], &*structure].concat());
     Ok(outcome(output_within(&mut command, limit)?))
 }
 

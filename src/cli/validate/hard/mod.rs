@@ -12,19 +12,21 @@ use std::time::Duration;
 use anyhow::Context;
 
 use super::Args;
+use super::export::Export;
+use super::outcome::{Verdicts, sentences};
 use crate::cli::progress::spinner;
 use crate::cli::terminal::Terminal;
-use crate::measure::Provenance;
 use crate::output::OutputFile;
 use crate::registry::{Choice, Registry};
 use crate::report::number::plural;
 use crate::report::words::each_once_by;
 use crate::request::{self, known_defect};
-use crate::study::Status;
+use crate::study::{Status, Verdict};
 use crate::triangle::{Exact, TriangleTest};
+use crate::validate::Kind;
 use crate::validate::hard_cases::{Answers, CaseTruth, Content, Failure, HardCase, Score, catalogue, find_all};
-use record::{HardRun, record};
-use table::{Column, LEGEND, tables};
+use record::record;
+use table::{Column, LEGEND, summary, tables};
 
 pub use child::{Args as ChildArgs, COMMAND as CHILD, run_child};
 
@@ -41,7 +43,7 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
     };
     // A case that is named twice, by its name and by its number, counts once.
     let cases = each_once_by(cases, |one, other| one.name == other.name);
-    let structures = request::structures_at(registry, &args.structure, args.quality.as_deref())?;
+    let structures = args.structures(registry)?;
     let choices = choices(registry, structures, &args.test)?;
     let rays = u32::try_from(args.source().number()?.min(MOST_RAYS))?;
     let json = args.export_json.as_deref().map(OutputFile::check).transpose()?;
@@ -59,25 +61,50 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
     }
     drop(waiting);
 
-    for table in tables(&cases, &columns) {
-        terminal.print_table(&table);
+    if terminal.verbose {
+        tables(&cases, &columns).iter().for_each(|table| terminal.print_table(table));
+        terminal.print_lines(&LEGEND.map(String::from));
+    } else {
+        summary(&cases, &columns).iter().for_each(|table| terminal.print_table(table));
     }
-    terminal.print_lines(&LEGEND.map(String::from));
+    let verdicts: Vec<Verdicts> = columns.iter().map(verdicts).collect();
+    terminal.print_lines(&sentences(&verdicts));
     if let Some(file) = json {
-        // Every structure traces on one thread.
-        let provenance = Provenance::capture(1);
-        let run = HardRun { schema: HardRun::SCHEMA, provenance, results: records };
-        file.write(&serde_json::to_vec_pretty(&run)?)?;
+        file.write(&serde_json::to_vec_pretty(&Export::new(&verdicts, records))?)?;
     }
-    let wrong = columns.iter().any(|column| column.scores.iter().any(|score| is_wrong(column.choice, score)));
+    let wrong =
+        columns.iter().any(|column| column.scores.iter().any(|score| is_wrong(column.choice, score, args.strict)));
     Ok(if wrong { Status::Wrong } else { Status::Right })
 }
 
-/// Whether a score changes the exit status: structure errors and failures do, and inexact hits of the exact test; known
-/// defects of the baselines do not.
-fn is_wrong(choice: &Choice, score: &Score) -> bool {
+/// What a score says of a structure. A property counts as the rays that it was checked on.
+fn verdict(score: &Score) -> Verdict {
+    let failed = |fault| Verdict { rays: 1, wrong: 1, rounded: 0, fault };
+    match score {
+        Score::Rays(score) => {
+            let verdict = Verdict::from(&score.validation);
+            let fault = verdict.fault.or((score.contradictions > 0).then_some(Kind::AnyHitDisagrees));
+            Verdict { wrong: (verdict.wrong + score.contradictions).min(verdict.rays), fault, ..verdict }
+        }
+        Score::Property(property) => Verdict { rays: property.checked, wrong: property.broken, ..Verdict::default() },
+        Score::Failed(Failure::Hang) => failed(Some(Kind::Hangs)),
+        Score::Failed(Failure::Panic | Failure::Crash) => failed(Some(Kind::Panicked)),
+        Score::Failed(Failure::Refused(_) | Failure::Declined(_)) => Verdict::default(),
+    }
+}
+
+/// What all cases say of a structure.
+fn verdicts(column: &Column) -> Verdicts {
+    let all = column.scores.iter().map(verdict).fold(Verdict::default(), Verdict::and);
+    Verdicts { label: column.choice.label.clone(), is_brought: !column.choice.entry.is_builtin, verdict: all }
+}
+
+/// Whether a score changes the exit status: hits that no rounding explains and failures do, inexact hits of the exact test, and
+/// what other tests round if `strict`; known defects of the baselines do not.
+fn is_wrong(choice: &Choice, score: &Score, strict: bool) -> bool {
     let is_inexact = choice.triangle_test() == Exact::NAME && score.rays().is_some_and(|rays| rays.inexact > 0);
-    (!score.is_sound() || is_inexact) && known_defect(&choice.entry.name).is_none()
+    let rounds = strict && verdict(score).rounded > 0;
+    (!score.is_sound() || is_inexact || rounds) && known_defect(&choice.entry.name).is_none()
 }
 
 /// Each of the structures over all of the tests that it is offered over. Structures that are offered over none of them, that

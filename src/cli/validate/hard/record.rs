@@ -1,26 +1,10 @@
 //! Scores as data.
 
-use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::measure::Provenance;
+use super::verdict;
 use crate::registry::Choice;
 use crate::validate::hard_cases::{HardCase, Score};
-
-/// A run as JSON.
-#[derive(Debug, Serialize)]
-pub struct HardRun {
-    /// Of this form.
-    pub schema: u32,
-    pub provenance: Provenance,
-    /// Case by case, structure by structure.
-    pub results: Vec<Value>,
-}
-
-impl HardRun {
-    /// 2: `wrong_depth` is strict, and `coarse_depth` stands beside it.
-    pub const SCHEMA: u32 = 2;
-}
 
 /// One structure on one case. Numbers that are not known are null.
 pub fn record(case: &HardCase, choice: &Choice, score: &Score) -> Value {
@@ -48,7 +32,8 @@ pub fn record(case: &HardCase, choice: &Choice, score: &Score) -> Value {
         // Those of them by more than 1 %, or 0.1 % at another primitive.
         "coarse_depth": rays.map(|rays| rays.coarse_depth),
         "wrong_primitive": judged.map(|judged| judged.wrong_primitive),
-        "structure_errors": rays.and_then(|rays| rays.structure_errors),
+        "structure_errors": rays.filter(|rays| rays.knows_structure_errors).map(|rays| rays.validation.structure_errors),
+        "verdict": verdict(score),
         "contradictions": rays.map(|rays| rays.contradictions),
         "inexact": rays.map(|rays| rays.inexact),
         "ulps": judged.and_then(|judged| judged.ulps),

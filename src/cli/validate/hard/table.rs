@@ -16,8 +16,8 @@ pub const LEGEND: [&str; 4] = [
     "A dot: nothing wrong. m: missed, d: wrong depth (t off by more than 4 ulps and more than 1e-6; behind the stroke \
      those off by more than 1 %, or 0.1 % on another primitive), S: structure errors, in percent of the true hits; f: false \
      hits, in percent of the rays.",
-    "S counts the hits that the structure's own triangle test, run over all triangles, finds, exact arithmetic confirms, \
-     and the structure did not return. c: rays on which any hit, closest hit and batches contradict each other.",
+    "S counts the hits that exact arithmetic confirms and no rounding of the triangle test could hide, and that the structure \
+     did not return, or returned otherwise. c: rays on which any hit, closest hit and batches contradict each other.",
     "hang, panic, crash: no result; refused: the structure cannot be built over the mesh; declined: it does not support \
      such rays. The truth is exact; the interval is half-open.",
     "A star: not in the totals, because the input is not valid, systems differ about what is right, or nothing can be hit; \
@@ -42,6 +42,19 @@ pub fn tables(cases: &[&HardCase], columns: &[Column]) -> Vec<Table> {
         of_properties.noted(notes(cases, columns, is_property)),
         totals(cases, columns),
     ];
+    all.into_iter().filter(|table| !table.rows.is_empty()).collect()
+}
+
+/// What a user looks at first: the cases in which a structure fails, and why; the totals.
+pub fn summary(cases: &[&HardCase], columns: &[Column]) -> Vec<Table> {
+    let is_failed = |(i, _): &(usize, &&HardCase)| {
+        columns.iter().any(|column| known_defect(&column.choice.entry.name).is_none() && !column.scores[*i].is_sound())
+    };
+    let failed: Vec<&HardCase> = cases.iter().enumerate().filter(is_failed).map(|(_, case)| *case).collect();
+    let is_shown = |case: &HardCase| failed.iter().any(|own| own.name == case.name);
+    let title = format!("Failures: {} of {}", failed.len(), plural(cases.len(), "case"));
+    let failures = table(cases, columns, &title, |case, score| is_shown(case).then(|| outcome(score)));
+    let all = [failures.noted(notes(cases, columns, is_shown)), totals(cases, columns)];
     all.into_iter().filter(|table| !table.rows.is_empty()).collect()
 }
 
@@ -78,12 +91,11 @@ fn notes(cases: &[&HardCase], columns: &[Column], is_shown: impl Fn(&HardCase) -
             let has_defects = known_defect(&column.choice.entry.name).is_some();
             let sentence = match &column.scores[i] {
                 Score::Failed(Failure::Refused(sentence) | Failure::Declined(sentence)) => sentence,
-                Score::Rays(RayScore { example: Some(example), .. })
-                | Score::Property(Property { example: Some(example), .. })
-                    if !has_defects =>
-                {
-                    example
-                }
+                Score::Property(Property { example: Some(example), .. }) if !has_defects => example,
+                Score::Rays(score) if !has_defects => match score.example() {
+                    Some(example) => &example.clone(),
+                    None => continue,
+                },
                 _ => continue,
             };
             notes.push(format!("{} on {}: {sentence}", column.choice.label, case.name));
@@ -111,7 +123,7 @@ fn errors(score: &RayScore) -> String {
         share("m", judged.missed, judged.hits),
         share("f", judged.false_hits, judged.rays),
         share("d", judged.wrong_depth, judged.hits).map(|d| format!("{d}/{coarse}")),
-        share("S", score.structure_errors.unwrap_or(0), judged.hits),
+        share("S", score.validation.errors(), judged.hits),
         (score.contradictions > 0).then(|| format!("c {}", count(score.contradictions))),
     ];
     parts.into_iter().flatten().collect::<Vec<_>>().join(" ")
@@ -151,7 +163,7 @@ fn totals(cases: &[&HardCase], columns: &[Column]) -> Table {
                 percent(sum(|score| score.judged.wrong_depth), hits),
                 percent(sum(|score| score.coarse_depth), hits),
                 count(sum(|score| score.judged.false_hits)),
-                percent(sum(|score| score.structure_errors.unwrap_or(0)), hits),
+                percent(sum(|score| score.validation.errors()), hits),
                 percent(sum(|score| score.judged.errors()), sum(|score| score.judged.rays)),
             ];
             row.extend(texts.map(Cell::from));

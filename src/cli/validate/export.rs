@@ -1,0 +1,31 @@
+//! Results as JSON.
+
+use serde::Serialize;
+use serde_json::{Value, json};
+
+use super::outcome::Verdicts;
+use crate::measure::Provenance;
+
+/// A run; `study/SCHEMA.md` describes it.
+#[derive(Debug, Serialize)]
+pub struct Export {
+    /// Of this form.
+    schema: u32,
+    provenance: Provenance,
+    /// One for each structure.
+    verdicts: Vec<Value>,
+    /// Scene by scene or case by case, structure by structure.
+    results: Vec<Value>,
+}
+
+impl Export {
+    /// 3: verdicts, and every mode of `validate`.
+    const SCHEMA: u32 = 3;
+
+    pub fn new(verdicts: &[Verdicts], results: Vec<Value>) -> Self {
+        let verdict = |own: &Verdicts| json!({ "label": own.label, "verdict": own.verdict, "sentence": own.verdict.sentence(&own.label) });
+        // Every structure traces on one thread.
+        let provenance = Provenance::capture(1);
+        Self { schema: Self::SCHEMA, provenance, verdicts: verdicts.iter().map(verdict).collect(), results }
+    }
+}

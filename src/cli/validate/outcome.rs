@@ -1,0 +1,118 @@
+//! What was found of a structure in a scene.
+
+use serde_json::{Value, json};
+
+use super::BuildFailure;
+use crate::names::named;
+use crate::registry::Choice;
+use crate::request::known_defect;
+use crate::study::{Status, Verdict};
+use crate::validate::{Kind, Validation};
+
+/// One structure, or one file of hits, in one scene.
+pub struct Outcome {
+    pub scene: String,
+    pub label: String,
+    pub triangle_test: String,
+    /// Whether a user brings it: another crate's structure, a program or a file of hits.
+    pub is_brought: bool,
+    /// Whether it is known to be wrong, which does not change the exit status.
+    pub has_known_defect: bool,
+    pub found: Result<Validation, BuildFailure>,
+}
+
+impl Outcome {
+    pub fn new(scene: &str, choice: &Choice, found: Result<Validation, BuildFailure>) -> Self {
+        Self {
+            scene: scene.into(),
+            label: choice.label.clone(),
+            triangle_test: choice.triangle_test().into(),
+            is_brought: !choice.entry.is_builtin,
+            has_known_defect: known_defect(&choice.entry.name).is_some(),
+            found,
+        }
+    }
+
+    /// What it means for the exit status; with `strict`, rounding counts as well.
+    pub fn status(&self, strict: bool) -> Status {
+        match &self.found {
+            Err(BuildFailure::Hangs(_)) => Status::Wrong,
+            Err(BuildFailure::Refused(_)) => Status::Refused,
+            Ok(_) if self.has_known_defect => Status::Right,
+            Ok(found) => {
+                let verdict = Verdict::from(found);
+                if verdict.wrong > 0 || strict && verdict.rounded > 0 { Status::Wrong } else { Status::Right }
+            }
+        }
+    }
+
+    fn verdict(&self) -> Verdict {
+        match &self.found {
+            Ok(found) => found.into(),
+            Err(BuildFailure::Hangs(_)) => Verdict { rays: 1, wrong: 1, rounded: 0, fault: Some(Kind::Hangs) },
+            Err(BuildFailure::Refused(_)) => Verdict::default(),
+        }
+    }
+
+    /// As JSON.
+    pub fn record(&self) -> Value {
+        let mut record = json!({
+            "scene": self.scene,
+            "label": self.label,
+            "triangle_test": self.triangle_test,
+            "outcome": match &self.found {
+                Ok(_) => "answered",
+                Err(BuildFailure::Hangs(_)) => "hang",
+                Err(BuildFailure::Refused(_)) => "refused",
+            },
+            "verdict": self.verdict(),
+        });
+        let Ok(found) = &self.found else { return record };
+        let worst = found.worst.iter().map(|worst| {
+            let hit = |hit: Option<crate::geometry::Hit>| hit.map(|hit| json!([hit.t, hit.prim.index()]));
+            json!({
+                "ray": worst.ray.to_string(),
+                "kind": worst.kind,
+                "expected": hit(worst.expected),
+                "found": hit(worst.found),
+                "sentence": worst.verdict,
+            })
+        });
+        record["rays"] = found.rays.into();
+        record["declined"] = found.declined.into();
+        record["hits"] = found.hits.into();
+        record["structure_errors"] = (found.errors() - found.answer_errors).into();
+        record["answer_errors"] = found.answer_errors.into();
+        record["depth_errors"] = found.depth_errors.into();
+        record["test_errors"] = found.test_errors.into();
+        record["reference_errors"] = found.reference_errors.into();
+        record["ties"] = found.ties.into();
+        record["worst"] = worst.collect();
+        record
+    }
+}
+
+/// A structure in all scenes.
+pub struct Verdicts {
+    pub label: String,
+    pub is_brought: bool,
+    pub verdict: Verdict,
+}
+
+/// One verdict a structure, over all scenes.
+pub fn verdicts(outcomes: &[Outcome]) -> Vec<Verdicts> {
+    let mut all: Vec<Verdicts> = vec![];
+    for outcome in outcomes {
+        let verdict = outcome.verdict();
+        match named(&mut all, &outcome.label, |own| &own.label) {
+            Some(own) => own.verdict = own.verdict.and(verdict),
+            None => all.push(Verdicts { label: outcome.label.clone(), is_brought: outcome.is_brought, verdict }),
+        }
+    }
+    all
+}
+
+/// One sentence about each structure that a user brings.
+pub fn sentences(verdicts: &[Verdicts]) -> Vec<String> {
+    verdicts.iter().filter(|own| own.is_brought).map(|own| own.verdict.sentence(&own.label)).collect()
+}

@@ -1,0 +1,156 @@
+//! Are the answers to all timed rays right? Another tree answers them as well; where the two differ, brute force and exact
+//! arithmetic judge.
+
+use std::borrow::Cow;
+
+use rayon::prelude::*;
+
+use super::built::Built;
+use super::guarded::guarded;
+use super::pair::Pair;
+use crate::accel::{BuildError, DynAccel, Query};
+use crate::geometry::{Hit, Ray};
+use crate::measure::tiles::{TILE, level_of, tiles};
+use crate::measure::{QueryResults, spread};
+use crate::registry::Registry;
+use crate::scene::{Scene, Workload};
+use crate::study::epoch::Checked;
+use crate::triangle::{Exact, TriangleTest};
+use crate::validate::{Kind, Reference, differences, validate_answers, validate_any_answers};
+
+/// Rays of a workload that brute force judges at least, where so many are in dispute.
+const FEWEST: usize = 64;
+
+/// What is needed to check the answers in a scene.
+pub struct TimedCheck<'a> {
+    pub scene: &'a Scene,
+    pub workloads: &'a [Workload],
+    /// Epochs that are planned: each times rays of its own.
+    pub epochs: usize,
+    /// Triangle tests that brute force may make for a workload, about.
+    pub tests: usize,
+    references: Vec<TreeHits>,
+}
+
+/// The hits of a tree of this suite for all rays of each workload, those that were needed yet.
+struct TreeHits {
+    name: &'static str,
+    triangle_test: &'static str,
+    accel: Box<dyn DynAccel>,
+    /// Judges differences: brute force over the same test, or over `exact` for a test that is a structure's own.
+    judge: Reference,
+    hits: Vec<Option<Vec<Option<Hit>>>>,
+}
+
+impl<'a> TimedCheck<'a> {
+    pub fn new(scene: &'a Scene, workloads: &'a [Workload], epochs: usize, tests: usize) -> Self {
+        Self { scene, workloads, epochs, tests, references: vec![] }
+    }
+
+    /// Checks the answers of a structure to all rays that are timed where a sample has `rays` rays; nothing if it panics.
+    ///
+    /// # Errors
+    /// If no tree can be built over the mesh.
+    pub fn check(&mut self, built: &Built, pair: &Pair, rays: usize) -> Result<Option<Checked>, BuildError> {
+        let workload = &self.workloads[pair.workload];
+        let timed = self.timed(workload.rays.len(), rays);
+        let chosen: Vec<Ray> = timed.iter().map(|&index| workload.rays[index]).collect();
+        let Some(found) = guarded(|| traced(built.accel.as_ref(), &chosen, workload.query)) else { return Ok(None) };
+
+        let place = self.reference(built)?;
+        let all = self.references[place].hits_of(pair.workload, workload);
+        let expected: Vec<Option<Hit>> = timed.iter().map(|&index| all[index]).collect();
+        Ok(Some(self.judged(&self.references[place].judge, &chosen, &expected, &found)))
+    }
+
+    /// The rays of a workload that any epoch times, by their positions.
+    fn timed(&self, all: usize, rays: usize) -> Vec<usize> {
+        let level = level_of(all, rays).unwrap_or(0);
+        let mut timed: Vec<usize> =
+            (0..self.epochs.max(1)).flat_map(|epoch| tiles(all, level, epoch)).flatten().collect();
+        timed.sort_unstable();
+        timed.dedup();
+        timed
+    }
+
+    /// The tree that answers over the same triangle test, or over `exact`, and is of another name.
+    fn reference(&mut self, built: &Built) -> Result<usize, BuildError> {
+        let own_test = built.choice.triangle_test();
+        let name = if built.choice.entry.name == "sah-bvh" { "sah-hybrid" } else { "sah-bvh" };
+        let is_it = |one: &TreeHits| one.name == name && one.triangle_test == own_test;
+        if let Some(place) = self.references.iter().position(is_it) {
+            return Ok(place);
+        }
+        let registry = Registry::builtin();
+        let test = registry.find(name, own_test).map_or(Exact::NAME, |entry| entry.triangle_test);
+        let choice = registry.choose(&format!("{name}:quality=fast,test={test}"));
+        let accel = choice.map_err(|cause| BuildError::Config(cause.to_string()))?.build(&self.scene.mesh)?;
+        let judge = Reference::of_test(own_test, &self.scene.mesh)?;
+        let hits = vec![None; self.workloads.len()];
+        self.references.push(TreeHits { name, triangle_test: own_test, accel, judge, hits });
+        Ok(self.references.len() - 1)
+    }
+
+    /// What the structure gets wrong. The tree may be wrong itself, so brute force judges the rays on which they differ, or
+    /// as many of them as it can afford.
+    fn judged(&self, judge: &Reference, rays: &[Ray], expected: &[Option<Hit>], found: &QueryResults) -> Checked {
+        let mesh = &self.scene.mesh;
+        let mut checked = Checked { rays: rays.len(), ..Checked::default() };
+        let accused: Vec<usize> = match found {
+            QueryResults::Any(found) => (0..rays.len()).filter(|&i| found[i] != expected[i].is_some()).collect(),
+            QueryResults::Closest(found) => {
+                let differing = differences(judge, mesh, rays, expected, found);
+                let rounds = |kind: Kind| matches!(kind, Kind::Depth | Kind::TriangleTest);
+                checked.rounded = differing.iter().filter(|(_, kind)| rounds(*kind)).count();
+                differing.into_iter().filter(|(_, kind)| kind.is_error()).map(|(index, _)| index).collect()
+            }
+        };
+        if accused.is_empty() {
+            return checked;
+        }
+
+        let some = spread(&accused, (self.tests / mesh.len().max(1)).max(FEWEST));
+        let disputed: Vec<Ray> = some.iter().map(|&index| rays[index]).collect();
+        let truth = judge.closest_hits(&disputed);
+        let judged = Checked::from(&match found {
+            QueryResults::Closest(found) => {
+                let found: Vec<Option<Hit>> = some.iter().map(|&index| found[index]).collect();
+                validate_answers(judge, &truth, mesh, &disputed, &found)
+            }
+            QueryResults::Any(found) => {
+                let found: Vec<bool> = some.iter().map(|&index| found[index]).collect();
+                validate_any_answers(judge, &truth, mesh, &disputed, &found)
+            }
+        });
+        Checked { rays: rays.len(), rounded: checked.rounded + judged.rounded, ..judged }
+    }
+}
+
+impl TreeHits {
+    fn hits_of(&mut self, place: usize, workload: &Workload) -> &[Option<Hit>] {
+        let Self { accel, hits, .. } = self;
+        hits[place].get_or_insert_with(|| accel.closest_by_chunks(&workload.rays, TILE))
+    }
+}
+
+/// The answers of a structure, which receives the rays as when it is timed; a program receives all of them at once.
+fn traced(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> QueryResults {
+    let chunk = if accel.remote().is_some() { rays.len().max(1) } else { TILE };
+    let chunks = rays.par_chunks(chunk);
+    match query {
+        Query::Closest => {
+            let mut hits = vec![None; rays.len()];
+            chunks.zip(hits.par_chunks_mut(chunk)).for_each(|(rays, hits)| {
+                accel.load(Cow::Borrowed(rays)).closest_hits(hits);
+            });
+            QueryResults::Closest(hits)
+        }
+        Query::Any => {
+            let mut hits = vec![false; rays.len()];
+            chunks.zip(hits.par_chunks_mut(chunk)).for_each(|(rays, hits)| {
+                accel.load(Cow::Borrowed(rays)).any_hits(hits);
+            });
+            QueryResults::Any(hits)
+        }
+    }
+}
