@@ -140,11 +140,11 @@ fn other_test(
     found: Option<Hit>,
 ) -> Option<Blame> {
     let truth = nearest(mesh, ray, expected, found);
-    let limit = match found.map(|hit| returned(precision, mesh, ray, hit, truth.as_ref())) {
-        None => f64::INFINITY,
-        Some(Ok(margin)) => margin.earliest(),
-        Some(Err(blame)) => return Some(blame),
-    };
+    if let Some(blame) = found.and_then(|hit| no_hit(precision, mesh, ray, hit, truth.as_ref())) {
+        return Some(blame);
+    }
+    // The structure compares computed depths: a hit that is computed before this one was lost.
+    let limit = found.map_or(f64::INFINITY, |hit| hit.t.into());
     let is_found = |t: &ExactT, prim| {
         found.is_some_and(|f| f.prim == prim || DepthRule::STRICT.allows(t.approximate(), f.t, false))
     };
@@ -164,32 +164,23 @@ fn other_test(
     rounded(truth, expected, found)
 }
 
-/// The margin of the triangle of a hit, or why no test of this precision returns that hit.
-fn returned(
-    precision: Precision,
-    mesh: &Mesh,
-    ray: &Ray,
-    found: Hit,
-    truth: Option<&(ExactT, PrimId)>,
-) -> Result<Margin, Blame> {
+/// Why no test of this precision returns that hit, unless one may.
+fn no_hit(precision: Precision, mesh: &Mesh, ray: &Ray, found: Hit, truth: Option<&(ExactT, PrimId)>) -> Option<Blame> {
     let is_there =
         truth.is_some_and(|(t, prim)| *prim != found.prim && DepthRule::COARSE.allows(t.approximate(), found.t, false));
-    let wrong = |sentence| verdict(if is_there { Kind::WrongPrimitive } else { Kind::Invented }, sentence);
+    let wrong = |kind, sentence| Some(verdict(if is_there { Kind::WrongPrimitive } else { kind }, sentence));
     if found.prim.index() as usize >= mesh.len() {
-        return Err(wrong(format!("the mesh has no {:?}", found.prim)));
+        return wrong(Kind::Invented, format!("the mesh has no {:?}", found.prim));
     }
     let margin = Margin::new(ray, mesh.corners(found.prim.index()), precision);
     match true_hit(mesh, ray, found) {
-        Some(t) if DepthRule::STRICT.allows(t.approximate(), found.t, true) || margin.may_round_to(found.t) => {
-            Ok(margin)
-        }
+        Some(t) if DepthRule::STRICT.allows(t.approximate(), found.t, true) || margin.may_round_to(found.t) => None,
         Some(t) => {
             let ulps = t.round().to_bits().abs_diff(found.t.to_bits());
-            let sentence = format!("exactly, {:?} is hit at {:?}, {ulps} ulps away", found.prim, t.round());
-            Err(verdict(if is_there { Kind::WrongPrimitive } else { Kind::WrongT }, sentence))
+            wrong(Kind::WrongT, format!("exactly, {:?} is hit at {:?}, {ulps} ulps away", found.prim, t.round()))
         }
-        None if margin.may_hit(ray, found.t) => Ok(margin),
-        None => Err(wrong(format!("exactly, {:?} is not hit in the interval", found.prim))),
+        None if margin.may_hit(ray, found.t) => None,
+        None => wrong(Kind::Invented, format!("exactly, {:?} is not hit in the interval", found.prim)),
     }
 }
 

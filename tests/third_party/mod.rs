@@ -26,6 +26,7 @@ use sahara::study::{Dataset, Measured, Plan, PlannedScene, Settings, Studies};
 use sahara::triangle::{Exact, MollerTrumbore};
 use sahara::validate::conformance::{Named, Subject, answers, counting, shapes};
 use sahara::validate::degenerate_meshes;
+use sahara::validate::hard_cases::{CaseTruth, find, run};
 
 // Few cells: each of two thousand triangles that coincide is in all that it meets.
 sahara::conformance!(my_grid, Grid<MollerTrumbore>, GridConfig { resolution: 4 }, lowest_id);
@@ -169,6 +170,68 @@ fn the_command_rejects_each_fault_for_its_own_reason() {
         assert_eq!(named.is_some(), reason.contains("ray"), "{fault}: {printed}");
         assert!(named.is_none_or(|ray| picks(&ray, one_in)), "{fault}: {printed}");
         assert!(fault != "late" || printed.contains("3 ulps away"), "{printed}");
+    }
+}
+
+/// Faults of a BVH with a triangle test of its own, and the sentence that `validate` and `compare` end with. Ordinary rays show
+/// most of them.
+#[test]
+fn each_fault_of_a_tree_is_told_from_what_its_triangle_test_rounds() {
+    const LOSES: &str = "loses hits that no rounding could hide";
+    let validate = |fault: &str, options: &str| {
+        let (printed, right) = sahara(&format!("validate -s mybvh:fault={fault} --rays 4000 {options}"));
+        (printed, right)
+    };
+    let (printed, right) = validate("none", "teapot cornellbox");
+    assert!(
+        right && printed.contains("each within rounding: the triangle test rounds, the tree is right so"),
+        "{printed}"
+    );
+    let (printed, right) = validate("none", "teapot cornellbox --strict");
+    assert!(!right, "{printed}");
+    for (fault, options, sentence) in [
+        ("leaf-dropped", "teapot", LOSES),
+        ("child-order", "teapot", LOSES),
+        ("stale-t-max", "teapot", LOSES),
+        ("last-triangle", "teapot", LOSES),
+        ("ties", "teapot --adversarial", LOSES),
+        ("any-hit", "teapot", "contradicts itself: any hit and closest hit disagree"),
+        ("epsilon", "teapot --adversarial", LOSES),
+        ("wrong-id", "teapot", "names triangles that are not hit there"),
+        ("depth-limit", "teapot", LOSES),
+        ("overflowed-stack", "teapot", LOSES),
+        ("not-a-number", "cornellbox", "returns hits that no rounding could make"),
+        ("one-of-a-block", "teapot", LOSES),
+        ("t-off", "teapot", "returns depths that no rounding could give"),
+    ] {
+        let (printed, right) = validate(fault, options);
+        let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(!right && words(&printed).contains(&format!("{fault} {}", sentence)), "{fault}: {printed}");
+    }
+    // Axis-parallel rays in the sides of boxes, and boxes without thickness: hard cases show them.
+    for (fault, case, is_found) in [
+        ("zero-times-infinity", "among_many", true),
+        ("degenerate-box", "planar_in_split_plane", true),
+        ("none", "among_many", false),
+        ("none", "planar_in_split_plane", false),
+    ] {
+        let choice = registry().choose(&format!("mybvh:fault={fault}")).unwrap();
+        let case = find(case).unwrap();
+        let answers = run(case, &choice.subject(), 1000, &SystemClock::start()).unwrap();
+        let score = CaseTruth::new(case, 1000).score(choice.triangle_test(), answers).unwrap();
+        assert_eq!(!score.is_sound(), is_found, "{fault} {}", case.name);
+    }
+}
+
+/// A structure with wrong answers to rays that are timed has no time, and a ray to go on with is named.
+#[test]
+fn wrong_answers_are_seen_where_speed_is() {
+    for (fault, is_timed) in [("none", true), ("leaf-dropped", false), ("epsilon", false)] {
+        let args = format!("compare teapot -s mybvh:fault={fault} -s sah-kd -w diffuse --budget 1 --runs 2 --epochs 1");
+        let (printed, right) = sahara(&args);
+        assert_eq!(right, is_timed, "{fault}: {printed}");
+        let advice = format!("go on with: sahara validate teapot -s mybvh:fault={fault} --ray");
+        assert_eq!(printed.split_whitespace().collect::<Vec<_>>().join(" ").contains(&advice), !is_timed, "{printed}");
     }
 }
 

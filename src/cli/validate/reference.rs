@@ -82,7 +82,7 @@ impl fmt::Display for ReferenceChoice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.0 {
             Some(choice) => write!(f, "{} over {}", choice.label, choice.triangle_test()),
-            None => write!(f, "brute force with the same triangle test"),
+            None => write!(f, "brute force"),
         }
     }
 }

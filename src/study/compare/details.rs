@@ -61,7 +61,7 @@ pub fn legend(first: &str) -> Vec<String> {
              leaves for each triangle; SAH cost: expected triangle tests of a random line. tests, steps: triangle tests and \
              nodes entered for each {first} ray."
         ),
-        "checked: rays held against brute force with the same triangle test; sampled: share of the rays that was timed. Both are of \
+        "checked: rays whose answers were checked; sampled: share of the rays that was timed. Both are of \
          the first workload. pays off: rays after which a slower build is made up for, against the structure that is built the \
          fastest. Empty: unknown, or never."
             .into(),

@@ -9,6 +9,7 @@ mod section;
 mod table;
 mod tradeoff;
 
+use crate::request::known_defect;
 use clap::{ArgMatches, Args, Command, FromArgMatches};
 
 use super::claims::judge;
@@ -49,12 +50,25 @@ fn report(dataset: &Dataset, matches: &ArgMatches) -> Report {
     Report {
         verdicts: judge(NAME, &findings),
         blocks: section::blocks(dataset, &references, args.wide),
-        // The tables tell them.
-        failures: dataset.failures().into_iter().map(|own| Failure { sentence: String::new(), ..own }).collect(),
+        failures: failures(dataset),
         warnings: warnings(dataset),
         data: details::data(&all),
         findings,
     }
+}
+
+/// The tables tell them, but for the ray that shows a structure wrong: it is told once for each structure.
+fn failures(dataset: &Dataset) -> Vec<Failure> {
+    let mut told: Vec<String> = vec![];
+    let mut failures = dataset.failures();
+    for own in &mut failures {
+        if !own.wrong || known_defect(&own.structure).is_some() || told.contains(&own.structure) {
+            own.sentence.clear();
+        } else {
+            told.push(own.structure.clone());
+        }
+    }
+    failures
 }
 
 /// What spoilt the run. Of warnings that differ in their numbers alone, the first.

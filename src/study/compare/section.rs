@@ -30,8 +30,8 @@ pub fn checked(all: &[Measurement]) -> Option<Finding> {
     let (wrong, rays) = sum(&|r| r.declined.is_none() && known_defect(&r.structure).is_none());
     let wrong = if wrong == 0 { "none".into() } else { count(wrong) };
     let sentence = format!(
-        "Of {} answers of structures without known defects, held against brute force over the same triangle test, {wrong} is \
-         wrong.{erring}",
+        "Of {} answers of structures without known defects, held against another tree, brute force and exact arithmetic, \
+         {wrong} is wrong.{erring}",
         count(rays)
     );
     (rays > 0).then(|| Finding::new("checked", sentence))

@@ -6,25 +6,13 @@ use crate::accel::Query;
 use crate::report::number::{count, figures, plural};
 use crate::report::words::{distinct, each_once, listed};
 use crate::report::{Cell, Table, Tone, Value};
-use crate::request::{is_large, known_defect};
+use crate::request::known_defect;
 use crate::study::epoch::Structure;
 use crate::study::measurement::{Measurement, trace_noise};
 use crate::triangle::{Exact, TriangleTest};
 
 /// What a structure is asked with that answers many rays in one call.
 const PACKETS: &str = "batch=packets";
-
-/// Said where brute force could check few rays, since there are so many triangles.
-fn few_checked(all: &[Measurement]) -> Option<String> {
-    let triangles = all.first()?.triangles;
-    let least = all.iter().filter(|r| r.declined.is_none()).map(|r| r.checked_rays).min()?;
-    is_large(triangles).then(|| {
-        format!(
-            "Answers were checked on {} rays of a kind, evenly spread: against so many triangles brute force would take minutes for more.",
-            count(least as u64)
-        )
-    })
-}
 
 /// What the other columns of the tables of these all mean, once for all tables.
 pub fn legend(all: &[Measurement], references: &[Reference]) -> Vec<String> {
@@ -118,7 +106,6 @@ pub fn scene_table(all: &[Measurement], references: &[Reference], refused: &[&St
     }
     notes.extend(defects(all));
     notes.extend(unfit_tests(all));
-    notes.extend(few_checked(all));
     notes.extend(control(all));
     table.noted(notes).without_empty_columns().of_one_scene().explained()
 }
