@@ -132,6 +132,12 @@ impl Rerun {
         Some(Self { centre, variance })
     }
 
+    /// The same spread around a figure that more epochs have found.
+    #[must_use]
+    pub fn around(self, centre: f64) -> Self {
+        Self { centre, ..self }
+    }
+
     /// The figure with its interval.
     pub fn plain(&self) -> Estimate {
         let interval = self.variance.map(|Variance { square, freedom }| {

@@ -44,4 +44,4 @@ pub use samples::{SamplePlan, Samples, SubsetSamples, Timed, take};
 pub use student::{LEVEL, factor};
 pub use summary::{geometric_mean, median};
 pub use threads::Threads;
-pub use variance::Variance;
+pub use variance::{Variance, mean};

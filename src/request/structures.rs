@@ -105,6 +105,11 @@ pub fn runner(command: &str, limit_s: f64) -> anyhow::Result<Choice> {
     Ok(Choice::of_program(program))
 }
 
+/// Whether a structure is none of this suite's: another crate's, or a program.
+pub fn is_brought(name: &str, triangle_test: &str) -> bool {
+    Registry::builtin().find(name, triangle_test).is_none()
+}
+
 /// What is named, with [`ALL`] spelt out; every name if there is nothing.
 pub fn specs(registry: &Registry, named: &[String]) -> Vec<String> {
     let names = || registry.names().into_iter().map(String::from);

@@ -3,12 +3,14 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Verdict;
 use super::case::Case;
-use super::epoch::Epoch;
+use super::epoch::{Checked, Epoch, Structure};
 use super::journal::JournalError;
 use crate::measure::Provenance;
 use crate::report::Failure;
-use crate::report::words::each_once;
+use crate::report::words::{distinct, each_once};
+use crate::request::is_brought;
 
 /// A case with what was measured for it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -73,6 +75,18 @@ impl Dataset {
     /// Structures without times, each once.
     pub fn failures(&self) -> Vec<Failure> {
         each_once(self.measured.iter().flat_map(|measured| measured.epoch.failures()))
+    }
+
+    /// One sentence about each structure that a user brings: another crate's, or a program.
+    pub fn verdicts(&self) -> Vec<String> {
+        let is_own = |own: &&Structure| !own.is_twin() && is_brought(&own.name, &own.triangle_test);
+        let all = || self.measured.iter().flat_map(|own| &own.epoch.structures).filter(is_own);
+        let sentence = |label: String| {
+            let own = all().filter(|own| own.label == label).flat_map(|own| &own.rays);
+            let checked = own.filter_map(|rays| rays.checked.as_ref()).map(Checked::verdict);
+            checked.fold(Verdict::default(), Verdict::and).sentence(&label)
+        };
+        distinct(all().map(|own| &own.label)).into_iter().map(sentence).collect()
     }
 
     /// The commands that measured it.

@@ -12,7 +12,6 @@ use super::join::{JoinedEpochs, join};
 use super::journal::{CaseFile, Journal, JournalError, of_all};
 use super::measure::{BuildWatch, Prepared, measure};
 use super::process::Processes;
-use super::verdict::verdicts;
 use super::{Plan, Screen, Stage, Status, Study, StudyError};
 use crate::measure::{Clock, Provenance, SystemClock, Threads, checksum};
 use crate::registry::Registry;
@@ -295,7 +294,7 @@ impl Engine<'_> {
             foot.extend(self.plan.notes.iter().cloned());
             foot.push(dataset.provenance.line());
             foot.extend(of_whole.sentences().map(String::from));
-            foot.extend(verdicts(&dataset));
+            foot.extend(dataset.verdicts());
         }
         let failed = |error: &StudyError| if error.is_wrong_answer() { Status::Wrong } else { Status::Failed };
         let status = self.failures.iter().map(failed).fold(Status::of(&report.failures), Status::and);

@@ -2,11 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Dataset;
-use super::epoch::{Checked, Structure};
-use crate::registry::Registry;
 use crate::report::number::{count, plural};
-use crate::report::words::distinct;
 use crate::validate::{Kind, Validation};
 
 /// The outcome of all rays that a structure was checked on.
@@ -64,19 +60,6 @@ impl Verdict {
             }
         }
     }
-}
-
-/// One sentence about each structure that a user brings: another crate's, or a program.
-pub fn verdicts(dataset: &Dataset) -> Vec<String> {
-    let registry = Registry::builtin();
-    let is_brought = |own: &&Structure| registry.find(&own.name, &own.triangle_test).is_none();
-    let all = || dataset.measured.iter().flat_map(|own| &own.epoch.structures).filter(is_brought);
-    let sentence = |label: String| {
-        let own = all().filter(|own| own.label == label).flat_map(|own| &own.rays);
-        let checked = own.filter_map(|rays| rays.checked.as_ref()).map(Checked::verdict);
-        checked.fold(Verdict::default(), Verdict::and).sentence(&label)
-    };
-    distinct(all().map(|own| &own.label)).into_iter().map(sentence).collect()
 }
 
 /// What a structure with such hits does, and what follows.

@@ -83,7 +83,10 @@ fn same_test(test: ScalarTest, mesh: &Mesh, ray: &Ray, expected: Option<Hit>, fo
                 let sentence = format!("the triangle test gives t = {t:?} at {:?}, {ulps} ulps away", f.prim);
                 return verdict(Kind::WrongT, sentence);
             }
-            _ => return verdict(Kind::Invented, format!("the triangle test gives no hit at {:?}", f.prim)),
+            _ => {
+                let sentence = format!("the triangle test gives no hit at {:?}{}", f.prim, outside(ray, f));
+                return verdict(Kind::Invented, sentence);
+            }
         }
     }
 
@@ -180,8 +183,20 @@ fn no_hit(precision: Precision, mesh: &Mesh, ray: &Ray, found: Hit, truth: Optio
             wrong(Kind::WrongT, format!("exactly, {:?} is hit at {:?}, {ulps} ulps away", found.prim, t.round()))
         }
         None if margin.may_hit(ray, found.t) => None,
-        None => wrong(Kind::Invented, format!("exactly, {:?} is not hit in the interval", found.prim)),
+        None => {
+            let sentence = format!("exactly, {:?} is not hit in the interval{}", found.prim, outside(ray, found));
+            wrong(Kind::Invented, sentence)
+        }
     }
+}
+
+/// That a hit lies outside of the interval of its ray, where it does.
+fn outside(ray: &Ray, found: Hit) -> String {
+    let (t_min, t_max) = ray.interval();
+    if t_min <= found.t && found.t < t_max {
+        return String::new();
+    }
+    format!(", and t = {:?} is not in [{t_min:?}, {t_max:?}): no t below 0 counts, whatever t_min is", found.t)
 }
 
 /// Nothing is lost or invented that rounding could not: who of the two is off?

@@ -33,8 +33,7 @@ fn huge(folder: &tempfile::TempDir) -> String {
 fn a_verdict_outlives_the_reader_of_its_output() {
     let folder = tempfile::tempdir().unwrap();
     let huge = huge(&folder);
-    let wrong =
-        "validate cube -s sah-kd:test=moller-trumbore --against brute-force:test=exact --adversarial --rays 2000";
+    let wrong = "validate cube -s sah-kd:test=moller-trumbore --against brute-force:test=exact --adversarial --rays 2000 --strict";
     let refused = format!("validate {huge} -s obvhs-cwbvh --rays 10");
     for (line, expected) in [
         ("--help", RIGHT),

@@ -52,7 +52,7 @@ fn the_example_of_the_document_is_timed_beside_ours() {
     assert_eq!((theirs.len(), &theirs[0]["name"]), (2, &"runner".into()), "{text}");
     for (ours, theirs) in ours.iter().zip(theirs) {
         assert_eq!((&theirs["checked"]["errors"], &theirs["config"]["clock"]), (&0.into(), &"own".into()), "{theirs}");
-        assert!(theirs["checked"]["rays"].as_u64() > Some(1000) && theirs["ns"][0].as_u64() > Some(0), "{theirs}");
+        assert!(theirs["checked"]["rays"].as_u64() >= Some(64) && theirs["ns"][0].as_u64() > Some(0), "{theirs}");
         assert!(theirs["shape"]["bytes"].as_u64() > Some(0) && theirs["counts"]["tests"].is_null(), "{theirs}");
         for same in ["hash", "all", "query"] {
             assert_eq!(ours[same], theirs[same]);

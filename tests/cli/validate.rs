@@ -37,7 +37,8 @@ fn validation_against_exact_answers_judges_depths_strictly() {
     let mesh = write(&directory, "needle.obj", &format!("{corners}f 1 2 3\n"));
     let ray = "49.000397,-704.82355,176.40697 -9731.703,19450.404,-11313.292";
     let asked = |structure: &str| {
-        sahara(&["validate", &mesh, "--ray", ray, "-s", structure, "--against", "brute-force:test=exact"])
+        let against = ["--against", "brute-force:test=exact", "--strict"];
+        sahara(&[&["validate", &mesh, "--ray", ray, "-s", structure], &against[..]].concat())
     };
     let f64s = asked("sah-kd:test=moller-trumbore-f64");
     assert_eq!(f64s.status.code(), Some(WRONG), "{}", stdout(&f64s));
@@ -56,7 +57,7 @@ fn hard_cases_are_named_and_tell_what_each_structure_gets_wrong() {
 
     let directory = tempfile::tempdir().unwrap();
     let export = path_text(&directory.path().join("hard.json"));
-    let hard = "validate --hard cube_axis_negzero limits --rays 50 -s sah-kd -s obvhs-cwbvh --export-json";
+    let hard = "validate --hard cube_axis_negzero limits --rays 50 -s sah-kd -s obvhs-cwbvh --verbose --export-json";
     // What is known of a baseline does not fail the run.
     let text = prints(&[words(hard), vec![export.as_str()]].concat());
     let row = text.lines().find(|line| line.trim_start().starts_with("cube_axis_negzero")).expect("a row");
@@ -75,7 +76,8 @@ fn hard_cases_are_named_and_tell_what_each_structure_gets_wrong() {
     assert!(of("limits", "sah-kd")["rays"].is_null());
 
     // They run over the tests asked for.
-    let text = prints(&words("validate --hard one_triangle --rays 20 --test exact --test edge-f64 -s median-kd"));
+    let text =
+        prints(&words("validate --hard one_triangle --rays 20 --test exact --test edge-f64 -s median-kd --verbose"));
     assert!(text.contains("median-kd  median-kd:test=edge-f64"), "{text}");
 }
 
@@ -83,10 +85,11 @@ fn hard_cases_are_named_and_tell_what_each_structure_gets_wrong() {
 fn what_is_named_twice_counts_once() {
     let text = prints(&["validate", "cube", "Cube", "--rays", "100", "-s", "sah-kd"]);
     assert_eq!(text.matches("12 triangles").count(), 1, "{text}");
-    let text = prints(&["validate", "--hard", "limits", "limits", "-s", "sah-kd"]);
+    let text = prints(&["validate", "--hard", "limits", "limits", "-s", "sah-kd", "--verbose"]);
     let rows = text.lines().filter(|line| line.trim_start().starts_with("limits+ ")).count();
     assert_eq!(rows, 1, "{text}");
-    let text = prints(&["validate", "--hard", "one_triangle", "-s", "sah-kd", "-t", "exact", "-t", "EXACT"]);
+    let text =
+        prints(&["validate", "--hard", "one_triangle", "-s", "sah-kd", "-t", "exact", "-t", "EXACT", "--verbose"]);
     let columns: Vec<&str> = text.lines().filter(|line| line.contains("case ")).collect();
     assert!(!columns.is_empty() && columns.iter().all(|line| line.matches("sah-kd").count() == 1), "{columns:?}");
     let text = prints(&words("compare cube -w primary -w primary --quick -s sah-kd --export-csv -"));
@@ -125,9 +128,9 @@ fn a_wrong_reference_is_no_error_of_a_triangle_test() {
     let directory = tempfile::tempdir().unwrap();
     let huge = write(&directory, "huge.obj", "v 1e30 0 0\nv 1e30 1e30 0\nv 0 1e30 1e30\nf 1 2 3\n");
     let reference = "brute-force:test=moller-trumbore";
-    let text = prints(&["validate", &huge, "-s", "sah-kd", "--rays", "300", "--against", reference]);
+    let text = prints(&["validate", &huge, "-s", "sah-kd", "--rays", "300", "--against", reference, "--verbose"]);
     let row: Vec<&str> = text.lines().find(|line| line.contains("  sah-kd ")).unwrap().split_whitespace().collect();
-    assert_eq!(row, ["sah-kd", "exact", "0", "0", "0", "0", "0", "0"], "{text}");
+    assert_eq!(row, ["sah-kd", "exact", "0", "0", "0", "0", "0", "0", "0", "0"], "{text}");
     assert!(text.contains("rays the reference is wrong and not sah-kd"), "{text}");
     assert!(text.contains("No ray hits anything by the reference"), "{text}");
 }

@@ -17,7 +17,7 @@ use indicatif::ProgressBar;
 
 use super::progress::spinner;
 use super::terminal::Terminal;
-use crate::accel::{BuildError, DynAccel};
+use crate::accel::DynAccel;
 use crate::geometry::Ray;
 use crate::registry::{Choice, Registry};
 use crate::request::{self, BRUTE_FORCE, RaySource, Seconds, ViewArgs, recorded};
@@ -26,6 +26,7 @@ use crate::study::Status;
 use crate::validate::{LIMIT, watched};
 
 use export::Export;
+use outcome::{BuildFailure, Outcome};
 use reference::{DEFAULT_RAYS, ReferenceChoice};
 use table::{LEGEND, RETRACE};
 
@@ -157,7 +158,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let verdicts = outcome::verdicts(&outcomes);
     terminal.print_lines(&outcome::sentences(&verdicts));
     if let Some(file) = json {
-        let results = outcomes.iter().map(outcome::Outcome::record).collect();
+        let results = outcomes.iter().map(Outcome::record).collect();
         file.write(&serde_json::to_vec_pretty(&Export::new(&verdicts, results))?)?;
     }
     Ok(outcomes.iter().fold(Status::Right, |status, own| status.and(own.status(args.strict))))
@@ -190,13 +191,4 @@ impl Args {
         let built = watched(limit, move || own.build(&mesh)).map_err(|_| BuildFailure::Hangs(limit.as_secs_f64()))?;
         Ok(Arc::from(built?))
     }
-}
-
-/// Why a structure could not be built.
-#[derive(Debug, thiserror::Error)]
-enum BuildFailure {
-    #[error("it hangs: its builder did not end within {0} s: see --limit")]
-    Hangs(f64),
-    #[error(transparent)]
-    Refused(#[from] BuildError),
 }

@@ -2,12 +2,21 @@
 
 use serde_json::{Value, json};
 
-use super::BuildFailure;
+use crate::accel::BuildError;
 use crate::names::named;
 use crate::registry::Choice;
 use crate::request::known_defect;
 use crate::study::{Status, Verdict};
 use crate::validate::{Kind, Validation};
+
+/// Why a structure could not be built.
+#[derive(Debug, thiserror::Error)]
+pub enum BuildFailure {
+    #[error("it hangs: its builder did not end within {0} s: see --limit")]
+    Hangs(f64),
+    #[error(transparent)]
+    Refused(#[from] BuildError),
+}
 
 /// One structure, or one file of hits, in one scene.
 pub struct Outcome {

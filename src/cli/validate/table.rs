@@ -4,8 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::BuildFailure;
-use super::outcome::Outcome;
+use super::outcome::{BuildFailure, Outcome};
 use crate::accel::DynAccel;
 use crate::geometry::{Mesh, Ray};
 use crate::report::number::{count, plural};

@@ -79,6 +79,5 @@ fn uneven(all: &[Measurement]) -> Option<String> {
     let epochs = || all.iter().filter(|r| r.mrays_per_s.is_some()).map(|r| r.epochs);
     let (least, most) = (epochs().min()?, epochs().max()?);
     let first = if least == 1 { "the first".to_owned() } else { format!("the first {least}") };
-    (least < most)
-        .then(|| format!("Scenes have {least} to {most} epochs: means over all of them are of {first} of each."))
+    (least < most).then(|| format!("Scenes have {least} to {most} epochs: intervals of means are of {first} of each."))
 }

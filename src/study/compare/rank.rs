@@ -4,7 +4,8 @@ use super::reference::{Reference, speed};
 use crate::measure::{AaNoise, Estimate};
 use crate::report::Finding;
 use crate::report::number::plural;
-use crate::report::words::{each_once, interval, listed};
+use crate::report::words::{each_once, interval, listed, slug};
+use crate::request::is_brought;
 use crate::study::measurement::{Measurement, trace_noise};
 use crate::triangle::{EdgeF64, Exact, MollerTrumboreF64, TriangleTest};
 
@@ -77,9 +78,20 @@ impl<'a> Ranking<'a> {
         let firsts = ranks.into_iter().filter_map(|(key, words, rows)| self.first(key, words, rows));
         let (mut found, fastest): (Vec<Finding>, Vec<Finding>) = firsts.unzip();
         found.extend(self.cost(&precise, &single));
+        found.extend(self.ranked.iter().filter_map(|row| self.brought(row)));
         // What is right is the fastest, if anything is.
         found.extend(fastest.into_iter().next());
         found
+    }
+
+    /// The speed of a structure that a user brings.
+    fn brought(&self, row: &Ranked) -> Option<Finding> {
+        let value = row
+            .speed
+            .filter(|value| *value != Estimate::exact(1.0) && is_brought(&row.of.structure, &row.of.triangle_test))?;
+        let (label, times, reference) = (row.label, interval(value), self.reference.words());
+        let sentence = format!("{label} traces {times} times as many rays a second as {reference}.");
+        Some(Finding::new(format!("speed-{}", slug(label)), sentence).of(value))
     }
 
     /// How many times faster `one` is than `other`, over the cells.

@@ -1,22 +1,24 @@
 //! What a table relates speeds to, and ratios between measurements, with their intervals.
 
-use crate::measure::{AaNoise, Estimate, Rerun, cut_to_shared_epochs, epoch_values};
+use crate::measure::{AaNoise, Estimate, Rerun, cut_to_shared_epochs, epoch_values, mean};
 use crate::registry::is_named;
 use crate::request::REPORT_TREE;
 use crate::study::measurement::{Measurement, is_reference};
 
 /// The geometric mean of how many times faster the first of each pair is than the second, with its
-/// [interval](mod@crate::measure::interval), over the epochs that all pairs have. Nothing where one of them has no time,
-/// or their samples are not of the same rounds.
+/// [interval](mod@crate::measure::interval): the mean of what tables say of each, with a spread over the epochs that all pairs
+/// have. Nothing where one of them has no time, or their samples are not of the same rounds.
 pub fn speed<'a>(
     pairs: impl IntoIterator<Item = (&'a Measurement, &'a Measurement)>,
     noise: &AaNoise,
 ) -> Option<Estimate> {
     let cells = pairs.into_iter().map(|(own, other)| own.speed_against(other));
     let mut cells: Vec<_> = cells.collect::<Option<_>>()?;
+    let of_cell = |cell: &Vec<Vec<f64>>| Some(mean(&epoch_values(std::slice::from_ref(cell))?));
+    let centre = mean(&cells.iter().map(of_cell).collect::<Option<Vec<f64>>>()?);
     // Where time ran out, scenes have different numbers of them.
     cut_to_shared_epochs(&mut cells);
-    Some(Rerun::of(&epoch_values(&cells)?, noise.of_mean(cells.len()))?.ratio())
+    Some(Rerun::of(&epoch_values(&cells)?, noise.of_mean(cells.len()))?.around(centre).ratio())
 }
 
 /// The other side of a column of ratios.

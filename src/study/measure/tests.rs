@@ -225,11 +225,14 @@ fn the_oracle_gives_error_rates_beside_times_and_whole_counts_are_of_all_rays() 
 
 #[test]
 fn a_check_is_bounded_by_a_clock_where_it_is_asked_to_be() {
+    let case = case("torus", &["sah-kd"], &[WorkloadKind::Primary]);
+    let (prepared, clock) = (Prepared::new(&case, &registry(), None).unwrap(), SystemClock::start());
+    let Prepared { scene, choices, threads, .. } = &prepared;
+    let built = Built::new(&choices[0], scene, threads, &clock).unwrap();
+    let workloads = case.workloads.workloads(scene, 1, built.accel.as_ref(), &mut |_| ()).unwrap();
     let checked = |limit_ns| {
-        let mut case = case("torus", &["sah-kd"], &[WorkloadKind::Primary]);
-        case.settings.check = Check::BruteForce { tests: 1 << 24, limit_ns };
-        let Measured { epoch, .. } = measured(&case, &mut |_| ()).unwrap();
-        epoch.structures[0].rays[0].checked.as_ref().unwrap().rays
+        let checks = Checks { scene, workloads: &workloads, tests: 1 << 24, limit_ns, clock: &clock };
+        checks.all([&built], &mut |_| ()).unwrap()[0].as_ref().unwrap()[0].rays
     };
     let (whole, bounded) = (checked(None), checked(Some(1)));
     assert!(bounded > 0 && bounded < whole / 8, "{bounded} {whole}");

@@ -32,14 +32,15 @@ pub struct TimedCheck<'a> {
     references: Vec<TreeHits>,
 }
 
-/// The hits of a tree of this suite for all rays of each workload, those that were needed yet.
+/// The hits of a tree of this suite for rays of each workload.
 struct TreeHits {
     name: &'static str,
     triangle_test: &'static str,
     accel: Box<dyn DynAccel>,
     /// Judges differences: brute force over the same test, or over `exact` for a test that is a structure's own.
     judge: Reference,
-    hits: Vec<Option<Vec<Option<Hit>>>>,
+    /// By workload and ray; nothing where it was not needed yet.
+    hits: Vec<Vec<Option<Option<Hit>>>>,
 }
 
 impl<'a> TimedCheck<'a> {
@@ -58,8 +59,7 @@ impl<'a> TimedCheck<'a> {
         let Some(found) = guarded(|| traced(built.accel.as_ref(), &chosen, workload.query)) else { return Ok(None) };
 
         let place = self.reference(built)?;
-        let all = self.references[place].hits_of(pair.workload, workload);
-        let expected: Vec<Option<Hit>> = timed.iter().map(|&index| all[index]).collect();
+        let expected = self.references[place].hits_of(pair.workload, workload, &timed);
         Ok(Some(self.judged(&self.references[place].judge, &chosen, &expected, &found)))
     }
 
@@ -86,7 +86,7 @@ impl<'a> TimedCheck<'a> {
         let choice = registry.choose(&format!("{name}:quality=fast,test={test}"));
         let accel = choice.map_err(|cause| BuildError::Config(cause.to_string()))?.build(&self.scene.mesh)?;
         let judge = Reference::of_test(own_test, &self.scene.mesh)?;
-        let hits = vec![None; self.workloads.len()];
+        let hits = self.workloads.iter().map(|workload| vec![None; workload.rays.len()]).collect();
         self.references.push(TreeHits { name, triangle_test: own_test, accel, judge, hits });
         Ok(self.references.len() - 1)
     }
@@ -127,9 +127,14 @@ impl<'a> TimedCheck<'a> {
 }
 
 impl TreeHits {
-    fn hits_of(&mut self, place: usize, workload: &Workload) -> &[Option<Hit>] {
-        let Self { accel, hits, .. } = self;
-        hits[place].get_or_insert_with(|| accel.closest_by_chunks(&workload.rays, TILE))
+    /// The hits for these rays of a workload.
+    fn hits_of(&mut self, place: usize, workload: &Workload, wanted: &[usize]) -> Vec<Option<Hit>> {
+        let hits = &mut self.hits[place];
+        let missing: Vec<usize> = wanted.iter().copied().filter(|&index| hits[index].is_none()).collect();
+        let rays: Vec<Ray> = missing.iter().map(|&index| workload.rays[index]).collect();
+        let traced = self.accel.closest_by_chunks(&rays, TILE);
+        missing.into_iter().zip(traced).for_each(|(index, hit)| hits[index] = Some(hit));
+        wanted.iter().map(|&index| hits[index].flatten()).collect()
     }
 }
 

@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::case::{Content, Expected, HardCase, Rank, cases};
 use super::meshes::*;
-use super::metamorphic::{among_many, metamorphic};
+use super::metamorphic::{metamorphic, straight_down};
 use super::properties::*;
 use super::rays::*;
 use super::set::{Set, on_edge, on_surface, ray_to, vertex};
@@ -318,6 +318,6 @@ cases! {
     Added 90 "t_rounds_to_t_max", Hit => |n| Set::new(star(), n, 65, before_the_end),
         "The exact t lies before t_max and rounds to it, half of the time near the largest float, where crossings overflow.",
         "a user's ray: both KD-trees lost a hit just before t_max = 3.4028235e38";
-    Added 91 "among_many", Property => among_many,
+    Added 91 "straight_down", Property => straight_down,
         "Rays in the planes of many boxes, through shared corners: a slab of 0 x infinity is not a number.", "a user's BVH";
 }

@@ -3,6 +3,7 @@
 mod child;
 mod record;
 mod table;
+mod verdict;
 
 use std::io;
 use std::sync::Mutex;
@@ -23,10 +24,10 @@ use crate::report::words::each_once_by;
 use crate::request::{self, known_defect};
 use crate::study::{Status, Verdict};
 use crate::triangle::{Exact, TriangleTest};
-use crate::validate::Kind;
 use crate::validate::hard_cases::{Answers, CaseTruth, Content, Failure, HardCase, Score, catalogue, find_all};
 use record::record;
 use table::{Column, LEGEND, summary, tables};
+use verdict::verdict;
 
 pub use child::{Args as ChildArgs, COMMAND as CHILD, run_child};
 
@@ -75,22 +76,6 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
     let wrong =
         columns.iter().any(|column| column.scores.iter().any(|score| is_wrong(column.choice, score, args.strict)));
     Ok(if wrong { Status::Wrong } else { Status::Right })
-}
-
-/// What a score says of a structure. A property counts as the rays that it was checked on.
-fn verdict(score: &Score) -> Verdict {
-    let failed = |fault| Verdict { rays: 1, wrong: 1, rounded: 0, fault };
-    match score {
-        Score::Rays(score) => {
-            let verdict = Verdict::from(&score.validation);
-            let fault = verdict.fault.or((score.contradictions > 0).then_some(Kind::AnyHitDisagrees));
-            Verdict { wrong: (verdict.wrong + score.contradictions).min(verdict.rays), fault, ..verdict }
-        }
-        Score::Property(property) => Verdict { rays: property.checked, wrong: property.broken, ..Verdict::default() },
-        Score::Failed(Failure::Hang) => failed(Some(Kind::Hangs)),
-        Score::Failed(Failure::Panic | Failure::Crash) => failed(Some(Kind::Panicked)),
-        Score::Failed(Failure::Refused(_) | Failure::Declined(_)) => Verdict::default(),
-    }
 }
 
 /// What all cases say of a structure.

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::verdict;
+use super::verdict::verdict;
 use crate::registry::Choice;
 use crate::validate::hard_cases::{HardCase, Score};
 

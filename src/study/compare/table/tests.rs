@@ -46,18 +46,6 @@ fn cube() -> Vec<Measurement> {
 }
 
 #[test]
-fn a_table_of_very_many_triangles_says_how_few_rays_were_checked() {
-    let of = |triangles: usize, checked: usize| {
-        let many = |r: Measurement| Measurement { triangles, checked_rays: checked, ..r };
-        let all: Vec<Measurement> = cube().into_iter().map(many).collect();
-        let tables = [scene_table(&all, &[]), super::scene_table(&all, &Reference::of(&all, None), &[], false)];
-        tables.map(|table| table.notes.concat())
-    };
-    assert!(of(10_000_000, 64).iter().all(|notes| notes.contains("checked on 64 rays of a kind")));
-    assert!(of(12, 8192).iter().all(|notes| !notes.contains("checked")));
-}
-
-#[test]
 fn ratios_are_geometric_means_against_the_tree_and_the_better_bvh() {
     let table = scene_table(&cube(), &[]);
     assert_eq!(cell(&table, "sah-kd", "x median"), "4.00");
@@ -180,7 +168,7 @@ fn a_mean_over_fewer_scenes_names_its_count_and_is_not_ranked() {
 }
 
 #[test]
-fn scenes_with_fewer_epochs_have_means_over_the_first_of_each() {
+fn means_are_those_of_the_scenes_and_their_intervals_of_the_epochs_that_all_have() {
     let mut all = cube();
     for label in ["median-kd", "sah-kd", "obvhs-bvh2"] {
         let speed = if label == "sah-kd" { 8.0 } else { 1.0 };
@@ -189,9 +177,7 @@ fn scenes_with_fewer_epochs_have_means_over_the_first_of_each() {
     }
     let table = mean_table(&all);
     assert_eq!(cell(&table, "sah-kd", "primary"), "8.00");
-    assert!(
-        table.notes.contains(&"Scenes have 1 to 5 epochs: means over all of them are of the first of each.".into())
-    );
+    assert!(table.notes.contains(&"Scenes have 1 to 5 epochs: intervals of means are of the first of each.".into()));
     assert!(mean_table(&cube()).notes.iter().all(|note| !note.contains("epochs")));
     let whole: Vec<Measurement> = all.into_iter().filter(|record| record.label != "obvhs-cwbvh").collect();
     assert!(mean_table(&whole).notes.iter().all(|note| !note.starts_with("(n of m)")), "no row lacks a case");
