@@ -103,7 +103,7 @@ pub(super) fn straight_down(subject: &Subject, rays: usize) -> Result<Property, 
     for _ in 0..shared(rays, 4) {
         let inner = |x: usize| (x + 1) as f32 / 16.0 - 1.0;
         let corner = Vec3::new(inner(sampler.below(31)), inner(sampler.below(31)), 0.0);
-        let zero = sampler.pick(&[0.0, -0.0]);
+        let zero = sampler.zero();
         let down = |x: f32| accel.closest(&[Ray::new(corner + Vec3::Z, Vec3::new(x, x, -1.0))])[0].is_some();
         property.note(down(zero) || !down(1e-30), || {
             format!("(1e-30, 1e-30, -1) from {:?} hits the sheet, ({zero:?}, {zero:?}, -1) does not", corner + Vec3::Z)
