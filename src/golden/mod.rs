@@ -4,6 +4,9 @@
 mod assert;
 mod difference;
 mod file;
+mod layout;
+mod mask;
+pub mod measures;
 
 use std::path::{Path, PathBuf};
 
@@ -16,8 +19,10 @@ use crate::scene::Scene;
 use crate::triangle::{Exact, TriangleTest};
 
 pub use assert::{Match, UPDATE, assert_image, check_image};
-pub use difference::{Difference, Layout, difference_picture};
+pub use difference::{Difference, difference_picture, pixels_over};
 pub use file::{PictureError, read, write};
+pub use layout::Layout;
+pub use mask::Mask;
 
 /// The folders of golden images and of the pictures of failures.
 #[derive(Clone, Debug, PartialEq, Eq)]
