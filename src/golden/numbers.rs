@@ -4,6 +4,9 @@
 
 use image::{DynamicImage, ImageBuffer, LumaA, Rgb32FImage};
 
+/// The number of a primitive where there is none.
+pub const MISS: u32 = u32::MAX;
+
 /// A picture of numbers for a PNG file.
 ///
 /// # Panics

@@ -1,0 +1,92 @@
+//! One comparison as tables, JSON and the page say it.
+
+use image::{DynamicImage, RgbImage};
+use serde::Serialize;
+
+use super::judgement::{Judgement, Match, Verdict};
+use super::measures::{FlipMap, Measures};
+use super::{Difference, Layout, Mask, difference_picture};
+
+/// Two pictures of one name, or one of which the other is not there.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Comparison {
+    pub name: String,
+    pub verdict: Verdict,
+    /// What was found, in sentences.
+    pub said: Vec<String>,
+    /// A command that looks into it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub command: Option<String>,
+    /// Of two pictures of one layout that differ.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub measures: Option<Measures>,
+}
+
+/// Where two pictures differ: what a page shows beside them.
+pub struct Maps {
+    pub difference: RgbImage,
+    pub flip: Option<FlipMap>,
+}
+
+impl Comparison {
+    /// One without measures.
+    pub fn said(name: impl Into<String>, verdict: Verdict, sentence: impl Into<String>) -> Self {
+        Self { name: name.into(), verdict, said: vec![sentence.into()], command: None, measures: None }
+    }
+
+    /// Whether the pictures are not accepted, or there are no two.
+    pub fn fails(&self) -> bool {
+        self.verdict < Verdict::Accepted
+    }
+}
+
+/// Compares two pictures; what the mask leaves out is not compared. Also tells where they differ.
+pub fn compare(
+    name: &str,
+    [expected, actual]: [&DynamicImage; 2],
+    how: Match,
+    mask: Option<&Mask>,
+) -> (Comparison, Option<Maps>) {
+    let said = |verdict, sentence: String| (Comparison::said(name, verdict, sentence), None);
+    let [wanted, found] = [expected, actual].map(Layout::of);
+    if wanted != found {
+        return said(Verdict::Differs, format!("{wanted} are expected, and it has {found}"));
+    }
+    if let Some(mask) = mask.filter(|mask| mask.size != wanted.size) {
+        let [width, height] = mask.size;
+        let sentence =
+            format!("the mask has {width} x {height} pixels, and the picture has {wanted}: give one of its size");
+        return said(Verdict::Failed, sentence);
+    }
+    let masked = mask.map(|mask| mask.applied(expected, actual.clone()));
+    let pictures = [expected, masked.as_ref().unwrap_or(actual)];
+    let mut judged = match Judgement::new(pictures, how, mask) {
+        Err(refused) => return said(Verdict::Failed, refused.to_string()),
+        Ok(None) => return said(Verdict::Identical, "all values are equal".into()),
+        Ok(Some(judged)) => judged,
+    };
+    let comparison = Comparison {
+        name: name.into(),
+        verdict: if judged.accepted { Verdict::Accepted } else { Verdict::Differs },
+        said: vec![judged.difference.sentence(wanted.size)],
+        command: None,
+        measures: Some(judged.measures()),
+    };
+    let flip = judged.flip().cloned();
+    (comparison, Some(Maps { difference: difference_picture(pictures[0], pictures[1]), flip }))
+}
+
+impl Difference {
+    /// How many pixels of a picture of this size differ, where and by how much.
+    pub fn sentence(&self, [width, height]: [u32; 2]) -> String {
+        let Self { pixels, first, worst, largest, full_scale } = *self;
+        let all = u64::from(width) * u64::from(height);
+        let most =
+            if worst == first { String::new() } else { format!(", most at column {}, row {}", worst[0], worst[1]) };
+        let scale = if full_scale == 1.0 { String::new() } else { format!(" of {full_scale}") };
+        format!(
+            "{pixels} of {all} pixels differ, first at column {}, row {}, by up to {largest}{scale}{most}",
+            first[0], first[1]
+        )
+    }
+}
