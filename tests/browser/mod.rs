@@ -1,6 +1,7 @@
 //! The page of a report in a browser: Chromium, where there is one.
 
 mod chromium;
+mod golden;
 
 use std::path::PathBuf;
 use std::sync::OnceLock;

@@ -5,6 +5,7 @@
   const between = (value, low, high) => Math.min(Math.max(value, low), high);
 
   // Scripts hand in the values of pixels, since a page from a file may not read those of a picture.
+  // They are large: each is loaded when its comparison is seen.
   const waiting = new Map();
   window.saharaValues = (number, data) => {
     const read = (side) => {
@@ -61,7 +62,7 @@
       values = await load(Number(number), file);
       draw();
     };
-    const go = (to) => { pixel = [between(to[0], 0, width - 1), between(to[1], 0, height - 1)]; ask(); draw(); };
+    const go = (to) => { pixel = [between(to[0], 0, width - 1), between(to[1], 0, height - 1)]; draw(); };
     const pressed = (name, on) => buttons[name].setAttribute("aria-pressed", on);
     const actions = {
       blink: () => {
@@ -98,7 +99,7 @@
     Object.entries(buttons).forEach(([name, button]) => button.addEventListener("click", actions[name]));
     range.addEventListener("input", () => { cut = Number(range.value); draw(); });
     selects.forEach((select) => select.addEventListener("change", draw));
-    stage.addEventListener("focus", ask);
+    new IntersectionObserver((entries) => { if (entries.some((entry) => entry.isIntersecting)) ask(); }).observe(stage);
     stage.style.aspectRatio = `${width} / ${height}`;
     viewer.hidden = false;
     draw();
