@@ -4,7 +4,7 @@ use std::path::Path;
 
 use image::DynamicImage;
 
-use super::page::Values;
+use super::sides::Values;
 use super::{GoldenError, Match, PictureError, failure, file};
 
 /// The environment variable that makes [`assert_image`] write golden images instead of comparing, if it is `update`.

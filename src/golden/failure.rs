@@ -6,10 +6,9 @@ use image::DynamicImage;
 
 use super::comparison::compare;
 use super::judgement::{Judgement, Match};
-use super::page::{self, Sides, Values};
-use super::{GoldenError, Layout, PictureError, difference_picture, file};
-use crate::escaped::Escaped as _;
-use crate::output::OutputFolder;
+use super::page::PageFolder;
+use super::sides::{PageError, Sides, Values};
+use super::{GoldenError, Layout, difference_picture, file};
 
 /// Whether `actual` is accepted in the place of `expected`, which is the golden image `path`. If not, pictures are written
 /// to `SHOWN-actual.png`, `-expected.png` and, of pictures of one layout, `-difference.png`, and a page to the folder
@@ -25,31 +24,36 @@ pub fn check(
 ) -> Result<(), GoldenError> {
     let path = path.to_path_buf();
     let [wanted, found] = [expected, actual].map(Layout::of);
-    let refusal = if found != wanted {
-        GoldenError::Layout { path, expected: wanted, found, shown: shown.into(), remedy }
-    } else {
+    let difference = if found == wanted {
         match Judgement::new([expected, actual], how, None)? {
-            Some(judged) if !judged.accepted => {
-                let difference = judged.difference;
-                GoldenError::Differs { label: label.into(), path, difference, size: found.size, shown: shown.into() }
-            }
+            Some(judged) if !judged.accepted => Some(judged.difference),
             _ => return Ok(()),
         }
+    } else {
+        None
+    };
+    let left = leave(shown, label, [expected, actual], how, values);
+    let (page, fault) = left.map_or_else(|fault| (None, Some(fault)), |page| (page, None));
+    let (label, shown, size) = (label.into(), shown.into(), found.size);
+    let refusal = match difference {
+        Some(difference) => GoldenError::Differs { label, path, difference, size, shown, page },
+        None => GoldenError::Layout { path, expected: wanted, found, shown, remedy },
     };
     // The difference stays the reason if its pictures cannot be written.
-    match leave(shown, label, [expected, actual], how, values) {
-        Ok(()) => Err(refusal),
-        Err(cause) => Err(GoldenError::NotShown { refusal: Box::new(refusal), cause: Box::new(cause) }),
-    }
+    Err(match fault {
+        None => refusal,
+        Some(cause) => GoldenError::NotShown { refusal: Box::new(refusal), cause: Box::new(cause) },
+    })
 }
 
+/// Tells where the page is, if this program makes pages.
 fn leave(
     shown: &Path,
     label: &str,
     [expected, actual]: [&DynamicImage; 2],
     how: Match,
     values: Values,
-) -> Result<(), GoldenError> {
+) -> Result<Option<PathBuf>, GoldenError> {
     let write = |what: &str, picture: &DynamicImage| {
         let path = PathBuf::from(format!("{}-{what}.png", shown.display()));
         // PNG has no floats; to look at, 8 bits are enough.
@@ -63,18 +67,15 @@ fn leave(
     if Layout::of(actual) == Layout::of(expected) {
         write("difference", &difference_picture(actual, expected).into())?;
     }
-    let folder = OutputFolder::check(shown).map_err(PictureError::from)?;
-    let written = page::write(&folder, label, |page| {
+    let folder = match PageFolder::check(shown, []) {
+        Err(PageError::Unavailable) => return Ok(None),
+        folder => folder?,
+    };
+    folder.write(label, |page| {
         let (comparison, maps) = compare(label, [expected, actual], how, None);
-        let sides = Sides { expected: Some(expected), actual: Some(actual), values };
-        page.add(0, &comparison, sides, maps.as_ref())
-    });
-    Ok(written.map_err(PictureError::from)?)
-}
-
-/// The end of a message that names the page of a failure.
-pub fn page_of(shown: &Path) -> String {
-    format!(", or the page {}", shown.join(page::INDEX).escaped())
+        page.add(0, &comparison, Sides { expected: Some(expected), actual: Some(actual), values }, maps.as_ref())
+    })?;
+    Ok(Some(folder.index()))
 }
 
 /// `text` with everything but letters, digits and `.`, `-`, `_` replaced.

@@ -1,5 +1,7 @@
 //! Image regression: pictures of any renderer against golden images, exactly or by a tolerance. Each built-in scene must
 //! look the same with every structure, byte for byte. [`assert_image`] is for the tests of other crates.
+//!
+#![doc = include_str!("GOLDEN.md")]
 
 mod assert;
 mod comparison;
@@ -14,8 +16,9 @@ pub mod measures;
 mod numbers;
 pub mod page;
 mod scene;
+mod sides;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::escaped::Escaped as _;
 
@@ -28,6 +31,7 @@ pub use judgement::{Allowed, Judgement, Match, NoFlip, Verdict};
 pub use layout::Layout;
 pub use mask::Mask;
 pub use scene::{Overwrite, SIZE, SceneGolden, TRIANGLE_TEST, Update, VIEWS};
+pub use sides::{PageError, Sides, Values};
 
 /// Why a picture is not accepted. `remedy` says how golden images are made.
 #[derive(Debug, thiserror::Error)]
@@ -62,13 +66,27 @@ pub enum GoldenError {
          others in a folder"
     )]
     NoSources,
-    #[error("{label}: {} in {}: see {}-actual.png, -expected.png and -difference.png{}", difference.sentence(*size),
-        path.escaped(), shown.escaped(), failure::page_of(shown))]
-    Differs { label: String, path: PathBuf, difference: Difference, size: [u32; 2], shown: PathBuf },
+    #[error("{label}: {}: see {}-actual.png, -expected.png and -difference.png{}; the golden image is {}",
+        difference.sentence(*size), shown.escaped(), or_page(page.as_deref()), path.escaped())]
+    Differs {
+        label: String,
+        path: PathBuf,
+        difference: Difference,
+        size: [u32; 2],
+        shown: PathBuf,
+        /// Where a page shows the difference.
+        page: Option<PathBuf>,
+    },
     #[error("{refusal}; but these could not be written: {cause}")]
     NotShown { refusal: Box<GoldenError>, cause: Box<GoldenError> },
     #[error(transparent)]
     NoFlip(#[from] NoFlip),
     #[error(transparent)]
+    Page(#[from] PageError),
+    #[error(transparent)]
     Picture(#[from] PictureError),
+}
+
+fn or_page(page: Option<&Path>) -> String {
+    page.map(|page| format!(", or the page {}", page.escaped())).unwrap_or_default()
 }

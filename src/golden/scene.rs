@@ -83,8 +83,15 @@ impl SceneGolden {
         Self { view, size: scene.size, path, bytes: None, note: Some(camera_note(&scene.camera)) }
     }
 
+    /// The file. Of a built-in scene it is only written.
     pub fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// The file as messages name it: the sources of this program may be anywhere.
+    fn named(&self) -> PathBuf {
+        let sources = Path::new(env!("CARGO_MANIFEST_DIR"));
+        self.path.strip_prefix(sources).ok().filter(|_| self.bytes.is_some()).unwrap_or(&self.path).into()
     }
 
     /// The picture as it is compared.
@@ -154,7 +161,7 @@ impl SceneGolden {
     ) -> Result<(), GoldenError> {
         let shown = out.join(failure::file_name(&format!("{}-{structure}", scene.to_lowercase())));
         let label = format!("{scene} with {structure}");
-        failure::check(&self.path, &label, pictures, Match::Exact, self.view.into(), &shown, REMEDY)
+        failure::check(&self.named(), &label, pictures, Match::Exact, self.view.into(), &shown, REMEDY)
     }
 
     /// Makes the golden image if it would not be the same.

@@ -41,10 +41,12 @@ impl Judge<'_> {
             }
             () => format!("exact arithmetic sides with neither and gives {}", self.values(&exact)),
         };
-        let hit = accel.closest(&[ray])[0];
-        let primary = match outcome(self.oracle.nearest(&ray).as_ref(), hit, DepthRule::STRICT) {
-            wrong if error_name(wrong).is_some() => error_name(wrong).unwrap_or_default(),
-            _ => "right, so that another ray of the pixel or another triangle at the same t is the cause",
+        let [hit, exact_hit] = [accel, self.exact.as_ref()].map(|accel| accel.closest(&[ray])[0]);
+        let wrong = error_name(outcome(self.oracle.nearest(&ray).as_ref(), hit, DepthRule::STRICT));
+        let primary = match wrong {
+            Some(wrong) => wrong,
+            None if hit.map(|hit| hit.prim) != exact_hit.map(|hit| hit.prim) => "right, with another triangle at the same t",
+            None => "right, so the cause is another ray of the pixel",
         };
         let [wanted, painted] = [&wanted, &painted].map(|pixel| self.values(pixel));
         let sentence = format!(

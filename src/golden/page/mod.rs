@@ -4,7 +4,7 @@ mod side;
 
 use std::fs;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use image::{DynamicImage, RgbImage};
@@ -15,14 +15,12 @@ use serde::Serialize;
 use super::comparison::{Comparison, Maps};
 use super::judgement::Verdict;
 use super::measures::Measures;
-use crate::output::{OutputError, OutputFolder};
+use super::sides::{PageError, Sides};
+use crate::output::OutputFolder;
 use crate::render::{from_pixels, ramp_colour};
 use side::{shown, values};
 
-pub use side::{Sides, Values};
-
-/// The file of a page in its folder.
-pub const INDEX: &str = "index.html";
+const INDEX: &str = "index.html";
 
 /// A page that is being written: comparisons may be added in any order and by several threads.
 pub struct Page<'a> {
@@ -52,23 +50,36 @@ struct Map {
     file: String,
 }
 
-/// Writes a page into a folder that is empty, not there, or a page of before.
-///
-/// # Errors
-/// If it cannot be written.
-pub fn write<T>(
-    folder: &OutputFolder,
-    title: &str,
-    fill: impl FnOnce(&Page) -> io::Result<T>,
-) -> Result<T, OutputError> {
-    folder.write_in(|folder| {
-        fs::create_dir(folder.join("pictures"))?;
-        let page = Page { folder, entries: Mutex::default() };
-        let filled = fill(&page)?;
-        let entries = page.entries.into_inner().unwrap_or_else(PoisonError::into_inner);
-        fs::write(folder.join(INDEX), html(title, entries))?;
-        Ok(filled)
-    })
+/// A folder for a page, which is empty, not there, or has a page of before.
+#[derive(Clone, Debug)]
+pub struct PageFolder(OutputFolder);
+
+impl PageFolder {
+    /// # Errors
+    /// If something else is there, or one of `inputs`, the pictures that are compared.
+    pub fn check<'a>(path: &Path, inputs: impl IntoIterator<Item = &'a Path>) -> Result<Self, PageError> {
+        Ok(Self(OutputFolder::check(path)?.apart_from(inputs)?))
+    }
+
+    /// The file that a browser opens.
+    pub fn index(&self) -> PathBuf {
+        self.0.path().join(INDEX)
+    }
+
+    /// Writes a page, to which `fill` adds comparisons.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn write<T>(&self, title: &str, fill: impl FnOnce(&Page) -> io::Result<T>) -> Result<T, PageError> {
+        Ok(self.0.write_in(|folder| {
+            fs::create_dir(folder.join("pictures"))?;
+            let page = Page { folder, entries: Mutex::default() };
+            let filled = fill(&page)?;
+            let entries = page.entries.into_inner().unwrap_or_else(PoisonError::into_inner);
+            fs::write(folder.join(INDEX), html(title, entries))?;
+            Ok(filled)
+        })?)
+    }
 }
 
 impl Page<'_> {
