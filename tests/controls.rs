@@ -62,10 +62,13 @@ const CHECKS: [(&str, Match); 4] = [
     ("`--max-flip 0.01`", Match::Flip { mean: 0.01, pixels_per_degree: sahara::golden::measures::PIXELS_PER_DEGREE }),
 ];
 
+/// A measure as the table says it.
+type Say = fn(&Measures) -> String;
+
 fn table() -> String {
     let (right, others) = pictures();
     let row = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
-    let measures: [(&str, fn(&Measures) -> String); 8] = [
+    let measures: [(&str, Say); 8] = [
         ("pixels that differ", |own| own.difference.pixels.to_string()),
         ("more than 2", |own| own.pixels_over.to_string()),
         ("largest difference", |own| own.difference.largest.to_string()),

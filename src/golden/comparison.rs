@@ -90,3 +90,53 @@ impl Difference {
         )
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use image::{Rgb, Rgb32FImage, RgbImage};
+
+    use super::*;
+    use crate::golden::Allowed;
+
+    fn verdict(pictures: [&DynamicImage; 2], how: Match) -> Verdict {
+        compare("a", pictures, how, None).0.verdict
+    }
+
+    #[test]
+    fn floats_are_accepted_by_their_own_difference_and_not_by_flip() {
+        let float = |value| DynamicImage::from(Rgb32FImage::from_pixel(12, 12, Rgb([value, 0.0, 7.0])));
+        let [one, other] = [float(2.0), float(2.5)];
+        assert_eq!(
+            [0.4, 0.5].map(|most| verdict([&one, &other], Match::within(most))),
+            [Verdict::Differs, Verdict::Accepted]
+        );
+        let (refused, maps) = compare("a", [&one, &other], Match::flip(1.0), None);
+        assert!(
+            refused.verdict == Verdict::Failed && refused.said[0].contains("floats") && maps.is_none(),
+            "{refused:?}"
+        );
+        let (found, maps) = compare("a", [&one, &float(f32::NAN)], Match::Exact, None);
+        assert!(found.measures.unwrap().flip.is_none() && maps.unwrap().flip.is_none());
+        let text = serde_json::to_value(&found).unwrap();
+        assert!(
+            text["measures"]["largest"].is_null() && text["measures"]["pixels"] == 144,
+            "infinity is no JSON: {text}"
+        );
+    }
+
+    #[test]
+    fn pixels_are_allowed_by_number_or_by_percent_of_those_compared() {
+        let right = DynamicImage::from(RgbImage::new(20, 10));
+        let mut other = RgbImage::new(20, 10);
+        (0..4).for_each(|x| other.put_pixel(x, 0, Rgb([0, 9, 0])));
+        let other = other.into();
+        let accepts = |pixels, mask: Option<&Mask>| {
+            let how = Match::Tolerance { difference: 8.0, pixels };
+            compare("a", [&right, &other], how, mask).0.verdict == Verdict::Accepted
+        };
+        assert_eq!([3, 4].map(|pixels| accepts(Allowed::Pixels(pixels), None)), [false, true]);
+        assert_eq!([1.9, 2.0].map(|percent| accepts(Allowed::Percent(percent), None)), [false, true]);
+        let mask = Mask::new(&RgbImage::from_fn(20, 10, |_, y| Rgb([0, 0, u8::from(y < 5)])).into());
+        assert_eq!([3.9, 4.0].map(|percent| accepts(Allowed::Percent(percent), Some(&mask))), [false, true]);
+    }
+}

@@ -26,7 +26,7 @@ pub fn check(
     let [wanted, found] = [expected, actual].map(Layout::of);
     let difference = if found == wanted {
         match Judgement::new([expected, actual], how, None)? {
-            Some(judged) if !judged.accepted => Some(judged.difference),
+            Some(judged) if !judged.accepted => Some(Box::new(judged.difference)),
             _ => return Ok(()),
         }
     } else {

@@ -13,7 +13,7 @@ mod judgement;
 mod layout;
 mod mask;
 pub mod measures;
-mod numbers;
+pub mod numbers;
 pub mod page;
 mod scene;
 mod sides;
@@ -71,7 +71,7 @@ pub enum GoldenError {
     Differs {
         label: String,
         path: PathBuf,
-        difference: Difference,
+        difference: Box<Difference>,
         size: [u32; 2],
         shown: PathBuf,
         /// Where a page shows the difference.

@@ -1,6 +1,18 @@
 //! Views that show numbers, kept in PNG files without loss.
 //!
-//! A pixel is a number of 32 bits in two channels of 16: the upper half is grey, the lower half is alpha.
+//! A pixel is a number of 32 bits in two channels of 16: the upper half is grey, the lower half is alpha. A renderer of one's
+//! own may have them in golden images as well:
+//!
+//! ```
+//! use sahara::golden::numbers::packed;
+//! use sahara::golden::{Match, assert_image};
+//!
+//! # let folder = tempfile::tempdir().unwrap();
+//! # let golden = folder.path().join("depth.png");
+//! let depths = [1.5f32, f32::INFINITY, 2.25, 0.1];
+//! # sahara::golden::write(&golden, &packed([2, 2], &depths.map(f32::to_bits))).unwrap();
+//! assert_image(&golden, packed([2, 2], &depths.map(f32::to_bits)), Match::Exact);
+//! ```
 
 use image::{DynamicImage, ImageBuffer, LumaA, Rgb32FImage};
 

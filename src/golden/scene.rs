@@ -83,6 +83,11 @@ impl SceneGolden {
         Self { view, size: scene.size, path, bytes: None, note: Some(camera_note(&scene.camera)) }
     }
 
+    /// Whether it is that of a built-in scene in this program.
+    pub fn is_in_program(&self) -> bool {
+        self.bytes.is_some()
+    }
+
     /// The file. Of a built-in scene it is only written.
     pub fn path(&self) -> &Path {
         &self.path
@@ -290,7 +295,7 @@ mod tests {
         assert!(difference.pixels > 2_000 && difference.largest >= 127.0, "{error}");
         let picture = |what: &str| file::read(&PathBuf::from(format!("{}-{what}.png", shown.display()))).unwrap();
         let [actual, expected] = ["actual", "expected"].map(picture);
-        assert_eq!(Difference::between(&expected, &actual), Some(*difference));
+        assert_eq!(Difference::between(&expected, &actual), Some(**difference));
         assert_eq!(picture("difference"), crate::golden::difference_picture(&expected, &actual).into());
         assert!(
             error.to_string().contains("Cube with sah-kd:leaf=1") && error.to_string().contains("index.html"),
@@ -298,7 +303,7 @@ mod tests {
         );
         // Three pictures, and the folder of the page.
         assert_eq!(fs::read_dir(&out).unwrap().count(), 4);
-        assert_eq!(golden.update(&scene, &tree, Overwrite::Own).unwrap(), Update::Changed(*difference));
+        assert_eq!(golden.update(&scene, &tree, Overwrite::Own).unwrap(), Update::Changed(**difference));
     }
 
     #[test]
@@ -352,5 +357,11 @@ mod tests {
             let golden = SceneGolden::builtin(builtin.name).unwrap_or_else(|| panic!("{}", builtin.name));
             assert_eq!(golden.expected().unwrap(), file::read(golden.path()).unwrap());
         }
+        // Where the sources are not, nothing else is needed to check, and nothing is made.
+        let installed =
+            SceneGolden { path: "/no/such/cube/golden.png".into(), ..SceneGolden::builtin("Cube").unwrap() };
+        installed.check(&scene, "sah-kd", &tree, Path::new("/no/such/out")).unwrap();
+        let refused = installed.update(&scene, &tree, Overwrite::Any).unwrap_err();
+        assert!(matches!(refused, GoldenError::NoSources), "{refused}");
     }
 }

@@ -45,7 +45,9 @@ impl Judge<'_> {
         let wrong = error_name(outcome(self.oracle.nearest(&ray).as_ref(), hit, DepthRule::STRICT));
         let primary = match wrong {
             Some(wrong) => wrong,
-            None if hit.map(|hit| hit.prim) != exact_hit.map(|hit| hit.prim) => "right, with another triangle at the same t",
+            None if hit.map(|hit| hit.prim) != exact_hit.map(|hit| hit.prim) => {
+                "right, with another triangle at the same t"
+            }
             None => "right, so the cause is another ray of the pixel",
         };
         let [wanted, painted] = [&wanted, &painted].map(|pixel| self.values(pixel));

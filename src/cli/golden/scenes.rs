@@ -1,6 +1,6 @@
 //! `golden check` and `golden update`.
 
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
@@ -23,7 +23,7 @@ use crate::study::Status;
 /// Where pictures of failures go, in the current directory.
 const OUT: &str = "out/golden";
 
-/// Triangles times pixels above which brute force would take minutes.
+/// Triangles times pixels of anybody's scene above which brute force would take minutes.
 const WORK: u64 = 1 << 32;
 
 #[derive(Debug, clap::Args)]
@@ -75,6 +75,16 @@ struct Target {
     golden: SceneGolden,
     /// On a command line.
     word: String,
+    /// The structure that draws unless one is named.
+    default: &'static str,
+}
+
+impl Target {
+    fn new(scene: Scene, golden: SceneGolden, word: impl AsRef<OsStr>) -> Self {
+        let work = scene.mesh.len() as u64 * golden.size.map(u64::from).iter().product::<u64>();
+        let default = if work <= WORK || golden.is_in_program() { BRUTE_FORCE } else { SAH_TREE };
+        Self { scene, golden, word: quoted(word), default }
+    }
 }
 
 impl Targets {
@@ -95,7 +105,7 @@ impl Targets {
                 folder.with_context(|| format!("{}: --goldens DIR says where its picture is", word.escaped()))?;
             let name = if path.is_file() { stem(path) } else { slug(&word.escaped().to_string()) };
             let golden = SceneGolden::file(&folder, &name, self.view, &scene);
-            return Ok(Target { scene, golden, word: quoted(word) });
+            return Ok(Target::new(scene, golden, word));
         };
         // Real meshes that happen to be there must not change the picture.
         let mut scene = builtin.scene(None)?;
@@ -119,7 +129,7 @@ impl Targets {
             }
         };
         let word = if scene.stand_ins.is_empty() { name.into() } else { stand_in(&name) };
-        Ok(Target { scene, golden, word: quoted(word) })
+        Ok(Target::new(scene, golden, word))
     }
 
     /// The files that are read besides golden images.
@@ -132,7 +142,7 @@ pub fn check(registry: &Registry, args: &CheckArgs, terminal: &Terminal) -> anyh
     let inputs = args.targets.inputs(registry);
     let outputs = args.outputs.check(inputs.iter().map(PathBuf::as_path))?;
     // A golden image belongs to the scene: all structures with one triangle test owe it the same bytes.
-    let choices = if args.structure.is_empty() {
+    let choices: Vec<Choice> = if args.structure.is_empty() {
         registry.all().into_iter().filter(|choice| choice.triangle_test() == TRIANGLE_TEST).collect()
     } else {
         request::structures(registry, &args.structure)?
@@ -142,6 +152,14 @@ pub fn check(registry: &Registry, args: &CheckArgs, terminal: &Terminal) -> anyh
     outputs.with_page("Golden images", |page| {
         Ok(args.targets.words().iter().try_for_each(|word| {
             let target = args.targets.target(registry, word)?;
+            let mut choices = choices.clone();
+            if args.structure.is_empty() && target.default != BRUTE_FORCE {
+                choices.retain(|choice| choice.entry.name != BRUTE_FORCE);
+                terminal.print(&format!(
+                    "{}: {BRUTE_FORCE} is left out, since it would take minutes: -s {BRUTE_FORCE} runs it\n",
+                    target.scene.name
+                ));
+            }
             let found = check_scene(registry, &target, &choices, page, terminal, &mut comparisons)?;
             status = status.and(found);
             anyhow::Ok(())
@@ -156,7 +174,7 @@ pub fn check(registry: &Registry, args: &CheckArgs, terminal: &Terminal) -> anyh
 
 fn check_scene(
     registry: &Registry,
-    Target { scene, golden, word }: &Target,
+    Target { scene, golden, word, .. }: &Target,
     choices: &[Choice],
     page: Option<&Page>,
     terminal: &Terminal,
@@ -210,10 +228,8 @@ fn check_scene(
 pub fn update(registry: &Registry, args: &UpdateArgs, terminal: &Terminal) -> anyhow::Result<Status> {
     let overwrite = if args.force { Overwrite::Any } else { Overwrite::Own };
     for word in args.targets.words() {
-        let Target { scene, golden, .. } = args.targets.target(registry, &word)?;
-        let work = scene.mesh.len() as u64 * golden.size.map(u64::from).iter().product::<u64>();
-        let name = if work <= WORK { BRUTE_FORCE } else { SAH_TREE };
-        let spec = args.structure.clone().unwrap_or_else(|| format!("{name}:test={TRIANGLE_TEST}"));
+        let Target { scene, golden, default, .. } = args.targets.target(registry, &word)?;
+        let spec = args.structure.clone().unwrap_or_else(|| format!("{default}:test={TRIANGLE_TEST}"));
         let accel = request::structure(registry, &spec)?.build(&scene.mesh)?;
         let what = match golden.update(&scene, accel.as_ref(), overwrite)? {
             Update::Same => "as it was".into(),
