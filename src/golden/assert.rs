@@ -4,7 +4,7 @@ use std::path::Path;
 
 use image::DynamicImage;
 
-use super::sides::Values;
+use super::page::Values;
 use super::{GoldenError, Match, PictureError, failure, file};
 
 /// The environment variable that makes [`assert_image`] write golden images instead of comparing, if it is `update`.
@@ -41,8 +41,8 @@ const OUT: &str = "out/golden";
 ///
 /// # Panics
 /// If the picture is not accepted, has another size, other channels or another depth, or there is no golden image. Then
-/// `out/golden` holds the actual and the expected picture under the golden image's file name, their difference if they are
-/// of one layout, and a folder with a page to look at them; the message says where.
+/// `out/golden` holds a folder of the golden image's name, with a page to look at both pictures and their difference; the
+/// message says where.
 #[track_caller]
 pub fn assert_image(path: impl AsRef<Path>, actual: impl Into<DynamicImage>, how: Match) {
     let (path, actual) = (path.as_ref(), actual.into());
@@ -66,7 +66,7 @@ pub fn check_image(path: &Path, actual: &DynamicImage, how: Match, out: &Path) -
         PictureError::Read { .. } => GoldenError::Missing { cause, remedy },
         cause => GoldenError::Picture(cause),
     })?;
-    let shown = out.join(failure::file_name(&stem));
+    let shown = failure::folder(out, &stem);
     failure::check(path, &stem, [&expected, actual], how, Values::Colours, &shown, remedy)
 }
 
@@ -94,13 +94,12 @@ mod tests {
         assert!(refusal(&picture(11), Match::Exact).contains("256 of 256 pixels differ"));
         check_image(&golden, &picture(11), Match::within(1.0), &out).unwrap();
         assert!(refusal(&picture(255), Match::within(244.0)).contains("by up to 245 of 255"));
-        assert_eq!(read(&out.join("b-actual.png")).unwrap(), picture(255));
-        // Three pictures, and the folder of the page.
-        assert_eq!(std::fs::read_dir(&out).unwrap().count(), 4);
+        assert_eq!(read(&out.join("b/pictures/0-actual.png")).unwrap(), picture(255));
+        assert_eq!(std::fs::read_dir(&out).unwrap().count(), 1);
         assert!(std::fs::read_to_string(out.join("b/index.html")).unwrap().contains("256 of 256 pixels differ"));
         let small = refusal(&RgbImage::new(1, 1).into(), Match::Exact);
         assert!(small.contains("1 x 1 pixels") && small.contains("SAHARA_GOLDEN=update"), "{small}");
-        assert_eq!(read(&out.join("b-actual.png")).unwrap().width(), 1);
+        assert_eq!(read(&out.join("b/pictures/0-actual.png")).unwrap().width(), 1);
 
         // The reason is in the message even if the pictures cannot be written.
         std::fs::remove_dir_all(&out).unwrap();
@@ -127,7 +126,7 @@ mod tests {
             let refused = check_image(&golden, &drawn.clone().into(), Match::within(255.0), &out).unwrap_err();
             let text = refused.to_string();
             assert!(text.contains(channels) && text.contains("has 4 x 4 pixels of RGB with 8 bits"), "{text}");
-            assert_eq!(read(&out.join("a-expected.png")).unwrap(), other);
+            assert_eq!(read(&out.join("a/pictures/0-expected.png")).unwrap(), other);
         }
         // A step of 255 is 257 of 65535.
         let shade = |shade: u16| DynamicImage::from(ImageBuffer::from_pixel(2, 2, image::Luma([shade])));
@@ -137,6 +136,6 @@ mod tests {
         assert!(refused.to_string().contains("by up to 258 of 65535"), "{refused}");
         // Floats are shown as well.
         check_image(&golden, &Rgb32FImage::new(2, 2).into(), Match::Exact, &out).unwrap_err();
-        assert_eq!(read(&out.join("a-actual.png")).unwrap().width(), 2);
+        assert_eq!(read(&out.join("a/pictures/0-actual.png")).unwrap().width(), 2);
     }
 }

@@ -1,18 +1,18 @@
 //! What is left of a picture that is not accepted.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use image::DynamicImage;
 
 use super::comparison::compare;
 use super::judgement::{Judgement, Match};
-use super::page::PageFolder;
-use super::sides::{PageError, Sides, Values};
-use super::{GoldenError, Layout, difference_picture, file};
+use super::page::{self, Sides, Values};
+use super::{GoldenError, Layout, PictureError};
+use crate::output::OutputFolder;
 
-/// Whether `actual` is accepted in the place of `expected`, which is the golden image `path`. If not, pictures are written
-/// to `SHOWN-actual.png`, `-expected.png` and, of pictures of one layout, `-difference.png`, and a page to the folder
-/// `SHOWN`.
+/// Whether `actual` is accepted in the place of `expected`, which is the golden image `path`. If not, a page with pictures
+/// is written to the folder `shown`.
 pub fn check(
     path: &Path,
     label: &str,
@@ -24,61 +24,33 @@ pub fn check(
 ) -> Result<(), GoldenError> {
     let path = path.to_path_buf();
     let [wanted, found] = [expected, actual].map(Layout::of);
-    let difference = if found == wanted {
+    let refusal = if found == wanted {
         match Judgement::new([expected, actual], how, None)? {
-            Some(judged) if !judged.accepted => Some(Box::new(judged.difference)),
+            Some(judged) if !judged.accepted => {
+                let (label, difference, shown) = (label.into(), Box::new(judged.difference), page::index(shown));
+                GoldenError::Differs { label, path, difference, size: found.size, shown }
+            }
             _ => return Ok(()),
         }
     } else {
-        None
+        GoldenError::Layout { path, expected: wanted, found, shown: page::index(shown), remedy }
     };
-    let left = leave(shown, label, [expected, actual], how, values);
-    let (page, fault) = left.map_or_else(|fault| (None, Some(fault)), |page| (page, None));
-    let (label, shown, size) = (label.into(), shown.into(), found.size);
-    let refusal = match difference {
-        Some(difference) => GoldenError::Differs { label, path, difference, size, shown, page },
-        None => GoldenError::Layout { path, expected: wanted, found, shown, remedy },
+    let leave = || -> Result<(), PictureError> {
+        let folder = shown.parent().unwrap_or(shown);
+        fs::create_dir_all(folder).map_err(|cause| PictureError::Directory { path: folder.into(), cause })?;
+        Ok(page::write(&OutputFolder::check(shown)?, label, |page| {
+            let (comparison, maps) = compare(label, [expected, actual], how, None);
+            page.add(0, &comparison, Sides { expected: Some(expected), actual: Some(actual), values }, maps.as_ref())
+        })?)
     };
     // The difference stays the reason if its pictures cannot be written.
-    Err(match fault {
-        None => refusal,
-        Some(cause) => GoldenError::NotShown { refusal: Box::new(refusal), cause: Box::new(cause) },
+    Err(match leave() {
+        Ok(()) => refusal,
+        Err(cause) => GoldenError::NotShown { refusal: Box::new(refusal), cause: Box::new(cause.into()) },
     })
 }
 
-/// Tells where the page is, if this program makes pages.
-fn leave(
-    shown: &Path,
-    label: &str,
-    [expected, actual]: [&DynamicImage; 2],
-    how: Match,
-    values: Values,
-) -> Result<Option<PathBuf>, GoldenError> {
-    let write = |what: &str, picture: &DynamicImage| {
-        let path = PathBuf::from(format!("{}-{what}.png", shown.display()));
-        // PNG has no floats; to look at, 8 bits are enough.
-        if Layout::of(picture).is_float() {
-            return file::write(&path, &picture.to_rgba8().into());
-        }
-        file::write(&path, picture)
-    };
-    write("actual", actual)?;
-    write("expected", expected)?;
-    if Layout::of(actual) == Layout::of(expected) {
-        write("difference", &difference_picture(actual, expected).into())?;
-    }
-    let folder = match PageFolder::check(shown, []) {
-        Err(PageError::Unavailable) => return Ok(None),
-        folder => folder?,
-    };
-    folder.write(label, |page| {
-        let (comparison, maps) = compare(label, [expected, actual], how, None);
-        page.add(0, &comparison, Sides { expected: Some(expected), actual: Some(actual), values }, maps.as_ref())
-    })?;
-    Ok(Some(folder.index()))
-}
-
-/// `text` with everything but letters, digits and `.`, `-`, `_` replaced.
-pub fn file_name(text: &str) -> String {
-    text.chars().map(|c| if c.is_alphanumeric() || ".-_".contains(c) { c } else { '_' }).collect()
+/// The folder in `out` for what is called `name`, with everything but letters, digits and `.`, `-`, `_` replaced.
+pub fn folder(out: &Path, name: &str) -> PathBuf {
+    out.join(name.chars().map(|c| if c.is_alphanumeric() || ".-_".contains(c) { c } else { '_' }).collect::<String>())
 }

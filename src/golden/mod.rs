@@ -16,9 +16,8 @@ pub mod measures;
 pub mod numbers;
 pub mod page;
 mod scene;
-mod sides;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::escaped::Escaped as _;
 
@@ -31,7 +30,6 @@ pub use judgement::{Allowed, Judgement, Match, NoFlip, Verdict};
 pub use layout::Layout;
 pub use mask::Mask;
 pub use scene::{Overwrite, SIZE, SceneGolden, TRIANGLE_TEST, Update, VIEWS};
-pub use sides::{PageError, Sides, Values};
 
 /// Why a picture is not accepted. `remedy` says how golden images are made.
 #[derive(Debug, thiserror::Error)]
@@ -39,8 +37,7 @@ pub enum GoldenError {
     #[error("{cause}: {remedy}")]
     Missing { cause: PictureError, remedy: &'static str },
     #[error(
-        "the golden image {} has {expected}, and what was drawn has {found}: see {}-actual.png and -expected.png; \
-         if it is right, {remedy}",
+        "the golden image {} has {expected}, and what was drawn has {found}: see {}; if it is right, {remedy}",
         path.escaped(), shown.escaped()
     )]
     Layout { path: PathBuf, expected: Layout, found: Layout, shown: PathBuf, remedy: &'static str },
@@ -66,27 +63,12 @@ pub enum GoldenError {
          others in a folder"
     )]
     NoSources,
-    #[error("{label}: {}: see {}-actual.png, -expected.png and -difference.png{}; the golden image is {}",
-        difference.sentence(*size), shown.escaped(), or_page(page.as_deref()), path.escaped())]
-    Differs {
-        label: String,
-        path: PathBuf,
-        difference: Box<Difference>,
-        size: [u32; 2],
-        shown: PathBuf,
-        /// Where a page shows the difference.
-        page: Option<PathBuf>,
-    },
+    #[error("{label}: {}: see {}; the golden image is {}", difference.sentence(*size), shown.escaped(), path.escaped())]
+    Differs { label: String, path: PathBuf, difference: Box<Difference>, size: [u32; 2], shown: PathBuf },
     #[error("{refusal}; but these could not be written: {cause}")]
     NotShown { refusal: Box<GoldenError>, cause: Box<GoldenError> },
     #[error(transparent)]
     NoFlip(#[from] NoFlip),
     #[error(transparent)]
-    Page(#[from] PageError),
-    #[error(transparent)]
     Picture(#[from] PictureError),
-}
-
-fn or_page(page: Option<&Path>) -> String {
-    page.map(|page| format!(", or the page {}", page.escaped())).unwrap_or_default()
 }

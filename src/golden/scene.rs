@@ -94,7 +94,7 @@ impl SceneGolden {
     }
 
     /// The file as messages name it: the sources of this program may be anywhere.
-    fn named(&self) -> PathBuf {
+    pub fn named(&self) -> PathBuf {
         let sources = Path::new(env!("CARGO_MANIFEST_DIR"));
         self.path.strip_prefix(sources).ok().filter(|_| self.bytes.is_some()).unwrap_or(&self.path).into()
     }
@@ -143,29 +143,16 @@ impl SceneGolden {
         scene.primary_rays(self.size, View::CENTRE, pixel..pixel + 1)[0]
     }
 
-    /// Compares what `accel` draws of `scene`. `structure` names the pictures of a failure, which go to the folder `out`.
+    /// Compares what `accel` draws of `scene`. `structure` names the folder in `out` with the page of a failure.
     ///
     /// A built-in scene must have its generated meshes, not the real ones that a machine may have.
     ///
     /// # Errors
-    /// If the golden image is missing or broken, or a pixel differs. Then `actual`, `expected` and `difference` are written.
+    /// If the golden image is missing or broken, or a pixel differs. Then a page with pictures is written.
     pub fn check(&self, scene: &Scene, structure: &str, accel: &dyn DynAccel, out: &Path) -> Result<(), GoldenError> {
-        self.check_drawn([&self.expected()?, &self.drawn(scene, accel)], &scene.name, structure, out)
-    }
-
-    /// As [`check`](Self::check), of the [expected](Self::expected) picture and what was [drawn](Self::drawn).
-    ///
-    /// # Errors
-    /// As [`check`](Self::check).
-    pub fn check_drawn(
-        &self,
-        pictures: [&DynamicImage; 2],
-        scene: &str,
-        structure: &str,
-        out: &Path,
-    ) -> Result<(), GoldenError> {
-        let shown = out.join(failure::file_name(&format!("{}-{structure}", scene.to_lowercase())));
-        let label = format!("{scene} with {structure}");
+        let pictures = [&self.expected()?, &self.drawn(scene, accel)];
+        let shown = failure::folder(out, &format!("{}-{structure}", scene.name.to_lowercase()));
+        let label = format!("{} with {structure}", scene.name);
         failure::check(&self.named(), &label, pictures, Match::Exact, self.view.into(), &shown, REMEDY)
     }
 
@@ -293,7 +280,7 @@ mod tests {
         let GoldenError::Differs { difference, shown, .. } = &error else { panic!("{error}") };
         assert_eq!(difference.first, [0, 0]);
         assert!(difference.pixels > 2_000 && difference.largest >= 127.0, "{error}");
-        let picture = |what: &str| file::read(&PathBuf::from(format!("{}-{what}.png", shown.display()))).unwrap();
+        let picture = |what: &str| file::read(&shown.with_file_name(format!("pictures/0-{what}.png"))).unwrap();
         let [actual, expected] = ["actual", "expected"].map(picture);
         assert_eq!(Difference::between(&expected, &actual), Some(**difference));
         assert_eq!(picture("difference"), crate::golden::difference_picture(&expected, &actual).into());
@@ -301,8 +288,6 @@ mod tests {
             error.to_string().contains("Cube with sah-kd:leaf=1") && error.to_string().contains("index.html"),
             "{error}"
         );
-        // Three pictures, and the folder of the page.
-        assert_eq!(fs::read_dir(&out).unwrap().count(), 4);
         assert_eq!(golden.update(&scene, &tree, Overwrite::Own).unwrap(), Update::Changed(**difference));
     }
 

@@ -138,6 +138,8 @@ fn pictures_of_another_layout_and_what_cannot_be_compared_are_told() {
     refuses(&["golden", "compare", &a, &a, "--max-flip", "1", "--allow-pixels", "1"], &["cannot be used with"]);
     refuses(&["golden", "compare", &a, &a, "--allow-pixels", "101%"], &["0.1%"]);
     refuses(&["golden", "compare", &a, &a, "--max-difference", "-1"], &["at least 0"]);
+    let inside = folders.path("empty/page");
+    refuses_in_a_line(&["golden", "compare", &empty, &folder, "--page", &inside], &["not in", "empty"]);
     // Neither result may take the place of a picture that is compared.
     refuses_in_a_line(&["golden", "compare", &a, &a, "--page", &folder], &["a.png", "another folder"]);
     refuses_in_a_line(&["golden", "compare", &a, &a, "--export-json", &a], &["a.png", "one of the files to read"]);
@@ -224,7 +226,11 @@ fn a_wrong_pixel_is_named_with_its_ray_and_who_is_right() {
     let output = super::command::command(&args).current_dir(directory.path()).output().unwrap();
     let text = stdout(&output);
     assert_eq!(output.status.code(), Some(WRONG), "{text}");
-    assert!(text.contains("Mine with sah-kd: 1 of 768 pixels differ, first at column 16, row 12"), "{text}");
+    assert!(
+        text.contains("Mine with sah-kd: differs from")
+            && text.contains("1 of 768 pixels differ, first at column 16, row 12"),
+        "{text}"
+    );
     assert!(text.contains("the golden image has 1, 2, 3, and sah-kd gives"), "{text}");
     assert!(text.contains("exact arithmetic sides with sah-kd: the golden image is out of date"), "{text}");
     let command = text.lines().find_map(|line| line.trim().strip_prefix("sahara validate ")).expect("a command");

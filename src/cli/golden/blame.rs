@@ -4,24 +4,31 @@ use image::DynamicImage;
 
 use crate::accel::DynAccel;
 use crate::escaped::quoted;
-use crate::golden::SceneGolden;
+use crate::golden::{SceneGolden, TRIANGLE_TEST};
 use crate::oracle::Oracle;
+use crate::registry::Registry;
 use crate::render::{ViewKind, error_name};
+use crate::request::BRUTE_FORCE;
 use crate::scene::Scene;
 use crate::validate::{DepthRule, outcome};
 
 /// A scene with what judges pixels of it.
 pub struct Judge<'a> {
-    pub scene: &'a Scene,
-    pub golden: &'a SceneGolden,
+    scene: &'a Scene,
+    golden: &'a SceneGolden,
     /// Brute force over the exact triangle test.
-    pub exact: Box<dyn DynAccel>,
-    pub oracle: Oracle,
+    exact: Box<dyn DynAccel>,
+    oracle: Oracle,
     /// The scene on a command line.
-    pub word: String,
+    word: &'a str,
 }
 
-impl Judge<'_> {
+impl<'a> Judge<'a> {
+    pub fn new(registry: &Registry, scene: &'a Scene, golden: &'a SceneGolden, word: &'a str) -> anyhow::Result<Self> {
+        let exact = registry.choose(&format!("{BRUTE_FORCE}:test={TRIANGLE_TEST}"))?.build(&scene.mesh)?;
+        Ok(Self { scene, golden, exact, oracle: Oracle::new(&scene.mesh), word })
+    }
+
     /// What a structure paints at a pixel, who is right, and a command that traces its primary ray.
     pub fn blame(
         &self,

@@ -11,8 +11,8 @@ use crate::cli::progress::spinner;
 use crate::cli::terminal::Terminal;
 use crate::escaped::Escaped as _;
 use crate::golden::measures::PIXELS_PER_DEGREE;
-use crate::golden::page::Page;
-use crate::golden::{self, Allowed, Comparison, Mask, Match, Pair, Sides, Values, Verdict, pairs, read};
+use crate::golden::page::{Page, Sides, Values};
+use crate::golden::{self, Allowed, Comparison, Mask, Match, Pair, Verdict, pairs, read};
 use crate::report::number::count;
 use crate::report::{Cell, Table, Tone};
 use crate::study::Status;
@@ -101,6 +101,19 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     let pairs = args.pairs()?;
     let inputs = pairs.iter().flat_map(|pair| pair.expected.iter().chain(&pair.actual)).chain(&args.mask);
     let outputs = args.outputs.check(inputs.map(PathBuf::as_path))?;
+    if let Some(page) = &args.outputs.page {
+        let is_in = |folder: &PathBuf| {
+            std::path::absolute(page)
+                .is_ok_and(|page| std::path::absolute(folder).is_ok_and(|folder| page.starts_with(folder)))
+        };
+        let inside = [&args.expected, &args.actual].into_iter().find(|folder| is_in(folder));
+        if let Some(folder) = inside {
+            anyhow::bail!(
+                "the page would be compared the next time: name a --page that is not in {}",
+                folder.escaped()
+            );
+        }
+    }
     let mask = args.mask.as_deref().map(|path| read_mask(path, terminal)).transpose()?;
     let waiting = spinner("compares pictures", terminal);
     let title = format!("{} against {}", args.actual.escaped(), args.expected.escaped());

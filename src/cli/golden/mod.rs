@@ -11,9 +11,9 @@ use serde::Serialize;
 
 use super::terminal::Terminal;
 use crate::escaped::Escaped as _;
-use crate::golden::page::{Page, PageFolder};
-use crate::golden::{Comparison, PageError, Verdict};
-use crate::output::OutputFile;
+use crate::golden::page::{self, Page};
+use crate::golden::{Comparison, Verdict};
+use crate::output::{OutputError, OutputFile, OutputFolder};
 use crate::registry::Registry;
 use crate::report::number::count;
 use crate::study::Status;
@@ -55,7 +55,7 @@ struct Outputs {
 
 /// Outputs that can be written.
 struct CheckedOutputs {
-    page: Option<PageFolder>,
+    page: Option<OutputFolder>,
     json: Option<OutputFile>,
 }
 
@@ -68,8 +68,8 @@ struct Export<'a> {
 
 impl Outputs {
     /// Refuses places that cannot be written, or that `inputs` are in.
-    fn check<'a>(&self, inputs: impl Iterator<Item = &'a Path> + Clone) -> anyhow::Result<CheckedOutputs> {
-        let page = self.page.as_deref().map(|path| PageFolder::check(path, inputs.clone()));
+    fn check<'a>(&self, inputs: impl Iterator<Item = &'a Path> + Clone) -> Result<CheckedOutputs, OutputError> {
+        let page = self.page.as_deref().map(|path| OutputFolder::check(path)?.apart_from(inputs.clone()));
         let json = self.export_json.as_deref().map(|path| OutputFile::check(path)?.apart_from(inputs));
         Ok(CheckedOutputs { page: page.transpose()?, json: json.transpose()? })
     }
@@ -77,9 +77,13 @@ impl Outputs {
 
 impl CheckedOutputs {
     /// What `compare` gives, which may add to the page.
-    fn with_page<T>(&self, title: &str, compare: impl FnOnce(Option<&Page>) -> io::Result<T>) -> Result<T, PageError> {
+    fn with_page<T>(
+        &self,
+        title: &str,
+        compare: impl FnOnce(Option<&Page>) -> io::Result<T>,
+    ) -> Result<T, OutputError> {
         match &self.page {
-            Some(folder) => folder.write(title, |page| compare(Some(page))),
+            Some(folder) => page::write(folder, title, |page| compare(Some(page))),
             None => Ok(compare(None).expect("nothing is written")),
         }
     }
@@ -90,7 +94,7 @@ impl CheckedOutputs {
             json.write(&serde_json::to_vec_pretty(&Export { schema: "sahara-golden-1", comparisons })?)?;
         }
         if let Some(folder) = &self.page {
-            terminal.print(&format!("{}\n", folder.index().escaped()));
+            terminal.print(&format!("{}\n", page::index(folder.path()).escaped()));
         }
         Ok(())
     }

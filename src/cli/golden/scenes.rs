@@ -9,19 +9,15 @@ use super::blame::Judge;
 use super::{Outputs, tally};
 use crate::cli::terminal::Terminal;
 use crate::escaped::{Escaped as _, quoted, stem};
-use crate::golden::page::Page;
-use crate::golden::{Comparison, Match, Overwrite, SIZE, SceneGolden, Sides, TRIANGLE_TEST, Update, VIEWS, compare};
+use crate::golden::page::{Page, Sides};
+use crate::golden::{Comparison, Match, Overwrite, SIZE, SceneGolden, TRIANGLE_TEST, Update, VIEWS, compare};
 use crate::names::find;
-use crate::oracle::Oracle;
 use crate::registry::{Choice, Registry};
 use crate::render::ViewKind;
 use crate::report::words::{each_once_by, slug};
 use crate::request::{self, BRUTE_FORCE, SAH_TREE, ViewArgs, known_defect, stand_in};
 use crate::scene::{BUILTIN, Builtin, Scene};
 use crate::study::Status;
-
-/// Where pictures of failures go, in the current directory.
-const OUT: &str = "out/golden";
 
 /// Triangles times pixels of anybody's scene above which brute force would take minutes.
 const WORK: u64 = 1 << 32;
@@ -166,7 +162,8 @@ pub fn check(registry: &Registry, args: &CheckArgs, terminal: &Terminal) -> anyh
         }))
     })??;
     if comparisons.iter().any(Comparison::fails) {
-        terminal.print(&format!("{}\n", tally(&comparisons)));
+        let advice = if args.outputs.page.is_none() { "; --page DIR shows the pictures" } else { "" };
+        terminal.print(&format!("{}{advice}\n", tally(&comparisons)));
     }
     outputs.export(&comparisons, terminal)?;
     Ok(status)
@@ -188,30 +185,28 @@ fn check_scene(
         let pictures = [&expected, &actual];
         let (mut comparison, maps) =
             compare(&format!("{} with {}", scene.name, choice.label), pictures, Match::Exact, None);
-        match golden.check_drawn(pictures, &scene.name, &choice.label, Path::new(OUT)) {
-            Ok(()) => right.push(choice.label.as_str()),
-            Err(error) => {
-                terminal.print(&format!("{error}\n"));
-                if known_defect(&choice.entry.name).is_none() {
-                    status = Status::Wrong;
+        if comparison.fails() {
+            let is_known = known_defect(&choice.entry.name).is_some();
+            if let Some(measures) = &comparison.measures {
+                if judge.is_none() {
+                    judge = Some(Judge::new(registry, scene, golden, word)?);
                 }
+                let judge = judge.as_ref().expect("it was made");
+                let place = measures.difference.first;
+                let (sentence, command) = judge.blame(&choice.label, accel.as_ref(), pictures, place);
+                comparison.said.push(sentence);
+                comparison.command = Some(command);
             }
-        }
-        if let Some(measures) = &comparison.measures {
-            if judge.is_none() {
-                let exact = registry.choose(&format!("{BRUTE_FORCE}:test={TRIANGLE_TEST}"))?.build(&scene.mesh)?;
-                let oracle = Oracle::new(&scene.mesh);
-                judge = Some(Judge { scene, golden, exact, oracle, word: word.clone() });
+            if is_known {
+                comparison.said.push("its known defects do not change the exit status".into());
+            } else {
+                status = Status::Wrong;
             }
-            let judge = judge.as_ref().expect("it was made");
-            let place = measures.difference.first;
-            let (mut sentence, command) = judge.blame(&choice.label, accel.as_ref(), pictures, place);
-            if known_defect(&choice.entry.name).is_some() {
-                sentence += "; its known defects do not change the exit status";
-            }
-            terminal.print(&format!("  {sentence}\n  {command}\n"));
-            comparison.said.push(sentence);
-            comparison.command = Some(command);
+            let lines = comparison.said.iter().chain(&comparison.command).map(|line| format!("  {line}\n"));
+            terminal.print(&format!("{}: differs from {}\n", comparison.name, golden.named().escaped()));
+            terminal.print(&lines.collect::<String>());
+        } else {
+            right.push(choice.label.as_str());
         }
         if let Some(page) = page {
             let sides = Sides { expected: Some(&expected), actual: Some(&actual), values: golden.view.into() };

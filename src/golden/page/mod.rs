@@ -1,5 +1,6 @@
 //! A page of comparisons: pictures one upon the other, their differences and the values of their pixels.
 
+mod html;
 mod side;
 
 use std::fs;
@@ -8,17 +9,15 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use image::{DynamicImage, RgbImage};
-use minijinja::value::Serde;
-use minijinja::{AutoEscape, Environment, UndefinedBehavior, Value, context};
 use serde::Serialize;
 
 use super::comparison::{Comparison, Maps};
 use super::judgement::Verdict;
-use super::measures::Measures;
-use super::sides::{PageError, Sides};
-use crate::output::OutputFolder;
+use crate::output::{OutputError, OutputFolder};
 use crate::render::{from_pixels, ramp_colour};
 use side::{shown, values};
+
+pub use side::{Sides, Values};
 
 const INDEX: &str = "index.html";
 
@@ -41,7 +40,6 @@ struct Entry {
     maps: Vec<Map>,
     /// A script with the values of the pixels.
     values: Option<String>,
-    numbers: Vec<(&'static str, String)>,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -50,36 +48,28 @@ struct Map {
     file: String,
 }
 
-/// A folder for a page, which is empty, not there, or has a page of before.
-#[derive(Clone, Debug)]
-pub struct PageFolder(OutputFolder);
+/// Writes a page and its pictures into a folder; `fill` adds comparisons.
+///
+/// # Errors
+/// If they cannot be written.
+pub fn write<T>(
+    folder: &OutputFolder,
+    title: &str,
+    fill: impl FnOnce(&Page) -> io::Result<T>,
+) -> Result<T, OutputError> {
+    folder.write_in(|folder| {
+        fs::create_dir(folder.join("pictures"))?;
+        let page = Page { folder, entries: Mutex::default() };
+        let filled = fill(&page)?;
+        let entries = page.entries.into_inner().unwrap_or_else(PoisonError::into_inner);
+        fs::write(folder.join(INDEX), html::page(title, entries))?;
+        Ok(filled)
+    })
+}
 
-impl PageFolder {
-    /// # Errors
-    /// If something else is there, or one of `inputs`, the pictures that are compared.
-    pub fn check<'a>(path: &Path, inputs: impl IntoIterator<Item = &'a Path>) -> Result<Self, PageError> {
-        Ok(Self(OutputFolder::check(path)?.apart_from(inputs)?))
-    }
-
-    /// The file that a browser opens.
-    pub fn index(&self) -> PathBuf {
-        self.0.path().join(INDEX)
-    }
-
-    /// Writes a page, to which `fill` adds comparisons.
-    ///
-    /// # Errors
-    /// If it cannot be written.
-    pub fn write<T>(&self, title: &str, fill: impl FnOnce(&Page) -> io::Result<T>) -> Result<T, PageError> {
-        Ok(self.0.write_in(|folder| {
-            fs::create_dir(folder.join("pictures"))?;
-            let page = Page { folder, entries: Mutex::default() };
-            let filled = fill(&page)?;
-            let entries = page.entries.into_inner().unwrap_or_else(PoisonError::into_inner);
-            fs::write(folder.join(INDEX), html(title, entries))?;
-            Ok(filled)
-        })?)
-    }
+/// The file of a page in this folder.
+pub fn index(folder: &Path) -> PathBuf {
+    folder.join(INDEX)
 }
 
 impl Page<'_> {
@@ -116,7 +106,7 @@ impl Page<'_> {
             worst: comparison.measures.map_or([0, 0], |measures| measures.difference.worst),
             maps: files,
             values: script,
-            numbers: comparison.measures.as_ref().map(numbers).unwrap_or_default(),
+
             comparison: comparison.clone(),
         };
         self.entries.lock().unwrap_or_else(PoisonError::into_inner).push(entry);
@@ -127,48 +117,3 @@ impl Page<'_> {
 fn flip_picture(size: [u32; 2], values: &[f32]) -> RgbImage {
     from_pixels(size, values.iter().map(|&value| ramp_colour(value.into())).collect())
 }
-
-/// The measures with their names.
-fn numbers(measures: &Measures) -> Vec<(&'static str, String)> {
-    let Measures { compared, masked, difference, pixels_over, mean, psnr, ssim, flip } = measures;
-    let four = |x: f64| format!("{x:.4}");
-    let mut numbers = vec![
-        ("pixels that differ", format!("{} of {compared}", difference.pixels)),
-        ("largest difference", format!("{} of {}", difference.largest, difference.full_scale)),
-        ("mean difference", four(*mean)),
-        ("pixels over the tolerance", pixels_over.to_string()),
-        ("PSNR", format!("{psnr:.2} dB")),
-    ];
-    numbers.extend((*masked > 0).then(|| ("masked pixels", masked.to_string())));
-    numbers.extend(ssim.map(|ssim| ("SSIM", format!("{ssim:.5}"))));
-    if let Some(flip) = flip {
-        numbers.extend([
-            ("FLIP, mean", four(flip.mean)),
-            ("FLIP, 95th percentile", four(flip.percentile_95)),
-            ("FLIP, largest", four(flip.largest)),
-        ]);
-    }
-    numbers
-}
-
-/// Failing comparisons first, all others in their order after them.
-fn html(title: &str, mut entries: Vec<Entry>) -> String {
-    entries.sort_by_key(|entry| (entry.comparison.verdict, entry.number));
-    let mut environment = Environment::new();
-    environment.set_auto_escape_callback(|_| AutoEscape::Html);
-    environment.set_undefined_behavior(UndefinedBehavior::Strict);
-    environment.add_template("page.html", include_str!("page.html")).expect(RENDERED);
-    let template = environment.get_template("page.html").expect(RENDERED);
-    let failing = entries.iter().filter(|entry| entry.fails).count();
-    let page = context! {
-        title => title,
-        failing => failing,
-        entries => Value::from(Serde(entries)),
-        css => include_str!("page.css"),
-        js => include_str!("page.js"),
-        version => env!("CARGO_PKG_VERSION"),
-    };
-    template.render(page).expect(RENDERED)
-}
-
-const RENDERED: &str = "a test renders the template with all kinds of comparisons";

@@ -5,8 +5,36 @@ use serde_json::json;
 
 use crate::golden::Layout;
 use crate::golden::numbers::{MISS, unpacked};
-use crate::golden::sides::{Sides, Values};
-use crate::render::{depth_picture, from_pixels, identity};
+use crate::render::{ViewKind, depth_picture, from_pixels, identity};
+
+/// The pictures of a comparison that are there.
+#[derive(Clone, Copy)]
+pub struct Sides<'a> {
+    pub expected: Option<&'a DynamicImage>,
+    pub actual: Option<&'a DynamicImage>,
+    pub values: Values,
+}
+
+/// What the values of a picture are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Values {
+    /// Colours: the channels.
+    Colours,
+    /// Distances, the same in all channels.
+    Depths,
+    /// Numbers of primitives, [packed](crate::golden::numbers::packed).
+    Primitives,
+}
+
+impl From<ViewKind> for Values {
+    fn from(view: ViewKind) -> Self {
+        match view {
+            ViewKind::Depth => Self::Depths,
+            ViewKind::Primitive => Self::Primitives,
+            _ => Self::Colours,
+        }
+    }
+}
 
 /// The picture in colours that a PNG file takes.
 pub fn shown(picture: &DynamicImage, values: Values) -> DynamicImage {
