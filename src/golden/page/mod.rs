@@ -8,7 +8,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use image::{DynamicImage, RgbImage};
+use image::DynamicImage;
 use serde::Serialize;
 
 use super::comparison::{Comparison, Maps};
@@ -85,20 +85,19 @@ impl Page<'_> {
             fs::write(self.folder.join(file), bytes)
         };
         let is_identical = comparison.verdict == Verdict::Identical;
-        for (name, picture) in [("expected", sides.expected), ("actual", sides.actual.filter(|_| !is_identical))] {
+        let actual = sides.actual.filter(|_| !is_identical);
+        for (name, picture) in [("expected", sides.expected), ("actual", actual)] {
             picture.map_or(Ok(()), |picture| add(name, &shown(picture, sides.values)))?;
         }
         if let Some(maps) = maps {
             add("difference", &maps.difference.clone().into())?;
-            let flip = maps.flip.as_ref();
-            flip.map_or(Ok(()), |map| add("FLIP", &flip_picture(map.size, &map.values).into()))?;
+            if let Some(map) = &maps.flip {
+                let colours = map.values.iter().map(|&value| ramp_colour(value.into())).collect();
+                add("FLIP", &from_pixels(map.size, colours).into())?;
+            }
         }
-        let mut script = None;
-        if !is_identical {
-            let file = format!("pictures/{number}-values.js");
-            fs::write(self.folder.join(&file), values(number, sides))?;
-            script = Some(file);
-        }
+        let script = (files.len() > 1).then(|| format!("pictures/{number}-values.js"));
+        script.as_ref().map_or(Ok(()), |file| fs::write(self.folder.join(file), values(number, sides)))?;
         let entry = Entry {
             number,
             fails: comparison.fails(),
@@ -106,14 +105,9 @@ impl Page<'_> {
             worst: comparison.measures.map_or([0, 0], |measures| measures.difference.worst),
             maps: files,
             values: script,
-
             comparison: comparison.clone(),
         };
         self.entries.lock().unwrap_or_else(PoisonError::into_inner).push(entry);
         Ok(())
     }
-}
-
-fn flip_picture(size: [u32; 2], values: &[f32]) -> RgbImage {
-    from_pixels(size, values.iter().map(|&value| ramp_colour(value.into())).collect())
 }
