@@ -26,7 +26,7 @@ pub use comparison::{Comparison, Maps, compare};
 pub use difference::{Difference, difference_picture, pixels_over};
 pub use file::{PictureError, read, write};
 pub use folders::{Pair, pairs};
-pub use judgement::{Allowed, Judgement, Match, NoFlip, Verdict};
+pub use judgement::{Allowed, Match, NoFlip, Verdict};
 pub use layout::Layout;
 pub use mask::Mask;
 pub use scene::{Overwrite, SIZE, SceneGolden, TRIANGLE_TEST, Update, VIEWS};
