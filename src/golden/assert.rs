@@ -96,6 +96,7 @@ mod tests {
         assert!(refusal(&picture(255), Match::within(244.0)).contains("by up to 245 of 255"));
         assert_eq!(read(&out.join("b/pictures/0-actual.png")).unwrap(), picture(255));
         assert_eq!(std::fs::read_dir(&out).unwrap().count(), 1);
+        #[cfg(feature = "page")]
         assert!(std::fs::read_to_string(out.join("b/index.html")).unwrap().contains("256 of 256 pixels differ"));
         let small = refusal(&RgbImage::new(1, 1).into(), Match::Exact);
         assert!(small.contains("1 x 1 pixels") && small.contains("SAHARA_GOLDEN=update"), "{small}");

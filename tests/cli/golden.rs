@@ -138,10 +138,12 @@ fn pictures_of_another_layout_and_what_cannot_be_compared_are_told() {
     refuses(&["golden", "compare", &a, &a, "--max-flip", "1", "--allow-pixels", "1"], &["cannot be used with"]);
     refuses(&["golden", "compare", &a, &a, "--allow-pixels", "101%"], &["0.1%"]);
     refuses(&["golden", "compare", &a, &a, "--max-difference", "-1"], &["at least 0"]);
-    let inside = folders.path("empty/page");
-    refuses_in_a_line(&["golden", "compare", &empty, &folder, "--page", &inside], &["not in", "empty"]);
     // Neither result may take the place of a picture that is compared.
-    refuses_in_a_line(&["golden", "compare", &a, &a, "--page", &folder], &["a.png", "another folder"]);
+    if cfg!(feature = "page") {
+        let inside = folders.path("empty/page");
+        refuses_in_a_line(&["golden", "compare", &empty, &folder, "--page", &inside], &["not in", "empty"]);
+        refuses_in_a_line(&["golden", "compare", &a, &a, "--page", &folder], &["a.png", "another folder"]);
+    }
     refuses_in_a_line(&["golden", "compare", &a, &a, "--export-json", &a], &["a.png", "one of the files to read"]);
 }
 
@@ -210,6 +212,13 @@ fn scene_files_and_meshes_have_golden_images_beside_them() {
 }
 
 #[test]
+#[cfg(not(feature = "page"))]
+fn a_page_is_refused_by_a_program_that_makes_none() {
+    refuses_in_a_line(&["golden", "check", "cube", "--page", "page"], &["--page", "feature `page`"]);
+}
+
+#[test]
+#[cfg(feature = "page")]
 fn a_wrong_pixel_is_named_with_its_ray_and_who_is_right() {
     let directory = TempDir::new().unwrap();
     let scene = write(&directory, "mine.toml", SCENE);

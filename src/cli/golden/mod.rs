@@ -68,7 +68,11 @@ struct Export<'a> {
 
 impl Outputs {
     /// Refuses places that cannot be written, or that `inputs` are in.
-    fn check<'a>(&self, inputs: impl Iterator<Item = &'a Path> + Clone) -> Result<CheckedOutputs, OutputError> {
+    fn check<'a>(&self, inputs: impl Iterator<Item = &'a Path> + Clone) -> anyhow::Result<CheckedOutputs> {
+        anyhow::ensure!(
+            self.page.is_none() || cfg!(feature = "page"),
+            "--page: this program is built without the feature `page`: leave the option out, or build it with the feature"
+        );
         let page = self.page.as_deref().map(|path| OutputFolder::check(path)?.apart_from(inputs.clone()));
         let json = self.export_json.as_deref().map(|path| OutputFile::check(path)?.apart_from(inputs));
         Ok(CheckedOutputs { page: page.transpose()?, json: json.transpose()? })

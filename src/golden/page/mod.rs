@@ -1,5 +1,6 @@
 //! A page of comparisons: pictures one upon the other, their differences and the values of their pixels.
 
+#[cfg(feature = "page")]
 mod html;
 mod side;
 
@@ -48,7 +49,8 @@ struct Map {
     file: String,
 }
 
-/// Writes a page and its pictures into a folder; `fill` adds comparisons.
+/// Writes a page and its pictures into a folder; `fill` adds comparisons. Without the feature `page` there are the pictures
+/// alone.
 ///
 /// # Errors
 /// If they cannot be written.
@@ -62,14 +64,17 @@ pub fn write<T>(
         let page = Page { folder, entries: Mutex::default() };
         let filled = fill(&page)?;
         let entries = page.entries.into_inner().unwrap_or_else(PoisonError::into_inner);
+        #[cfg(feature = "page")]
         fs::write(folder.join(INDEX), html::page(title, entries))?;
+        #[cfg(not(feature = "page"))]
+        drop((title, entries));
         Ok(filled)
     })
 }
 
-/// The file of a page in this folder.
+/// The file of a page in this folder; without the feature `page` the folder.
 pub fn index(folder: &Path) -> PathBuf {
-    folder.join(INDEX)
+    if cfg!(feature = "page") { folder.join(INDEX) } else { folder.into() }
 }
 
 impl Page<'_> {
