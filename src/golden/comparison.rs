@@ -34,6 +34,13 @@ impl Comparison {
         Self { name: name.into(), verdict, said: vec![sentence.into()], command: None, measures: None }
     }
 
+    /// As [`Measures::of_names`].
+    #[must_use]
+    pub fn of_names(self, size: [u32; 2]) -> Self {
+        let Some(measures) = self.measures.map(Measures::of_names) else { return self };
+        Self { said: vec![measures.difference.sentence(size)], measures: Some(measures), ..self }
+    }
+
     /// Whether the pictures are not accepted, or there are no two.
     pub fn fails(&self) -> bool {
         self.verdict < Verdict::Accepted
@@ -83,11 +90,12 @@ impl Difference {
         let all = u64::from(width) * u64::from(height);
         let most =
             if worst == first { String::new() } else { format!(", most at column {}, row {}", worst[0], worst[1]) };
-        let scale = if full_scale == 1.0 { String::new() } else { format!(" of {full_scale}") };
-        format!(
-            "{pixels} of {all} pixels differ, first at column {}, row {}, by up to {largest}{scale}{most}",
-            first[0], first[1]
-        )
+        let size = match full_scale {
+            _ if largest.is_nan() => String::new(),
+            1.0 => format!(", by up to {largest}"),
+            _ => format!(", by up to {largest} of {full_scale}"),
+        };
+        format!("{pixels} of {all} pixels differ, first at column {}, row {}{size}{most}", first[0], first[1])
     }
 }
 

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use sahara::golden::numbers::{packed, unpacked};
 use sahara::golden::{read, write as write_picture};
 use sahara::image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use sahara::image::{DynamicImage, GrayImage, Luma, Rgb, RgbImage};
@@ -166,6 +167,33 @@ fn what_is_black_in_the_mask_is_not_compared() {
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(USAGE));
     assert!(message.contains("the mask has 4 x 3 pixels"), "{message}");
+}
+
+#[test]
+fn depths_and_triangles_are_compared_as_numbers() {
+    let directory = TempDir::new().unwrap();
+    let scene = write(&directory, "mine.toml", SCENE);
+    let export = path_text(&directory.path().join("run.json"));
+    for (view, changed, words) in [
+        ("depth", 100f32.to_bits(), "the golden image has t = 100, and sah-kd gives t = "),
+        ("depth", f32::INFINITY.to_bits(), "the golden image has no hit, and sah-kd gives t = "),
+        ("primitive", 70_001, "the golden image has triangle 70001, and sah-kd gives triangle "),
+    ] {
+        let own = ["--size", "32x24", "--view", view];
+        prints(&[&["golden", "update", &scene, "--force"], &own[..]].concat());
+        let golden = directory.path().join(format!("mine.{view}.golden.png"));
+        let mut numbers = unpacked(&read(&golden).unwrap()).unwrap();
+        numbers[12 * 32 + 16] = changed;
+        write_picture(&golden, &packed([32, 24], &numbers)).unwrap();
+        let output =
+            sahara(&[&["golden", "check", &scene, "-s", "sah-kd", "--export-json", &export], &own[..]].concat());
+        let text = stdout(&output);
+        assert_eq!(output.status.code(), Some(WRONG), "{text}");
+        assert!(text.contains("1 of 768 pixels differ, first at column 16, row 12") && text.contains(words), "{text}");
+        let measures = &json(&export)["comparisons"][0]["measures"];
+        assert!(measures["flip"].is_null() && measures["pixels"] == 1, "{measures}");
+        assert_eq!(measures["largest"].as_f64().is_some(), changed == 100f32.to_bits(), "{measures}");
+    }
 }
 
 /// A scene of one's own.

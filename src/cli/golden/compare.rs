@@ -17,7 +17,12 @@ use crate::report::number::count;
 use crate::report::{Cell, Table, Tone};
 use crate::study::Status;
 
+/// What the statuses of all commands mean here.
+const STATUSES: &str = "Exit status: 0, all are accepted; 2, a picture differs; 1, one is missing, additional or cannot \
+                        be read.";
+
 #[derive(Debug, clap::Args)]
+#[command(after_help = STATUSES)]
 pub struct Args {
     /// The picture that is right (PNG; JPEG, WebP and EXR with the feature `pictures`), or a folder of pictures
     expected: PathBuf,

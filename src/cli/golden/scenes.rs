@@ -185,6 +185,9 @@ fn check_scene(
         let pictures = [&expected, &actual];
         let (mut comparison, maps) =
             compare(&format!("{} with {}", scene.name, choice.label), pictures, Match::Exact, None);
+        if golden.view == ViewKind::Primitive {
+            comparison = comparison.of_names(golden.size);
+        }
         if comparison.fails() {
             let is_known = known_defect(&choice.entry.name).is_some();
             if let Some(measures) = &comparison.measures {

@@ -104,4 +104,11 @@ impl Measures {
             flip: flip.map(|map| map.summary(mask)),
         }
     }
+
+    /// Those of pictures whose values are names, such as numbers of primitives: how many differ, and not by how much.
+    #[must_use]
+    pub fn of_names(self) -> Self {
+        let difference = Difference { worst: self.difference.first, largest: f64::NAN, ..self.difference };
+        Self { difference, mean: f64::NAN, psnr: f64::NAN, ssim: None, flip: None, ..self }
+    }
 }

@@ -18,7 +18,7 @@ const C1: f64 = 1e-4;
 const C2: f64 = 9e-4;
 
 /// The mean over all channels, alpha as any other, and all pixels that are `compared` and have their window inside of the
-/// pictures; none if there is no such pixel. Full scale of floats is 1.
+/// pictures; none if there is no such pixel, or a value that is no finite number. Full scale of floats is 1.
 pub fn ssim(one: &DynamicImage, other: &DynamicImage, compared: impl Fn(usize) -> bool) -> Option<f64> {
     let layout = Layout::of(one);
     let [width, height] = layout.size.map(|side| side as usize);
@@ -43,7 +43,8 @@ pub fn ssim(one: &DynamicImage, other: &DynamicImage, compared: impl Fn(usize) -
     let counts = |i: usize| is_inside(i % width, width) && is_inside(i / width, height) && compared(i);
     let chosen = map.iter().enumerate().filter(|(i, _)| counts(*i));
     let (sum, count) = chosen.fold((0.0, 0), |(sum, count), (_, &own)| (sum + f64::from(own), count + 1));
-    (count > 0).then(|| sum / f64::from(count) / f64::from(layout.channels))
+    let mean = sum / f64::from(count) / f64::from(layout.channels);
+    mean.is_finite().then_some(mean)
 }
 
 /// A channel of some rows as shares of full scale.

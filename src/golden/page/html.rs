@@ -6,25 +6,24 @@ use minijinja::{AutoEscape, Environment, UndefinedBehavior, Value, context};
 use super::Entry;
 use crate::golden::measures::Measures;
 
-/// The measures with their names.
+/// The measures that are numbers, with their names.
 fn numbers(measures: &Measures) -> Vec<(&'static str, String)> {
     let Measures { compared, masked, difference, pixels_over, mean, psnr, ssim, flip } = measures;
-    let four = |x: f64| format!("{x:.4}");
     let mut numbers = vec![
         ("pixels that differ", format!("{} of {compared}", difference.pixels)),
-        ("largest difference", format!("{} of {}", difference.largest, difference.full_scale)),
-        ("mean difference", four(*mean)),
         ("pixels over the tolerance", pixels_over.to_string()),
-        ("PSNR", format!("{psnr:.2} dB")),
     ];
     numbers.extend((*masked > 0).then(|| ("masked pixels", masked.to_string())));
-    numbers.extend(ssim.map(|ssim| ("SSIM", format!("{ssim:.5}"))));
+    let four = |x: f64| format!("{x:.4}");
+    let mut add = |name, x: f64, said: String| numbers.extend(x.is_finite().then_some((name, said)));
+    add("largest difference", difference.largest, format!("{} of {}", difference.largest, difference.full_scale));
+    add("mean difference", *mean, four(*mean));
+    add("PSNR", *psnr, format!("{psnr:.2} dB"));
+    ssim.iter().for_each(|&ssim| add("SSIM", ssim, format!("{ssim:.5}")));
     if let Some(flip) = flip {
-        numbers.extend([
-            ("FLIP, mean", four(flip.mean)),
-            ("FLIP, 95th percentile", four(flip.percentile_95)),
-            ("FLIP, largest", four(flip.largest)),
-        ]);
+        add("FLIP, mean", flip.mean, four(flip.mean));
+        add("FLIP, 95th percentile", flip.percentile_95, four(flip.percentile_95));
+        add("FLIP, largest", flip.largest, four(flip.largest));
     }
     numbers
 }

@@ -96,7 +96,8 @@ impl Page<'_> {
         }
         if let Some(maps) = maps {
             add("difference", &maps.difference.clone().into())?;
-            if let Some(map) = &maps.flip {
+            // Nobody sees names.
+            if let Some(map) = maps.flip.as_ref().filter(|_| sides.values != Values::Primitives) {
                 let colours = map.values.iter().map(|&value| ramp_colour(value.into())).collect();
                 add("FLIP", &from_pixels(map.size, colours).into())?;
             }
