@@ -1,12 +1,12 @@
 //! Golden images: every structure over the exact triangle test draws every built-in scene byte for byte as committed, and so does
 //! the SAH tree over the default test.
 
-use std::fs;
 use std::path::Path;
 
-use sahara::golden::{GoldenError, Goldens, Layout, TRIANGLE_TEST, read, write};
+use sahara::golden::{GoldenError, Layout, Overwrite, SceneGolden, TRIANGLE_TEST, Update, read, write};
 use sahara::image::{DynamicImage, RgbaImage};
 use sahara::registry::{Choice, Registry};
+use sahara::render::ViewKind;
 use sahara::scene::{BUILTIN, Builtin};
 
 /// Pixels of the baseline that differ: structure, scene, number of pixels and cause. A pixel more, a pixel fewer or another
@@ -45,16 +45,16 @@ fn every_structure_draws_every_scene_as_committed() {
 /// Draws all built-in scenes and fails where a picture differs, but for the findings; gives the number of those.
 fn draw_as_committed(choices: &[Choice]) -> usize {
     let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("golden");
-    let goldens = Goldens::new(Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes"), out);
     let mut wrong = vec![];
     let mut found = 0;
     for builtin in BUILTIN {
         // Real meshes that happen to be there must not change the picture.
         let scene = builtin.scene(None).expect("a built-in scene is whole");
+        let golden = SceneGolden::builtin(builtin.name).expect("every built-in scene has one");
         for choice in choices {
             let accel = choice.build(&scene.mesh).expect("a valid mesh builds");
             let finding = FINDINGS.iter().find(|f| f.0 == choice.label && f.1 == scene.name);
-            match goldens.check(&scene, &choice.label, &*accel) {
+            match golden.check(&scene, &choice.label, &*accel, &out) {
                 Ok(()) if finding.is_none() => {}
                 Err(GoldenError::Differs { difference, .. }) if finding.is_some_and(|f| f.2 == difference.pixels) => {
                     found += 1;
@@ -80,24 +80,28 @@ fn alpha_and_depth_of_a_golden_image_count() {
     assert_eq!(deep.get_pixel(0, 0).0, colours.get_pixel(0, 0).0.map(|value| 257 * u16::from(value)));
 
     let folder = tempfile::tempdir().unwrap();
-    let goldens = Goldens::new(folder.path().join("scenes"), folder.path().join("out"));
-    let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
+    let mut scene = Builtin::find("cube").unwrap().scene(None).unwrap();
+    scene.size = [160, 160];
     let tree = Registry::builtin().choose(&format!("sah-kd:test={TRIANGLE_TEST}")).unwrap();
     let accel = tree.build(&scene.mesh).unwrap();
+    let own = SceneGolden::file(folder.path(), "cube", ViewKind::Shaded, &scene);
     for (golden, channels, bits) in [(clear.into(), 4, 8), (deep.into(), 3, 16)] {
-        write(&goldens.path(&scene), &golden).unwrap();
-        let refused = goldens.check(&scene, "sah-kd", &*accel).unwrap_err();
+        write(own.path(), &golden).unwrap();
+        let refused = own.check(&scene, "sah-kd", &*accel, &folder.path().join("out")).unwrap_err();
         let GoldenError::Layout { expected, found, .. } = refused else { panic!("{refused}") };
         assert_eq!((expected, found), (Layout { channels, bits, ..found }, Layout::of(&colours.clone().into())));
-        assert!(goldens.update(&scene, &*accel).unwrap(), "it is another picture");
-        goldens.check(&scene, "sah-kd", &*accel).unwrap();
-        assert!(fs::read(goldens.path(&scene)).unwrap() == fs::read(&committed).unwrap(), "the committed bytes");
+        let updated = own.update(&scene, &*accel, Overwrite::Own).unwrap();
+        assert_eq!(updated, Update::Layout(expected), "it is another picture");
+        own.check(&scene, "sah-kd", &*accel, &folder.path().join("out")).unwrap();
+        assert_eq!(read(own.path()).unwrap(), read(&committed).unwrap());
     }
 }
 
 /// Other formats than PNG.
 #[cfg(feature = "pictures")]
 mod pictures {
+    use std::fs;
+
     use sahara::golden::{Match, check_image};
     use sahara::image::{ColorType, ImageFormat, Rgb, Rgb32FImage, RgbImage};
 
@@ -148,14 +152,14 @@ mod pictures {
         let (golden, out) = (folder.path().join("golden.png"), folder.path().join("out"));
         for (picture, format, _) in of_each_format() {
             picture.save_with_format(&golden, format).unwrap();
-            let how = if format == ImageFormat::Jpeg { Match::Within(20) } else { Match::Exact };
+            let how = if format == ImageFormat::Jpeg { Match::within(20.0) } else { Match::Exact };
             check_image(&golden, &picture, how, &out).unwrap();
         }
         assert_eq!(read(&golden).unwrap().color(), ColorType::Rgb32F);
         let mut other = floats();
         other.get_pixel_mut(7, 3).0[1] += 0.5;
-        let refused = check_image(&golden, &other.into(), Match::Within(127), &out).unwrap_err().to_string();
-        assert!(refused.contains("column 7, row 3, by up to 0.5 of 1"), "{refused}");
+        let refused = check_image(&golden, &other.into(), Match::within(0.49), &out).unwrap_err().to_string();
+        assert!(refused.contains("column 7, row 3, by up to 0.5"), "{refused}");
     }
 
     #[test]

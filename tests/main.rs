@@ -8,6 +8,7 @@ mod cli;
 mod closed_meshes;
 mod cluster;
 mod conformance;
+mod controls;
 mod fetch;
 mod findings;
 mod golden;

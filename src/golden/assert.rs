@@ -4,16 +4,8 @@ use std::path::Path;
 
 use image::DynamicImage;
 
-use super::{Golden, GoldenError, file, file_name};
-
-/// When a picture is accepted.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Match {
-    /// All values are equal, as with a deterministic renderer.
-    Exact,
-    /// No channel of a pixel differs by more than this, of 255 at any depth: other machines may round differently.
-    Within(u8),
-}
+use super::page::Values;
+use super::{GoldenError, Match, PictureError, failure, file};
 
 /// The environment variable that makes [`assert_image`] write golden images instead of comparing, if it is `update`.
 pub const UPDATE: &str = "SAHARA_GOLDEN";
@@ -27,7 +19,7 @@ const OUT: &str = "out/golden";
 /// With the environment variable `SAHARA_GOLDEN=update` the file is written instead as PNG, folders included.
 ///
 /// ```
-/// use sahara::golden::{Match, assert_image};
+/// use sahara::golden::{Allowed, Match, assert_image};
 /// use sahara::image::{Rgb, RgbImage};
 ///
 /// # let folder = tempfile::tempdir().unwrap();
@@ -38,14 +30,19 @@ const OUT: &str = "out/golden";
 ///
 /// // Another machine rounds one pixel differently: not equal, but near.
 /// drawn.get_pixel_mut(36, 1).0[0] += 1;
-/// assert_image(&golden, drawn.clone(), Match::Within(1));
+/// assert_image(&golden, drawn.clone(), Match::within(1.0));
+///
+/// // Noise may take a few pixels farther: 1 % of them may differ by any amount.
+/// drawn.get_pixel_mut(9, 30).0[0] += 40;
+/// assert_image(&golden, drawn.clone(), Match::Tolerance { difference: 2.0, pixels: Allowed::Percent(1.0) });
+/// assert_image(&golden, drawn.clone(), Match::flip(0.01)); // as a person sees it
 /// # assert!(sahara::golden::check_image(&golden, &drawn.into(), Match::Exact, &folder.path().join("out")).is_err());
 /// ```
 ///
 /// # Panics
 /// If the picture is not accepted, has another size, other channels or another depth, or there is no golden image. Then
-/// `out/golden` holds the actual and the expected picture under the golden image's file name, and their difference if
-/// they are of one layout.
+/// `out/golden` holds a folder of the golden image's name, with a page to look at both pictures and their difference; the
+/// message says where.
 #[track_caller]
 pub fn assert_image(path: impl AsRef<Path>, actual: impl Into<DynamicImage>, how: Match) {
     let (path, actual) = (path.as_ref(), actual.into());
@@ -64,16 +61,13 @@ pub fn assert_image(path: impl AsRef<Path>, actual: impl Into<DynamicImage>, how
 /// If the picture is not accepted, or the golden image cannot be read.
 pub fn check_image(path: &Path, actual: &DynamicImage, how: Match, out: &Path) -> Result<(), GoldenError> {
     let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
-    let golden = Golden {
-        path,
-        label: stem.clone().into_owned(),
-        shown: out.join(file_name(&stem)),
-        remedy: "run the test once with SAHARA_GOLDEN=update to make the golden image",
-    };
-    golden.check(actual, |difference| match how {
-        Match::Exact => false,
-        Match::Within(step) => difference.largest * 255.0 <= f64::from(step) * difference.full_scale,
-    })
+    let remedy = "run the test once with SAHARA_GOLDEN=update to make the golden image";
+    let expected = file::read(path).map_err(|cause| match cause {
+        PictureError::Read { .. } => GoldenError::Missing { cause, remedy },
+        cause => GoldenError::Picture(cause),
+    })?;
+    let shown = failure::folder(out, &stem);
+    failure::check(path, &stem, [&expected, actual], how, Values::Colours, &shown, remedy)
 }
 
 #[cfg(test)]
@@ -98,13 +92,15 @@ mod tests {
         assert!(!out.exists());
 
         assert!(refusal(&picture(11), Match::Exact).contains("256 of 256 pixels differ"));
-        check_image(&golden, &picture(11), Match::Within(1), &out).unwrap();
-        assert!(refusal(&picture(255), Match::Within(244)).contains("by up to 245 of 255"));
-        assert_eq!(read(&out.join("b-actual.png")).unwrap(), picture(255));
-        assert_eq!(std::fs::read_dir(&out).unwrap().count(), 3);
+        check_image(&golden, &picture(11), Match::within(1.0), &out).unwrap();
+        assert!(refusal(&picture(255), Match::within(244.0)).contains("by up to 245 of 255"));
+        assert_eq!(read(&out.join("b/pictures/0-actual.png")).unwrap(), picture(255));
+        assert_eq!(std::fs::read_dir(&out).unwrap().count(), 1);
+        #[cfg(feature = "page")]
+        assert!(std::fs::read_to_string(out.join("b/index.html")).unwrap().contains("256 of 256 pixels differ"));
         let small = refusal(&RgbImage::new(1, 1).into(), Match::Exact);
         assert!(small.contains("1 x 1 pixels") && small.contains("SAHARA_GOLDEN=update"), "{small}");
-        assert_eq!(read(&out.join("b-actual.png")).unwrap().width(), 1);
+        assert_eq!(read(&out.join("b/pictures/0-actual.png")).unwrap().width(), 1);
 
         // The reason is in the message even if the pictures cannot be written.
         std::fs::remove_dir_all(&out).unwrap();
@@ -128,19 +124,19 @@ mod tests {
         ] {
             write(&golden, &other).unwrap();
             check_image(&golden, &other, Match::Exact, &out).unwrap();
-            let refused = check_image(&golden, &drawn.clone().into(), Match::Within(255), &out).unwrap_err();
+            let refused = check_image(&golden, &drawn.clone().into(), Match::within(255.0), &out).unwrap_err();
             let text = refused.to_string();
             assert!(text.contains(channels) && text.contains("has 4 x 4 pixels of RGB with 8 bits"), "{text}");
-            assert_eq!(read(&out.join("a-expected.png")).unwrap(), other);
+            assert_eq!(read(&out.join("a/pictures/0-expected.png")).unwrap(), other);
         }
         // A step of 255 is 257 of 65535.
         let shade = |shade: u16| DynamicImage::from(ImageBuffer::from_pixel(2, 2, image::Luma([shade])));
         write(&golden, &shade(1000)).unwrap();
-        check_image(&golden, &shade(1257), Match::Within(1), &out).unwrap();
-        let refused = check_image(&golden, &shade(1258), Match::Within(1), &out).unwrap_err();
+        check_image(&golden, &shade(1257), Match::within(1.0), &out).unwrap();
+        let refused = check_image(&golden, &shade(1258), Match::within(1.0), &out).unwrap_err();
         assert!(refused.to_string().contains("by up to 258 of 65535"), "{refused}");
         // Floats are shown as well.
         check_image(&golden, &Rgb32FImage::new(2, 2).into(), Match::Exact, &out).unwrap_err();
-        assert_eq!(read(&out.join("a-actual.png")).unwrap().width(), 2);
+        assert_eq!(read(&out.join("a/pictures/0-actual.png")).unwrap().width(), 2);
     }
 }

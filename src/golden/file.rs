@@ -49,14 +49,24 @@ fn in_a_line(cause: &ImageError) -> String {
 /// # Errors
 /// If there is no such file, or it is no picture, or one of more than 512 MiB.
 pub fn read(path: &Path) -> Result<DynamicImage, PictureError> {
+    decode(path, &read_bytes(path)?)
+}
+
+/// The bytes of a file that is no larger than a picture may be.
+pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, PictureError> {
     let mut bytes = vec![];
     // One byte more shows that there are more.
     let file = File::open(path).and_then(|file| file.take((LARGEST << 20) + 1).read_to_end(&mut bytes));
     file.map_err(|cause| PictureError::Read { path: path.into(), cause })?;
-    decode(&bytes).map_err(|cause| PictureError::Decode { path: path.into(), cause })
+    Ok(bytes)
 }
 
-fn decode(bytes: &[u8]) -> ImageResult<DynamicImage> {
+/// The picture of a file with these bytes, as [`read`] gives it.
+pub(super) fn decode(path: &Path, bytes: &[u8]) -> Result<DynamicImage, PictureError> {
+    decoded(bytes).map_err(|cause| PictureError::Decode { path: path.into(), cause })
+}
+
+fn decoded(bytes: &[u8]) -> ImageResult<DynamicImage> {
     let mut limits = Limits::default();
     limits.max_alloc = Some(LARGEST << 20);
     limits.reserve_usize(bytes.len())?;
@@ -86,15 +96,57 @@ fn is_whole_jpeg(bytes: &[u8]) -> bool {
 /// # Errors
 /// If there is no room, the folder takes no file, or PNG has no such pixels.
 pub fn write(path: &Path, picture: &DynamicImage) -> Result<(), PictureError> {
+    write_noted(path, picture, None)
+}
+
+/// As [`write`], with a note in the file: ASCII that [`note`] reads.
+pub(super) fn write_noted(path: &Path, picture: &DynamicImage, note: Option<&str>) -> Result<(), PictureError> {
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder).map_err(|cause| PictureError::Directory { path: folder.into(), cause })?;
     }
+    let bytes = encode(picture, note).map_err(|cause| PictureError::Encode { path: path.into(), cause })?;
+    Ok(OutputFile::check(path)?.write(&bytes)?)
+}
+
+/// The bytes of a PNG file, always the same for the same picture and note.
+pub(super) fn encode(picture: &DynamicImage, note: Option<&str>) -> ImageResult<Vec<u8>> {
     let mut bytes = vec![];
     // Other ways to write would convert what PNG does not take.
-    png_encoder(&mut bytes)
-        .write_image(picture.as_bytes(), picture.width(), picture.height(), picture.color().into())
-        .map_err(|cause| PictureError::Encode { path: path.into(), cause })?;
-    Ok(OutputFile::check(path)?.write(&bytes)?)
+    let [width, height] = [picture.width(), picture.height()];
+    png_encoder(&mut bytes).write_image(picture.as_bytes(), width, height, picture.color().into())?;
+    if let Some(note) = note {
+        let chunk = [TEXT, KEY, note.as_bytes()].concat();
+        let length = (chunk.len() - TEXT.len()) as u32;
+        let chunk = [&length.to_be_bytes(), &chunk[..], &crc(&chunk).to_be_bytes()].concat();
+        bytes.splice(HEADER..HEADER, chunk);
+    }
+    Ok(bytes)
+}
+
+/// Whether these are the bytes that [`encode`] gives for the picture in them.
+pub(super) fn is_own(bytes: &[u8]) -> bool {
+    let encoded = |picture: DynamicImage| encode(&picture, note(bytes)).ok();
+    decoded(bytes).ok().and_then(encoded).is_some_and(|own| own == bytes)
+}
+
+/// The note in a PNG file that [`encode`] has made.
+pub(super) fn note(bytes: &[u8]) -> Option<&str> {
+    let (length, rest) = bytes.get(HEADER..)?.split_first_chunk()?;
+    let chunk = rest.get(..TEXT.len() + u32::from_be_bytes(*length) as usize)?;
+    str::from_utf8(chunk.strip_prefix(TEXT)?.strip_prefix(KEY)?).ok()
+}
+
+/// Bytes of the signature and the first chunk, after which others may stand.
+const HEADER: usize = 8 + 25;
+
+/// A chunk of text, and the keyword of ours.
+const TEXT: &[u8] = b"tEXt";
+const KEY: &[u8] = b"sahara\0";
+
+/// The checksum of a chunk.
+fn crc(bytes: &[u8]) -> u32 {
+    let shifted = |crc: u32| if crc & 1 == 1 { crc >> 1 ^ 0xEDB8_8320 } else { crc >> 1 };
+    !bytes.iter().fold(!0, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), |crc, _| shifted(crc)))
 }
 
 #[cfg(test)]
@@ -224,5 +276,22 @@ mod tests {
             let text = error.to_string();
             assert!(text.contains("a.png") && text.contains("512 MiB") && text.lines().count() == 1, "{text}");
         }
+    }
+
+    #[test]
+    fn a_note_is_in_the_file_and_other_writers_are_told_apart() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        let picture = DynamicImage::from(RgbaImage::from_pixel(3, 2, Rgba([1, 2, 3, 4])));
+        for text in [None, Some("camera 0,2,5 0,0,0 45")] {
+            write_noted(&path, &picture, text).unwrap();
+            let bytes = read_bytes(&path).unwrap();
+            assert_eq!((read(&path).unwrap(), note(&bytes), is_own(&bytes)), (picture.clone(), text, true));
+            assert!(!is_own(&bytes[..bytes.len() - 1]));
+        }
+        assert_eq!(crc(b"123456789"), 0xCBF4_3926);
+        // Of Pillow, and what no PNG is.
+        assert!(!is_own(&base64::decode(GREY_1).unwrap()) && !is_own(b""));
+        assert_eq!([note(b""), note(&[0xFF; 50]), note(&base64::decode(GREY_1).unwrap())], [None; 3]);
     }
 }

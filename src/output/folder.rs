@@ -48,18 +48,27 @@ impl OutputFolder {
     /// Writes files, given by their paths in the folder with `/`, in place of what was there, which stays as it was if
     /// that fails.
     pub fn write(&self, files: &[(String, Vec<u8>)]) -> Result<(), OutputError> {
-        self.replace(files).map_err(|cause| OutputError::write(&self.path, cause))
+        self.write_in(|folder| {
+            files.iter().try_for_each(|(name, bytes)| {
+                let path = folder.join(name);
+                fs::create_dir_all(folder_of(&path))?;
+                fs::write(path, bytes)
+            })
+        })
     }
 
-    fn replace(&self, files: &[(String, Vec<u8>)]) -> io::Result<()> {
+    /// As [`write`](Self::write), of files that `fill` writes one by one into the folder that it is given: they may be more
+    /// than memory takes.
+    pub fn write_in<T>(&self, fill: impl FnOnce(&Path) -> io::Result<T>) -> Result<T, OutputError> {
+        self.replace(fill).map_err(|cause| OutputError::write(&self.path, cause))
+    }
+
+    fn replace<T>(&self, fill: impl FnOnce(&Path) -> io::Result<T>) -> io::Result<T> {
         let new = self.temporary()?;
-        let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).chain([MARK]).collect();
-        let mark = serde_json::to_vec_pretty(&names).expect("names are text");
-        for (name, bytes) in names.iter().zip(files.iter().map(|(_, bytes)| bytes).chain([&mark])) {
-            let path = new.path().join(name);
-            fs::create_dir_all(folder_of(&path))?;
-            fs::write(path, bytes)?;
-        }
+        let filled = fill(new.path())?;
+        let mut names = names_below(new.path(), "")?;
+        names.push(MARK.into());
+        fs::write(new.path().join(MARK), serde_json::to_vec_pretty(&names).expect("names are text"))?;
 
         // Move the old folder aside, and back if the new one cannot take its place.
         let aside = self.temporary()?;
@@ -70,7 +79,7 @@ impl OutputFolder {
         fs::rename(new.path(), &self.resolved).inspect_err(|_| drop(fs::rename(&old, &self.resolved)))?;
         // It has moved: nothing is left to remove.
         let _ = new.keep();
-        Ok(())
+        Ok(filled)
     }
 
     /// The first name in the folder that is not on its list.

@@ -25,12 +25,17 @@ const INFERNO: [[u8; 3]; 9] = [
 ///
 /// Costs of structures differ by factors of a hundred: on a linear scale that fits the worst, the best is black.
 pub fn heat(cost: u64, hottest: u64) -> [u8; 3] {
-    // 255 steps between neighbouring colours. The logarithm is libm's: the same on every machine.
-    let steps = ((INFERNO.len() - 1) * 255) as f64;
-    let share = match hottest {
+    // The logarithm is libm's: the same on every machine.
+    ramp(match hottest {
         0 => 0.0,
         _ => libm::log1p(cost.min(hottest) as f64) / libm::log1p(hottest as f64),
-    };
+    })
+}
+
+/// The colour at a share of the map, from 0 to 1.
+pub fn ramp(share: f64) -> [u8; 3] {
+    // 255 steps between neighbouring colours.
+    let steps = ((INFERNO.len() - 1) * 255) as f64;
     let place = libm::round(share * steps) as usize;
     let (index, part) = (place / 255, (place % 255) as u32);
     let below = INFERNO[index];

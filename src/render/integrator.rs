@@ -54,6 +54,11 @@ pub fn render(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> (Vec<Vec3>
     (colours, counts)
 }
 
+/// The colours that `render` gives the pixels of these primary rays.
+pub fn shade(scene: &Scene, accel: &dyn DynAccel, rays: &[Ray]) -> Vec<Vec3> {
+    rays.par_chunks(CHUNK as usize).flat_map_iter(|chunk| trace(scene, accel, chunk.to_vec()).0).collect()
+}
+
 #[derive(Default)]
 struct MirrorLevel {
     /// The colour of each ray without its mirror ray.

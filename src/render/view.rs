@@ -60,10 +60,11 @@ pub fn draw(
 ) -> Result<RgbImage, ViewError> {
     Ok(match view {
         ViewKind::Shaded => of_colours(size, &render(scene, accel, size).0),
-        ViewKind::Depth => depth(scene, accel, size),
-        ViewKind::Normal => from_hits(size, &hits(scene, accel, size), |ray, hit| {
-            (scene.surface(ray, hit).shading_normal * 0.5 + 0.5).to_array().map(quantised)
-        }),
+        ViewKind::Depth => {
+            let depth = |(_, hit): (Ray, Option<Hit>)| hit.map_or(f32::INFINITY, |hit| hit.t);
+            depth_picture(size, &hits(scene, accel, size).into_iter().map(depth).collect::<Vec<f32>>())
+        }
+        ViewKind::Normal => from_hits(size, &hits(scene, accel, size), |ray, hit| normal_colour(scene, ray, hit)),
         ViewKind::Primitive => from_hits(size, &hits(scene, accel, size), |_, hit| identity(hit.prim.index())),
         ViewKind::Heat => {
             let colours = costs(scene, accel, size)?.into_iter().map(|cost| colour_map::heat(cost, hottest));
@@ -119,9 +120,14 @@ fn from_hits(size: [u32; 2], hits: &[(Ray, Option<Hit>)], colour: impl Fn(&Ray, 
     from_pixels(size, hits.iter().map(|(ray, hit)| hit.map_or([0; 3], |hit| colour(ray, hit))).collect())
 }
 
-fn depth(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> RgbImage {
-    let hits = hits(scene, accel, size);
-    let seen = hits.iter().filter_map(|(_, hit)| hit.map(|hit| hit.t));
+/// The colour of the normal view where `ray` hits.
+pub fn normal_colour(scene: &Scene, ray: &Ray, hit: Hit) -> [u8; 3] {
+    (scene.surface(ray, hit).shading_normal * 0.5 + 0.5).to_array().map(quantised)
+}
+
+/// The depth view of distances, one for each pixel, infinite where nothing is hit.
+pub fn depth_picture(size: [u32; 2], depths: &[f32]) -> RgbImage {
+    let seen = depths.iter().copied().filter(|t| t.is_finite());
     let (near, far) = seen.fold((f32::INFINITY, 0.0f32), |(near, far), t| (near.min(t), far.max(t)));
 
     // Reciprocals keep the contrast of near surfaces where a floor extends to the horizon. The farthest hit stays
@@ -131,12 +137,13 @@ fn depth(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> RgbImage {
         let share = (near / t.max(near) - near / far) / (1.0 - near / far);
         0.15 + 0.85 * if far > near { share } else { 1.0 }
     };
-    from_hits(size, &hits, |_, hit| [quantised(brightness(hit.t)); 3])
+    let colour = |&t: &f32| if t.is_finite() { [quantised(brightness(t)); 3] } else { [0; 3] };
+    from_pixels(size, depths.iter().map(colour).collect())
 }
 
 /// A colour other than black that is unique among primitives below 2^24 - 1: multiples of an odd constant visit all
 /// colours.
-fn identity(index: u32) -> [u8; 3] {
+pub fn identity(index: u32) -> [u8; 3] {
     let [_, red, green, blue] = ((index.wrapping_add(1)).wrapping_mul(0x9E_37_79) & 0xFF_FF_FF).to_be_bytes();
     [red, green, blue]
 }

@@ -25,7 +25,7 @@ pub struct Chromium {
 }
 
 /// Keys by name: code of the key, and the text that it types.
-const KEYS: [(&str, u32, &str); 8] = [
+const KEYS: [(&str, u32, &str); 12] = [
     ("Tab", 9, ""),
     ("Enter", 13, "\r"),
     ("PageUp", 33, ""),
@@ -34,6 +34,10 @@ const KEYS: [(&str, u32, &str); 8] = [
     ("ArrowUp", 38, ""),
     ("ArrowRight", 39, ""),
     ("ArrowDown", 40, ""),
+    ("b", 66, "b"),
+    ("n", 78, "n"),
+    ("w", 87, "w"),
+    ("z", 90, "z"),
 ];
 
 impl Chromium {

@@ -1,6 +1,8 @@
 //! The page of a report in a browser: Chromium, where there is one.
 
 mod chromium;
+#[cfg(feature = "page")]
+mod golden;
 
 use std::path::PathBuf;
 use std::sync::OnceLock;

@@ -55,7 +55,7 @@ fn what_is_not_known_is_refused_with_what_is() {
         let twice = format!("{command} cube --export-json a.json --export-csv ./a.json");
         refuses_in_a_line(&words(&twice), &["two results", "a.json"]);
     }
-    refuses_in_a_line(&["golden", "check", "my.toml"], &["my.toml", "built-in scenes alone"]);
+    refuses_in_a_line(&["golden", "check", "my.toml"], &["my.toml", "No such file"]);
     refuses_in_a_line(&["render", "cube", "-o", "x.png", "--hottest", "10"], &["--hottest", "--view heat"]);
     refuses(&["render", "cube", "-o", "x.png", "--view", "heat", "--hottest", "0"], &["--hottest", "0"]);
     for command in [&["replicate"][..], &["study", "attribution"], &["validate"]] {

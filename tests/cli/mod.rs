@@ -6,6 +6,7 @@ mod compare;
 mod corpus;
 mod epochs;
 mod gate;
+mod golden;
 mod input;
 #[cfg(target_os = "linux")]
 mod interrupted;

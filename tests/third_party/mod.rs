@@ -6,6 +6,7 @@ mod faulty;
 mod grid;
 mod question;
 
+use std::path::Path;
 use std::process::{Command, ExitCode, Stdio};
 use std::time::Duration;
 
@@ -15,7 +16,7 @@ use grid::{Grid, GridConfig};
 use question::{DUPLICATION, staircase};
 use sahara::cli::Suite;
 use sahara::geometry::Ray;
-use sahara::golden::Goldens;
+use sahara::golden::SceneGolden;
 use sahara::measure::{Provenance, SystemClock};
 use sahara::registry::Registry;
 use sahara::request::{StructureRequest, WorkloadRequest, scene};
@@ -50,7 +51,8 @@ fn a_registered_structure_is_chosen_like_the_others_and_draws_the_golden_images(
     let choice = registry().choose("grid").unwrap();
     for name in ["cube", "torus", "cornellbox"] {
         let scene = Builtin::find(name).unwrap().scene(None).unwrap();
-        Goldens::builtin().check(&scene, "grid", choice.build(&scene.mesh).unwrap().as_ref()).unwrap();
+        let (golden, out) = (SceneGolden::builtin(name).unwrap(), Path::new(env!("CARGO_TARGET_TMPDIR")));
+        golden.check(&scene, "grid", choice.build(&scene.mesh).unwrap().as_ref(), out).unwrap();
     }
 }
 

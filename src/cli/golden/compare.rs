@@ -1,0 +1,230 @@
+//! `golden compare`.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use rayon::prelude::*;
+
+use super::{Outputs, tally};
+use crate::cli::progress::spinner;
+use crate::cli::terminal::Terminal;
+use crate::escaped::Escaped as _;
+use crate::golden::measures::PIXELS_PER_DEGREE;
+use crate::golden::page::{Page, Sides, Values};
+use crate::golden::{self, Allowed, Comparison, Mask, Match, Pair, Verdict, pairs, read};
+use crate::report::number::count;
+use crate::report::{Cell, Table, Tone};
+use crate::study::Status;
+
+/// What the statuses of all commands mean here.
+const STATUSES: &str = "Exit status: 0, all are accepted; 2, a picture differs; 1, one is missing, additional or cannot \
+                        be read.";
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = STATUSES)]
+pub struct Args {
+    /// The picture that is right (PNG; JPEG, WebP and EXR with the feature `pictures`), or a folder of pictures
+    expected: PathBuf,
+    /// The picture that is compared with it, or a folder with pictures of the same names
+    actual: PathBuf,
+    /// Accept pictures that differ by at most this in each channel: in 1/255 of full scale at any depth, of floats as they are
+    /// [default: 0, all values are equal]
+    #[arg(long, value_name = "N", value_parser = at_least_0, allow_negative_numbers = true)]
+    max_difference: Option<f64>,
+    /// Accept pictures in which so many pixels, or so many percent of them, differ by more
+    #[arg(long, value_name = "N|P%", value_parser = allowed)]
+    allow_pixels: Option<Allowed>,
+    /// Accept pictures with a mean FLIP of at most this, from 0 to 1: differences that a person sees
+    #[arg(long, value_name = "X", value_parser = at_least_0, conflicts_with_all = ["max_difference", "allow_pixels"],
+        allow_negative_numbers = true)]
+    max_flip: Option<f64>,
+    /// With --max-flip, pixels in a degree of sight [default: 67, a screen of 3840 pixels, 0.7 m wide, from 0.7 m]
+    #[arg(long, value_name = "N", value_parser = pixels_per_degree, requires = "max_flip", allow_negative_numbers = true)]
+    pixels_per_degree: Option<f64>,
+    /// A picture of their size: what is black in it is not compared
+    #[arg(long, value_name = "M.png")]
+    mask: Option<PathBuf>,
+    #[command(flatten)]
+    outputs: Outputs,
+}
+
+fn at_least_0(text: &str) -> Result<f64, &'static str> {
+    text.parse().ok().filter(|&number: &f64| number >= 0.0 && number.is_finite()).ok_or("give a number of at least 0")
+}
+
+fn pixels_per_degree(text: &str) -> Result<f64, &'static str> {
+    text.parse().ok().filter(|number| (1.0..=1000.0).contains(number)).ok_or("give a number from 1 to 1000")
+}
+
+fn allowed(text: &str) -> Result<Allowed, &'static str> {
+    let number = match text.strip_suffix('%') {
+        Some(percent) => percent.parse().ok().filter(|percent| (0.0..=100.0).contains(percent)).map(Allowed::Percent),
+        None => text.parse().ok().map(Allowed::Pixels),
+    };
+    number.ok_or("give a number of pixels, such as 20, or of percent, such as 0.1%")
+}
+
+impl Args {
+    fn how(&self) -> Match {
+        match (self.max_flip, self.max_difference, self.allow_pixels) {
+            (Some(mean), ..) => {
+                let pixels_per_degree = self.pixels_per_degree.unwrap_or(PIXELS_PER_DEGREE);
+                Match::Flip { mean, pixels_per_degree }
+            }
+            (None, None, None) => Match::Exact,
+            (None, difference, pixels) => {
+                Match::Tolerance { difference: difference.unwrap_or(0.0), pixels: pixels.unwrap_or(Allowed::Pixels(0)) }
+            }
+        }
+    }
+
+    /// The pictures; those of folders that neither has are nothing to compare.
+    fn pairs(&self) -> anyhow::Result<Vec<Pair>> {
+        let [expected, actual] = [&self.expected, &self.actual];
+        match (expected.is_dir(), actual.is_dir()) {
+            (true, true) => {
+                let two = || format!("{} and {}", expected.escaped(), actual.escaped());
+                let pairs = pairs(expected, actual).with_context(|| format!("cannot read {}", two()))?;
+                anyhow::ensure!(!pairs.is_empty(), "there are no pictures in {}: name folders that have some", two());
+                Ok(pairs)
+            }
+            (false, false) => {
+                let name = actual.file_name().unwrap_or(actual.as_os_str()).into();
+                Ok(vec![Pair { name, expected: Some(expected.clone()), actual: Some(actual.clone()) }])
+            }
+            _ => anyhow::bail!(
+                "{} and {} are a folder and a file: name two folders or two pictures",
+                expected.escaped(),
+                actual.escaped()
+            ),
+        }
+    }
+}
+
+pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
+    let pairs = args.pairs()?;
+    let inputs = pairs.iter().flat_map(|pair| pair.expected.iter().chain(&pair.actual)).chain(&args.mask);
+    let outputs = args.outputs.check(inputs.map(PathBuf::as_path))?;
+    if let Some(page) = &args.outputs.page {
+        let is_in = |folder: &PathBuf| {
+            std::path::absolute(page)
+                .is_ok_and(|page| std::path::absolute(folder).is_ok_and(|folder| page.starts_with(folder)))
+        };
+        let inside = [&args.expected, &args.actual].into_iter().find(|folder| is_in(folder));
+        if let Some(folder) = inside {
+            anyhow::bail!(
+                "the page would be compared the next time: name a --page that is not in {}",
+                folder.escaped()
+            );
+        }
+    }
+    let mask = args.mask.as_deref().map(|path| read_mask(path, terminal)).transpose()?;
+    let waiting = spinner("compares pictures", terminal);
+    let title = format!("{} against {}", args.actual.escaped(), args.expected.escaped());
+    let comparisons = outputs.with_page(&title, |page| {
+        let compared = pairs.par_iter().enumerate();
+        compared.map(|(number, pair)| compare(number, pair, args, mask.as_ref(), page)).collect::<io::Result<Vec<_>>>()
+    })?;
+    drop(waiting);
+    if let [Comparison { verdict: Verdict::Failed, said, .. }] = &comparisons[..] {
+        anyhow::bail!("{}", said.join("; "));
+    }
+
+    let table = table(&comparisons);
+    if !table.rows.is_empty() {
+        terminal.print_table(&table);
+    }
+    let failures = comparisons.iter().filter(|own| own.fails());
+    terminal.print_lines(&failures.map(|own| format!("{}: {}", own.name, own.said.join("; "))).collect::<Vec<_>>());
+    terminal.print(&format!("{}\n", tally(&comparisons)));
+    outputs.export(&comparisons, terminal)?;
+    Ok(match comparisons.iter().map(|own| own.verdict).min() {
+        Some(Verdict::Differs) => Status::Wrong,
+        Some(verdict) if verdict < Verdict::Accepted => Status::Failed,
+        _ => Status::Right,
+    })
+}
+
+fn read_mask(path: &Path, terminal: &Terminal) -> anyhow::Result<Mask> {
+    let mask = Mask::new(&read(path)?);
+    let [masked, all] = [mask.masked() as u64, mask.size.map(u64::from).iter().product()];
+    anyhow::ensure!(masked < all, "the mask {} is all black: nothing would be compared", path.escaped());
+    terminal.print(&format!("{}: {} of {} pixels are not compared\n", path.escaped(), count(masked), count(all)));
+    Ok(mask)
+}
+
+fn compare(
+    number: usize,
+    pair: &Pair,
+    args: &Args,
+    mask: Option<&Mask>,
+    page: Option<&Page>,
+) -> io::Result<Comparison> {
+    let name = pair.name.escaped().to_string();
+    let only = |verdict, [own, other]: [&Path; 2]| {
+        Comparison::said(&name, verdict, format!("it is in {} and not in {}", own.escaped(), other.escaped()))
+    };
+    let mut refused = None;
+    let mut picture = |path: &Option<PathBuf>| match path.as_deref().map(read).transpose() {
+        Ok(picture) => picture,
+        Err(cause) => {
+            refused = Some(Comparison::said(&name, Verdict::Failed, cause.to_string()));
+            None
+        }
+    };
+    let [expected, actual] = [picture(&pair.expected), picture(&pair.actual)];
+    let [wanted, found] = [&args.expected, &args.actual].map(PathBuf::as_path);
+    let (comparison, maps) = match (&expected, &actual, refused) {
+        (_, _, Some(refused)) => (refused, None),
+        (Some(expected), Some(actual), None) => golden::compare(&name, [expected, actual], args.how(), mask),
+        (Some(_), None, None) => (only(Verdict::Missing, [wanted, found]), None),
+        (None, _, None) => (only(Verdict::Additional, [found, wanted]), None),
+    };
+    if let Some(page) = page {
+        let sides = Sides { expected: expected.as_ref(), actual: actual.as_ref(), values: Values::Colours };
+        page.add(number, &comparison, sides, maps.as_ref())?;
+    }
+    Ok(comparison)
+}
+
+/// Those that are not identical.
+fn table(comparisons: &[Comparison]) -> Table {
+    let rows = comparisons.iter().filter(|own| own.verdict != Verdict::Identical);
+    let known = |own: &Comparison, of: fn(&golden::measures::Measures) -> Cell| {
+        own.measures.as_ref().map_or(Cell::default(), of)
+    };
+    let flip = |own: &Comparison, of: fn(&golden::measures::Flip) -> f64| {
+        own.measures.and_then(|own| own.flip).map_or(Cell::default(), |flip| of(&flip).into())
+    };
+    Table::of(
+        "",
+        rows,
+        &[
+            ("picture", &|own: &&Comparison| (&own.name).into()),
+            ("verdict", &|own| verdict(own.verdict)),
+            ("pixels", &|own| known(own, |own| own.difference.pixels.into())),
+            ("over", &|own| known(own, |own| own.pixels_over.into())),
+            ("largest", &|own| known(own, |own| own.difference.largest.into())),
+            ("mean", &|own| known(own, |own| own.mean.into())),
+            ("PSNR", &|own| known(own, |own| own.psnr.into())),
+            ("SSIM", &|own| known(own, |own| own.ssim.map_or(Cell::default(), |ssim| format!("{ssim:.5}").into()))),
+            ("FLIP", &|own| flip(own, |flip| flip.mean)),
+            ("FLIP 95 %", &|own| flip(own, |flip| flip.percentile_95)),
+            ("FLIP max", &|own| flip(own, |flip| flip.largest)),
+        ],
+    )
+    .without_empty_columns()
+}
+
+fn verdict(verdict: Verdict) -> Cell {
+    let text = match verdict {
+        Verdict::Differs => "differs",
+        Verdict::Failed => "not comparable",
+        Verdict::Missing => "missing",
+        Verdict::Additional => "additional",
+        Verdict::Accepted => "accepted",
+        Verdict::Identical => "identical",
+    };
+    Cell::from(text).with(if verdict < Verdict::Accepted { Tone::Wrong } else { Tone::Plain })
+}

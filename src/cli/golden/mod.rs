@@ -1,0 +1,120 @@
+//! `golden`.
+
+mod blame;
+mod compare;
+mod scenes;
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use super::terminal::Terminal;
+use crate::escaped::Escaped as _;
+use crate::golden::page::{self, Page};
+use crate::golden::{Comparison, Verdict};
+use crate::output::{OutputError, OutputFile, OutputFolder};
+use crate::registry::Registry;
+use crate::report::number::count;
+use crate::study::Status;
+
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    #[command(subcommand)]
+    action: Action,
+}
+
+#[derive(Debug, clap::Subcommand)]
+enum Action {
+    /// Check that structures draw scenes as their golden images, byte for byte
+    Check(scenes::CheckArgs),
+    /// Make the golden images of scenes
+    Update(scenes::UpdateArgs),
+    /// Compare two pictures, or two folders of pictures, of any renderer
+    Compare(compare::Args),
+}
+
+pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
+    match &args.action {
+        Action::Check(args) => scenes::check(registry, args, terminal),
+        Action::Update(args) => scenes::update(registry, args, terminal),
+        Action::Compare(args) => compare::run(args, terminal),
+    }
+}
+
+/// Where results go besides the terminal.
+#[derive(Debug, clap::Args)]
+struct Outputs {
+    /// Folder for a page of all comparisons; an older page there is replaced
+    #[arg(long, value_name = "DIR")]
+    page: Option<PathBuf>,
+    /// Write the comparisons as JSON
+    #[arg(long, value_name = "FILE")]
+    export_json: Option<PathBuf>,
+}
+
+/// Outputs that can be written.
+struct CheckedOutputs {
+    page: Option<OutputFolder>,
+    json: Option<OutputFile>,
+}
+
+/// The file of --export-json.
+#[derive(Serialize)]
+struct Export<'a> {
+    schema: &'static str,
+    comparisons: &'a [Comparison],
+}
+
+impl Outputs {
+    /// Refuses places that cannot be written, or that `inputs` are in.
+    fn check<'a>(&self, inputs: impl Iterator<Item = &'a Path> + Clone) -> anyhow::Result<CheckedOutputs> {
+        anyhow::ensure!(
+            self.page.is_none() || cfg!(feature = "page"),
+            "--page: this program is built without the feature `page`: leave the option out, or build it with the feature"
+        );
+        let page = self.page.as_deref().map(|path| OutputFolder::check(path)?.apart_from(inputs.clone()));
+        let json = self.export_json.as_deref().map(|path| OutputFile::check(path)?.apart_from(inputs));
+        Ok(CheckedOutputs { page: page.transpose()?, json: json.transpose()? })
+    }
+}
+
+impl CheckedOutputs {
+    /// What `compare` gives, which may add to the page.
+    fn with_page<T>(
+        &self,
+        title: &str,
+        compare: impl FnOnce(Option<&Page>) -> io::Result<T>,
+    ) -> Result<T, OutputError> {
+        match &self.page {
+            Some(folder) => page::write(folder, title, |page| compare(Some(page))),
+            None => Ok(compare(None).expect("nothing is written")),
+        }
+    }
+
+    /// Writes the JSON, and says where the page is.
+    fn export(&self, comparisons: &[Comparison], terminal: &Terminal) -> anyhow::Result<()> {
+        if let Some(json) = &self.json {
+            json.write(&serde_json::to_vec_pretty(&Export { schema: "sahara-golden-1", comparisons })?)?;
+        }
+        if let Some(folder) = &self.page {
+            terminal.print(&format!("{}\n", page::index(folder.path()).escaped()));
+        }
+        Ok(())
+    }
+}
+
+/// How many comparisons came to what.
+fn tally(comparisons: &[Comparison]) -> String {
+    let said = [
+        (Verdict::Differs, "different"),
+        (Verdict::Failed, "not comparable"),
+        (Verdict::Missing, "missing"),
+        (Verdict::Additional, "additional"),
+        (Verdict::Accepted, "accepted"),
+        (Verdict::Identical, "identical"),
+    ];
+    let number = |verdict| comparisons.iter().filter(|own| own.verdict == verdict).count() as u64;
+    let parts = said.map(|(verdict, name)| (number(verdict), name)).into_iter().filter(|(number, _)| *number > 0);
+    parts.map(|(number, name)| format!("{} {name}", count(number))).collect::<Vec<_>>().join(", ")
+}

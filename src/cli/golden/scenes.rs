@@ -1,0 +1,241 @@
+//! `golden check` and `golden update`.
+
+use std::ffi::{OsStr, OsString};
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+
+use super::blame::Judge;
+use super::{Outputs, tally};
+use crate::cli::terminal::Terminal;
+use crate::escaped::{Escaped as _, quoted, stem};
+use crate::golden::page::{Page, Sides};
+use crate::golden::{Comparison, Match, Overwrite, SIZE, SceneGolden, TRIANGLE_TEST, Update, VIEWS, compare};
+use crate::names::find;
+use crate::registry::{Choice, Registry};
+use crate::render::ViewKind;
+use crate::report::words::{each_once_by, slug};
+use crate::request::{self, BRUTE_FORCE, SAH_TREE, ViewArgs, known_defect, stand_in};
+use crate::scene::{BUILTIN, Builtin, Scene};
+use crate::study::Status;
+
+/// Triangles times pixels of anybody's scene above which brute force would take minutes.
+const WORK: u64 = 1 << 32;
+
+#[derive(Debug, clap::Args)]
+struct Targets {
+    /// Built-in scenes, scene files (.toml) and mesh files; all built-in scenes if none is named
+    #[arg(value_name = "SCENE|FILE")]
+    scenes: Vec<OsString>,
+    /// shaded, depth, normal or primitive
+    #[arg(long, default_value = "shaded", value_name = "VIEW", value_parser = view)]
+    view: ViewKind,
+    #[command(flatten)]
+    from: ViewArgs,
+    /// Folder of golden images, NAME.golden.png or NAME.VIEW.golden.png [default: beside each file; those of built-in scenes
+    /// are in the program]
+    #[arg(long, value_name = "DIR")]
+    goldens: Option<PathBuf>,
+}
+
+#[derive(Debug, clap::Args)]
+pub struct CheckArgs {
+    #[command(flatten)]
+    targets: Targets,
+    /// A structure, with keys that differ from their defaults; may be repeated [default: all over the exact triangle test]
+    #[arg(long, short, value_name = "NAME[:key=value,..]")]
+    structure: Vec<String>,
+    #[command(flatten)]
+    outputs: Outputs,
+}
+
+#[derive(Debug, clap::Args)]
+pub struct UpdateArgs {
+    #[command(flatten)]
+    targets: Targets,
+    /// The structure that draws [default: brute-force:test=exact; the SAH tree over that test where this would take minutes]
+    #[arg(long, short, value_name = "NAME[:key=value,..]")]
+    structure: Option<String>,
+    /// Replace also pictures that this command has not made
+    #[arg(long)]
+    force: bool,
+}
+
+fn view(name: &str) -> Result<ViewKind, String> {
+    find("view of golden images", VIEWS, name, ViewKind::name).map_err(|unknown| unknown.to_string())
+}
+
+/// A scene, and its golden image.
+struct Target {
+    scene: Scene,
+    golden: SceneGolden,
+    /// On a command line.
+    word: String,
+    /// The structure that draws unless one is named.
+    default: &'static str,
+}
+
+impl Target {
+    fn new(scene: Scene, golden: SceneGolden, word: impl AsRef<OsStr>) -> Self {
+        let work = scene.mesh.len() as u64 * golden.size.map(u64::from).iter().product::<u64>();
+        let default = if work <= WORK || golden.is_in_program() { BRUTE_FORCE } else { SAH_TREE };
+        Self { scene, golden, word: quoted(word), default }
+    }
+}
+
+impl Targets {
+    fn words(&self) -> Vec<OsString> {
+        let all = || BUILTIN.iter().map(|builtin| builtin.name.into()).collect();
+        let words = if self.scenes.is_empty() { all() } else { self.scenes.clone() };
+        // What is named twice counts once.
+        each_once_by(words, |one, other| one.eq_ignore_ascii_case(other))
+    }
+
+    fn target(&self, registry: &Registry, word: &OsString) -> anyhow::Result<Target> {
+        let Ok(builtin) = Builtin::find(word) else {
+            let scene = self.from.seen(request::scene(registry, word)?)?;
+            let path = Path::new(word);
+            let beside = || path.is_file().then(|| path.parent().unwrap_or(Path::new("")).to_path_buf());
+            let folder = self.goldens.clone().or_else(beside);
+            let folder =
+                folder.with_context(|| format!("{}: --goldens DIR says where its picture is", word.escaped()))?;
+            let name = if path.is_file() { stem(path) } else { slug(&word.escaped().to_string()) };
+            let golden = SceneGolden::file(&folder, &name, self.view, &scene);
+            return Ok(Target::new(scene, golden, word));
+        };
+        // Real meshes that happen to be there must not change the picture.
+        let mut scene = builtin.scene(None)?;
+        scene.size = SIZE;
+        let is_default = self.from.is_default() && self.view == ViewKind::Shaded;
+        let scene = self.from.seen(scene)?;
+        let name = builtin.name.to_lowercase();
+        let golden = match &self.goldens {
+            Some(folder) => SceneGolden::file(folder, &name, self.view, &scene),
+            None => {
+                anyhow::ensure!(
+                    is_default,
+                    "the golden images in the program are shaded, {} x {} pixels and from the scene's own camera, and {} view \
+                     {} is asked for: --goldens DIR keeps others",
+                    SIZE[0],
+                    SIZE[1],
+                    self.view.name(),
+                    self.from.words()
+                );
+                SceneGolden::builtin(&name).with_context(|| format!("{name} has no golden image in the program"))?
+            }
+        };
+        let word = if scene.stand_ins.is_empty() { name.into() } else { stand_in(&name) };
+        Ok(Target::new(scene, golden, word))
+    }
+
+    /// The files that are read besides golden images.
+    fn inputs(&self, registry: &Registry) -> Vec<PathBuf> {
+        request::scene_files(registry, &self.scenes)
+    }
+}
+
+pub fn check(registry: &Registry, args: &CheckArgs, terminal: &Terminal) -> anyhow::Result<Status> {
+    let inputs = args.targets.inputs(registry);
+    let outputs = args.outputs.check(inputs.iter().map(PathBuf::as_path))?;
+    // A golden image belongs to the scene: all structures with one triangle test owe it the same bytes.
+    let choices: Vec<Choice> = if args.structure.is_empty() {
+        registry.all().into_iter().filter(|choice| choice.triangle_test() == TRIANGLE_TEST).collect()
+    } else {
+        request::structures(registry, &args.structure)?
+    };
+    let mut comparisons = vec![];
+    let mut status = Status::Right;
+    outputs.with_page("Golden images", |page| {
+        Ok(args.targets.words().iter().try_for_each(|word| {
+            let target = args.targets.target(registry, word)?;
+            let mut choices = choices.clone();
+            if args.structure.is_empty() && target.default != BRUTE_FORCE {
+                choices.retain(|choice| choice.entry.name != BRUTE_FORCE);
+                terminal.print(&format!(
+                    "{}: {BRUTE_FORCE} is left out, since it would take minutes: -s {BRUTE_FORCE} runs it\n",
+                    target.scene.name
+                ));
+            }
+            let found = check_scene(registry, &target, &choices, page, terminal, &mut comparisons)?;
+            status = status.and(found);
+            anyhow::Ok(())
+        }))
+    })??;
+    if comparisons.iter().any(Comparison::fails) {
+        let advice = if args.outputs.page.is_none() { "; --page DIR shows the pictures" } else { "" };
+        terminal.print(&format!("{}{advice}\n", tally(&comparisons)));
+    }
+    outputs.export(&comparisons, terminal)?;
+    Ok(status)
+}
+
+fn check_scene(
+    registry: &Registry,
+    Target { scene, golden, word, .. }: &Target,
+    choices: &[Choice],
+    page: Option<&Page>,
+    terminal: &Terminal,
+    comparisons: &mut Vec<Comparison>,
+) -> anyhow::Result<Status> {
+    let expected = golden.expected()?;
+    let (mut right, mut status, mut judge) = (vec![], Status::Right, None);
+    for choice in choices {
+        let accel = choice.build(&scene.mesh)?;
+        let actual = golden.drawn(scene, accel.as_ref());
+        let pictures = [&expected, &actual];
+        let (mut comparison, maps) =
+            compare(&format!("{} with {}", scene.name, choice.label), pictures, Match::Exact, None);
+        if golden.view == ViewKind::Primitive {
+            comparison = comparison.of_names(golden.size);
+        }
+        if comparison.fails() {
+            let is_known = known_defect(&choice.entry.name).is_some();
+            if let Some(measures) = &comparison.measures {
+                if judge.is_none() {
+                    judge = Some(Judge::new(registry, scene, golden, word)?);
+                }
+                let judge = judge.as_ref().expect("it was made");
+                let place = measures.difference.first;
+                let (sentence, command) = judge.blame(&choice.label, accel.as_ref(), pictures, place);
+                comparison.said.push(sentence);
+                comparison.command = Some(command);
+            }
+            if is_known {
+                comparison.said.push("its known defects do not change the exit status".into());
+            } else {
+                status = Status::Wrong;
+            }
+            let lines = comparison.said.iter().chain(&comparison.command).map(|line| format!("  {line}\n"));
+            terminal.print(&format!("{}: differs from {}\n", comparison.name, golden.named().escaped()));
+            terminal.print(&lines.collect::<String>());
+        } else {
+            right.push(choice.label.as_str());
+        }
+        if let Some(page) = page {
+            let sides = Sides { expected: Some(&expected), actual: Some(&actual), values: golden.view.into() };
+            page.add(comparisons.len(), &comparison, sides, maps.as_ref())?;
+        }
+        comparisons.push(comparison);
+    }
+    if !right.is_empty() {
+        terminal.print(&format!("{}: byte for byte the same with {}\n", scene.name, right.join(", ")));
+    }
+    Ok(status)
+}
+
+pub fn update(registry: &Registry, args: &UpdateArgs, terminal: &Terminal) -> anyhow::Result<Status> {
+    let overwrite = if args.force { Overwrite::Any } else { Overwrite::Own };
+    for word in args.targets.words() {
+        let Target { scene, golden, default, .. } = args.targets.target(registry, &word)?;
+        let spec = args.structure.clone().unwrap_or_else(|| format!("{default}:test={TRIANGLE_TEST}"));
+        let accel = request::structure(registry, &spec)?.build(&scene.mesh)?;
+        let what = match golden.update(&scene, accel.as_ref(), overwrite)? {
+            Update::Same => "as it was".into(),
+            Update::New => "made anew".into(),
+            Update::Layout(old) => format!("made anew, it had {old}"),
+            Update::Changed(difference) => format!("made anew: {}", difference.sentence(golden.size)),
+        };
+        terminal.print(&format!("{}: {what}, {}\n", scene.name, golden.path().escaped()));
+    }
+    Ok(Status::Right)
+}

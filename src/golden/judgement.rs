@@ -1,0 +1,132 @@
+//! Whether a picture is accepted in the place of another one.
+
+use image::DynamicImage;
+use serde::Serialize;
+
+use super::difference::{Difference, pixels_over};
+use super::layout::Layout;
+use super::mask::Mask;
+use super::measures::{FlipMap, Measures, PIXELS_PER_DEGREE};
+
+/// When a picture is accepted. Size, channels and bits a channel are the same in any case.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Match {
+    /// All values are equal, as with a deterministic renderer.
+    Exact,
+    /// Few pixels have a channel that differs by more than `difference`: in 1/255 of full scale at any depth, of floats
+    /// in their own unit. Noise passes, and a lost triangle does not.
+    Tolerance { difference: f64, pixels: Allowed },
+    /// The mean of FLIP is at most `mean`: a person who flips between the pictures sees no more. Not for floats.
+    Flip { mean: f64, pixels_per_degree: f64 },
+}
+
+/// How many pixels may differ by more than the tolerance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Allowed {
+    Pixels(usize),
+    /// Of those that are compared.
+    Percent(f64),
+}
+
+impl Match {
+    /// No channel of any pixel differs by more than this.
+    pub fn within(difference: f64) -> Self {
+        Self::Tolerance { difference, pixels: Allowed::Pixels(0) }
+    }
+
+    /// By FLIP as seen on the screen that its authors assume.
+    pub fn flip(mean: f64) -> Self {
+        Self::Flip { mean, pixels_per_degree: PIXELS_PER_DEGREE }
+    }
+
+    fn difference(self) -> f64 {
+        if let Self::Tolerance { difference, .. } = self { difference } else { 0.0 }
+    }
+
+    fn pixels_per_degree(self) -> f64 {
+        if let Self::Flip { pixels_per_degree, .. } = self { pixels_per_degree } else { PIXELS_PER_DEGREE }
+    }
+}
+
+impl Allowed {
+    fn of(self, compared: usize) -> f64 {
+        match self {
+            Self::Pixels(pixels) => pixels as f64,
+            Self::Percent(percent) => percent * compared as f64 / 100.0,
+        }
+    }
+}
+
+/// What comparing two pictures comes to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    Differs,
+    /// It could not be read, or the pictures cannot be compared in this way.
+    Failed,
+    Missing,
+    Additional,
+    /// It differs by no more than is allowed.
+    Accepted,
+    Identical,
+}
+
+/// Two pictures of one layout that differ.
+pub struct Judgement<'a> {
+    pub accepted: bool,
+    pub difference: Difference,
+    how: Match,
+    flip: Option<FlipMap>,
+    expected: &'a DynamicImage,
+    actual: &'a DynamicImage,
+    mask: Option<&'a Mask>,
+}
+
+/// FLIP is not for floats.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("FLIP is for pictures of 8 or 16 bits a channel, and these are floats: give a largest difference instead")]
+pub struct NoFlip;
+
+impl<'a> Judgement<'a> {
+    /// None if all values that are compared are equal. Only what decides is computed. Where `mask` compares nothing, the
+    /// pictures must be the same already: [`Mask::applied`].
+    ///
+    /// # Errors
+    /// If FLIP shall judge floats.
+    pub fn new(
+        [expected, actual]: [&'a DynamicImage; 2],
+        how: Match,
+        mask: Option<&'a Mask>,
+    ) -> Result<Option<Self>, NoFlip> {
+        let layout = Layout::of(expected);
+        if matches!(how, Match::Flip { .. }) && layout.is_float() {
+            return Err(NoFlip);
+        }
+        let Some(difference) = Difference::between(expected, actual) else { return Ok(None) };
+        let compared = layout.pixels() - mask.map_or(0, Mask::masked);
+        let mut judged = Self { accepted: false, difference, how, flip: None, expected, actual, mask };
+        judged.accepted = match how {
+            Match::Exact => false,
+            Match::Tolerance { difference, pixels } => {
+                pixels_over(expected, actual, difference) as f64 <= pixels.of(compared)
+            }
+            Match::Flip { mean, .. } => judged.flip().is_some_and(|flip| flip.summary(mask).mean <= mean),
+        };
+        Ok(Some(judged))
+    }
+
+    /// FLIP of all pixels; none of floats.
+    pub fn flip(&mut self) -> Option<&FlipMap> {
+        if self.flip.is_none() {
+            self.flip = FlipMap::new(self.expected, self.actual, self.how.pixels_per_degree());
+        }
+        self.flip.as_ref()
+    }
+
+    /// All measures.
+    pub fn measures(&mut self) -> Measures {
+        self.flip();
+        let pictures = [self.expected, self.actual];
+        Measures::new(pictures, self.difference, self.how.difference(), self.flip.as_ref(), self.mask)
+    }
+}

@@ -1,0 +1,97 @@
+//! What pictures must have in common to be compared, and their values as numbers.
+
+use std::fmt::{self, Display, Formatter};
+
+use image::DynamicImage;
+
+/// Size, channels and depth of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Layout {
+    /// Width and height.
+    pub size: [u32; 2],
+    /// 1 is grey, 2 is grey and alpha, 3 is RGB, 4 is RGB and alpha.
+    pub channels: u8,
+    /// Bits a channel: 8 or 16, or 32 for floats.
+    pub bits: u8,
+}
+
+impl Layout {
+    pub fn of(picture: &DynamicImage) -> Self {
+        let (size, color) = ([picture.width(), picture.height()], picture.color());
+        let channels = color.channel_count();
+        Self { size, channels, bits: (color.bits_per_pixel() / u16::from(channels)) as u8 }
+    }
+
+    /// The largest value of a channel, which is white.
+    pub fn full_scale(&self) -> f64 {
+        match self.bits {
+            8 => u8::MAX.into(),
+            16 => u16::MAX.into(),
+            _ => 1.0,
+        }
+    }
+
+    /// Whether values are floats, which may be less than 0 and more than 1.
+    pub fn is_float(&self) -> bool {
+        self.bits == 32
+    }
+
+    /// How many pixels there are.
+    pub fn pixels(&self) -> usize {
+        self.size.map(|side| side as usize).iter().product()
+    }
+
+    /// The channel that says how opaque a pixel is, if there is one.
+    pub(super) fn alpha(&self) -> Option<usize> {
+        self.channels.is_multiple_of(2).then(|| usize::from(self.channels) - 1)
+    }
+
+    pub(super) fn bytes_per_pixel(&self) -> usize {
+        usize::from(self.channels) * usize::from(self.bits / 8)
+    }
+
+    /// The channels of a pixel, given by its bytes, as numbers.
+    pub(super) fn values<'a>(&self, pixel: &'a [u8]) -> impl Iterator<Item = f64> + 'a {
+        pixel.chunks_exact(usize::from(self.bits / 8)).map(value)
+    }
+}
+
+/// The value of a channel, of one of three depths.
+fn value(sample: &[u8]) -> f64 {
+    match *sample {
+        [byte] => byte.into(),
+        [a, b] => u16::from_ne_bytes([a, b]).into(),
+        [a, b, c, d] => f32::from_ne_bytes([a, b, c, d]).into(),
+        _ => unreachable!("pictures have 8, 16 or 32 bits a channel"),
+    }
+}
+
+impl Display for Layout {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let [width, height] = self.size;
+        let channels = ["grey", "grey and alpha", "RGB", "RGBA"][usize::from(self.channels) - 1];
+        write!(f, "{width} x {height} pixels of {channels} with {} bits a channel", self.bits)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use image::RgbImage;
+
+    use super::*;
+
+    #[test]
+    fn layouts_tell_channels_and_depth_apart() {
+        let picture = DynamicImage::from(RgbImage::new(4, 2));
+        let said = [picture.clone(), picture.to_rgba8().into(), picture.to_luma16().into(), picture.to_rgb32f().into()];
+        assert_eq!(
+            said.map(|picture| Layout::of(&picture).to_string()),
+            [
+                "4 x 2 pixels of RGB with 8 bits a channel",
+                "4 x 2 pixels of RGBA with 8 bits a channel",
+                "4 x 2 pixels of grey with 16 bits a channel",
+                "4 x 2 pixels of RGB with 32 bits a channel",
+            ]
+        );
+    }
+}

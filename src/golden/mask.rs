@@ -1,0 +1,56 @@
+//! Pixels that are not compared.
+
+use image::{DynamicImage, ImageBuffer, Pixel};
+
+use super::layout::Layout;
+
+/// The pixels of pictures of one size that are compared.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mask {
+    pub size: [u32; 2],
+    compared: Vec<bool>,
+}
+
+impl Mask {
+    /// What is black in a picture is not compared. Its alpha is not looked at.
+    pub fn new(picture: &DynamicImage) -> Self {
+        let layout = Layout::of(picture);
+        let colours = usize::from(layout.channels) - usize::from(layout.alpha().is_some());
+        let is_light = |pixel| layout.values(pixel).take(colours).any(|value| value != 0.0);
+        let compared = picture.as_bytes().chunks_exact(layout.bytes_per_pixel()).map(is_light).collect();
+        Self { size: layout.size, compared }
+    }
+
+    /// Whether a pixel, counted in reading order, is compared; all are without a mask.
+    pub fn compares(mask: Option<&Self>, pixel: usize) -> bool {
+        mask.is_none_or(|mask| mask.compared[pixel])
+    }
+
+    /// How many pixels are not compared.
+    pub fn masked(&self) -> usize {
+        self.compared.iter().filter(|compared| !**compared).count()
+    }
+
+    /// `actual` with the pixels of `expected` where nothing is compared, so that no window sees a difference there. All have
+    /// one size, and the pictures one layout.
+    pub(super) fn applied(&self, expected: &DynamicImage, mut actual: DynamicImage) -> DynamicImage {
+        macro_rules! of_one_kind {
+            ($($kind:ident)*) => {
+                match (&mut actual, expected) {
+                    $((DynamicImage::$kind(own), DynamicImage::$kind(other)) => self.replace(own, other),)*
+                    _ => unreachable!("pictures of one layout"),
+                }
+            };
+        }
+        of_one_kind!(ImageLuma8 ImageLumaA8 ImageRgb8 ImageRgba8 ImageLuma16 ImageLumaA16 ImageRgb16 ImageRgba16
+            ImageRgb32F ImageRgba32F);
+        actual
+    }
+
+    fn replace<P: Pixel>(&self, own: &mut Buffer<P>, other: &Buffer<P>) {
+        let pixels = own.pixels_mut().zip(other.pixels()).zip(&self.compared);
+        pixels.filter(|(_, compared)| !**compared).for_each(|((own, other), _)| *own = *other);
+    }
+}
+
+type Buffer<P> = ImageBuffer<P, Vec<<P as Pixel>::Subpixel>>;

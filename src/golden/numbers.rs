@@ -1,0 +1,65 @@
+//! Views that show numbers, kept in PNG files without loss.
+//!
+//! A pixel is a number of 32 bits in two channels of 16: the upper half is grey, the lower half is alpha. A renderer of one's
+//! own may have them in golden images as well:
+//!
+//! ```
+//! use sahara::golden::numbers::packed;
+//! use sahara::golden::{Match, assert_image};
+//!
+//! # let folder = tempfile::tempdir().unwrap();
+//! # let golden = folder.path().join("depth.png");
+//! let depths = [1.5f32, f32::INFINITY, 2.25, 0.1];
+//! # sahara::golden::write(&golden, &packed([2, 2], &depths.map(f32::to_bits))).unwrap();
+//! assert_image(&golden, packed([2, 2], &depths.map(f32::to_bits)), Match::Exact);
+//! ```
+
+use image::{DynamicImage, ImageBuffer, LumaA, Rgb32FImage};
+
+/// The number of a primitive where there is none.
+pub const MISS: u32 = u32::MAX;
+
+/// A picture of numbers for a PNG file.
+///
+/// # Panics
+/// If there are not as many numbers as pixels.
+pub fn packed([width, height]: [u32; 2], numbers: &[u32]) -> DynamicImage {
+    let halves = numbers.iter().flat_map(|number| [(number >> 16) as u16, *number as u16]).collect();
+    let picture = ImageBuffer::<LumaA<u16>, Vec<u16>>::from_raw(width, height, halves);
+    picture.expect("one number a pixel").into()
+}
+
+/// The numbers of a picture that [`packed`] has made; none of other kinds of pictures.
+pub fn unpacked(picture: &DynamicImage) -> Option<Vec<u32>> {
+    let halves = picture.as_luma_alpha16()?.as_raw().as_chunks::<2>().0;
+    Some(halves.iter().map(|[upper, lower]| u32::from(*upper) << 16 | u32::from(*lower)).collect())
+}
+
+/// A picture whose channels all are the number that these bits mean: differences of depths are differences of numbers.
+pub fn as_floats([width, height]: [u32; 2], numbers: &[u32]) -> DynamicImage {
+    let values = numbers.iter().flat_map(|number| [f32::from_bits(*number); 3]).collect();
+    Rgb32FImage::from_raw(width, height, values).expect("one number a pixel").into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::golden::{Difference, read, write};
+
+    #[test]
+    fn every_bit_is_in_the_file() {
+        let numbers = [0, 1, u32::MAX, 0x8000_0000, f32::INFINITY.to_bits(), 1.5f32.to_bits(), 70_000, 0x1234_5678];
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        write(&path, &packed([4, 2], &numbers)).unwrap();
+        assert_eq!(unpacked(&read(&path).unwrap()), Some(numbers.to_vec()));
+        assert_eq!(unpacked(&DynamicImage::new_rgb8(4, 2)), None);
+
+        let depths = |depths: [f32; 2]| as_floats([2, 1], &depths.map(f32::to_bits));
+        let next = f32::from_bits(2.0f32.to_bits() + 1);
+        let found = Difference::between(&depths([2.0, f32::INFINITY]), &depths([next, f32::INFINITY])).unwrap();
+        assert_eq!((found.pixels, found.largest), (1, f64::from(next) - 2.0));
+        let found = Difference::between(&depths([2.0, 1.0]), &depths([2.0, f32::INFINITY])).unwrap();
+        assert_eq!((found.first, found.largest), ([1, 0], f64::INFINITY));
+    }
+}

@@ -1,0 +1,119 @@
+//! A page of comparisons: pictures one upon the other, their differences and the values of their pixels.
+
+#[cfg(feature = "page")]
+mod html;
+mod side;
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+use image::DynamicImage;
+use serde::Serialize;
+
+use super::comparison::{Comparison, Maps};
+use super::judgement::Verdict;
+use crate::output::{OutputError, OutputFolder};
+use crate::render::{from_pixels, ramp_colour};
+use side::{shown, values};
+
+pub use side::{Sides, Values};
+
+const INDEX: &str = "index.html";
+
+/// A page that is being written: comparisons may be added in any order and by several threads.
+pub struct Page<'a> {
+    folder: &'a Path,
+    entries: Mutex<Vec<Entry>>,
+}
+
+/// A comparison as the template sees it.
+#[derive(Clone, Debug, Serialize)]
+struct Entry {
+    /// Its place in the order in which things were compared; names its files.
+    number: usize,
+    #[serde(flatten)]
+    comparison: Comparison,
+    fails: bool,
+    size: [u32; 2],
+    worst: [u32; 2],
+    maps: Vec<Map>,
+    /// A script with the values of the pixels.
+    values: Option<String>,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct Map {
+    name: &'static str,
+    file: String,
+}
+
+/// Writes a page and its pictures into a folder; `fill` adds comparisons. Without the feature `page` there are the pictures
+/// alone.
+///
+/// # Errors
+/// If they cannot be written.
+pub fn write<T>(
+    folder: &OutputFolder,
+    title: &str,
+    fill: impl FnOnce(&Page) -> io::Result<T>,
+) -> Result<T, OutputError> {
+    folder.write_in(|folder| {
+        fs::create_dir(folder.join("pictures"))?;
+        let page = Page { folder, entries: Mutex::default() };
+        let filled = fill(&page)?;
+        let entries = page.entries.into_inner().unwrap_or_else(PoisonError::into_inner);
+        #[cfg(feature = "page")]
+        fs::write(folder.join(INDEX), html::page(title, entries))?;
+        #[cfg(not(feature = "page"))]
+        drop((title, entries));
+        Ok(filled)
+    })
+}
+
+/// The file of a page in this folder; without the feature `page` the folder.
+pub fn index(folder: &Path) -> PathBuf {
+    if cfg!(feature = "page") { folder.join(INDEX) } else { folder.into() }
+}
+
+impl Page<'_> {
+    /// Adds a comparison with its pictures. Of pictures that are equal one is shown.
+    pub fn add(&self, number: usize, comparison: &Comparison, sides: Sides, maps: Option<&Maps>) -> io::Result<()> {
+        let first = sides.expected.or(sides.actual);
+        let size = first.map_or([1, 1], |picture| [picture.width(), picture.height()]);
+        let mut files: Vec<Map> = vec![];
+        let mut add = |name: &'static str, picture: &DynamicImage| {
+            let file = format!("pictures/{number}-{}.png", name.to_lowercase());
+            let bytes = super::file::encode(picture, None).map_err(io::Error::other)?;
+            files.push(Map { name, file: file.clone() });
+            fs::write(self.folder.join(file), bytes)
+        };
+        let is_identical = comparison.verdict == Verdict::Identical;
+        let actual = sides.actual.filter(|_| !is_identical);
+        for (name, picture) in [("expected", sides.expected), ("actual", actual)] {
+            picture.map_or(Ok(()), |picture| add(name, &shown(picture, sides.values)))?;
+        }
+        if let Some(maps) = maps {
+            add("difference", &maps.difference.clone().into())?;
+            // Nobody sees names.
+            if let Some(map) = maps.flip.as_ref().filter(|_| sides.values != Values::Primitives) {
+                let colours = map.values.iter().map(|&value| ramp_colour(value.into())).collect();
+                add("FLIP", &from_pixels(map.size, colours).into())?;
+            }
+        }
+        let script = (files.len() > 1).then(|| format!("pictures/{number}-values.js"));
+        script.as_ref().map_or(Ok(()), |file| fs::write(self.folder.join(file), values(number, sides)))?;
+        let entry = Entry {
+            number,
+            fails: comparison.fails(),
+            size,
+            worst: comparison.measures.map_or([0, 0], |measures| measures.difference.worst),
+            maps: files,
+            values: script,
+            comparison: comparison.clone(),
+        };
+        self.entries.lock().unwrap_or_else(PoisonError::into_inner).push(entry);
+        Ok(())
+    }
+}

@@ -1,0 +1,80 @@
+//! One picture of a comparison: as a browser shows it, and the values of its pixels.
+
+use image::DynamicImage;
+use serde_json::json;
+
+use crate::golden::Layout;
+use crate::golden::numbers::{MISS, unpacked};
+use crate::render::{ViewKind, depth_picture, from_pixels, identity};
+
+/// The pictures of a comparison that are there.
+#[derive(Clone, Copy)]
+pub struct Sides<'a> {
+    pub expected: Option<&'a DynamicImage>,
+    pub actual: Option<&'a DynamicImage>,
+    pub values: Values,
+}
+
+/// What the values of a picture are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Values {
+    /// Colours: the channels.
+    Colours,
+    /// Distances, the same in all channels.
+    Depths,
+    /// Numbers of primitives, [packed](crate::golden::numbers::packed).
+    Primitives,
+}
+
+impl From<ViewKind> for Values {
+    fn from(view: ViewKind) -> Self {
+        match view {
+            ViewKind::Depth => Self::Depths,
+            ViewKind::Primitive => Self::Primitives,
+            _ => Self::Colours,
+        }
+    }
+}
+
+/// The picture in colours that a PNG file takes.
+pub fn shown(picture: &DynamicImage, values: Values) -> DynamicImage {
+    let layout = Layout::of(picture);
+    match (values, picture) {
+        (Values::Depths, DynamicImage::ImageRgb32F(own)) => {
+            depth_picture(layout.size, &own.pixels().map(|pixel| pixel.0[0]).collect::<Vec<f32>>()).into()
+        }
+        (Values::Primitives, _) if unpacked(picture).is_some() => {
+            let colour = |number: u32| if number == MISS { [0; 3] } else { identity(number) };
+            from_pixels(layout.size, unpacked(picture).into_iter().flatten().map(colour).collect()).into()
+        }
+        _ if layout.is_float() => picture.to_rgba8().into(),
+        _ => picture.clone(),
+    }
+}
+
+/// A script that hands the values of all pixels to the page: a page from a file may not read those of a picture.
+pub fn values(number: usize, sides: Sides) -> String {
+    let of = |picture: Option<&DynamicImage>| picture.map(|picture| numbers(picture, sides.values));
+    let data = json!({ "expected": of(sides.expected), "actual": of(sides.actual) });
+    format!("saharaValues({number}, {data});\n")
+}
+
+/// Numbers in little-endian order with their type, in base 64.
+fn numbers(picture: &DynamicImage, values: Values) -> serde_json::Value {
+    let Layout { size, channels, bits } = Layout::of(picture);
+    let of = |kind: &str, channels: u8, bytes: &[u8]| json!({ "type": kind, "channels": channels, "size": size, "base64": base64::encode(bytes) });
+    let floats = || picture.as_bytes().as_chunks::<4>().0.iter().map(|bytes| f32::from_ne_bytes(*bytes).to_le_bytes());
+    match (values, unpacked(picture)) {
+        (Values::Primitives, Some(numbers)) => {
+            of("Uint32", 1, numbers.iter().flat_map(|number| number.to_le_bytes()).collect::<Vec<u8>>().as_slice())
+        }
+        (Values::Depths, _) if bits == 32 => of("Float32", 1, floats().step_by(3).collect::<Vec<_>>().as_flattened()),
+        _ if bits == 32 => of("Float32", channels, floats().collect::<Vec<_>>().as_flattened()),
+        _ if bits == 16 => {
+            let samples = picture.as_bytes().as_chunks::<2>().0.iter();
+            let bytes = samples.map(|bytes| u16::from_ne_bytes(*bytes).to_le_bytes());
+            of("Uint16", channels, bytes.collect::<Vec<_>>().as_flattened())
+        }
+        _ => of("Uint8", channels, picture.as_bytes()),
+    }
+}

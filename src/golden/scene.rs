@@ -1,0 +1,351 @@
+//! Golden images of scenes: where they are, and how they are drawn, checked and made.
+
+use std::path::{Path, PathBuf};
+
+use image::DynamicImage;
+
+use super::judgement::Judgement;
+use super::{Difference, GoldenError, Layout, Match, failure, file, numbers};
+use crate::accel::DynAccel;
+use crate::geometry::Ray;
+use crate::render::{ViewKind, from_pixels, normal_colour, of_colours, shade};
+use crate::scene::{Camera, Scene, View};
+use crate::triangle::{Exact, TriangleTest};
+
+/// The triangle test that golden images are rendered with: an exact one, so that they show no rounding errors.
+pub const TRIANGLE_TEST: &str = Exact::NAME;
+
+/// Width and height of a golden image of a built-in scene.
+pub const SIZE: [u32; 2] = [160, 160];
+
+/// The views that golden images are made of: those that depend on nothing but the hits.
+pub const VIEWS: [ViewKind; 4] = [ViewKind::Shaded, ViewKind::Depth, ViewKind::Normal, ViewKind::Primitive];
+
+const REMEDY: &str = "make the golden images with `sahara golden update`";
+
+/// Files of built-in scenes.
+struct Builtin {
+    name: &'static str,
+    bytes: &'static [u8],
+    /// In the sources, which need not be there.
+    path: &'static str,
+}
+
+macro_rules! builtin {
+    ($($folder:literal)*) => {
+        [$(Builtin {
+            name: $folder,
+            bytes: include_bytes!(concat!("../../scenes/", $folder, "/golden.png")),
+            path: concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/", $folder, "/golden.png"),
+        }),*]
+    };
+}
+
+static BUILTIN: [Builtin; 12] = builtin! {
+    "cube" "sphere" "torus" "teapot" "billards" "cornellbox" "infinitycandy" "metallic" "starters" "dragon" "lucy" "sponza"
+};
+
+/// The golden image of a view of a scene, in a file or in this program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneGolden {
+    pub view: ViewKind,
+    pub size: [u32; 2],
+    path: PathBuf,
+    /// Of a built-in scene.
+    bytes: Option<&'static [u8]>,
+    /// Of a file the camera.
+    note: Option<String>,
+}
+
+/// What making a golden image comes to.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Update {
+    Same,
+    New,
+    Changed(Difference),
+    /// In size, channels or depth.
+    Layout(Layout),
+}
+
+impl SceneGolden {
+    /// That of a built-in scene in this program: shaded, of [`SIZE`]. It is made in the sources.
+    pub fn builtin(name: &str) -> Option<Self> {
+        let own = BUILTIN.iter().find(|own| own.name.eq_ignore_ascii_case(name))?;
+        let (path, bytes) = (own.path.into(), Some(own.bytes));
+        Some(Self { view: ViewKind::Shaded, size: SIZE, path, bytes, note: None })
+    }
+
+    /// That of `view` in the file `NAME.golden.png`, or `NAME.VIEW.golden.png` where the view is not shaded, in a folder; it
+    /// has the size and the camera of the scene.
+    pub fn file(folder: &Path, name: &str, view: ViewKind, scene: &Scene) -> Self {
+        let view_name = if view == ViewKind::Shaded { String::new() } else { format!(".{}", view.name()) };
+        let path = folder.join(format!("{name}{view_name}.golden.png"));
+        Self { view, size: scene.size, path, bytes: None, note: Some(camera_note(&scene.camera)) }
+    }
+
+    /// Whether it is that of a built-in scene in this program.
+    pub fn is_in_program(&self) -> bool {
+        self.bytes.is_some()
+    }
+
+    /// The file. Of a built-in scene it is only written.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The file as messages name it: the sources of this program may be anywhere.
+    pub fn named(&self) -> PathBuf {
+        let sources = Path::new(env!("CARGO_MANIFEST_DIR"));
+        self.path.strip_prefix(sources).ok().filter(|_| self.bytes.is_some()).unwrap_or(&self.path).into()
+    }
+
+    /// The picture as it is compared.
+    ///
+    /// # Errors
+    /// If there is none, or it is of another size, camera or view.
+    pub fn expected(&self) -> Result<DynamicImage, GoldenError> {
+        let read;
+        let bytes = match self.bytes {
+            Some(bytes) => bytes,
+            None => {
+                let missing = |cause| GoldenError::Missing { cause, remedy: REMEDY };
+                read = file::read_bytes(&self.path).map_err(missing)?;
+                &read
+            }
+        };
+        let picture = file::decode(&self.path, bytes)?;
+        let size = [picture.width(), picture.height()];
+        if size != self.size {
+            return Err(GoldenError::Size { path: self.path.clone(), golden: size, asked: self.size });
+        }
+        match (file::note(bytes), &self.note) {
+            (Some(golden), Some(asked)) if golden != asked => {
+                let [golden, asked] = [golden, asked].map(String::from);
+                Err(GoldenError::Camera { path: self.path.clone(), golden, asked })
+            }
+            _ => Ok(self.comparable(picture)),
+        }
+    }
+
+    /// What `accel` draws, as it is compared.
+    pub fn drawn(&self, scene: &Scene, accel: &dyn DynAccel) -> DynamicImage {
+        self.comparable(self.picture(scene, accel))
+    }
+
+    /// As [`drawn`](Self::drawn), of one pixel.
+    pub fn drawn_pixel(&self, scene: &Scene, accel: &dyn DynAccel, ray: &Ray) -> DynamicImage {
+        self.comparable(draw(scene, accel, self.view, [1, 1], &[*ray]))
+    }
+
+    /// The primary ray of a pixel.
+    pub fn ray(&self, scene: &Scene, [column, row]: [u32; 2]) -> Ray {
+        let pixel = row * self.size[0] + column;
+        scene.primary_rays(self.size, View::CENTRE, pixel..pixel + 1)[0]
+    }
+
+    /// Compares what `accel` draws of `scene`. `structure` names the folder in `out` with the page of a failure.
+    ///
+    /// A built-in scene must have its generated meshes, not the real ones that a machine may have.
+    ///
+    /// # Errors
+    /// If the golden image is missing or broken, or a pixel differs. Then a page with pictures is written.
+    pub fn check(&self, scene: &Scene, structure: &str, accel: &dyn DynAccel, out: &Path) -> Result<(), GoldenError> {
+        let pictures = [&self.expected()?, &self.drawn(scene, accel)];
+        let shown = failure::folder(out, &format!("{}-{structure}", scene.name.to_lowercase()));
+        let label = format!("{} with {structure}", scene.name);
+        failure::check(&self.named(), &label, pictures, Match::Exact, self.view.into(), &shown, REMEDY)
+    }
+
+    /// Makes the golden image if it would not be the same.
+    ///
+    /// # Errors
+    /// If it cannot be written; or without [`Overwrite::Any`] if the file there is not what this function has written.
+    pub fn update(&self, scene: &Scene, accel: &dyn DynAccel, overwrite: Overwrite) -> Result<Update, GoldenError> {
+        if self.bytes.is_some() && !self.path.parent().is_some_and(Path::is_dir) {
+            return Err(GoldenError::NoSources);
+        }
+        let picture = self.picture(scene, accel);
+        let there = file::read_bytes(&self.path).ok();
+        let old = there.as_ref().and_then(|bytes| file::decode(&self.path, bytes).ok());
+        let is_noted = there.as_ref().is_some_and(|bytes| file::note(bytes) == self.note.as_deref());
+        if is_noted && old.as_ref() == Some(&picture) {
+            return Ok(Update::Same);
+        }
+        if overwrite == Overwrite::Own && there.is_some_and(|bytes| !file::is_own(&bytes)) {
+            return Err(GoldenError::Foreign(self.path.clone()));
+        }
+        file::write_noted(&self.path, &picture, self.note.as_deref())?;
+        let Some(old) = old else { return Ok(Update::New) };
+        if Layout::of(&old) != Layout::of(&picture) {
+            return Ok(Update::Layout(Layout::of(&old)));
+        }
+        let [old, new] = [old, picture].map(|picture| self.comparable(picture));
+        let judged = Judgement::new([&old, &new], Match::Exact, None).expect("FLIP is not asked for");
+        Ok(judged.map_or(Update::New, |judged| Update::Changed(judged.difference)))
+    }
+
+    /// The values of a picture of one pixel; infinity where nothing is hit.
+    pub fn pixel_values(&self, pixel: &DynamicImage) -> Vec<f64> {
+        match (self.view, numbers::unpacked(pixel).as_deref()) {
+            (ViewKind::Primitive, Some(&[numbers::MISS])) => vec![f64::INFINITY],
+            (ViewKind::Primitive, Some(&[number])) => vec![number.into()],
+            _ => Layout::of(pixel).values(pixel.as_bytes()).collect(),
+        }
+    }
+
+    fn picture(&self, scene: &Scene, accel: &dyn DynAccel) -> DynamicImage {
+        let rays = scene.primary_rays(self.size, View::CENTRE, 0..self.size[0] * self.size[1]);
+        draw(scene, accel, self.view, self.size, &rays)
+    }
+
+    /// A picture of the file as it is compared: depths as numbers.
+    fn comparable(&self, picture: DynamicImage) -> DynamicImage {
+        let numbers = if self.view == ViewKind::Depth { numbers::unpacked(&picture) } else { None };
+        numbers.map_or(picture.clone(), |numbers| numbers::as_floats([picture.width(), picture.height()], &numbers))
+    }
+}
+
+/// Which files a golden image may take the place of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Overwrite {
+    /// Those that [`SceneGolden::update`] has written.
+    Own,
+    Any,
+}
+
+/// A camera as `--camera` takes it.
+fn camera_note(camera: &Camera) -> String {
+    let point = |point: glam::Vec3| point.to_array().map(|x| x.to_string()).join(",");
+    format!("--camera '{} {} {}'", point(camera.eye()), point(camera.target()), camera.vertical_fov())
+}
+
+/// The pixels of these rays. Depths and numbers of primitives are [packed](numbers::packed).
+fn draw(scene: &Scene, accel: &dyn DynAccel, view: ViewKind, size: [u32; 2], rays: &[Ray]) -> DynamicImage {
+    if view == ViewKind::Shaded {
+        return of_colours(size, &shade(scene, accel, rays)).into();
+    }
+    let hits = accel.closest_by_chunks(rays, 4096).into_iter();
+    match view {
+        ViewKind::Depth => {
+            let depths = hits.map(|hit| hit.map_or(f32::INFINITY, |hit| hit.t).to_bits());
+            numbers::packed(size, &depths.collect::<Vec<u32>>())
+        }
+        ViewKind::Primitive => {
+            let primitives = hits.map(|hit| hit.map_or(numbers::MISS, |hit| hit.prim.index()));
+            numbers::packed(size, &primitives.collect::<Vec<u32>>())
+        }
+        _ => {
+            let colour = |(ray, hit): (&Ray, Option<_>)| hit.map_or([0; 3], |hit| normal_colour(scene, ray, hit));
+            from_pixels(size, rays.iter().zip(hits).map(colour).collect()).into()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+
+    use super::*;
+    use crate::accel::Accel;
+    use crate::brute_force::BruteForce;
+    use crate::kdtree::{KdConfig, KdTree};
+
+    #[test]
+    fn a_golden_image_holds_until_the_scene_changes() {
+        let directory = tempfile::tempdir().unwrap();
+        let out = directory.path().join("out");
+        let mut scene = crate::scene::Builtin::find("cube").unwrap().scene(None).unwrap();
+        scene.size = [80, 60];
+        let tree = KdTree::<Exact>::build(&scene.mesh, &KdConfig::SAH).unwrap();
+        let all = BruteForce::<Exact>::build(&scene.mesh, &Default::default()).unwrap();
+        for view in VIEWS {
+            let golden = SceneGolden::file(&directory.path().join("goldens"), "cube", view, &scene);
+            let missing = golden.check(&scene, "sah-kd", &tree, &out).unwrap_err();
+            assert!(matches!(missing, GoldenError::Missing { .. }), "{missing}");
+            assert_eq!(golden.update(&scene, &tree, Overwrite::Own).unwrap(), Update::New);
+            let written = fs::read(golden.path()).unwrap();
+            assert_eq!(golden.update(&scene, &all, Overwrite::Own).unwrap(), Update::Same);
+            assert!(fs::read(golden.path()).unwrap() == written, "the same picture is not written again");
+            golden.check(&scene, "brute-force", &all, &out).unwrap();
+        }
+        assert_eq!(fs::read_dir(directory.path().join("goldens")).unwrap().count(), 4);
+        assert!(!out.exists());
+
+        // Another background changes every pixel that misses, including the first.
+        scene.background.x += 0.5;
+        let golden = SceneGolden::file(&directory.path().join("goldens"), "cube", ViewKind::Shaded, &scene);
+        let error = golden.check(&scene, "sah-kd:leaf=1", &tree, &out).unwrap_err();
+        let GoldenError::Differs { difference, shown, .. } = &error else { panic!("{error}") };
+        assert_eq!(difference.first, [0, 0]);
+        assert!(difference.pixels > 2_000 && difference.largest >= 127.0, "{error}");
+        let folder = out.join("cube-sah-kd_leaf_1");
+        assert!(shown.starts_with(&folder));
+        let picture = |what: &str| file::read(&folder.join(format!("pictures/0-{what}.png"))).unwrap();
+        let [actual, expected] = ["actual", "expected"].map(picture);
+        assert_eq!(Difference::between(&expected, &actual), Some(**difference));
+        assert_eq!(picture("difference"), crate::golden::difference_picture(&expected, &actual).into());
+        assert!(error.to_string().contains("Cube with sah-kd:leaf=1"), "{error}");
+        assert_eq!(golden.update(&scene, &tree, Overwrite::Own).unwrap(), Update::Changed(**difference));
+    }
+
+    #[test]
+    fn another_size_or_camera_is_named_and_what_others_made_stays() {
+        let directory = tempfile::tempdir().unwrap();
+        let mut scene = crate::scene::Builtin::find("cube").unwrap().scene(None).unwrap();
+        scene.size = [8, 6];
+        let tree = KdTree::<Exact>::build(&scene.mesh, &KdConfig::SAH).unwrap();
+        let golden = |scene: &Scene| SceneGolden::file(directory.path(), "cube", ViewKind::Depth, scene);
+        golden(&scene).update(&scene, &tree, Overwrite::Own).unwrap();
+        let refusal = |scene: &Scene| golden(scene).expected().unwrap_err().to_string();
+
+        scene.size = [16, 6];
+        let size = refusal(&scene);
+        assert!(size.contains("8 x 6 pixels, and 16 x 6") && size.contains("--size 8x6"), "{size}");
+        scene.size = [8, 6];
+        let old = camera_note(&scene.camera);
+        scene.camera = Camera::new(glam::Vec3::new(1.0, 2.0, 5.5), glam::Vec3::ZERO, glam::Vec3::Y, 30.0).unwrap();
+        let camera = refusal(&scene);
+        assert!(camera.contains(&old) && camera.contains("--camera '1,2,5.5 0,0,0 30'"), "{camera}");
+        assert!(matches!(golden(&scene).update(&scene, &tree, Overwrite::Own).unwrap(), Update::Changed(_)));
+        golden(&scene).expected().unwrap();
+
+        // The same picture, compressed by somebody else.
+        let own = golden(&scene);
+        let picture = file::read(own.path()).unwrap();
+        let file = fs::File::create(own.path()).unwrap();
+        let theirs = PngEncoder::new_with_quality(file, CompressionType::Uncompressed, FilterType::NoFilter);
+        picture.write_with_encoder(theirs).unwrap();
+        let theirs = fs::read(own.path()).unwrap();
+        let refused = own.update(&scene, &tree, Overwrite::Own).unwrap_err().to_string();
+        assert!(refused.contains("cube.depth.golden.png") && refused.contains("--force"), "{refused}");
+        assert!(fs::read(own.path()).unwrap() == theirs);
+        own.update(&scene, &tree, Overwrite::Any).unwrap();
+        assert!(fs::read(own.path()).unwrap() != theirs);
+    }
+
+    #[test]
+    fn a_pixel_is_drawn_as_in_the_whole_picture_and_all_builtin_scenes_are_in_the_program() {
+        let scene = crate::scene::Builtin::find("cube").unwrap().scene(None).unwrap();
+        let tree = KdTree::<Exact>::build(&scene.mesh, &KdConfig::SAH).unwrap();
+        for view in VIEWS {
+            let golden = SceneGolden { view, ..SceneGolden::builtin("cube").unwrap() };
+            let whole = golden.drawn(&scene, &tree);
+            for [x, y] in [[0, 0], [80, 80], [95, 60]] {
+                let pixel = golden.drawn_pixel(&scene, &tree, &golden.ray(&scene, [x, y]));
+                assert_eq!(pixel, whole.crop_imm(x, y, 1, 1), "{view:?} {x} {y}");
+            }
+        }
+        for builtin in crate::scene::BUILTIN {
+            let golden = SceneGolden::builtin(builtin.name).unwrap_or_else(|| panic!("{}", builtin.name));
+            assert_eq!(golden.expected().unwrap(), file::read(golden.path()).unwrap());
+        }
+        // Where the sources are not, nothing else is needed to check, and nothing is made.
+        let installed =
+            SceneGolden { path: "/no/such/cube/golden.png".into(), ..SceneGolden::builtin("Cube").unwrap() };
+        installed.check(&scene, "sah-kd", &tree, Path::new("/no/such/out")).unwrap();
+        let refused = installed.update(&scene, &tree, Overwrite::Any).unwrap_err();
+        assert!(matches!(refused, GoldenError::NoSources), "{refused}");
+    }
+}

@@ -1,0 +1,133 @@
+//! The page of compared pictures in a browser.
+
+use std::path::PathBuf;
+use std::sync::OnceLock;
+
+use sahara::golden::write;
+use serde_json::json;
+use tempfile::TempDir;
+
+use super::chromium::Chromium;
+use super::{PALE, WIDE, tab_to};
+use crate::cli::command::{WRONG, sahara};
+use crate::controls::{SIZE, pictures};
+
+/// A page of pictures with faults planted: names of the comparisons as they stand on it.
+const NAMES: [&str; 6] = ["0.png", "1.png", "2.png", "3.png", "gone.png", "4.png"];
+
+fn page() -> PathBuf {
+    static PAGE: OnceLock<TempDir> = OnceLock::new();
+    let folder = PAGE.get_or_init(|| {
+        let folder = TempDir::new().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        let (right, others) = pictures();
+        for (i, (_, other)) in others.iter().enumerate() {
+            write(&path(&format!("a/{i}.png")), &right).unwrap();
+            write(&path(&format!("b/{i}.png")), other).unwrap();
+        }
+        // Of noise the tolerance lets pass; one that is equal, and one that is missing.
+        for name in ["a/same.png", "b/same.png", "a/gone.png"] {
+            write(&path(name), &right).unwrap();
+        }
+        let [a, b, page] = ["a", "b", "page"].map(|name| path(name).to_str().unwrap().to_owned());
+        let output = sahara(&["golden", "compare", &a, &b, "--max-difference", "2", "--page", &page]);
+        assert_eq!(output.status.code(), Some(WRONG));
+        folder
+    });
+    folder.path().join("page/index.html")
+}
+
+/// What is said of the pixel in a comparison, when its values have come.
+fn pixel(browser: &mut Chromium, number: usize) -> String {
+    browser.text(&format!(
+        "new Promise((done) => {{ const look = () => {{ \
+         const said = document.querySelector('#comparison-{number} .pixel').textContent; \
+         if (said.includes('expected')) done(said); else setTimeout(look, 10); }}; look(); }})"
+    ))
+}
+
+fn property(browser: &mut Chromium, number: usize, name: &str) -> String {
+    browser.text(&format!("document.querySelector('#comparison-{number} .stage').style.getPropertyValue('--{name}')"))
+}
+
+#[test]
+fn failing_comparisons_are_first_and_all_is_reached_by_keyboard_alone() {
+    let Some(mut browser) = Chromium::launch() else { return };
+    browser.open(&page(), 1400, false);
+    let names = "[...document.querySelectorAll('h2')].map((head) => head.firstChild.textContent.trim())";
+    assert_eq!(browser.evaluate(names), json!([&NAMES[..], &["Identical"]].concat()));
+    assert_eq!(browser.text("document.querySelector('.summary strong').textContent"), "5 of 7 failing");
+
+    // The values of the worst pixel are there, and those of its neighbour: from a file that is not the picture.
+    let (right, others) = pictures();
+    let values = |picture: &sahara::image::DynamicImage, [x, y]: [u32; 2]| {
+        picture.as_rgb8().unwrap().get_pixel(x, y).0.map(|value| value.to_string()).join(", ")
+    };
+    let said = |[x, y]: [u32; 2]| {
+        let [expected, actual] = [&right, &others[0].1].map(|picture| values(picture, [x, y]));
+        format!("Column {x}, row {y}: expected {expected}; actual {actual}")
+    };
+    assert_eq!(pixel(&mut browser, 0), said([100, 80]));
+    tab_to(&mut browser, "#comparison-0 .stage");
+    browser.press("ArrowRight");
+    browser.press("ArrowUp");
+    assert_eq!(pixel(&mut browser, 0), said([101, 79]));
+
+    // Zoom, the worst pixel, and blinking: one picture whole, and then the other.
+    assert!(property(&mut browser, 0, "zoom").ends_with("scale(1)"));
+    browser.press("w");
+    assert_eq!(pixel(&mut browser, 0), said([100, 80]));
+    assert!(property(&mut browser, 0, "zoom").ends_with("scale(12)"), "{}", SIZE[1] / 16);
+    browser.press("z");
+    assert!(property(&mut browser, 0, "zoom").ends_with("scale(1)"));
+    assert_eq!(property(&mut browser, 0, "cut"), "50%");
+    browser.press("b");
+    for cut in ["100%", "0%", "100%"] {
+        let seen = format!(
+            "new Promise((done) => {{ const look = () => {{ const cut = document.querySelector('#comparison-0 .stage')\
+             .style.getPropertyValue('--cut'); if (cut === '{cut}') done(cut); else setTimeout(look, 10); }}; look(); }})"
+        );
+        browser.text(&seen);
+    }
+    browser.press("b");
+    assert_eq!(property(&mut browser, 0, "cut"), "50%");
+    // The slider.
+    tab_to(&mut browser, "#comparison-0 input");
+    browser.press("ArrowLeft");
+    assert_eq!(property(&mut browser, 0, "cut"), "49%");
+
+    // The next comparison, whose maps are chosen.
+    browser.press("n");
+    let own = "document.activeElement.closest('section').id";
+    assert_eq!(browser.text(own), "comparison-1");
+    tab_to(&mut browser, "#comparison-1 [data-side=\"1\"], #comparison-2 select");
+    assert_eq!(browser.text(own), "comparison-2", "tabulator goes on to the next");
+    browser.press("ArrowDown");
+    let shown = "document.querySelector('#comparison-2 .stage img').src.split('/').pop()";
+    assert_eq!(browser.text(shown), "2-actual.png");
+    assert_eq!(browser.complaints(), Vec::<String>::new());
+}
+
+#[test]
+fn the_pointer_shows_values_and_the_page_is_read_in_light_and_dark_on_a_desk_and_on_a_telephone() {
+    let Some(mut browser) = Chromium::launch() else { return };
+    for (width, dark) in [(1400, false), (1400, true), (400, false), (400, true)] {
+        browser.open(&page(), width, dark);
+        browser.click("#comparison-2 .stage", [0.25, 0.75]);
+        let said = pixel(&mut browser, 2);
+        let [column, row] = [SIZE[0] / 4, SIZE[1] * 3 / 4];
+        let near = |at: u32| (at - 1..=at + 1).collect::<Vec<u32>>();
+        let is_near =
+            near(column).iter().any(|x| near(row).iter().any(|y| said.starts_with(&format!("Column {x}, row {y}:"))));
+        assert!(is_near, "{said}");
+        let paper = browser.text("getComputedStyle(document.documentElement).backgroundColor");
+        assert_eq!(paper == "rgb(255, 255, 255)", !dark, "{paper}");
+        assert_eq!(browser.evaluate(PALE), json!([]), "{width}, dark: {dark}");
+        assert_eq!(browser.evaluate(WIDE), json!([]), "{width}, dark: {dark}");
+        assert_eq!(
+            browser.evaluate("[...document.images].filter((own) => own.complete && !own.naturalWidth).length"),
+            0
+        );
+    }
+    assert_eq!(browser.complaints(), Vec::<String>::new());
+}
