@@ -25,6 +25,7 @@ pub mod measure;
 mod names;
 pub mod oracle;
 pub mod output;
+#[cfg(feature = "page")]
 pub mod page;
 mod panics;
 pub mod registry;

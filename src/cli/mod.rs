@@ -17,6 +17,7 @@ mod plan;
 mod progress;
 mod rays;
 mod render;
+#[cfg(feature = "page")]
 mod report;
 mod study;
 mod terminal;
@@ -113,6 +114,7 @@ enum Command {
     /// Record, import and show files of rays; write rays with exact answers
     Rays(rays::Args),
     /// Write what runs have measured as a page, Markdown and tidy data
+    #[cfg(feature = "page")]
     Report(report::Args),
     /// Download the real meshes that scene files name, verified; licences are shown first
     Fetch(fetch::Args),
@@ -131,6 +133,11 @@ const COMPARE: &str = "compare";
 const REPLICATE: &str = "replicate";
 
 const STUDY: &str = "study";
+
+const REPORT: &str = "report";
+
+/// What is said of HTML and figures where they are left out.
+pub(crate) const NO_PAGE: &str = "this sahara was built without the feature `page`: build it with that feature";
 
 /// The commands that people are shown.
 fn shown(studies: &Studies) -> clap::Command {
@@ -157,7 +164,8 @@ fn command(studies: &Studies) -> clap::Command {
     let command = Process::augment_args(shown(studies)).subcommand(validate::ChildArgs::augment_args(child));
     let rest = || clap::Arg::new("rest").num_args(0..).trailing_var_arg(true).allow_hyphen_values(true);
     let old = |(name, _): &(&'static str, _)| clap::Command::new(*name).hide(true).disable_help_flag(true).arg(rest());
-    command.subcommands(moved::COMMANDS.iter().map(old))
+    let command = command.subcommands(moved::COMMANDS.iter().map(old));
+    if cfg!(feature = "page") { command } else { command.subcommand(old(&(REPORT, NO_PAGE))) }
 }
 
 /// Runs the command line of this process over structures, with the studies of this crate, or over a whole [`Suite`].
@@ -260,6 +268,7 @@ fn dispatch(session: &Session, matches: &ArgMatches, global: &Global) -> anyhow:
         Some((validate::CHILD, matches)) => {
             return validate::run_child(registry, &validate::ChildArgs::from_arg_matches(matches)?);
         }
+        Some((REPORT, _)) if !cfg!(feature = "page") => anyhow::bail!("{REPORT}: {NO_PAGE}"),
         Some((name, _)) => {
             if let Some(sentence) = moved::said("command", &moved::COMMANDS, name) {
                 anyhow::bail!(sentence);
@@ -270,6 +279,7 @@ fn dispatch(session: &Session, matches: &ArgMatches, global: &Global) -> anyhow:
         Command::Diff(args) => diff::run(&args, terminal),
         Command::Validate(args) => validate::run(registry, &args, terminal),
         Command::Rays(args) => rays::run(registry, &args, terminal),
+        #[cfg(feature = "page")]
         Command::Report(args) => report::run(suite, &args, terminal),
         Command::Fetch(args) => fetch::run(&args, terminal),
         Command::Render(args) => render::run(registry, &args, terminal),

@@ -4,11 +4,13 @@ use std::path::PathBuf;
 
 use clap::{ArgMatches, Args as _, FromArgMatches};
 
-use super::Session;
 use super::progress::OnTerminal;
+use super::{NO_PAGE, Session};
 use crate::output::OutputFile;
-use crate::report::plot::{Format, WIDTH};
-use crate::report::{Figure, csv, markdown};
+use crate::report::plot::Format;
+#[cfg(feature = "page")]
+use crate::report::{Figure, Report, plot::WIDTH};
+use crate::report::{csv, markdown};
 use crate::study::{self, Run, RunOutcome, Status, Study};
 
 pub const RUNS: &str = "runs";
@@ -61,6 +63,7 @@ impl Common {
 
     /// Checks all files before the long run; none of them is one of `inputs`.
     fn check(&self, inputs: &[PathBuf]) -> anyhow::Result<Files> {
+        anyhow::ensure!(self.plot.is_empty() || cfg!(feature = "page"), "--plot: {NO_PAGE}");
         let file = |path: &PathBuf| -> anyhow::Result<OutputFile> {
             Ok(OutputFile::check(path)?.apart_from(inputs.iter().map(PathBuf::as_path))?)
         };
@@ -122,15 +125,22 @@ pub fn run_as(session: &Session, study: &Study, matches: &ArgMatches, common: &C
         if let Some(file) = files.markdown {
             file.write(markdown::report(&report, &foot).as_bytes())?;
         }
-        for (file, format) in files.plots {
-            let chart = report.figures().find_map(Figure::chart);
-            let chart = chart.ok_or_else(|| anyhow::anyhow!("study {} has no picture", study.name))?;
-            let bytes = match format {
-                Format::Svg => chart.svg(WIDTH).into_bytes(),
-                Format::Png => chart.png(WIDTH),
-            };
-            file.write(&bytes)?;
-        }
+        #[cfg(feature = "page")]
+        plot(study, &report, files.plots)?;
     }
     Ok(status)
+}
+
+/// Draws the first figure of a study.
+#[cfg(feature = "page")]
+fn plot(study: &Study, report: &Report, plots: Vec<(OutputFile, Format)>) -> anyhow::Result<()> {
+    for (file, format) in plots {
+        let chart = report.figures().find_map(Figure::chart);
+        let chart = chart.ok_or_else(|| anyhow::anyhow!("study {} has no picture", study.name))?;
+        file.write(&match format {
+            Format::Svg => chart.svg(WIDTH).into_bytes(),
+            Format::Png => chart.png(WIDTH),
+        })?;
+    }
+    Ok(())
 }

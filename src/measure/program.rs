@@ -21,6 +21,11 @@ pub fn executable() -> PathBuf {
     if kept.exists() { kept.into() } else { std::env::current_exe().unwrap_or_default() }
 }
 
+/// The SHA-256 of the bytes of a file, by which data files and corpora know it.
+pub fn digest(bytes: &[u8]) -> String {
+    format!("{:x}", Sha256::digest(bytes))
+}
+
 /// The first 16 digits of the SHA-256 of a file.
 ///
 /// # Errors

@@ -14,7 +14,6 @@ use std::collections::BTreeMap;
 
 use anyhow::Context;
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 
 pub use marks::{OPEN, fill, marked};
 pub use run_facts::RunFacts;
@@ -23,6 +22,7 @@ use super::document::Document;
 use super::runs::{COMPARE, Runs};
 use super::sections::tally;
 use crate::measure::Estimate;
+use crate::measure::program::digest;
 use crate::report::plot::WIDTH;
 use crate::study::Studies;
 use crate::study::measurement::{Measurement, measurements};
@@ -125,11 +125,6 @@ impl Results {
         bytes.push(b'\n');
         bytes
     }
-}
-
-/// The SHA-256 of a file, by which data files and corpora know it.
-pub fn digest(bytes: &[u8]) -> String {
-    format!("{:x}", Sha256::digest(bytes))
 }
 
 /// Every finding of every study, the answer, what came of the claims, and the run by their keys.

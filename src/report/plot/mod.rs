@@ -1,22 +1,18 @@
-//! Charts as SVG and as PNG, the same picture: bars, curves and scatter plots, of the width that is asked
-//! for, so that text keeps its size on a narrow screen.
+//! Charts as data: bars, curves and scatter plots. With the feature `page` they are drawn, as SVG and as PNG, the same
+//! picture, of the width that is asked for, so that text keeps its size on a narrow screen.
 
-mod axes;
 mod bars;
-mod canvas;
 mod chart;
 mod curves;
-mod labels;
-pub mod palette;
+#[cfg(feature = "page")]
+mod drawing;
 mod scatter;
 mod tradeoff;
 
-pub use axes::tick_text;
 pub use bars::{Bar, BarGroup, Bars};
 pub use chart::{Chart, Format, WIDTH};
 pub use curves::{Curves, Line};
+#[cfg(feature = "page")]
+pub use drawing::{palette, tick_text};
 pub use scatter::{LABELLED, Point, Scatter};
 pub use tradeoff::{Tradeoff, TradeoffCase, TradeoffPoint};
-
-#[cfg(test)]
-mod tests;

@@ -1,7 +1,7 @@
 use std::path::Path;
 
-use super::*;
 use crate::measure::Estimate;
+use crate::report::plot::*;
 
 fn scatter() -> Scatter {
     let point = |(x, y, label): (f64, f64, &str)| Point {

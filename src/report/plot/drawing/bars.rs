@@ -1,0 +1,227 @@
+//! Draws bars.
+
+use plotters::coord::combinators::{BindKeyPoints, WithKeyPoints};
+use plotters::coord::types::RangedCoordi32;
+use plotters::element::Rectangle;
+use plotters::prelude::DrawingBackend;
+use plotters::style::Color;
+use plotters::style::text_anchor::HPos;
+
+use super::axes::{self, Axes, AxisLabels, BOTTOM_WITHOUT_TITLE, GAP, axes, height_with_legend, legend, legend_room};
+use super::canvas::{Area, DrawResult, Place, TEXT, line, text, widest, width_of};
+use super::palette::{Colour, INK, MIDDLE, PAPER, PARTS, colours};
+use crate::measure::Estimate;
+use crate::report::number::figures;
+use crate::report::plot::bars::{Bar, BarGroup, Bars};
+
+impl Bar {
+    /// Where it begins and ends. Factors below 1 take from the whole: they stand to the left of 1.
+    fn reach(&self) -> [f64; 2] {
+        let mut reach = self.value().map_or([1.0; 2], |value| [value.estimate.min(1.0), value.estimate.max(1.0)]);
+        if let Self::Product(factors, _) = self {
+            let product = |is_taken: fn(&f64) -> bool| factors.iter().copied().filter(is_taken).product::<f64>();
+            reach = [reach[0].min(product(|f| *f < 1.0)), reach[1].max(product(|f| *f > 1.0))];
+        }
+        reach
+    }
+}
+
+const FOOT: i32 = 48;
+
+/// Least width of a group, without the labels.
+const GROUP: i32 = 380;
+
+/// Room for the number at the end of the longest bar.
+const NUMBER: i32 = 124;
+
+/// Where everything is, in a drawing of some width.
+struct Layout {
+    /// Room for labels to the left of the bars; none where each stands above its bar.
+    left: i32,
+    /// Heights of a bar, of its row, and of the row with the label above it.
+    bar: i32,
+    row: i32,
+    step: i32,
+    /// Groups side by side, and the width of each.
+    columns: usize,
+    column: i32,
+    /// Height of the heading of a group, and of a whole group.
+    head: i32,
+    group: i32,
+    height: i32,
+}
+
+impl Layout {
+    /// The middle of a row, from the top of the rows.
+    fn middle(&self, row: usize) -> i32 {
+        (row as i32 + 1) * self.step - self.row / 2
+    }
+}
+
+/// The colour of a part, and of text on it.
+fn part_colours(part: usize) -> [Colour; 2] {
+    let part = part % PARTS.len();
+    [PARTS[part].light, if part == PARTS.len() - 1 { INK.light } else { PAPER.light }]
+}
+
+impl Bars {
+    fn layout(&self, width: i32) -> Layout {
+        let beside = widest(&self.labels) + GAP;
+        // Labels stand above the bars where beside them they would leave the bars less than half of the width.
+        let left = if beside > width / 2 { 0 } else { beside };
+        let [row, bar] = if self.parts.is_empty() { [54, 30] } else { [88, 48] };
+        let step = if left == 0 { row + TEXT + 2 } else { row };
+        let most = if left == 0 { 1 } else { self.groups.len().max(1) };
+        let columns = (((width - left) / GROUP) as usize).clamp(1, most);
+        let head = if self.groups.iter().all(|group| group.title.is_empty()) { GAP } else { 52 };
+        let group = head + self.labels.len() as i32 * step + BOTTOM_WITHOUT_TITLE;
+        let height = self.groups.len().div_ceil(columns) as i32 * group;
+        Layout { left, bar, row, step, columns, column: (width - left) / columns as i32, head, group, height }
+    }
+
+    /// Height of the drawing where it is `width` wide.
+    pub fn height(&self, width: i32) -> i32 {
+        let [right, _] = legend_room(&self.parts, width);
+        height_with_legend(self.layout(width - right).height + FOOT, &self.parts, width)
+    }
+
+    pub fn draw<B: DrawingBackend>(&self, whole: &Area<B>) -> DrawResult<B> {
+        let part_colours: Vec<Colour> = (0..self.parts.len()).map(|part| part_colours(part)[0]).collect();
+        let area = legend(whole, &self.parts, &part_colours)?;
+        let width = area.dim_in_pixel().0 as i32;
+        let layout = self.layout(width);
+        let across: Vec<i32> = (1..layout.columns as i32).map(|i| layout.left + i * layout.column).collect();
+        let down: Vec<i32> = (1..=layout.height / layout.group).map(|i| i * layout.group).collect();
+        for (i, (group, cell)) in self.groups.iter().zip(area.split_by_breakpoints(across, down)).enumerate() {
+            // Labels stand to the left of the first of the groups that are side by side.
+            let left = if i % layout.columns == 0 { layout.left } else { 0 };
+            self.draw_group(whole, group, &layout, &cell, left)?;
+        }
+        // In the middle below all groups, unless it would leave the drawing.
+        let half = width_of(&self.x_title) / 2;
+        let middle = ((width + layout.left) / 2).min(width - half).max(half);
+        text(whole, &self.x_title, (middle, layout.height + FOOT / 2), MIDDLE.light, HPos::Center)
+    }
+
+    fn draw_group<B: DrawingBackend>(
+        &self,
+        whole: &Area<B>,
+        group: &BarGroup,
+        layout: &Layout,
+        cell: &Area<B>,
+        left: i32,
+    ) -> DrawResult<B> {
+        let x = axes::across(self.ends(), cell.dim_in_pixel().0 as i32 - GAP - left - NUMBER);
+        let rows = 0..self.labels.len();
+        let bottom = rows.len() as i32 * layout.step;
+        let middles = rows.map(|row| layout.middle(row)).collect();
+        let y = (bottom..0).with_key_points(middles);
+        let y_text = |middle: &i32| self.labels[(middle / layout.step) as usize].clone();
+        let top = layout.head;
+        let labels = AxisLabels { x_title: "", y_title: "", y_text: &y_text, top, left, right: NUMBER };
+        let chart = BarChart { whole, layout, axes: axes(cell, x, y, &labels)? };
+        let start = chart.axes.x_range().start;
+        text(whole, &group.title, chart.place(start, -top / 2), INK.light, HPos::Left)?;
+        line(whole, &[chart.place(1.0, 0), chart.place(1.0, bottom)], MIDDLE.light, 3)?;
+        let colours = colours(&self.labels);
+        for (row, bar) in group.bars.iter().enumerate() {
+            let middle = layout.middle(row);
+            if layout.left == 0 {
+                let place = chart.place(start, middle - layout.row / 2 - 6);
+                text(whole, &self.labels[row], place, INK.light, HPos::Left)?;
+            }
+            match bar {
+                Bar::Missing(why) => {
+                    let (x, y) = chart.place(1.0, middle);
+                    text(whole, why, (x + 12, y), MIDDLE.light, HPos::Left)?;
+                }
+                Bar::Of(value) => {
+                    chart.bar(row, [1.0, value.estimate], colours[row])?;
+                    chart.value(row, *value, bar.reach()[1], 0)?;
+                }
+                Bar::Product(factors, product) => {
+                    // The whole below its parts, which it must equal within its interval.
+                    chart.value(row, *product, bar.reach()[1], layout.bar / 2 + 10)?;
+                    chart.factors(row, factors)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Ends of the axis. They hold the intervals as well, unless these are so wide that nothing else would be seen.
+    fn ends(&self) -> [f64; 2] {
+        let bars = || self.groups.iter().flat_map(|group| &group.bars);
+        let reach = bars().map(Bar::reach);
+        let [low, high] = reach.fold([1.0f64, 1.5f64], |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+        let room = libm::sqrt(high / low).max(1.5);
+        let intervals = bars().filter_map(|bar| bar.value()?.interval);
+        let held = intervals.fold([low, high], |[low, high], i| [low.min(i.low), high.max(i.high)]);
+        [held[0].max(low / room), held[1].min(high * room)]
+    }
+}
+
+/// The axes of a group. Their vertical values are pixels from the top of the rows.
+struct BarChart<'a, B: DrawingBackend> {
+    whole: &'a Area<B>,
+    layout: &'a Layout,
+    axes: Axes<'a, B, WithKeyPoints<RangedCoordi32>>,
+}
+
+impl<B: DrawingBackend> BarChart<'_, B> {
+    fn place(&self, x: f64, y: i32) -> Place {
+        self.axes.backend_coord(&(x, y))
+    }
+
+    /// Draws a bar between two values. Gives its corners.
+    fn bar(&self, row: usize, [from, to]: [f64; 2], colour: Colour) -> DrawResult<B, [Place; 2]> {
+        let (middle, half) = (self.layout.middle(row), self.layout.bar / 2);
+        let corners = [self.place(from.min(to), middle - half), self.place(from.max(to), middle + half)];
+        self.whole.draw(&Rectangle::new(corners, colour.filled()))?;
+        Ok(corners)
+    }
+
+    /// Draws the factors of a product as bars, those above 1 to the right and those below it to the left.
+    fn factors(&self, row: usize, factors: &[f64]) -> DrawResult<B> {
+        let (mut up, mut down) = (1.0, 1.0);
+        for (part, &factor) in factors.iter().enumerate() {
+            let side = if factor >= 1.0 { &mut up } else { &mut down };
+            let ends = [*side, *side * factor];
+            *side = ends[1];
+            let [colour, on_it] = part_colours(part);
+            let [min, max] = self.bar(row, ends, colour)?;
+            let number = figures(factor);
+            if width_of(&number) + 16 < max.0 - min.0 {
+                let middle = ((min.0 + max.0) / 2, (min.1 + max.1) / 2);
+                text(self.whole, &number, middle, on_it, HPos::Center)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Draws the interval of a value, `below` the middle of its row, and the number behind it and behind `end`, where
+    /// the bar ends.
+    fn value(&self, row: usize, value: Estimate, end: f64, below: i32) -> DrawResult<B> {
+        let (axis, middle) = (self.axes.x_range(), self.layout.middle(row));
+        let high = value.high().unwrap_or(value.estimate);
+        if let Some(interval) = value.interval {
+            self.whisker([interval.low, high], middle + below)?;
+        }
+        let (x, y) = self.place(end.max(high).min(axis.end), middle);
+        text(self.whole, &figures(value.estimate), (x + 14, y), INK.light, HPos::Left)
+    }
+
+    /// An interval as an error bar, on a plate of its own so that it is seen on a bar. An end beyond the axis has no
+    /// mark: the interval goes on.
+    fn whisker(&self, ends: [f64; 2], y: i32) -> DrawResult<B> {
+        let axis = self.axes.x_range();
+        let stem = ends.map(|end| self.place(end.clamp(axis.start, axis.end), y));
+        line(self.whole, &stem, PAPER.light, 7)?;
+        line(self.whole, &stem, INK.light, 3)?;
+        for end in ends.into_iter().filter(|end| (axis.start..=axis.end).contains(end)) {
+            let (x, y) = self.place(end, y);
+            line(self.whole, &[(x, y - 8), (x, y + 8)], INK.light, 3)?;
+        }
+        Ok(())
+    }
+}

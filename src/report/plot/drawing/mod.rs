@@ -1,0 +1,14 @@
+//! Draws charts with plotters.
+
+mod axes;
+mod bars;
+mod canvas;
+mod chart;
+mod curves;
+mod labels;
+pub mod palette;
+mod scatter;
+#[cfg(test)]
+mod tests;
+
+pub use axes::tick_text;
