@@ -22,7 +22,7 @@ use entry::{Build, BuildResult};
 pub use choice::{Choice, ChoiceError};
 pub use entry::Entry;
 pub use keys::Key;
-pub use runners::{RUNNER, is_named};
+pub use runners::{RUNNER, is_named, plain_name};
 
 /// The structures that a run can choose from, in the order of tables.
 #[derive(Clone)]

@@ -193,7 +193,7 @@ impl Timed for Pass<'_> {
         if self.threads.count() > 1 {
             share(self.lead_in_results.first(count), &self.lead_in.iter().collect::<Vec<_>>(), self.threads);
         } else {
-            let is_whole = self.results.len() == self.all.len();
+            let is_whole = self.results.count() == self.all.len();
             let pieces = self.lead_in.iter().take_while(|_| is_whole || start.elapsed() < LEAD_IN);
             count = pieces.fold(0, |done, piece| {
                 self.lead_in_results.first(done + piece.count).split(done).1.query(piece.rays.as_ref());
@@ -202,7 +202,7 @@ impl Timed for Pass<'_> {
         }
         self.lead_in_ps = start.elapsed().as_nanos() * 1000 / count.max(1) as u128;
         self.lead_in_checksum =
-            (self.results.len() == self.all.len()).then(|| (count, self.lead_in_results.checksum(0..count)));
+            (self.results.count() == self.all.len()).then(|| (count, self.lead_in_results.checksum(0..count)));
     }
 
     fn run(&mut self, watch: &Stopwatch) -> Vec<u64> {
@@ -218,7 +218,7 @@ impl Timed for Pass<'_> {
             }
             return ns;
         }
-        let mut rest = self.results.first(self.results.len());
+        let mut rest = self.results.first(self.results.count());
         for run in self.pieces.chunk_by(|one, other| one.levels == other.levels) {
             if run[0].levels == 0 {
                 let affordable = TILE_LEAD_IN_NS * 1000 / self.lead_in_ps.max(1);
@@ -242,11 +242,11 @@ impl Timed for Pass<'_> {
     }
 
     fn checksum(&self) -> u64 {
-        self.results.checksum(0..self.results.len())
+        self.results.checksum(0..self.results.count())
     }
 
     fn contradicts_itself(&self) -> bool {
-        let all = self.results.len();
+        let all = self.results.count();
         self.lead_in_checksum.is_some_and(|(count, checksum)| checksum != self.results.checksum(all - count..all))
     }
 }

@@ -144,6 +144,17 @@ impl Provenance {
         })
     }
 
+    /// The instruction set that this suite's own lanes found in the machine, and that the program was not compiled for:
+    /// libraries without run-time dispatch do not use it.
+    fn lacking(&self) -> Option<&'static str> {
+        let needed = match self.simd.as_str() {
+            "avx512" => "avx512f",
+            "avx2" => "avx2",
+            _ => return None,
+        };
+        (!self.target_features.split(',').any(|feature| feature == needed)).then_some(needed)
+    }
+
     /// One line for the foot of a table.
     pub fn line(&self) -> String {
         let threads = if self.threads == 1 { "1 thread".into() } else { format!("{} threads", self.threads) };
@@ -154,7 +165,10 @@ impl Provenance {
         };
         let Self { cpu, simd, rustc, version, commit, profile, date, .. } = self;
         let day = date.split('T').next().unwrap_or(date);
-        format!("{cpu}, {simd}, {threads}{pinned}; sahara {version} ({commit}, {profile}), {rustc}; {day}")
+        let lacking = self.lacking().map_or(String::new(), |feature| {
+            format!(" (built without {feature}, so that structures of others do without: set target-cpu=native)")
+        });
+        format!("{cpu}, {simd}{lacking}, {threads}{pinned}; sahara {version} ({commit}, {profile}), {rustc}; {day}")
     }
 }
 
@@ -190,6 +204,21 @@ mod tests {
         assert_eq!(here.too_many_threads(), None);
         let warning = Provenance { threads: 3, ..here }.too_many_threads().unwrap();
         assert!(warning.contains("3 threads") && warning.contains("2 cores"), "{warning}");
+    }
+
+    #[test]
+    fn a_program_that_was_built_without_the_instructions_of_the_machine_says_so() {
+        let here = Provenance::capture(1);
+        for (simd, target_features, lacking) in [
+            ("avx512", "fxsr,sse,sse2", Some("avx512f")),
+            ("avx512", "avx2,avx512f,sse2", None),
+            ("avx2", "sse,sse2", Some("avx2")),
+            ("portable", "sse,sse2", None),
+        ] {
+            let own = Provenance { simd: simd.into(), target_features: target_features.into(), ..here.clone() };
+            assert_eq!(own.lacking(), lacking, "{simd} {target_features}");
+            assert_eq!(own.line().contains("built without"), lacking.is_some(), "{}", own.line());
+        }
     }
 
     #[test]

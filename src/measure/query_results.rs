@@ -54,7 +54,7 @@ impl QueryResults {
         }
     }
 
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         match self {
             Self::Closest(hits) => hits.len(),
             Self::Any(hits) => hits.len(),

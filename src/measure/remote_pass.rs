@@ -129,7 +129,7 @@ impl Timed for RemotePass<'_> {
     }
 
     fn contradicts_itself(&self) -> bool {
-        let (all, last) = (self.batches[0].count, self.lead_in_results.len());
+        let (all, last) = (self.batches[0].count, self.lead_in_results.count());
         let contradicts = || self.lead_in_results.checksum(0..last) != self.results.checksum(all - last..all);
         self.has_led_in && !self.has_failed() && contradicts()
     }

@@ -13,9 +13,14 @@ pub const RUNNER: &str = "runner";
 
 const OWN_CLOCK: &str = " (own clock)";
 
+/// The name of a structure, a program without the words about its clock.
+pub fn plain_name(label: &str) -> &str {
+    label.strip_suffix(OWN_CLOCK).unwrap_or(label)
+}
+
 /// Whether a user who types `name` means the structure of this label: of a program it is the name alone.
 pub fn is_named(label: &str, name: &str) -> bool {
-    label.strip_suffix(OWN_CLOCK).unwrap_or(label).eq_ignore_ascii_case(name.strip_suffix(OWN_CLOCK).unwrap_or(name))
+    plain_name(label).eq_ignore_ascii_case(plain_name(name))
 }
 
 impl Choice {

@@ -8,6 +8,7 @@ use super::case::Case;
 use super::epoch::{Checked, Epoch, Structure};
 use super::journal::JournalError;
 use crate::measure::Provenance;
+use crate::registry::plain_name;
 use crate::report::Failure;
 use crate::report::words::{distinct, each_once};
 use crate::request::is_brought;
@@ -84,7 +85,7 @@ impl Dataset {
         let sentence = |label: String| {
             let own = all().filter(|own| own.label == label).flat_map(|own| &own.rays);
             let checked = own.filter_map(|rays| rays.checked.as_ref()).map(Checked::verdict);
-            checked.fold(Verdict::default(), Verdict::and).sentence(&label)
+            checked.fold(Verdict::default(), Verdict::and).sentence(plain_name(&label))
         };
         distinct(all().map(|own| &own.label)).into_iter().map(sentence).collect()
     }

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use crate::accel::BuildError;
 use crate::names::named;
-use crate::registry::Choice;
+use crate::registry::{Choice, plain_name};
 use crate::request::known_defect;
 use crate::study::{Status, Verdict};
 use crate::validate::{Kind, Validation};
@@ -34,7 +34,7 @@ impl Outcome {
     pub fn new(scene: &str, choice: &Choice, found: Result<Validation, BuildFailure>) -> Self {
         Self {
             scene: scene.into(),
-            label: choice.label.clone(),
+            label: plain_name(&choice.label).into(),
             triangle_test: choice.triangle_test().into(),
             is_brought: !choice.entry.is_builtin,
             has_known_defect: known_defect(&choice.entry.name).is_some(),

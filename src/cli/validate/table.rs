@@ -29,7 +29,10 @@ pub fn scene_table(
     table.with_details(COLUMNS.iter().skip(5).map(|(name, _)| *name)).noted(notes)
 }
 
-const COLUMNS: [(&str, fn(&Outcome) -> Cell); 10] = [
+/// What stands above a column, and its cell of an outcome.
+type OutcomeColumn = (&'static str, fn(&Outcome) -> Cell);
+
+const COLUMNS: [OutcomeColumn; 10] = [
     ("structure", |own| own.label.as_str().into()),
     ("triangle test", |own| own.triangle_test.as_str().into()),
     ("hits", hits),

@@ -22,7 +22,7 @@ pub struct CaseTruth {
 /// How one structure did on one case.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Score {
-    Rays(RayScore),
+    Rays(Box<RayScore>),
     Property(Property),
     /// The structure returned nothing.
     Failed(Failure),
@@ -112,7 +112,7 @@ impl CaseTruth {
             }
             (truth, hit) => truth.is_some() != hit.is_some(),
         });
-        Ok(Score::Rays(RayScore {
+        Ok(Score::Rays(Box::new(RayScore {
             judged: count_errors(truths, &answers.hits, DepthRule::STRICT),
             coarse_depth: count_errors(truths, &answers.hits, DepthRule::COARSE).wrong_depth,
             inexact: inexact.count() as u64,
@@ -121,7 +121,7 @@ impl CaseTruth {
             contradictions: answers.any_hit_errors + answers.unrepeatable,
             slowness: answers.slowness,
             build_ns: answers.build_ns,
-        }))
+        })))
     }
 }
 

@@ -18,7 +18,7 @@ use super::outcome::{Verdicts, sentences};
 use crate::cli::progress::spinner;
 use crate::cli::terminal::Terminal;
 use crate::output::OutputFile;
-use crate::registry::{Choice, Registry};
+use crate::registry::{Choice, Registry, plain_name};
 use crate::report::number::plural;
 use crate::report::words::each_once_by;
 use crate::request::{self, known_defect};
@@ -81,7 +81,11 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
 /// What all cases say of a structure.
 fn verdicts(column: &Column) -> Verdicts {
     let all = column.scores.iter().map(verdict).fold(Verdict::default(), Verdict::and);
-    Verdicts { label: column.choice.label.clone(), is_brought: !column.choice.entry.is_builtin, verdict: all }
+    Verdicts {
+        label: plain_name(&column.choice.label).into(),
+        is_brought: !column.choice.entry.is_builtin,
+        verdict: all,
+    }
 }
 
 /// Whether a score changes the exit status: hits that no rounding explains and failures do, inexact hits of the exact test, and
