@@ -103,6 +103,18 @@ pub(super) fn place<const N: usize, L: Lanes<N>>(
     (times(det_error, 1024.0).le(det.flip_sign(det)), low, high)
 }
 
+/// As [`place`] of a line and a triangle in an axis-aligned plane, as floors and walls are; nothing of others, or of a line
+/// along the plane. The difference of two floats has the right sign, and is zero if and only if they are equal; it and
+/// the division are off by a unit of 2^-53 each.
+#[inline(always)]
+pub(super) fn place_in_axis_plane(ray: &Ray, [a, b, c]: &[Vec3; 3]) -> Option<Bounds> {
+    let across = a.cmpeq(*b) & a.cmpeq(*c) & ray.direction.cmpne(Vec3::ZERO);
+    let axis = (across.bitmask() != 0).then(|| across.bitmask().trailing_zeros() as usize)?;
+    let t = (f64::from(a[axis]) - f64::from(ray.origin[axis])) / f64::from(ray.direction[axis]);
+    let error = t.abs() * (4.0 * UNIT);
+    Some(Bounds::Hit { low: t - error, high: t + error })
+}
+
 /// Bounds of the exact `t` where lines pass the planes of triangles that they are known to meet, from how far apart the
 /// bounds are that the filter has found; everything where they are infinitely far.
 ///
@@ -153,4 +165,40 @@ fn divide<const N: usize, D: Arithmetic<N, Scalar = f64>>(height: D, height_erro
     let widest = height_error.add(abs(t).mul(det_error)).mul(abs(inverse).mul(D::splat(1.0 + 1.0 / 512.0)));
     let error = widest.add(abs(t).mul(D::splat(8.0 * UNIT)));
     (t.sub(error), t.add(error))
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3Swizzles as _;
+
+    use super::*;
+
+    #[test]
+    fn in_an_axis_aligned_plane_the_bounds_hold_the_exact_depth_and_zero_is_zero() {
+        let flat = |height: f32| [[0.0, 0.0], [3.0, 1.0], [1.0, 2.5]].map(|[x, z]| Vec3::new(x, height, z));
+        let mut zeros = 0;
+        for height in [0.0, 0.1, -7.3, 1e-20, 3e12] {
+            for origin in [height, f32::next_up(height), f32::next_down(height), 1.0, -1e-30] {
+                for direction in [Vec3::new(0.1, -0.7, 0.2), Vec3::new(1e-3, 1e-7, -1e-3), Vec3::Y] {
+                    for turn in [|p: Vec3| p, |p: Vec3| p.yzx(), |p: Vec3| p.zxy()] {
+                        let ray = Ray::new(turn(Vec3::new(1.2, origin, 1.1)), turn(direction));
+                        let corners = flat(height).map(turn);
+                        let Some(exact) = exact::hit(&ray, corners) else { continue };
+                        let Some(Bounds::Hit { low, high }) = place_in_axis_plane(&ray, &corners) else {
+                            panic!("{ray}")
+                        };
+                        let t = exact.approximate();
+                        assert!((low..=high).contains(&t), "{ray}: {t} not in [{low}, {high}]");
+                        assert_eq!((low == 0.0, high == 0.0), (origin == height, origin == height), "{ray}");
+                        zeros += usize::from(low == 0.0);
+                    }
+                }
+            }
+        }
+        assert!(zeros > 10, "{zeros}");
+        let along = Ray::new(Vec3::ZERO, Vec3::X);
+        assert!(place_in_axis_plane(&along, &flat(0.0)).is_none());
+        let tilted = [Vec3::ZERO, Vec3::X, Vec3::new(0.0, 1.0, 1.0)];
+        assert!(place_in_axis_plane(&Ray::new(Vec3::ONE, Vec3::Y), &tilted).is_none());
+    }
 }

@@ -15,7 +15,7 @@ use super::{EightHits, EightRays, TriangleTest};
 use crate::exact;
 use crate::geometry::{Ray, round_down, round_up};
 use crate::simd::{Arithmetic, EightLanes, LaneVec3, Lanes, Portable, each};
-use enclosure::{Bounds, look, place, place_closely};
+use enclosure::{Bounds, look, place, place_closely, place_in_axis_plane};
 
 /// Exact answers at the price of a filter: what the `f32` stage cannot decide is decided in `f64` with a bound on its
 /// error, and what that cannot decide in integers or exact sums of floats. Each decision is made when it is needed:
@@ -229,6 +229,9 @@ fn runs_along(ray: &Ray, [a, b, c]: &[Vec3; 3]) -> bool {
 /// As [`look`], where the line is known to meet the triangle.
 #[inline(always)]
 fn bounds_of_hit(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
+    if let Some(bounds) = place_in_axis_plane(ray, &corners) {
+        return bounds;
+    }
     let one = LaneVec3::<1, Portable<1>>::splat;
     match place(one(ray.origin), one(ray.direction), each(&corners, |&corner| one(corner))) {
         (0, ..) => Bounds::Unclear,
