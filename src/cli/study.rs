@@ -54,7 +54,7 @@ impl Common {
     fn check_places(&self) -> anyhow::Result<()> {
         let exports = [&self.export_json, &self.export_csv, &self.export_markdown].into_iter().flatten();
         for path in exports.chain(&self.plot) {
-            OutputFile::check_place(path)?;
+            OutputFile::check(path)?;
         }
         Ok(())
     }
@@ -70,10 +70,7 @@ impl Common {
         let plots = self.plot.iter().map(|path| anyhow::Ok((file(path)?, Format::of(path)?)));
         let files = Files { json, csv, markdown, plots: plots.collect::<anyhow::Result<_>>()? };
         let tables = [&files.json, &files.csv, &files.markdown].into_iter().flatten();
-        let all: Vec<&OutputFile> = tables.chain(files.plots.iter().map(|(file, _)| file)).collect();
-        for (i, file) in all.iter().enumerate() {
-            file.unlike(&all[..i])?;
-        }
+        OutputFile::are_apart(tables.chain(files.plots.iter().map(|(file, _)| file)))?;
         Ok(files)
     }
 }
