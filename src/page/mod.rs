@@ -8,7 +8,6 @@ mod files;
 mod html;
 mod markdown;
 mod pictures;
-mod planned;
 pub mod results;
 mod run_error;
 mod runs;

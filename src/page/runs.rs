@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use super::planned::without_result;
 use super::run_error::RunError;
 use crate::measure::Provenance;
 use crate::report::Report;
@@ -62,9 +61,6 @@ impl<'a> Runs<'a> {
             let files = if is_folder { folder(path, studies)? } else { vec![path.clone()] };
             if files.is_empty() {
                 return Err(RunError::Empty { path: path.clone() });
-            }
-            if is_folder {
-                runs.notes.extend(without_result(path));
             }
             for file in files {
                 match read(&file, studies) {
