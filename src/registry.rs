@@ -241,14 +241,6 @@ mod tests {
     }
 
     #[test]
-    fn a_removed_value_names_its_replacement() {
-        let error = Registry::builtin().choose("sah-bvh:batch=interleaved").map(|choice| choice.label).unwrap_err();
-        let sentence = "sah-bvh no longer takes batch=interleaved: use batch=packets, which interleaves the rays that do \
-                        not form a packet";
-        assert_eq!(error.to_string(), sentence);
-    }
-
-    #[test]
     fn labels_name_only_what_differs() {
         let choice = Registry::builtin().choose("brute-force:test=exact").unwrap();
         assert_eq!(choice.label, "brute-force");
