@@ -1,4 +1,4 @@
-//! Axes with round numbers, and the names of what is drawn beside or below them.
+//! Axes with round numbers, and the names of what is drawn below them.
 
 use std::fmt::Debug;
 
@@ -125,44 +125,22 @@ pub fn log_log<'a, B: DrawingBackend>(
     axes(area, x, y, &AxisLabels { x_title, y_title, y_text: &|y| tick_text(*y), top, left, right })
 }
 
-/// Whether a drawing is so wide that there is room beside its axes.
-pub fn is_roomy(width: i32) -> bool {
-    width >= 1120
-}
-
 /// Height of a name.
 const LINE: i32 = 40;
 
-/// Room that names take beside and below the axes of a drawing `width` wide: one of the two.
-pub fn legend_room(names: &[String], width: i32) -> [i32; 2] {
-    match names.len() {
-        0 => [0, 0],
-        _ if is_roomy(width) => [widest(names) + 4 * GAP, 0],
-        lines => [0, lines as i32 * LINE + GAP],
-    }
+/// Height of the names below the axes.
+pub fn legend_height(names: &[String]) -> i32 {
+    if names.is_empty() { 0 } else { names.len() as i32 * LINE + GAP }
 }
 
-/// Height of a drawing with axes of this height and with names.
-pub fn height_with_legend(axes: i32, names: &[String], width: i32) -> i32 {
-    match legend_room(names, width) {
-        [0, below] => axes + below,
-        _ => axes.max(names.len() as i32 * LINE + GAP),
-    }
-}
-
-/// Draws names with a dot of their colours, to the right of the axes or below them. Gives the area that is left.
+/// Draws names with a dot of their colours below the axes. Gives the area that is left.
 pub fn legend<B: DrawingBackend>(area: &Area<B>, names: &[String], colours: &[Colour]) -> DrawResult<B, Area<B>> {
     const DOT: i32 = 8;
-    let (width, height) = area.dim_in_pixel();
-    let (axes, beside) = match legend_room(names, width as i32) {
-        [0, 0] => return Ok(area.clone()),
-        [0, below] => area.split_vertically(height as i32 - below),
-        [right, _] => area.split_horizontally(width as i32 - right),
-    };
+    let (axes, below) = area.split_vertically(area.dim_in_pixel().1 as i32 - legend_height(names));
     for (i, (name, colour)) in names.iter().zip(colours).enumerate() {
         let y = 3 * GAP / 2 + i as i32 * LINE;
-        beside.draw(&Circle::new((GAP, y), DOT, colour.filled()))?;
-        text(&beside, name, (2 * GAP, y), INK.light, HPos::Left)?;
+        below.draw(&Circle::new((GAP, y), DOT, colour.filled()))?;
+        text(&below, name, (2 * GAP, y), INK.light, HPos::Left)?;
     }
     Ok(axes)
 }
@@ -202,12 +180,5 @@ mod tests {
             assert_eq!(axis.bold_points().iter().map(|tick| tick_text(*tick)).collect::<Vec<_>>(), texts);
         }
         assert_eq!([0.0, 20.0].map(tick_text), ["0", "20"]);
-    }
-
-    #[test]
-    fn a_range_has_room_and_is_never_empty() {
-        assert_eq!(padded([1.0, 100.0].into_iter(), [0.5, 0.0]), [0.1, 100.0]);
-        assert_eq!(padded([3.0].into_iter(), [0.0, 0.0]), [3.0, 6.0]);
-        assert_eq!(padded(std::iter::empty(), [0.1, 0.1]), [1.0, 10.0]);
     }
 }

@@ -8,7 +8,7 @@ use plotters::prelude::DrawingBackend;
 use plotters::style::Color;
 use plotters::style::text_anchor::HPos;
 
-use super::axes::{self, Axes, AxisLabels, BOTTOM_WITHOUT_TITLE, GAP, axes, height_with_legend, legend, legend_room};
+use super::axes::{self, Axes, AxisLabels, BOTTOM_WITHOUT_TITLE, GAP, axes, legend, legend_height};
 use super::canvas::{Area, DrawResult, Place, TEXT, line, text, widest, width_of};
 use super::palette::{Colour, INK, MIDDLE, PAPER, PARTS, colours};
 use crate::measure::Estimate;
@@ -123,8 +123,7 @@ impl Bars {
 
     /// Height of the drawing where it is `width` wide.
     pub fn height(&self, width: i32) -> i32 {
-        let [right, _] = legend_room(&self.parts, width);
-        height_with_legend(self.layout(width - right).height + FOOT, &self.parts, width)
+        self.layout(width).height + FOOT + legend_height(&self.parts)
     }
 
     pub fn draw<B: DrawingBackend>(&self, whole: &Area<B>) -> DrawResult<B> {

@@ -48,7 +48,7 @@ const DRAWN: &str = "memory takes every stroke, and the font is registered";
 
 impl Chart {
     /// Width and height in pixels where it is to be `width` wide.
-    fn size(&self, width: f64) -> (u32, u32) {
+    pub(super) fn size(&self, width: f64) -> (u32, u32) {
         let width = if matches!(self, Self::Scatter(_)) { 800.0 } else { width };
         let width = (2.0 * width).round() as i32;
         let height = match self {

@@ -7,7 +7,7 @@ use plotters::prelude::DrawingBackend;
 use plotters::style::Color;
 use plotters::style::text_anchor::HPos;
 
-use super::axes::{GAP, height_with_legend, is_roomy, legend, log_log, padded};
+use super::axes::{GAP, legend, legend_height, log_log, padded};
 use super::canvas::{Area, DrawResult, Place, TEXT, line, text, width_of};
 use super::labels::{Corners, place};
 use super::palette::{Colour, INK, MIDDLE, PAPER, colours};
@@ -59,19 +59,19 @@ impl Scatter {
         distinct(self.points.iter().map(|point| &point.group))
     }
 
-    /// Names of the colours; none where there is room for labels that say the same.
-    fn names(&self, width: i32) -> Vec<String> {
+    /// Names of the colours; none where the labels say the same.
+    fn names(&self) -> Vec<String> {
         let is_said = self.points.iter().all(|point| point.label == point.group);
-        if is_said && is_roomy(width) { vec![] } else { self.groups() }
+        if is_said { vec![] } else { self.groups() }
     }
 
     /// Height of the drawing where it is `width` wide.
     pub fn height(&self, width: i32) -> i32 {
-        height_with_legend(width.min(880), &self.names(width), width)
+        width.min(880) + legend_height(&self.names())
     }
 
     pub fn draw<B: DrawingBackend>(&self, whole: &Area<B>) -> DrawResult<B> {
-        let (groups, names) = (self.groups(), self.names(whole.dim_in_pixel().0 as i32));
+        let (groups, names) = (self.groups(), self.names());
         let colours = colours(&groups);
         let area = legend(whole, &names, &colours)?;
         let top = if self.title.is_empty() { GAP } else { TITLE };
@@ -91,15 +91,10 @@ impl Scatter {
         let (x, y) = axes.plotting_area().get_pixel_range();
         let front = front(&dots, x.end);
         line(whole, &front, MIDDLE.light, 4)?;
-        let lines = front.windows(2).map(|ends| {
-            let [(left, y), (right, end)] = [ends[0], ends[1]];
-            [(left - 4, y.min(end) - 4), (right + 4, y.max(end) + 4)]
-        });
-        let obstacles: Vec<Corners> = dots.iter().map(Dot::corners).chain(lines).collect();
-        // Among too many points nobody would find what belongs to a label, and what the legend says is said once.
+        let obstacles: Vec<Corners> = dots.iter().map(Dot::corners).collect();
+        // Among too many points nobody would find what belongs to a label.
         let is_shown = |dot: &&Dot| dots.len() <= LABELLED || dot.point.is_front;
-        let is_said = |dot: &&Dot| !names.is_empty() && dot.point.label == dot.point.group;
-        let labelled: Vec<&Dot> = dots.iter().filter(|dot| is_shown(dot) && !is_said(dot)).collect();
+        let labelled: Vec<&Dot> = dots.iter().filter(is_shown).collect();
         draw_labels(whole, &labelled, &obstacles, [(x.start + 12, y.start), (x.end - 4, y.end - 8)])?;
         // What is on the front is drawn last, so that it is on top.
         dots.iter().rev().try_for_each(|dot| dot.draw(whole))
