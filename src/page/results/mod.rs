@@ -3,7 +3,6 @@
 //! All three are made from one run. The data file has every sentence with a number in it, by its key, and the digests
 //! of the other files: whoever changes a number by hand, or forgets a file, is told by a test.
 
-mod counts;
 mod marks;
 mod paper;
 mod run_facts;
@@ -53,10 +52,6 @@ pub struct ResultsData {
     /// The triangle test of each structure that is compared, by its label: after a change of a default the numbers are
     /// of another.
     pub tests: BTreeMap<String, String>,
-    /// What structures count for primary rays, by scene and label. No machine changes it: it tells whether trees and
-    /// searches are still those of the run.
-    #[serde(default)]
-    pub counts: BTreeMap<String, BTreeMap<String, String>>,
     /// Digests (SHA-256) of the other files, by their paths beside this one.
     pub files: BTreeMap<String, String>,
 }
@@ -96,7 +91,6 @@ impl Results {
             run,
             statements,
             tests: compared.iter().map(|own| (own.label.clone(), own.triangle_test.clone())).collect(),
-            counts: counts::of(&compared),
             files,
         };
         Ok(Self { data, paper, figures })

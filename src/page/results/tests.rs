@@ -4,15 +4,11 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use super::{COMMAND, DATA, Results, ResultsData, counts, digest, fill, marked};
-use crate::accel::Counts;
-use crate::measure::{Provenance, spread};
+use super::{COMMAND, DATA, Results, ResultsData, digest, fill, marked};
+use crate::measure::Provenance;
 use crate::page::tests::example::{STUDIES, cube, folder, journal, provenance, read, runs};
 use crate::page::{Runs, document};
 use crate::registry::Registry;
-use crate::scene::{Builtin, Sampling, Scene, Workload, WorkloadKind};
-use crate::study::measurement::Measurement;
-use crate::study::measurement::tests::example;
 
 fn file(path: &str) -> Vec<u8> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
@@ -62,68 +58,6 @@ fn structures_of_the_data_file_are_still_called_so_and_have_the_same_triangle_te
             assert!(PEERS.contains(&name), "{label} is no structure any more: `{COMMAND}` makes the numbers anew");
         }
     }
-}
-
-/// What `label` counts for so many primary rays of a scene.
-fn recounted(scene: &Scene, label: &str, rays: usize) -> String {
-    let registry = Registry::builtin();
-    let build = |label: &str| registry.choose(label).unwrap().build(&scene.mesh).unwrap();
-    let workload = Workload::new(
-        scene,
-        WorkloadKind::Primary,
-        &Sampling { seed: 1, ..Sampling::of(scene) },
-        build("sah-kd").as_ref(),
-    );
-    let (accel, rays) = (build(label), spread(&workload.rays, rays));
-    let (mut hits, mut counts) = (vec![None; rays.len()], Counts::default());
-    accel.closest_hits_counted(&rays, &mut hits, &mut counts);
-    let observed = accel.observed();
-    let [tests, steps] = [observed.tests.then_some(counts.tests), observed.steps.then_some(counts.steps())];
-    counts::text(rays.len(), hits.iter().flatten().count(), tests, steps)
-}
-
-#[test]
-#[ignore = "after a change of trees or searches it fails until the results are made anew"]
-fn trees_and_searches_are_those_of_the_data_file() {
-    let (data, registry) = (data(), Registry::builtin());
-    assert!(!data.counts.is_empty(), "papers/{DATA} holds no counts: `{COMMAND}` makes it anew");
-    for (name, structures) in &data.counts {
-        let scene = Builtin::find(name).unwrap().scene(None).unwrap();
-        // Peers take part in the run whose features are on.
-        for (label, known) in structures.iter().filter(|(label, _)| registry.choose(label).is_ok()) {
-            let rays = known.split(' ').next().unwrap().parse().unwrap();
-            assert_eq!(
-                recounted(&scene, label, rays),
-                *known,
-                "{label} on {name}: the numbers are of other trees or searches, those of commit {}; `{COMMAND}` \
-                 makes them anew",
-                data.run.commit
-            );
-        }
-    }
-}
-
-#[test]
-fn counts_are_kept_of_small_scenes_that_anybody_has() {
-    let scene = Builtin::find("torus").unwrap().scene(None).unwrap();
-    let text = recounted(&scene, "sah-bvh", 1000);
-    let number = |what: &str| -> f64 {
-        let before = text.split(what).next().unwrap().trim();
-        before.rsplit(' ').next().unwrap().parse().unwrap()
-    };
-    let own = Measurement {
-        scene: "Torus".into(),
-        scene_hash: scene.hash(),
-        triangles: scene.mesh.len(),
-        counted_rays: 1000,
-        hits: number("hits") as usize,
-        tests_per_ray: Some(number("tests") / 1000.0),
-        steps_per_ray: Some(number("steps") / 1000.0),
-        ..example("sah-bvh", "primary", &[1.0], 1)
-    };
-    assert!(text.starts_with("1000 rays: ") && number("tests") > 100.0, "{text}");
-    assert_eq!(counts::of(std::slice::from_ref(&own))["Torus"]["sah-bvh"], text);
-    assert!(counts::of(&[Measurement { scene_hash: "another mesh".into(), ..own }]).is_empty());
 }
 
 /// Structures of features that are off by default.
