@@ -18,7 +18,7 @@ pub(crate) const STATUSES: &str = "Exit status:
   3  a regression (diff --fail-on-regression)
   4  the samples do not tell whether there is a regression
   5  right, but for a structure that could not be built, panicked or could not take part
-130  interrupted by Ctrl-C: what was measured is shown and kept, and the same command goes on
+130  interrupted by Ctrl-C: what was measured is shown, and the same command goes on where a journal keeps it
 Wrong answers of a baseline from another project with known defects are shown, cost it its time, and do not \
 change the status: 2 is for everything else. Tables name the defects.
 

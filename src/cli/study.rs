@@ -17,7 +17,7 @@ pub const RUNS: &str = "runs";
 #[derive(Clone, Debug, Default, clap::Args)]
 pub struct Common {
     /// The folder of journals: the same command again goes on where the last one stopped, and other scenes and settings
-    /// are added [default: runs; there `compare` keeps only what Ctrl-C has interrupted]
+    /// are added [default: runs; `compare` keeps none without it]
     #[arg(long, value_name = "DIR")]
     pub dir: Option<PathBuf>,
     /// Measure these cases again; earlier results stay, and the newest count

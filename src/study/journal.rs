@@ -96,19 +96,6 @@ impl Journal {
         self.files.push(CaseFile::read(path)?);
         Ok(())
     }
-
-    /// Copies all files into `folder`, so that a later run can resume from them.
-    ///
-    /// # Errors
-    /// If the folder cannot be made or takes no file.
-    pub fn keep(&self, folder: &Path) -> Result<(), JournalError> {
-        fs::create_dir_all(folder).map_err(|cause| JournalError::Write { path: folder.into(), cause })?;
-        for file in &self.files {
-            let path = folder.join(file.path.file_name().unwrap_or_default());
-            fs::copy(&file.path, &path).map_err(|cause| JournalError::Write { path, cause })?;
-        }
-        Ok(())
-    }
 }
 
 /// The name of the file of a case, without its ending: small letters, digits and hyphens.
