@@ -45,9 +45,6 @@ pub struct RunOutcome {
     pub failures: Vec<StudyError>,
 }
 
-/// After a first epoch longer than this, the scene's tables are printed before the other epochs.
-const LONG_NS: u64 = 5_000_000_000;
-
 /// Measures what `plan` asks for and the journal lacks, and reports.
 ///
 /// # Errors
@@ -152,8 +149,7 @@ impl Engine<'_> {
                 self.ended.push(case.clone());
             }
             let stopped = run.screen.is_interrupted();
-            let is_first_look = case.epoch == 0 && next && took > LONG_NS && run.screen.is_watched();
-            if is_whole || stopped || self.has_ended(case) || is_first_look {
+            if is_whole || stopped || self.has_ended(case) {
                 self.print_scene(case, is_whole, run.screen)?;
             }
             if stopped {
