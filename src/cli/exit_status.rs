@@ -80,20 +80,11 @@ pub(super) fn told(message: clap::Error) -> ExitCode {
     ended(message.use_stderr().into())
 }
 
-/// Without tips that do not help: no command takes an option behind `--`; and where --quick is no option, the command
-/// that has it is named instead of one that is written alike.
+/// Without tips that do not help: no command takes an option behind `--`.
 fn advised(mut message: clap::Error) -> clap::Error {
     if let Some(ContextValue::StyledStrs(mut tips)) = message.remove(ContextKind::Suggested) {
         tips.retain(|tip| !tip.to_string().contains("as a value, use"));
         message.insert(ContextKind::Suggested, ContextValue::StyledStrs(tips));
-    }
-    let is_unknown = message.kind() == ErrorKind::UnknownArgument;
-    if is_unknown && message.get(ContextKind::InvalidArg) == Some(&ContextValue::String("--quick".into())) {
-        message.remove(ContextKind::SuggestedArg);
-        // It shows the same option.
-        message.remove(ContextKind::Usage);
-        let tip = "`sahara study all --quick` runs the quick form of every study, `sahara study plan NAME --quick` prints that of one";
-        message.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
     }
     message
 }
