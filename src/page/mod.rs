@@ -20,5 +20,5 @@ pub use files::files;
 pub use html::page;
 pub use pictures::{draw, left_out};
 pub use run_error::RunError;
-pub use runs::{Runs, Source, StudyRun};
+pub use runs::{Runs, StudyRun};
 pub use sections::document;
