@@ -1,10 +1,7 @@
-use std::fs::File;
-use std::io;
 use std::path::{Path, PathBuf};
 
-use sha2::{Digest, Sha256};
-
 use super::FetchError;
+use crate::measure::program::file_sha256;
 use crate::scene::format::RealMesh;
 
 /// A file of the folder of real meshes: its path and its expected contents.
@@ -70,9 +67,5 @@ impl DataFile {
 }
 
 fn hash(path: &Path) -> Result<String, FetchError> {
-    let mut hasher = Sha256::new();
-    File::open(path)
-        .and_then(|mut file| io::copy(&mut file, &mut hasher))
-        .map_err(|cause| FetchError::Read { path: path.into(), cause })?;
-    Ok(format!("{:x}", hasher.finalize()))
+    file_sha256(path).map_err(|cause| FetchError::Read { path: path.into(), cause })
 }
