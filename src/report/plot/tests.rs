@@ -1,5 +1,3 @@
-use std::path::Path;
-
 use super::*;
 use crate::measure::Estimate;
 
@@ -73,14 +71,6 @@ fn there_is_room_for_the_name_of_each_line() {
         Chart::Curves(Curves { x_title: "x".into(), y_title: "y".into(), lines: (0..lines).map(line).collect() })
     };
     assert!(of(30).size(900.0).1 > of(1).size(900.0).1 + 29 * 32);
-}
-
-#[test]
-fn the_ending_tells_the_form() {
-    assert_eq!(["a/b.SVG", "b.png"].map(|path| Format::of(Path::new(path)).unwrap()), [Format::Svg, Format::Png]);
-    for wrong in ["b", "b.pdf", "svg", ".png"] {
-        assert!(Format::of(Path::new(wrong)).unwrap_err().to_string().contains(".svg or .png"));
-    }
 }
 
 #[test]
