@@ -68,10 +68,6 @@ impl Journal {
         Ok(Self { _lock: Some(lock.ok_or_else(|| JournalError::Busy(folder.into()))?), ..journal })
     }
 
-    pub fn folder(&self) -> &Path {
-        &self.folder
-    }
-
     /// The newest file of the case, as this build would measure it on this machine.
     pub fn get(&self, case: &Case) -> Option<&CaseFile> {
         let machine = self.provenance.machine();
