@@ -6,8 +6,9 @@ use clap::{ArgMatches, Args as _, FromArgMatches};
 
 use super::Session;
 use super::progress::OnTerminal;
-use crate::output::OutputFile;
-use crate::report::plot::{Format, WIDTH};
+use crate::escaped::Escaped as _;
+use crate::output::{OutputFile, STDOUT};
+use crate::report::plot::WIDTH;
 use crate::report::{Figure, csv, markdown};
 use crate::study::{self, Run, RunOutcome, Status, Study};
 
@@ -37,7 +38,7 @@ pub struct Common {
     #[arg(long, value_name = "FILE")]
     pub export_markdown: Option<PathBuf>,
     /// Draw the study's first figure; may be repeated
-    #[arg(long, value_name = "F.svg|F.png")]
+    #[arg(long, value_name = "F.svg")]
     pub plot: Vec<PathBuf>,
 }
 
@@ -46,7 +47,7 @@ struct Files {
     json: Option<OutputFile>,
     csv: Option<OutputFile>,
     markdown: Option<OutputFile>,
-    plots: Vec<(OutputFile, Format)>,
+    plots: Vec<OutputFile>,
 }
 
 impl Common {
@@ -55,6 +56,10 @@ impl Common {
         let exports = [&self.export_json, &self.export_csv, &self.export_markdown].into_iter().flatten();
         for path in exports.chain(&self.plot) {
             OutputFile::check(path)?;
+        }
+        let is_svg = |path: &&PathBuf| path.as_os_str() == STDOUT || path.extension().is_some_and(|end| end == "svg");
+        if let Some(path) = self.plot.iter().find(|path| !is_svg(path)) {
+            anyhow::bail!("cannot plot to {}: name a file that ends in .svg", path.escaped());
         }
         Ok(())
     }
@@ -67,10 +72,10 @@ impl Common {
         let check = |path: &Option<PathBuf>| path.as_ref().map(file).transpose();
         let (json, csv, markdown) =
             (check(&self.export_json)?, check(&self.export_csv)?, check(&self.export_markdown)?);
-        let plots = self.plot.iter().map(|path| anyhow::Ok((file(path)?, Format::of(path)?)));
-        let files = Files { json, csv, markdown, plots: plots.collect::<anyhow::Result<_>>()? };
+        let plots = self.plot.iter().map(file).collect::<anyhow::Result<_>>()?;
+        let files = Files { json, csv, markdown, plots };
         let tables = [&files.json, &files.csv, &files.markdown].into_iter().flatten();
-        OutputFile::are_apart(tables.chain(files.plots.iter().map(|(file, _)| file)))?;
+        OutputFile::are_apart(tables.chain(&files.plots))?;
         Ok(files)
     }
 }
@@ -119,14 +124,10 @@ pub fn run_as(session: &Session, study: &Study, matches: &ArgMatches, common: &C
         if let Some(file) = files.markdown {
             file.write(markdown::report(&report, &foot).as_bytes())?;
         }
-        for (file, format) in files.plots {
+        for file in files.plots {
             let chart = report.figures().find_map(Figure::chart);
             let chart = chart.ok_or_else(|| anyhow::anyhow!("study {} has no picture", study.name))?;
-            let bytes = match format {
-                Format::Svg => chart.svg(WIDTH).into_bytes(),
-                Format::Png => chart.png(WIDTH),
-            };
-            file.write(&bytes)?;
+            file.write(chart.svg(WIDTH).as_bytes())?;
         }
     }
     Ok(status)

@@ -70,7 +70,7 @@ fn what_is_not_known_is_refused_with_what_is() {
     refuses_in_a_line(&["validate", "cube", "--against", "nothing"], &["nothing", "brute-force"]);
     refuses_in_a_line(&["study", "accuracy", "cube", "--test", "woop"], &["woop", "exact", "watertight"]);
     refuses_in_a_line(&["study", "accuracy", "cube", "-s", "obvhs-bvh2", "-t", "watertight"], &["sahara list"]);
-    refuses_in_a_line(&["study", "accuracy", "cube", "--plot", "front.pdf"], &["front.pdf", ".svg or .png"]);
+    refuses_in_a_line(&["study", "accuracy", "cube", "--plot", "front.pdf"], &["front.pdf", ".svg"]);
     refuses_in_a_line(&["study", "accuracy", "cube", "--plot", "no/such/front.svg"], &["no/such/front.svg"]);
     refuses(&["study", "accuracy", "cube", "--workload", "edges"], &["edges", "uniform, edge"]);
 }

@@ -1,16 +1,11 @@
-//! All kinds of charts behind one name, as SVG and as PNG.
+//! All kinds of charts behind one name, as SVG.
 
-use std::path::Path;
-
-use image::RgbImage;
 use plotters::drawing::IntoDrawingArea;
-use plotters::prelude::{BitMapBackend, DrawingBackend, SVGBackend};
+use plotters::prelude::SVGBackend;
 
 use super::canvas::{Area, DrawResult, register};
 use super::palette::PAPER;
 use super::{Bars, Curves, Scatter, Tradeoff};
-use crate::escaped::Escaped as _;
-use crate::render::png;
 
 /// Width of drawings that stand alone, in their units.
 pub const WIDTH: f64 = 900.0;
@@ -22,25 +17,6 @@ pub enum Chart {
     /// Always as wide as it is, 800: labels stand all over.
     Scatter(Scatter),
     Tradeoff(Tradeoff),
-}
-
-/// A form in which a chart can be had.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    Svg,
-    Png,
-}
-
-impl Format {
-    /// The form that the ending of a file name asks for. Standard output, `-`, gets SVG.
-    pub fn of(path: &Path) -> anyhow::Result<Self> {
-        let is = |ending: &str| path.extension().is_some_and(|own| own.eq_ignore_ascii_case(ending));
-        match () {
-            () if is("svg") || path == Path::new(crate::output::STDOUT) => Ok(Self::Svg),
-            () if is("png") => Ok(Self::Png),
-            () => anyhow::bail!("cannot plot to {}: name a file that ends in .svg or .png", path.escaped()),
-        }
-    }
 }
 
 /// Memory takes every stroke, and the font is there: nothing can fail.
@@ -60,7 +36,7 @@ impl Chart {
         (width as u32, height as u32)
     }
 
-    fn draw<B: DrawingBackend>(&self, area: &Area<B>) -> DrawResult<B> {
+    fn draw(&self, area: &Area) -> DrawResult {
         register();
         area.fill(&PAPER.light)?;
         match self {
@@ -77,13 +53,5 @@ impl Chart {
         let mut text = String::new();
         self.draw(&SVGBackend::with_string(&mut text, self.size(width)).into_drawing_area()).expect(DRAWN);
         text
-    }
-
-    /// The bytes of a PNG file of two pixels a unit.
-    pub fn png(&self, width: f64) -> Vec<u8> {
-        let (width, height) = self.size(width);
-        let mut bytes = vec![255; width as usize * height as usize * 3];
-        self.draw(&BitMapBackend::with_buffer(&mut bytes, (width, height)).into_drawing_area()).expect(DRAWN);
-        png(&RgbImage::from_raw(width, height, bytes).expect("all pixels are there"))
     }
 }

@@ -1,10 +1,9 @@
 //! Lines through points over two logarithmic axes, where a power is a straight line.
 
-use plotters::prelude::DrawingBackend;
 use plotters::series::LineSeries;
 use plotters::style::Color;
 
-use super::axes::{GAP, legend, legend_height, log_log, padded};
+use super::axes::{legend, legend_height, log_log, padded};
 use super::canvas::{Area, DrawResult};
 use super::palette::colours;
 
@@ -36,13 +35,13 @@ impl Curves {
         (4 * width / 5).min(860) + legend_height(&self.names())
     }
 
-    pub fn draw<B: DrawingBackend>(&self, area: &Area<B>) -> DrawResult<B> {
+    pub fn draw(&self, area: &Area) -> DrawResult {
         let labels: Vec<String> = self.lines.iter().map(|line| line.label.clone()).collect();
         let colours = colours(&labels);
         let area = legend(area, &self.names(), &colours)?;
         let points = || self.lines.iter().flat_map(|line| &line.points);
         let ends = [padded(points().map(|(x, _)| *x), [0.02; 2]), padded(points().map(|(_, y)| *y), [0.08; 2])];
-        let mut axes = log_log(&area, GAP, [&self.x_title, &self.y_title], ends)?;
+        let mut axes = log_log(&area, [&self.x_title, &self.y_title], ends)?;
         for (line, &colour) in self.lines.iter().zip(&colours) {
             let style = colour.filled().stroke_width(4);
             axes.draw_series(LineSeries::new(line.points.iter().copied(), style).point_size(6))?;

@@ -1,4 +1,4 @@
-//! Charts as SVG and as PNG, the same picture: bars, curves and scatter plots, of the width that is asked
+//! Charts as SVG: bars, curves and scatter plots, of the width that is asked
 //! for, so that text keeps its size on a narrow screen.
 
 mod axes;
@@ -13,7 +13,7 @@ mod tradeoff;
 
 pub use axes::tick_text;
 pub use bars::{Bar, BarGroup, Bars};
-pub use chart::{Chart, Format, WIDTH};
+pub use chart::{Chart, WIDTH};
 pub use curves::{Curves, Line};
 pub use scatter::{LABELLED, Point, Scatter};
 pub use tradeoff::{Tradeoff, TradeoffCase, TradeoffPoint};

@@ -3,20 +3,17 @@
 use std::collections::BTreeMap;
 
 use plotters::element::{Circle, Polygon, Rectangle};
-use plotters::prelude::DrawingBackend;
 use plotters::style::Color;
 use plotters::style::text_anchor::HPos;
 
-use super::axes::{GAP, legend, legend_height, log_log, padded};
+use super::axes::{legend, legend_height, log_log, padded};
 use super::canvas::{Area, DrawResult, Place, TEXT, line, text, width_of};
 use super::labels::{Corners, place};
-use super::palette::{Colour, INK, MIDDLE, PAPER, colours};
+use super::palette::{Colour, MIDDLE, PAPER, colours};
 use crate::report::words::distinct;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scatter {
-    /// May be empty.
-    pub title: String,
     pub x_title: String,
     pub y_title: String,
     pub points: Vec<Point>,
@@ -44,8 +41,6 @@ const RADIUS: i32 = 10;
 
 const ARROW: i32 = 44;
 
-const TITLE: i32 = 60;
-
 /// A point where it is drawn.
 struct Dot<'a> {
     point: &'a Point,
@@ -70,16 +65,14 @@ impl Scatter {
         width.min(880) + legend_height(&self.names())
     }
 
-    pub fn draw<B: DrawingBackend>(&self, whole: &Area<B>) -> DrawResult<B> {
+    pub fn draw(&self, whole: &Area) -> DrawResult {
         let (groups, names) = (self.groups(), self.names());
         let colours = colours(&groups);
         let area = legend(whole, &names, &colours)?;
-        let top = if self.title.is_empty() { GAP } else { TITLE };
-        text(whole, &self.title, (GAP, TITLE / 2), INK.light, HPos::Left)?;
         // Room on the right for a label, below for the arrows of bounds.
         let x_ends = padded(self.points.iter().map(|point| point.x), [0.1, 0.2]);
         let y_ends = padded(self.points.iter().map(|point| point.y), [0.15, 0.1]);
-        let axes = log_log(&area, top, [&self.x_title, &self.y_title], [x_ends, y_ends])?;
+        let axes = log_log(&area, [&self.x_title, &self.y_title], [x_ends, y_ends])?;
         let colours: BTreeMap<&str, Colour> = groups.iter().map(String::as_str).zip(colours).collect();
         let dots = self.points.iter().map(|point| {
             let Point { x, y, group, .. } = point;
@@ -109,7 +102,7 @@ impl Dot<'_> {
         [(x - around, y - around), (x + around, y + below)]
     }
 
-    fn draw<B: DrawingBackend>(&self, area: &Area<B>) -> DrawResult<B> {
+    fn draw(&self, area: &Area) -> DrawResult {
         let Self { point, place: (x, y), colour } = *self;
         if point.is_bound {
             let (tip, wings) = (y + ARROW, y + ARROW - 14);
@@ -132,12 +125,7 @@ fn front(dots: &[Dot], end: i32) -> Vec<Place> {
 }
 
 /// Draws the labels of some points, the first of which choose first.
-fn draw_labels<B: DrawingBackend>(
-    area: &Area<B>,
-    dots: &[&Dot],
-    obstacles: &[Corners],
-    frame: Corners,
-) -> DrawResult<B> {
+fn draw_labels(area: &Area, dots: &[&Dot], obstacles: &[Corners], frame: Corners) -> DrawResult {
     let widths = dots.iter().map(|dot| (dot.place, width_of(&dot.point.label)));
     let boxes = place(&widths.collect::<Vec<_>>(), TEXT, obstacles, frame);
     for (dot, [min, max]) in dots.iter().zip(&boxes) {

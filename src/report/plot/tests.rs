@@ -11,7 +11,6 @@ fn scatter() -> Scatter {
         group: "tree".into(),
     };
     Scatter {
-        title: "uniform rays".into(),
         x_title: "ns per ray".into(),
         y_title: "error".into(),
         points: [(200.0, 0.02, "fast"), (250.0, 3e-5, "exact"), (4000.0, 0.02, "slow")].map(point).into(),
@@ -19,20 +18,12 @@ fn scatter() -> Scatter {
 }
 
 #[test]
-fn both_forms_hold_the_picture() {
-    let chart = Chart::Scatter(scatter());
-    let svg = chart.svg(900.0);
-    for text in ["uniform rays", "ns per ray", "error", "fast", "exact", "slow", "tree", "0.001", "1,000"] {
+fn the_drawing_holds_its_texts_and_the_colours_of_its_groups() {
+    let svg = Chart::Scatter(scatter()).svg(900.0);
+    for text in ["ns per ray", "error", "fast", "exact", "slow", "tree", "0.001", "1,000"] {
         assert!(svg.contains(&format!("\n{text}\n")), "{text} is not in {svg}");
     }
-    let png = chart.png(360.0);
-    let picture = image::load_from_memory(&png).unwrap().into_rgb8();
-    assert_eq!(picture.width(), 1600);
-    // The colour of the only group is there, and text is not pale boxes: dark pixels are many.
-    let colour = palette::colours(&["tree".to_owned()])[0];
-    assert!(picture.pixels().any(|pixel| pixel.0 == [colour.0, colour.1, colour.2]));
-    assert!(picture.pixels().filter(|pixel| pixel.0.iter().all(|&c| c < 90)).count() > 2000);
-    assert_eq!((chart.svg(900.0), chart.png(360.0)), (svg, png));
+    assert!(svg.contains(&palette::hex(palette::colours(&["tree".to_owned()])[0])), "{svg}");
 }
 
 #[test]
