@@ -233,10 +233,4 @@ mod tests {
         let choice = registry.choose("a").unwrap();
         assert!(choice.build(&Arc::new(empty())).is_err() && choice.entry.absence().is_none());
     }
-
-    #[test]
-    fn labels_name_only_what_differs() {
-        let choice = Registry::builtin().choose("brute-force:test=exact").unwrap();
-        assert_eq!(choice.label, "brute-force");
-    }
 }

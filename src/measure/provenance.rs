@@ -177,14 +177,6 @@ mod tests {
     }
 
     #[test]
-    fn more_threads_than_cores_are_told() {
-        let here = Provenance { cores: 2, ..Provenance::capture(2) };
-        assert_eq!(here.too_many_threads(), None);
-        let warning = Provenance { threads: 3, ..here }.too_many_threads().unwrap();
-        assert!(warning.contains("3 threads") && warning.contains("2 cores"), "{warning}");
-    }
-
-    #[test]
     fn the_build_is_known() {
         let provenance = Provenance::capture(1);
         assert!(provenance.rustc.starts_with("rustc "), "{provenance:?}");

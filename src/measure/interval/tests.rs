@@ -183,26 +183,6 @@ fn effects_of_whole_runs_are_covered_with_the_aa_noise_and_not_without() {
 }
 
 #[test]
-fn bonferroni_intervals_hold_together() {
-    let machine = Machine::default();
-    const LOOKS: usize = 20;
-    let all = |looks: usize| {
-        let once = |run: &u64| {
-            let mut random = RandomOrder::new(*run);
-            (0..LOOKS).all(|_| {
-                let mut run = || mean_of(&[machine.ratio([1.0, 1.0], &mut random)], Variance::NONE).plain();
-                let (first, second) = (run(), run());
-                first.among(looks).holds(second.estimate)
-            })
-        };
-        (0..400).filter(once).count() as f64 / 4.0
-    };
-    let (alone, together) = (all(1), all(LOOKS));
-    assert!(alone < 50.0, "{alone} % at 95 % each");
-    assert!((92.0..=98.0).contains(&together), "{together} % of all {LOOKS}");
-}
-
-#[test]
 fn half_widths_are_those_of_students_t() {
     // Five values with a deviation of 0.01 times the root of 2.5, or without any.
     let (spread, none) = ([-0.02, -0.01, 0.0, 0.01, 0.02], [0.0; 5]);
