@@ -7,11 +7,10 @@ mod file;
 mod folder;
 mod standard;
 
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use tempfile::Builder;
+use tempfile::{Builder, NamedTempFile};
 
 use crate::escaped::Escaped as _;
 
@@ -23,27 +22,17 @@ pub(crate) use standard::{note, print, take_failure, tell, tell_error};
 /// Why a file or a folder cannot be written.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
-    #[error("cannot write {}: it is a directory: name a file in it", .0.escaped())]
-    Directory(PathBuf),
-    #[error("{} is a file: name a folder that does not exist yet", .0.escaped())]
-    File(PathBuf),
-    #[error("cannot write {}: it is one of the files to read: name another one", .0.escaped())]
-    Input(PathBuf),
-    #[error("cannot replace {}: {}, one of the files to read, is in it: name another folder",
-        path.escaped(), input.escaped())]
-    InputInside { path: PathBuf, input: PathBuf },
-    #[error("{} contains {other}, which sahara has not written there: name another folder, or empty it",
-        path.escaped())]
-    Foreign { path: PathBuf, other: String },
-    #[error("cannot write two results to {}: name another file for one of them", .0.escaped())]
-    Same(PathBuf),
-    #[error("cannot write two results to standard output: name a file for one of them")]
-    Twice,
+    #[error("cannot write {}: {problem}", path.escaped())]
+    Place { path: PathBuf, problem: String },
     #[error("cannot write {}: {cause}: choose a place that exists, may be written and has room", path.escaped())]
     Write { path: PathBuf, cause: io::Error },
 }
 
 impl OutputError {
+    fn place(path: &Path, problem: impl Into<String>) -> Self {
+        Self::Place { path: path.into(), problem: problem.into() }
+    }
+
     /// A failed write of `path`. Of an error of tempfile, which names a temporary path, the kind is kept.
     fn write(path: &Path, error: io::Error) -> Self {
         let cause = if error.get_ref().is_some() { error.kind().into() } else { error };
@@ -64,14 +53,16 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().unwrap_or(path)
 }
 
+/// A new file beside `path`, a path with a folder; it is removed when it is dropped.
+pub(crate) fn temporary_file(path: &Path) -> io::Result<NamedTempFile> {
+    temporary(0o666).tempfile_in(folder_of(path))
+}
+
 /// Makes temporary files and folders; on Unix with the permissions `mode`, less what the process's umask takes.
 fn temporary(#[cfg_attr(not(unix), expect(unused_variables))] mode: u32) -> Builder<'static, 'static> {
     let mut builder = Builder::new();
-    builder.prefix(".sahara-").suffix(".part");
+    builder.prefix(".sahara-");
     #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(fs::Permissions::from_mode(mode));
-    }
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(mode));
     builder
 }

@@ -52,64 +52,21 @@ pub fn uncaught() -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use std::process::Command;
-
     use rayon::prelude::*;
 
     use super::*;
-
-    /// What a process of its own writes to standard error, in which one of the tests below runs.
-    fn said(test: &str) -> String {
-        let program = std::env::current_exe().unwrap();
-        let name = format!("panics::tests::{test}");
-        let output = Command::new(program)
-            .args(["--ignored", "--exact", &name, "--nocapture"])
-            .env("RUST_BACKTRACE", "1")
-            .output()
-            .unwrap();
-        assert!(output.status.success(), "{test}: {}", String::from_utf8_lossy(&output.stderr));
-        String::from_utf8(output.stderr).unwrap()
-    }
 
     fn panics_in_parallel() {
         (0..64_u32).into_par_iter().for_each(|i| assert!(i != 17, "number 17"));
     }
 
     #[test]
-    #[ignore = "run by the next test in a process of its own"]
-    fn quiet() {
+    fn what_panics_is_caught_on_threads_of_rayon_as_well_and_all_else_is_not() {
         assert_eq!(caught(|| 7).ok(), Some(7));
         assert!(caught(|| panic!("own")).is_err());
         assert!(caught(panics_in_parallel).is_err());
         assert!(caught(|| assert!(caught(|| panic!("inner")).is_err())).is_ok());
         assert!(caught(|| caught(|| panic!("inner")).unwrap()).is_err());
-        assert!(uncaught().is_empty());
-    }
-
-    #[test]
-    #[ignore = "run by the next test in a process of its own"]
-    fn loud() {
-        assert!(caught(|| panic!("quiet")).is_err());
-        let (end, wait) = std::sync::mpsc::channel::<()>();
-        thread::scope(|scope| {
-            let other = scope.spawn(move || caught(|| wait.recv()));
-            assert!(thread::spawn(|| panic!("loud on a thread")).join().is_err());
-            assert!(panic::catch_unwind(|| panic!("loud here")).is_err());
-            assert!(panic::catch_unwind(panics_in_parallel).is_err());
-            assert!(uncaught()[0].contains("number 17"));
-            drop(end);
-            other.join().unwrap().ok();
-        });
-        assert!(panic::catch_unwind(|| panic!("loud at last")).is_err());
-    }
-
-    #[test]
-    fn what_is_caught_is_not_printed_and_all_else_is() {
-        assert_eq!(said("quiet"), "");
-        let loud = said("loud");
-        for message in ["loud on a thread", "loud here", "loud at last"] {
-            assert!(loud.contains(message), "{loud}");
-        }
-        assert!(!loud.contains("quiet") && !loud.contains("number 17"), "{loud}");
+        assert!(thread::spawn(|| panic!("loud on a thread")).join().is_err());
     }
 }

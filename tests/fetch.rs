@@ -4,12 +4,11 @@
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
 use std::net::TcpListener;
-use std::path::Path;
 use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use sahara::fetch::{Client, DataFile, FetchError, FetchOutcome};
+use sahara::fetch::{Client, DataFile, FetchOutcome};
 use sha2::{Digest, Sha256};
 use tempfile::TempDir;
 
@@ -20,13 +19,10 @@ fn mesh() -> Vec<u8> {
     (0..100_000_u32).flat_map(|i| format!("v {i} {} 0\n", i * 7 % 13).into_bytes()).collect()
 }
 
-/// Path of a request, and from where on it wants the file.
-type Request = (String, Option<usize>);
-
 /// A server that answers each request by its path, and the folder for what is fetched from it.
 struct Server {
     address: String,
-    requests: Arc<Mutex<Vec<Request>>>,
+    requests: Arc<Mutex<Vec<String>>>,
     folder: TempDir,
 }
 
@@ -34,7 +30,7 @@ impl Server {
     fn start() -> Self {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
         let address = format!("http://{}", listener.local_addr().unwrap());
-        let (requests, own): (Arc<Mutex<Vec<Request>>>, _) = (Arc::default(), address.clone());
+        let (requests, own): (Arc<Mutex<Vec<String>>>, _) = (Arc::default(), address.clone());
         let log = Arc::clone(&requests);
         thread::spawn(move || {
             for stream in listener.incoming() {
@@ -42,19 +38,13 @@ impl Server {
                 let mut lines = BufReader::new(stream.try_clone().unwrap()).lines().map_while(Result::ok);
                 let Some(first) = lines.next() else { continue };
                 let path = first.split(' ').nth(1).unwrap_or("/").to_owned();
-                let head: Vec<String> = lines.take_while(|line| !line.is_empty()).collect();
-                let range = head.iter().find_map(|line| {
-                    let (name, value) = line.split_once(':')?;
-                    let from = value.trim().strip_prefix("bytes=")?.strip_suffix('-')?;
-                    name.eq_ignore_ascii_case("range").then(|| from.parse().ok())?
-                });
-                log.lock().unwrap().push((path.clone(), range));
+                lines.take_while(|line| !line.is_empty()).for_each(drop);
+                log.lock().unwrap().push(path.clone());
                 // The client may have gone.
-                let _ = stream.write_all(&answer(&own, &path, range));
-                if let Some((_, pause)) = STALLS.iter().find(|(stalls, _)| *stalls == path) {
-                    while stream.write_all(b"v").is_ok() {
-                        thread::sleep(*pause);
-                    }
+                let _ = stream.write_all(&answer(&own, &path));
+                if STALLS.contains(&&*path) {
+                    let _ = stream.write_all(b"v");
+                    thread::sleep(Duration::from_secs(3600));
                 }
             }
         });
@@ -69,17 +59,13 @@ impl Server {
     }
 
     /// The requests since this was asked last.
-    fn requests(&self) -> Vec<Request> {
+    fn requests(&self) -> Vec<String> {
         std::mem::take(&mut self.requests.lock().unwrap())
     }
 }
 
-/// What these send after their head comes a byte a time, with pauses between: none, if nobody waits for so long.
-const STALLS: [(&str, Duration); 3] = [
-    ("/silent", Duration::from_secs(3600)),
-    ("/trickle", Duration::from_millis(20)),
-    ("/headless", Duration::from_secs(3600)),
-];
+/// What these send after their head is one byte, and then nothing.
+const STALLS: [&str; 2] = ["/silent", "/headless"];
 
 fn hex(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
@@ -92,42 +78,24 @@ fn response(status: &str, head: &str, body: &[u8]) -> Vec<u8> {
 }
 
 /// Every behaviour by its path.
-fn answer(own: &str, path: &str, range: Option<usize>) -> Vec<u8> {
+fn answer(own: &str, path: &str) -> Vec<u8> {
     let whole = mesh();
-    let partial = |from: usize| {
-        let head = format!("Content-Range: bytes {from}-{}/{}\r\n", whole.len() - 1, whole.len());
-        response("206 Partial Content", &head, &whole[from..])
-    };
-    match (path, range) {
-        ("/mesh.obj", Some(from)) if from >= whole.len() => response("416 Range Not Satisfiable", "", b""),
-        ("/mesh.obj", Some(from)) => partial(from),
-        ("/mesh.obj", None) | ("/no-parts", _) => response("200 OK", "", &whole),
-        // Says the whole length, gives half, and at the second asking the rest.
-        ("/cut", None) => response("200 OK", "", &whole)[..whole.len() / 2].to_vec(),
-        ("/cut", Some(from)) => partial(from),
-        ("/wrong", _) => response("200 OK", "", &vec![b'#'; whole.len()]),
-        ("/long", _) => response("200 OK", "", &[&whole[..], b"more"].concat()),
-        ("/other-part", Some(_)) => response("206 Partial Content", "Content-Range: bytes 5-9/10\r\n", b"12345"),
-        ("/other-part", None) => response("200 OK", "", &whole),
-        ("/moved", _) => response("302 Found", &format!("Location: {own}/mesh.obj\r\n"), b""),
-        ("/circle", _) => response("302 Found", &format!("Location: {own}/circle\r\n"), b""),
-        ("/broken", _) => response("503 Service Unavailable", "", b""),
+    match path {
+        "/mesh.obj" => response("200 OK", "", &whole),
+        // Says the whole length and gives half.
+        "/cut" => response("200 OK", "", &whole)[..whole.len() / 2].to_vec(),
+        "/wrong" => response("200 OK", "", &vec![b'#'; whole.len()]),
+        "/long" => response("200 OK", "", &[&whole[..], b"more"].concat()),
+        "/moved" => response("302 Found", &format!("Location: {own}/mesh.obj\r\n"), b""),
+        "/circle" => response("302 Found", &format!("Location: {own}/circle\r\n"), b""),
+        "/broken" => response("503 Service Unavailable", "", b""),
         // More than any number counts.
-        ("/endless", range) => {
-            let status = range.map_or("200 OK".into(), |from| format!("206 P\r\nContent-Range: bytes {from}-{from}/*"));
-            format!("HTTP/1.1 {status}\r\nContent-Length: {}\r\n\r\nv 0", u64::MAX).into_bytes()
-        }
-        ("/silent" | "/trickle", _) => {
-            format!("HTTP/1.1 200 OK\r\nContent-Length: {}\r\n\r\n", whole.len()).into_bytes()
-        }
-        ("/headless", _) => b"HTTP/1.1 200 OK\r\nServer: ".to_vec(),
-        ("/nonsense", _) => b"220 this is no web server\r\n\r\n".to_vec(),
+        "/endless" => format!("HTTP/1.1 200 OK\r\nContent-Length: {}\r\n\r\nv 0", u64::MAX).into_bytes(),
+        "/silent" => format!("HTTP/1.1 200 OK\r\nContent-Length: {}\r\n\r\n", whole.len()).into_bytes(),
+        "/headless" => b"HTTP/1.1 200 OK\r\nServer: ".to_vec(),
+        "/nonsense" => b"220 this is no web server\r\n\r\n".to_vec(),
         _ => response("404 Not Found", "", b"<html>not here</html>"),
     }
-}
-
-fn fetch(file: &DataFile) -> Result<FetchOutcome, FetchError> {
-    Client::default().fetch(file, &mut |_| ())
 }
 
 /// Nothing but what is named is in the folder of a file.
@@ -139,20 +107,6 @@ fn holds(file: &DataFile, names: &[&str]) {
     assert_eq!(found, names, "{}", file.url);
 }
 
-fn put(path: &Path, bytes: &[u8]) {
-    fs::create_dir_all(path.parent().unwrap()).unwrap();
-    fs::write(path, bytes).unwrap();
-}
-
-#[track_caller]
-fn assert_downloaded(file: &DataFile, resumed: u64) {
-    let (bytes, mut last) = (mesh().len() as u64, 0);
-    let fetched = Client::default().fetch(file, &mut |got| last = got).unwrap();
-    assert_eq!((fetched, last), (FetchOutcome::Downloaded { bytes, resumed }, bytes), "{}", file.url);
-    assert_eq!(fs::read(&file.path).unwrap(), mesh(), "{}", file.url);
-    holds(file, &["mesh.obj"]);
-}
-
 /// The one line that says why a file is not fetched holds all of `parts`.
 #[track_caller]
 fn refused(file: &DataFile, patience: Option<Duration>, parts: &[&str]) {
@@ -162,68 +116,41 @@ fn refused(file: &DataFile, patience: Option<Duration>, parts: &[&str]) {
 }
 
 #[test]
-fn a_file_is_fetched_once_and_whole_and_parts_are_resumed_or_begun_anew() {
+fn a_file_is_fetched_once_and_whole() {
     let server = Server::start();
     let file = server.file("/moved");
-    assert_downloaded(&file, 0);
-    assert_eq!(fetch(&file).unwrap(), FetchOutcome::AlreadyThere);
+    let (bytes, mut last) = (mesh().len() as u64, 0);
+    let fetched = Client::default().fetch(&file, &mut |got| last = got).unwrap();
+    assert_eq!((fetched, last), (FetchOutcome::Downloaded { bytes }, bytes));
+    assert_eq!(fs::read(&file.path).unwrap(), mesh());
+    holds(&file, &["mesh.obj"]);
+    assert_eq!(Client::default().fetch(&file, &mut |_| ()).unwrap(), FetchOutcome::AlreadyThere);
     assert_eq!(server.requests().len(), 2, "a redirect and the file, and then nothing");
-
-    let file = server.file("/cut");
-    assert!(matches!(fetch(&file).unwrap_err(), FetchError::Cut { .. }));
-    holds(&file, &[".mesh.obj.part"]);
-    let there = fs::metadata(file.part()).unwrap().len();
-    assert!(there > 0 && there < mesh().len() as u64, "{there}");
-    assert_downloaded(&file, there);
-    assert_eq!(server.requests()[1], ("/cut".into(), Some(there as usize)));
-
-    for (path, part) in
-        [("/no-parts", &mesh()[..50]), ("/other-part", &mesh()[..50]), ("/mesh.obj", &vec![0; mesh().len() + 9][..])]
-    {
-        let file = server.file(path);
-        put(&file.part(), part);
-        assert_downloaded(&file, 0);
-    }
-    server.requests();
-    // Finished but not moved: nothing is requested.
-    let file = server.file("/mesh.obj");
-    fs::rename(&file.path, file.part()).unwrap();
-    fetch(&file).unwrap();
-    assert!(server.requests().is_empty());
-    // A part with other contents cannot be resumed: that shows at the end, and the next fetch begins anew.
-    fs::remove_file(&file.path).unwrap();
-    put(&file.part(), b"other");
-    assert!(matches!(fetch(&file).unwrap_err(), FetchError::Hash { .. }));
-    assert_downloaded(&file, 0);
 }
 
 #[test]
 fn what_is_wrong_is_refused_in_a_sentence_and_not_kept() {
     let server = Server::start();
-    let kept = [".mesh.obj.part"];
-    for (path, bytes, parts, left) in [
-        ("/wrong", Some(mesh().len()), ["SHA-256", "nothing of it is kept"], &[][..]),
-        ("/long", Some(mesh().len()), ["more than the", "nothing of it is kept"], &[]),
-        ("/missing", None, ["404", "no such file"], &[]),
-        ("/broken", None, ["503", "try again later"], &[]),
-        ("/circle", None, ["redirects", "circle"], &[]),
-        ("/nonsense", None, ["/nonsense", "check the connection"], &[]),
-        ("/cut", Some(mesh().len()), ["the connection ended after", "fetch again"], &kept),
-        // A file of unknown size is too large at some time; a length beyond all numbers is a body that is cut short, the
-        // first time and after a part.
-        ("/endless", None, ["8589934592", "/endless"], &[]),
-        ("/endless", Some(mesh().len()), ["the connection ended after", "fetch again"], &kept),
-        ("/endless", Some(mesh().len()), ["the connection ended after", "fetch again"], &kept),
+    for (path, bytes, parts) in [
+        ("/wrong", Some(mesh().len()), ["SHA-256", "nothing of it is kept"]),
+        ("/long", Some(mesh().len()), ["more than", "nothing of it is kept"]),
+        ("/missing", None, ["404", "no such file"]),
+        ("/broken", None, ["503", "try again later"]),
+        ("/circle", None, ["redirects", "circle"]),
+        ("/nonsense", None, ["/nonsense", "check the connection"]),
+        ("/cut", Some(mesh().len()), ["the connection ended after", "fetch again"]),
+        // A file of unknown size is too large at some time.
+        ("/endless", None, ["8589934592", "/endless"]),
     ] {
         let file = DataFile { bytes: bytes.map(|bytes| bytes as u64), ..server.file(path) };
         refused(&file, None, &parts);
-        holds(&file, left);
+        holds(&file, &[]);
         assert!(server.requests().len() < 20, "{path}");
     }
-    for ((path, _), part) in STALLS.iter().zip(["next to nothing", "next to nothing", "timeout"]) {
+    for path in STALLS {
         let (begun, server) = (Instant::now(), Server::start());
         let file = server.file(path);
-        refused(&file, Some(Duration::from_secs(2)), &[part, &file.url]);
+        refused(&file, Some(Duration::from_secs(2)), &["timeout", &file.url]);
         assert!(begun.elapsed() < Duration::from_secs(20), "{:?}", begun.elapsed());
     }
 }
@@ -232,17 +159,17 @@ fn what_is_wrong_is_refused_in_a_sentence_and_not_kept() {
 fn what_is_there_with_other_contents_is_not_touched() {
     let server = Server::start();
     let file = server.file("/mesh.obj");
-    put(&file.path, b"mine");
+    fs::create_dir_all(file.path.parent().unwrap()).unwrap();
+    fs::write(&file.path, b"mine").unwrap();
     refused(&file, None, &["other contents", "mesh.obj"]);
     assert_eq!(fs::read(&file.path).unwrap(), b"mine");
-    assert!(server.requests().is_empty());
-    // A folder in place of the file opens, and does not read; in place of the part it cannot be written.
+    // It is no folder, and a folder in its place opens and does not read.
+    refused(&DataFile { path: file.path.join("x"), ..file.clone() }, None, &["cannot write"]);
     fs::remove_file(&file.path).unwrap();
-    for (place, part) in [(file.path.clone(), "cannot read"), (file.part(), "cannot write")] {
-        fs::create_dir(&place).unwrap();
-        refused(&file, None, &[part]);
-        fs::remove_dir(&place).unwrap();
-    }
+    fs::create_dir(&file.path).unwrap();
+    refused(&file, None, &["cannot read"]);
+    assert!(server.requests().is_empty());
+    fs::remove_dir(&file.path).unwrap();
     let nobody = DataFile { url: "http://127.0.0.1:9/mesh.obj".into(), ..file };
     refused(&nobody, None, &["check the connection"]);
 }

@@ -1,15 +1,10 @@
 //! `completions`, and the manual page.
 
-use clap::builder::PossibleValuesParser;
-use clap::{Arg, Command, ValueHint};
 use clap_complete::Shell;
 use clap_mangen::Man;
 
 use super::Suite;
 use super::terminal::Terminal;
-use crate::registry::Registry;
-use crate::render::ViewKind;
-use crate::scene::{BUILTIN, WorkloadKind};
 use crate::study::Status;
 
 #[derive(Debug, clap::Args)]
@@ -34,47 +29,20 @@ fn text(suite: &Suite, form: &str) -> anyhow::Result<String> {
         command.get_subcommands().try_for_each(|own| Man::new(own.clone()).render(&mut output))?;
         return Ok(String::from_utf8(output)?);
     };
-    clap_complete::generate(shell, &mut told(&suite.registry, command), "sahara", &mut output);
-    // Where a scene is expected, a file is right as well: zsh offers what is listed and nothing else.
-    let scenes = scenes().join(" ");
-    Ok(String::from_utf8(output)?.replace(&format!(":({scenes})"), &format!(":{{ compadd {scenes}; _files }}")))
-}
-
-/// `command` as a shell is told of it: with names in the place of what is free text for the command itself, which takes
-/// files, keys and values as well.
-fn told(registry: &Registry, command: Command) -> Command {
-    command.mut_args(|arg| arg_told(registry, arg)).mut_subcommands(|inner| told(registry, inner))
-}
-
-fn arg_told(registry: &Registry, arg: Arg) -> Arg {
-    let expected = arg.get_value_names().and_then(|names| names.first()).map_or("", |name| name.as_str());
-    let names = match (expected, arg.get_id().as_str()) {
-        ("SCENE|FILE" | "SCENE" | "SCENE|F.toml", _) => scenes(),
-        (_, "structure" | "against" | "reference") => registry.names().into_iter().map(String::from).collect(),
-        (_, "workload") => WorkloadKind::ALL.map(|kind| kind.name().into()).into(),
-        (_, "view") => ViewKind::ALL.map(|view| view.name().into()).into(),
-        ("DIR", _) => return arg.value_hint(ValueHint::DirPath),
-        (file, _) if file.starts_with("FILE") || file.starts_with("F.") => {
-            return arg.value_hint(ValueHint::FilePath);
-        }
-        _ => return arg,
-    };
-    arg.value_parser(PossibleValuesParser::new(names))
-}
-
-fn scenes() -> Vec<String> {
-    BUILTIN.iter().map(|builtin| builtin.name.to_lowercase()).collect()
+    clap_complete::generate(shell, &mut command, "sahara", &mut output);
+    Ok(String::from_utf8(output)?)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::registry::Registry;
 
     #[test]
     fn the_manual_and_the_scripts_name_everything_and_nothing_hidden() {
         let suite = Suite::from(Registry::builtin());
         let manual = &["sahara\\-compare", "sahara\\-report", "\\-\\-fail\\-on\\-regression", "\\-\\-results"][..];
-        let names = &["replicate", "dragon", "sah-hybrid", "image-shadow", "heat", "attribution"];
+        let names = &["replicate", "structure", "attribution"];
         for (form, parts) in [("man", manual), ("bash", names), ("zsh", names), ("fish", names)] {
             let text = text(&suite, form).unwrap();
             for part in parts {
@@ -84,10 +52,5 @@ mod tests {
                 assert!(!text.contains(hidden), "{form}: {hidden}");
             }
         }
-        // The command itself takes more than names.
-        let args = ["sahara", "compare", "my-mesh.obj", "-s", "sah-kd:leaf=4", "--reference", "median-kd:leaf=8"];
-        let whole = || super::super::shown(&suite.studies);
-        assert!(whole().try_get_matches_from(args).is_ok());
-        assert!(told(&suite.registry, whole()).try_get_matches_from(args).is_err());
     }
 }

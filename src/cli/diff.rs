@@ -47,6 +47,7 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
         path.as_deref().map(|path| Ok(OutputFile::check(path)?.apart_from(inputs)?)).transpose()
     };
     let (json, markdown_file) = (check(&args.export_json)?, check(&args.export_markdown)?);
+    OutputFile::are_apart(json.iter().chain(&markdown_file))?;
     let (old, new) = (read(&args.old)?, read(&args.new)?);
     let [a, b] = [&old, &new].map(|run| Side::new(run, args.reference.as_deref()));
     unlike(&a, &b, args.fail_on_regression.is_some())?;

@@ -18,7 +18,7 @@ pub(crate) const STATUSES: &str = "Exit status:
   3  a regression (diff --fail-on-regression)
   4  the samples do not tell whether there is a regression
   5  right, but for a structure that could not be built, panicked or could not take part
-130  interrupted by Ctrl-C: what was measured is shown and kept, and the same command goes on
+130  interrupted by Ctrl-C: what was measured is shown, and the same command goes on where a journal keeps it
 Wrong answers of a baseline from another project with known defects are shown, cost it its time, and do not \
 change the status: 2 is for everything else. Tables name the defects.
 
@@ -80,20 +80,11 @@ pub(super) fn told(message: clap::Error) -> ExitCode {
     ended(message.use_stderr().into())
 }
 
-/// Without tips that do not help: no command takes an option behind `--`; and where --quick is no option, the command
-/// that has it is named instead of one that is written alike.
+/// Without tips that do not help: no command takes an option behind `--`.
 fn advised(mut message: clap::Error) -> clap::Error {
     if let Some(ContextValue::StyledStrs(mut tips)) = message.remove(ContextKind::Suggested) {
         tips.retain(|tip| !tip.to_string().contains("as a value, use"));
         message.insert(ContextKind::Suggested, ContextValue::StyledStrs(tips));
-    }
-    let is_unknown = message.kind() == ErrorKind::UnknownArgument;
-    if is_unknown && message.get(ContextKind::InvalidArg) == Some(&ContextValue::String("--quick".into())) {
-        message.remove(ContextKind::SuggestedArg);
-        // It shows the same option.
-        message.remove(ContextKind::Usage);
-        let tip = "`sahara study all --quick` runs the quick form of every study, `sahara study plan NAME --quick` prints that of one";
-        message.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
     }
     message
 }

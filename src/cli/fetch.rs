@@ -93,13 +93,7 @@ fn fetch(real: &RealMesh, folder: &Path, terminal: &Terminal) -> anyhow::Result<
     bar.finish_and_clear();
     let what = match fetched? {
         FetchOutcome::AlreadyThere => "is there".to_owned(),
-        FetchOutcome::Downloaded { bytes: n, resumed: 0 } => {
-            format!("fetched, {}, SHA-256 verified", bytes(n as usize))
-        }
-        FetchOutcome::Downloaded { bytes: n, resumed } => {
-            let (whole, before) = (bytes(n as usize), bytes(resumed as usize));
-            format!("fetched, {whole}, {before} of them before, SHA-256 verified")
-        }
+        FetchOutcome::Downloaded { bytes: n } => format!("fetched, {}, SHA-256 verified", bytes(n as usize)),
     };
     terminal.print(&format!("{}: {what}\n", file.path.escaped()));
     Ok(())

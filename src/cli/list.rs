@@ -1,38 +1,34 @@
 //! `list`.
 
-use glam::Vec3;
-
 use super::Suite;
 use super::terminal::Terminal;
 use super::validate::described;
-use crate::accel::{Observed, Query};
+use crate::accel::Observed;
 use crate::names::suggestion;
 use crate::registry::{Entry, Registry};
 use crate::render::ViewKind;
-use crate::report::number::{count, figures};
+use crate::report::number::count;
 use crate::report::words::each_once;
 use crate::report::{Cell, Table, Tone};
-use crate::scene::meshes::{GENERATORS, Generator};
+use crate::scene::meshes::GENERATORS;
 use crate::scene::{BUILTIN, WorkloadKind, real_mesh_folder};
 use crate::study::Status;
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// What to tell more of: a structure, `scenes`, `meshes`, `structures`, `workloads`, `studies` or `hard` [default: all names]
+    /// What to tell more of: a structure, `scenes`, `structures`, `studies` or `hard` [default: all names]
     #[arg(value_name = "STRUCTURE|KIND")]
     what: Option<String>,
 }
 
-const KINDS: [&str; 6] = ["scenes", "meshes", "structures", "workloads", "studies", "hard"];
+const KINDS: [&str; 4] = ["scenes", "structures", "studies", "hard"];
 
 pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     let registry = &suite.registry;
     let table = match args.what.as_deref().map(str::to_lowercase).as_deref() {
         None => names(suite),
         Some("scenes") => scenes()?,
-        Some("meshes") => meshes(),
         Some("structures") => structures(registry),
-        Some("workloads") => workloads(),
         Some("studies") => studies(suite),
         Some("hard") => {
             terminal.print_lines(&described());
@@ -83,20 +79,6 @@ fn scenes() -> anyhow::Result<Table> {
         rows.push([builtin.name, &difficulty, &triangles, &lights, mirrors, meshes].map(Cell::from).into());
     }
     Ok(Table::new("Scenes", ["name", "difficulty", "triangles", "lights", "mirrors", "meshes"], rows))
-}
-
-fn meshes() -> Table {
-    let row = |generator: &Generator| -> Vec<Cell> {
-        let model = (generator.make)();
-        let (low, high) = model
-            .positions
-            .iter()
-            .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), &point| (low.min(point), high.max(point)));
-        let size = (high - low).to_array().map(|side| figures(side.into())).join(" x ");
-        vec![generator.name.into(), count(model.triangles.len() as u64).into(), size.into()]
-    };
-    let title = "Meshes that a scene file can name: mesh = \"teapot\"";
-    Table::new(title, ["name", "triangles", "size"], GENERATORS.iter().map(row))
 }
 
 /// One row for each structure: the triangle tests it is offered over, the default first, and what it declines by design.
@@ -165,12 +147,6 @@ fn keys(registry: &Registry, name: &str) -> Table {
     notes.extend(remarks(first));
     let title = format!("{}: keys, as in --structure {}:key=value,..", first.name, first.name);
     Table::of_texts(&title, ["key", "default", "values"], shown).noted(notes)
-}
-
-fn workloads() -> Table {
-    let query = |kind: WorkloadKind| if kind.query() == Query::Any { "any hit" } else { "closest hit" };
-    let rows = WorkloadKind::ALL.map(|kind| [kind.name(), query(kind)].map(String::from));
-    Table::of_texts("Workloads", ["name", "query"], rows.into())
 }
 
 fn studies(suite: &Suite) -> Table {

@@ -3,7 +3,6 @@
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
-use clap::error::{ContextKind, ContextValue};
 use clap_lex::OsStrExt as _;
 
 use super::progress::spinner;
@@ -123,7 +122,7 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
         // What one study does not take is refused before scenes are loaded for another one.
         let words = words(study, &args, whole, &options);
         let parsed = command::command(study).no_binary_name(true).try_get_matches_from(&words);
-        commands.push((study, words, parsed.map_err(|error| refused(error, study.name, args.quick || whole))?));
+        commands.push((study, words, parsed?));
     }
     let (mut lines, mut warnings) = (String::new(), vec![]);
     for (study, words, matches) in commands {
@@ -156,20 +155,6 @@ fn words(study: &Study, args: &Args, whole: bool, options: &[OsString]) -> Vec<O
     };
     words.extend(options.iter().cloned());
     words
-}
-
-/// What is wrong with the options of a study, with its name: they may be those of many.
-fn refused(mut error: clap::Error, study: &str, is_preset: bool) -> clap::Error {
-    let own = if is_preset { "; --quick and `all` bring options of their own" } else { "" };
-    let mut tips = match error.remove(ContextKind::Suggested) {
-        Some(ContextValue::StyledStrs(tips)) => tips,
-        _ => vec![],
-    };
-    // It begins with the name of the study, not with a command that one can type.
-    error.remove(ContextKind::Usage);
-    tips.push(format!("these are options of the study {study}{own}").into());
-    error.insert(ContextKind::Suggested, ContextValue::StyledStrs(tips));
-    error
 }
 
 /// A line that a shell reads as the command with a case and a file.

@@ -1,8 +1,6 @@
 //! The progress bar: on stderr, drawn only when a study says what it does, which is never inside a timed region.
 
 use std::io::{self, IsTerminal};
-use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
-use std::thread;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
@@ -11,7 +9,6 @@ use super::interrupt;
 use super::terminal::Terminal;
 use crate::report::Table;
 use crate::study::{Screen, Stage};
-use crate::validate::LIMIT;
 
 const SPINNER: &str = "{elapsed_precise} {wide_msg}";
 const BAR: &str = "{bar:24} {percent:>3}% {elapsed_precise}, {eta} left {wide_msg}";
@@ -47,30 +44,9 @@ const LINE: Duration = Duration::from_secs(5);
 
 const STEPS: u64 = 100;
 
-/// A thread that calls `tell` with what it was told last, if nothing else comes for `limit`; it sleeps otherwise. `None` is nothing
-/// to wait for.
-fn watch(limit: Duration, tell: impl Fn(&str) + Send + 'static) -> Sender<Option<String>> {
-    let (sender, receiver) = channel::<Option<String>>();
-    thread::spawn(move || {
-        let mut stage: Option<String> = None;
-        loop {
-            match receiver.recv_timeout(if stage.is_some() { limit } else { Duration::MAX }) {
-                Ok(next) => stage = next,
-                Err(RecvTimeoutError::Timeout) => stage.take().iter().for_each(|stage| tell(stage)),
-                Err(RecvTimeoutError::Disconnected) => return,
-            }
-        }
-    });
-    sender
-}
-
 pub struct OnTerminal<'a> {
     terminal: &'a Terminal,
     bar: ProgressBar,
-    /// Told what each structure is asked for, and that it has answered.
-    watch: Sender<Option<String>>,
-    /// Whether it was told of something that has not ended.
-    watched: bool,
     /// The case, what it is of all work, and what was done before it.
     case: String,
     work: u64,
@@ -86,16 +62,9 @@ pub struct OnTerminal<'a> {
 impl<'a> OnTerminal<'a> {
     pub fn new(terminal: &'a Terminal) -> Self {
         let bar = spinner("loads scenes", terminal);
-        let own = bar.clone();
-        let watch = watch(LIMIT, move |stage| {
-            let limit = LIMIT.as_secs();
-            let advice =
-                "if it hangs, end this run; `sahara validate` gives it up after --limit seconds and names the ray";
-            own.suspend(|| crate::output::tell(format_args!("{stage} for more than {limit} s: {advice}")));
-        });
         let logged = (!terminal.quiet && !io::stderr().is_terminal()).then(Instant::now);
         let case = String::new();
-        Self { terminal, bar, watch, watched: false, case, work: 0, done: 0, logged, warned: vec![], is_job: false }
+        Self { terminal, bar, case, work: 0, done: 0, logged, warned: vec![], is_job: false }
     }
 
     /// That of a job, which says what it measures in a line that is there in a log as well.
@@ -110,14 +79,6 @@ impl<'a> OnTerminal<'a> {
             let percent = 100 * self.bar.position() / self.bar.length().unwrap_or(0).max(1);
             crate::output::tell(format_args!("{percent} %: {text}"));
             self.logged = Some(Instant::now());
-        }
-    }
-
-    fn watched(&mut self, stage: Option<&str>) {
-        if stage.is_some() || self.watched {
-            self.watched = stage.is_some();
-            // The watch listens as long as this lives.
-            let _ = self.watch.send(stage.map(str::to_owned));
         }
     }
 }
@@ -159,8 +120,6 @@ impl Screen for OnTerminal<'_> {
             Stage::Trace(..) => self.bar.disable_steady_tick(),
             _ => self.bar.enable_steady_tick(TICK),
         }
-        // Between samples the watch is not woken.
-        self.watched(Some(text.as_str()).filter(|_| matches!(stage, Stage::Build(_) | Stage::Check(_))));
         // Structures are built again between samples.
         self.bar.set_position(self.bar.position().max(self.done * STEPS + self.work * step));
         self.log(&text);
@@ -168,7 +127,6 @@ impl Screen for OnTerminal<'_> {
     }
 
     fn done(&mut self) {
-        self.watched(None);
         self.done += self.work;
         self.bar.set_position(self.done * STEPS);
     }
@@ -203,21 +161,5 @@ impl Drop for OnTerminal<'_> {
     fn drop(&mut self) {
         interrupt::listen(false);
         self.bar.finish_and_clear();
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_not_followed_by_anything_is_told_once() {
-        let (told, heard) = channel();
-        let watch = watch(Duration::from_millis(1), move |stage| told.send(stage.to_owned()).unwrap());
-        watch.send(None).unwrap();
-        watch.send(Some("checks a".into())).unwrap();
-        assert_eq!(heard.recv().as_deref(), Ok("checks a"));
-        drop(watch);
-        assert_eq!(heard.recv().ok(), None);
     }
 }

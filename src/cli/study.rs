@@ -6,8 +6,8 @@ use clap::{ArgMatches, Args as _, FromArgMatches};
 
 use super::progress::OnTerminal;
 use super::{NO_PAGE, Session};
-use crate::output::OutputFile;
-use crate::report::plot::Format;
+use crate::escaped::Escaped as _;
+use crate::output::{OutputFile, STDOUT};
 #[cfg(feature = "page")]
 use crate::report::{Figure, Report, plot::WIDTH};
 use crate::report::{csv, markdown};
@@ -19,7 +19,7 @@ pub const RUNS: &str = "runs";
 #[derive(Clone, Debug, Default, clap::Args)]
 pub struct Common {
     /// The folder of journals: the same command again goes on where the last one stopped, and other scenes and settings
-    /// are added [default: runs; there `compare` keeps only what Ctrl-C has interrupted]
+    /// are added [default: runs; `compare` keeps none without it]
     #[arg(long, value_name = "DIR")]
     pub dir: Option<PathBuf>,
     /// Measure these cases again; earlier results stay, and the newest count
@@ -39,7 +39,7 @@ pub struct Common {
     #[arg(long, value_name = "FILE")]
     pub export_markdown: Option<PathBuf>,
     /// Draw the study's first figure; may be repeated
-    #[arg(long, value_name = "F.svg|F.png")]
+    #[arg(long, value_name = "F.svg")]
     pub plot: Vec<PathBuf>,
 }
 
@@ -48,7 +48,7 @@ struct Files {
     json: Option<OutputFile>,
     csv: Option<OutputFile>,
     markdown: Option<OutputFile>,
-    plots: Vec<(OutputFile, Format)>,
+    plots: Vec<OutputFile>,
 }
 
 impl Common {
@@ -56,7 +56,11 @@ impl Common {
     fn check_places(&self) -> anyhow::Result<()> {
         let exports = [&self.export_json, &self.export_csv, &self.export_markdown].into_iter().flatten();
         for path in exports.chain(&self.plot) {
-            OutputFile::check_place(path)?;
+            OutputFile::check(path)?;
+        }
+        let is_svg = |path: &&PathBuf| path.as_os_str() == STDOUT || path.extension().is_some_and(|end| end == "svg");
+        if let Some(path) = self.plot.iter().find(|path| !is_svg(path)) {
+            anyhow::bail!("cannot plot to {}: name a file that ends in .svg", path.escaped());
         }
         Ok(())
     }
@@ -70,13 +74,10 @@ impl Common {
         let check = |path: &Option<PathBuf>| path.as_ref().map(file).transpose();
         let (json, csv, markdown) =
             (check(&self.export_json)?, check(&self.export_csv)?, check(&self.export_markdown)?);
-        let plots = self.plot.iter().map(|path| anyhow::Ok((file(path)?, Format::of(path)?)));
-        let files = Files { json, csv, markdown, plots: plots.collect::<anyhow::Result<_>>()? };
+        let plots = self.plot.iter().map(file).collect::<anyhow::Result<_>>()?;
+        let files = Files { json, csv, markdown, plots };
         let tables = [&files.json, &files.csv, &files.markdown].into_iter().flatten();
-        let all: Vec<&OutputFile> = tables.chain(files.plots.iter().map(|(file, _)| file)).collect();
-        for (i, file) in all.iter().enumerate() {
-            file.unlike(&all[..i])?;
-        }
+        OutputFile::are_apart(tables.chain(&files.plots))?;
         Ok(files)
     }
 }
@@ -133,14 +134,11 @@ pub fn run_as(session: &Session, study: &Study, matches: &ArgMatches, common: &C
 
 /// Draws the first figure of a study.
 #[cfg(feature = "page")]
-fn plot(study: &Study, report: &Report, plots: Vec<(OutputFile, Format)>) -> anyhow::Result<()> {
-    for (file, format) in plots {
+fn plot(study: &Study, report: &Report, plots: Vec<OutputFile>) -> anyhow::Result<()> {
+    for file in plots {
         let chart = report.figures().find_map(Figure::chart);
         let chart = chart.ok_or_else(|| anyhow::anyhow!("study {} has no picture", study.name))?;
-        file.write(&match format {
-            Format::Svg => chart.svg(WIDTH).into_bytes(),
-            Format::Png => chart.png(WIDTH),
-        })?;
+        file.write(chart.svg(WIDTH).as_bytes())?;
     }
     Ok(())
 }

@@ -1,25 +1,20 @@
 //! The HTTP client.
 
-use std::fs::{self, OpenOptions};
+use std::fs;
 use std::io::{self, Read, Write};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::{DataFile, FetchError, FetchOutcome};
+use crate::output::temporary_file;
 
 /// Downloads files. Gives up on a server that does not respond or stalls.
-pub struct Client {
-    agent: ureq::Agent,
-    patience: Duration,
-}
+pub struct Client(ureq::Agent);
 
 /// Redirects that are followed: repositories need one or two.
 const REDIRECTS: u32 = 5;
 
 /// The time limit for a connection, a response or the next bytes.
 const PATIENCE: Duration = Duration::from_secs(60);
-
-/// A server that sends fewer bytes within the time limit has stalled.
-const LEAST_PROGRESS: u64 = 16 << 10;
 
 /// The size limit of a file whose scene file gives no size.
 const MOST: u64 = 8 << 30;
@@ -43,127 +38,65 @@ impl Client {
             .timeout_per_read(Some(patience))
             .user_agent(concat!("sahara/", env!("CARGO_PKG_VERSION")))
             .build();
-        Self { agent: config.into(), patience }
+        Self(config.into())
     }
 
-    /// Downloads `file`, resuming an earlier download; verifies it and moves it to its place in one step. `progress` is
-    /// called with the number of bytes so far.
+    /// Downloads `file`, verifies it and moves it to its place in one step. `progress` is called with the number of bytes
+    /// so far.
     ///
     /// # Errors
-    /// If the file exists with other contents, or the server does not send it or sends other contents. A partial
-    /// download is kept, so that it can be resumed.
+    /// If the file exists with other contents, or the server does not send it or sends other contents: nothing of it is
+    /// kept.
     pub fn fetch(&self, file: &DataFile, progress: &mut dyn FnMut(u64)) -> Result<FetchOutcome, FetchError> {
         if file.is_there()? {
             return Ok(FetchOutcome::AlreadyThere);
         }
-        if let Some(folder) = file.path.parent() {
-            fs::create_dir_all(folder).map_err(|cause| FetchError::Write { path: folder.into(), cause })?;
-        }
-        let there = fs::metadata(file.part()).map_or(0, |part| part.len());
-        let mut resumed = if file.bytes.is_none_or(|bytes| there <= bytes) { there } else { 0 };
-        if resumed == 0 || file.bytes != Some(resumed) {
-            resumed = self.download(file, resumed, progress)?;
-        }
-        let bytes = fs::metadata(file.part()).map_or(0, |part| part.len());
-        file.finish()?;
-        Ok(FetchOutcome::Downloaded { bytes, resumed })
+        let refused = |cause: io::Error| FetchError::Write { path: file.path.clone(), cause };
+        file.path.parent().map_or(Ok(()), fs::create_dir_all).map_err(refused)?;
+        let mut part = temporary_file(&file.path).map_err(refused)?;
+        let bytes = self.download(file, part.as_file_mut(), progress)?;
+        file.verify(part.path())?;
+        part.as_file().sync_all().map_err(refused)?;
+        part.persist(&file.path).map_err(|refusal| refused(refusal.error))?;
+        Ok(FetchOutcome::Downloaded { bytes })
     }
 
-    /// Downloads from byte `from` on, or all if the server does not support ranges. Returns the first byte.
-    fn download(&self, file: &DataFile, from: u64, progress: &mut dyn FnMut(u64)) -> Result<u64, FetchError> {
-        let connection = |cause: ureq::Error| FetchError::Connection { url: file.url.clone(), cause: sentence(&cause) };
-        let mut request = self.agent.get(&file.url);
-        if from > 0 {
-            request = request.header("Range", format!("bytes={from}-"));
+    /// Writes what the server sends to `out`. Returns the number of bytes.
+    fn download(&self, file: &DataFile, out: &mut fs::File, progress: &mut dyn FnMut(u64)) -> Result<u64, FetchError> {
+        let url = || file.url.clone();
+        let connection = |cause: String| FetchError::Connection { url: url(), cause };
+        let response = self.0.get(&file.url).call().map_err(|cause| connection(sentence(&cause)))?;
+        let status = response.status().as_u16();
+        if status != 200 {
+            return Err(FetchError::Status { url: url(), status });
         }
-        let response = request.call().map_err(connection)?;
-        let header = |name: &str| response.headers().get(name)?.to_str().ok().map(str::to_owned);
-        let begins =
-            header("content-range").and_then(|range| range.strip_prefix("bytes ")?.split('-').next()?.parse().ok());
-        let start = match response.status().as_u16() {
-            200 => 0,
-            206 if begins == Some(from) => from,
-            // The partial download belongs to another file or is too long: start again.
-            206 | 416 if from > 0 => return self.download(file, 0, progress),
-            status => return Err(FetchError::Status { url: file.url.clone(), status }),
-        };
-        let length: Option<u64> = header("content-length").and_then(|length| length.parse().ok());
-        let expected = length.map(|length| start.saturating_add(length)).or(file.bytes);
-        if file.bytes.is_none() && expected.is_some_and(|expected| expected > MOST) {
-            return Err(too_large(file));
-        }
-
-        let body = response.into_body().into_reader();
-        let got = self.append(file, start, expected, body, progress)?;
-        match expected {
-            Some(expected) if got < expected => {
-                Err(FetchError::Cut { url: file.url.clone(), got, expected: Some(expected) })
-            }
-            _ => Ok(start),
-        }
-    }
-
-    /// Appends the body to the first `start` bytes of the partial download. Returns the number of bytes at the end of
-    /// the body.
-    fn append(
-        &self,
-        file: &DataFile,
-        start: u64,
-        expected: Option<u64>,
-        mut body: impl Read,
-        progress: &mut dyn FnMut(u64),
-    ) -> Result<u64, FetchError> {
-        let part = file.part();
-        let refused = |cause: io::Error| FetchError::Write { path: part.clone(), cause };
-        let open = OpenOptions::new().create(true).append(true).open(&part);
-        let mut out = open.map_err(refused)?;
-        out.set_len(start).map_err(refused)?;
-        let (mut got, mut buffer) = (start, vec![0; 1 << 16]);
-        let stalled = |got: u64| FetchError::Stalled { url: file.url.clone(), got, patience: self.patience };
-        let (mut since, mut got_then) = (Instant::now(), got);
+        let length = response.headers().get("content-length").and_then(|length| length.to_str().ok()?.parse().ok());
+        let most = file.bytes.unwrap_or(MOST);
+        let (mut got, mut buffer) = (0, vec![0; 1 << 16]);
+        let mut body = response.into_body().into_reader();
         loop {
-            let n = match body.read(&mut buffer) {
-                Ok(0) => return Ok(got),
-                Ok(n) => n,
-                Err(cause) if cause.kind() == io::ErrorKind::Interrupted => continue,
-                Err(cause) if is_timeout(&cause) => return Err(stalled(got)),
-                // A broken connection counts as an early end of the body.
-                Err(cause) if got == start => {
-                    return Err(FetchError::Connection { url: file.url.clone(), cause: cause.to_string() });
-                }
-                Err(_) => {
-                    return Err(FetchError::Cut { url: file.url.clone(), got, expected });
-                }
-            };
-            got += n as u64;
-            let most = file.bytes.unwrap_or(MOST);
-            if got > most {
-                drop(out);
-                fs::remove_file(&part).map_err(refused)?;
-                return Err(match file.bytes {
-                    Some(expected) => FetchError::Long { url: file.url.clone(), expected },
-                    None => too_large(file),
-                });
+            if length.unwrap_or(0).max(got) > most {
+                return Err(FetchError::TooLarge { url: url(), most });
             }
-            out.write_all(&buffer[..n]).map_err(refused)?;
-            progress(got);
-            if since.elapsed() >= self.patience {
-                if got - got_then < LEAST_PROGRESS {
-                    return Err(stalled(got));
+            match body.read(&mut buffer) {
+                Ok(0) => break,
+                Ok(n) => {
+                    out.write_all(&buffer[..n])
+                        .map_err(|cause| FetchError::Write { path: file.path.clone(), cause })?;
+                    got += n as u64;
+                    progress(got);
                 }
-                (since, got_then) = (Instant::now(), got);
+                Err(cause) if cause.kind() == io::ErrorKind::Interrupted => {}
+                Err(cause) => return Err(connection(format!("the connection ended after {got} bytes ({cause})"))),
             }
         }
+        match length {
+            Some(length) if got < length => {
+                Err(connection(format!("the connection ended after {got} of {length} bytes")))
+            }
+            _ => Ok(got),
+        }
     }
-}
-
-fn is_timeout(error: &io::Error) -> bool {
-    let inner = error.get_ref().and_then(|error| error.downcast_ref());
-    error.kind() == io::ErrorKind::TimedOut || matches!(inner, Some(ureq::Error::Timeout(_)))
-}
-
-fn too_large(file: &DataFile) -> FetchError {
-    FetchError::TooLarge { url: file.url.clone(), most: MOST }
 }
 
 fn sentence(error: &ureq::Error) -> String {

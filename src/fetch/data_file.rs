@@ -1,10 +1,7 @@
-use std::fs::{self, File};
-use std::io;
 use std::path::{Path, PathBuf};
 
-use sha2::{Digest, Sha256};
-
 use super::FetchError;
+use crate::measure::program::file_sha256;
 use crate::scene::format::RealMesh;
 
 /// A file of the folder of real meshes: its path and its expected contents.
@@ -41,12 +38,6 @@ impl DataFile {
         }
     }
 
-    /// The partial download: in the same folder, so that it can be moved to its path in one step.
-    pub fn part(&self) -> PathBuf {
-        let name = self.path.file_name().unwrap_or_default().to_string_lossy();
-        self.path.with_file_name(format!(".{name}.part"))
-    }
-
     /// Whether the file exists with the expected contents.
     ///
     /// # Errors
@@ -62,27 +53,19 @@ impl DataFile {
         }
     }
 
-    /// Moves the finished download to its path if its hash is right; otherwise removes it.
+    /// Checks that the download at `part` has the expected contents.
     ///
     /// # Errors
-    /// If the hash does not fit, or the system refuses.
-    pub fn finish(&self) -> Result<(), FetchError> {
-        let part = self.part();
-        let refused = |cause: io::Error| FetchError::Write { path: self.path.clone(), cause };
-        let found = hash(&part)?;
-        if found != self.sha256 {
-            fs::remove_file(&part).map_err(refused)?;
-            return Err(FetchError::Hash { url: self.url.clone(), found, expected: self.sha256.clone() });
+    /// If the hash does not fit.
+    pub fn verify(&self, part: &Path) -> Result<(), FetchError> {
+        let found = hash(part)?;
+        if found == self.sha256 {
+            return Ok(());
         }
-        File::open(&part).and_then(|file| file.sync_all()).map_err(refused)?;
-        fs::rename(&part, &self.path).map_err(refused)
+        Err(FetchError::Hash { url: self.url.clone(), found, expected: self.sha256.clone() })
     }
 }
 
 fn hash(path: &Path) -> Result<String, FetchError> {
-    let mut hasher = Sha256::new();
-    File::open(path)
-        .and_then(|mut file| io::copy(&mut file, &mut hasher))
-        .map_err(|cause| FetchError::Read { path: path.into(), cause })?;
-    Ok(format!("{:x}", hasher.finalize()))
+    file_sha256(path).map_err(|cause| FetchError::Read { path: path.into(), cause })
 }

@@ -1,4 +1,4 @@
-//! Downloads of real meshes: resumable, verified, whole or not at all.
+//! Downloads of real meshes: verified, whole or not at all.
 //!
 //! The feature `fetch` is on by default. It brings an HTTP client with its own TLS and certificates, and uses none of
 //! the system's. Without the feature everything else works, and `sahara fetch` lists what to download by hand.
@@ -8,7 +8,6 @@ mod client;
 mod data_file;
 
 use std::path::PathBuf;
-use std::time::Duration;
 
 use crate::escaped::Escaped as _;
 
@@ -21,11 +20,12 @@ pub use data_file::DataFile;
 pub enum FetchOutcome {
     /// The file exists already, with the expected contents.
     AlreadyThere,
-    /// The file was downloaded, except its first `resumed` bytes, which come from an earlier download.
-    Downloaded { bytes: u64, resumed: u64 },
+    Downloaded {
+        bytes: u64,
+    },
 }
 
-/// Why a file was not fetched. A partial download is kept, so that it can be resumed.
+/// Why a file was not fetched.
 #[derive(Debug, thiserror::Error)]
 pub enum FetchError {
     #[error("{file} cannot be fetched: its scene file gives no sha256 to verify it by{}", unpack.as_ref().map_or(String::new(), |how| format!("; download {url} yourself, then {how}, into {}", folder.escaped())))]
@@ -40,18 +40,11 @@ pub enum FetchError {
     Status { url: String, status: u16 },
     #[error("{url}: {cause}: check the connection and fetch again")]
     Connection { url: String, cause: String },
-    #[error("{url}: the connection ended after {got}{} bytes: fetch again to go on from there", expected.map_or(String::new(), |all| format!(" of {all}")))]
-    Cut { url: String, got: u64, expected: Option<u64> },
-    #[error("{url}: the server sent nothing, or next to nothing, for {} s: fetch again \
-         to go on after {got} bytes", patience.as_secs_f32())]
-    Stalled { url: String, got: u64, patience: Duration },
     #[error(
-        "{url}: the file has more than {most} bytes, the most that is fetched without a size in the scene file: \
+        "{url}: the file has more than {most} bytes, the size in the scene file or the most that is fetched without one: \
          nothing of it is kept"
     )]
     TooLarge { url: String, most: u64 },
-    #[error("{url}: more than the {expected} bytes that the scene file says came: nothing of it is kept")]
-    Long { url: String, expected: u64 },
     #[error(
         "{url}: what came has the SHA-256 {found}, not {expected}: nothing of it is kept; the file there has changed, or was changed on the way"
     )]

@@ -68,20 +68,6 @@ impl AaNoise {
         self.noise.times(libm::sqrt(squares / 2.0))
     }
 
-    /// What it adds to a `figure` made of the logarithms of times of one build each, `logs`: to first order.
-    pub fn of_figure(&self, logs: &[f64], figure: impl Fn(&[f64]) -> Option<f64>) -> Variance {
-        const STEP: f64 = 1e-4;
-        let slope = |i: usize| {
-            let at = |by: f64| {
-                let mut moved = logs.to_vec();
-                moved[i] += by;
-                figure(&moved)
-            };
-            Some((at(STEP)? - at(-STEP)?) / (2.0 * STEP))
-        };
-        self.weighted(&(0..logs.len()).map(|i| slope(i).unwrap_or(0.0)).collect::<Vec<_>>())
-    }
-
     /// How many of the ratios' intervals hold 1, and how many have one; nothing where none has.
     pub fn holding_one(&self) -> Option<(usize, usize)> {
         let known = self.ratios.iter().filter(|ratio| ratio.interval.is_some());
@@ -136,8 +122,5 @@ mod tests {
         assert!((noise.of_ratio().square - 4e-4).abs() < 1e-12);
         assert!((noise.of_mean(4).square - 1e-4).abs() < 1e-12);
         assert!((noise.weighted(&[2.0]).square - 8e-4).abs() < 1e-12);
-        // A figure that is not linear, by its slopes: 2 x and -1 at x = 3.
-        let found = noise.of_figure(&[3.0, 5.0], |x| Some(x[0] * x[0] - x[1])).square;
-        assert!((found / (4e-4 * 37.0 / 2.0) - 1.0).abs() < 1e-6, "{found}");
     }
 }

@@ -31,26 +31,6 @@ pub fn beta_quantile(probability: f64, a: f64, b: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// The binomial tail, summed: the chance of at least `k` events in `n` trials of chance `p`.
-    fn at_least(k: u32, n: u32, p: f64) -> f64 {
-        let term = |i: u32| {
-            let choose: f64 = (0..i).map(|j| f64::from(n - j) / f64::from(j + 1)).product();
-            choose * libm::pow(p, f64::from(i)) * libm::pow(1.0 - p, f64::from(n - i))
-        };
-        (k..=n).map(term).sum()
-    }
-
-    #[test]
-    fn the_sum_of_the_binomial_tail_has_the_probability() {
-        for (k, n) in [(1, 1), (1, 10), (3, 10), (10, 10), (7, 40)] {
-            for probability in [0.001, 0.05, 0.5, 0.95] {
-                let x = beta_quantile(probability, f64::from(k), f64::from(n - k + 1));
-                let sum = at_least(k, n, x);
-                assert!((sum / probability - 1.0).abs() < 1e-11, "{k} of {n}, {probability}: {x} {sum}");
-            }
-        }
-    }
-
     #[test]
     fn it_is_known_where_it_has_a_closed_form() {
         let close = |found: f64, expected: f64, error: f64| {

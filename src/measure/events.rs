@@ -70,24 +70,4 @@ mod tests {
             assert!(few.is_none() || many > few.map(|few| 10 * few), "{few:?} {many:?}");
         }
     }
-
-    #[test]
-    fn unpredictable_branches_are_missed_where_misses_are_counted() {
-        let Some(mut counter) = EventCounter::branch_misses() else { return };
-        let mut of = |random: bool| {
-            let mut state = 1u64;
-            counter.count(|| {
-                for _ in 0..100_000 {
-                    state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-                    if !random || state >> 63 == 0 {
-                        black_box(());
-                    } else {
-                        black_box(1);
-                    }
-                }
-            })
-        };
-        let (steady, random) = (of(false), of(true));
-        assert!(steady.is_none() || random > Some(10 * steady.unwrap_or(0)), "{steady:?} {random:?}");
-    }
 }

@@ -27,17 +27,14 @@
 //! spread of z. The A/A ratios show a part of them, the [A/A noise](super::AaNoise): its variance is added once for
 //! each run, and the degrees of freedom are those of the sum (Satterthwaite, 1946).
 //!
-//! **Figures that are not means** (shares, slopes, ranks) are [jackknifed](Rerun::jackknife) over the epochs:
-//! pseudo-values take the place of z(e), and for a figure that is linear in the logarithms they are z(e).
-//!
 //! **One epoch** says nothing about placement: it gives an estimate and no interval.
 //!
 //! **Multiple comparisons.** Where m findings are judged together, each has the interval of the level 1 - 0.05 / m
 //! ([`Estimate::among`], Bonferroni): in 95 % of cases all of them hold.
 //!
 //! The tests simulate thousands of pairs of runs with placement effects, heavy tails, drift and A/A noise, and count
-//! how often the second estimate lies within the first interval: in 93 to 97 % of pairs, for one cell, many cells,
-//! shares and slopes. Known limits: if one sample in eight is interrupted for a third of its time, five epochs of one
+//! how often the second estimate lies within the first interval: in 93 to 97 % of pairs, for one cell and many cells.
+//! Known limits: if one sample in eight is interrupted for a third of its time, five epochs of one
 //! round contain only 86 %; and a single A/A ratio is not enough where the effects of whole runs dominate.
 
 use super::estimate::{Estimate, Interval};
@@ -115,21 +112,6 @@ impl Rerun {
         let spreads = Variance::of_mean(old).zip(Variance::of_mean(new));
         let variance = spreads.map(|(old, new)| Variance::sum(&[old, new, noises[0], noises[1]]));
         Some(Self { centre: mean(new) - mean(old), variance })
-    }
-
-    /// A figure of all epochs together, in another run of as many: `figure` makes it of the epochs whose numbers it is
-    /// given. Nothing where it cannot; without a variance where it cannot without one of the epochs.
-    ///
-    /// # References
-    /// Tukey: Bias and confidence in not-quite large samples, 1958. Miller: The jackknife, a review, 1974.
-    pub fn jackknife(epochs: usize, noise: Variance, figure: impl Fn(&[usize]) -> Option<f64>) -> Option<Self> {
-        let all: Vec<usize> = (0..epochs).collect();
-        let centre = figure(&all)?;
-        let n = epochs as f64;
-        let without = |out: usize| figure(&all.iter().copied().filter(|&e| e != out).collect::<Vec<_>>());
-        let pseudo: Option<Vec<f64>> = all.iter().map(|&out| Some(n * centre - (n - 1.0) * without(out)?)).collect();
-        let variance = pseudo.filter(|_| epochs > 1).and_then(|values| Self::of(&values, noise)?.variance);
-        Some(Self { centre, variance })
     }
 
     /// The same spread around a figure that more epochs have found.

@@ -125,13 +125,6 @@ mod tests {
     }
 
     #[test]
-    fn loads_and_rates_are_first_numbers() {
-        assert_eq!(first_number("0.52 0.58 0.59 1/977 12345\n"), Some(0.52));
-        assert_eq!(first_number("2450000\n"), Some(2.45e6));
-        assert_eq!(first_number(""), None);
-    }
-
-    #[test]
     fn limits_of_memory_are_those_of_all_groups_around() {
         let job = "0::/system.slice/slurmstepd.scope/job_7\n";
         let files = ["system.slice/slurmstepd.scope/job_7/", "system.slice/slurmstepd.scope/", "system.slice/", ""];

@@ -42,6 +42,6 @@ pub use ray_allotment::{Allotment, Cost, allot, level_by_clock, pilot_level};
 pub use remote_pass::{Failure, RemotePass};
 pub use samples::{SamplePlan, Samples, SubsetSamples, Timed, take};
 pub use student::{LEVEL, factor};
-pub use summary::{geometric_mean, median};
+pub use summary::median;
 pub use threads::Threads;
 pub use variance::{Variance, mean};

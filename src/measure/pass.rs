@@ -124,14 +124,6 @@ impl<'a> Pass<'a> {
             (first < rest.start).then(|| self.piece(first, rest.start - first, 0))
         })
     }
-
-    /// Rays of the last pass that hit something.
-    pub fn hits(&self) -> usize {
-        match &self.results {
-            QueryResults::Closest(hits) => hits.iter().flatten().count(),
-            QueryResults::Any(hits) => hits.iter().filter(|hit| **hit).count(),
-        }
-    }
 }
 
 impl Timed for Pass<'_> {

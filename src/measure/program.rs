@@ -31,9 +31,17 @@ pub fn digest(bytes: &[u8]) -> String {
 /// # Errors
 /// If it cannot be read.
 pub fn file_id(path: &Path) -> io::Result<String> {
+    file_sha256(path).map(|digits| digits[..16].to_owned())
+}
+
+/// The SHA-256 of a file, in hexadecimal.
+///
+/// # Errors
+/// If it cannot be read.
+pub fn file_sha256(path: &Path) -> io::Result<String> {
     let mut hasher = Sha256::new();
     io::copy(&mut File::open(path)?, &mut hasher)?;
-    Ok(hasher.finalize()[..8].iter().map(|byte| format!("{byte:02x}")).collect())
+    Ok(format!("{:x}", hasher.finalize()))
 }
 
 /// The time of the first call, in UTC: `2026-03-01T12:30:59Z`.

@@ -18,10 +18,8 @@ pub struct Provenance {
     pub commit: String,
     /// The first digits of the SHA-256 of the program that ran; equal digits mean the same program. `unknown` where the
     /// system does not let the program read itself.
-    #[serde(default = "unknown")]
     pub build: String,
     /// When the run began, in UTC: `2026-03-01T12:30:59Z`.
-    #[serde(default = "unknown")]
     pub date: String,
     /// Compiler.
     pub rustc: String,
@@ -34,7 +32,6 @@ pub struct Provenance {
     /// Instruction set of our own lanes.
     pub simd: String,
     /// Name of the computer; `unknown` where the system does not report it.
-    #[serde(default = "unknown")]
     pub host: String,
     /// Name of the processor; `unknown` where the system does not report it.
     pub cpu: String,
@@ -45,27 +42,22 @@ pub struct Provenance {
     /// Operating system.
     pub os: String,
     /// Version of obvhs, whose structures are the references of comparisons between runs.
-    #[serde(default = "unknown")]
     pub obvhs: String,
     /// The clock of samples: `cpu` for processor time of the thread, or `elapsed`.
-    #[serde(default = "elapsed")]
     pub clock: String,
     /// The core of each thread; none where threads were not bound.
     pub pinned: Option<Vec<usize>>,
     /// Whether each timed epoch of a scene was measured in a process of its own.
-    #[serde(default)]
     pub process_per_epoch: bool,
     /// Control word of floating-point arithmetic, where the processor has one.
     pub mxcsr: Option<u32>,
     /// What it does with denormal numbers; `kept` is right.
-    #[serde(default = "unknown")]
     pub denormals: String,
     /// The name of the policy by which the system chooses clock rates.
     pub governor: Option<String>,
     /// Load average of the last minute before the run.
     pub load: Option<f64>,
     /// Warnings about the run, one sentence each.
-    #[serde(default)]
     pub warnings: Vec<String>,
 }
 
@@ -196,14 +188,6 @@ mod tests {
         let text = "processor\t: 0\nmodel name\t: Some  CPU @ 3.00GHz\nmodel name\t: Other\n";
         assert_eq!(model_name(text).as_deref(), Some("Some CPU @ 3.00GHz"));
         assert_eq!(model_name("processor\t: 0\n"), None);
-    }
-
-    #[test]
-    fn more_threads_than_cores_are_told() {
-        let here = Provenance { cores: 2, ..Provenance::capture(2) };
-        assert_eq!(here.too_many_threads(), None);
-        let warning = Provenance { threads: 3, ..here }.too_many_threads().unwrap();
-        assert!(warning.contains("3 threads") && warning.contains("2 cores"), "{warning}");
     }
 
     #[test]

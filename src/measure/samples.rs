@@ -82,11 +82,6 @@ impl Samples {
         let asked = (level > 0).then(|| (level + 2).min(last_level(all)));
         Self { rays: rays_at(all, level), asked, checksum: 0, ns: vec![], parts: vec![], is_steady: true }
     }
-
-    /// Nanoseconds a ray, of each sample.
-    pub fn ns_per_ray(&self) -> Vec<f64> {
-        self.ns.iter().map(|&ns| ns.max(1) as f64 / self.rays as f64).collect()
-    }
 }
 
 /// Takes the samples of one epoch: `plan.runs` of every case, each case once per round, in random order.

@@ -54,23 +54,6 @@ mod tests {
 
     #[test]
     fn the_factors_are_students() {
-        // From printed tables.
-        let printed = [
-            (1.0, 0.05, 12.706),
-            (2.0, 0.05, 4.303),
-            (3.0, 0.05, 3.182),
-            (4.0, 0.05, 2.776),
-            (5.0, 0.05, 2.571),
-            (20.0, 0.05, 2.086),
-            (120.0, 0.05, 1.980),
-            (1.0, 0.001, 636.619),
-            (4.0, 0.01, 4.604),
-            (4.0, 0.001, 8.610),
-            (6.0, 0.001, 5.959),
-            (10.0, 0.002, 4.144),
-            (f64::INFINITY, 0.05, 1.960),
-            (f64::INFINITY, 0.001, 3.291),
-        ];
         // By bisection of the incomplete beta function in 30 digits.
         let computed = [
             (1.0, 0.05, 12.7062047361747),
@@ -90,19 +73,9 @@ mod tests {
             (f64::INFINITY, 0.05, 1.959963984540054),
             (f64::INFINITY, 1e-6, 4.89163847569859),
         ];
-        for (table, error) in [(&printed[..], 5e-4), (&computed[..], 1e-10)] {
-            for &(freedom, level, expected) in table {
-                let found = factor(freedom, level);
-                assert!((found / expected - 1.0).abs() < error, "{freedom} {level}: {found}");
-            }
+        for (freedom, level, expected) in computed {
+            let found = factor(freedom, level);
+            assert!((found / expected - 1.0).abs() < 1e-10, "{freedom} {level}: {found}");
         }
-    }
-
-    #[test]
-    fn a_factor_falls_with_the_degrees_of_freedom_and_the_level() {
-        let freedoms = (0..200).map(|i| libm::pow(1.1, f64::from(i))).chain([1e12, f64::INFINITY]);
-        let factors: Vec<[f64; 3]> = freedoms.map(|n| [0.5, 0.05, 1e-6].map(|level| factor(n, level))).collect();
-        assert!(factors.iter().all(|[half, usual, least]| 0.0 < *half && half < usual && usual < least));
-        assert!(factors.windows(2).all(|pair| (0..3).all(|i| pair[1][i] < pair[0][i])));
     }
 }

@@ -15,16 +15,6 @@ pub fn median(values: &[f64]) -> Option<f64> {
     }
 }
 
-/// The geometric mean of positive `values`; none if there are no values.
-///
-/// # Panics
-/// If a value is not positive.
-pub fn geometric_mean(values: &[f64]) -> Option<f64> {
-    assert!(values.iter().all(|&v| v > 0.0), "a geometric mean is of positive numbers");
-    let logs: f64 = values.iter().map(|&v| libm::log(v)).sum();
-    (!values.is_empty()).then(|| libm::exp(logs / values.len() as f64))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -35,12 +25,5 @@ mod tests {
         assert_eq!(median(&[3.0]), Some(3.0));
         assert_eq!(median(&[9.0, 1.0, 5.0]), Some(5.0));
         assert_eq!(median(&[4.0, 1.0, 100.0, 2.0]), Some(3.0));
-    }
-
-    #[test]
-    fn a_geometric_mean_of_a_number_and_its_inverse_is_one() {
-        assert_eq!(geometric_mean(&[]), None);
-        assert!((geometric_mean(&[8.0, 0.125]).unwrap() - 1.0).abs() < 1e-15);
-        assert!((geometric_mean(&[2.0, 4.0, 8.0]).unwrap() - 4.0).abs() < 1e-14);
     }
 }

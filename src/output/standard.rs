@@ -24,9 +24,8 @@ pub fn stdout_is_taken() -> bool {
     TO_STDOUT.load(Ordering::Relaxed)
 }
 
-/// Takes standard output for one result; tells whether another one has not.
-pub(super) fn take_stdout() -> bool {
-    !TO_STDOUT.swap(true, Ordering::Relaxed)
+pub(super) fn take_stdout() {
+    TO_STDOUT.store(true, Ordering::Relaxed);
 }
 
 /// Writes to standard output; [`take_failure`] tells whether that failed.

@@ -24,7 +24,6 @@ fn of_figure(figure: &Figure) -> Vec<(String, Vec<u8>)> {
     let path = |ending: &str| format!("figures/{}.{ending}", figure.id);
     if let Art::Chart(chart) = &figure.art {
         files.push((path("svg"), chart.svg(WIDTH).into_bytes()));
-        files.push((path("png"), chart.png(WIDTH)));
     }
     let pictures = figure.pictures().iter().enumerate();
     files.extend(pictures.map(|(i, picture)| (figure.picture_path(i), picture.png.clone())));

@@ -1,4 +1,3 @@
-use std::io;
 use std::path::PathBuf;
 
 use crate::escaped::Escaped as _;
@@ -7,10 +6,6 @@ use crate::study::journal::JournalError;
 /// Why runs cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
-    #[error("cannot read {}: {cause}: name files of `--export-json`, or a folder of them", path.escaped())]
-    Read { path: PathBuf, cause: io::Error },
-    #[error("{} is torn or no JSON ({cause}): make it again with its command", path.escaped())]
-    Torn { path: PathBuf, cause: serde_json::Error },
     #[error("{} is JSON but no run of sahara: name files of `--export-json`, or of a study", path.escaped())]
     Foreign { path: PathBuf },
     #[error("{} is of the study {study:?}, which this sahara does not know: leave it out", path.escaped())]

@@ -5,14 +5,13 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use super::planned::without_result;
 use super::run_error::RunError;
+use crate::escaped::Escaped as _;
 use crate::measure::Provenance;
 use crate::report::Report;
-use crate::report::number::plural;
 use crate::report::words::{command_line, each_once, listed};
 use crate::request::SceneRequest;
-use crate::study::journal::{self, CaseFile};
+use crate::study::journal::{self, CaseFile, JournalError};
 use crate::study::{Dataset, Studies, Study};
 
 /// The study that compares all structures.
@@ -21,8 +20,6 @@ pub const COMPARE: &str = "compare";
 /// Everything that a page is made of.
 #[derive(Default)]
 pub struct Runs<'a> {
-    /// The files and journals read, in the order of the command line, by name within a folder.
-    pub sources: Vec<Source>,
     /// What was measured of each study, in the order of the studies; those that were not measured are not there.
     pub studies: Vec<StudyRun<'a>>,
     /// What is missing, or left out, a sentence each.
@@ -38,19 +35,6 @@ pub struct StudyRun<'a> {
     pub report: Report,
 }
 
-/// A file that was read, or the cases of a folder.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Source {
-    /// As named on the command line, or found in a folder that was.
-    pub path: PathBuf,
-    pub kind: String,
-    /// The commands that made it; none where it does not say.
-    pub commands: Vec<String>,
-}
-
-/// [`Source::kind`] of a file in a folder that is not a run and is ignored.
-pub const NO_RUN: &str = "not a run: ignored";
-
 impl<'a> Runs<'a> {
     /// Reads files and folders: of a folder, all `.json` files in it and in its journals. An export counts as the cases
     /// it holds; if a case was measured several times, the last one counts.
@@ -63,19 +47,15 @@ impl<'a> Runs<'a> {
             if files.is_empty() {
                 return Err(RunError::Empty { path: path.clone() });
             }
-            if is_folder {
-                runs.notes.extend(without_result(path));
-            }
             for file in files {
                 match read(&file, studies) {
-                    Ok((source, own, notes)) => {
-                        runs.add_source(source);
+                    Ok((own, notes)) => {
                         runs.notes.extend(notes);
                         cases.extend(own);
                     }
                     // A folder may hold what others have written.
                     Err(RunError::Foreign { .. } | RunError::Unknown { .. }) if is_folder => {
-                        runs.sources.push(Source { path: file, kind: NO_RUN.into(), commands: vec![] });
+                        runs.notes.push(format!("{} is no run and is left out.", file.escaped()));
                     }
                     Err(error) => return Err(error),
                 }
@@ -102,14 +82,6 @@ impl<'a> Runs<'a> {
         if let Some(dataset) = datasets.next() {
             let report = (study.report)(&dataset, &study.defaults());
             self.studies.push(StudyRun { study, dataset, others: datasets.collect(), report });
-        }
-    }
-
-    /// Cases of one folder are one source.
-    fn add_source(&mut self, new: Source) {
-        match self.sources.iter_mut().find(|source| source.path == new.path && source.kind == new.kind) {
-            Some(source) => source.commands = each_once(source.commands.drain(..).chain(new.commands)),
-            None => self.sources.push(new),
         }
     }
 
@@ -153,22 +125,18 @@ pub fn also_measured(dataset: &Dataset) -> String {
     format!("Also measured, and not shown: {scenes} on {cpu}, commit {commit}, {day} ({}).", listed(&commands))
 }
 
-/// What the file `path` is, the cases that it holds, and what is to be said of them.
-fn read(path: &Path, studies: &Studies) -> Result<(Source, Vec<CaseFile>, Vec<String>), RunError> {
-    let text = fs::read_to_string(path).map_err(|cause| RunError::Read { path: path.into(), cause })?;
-    let value: Value = serde_json::from_str(&text).map_err(|cause| RunError::Torn { path: path.into(), cause })?;
+/// The cases that the file `path` holds, and what is to be said of them.
+fn read(path: &Path, studies: &Studies) -> Result<(Vec<CaseFile>, Vec<String>), RunError> {
+    let text = fs::read_to_string(path).map_err(|cause| JournalError::Read { path: path.into(), cause })?;
+    let value: Value = serde_json::from_str(&text).map_err(|cause| JournalError::damaged(path, &cause))?;
     let known = |name: &str| match studies.find(name) {
         Some(study) => Ok(study.name),
         None => Err(RunError::Unknown { path: path.into(), study: name.into() }),
     };
     if CaseFile::is_case(&value) {
         let case = CaseFile::of(path, value)?;
-        let source = Source {
-            path: path.parent().unwrap_or(Path::new(".")).to_path_buf(),
-            kind: format!("{}: journal", known(&case.case.study)?),
-            commands: vec![command_line(&case.case.command)],
-        };
-        return Ok((source, vec![case], vec![]));
+        known(&case.case.study)?;
+        return Ok((vec![case], vec![]));
     }
     if !Dataset::is_dataset(&value) {
         return Err(RunError::Foreign { path: path.into() });
@@ -176,11 +144,6 @@ fn read(path: &Path, studies: &Studies) -> Result<(Source, Vec<CaseFile>, Vec<St
     let Dataset { provenance, measured, notes, .. } = Dataset::read(path, value)?;
     let study = measured.first().map(|own| own.case.study.clone());
     let study = known(&study.ok_or_else(|| RunError::Foreign { path: path.into() })?)?;
-    let source = Source {
-        path: path.into(),
-        kind: format!("{study}: {}", plural(measured.len(), "case")),
-        commands: each_once(measured.iter().map(|own| command_line(&own.case.command))),
-    };
     let cases = measured.into_iter().map(|own| CaseFile {
         path: path.into(),
         provenance: provenance.clone(),
@@ -188,7 +151,7 @@ fn read(path: &Path, studies: &Studies) -> Result<(Source, Vec<CaseFile>, Vec<St
         epoch: own.epoch,
     });
     let notes = notes.iter().map(|note| format!("{study}: {note}")).collect();
-    Ok((source, cases.collect(), notes))
+    Ok((cases.collect(), notes))
 }
 
 /// The files of a folder that may be runs, by name: its own, and those of the journals in it.

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::names::suggestion;
 use crate::registry::{Choice, Registry};
-use crate::report::words::each_once_by;
+use crate::report::words::{bare, each_once_by};
 use crate::runner::Program;
 use crate::scene::Scene;
 
@@ -85,7 +85,7 @@ impl StructureRequest {
 
     /// Name in the registry.
     pub fn name(&self) -> &str {
-        self.spec.split(':').next().unwrap_or(&self.spec)
+        bare(&self.spec)
     }
 }
 
@@ -211,9 +211,7 @@ impl Structures {
 
     /// Whether brute force is named: `all` does not.
     pub fn names_brute_force(&self) -> bool {
-        let is_named =
-            |spec: &String| spec.split(':').next().is_some_and(|name| name.eq_ignore_ascii_case(BRUTE_FORCE));
-        self.structure.iter().any(is_named)
+        self.structure.iter().any(|spec| bare(spec).eq_ignore_ascii_case(BRUTE_FORCE))
     }
 }
 

@@ -1,7 +1,5 @@
 //! The program of a runner.
 
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 use std::time::Duration;
 
@@ -49,14 +47,10 @@ impl Program {
         [&[file], &self.words[1..]].concat().join(" ")
     }
 
-    /// Identifies the build: the first digits of the SHA-256 of its file, and of the script or program among its
-    /// arguments, which an interpreter or a wrapper like `taskset` runs. None if it is found on the search path and has
-    /// no such argument.
+    /// Identifies the build: the first digits of the SHA-256 of its file and of each file among its arguments, such as the
+    /// script that an interpreter runs. None if it is found on the search path and has no such argument.
     pub fn build_id(&self) -> Option<String> {
-        let (program, arguments) = self.words.split_first()?;
-        let script = arguments.iter().find(|word| is_program(Path::new(word)));
-        let ids: Vec<String> =
-            [Some(program), script].into_iter().flatten().filter_map(|file| file_id(Path::new(file)).ok()).collect();
+        let ids: Vec<String> = self.words.iter().filter_map(|word| file_id(Path::new(word)).ok()).collect();
         (!ids.is_empty()).then(|| ids.join(" "))
     }
 
@@ -73,19 +67,6 @@ impl Program {
     }
 }
 
-/// Whether a file is a program or a script, by its extension or its first bytes.
-fn is_program(path: &Path) -> bool {
-    const EXTENSIONS: [&str; 10] = ["jar", "jl", "js", "lua", "mjs", "pl", "py", "rb", "sh", "ts"];
-    // Scripts that name their interpreter, programs of Linux and of Windows.
-    const BEGINNINGS: [&[u8; 2]; 3] = [b"#!", b"\x7fE", b"MZ"];
-    let is_named_so =
-        path.extension().and_then(|ending| ending.to_str()).is_some_and(|ending| EXTENSIONS.contains(&ending));
-    let mut first = [0; 2];
-    let mut begins_so =
-        || File::open(path).and_then(|mut file| file.read_exact(&mut first)).is_ok() && BEGINNINGS.contains(&&first);
-    path.is_file() && (is_named_so || begins_so())
-}
-
 /// Version of the protocol.
 const VERSION: u32 = 1;
 
@@ -94,26 +75,20 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_build_is_the_program_with_its_script_and_no_data() {
+    fn a_build_is_the_program_with_the_files_that_it_is_given() {
         let folder = tempfile::tempdir().unwrap();
-        let write = |name: &str, text: &str| {
-            std::fs::write(folder.path().join(name), text).unwrap();
-            folder.path().join(name).to_str().unwrap().to_owned()
+        let write = |name: &str| {
+            let path = folder.path().join(name);
+            std::fs::write(&path, name).unwrap();
+            path.to_str().unwrap().to_owned()
         };
-        let [python, script, data] =
-            [("python", "elf"), ("run.py", "1"), ("cache.bin", "2")].map(|(name, text)| write(name, text));
+        let [python, script] = ["python", "run.py"].map(write);
         let id = |words: &[&str]| {
             let words = words.iter().map(|word| (*word).to_owned()).collect();
             Program { name: None, command: String::new(), words, limit: Duration::ZERO }.build_id()
         };
         let of = |word: &str| id(&[word]).unwrap();
-        assert_eq!(id(&[&python, "-u", &script, &data]).unwrap(), format!("{} {}", of(&python), of(&script)));
-        assert_eq!(id(&[&python, "--cache", &data]).unwrap(), of(&python));
-        assert_eq!(id(&["python", &script]).unwrap(), of(&script));
-        assert_eq!(id(&["no such program", &data]), None);
-        let bound = write("bvh", "\x7fELF");
-        assert_eq!(id(&["taskset", "-c", "2", &bound, &data]).unwrap(), of(&bound));
-        let named = write("run", "#!/usr/bin/env python\n");
-        assert_eq!(id(&["python", &named]).unwrap(), of(&named));
+        assert_eq!(id(&[&python, "-u", &script]).unwrap(), format!("{} {}", of(&python), of(&script)));
+        assert_eq!((id(&["python", &script]), id(&["no such program"])), (Some(of(&script)), None));
     }
 }

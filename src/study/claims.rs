@@ -1,28 +1,8 @@
-//! What was expected of the report's scenes before anything was measured: claims as data.
-//!
-//! Each number in the words of an expectation is a claim of its own. The study that measures its figure judges it, by the
-//! key of a finding. A claim is confirmed or refuted by its whole interval, or undecided.
+#![doc = include_str!("CLAIMS.md")]
 
 use crate::measure::{Estimate, Interval};
 use crate::report::number::figures;
 use crate::report::{Finding, Outcome, Verdict};
-
-/// The words as they were written, by the number of the prediction from 1 on. The eighth, whether a KD-tree overtakes a
-/// BVH at high depth complexity, was called open and has no claim.
-pub const WORDS: [&str; 7] = [
-    "Ray counts as in the report's own table, within 2.",
-    "Unoptimised t' is constant across scenes within a factor of 2; improvement order Torus ~ Sphere > Teapot > Metallic \
-     > Cornellbox > Starters > Billards > Infinitycandy > Cube.",
-    "Infinitycandy with the report's tree: 0.9 to 1.3 tests per ray per triangle; setting 50 / 0.7 does MORE tests than \
-     brute force.",
-    "Time per ray ~ n^b with the report's rule: b near 1 on one mesh refined (icosphere levels 0..8, same view); a proper \
-     SAH tree: b <= 0.2.",
-    "SAH against the report's tree on Dragon, Lucy, Sponza: expected at least 20x; of which the plane choice alone (same \
-     stop rule, leaf <= 8): 1.2 to 5x.",
-    "Architectural scenes (Sponza) gain more from SAH than evenly tessellated scans (Dragon, Lucy). Published median/SAH \
-     pairs for BVHs: Sibenik 3.49x, Conference 1.11x.",
-    "SAH cost ranks trees of one family well, and trees of different families badly.",
-];
 
 /// One number against what was expected of it. An end that is infinite has no bound.
 pub struct Claim {
@@ -176,7 +156,7 @@ mod tests {
         let mut predictions: Vec<u8> = ALL.iter().map(|claim| claim.prediction).collect();
         assert!(predictions.is_sorted());
         predictions.dedup();
-        assert_eq!(predictions, (1..=WORDS.len() as u8).collect::<Vec<_>>());
+        assert_eq!(predictions, (1..=7).collect::<Vec<u8>>());
         let expected: Vec<String> = ALL.iter().map(Claim::expected).collect();
         assert_eq!(
             [&expected[0], &expected[8], &expected[11], &expected[14]].map(String::as_str),

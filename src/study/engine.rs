@@ -1,7 +1,6 @@
 //! Runs a study: measures the cases that its journal lacks, one by one, and reports.
 
 use std::ffi::OsString;
-use std::fs;
 use std::path::Path;
 
 use clap::ArgMatches;
@@ -13,7 +12,7 @@ use super::journal::{CaseFile, Journal, JournalError, of_all};
 use super::measure::{BuildWatch, Prepared, measure};
 use super::process::Processes;
 use super::{Plan, Screen, Stage, Status, Study, StudyError};
-use crate::measure::{Clock, Provenance, SystemClock, Threads, checksum};
+use crate::measure::{Clock, Provenance, SystemClock, Threads};
 use crate::registry::Registry;
 use crate::report::{Report, Table, terminal};
 use crate::scene::Scene;
@@ -46,12 +45,6 @@ pub struct RunOutcome {
     pub failures: Vec<StudyError>,
 }
 
-/// After a first epoch longer than this, the scene's tables are printed before the other epochs.
-const LONG_NS: u64 = 5_000_000_000;
-
-/// Subfolder of the journal folder for interrupted runs of studies that otherwise keep no journal.
-const UNFINISHED: &str = "unfinished";
-
 /// Measures what `plan` asks for and the journal lacks, and reports.
 ///
 /// # Errors
@@ -61,30 +54,14 @@ pub fn run(study: &Study, matches: &ArgMatches, plan: &Plan, run: &mut Run) -> a
     let threads = Threads::unstarted(threads);
     let provenance = Provenance { process_per_epoch: run.processes.is_some(), ..Provenance::of(&threads) };
     let keep = run.keep_journal.unwrap_or(plan.keep_journal);
-    let unfinished = run.folder.join(UNFINISHED).join(format!("{}-{}", study.name, id(&plan.cases, &provenance)));
-    // An interrupted run with a time limit is not saved for a resume.
-    let may_go_on = !keep && plan.limit.is_none();
-    let is_taken_up = may_go_on && !run.fresh && unfinished.exists();
     let scratch = tempfile::Builder::new().prefix("sahara-").tempdir()?;
-    let folder = match () {
-        () if keep => run.folder.join(study.name),
-        () if is_taken_up => unfinished.clone(),
-        () => scratch.path().to_owned(),
-    };
+    let folder = if keep { run.folder.join(study.name) } else { scratch.path().to_owned() };
     let journal = Journal::open_to_measure(&folder, provenance.clone(), run.fresh, &plan.cases)?;
-    let before = plan.cases.iter().filter(|case| journal.get(case).is_some()).count();
-    if before < plan.cases.len() {
+    if plan.cases.iter().any(|case| journal.get(case).is_none()) {
         threads.are_given().map_err(StudyError::Threads)?;
     }
-    let gone_on = (is_taken_up && before > 0).then(|| {
-        let all = plan.cases.len();
-        let first = plan.cases.iter().find_map(|case| journal.get(case));
-        let when = first.map_or(String::new(), |file| file.provenance.date.replace(['T', 'Z'], " "));
-        format!("{before} of {all} cases are those of a run that was begun at {when}UTC and interrupted; --fresh starts anew.")
-    });
     let left = plan.cases.iter().filter(|case| journal.get(case).is_none());
     run.screen.begin(left.map(Case::work).sum());
-    run.screen.warn(gone_on.as_slice());
     run.screen.warn(&plan.warnings);
     run.screen.warn(provenance.too_many_threads().as_slice());
 
@@ -94,38 +71,17 @@ pub fn run(study: &Study, matches: &ArgMatches, plan: &Plan, run: &mut Run) -> a
     let (left, all) = (engine.left(), plan.cases.len());
     let stopped = stopped && left > 0;
     let mut outcome = engine.outcome(stopped, run.screen)?;
-    outcome.foot.splice(0..0, gone_on);
-    let Engine { journal, .. } = engine;
     if stopped {
-        let is_new = may_go_on && !is_taken_up && left < all;
-        let kept = match is_new.then(|| journal.keep(&unfinished)) {
-            Some(Err(error)) => format!(", but not kept: {error}"),
-            None if left == all || plan.limit.is_some() => String::new(),
-            _ => " and kept; the same command goes on with the others".into(),
+        let kept = match keep {
+            true if left < all => " and kept; the same command goes on with the others",
+            true => "",
+            false => "; --dir DIR keeps what is measured",
         };
         outcome.foot.push(format!("Interrupted: {} of {all} cases are measured{kept}.", all - left));
         outcome.status = Status::Interrupted;
-    } else if may_go_on && outcome.failures.is_empty() {
-        drop(journal);
-        forget(&unfinished);
     }
     run.screen.end();
     Ok(outcome)
-}
-
-/// Tells runs of other cases, builds or machines apart.
-fn id(cases: &[Case], provenance: &Provenance) -> String {
-    let machine = provenance.machine();
-    let digests: Vec<String> = cases.iter().map(|case| case.key() + &case.digest(&machine)).collect();
-    format!("{:016x}", checksum(digests.concat().bytes().map(u64::from)))
-}
-
-/// Removes what was kept of a run that is finished now, so that it is not taken for a new one; and the folders, if
-/// nothing else is in them.
-fn forget(unfinished: &Path) {
-    if fs::remove_dir_all(unfinished).is_ok() {
-        let _ = unfinished.ancestors().skip(1).take(2).try_for_each(fs::remove_dir);
-    }
 }
 
 struct Engine<'a> {
@@ -193,8 +149,7 @@ impl Engine<'_> {
                 self.ended.push(case.clone());
             }
             let stopped = run.screen.is_interrupted();
-            let is_first_look = case.epoch == 0 && next && took > LONG_NS && run.screen.is_watched();
-            if is_whole || stopped || self.has_ended(case) || is_first_look {
+            if is_whole || stopped || self.has_ended(case) {
                 self.print_scene(case, is_whole, run.screen)?;
             }
             if stopped {

@@ -43,11 +43,4 @@ mod tests {
         assert_eq!(values, [[1.0, 2.0, 3.0], [1.0, 2.0, 3.0]]);
         assert_eq!(epoch_medians(vec![vec![vec![1.0], vec![3.0]]]), [[1.0, 3.0]], "one round is itself");
     }
-
-    #[test]
-    fn the_ratio_is_a_power_and_of_one_epoch_it_has_no_interval() {
-        let both = ratio(&[vec![1.0], vec![1.0]], |logs| logs[0], Variance::NONE);
-        assert_eq!((both.estimate, both.low()), (libm::exp(1.0), Some(libm::exp(1.0))));
-        assert_eq!(ratio(&[vec![1.0]], |logs| logs[0], Variance::NONE).interval, None);
-    }
 }

@@ -68,10 +68,6 @@ impl Journal {
         Ok(Self { _lock: Some(lock.ok_or_else(|| JournalError::Busy(folder.into()))?), ..journal })
     }
 
-    pub fn folder(&self) -> &Path {
-        &self.folder
-    }
-
     /// The newest file of the case, as this build would measure it on this machine.
     pub fn get(&self, case: &Case) -> Option<&CaseFile> {
         let machine = self.provenance.machine();
@@ -94,19 +90,6 @@ impl Journal {
     /// If it cannot be read.
     pub fn add(&mut self, path: &Path) -> Result<(), JournalError> {
         self.files.push(CaseFile::read(path)?);
-        Ok(())
-    }
-
-    /// Copies all files into `folder`, so that a later run can resume from them.
-    ///
-    /// # Errors
-    /// If the folder cannot be made or takes no file.
-    pub fn keep(&self, folder: &Path) -> Result<(), JournalError> {
-        fs::create_dir_all(folder).map_err(|cause| JournalError::Write { path: folder.into(), cause })?;
-        for file in &self.files {
-            let path = folder.join(file.path.file_name().unwrap_or_default());
-            fs::copy(&file.path, &path).map_err(|cause| JournalError::Write { path, cause })?;
-        }
         Ok(())
     }
 }

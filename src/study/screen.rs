@@ -15,7 +15,7 @@ pub trait Screen {
     fn is_interrupted(&self) -> bool {
         false
     }
-    /// Whether somebody watches, who may want a first look at a scene of which not all epochs are measured.
+    /// Whether somebody watches, who sees warnings.
     fn is_watched(&self) -> bool {
         false
     }

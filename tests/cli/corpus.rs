@@ -90,7 +90,7 @@ fn what_a_corpus_cannot_be_made_of_is_refused_and_nothing_of_others_is_replaced(
     let notes = write(&foreign, "notes.txt", "mine");
     let theirs = path_text(foreign.path());
     refuses_in_a_line(&["rays", "corpus", "cube", "-o", &theirs], &["notes.txt", "another folder"]);
-    refuses_in_a_line(&["rays", "corpus", "cube", "-o", &notes], &["notes.txt is a file"]);
+    refuses_in_a_line(&["rays", "corpus", "cube", "-o", &notes], &["notes.txt", "it is a file"]);
     assert_eq!(files(foreign.path()).len(), 1);
 
     // A corpus is not made of what it replaces.

@@ -109,10 +109,9 @@ fn what_cannot_be_planned_is_one_sentence() {
     ] {
         refuses_in_a_line(&plan(line), parts);
     }
-    let preset = "bring options of their own";
     refuses(&plan("attribution --quick --epoch 3"), &["--epoch"]);
-    refuses(&plan("attribution --quick --epochs 3"), &["--epochs", twice, "attribution", preset]);
-    refuses(&plan("--no-such-option 64"), &["--no-such-option", preset]);
+    refuses(&plan("attribution --quick --epochs 3"), &["--epochs", twice]);
+    refuses(&plan("--no-such-option 64"), &["--no-such-option"]);
     refuses(&plan("compare --dir a --dir b"), &["--dir", twice]);
 }
 
@@ -153,9 +152,6 @@ fn a_report_shows_the_newest_of_each_scene_and_names_what_else_there_is() {
     let own = ["-s", "sah-kd", "-s", "obvhs-bvh2", "-w", "primary", "--rays", "256", "--epochs", "2", "--budget", "1"];
     let lines = plan(&runs, &[&["compare", "--scenes", "cube", "torus"][..], &own].concat());
     lines.iter().for_each(|line| done(line));
-    // A plan that is kept beside the results tells how many there are to be.
-    let never = lines[0].replace("epoch-0", "epoch-9");
-    fs::write(runs.join("plan.txt"), [&lines[..], &[never]].concat().join("\n")).unwrap();
     // As another machine would have measured one of them before.
     let mut case = json(file(&lines[2]));
     case["provenance"]["cpu"] = "Another Processor".into();
@@ -164,7 +160,7 @@ fn a_report_shows_the_newest_of_each_scene_and_names_what_else_there_is() {
     let output = sahara(&["report", "--no-pictures", "-o", page.to_str().unwrap(), runs.to_str().unwrap()]);
     assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
     let told = stdout(&output);
-    assert!(told.contains("not measured") && told.contains("1 of 5 jobs of ") && told.contains("epoch-9"), "{told}");
+    assert!(told.contains("not measured"), "{told}");
     let csv = fs::read_to_string(page.join("data/compare.csv")).unwrap();
     assert!(csv.lines().count() == 5, "{csv}");
 }

@@ -182,74 +182,6 @@ fn effects_of_whole_runs_are_covered_with_the_aa_noise_and_not_without() {
     }
 }
 
-/// Values of the epochs of six meshes whose triangles grow by a factor of four, each with effects of its own.
-fn meshes(machine: Machine, random: &mut RandomOrder) -> Vec<Vec<f64>> {
-    let times: Vec<f64> = (0..6).map(|i| libm::pow(4.0, 0.2 * f64::from(i))).collect();
-    machine.cell(&times, random).iter().map(|logs| epoch_values(std::slice::from_ref(logs)).unwrap()).collect()
-}
-
-fn slope(logs: &[f64]) -> f64 {
-    let x = |i: usize| (i as f64 - 2.5) * libm::log(4.0);
-    let squares: f64 = (0..logs.len()).map(|i| x(i) * x(i)).sum();
-    logs.iter().enumerate().map(|(i, log)| x(i) * log).sum::<f64>() / squares
-}
-
-/// The jackknife of a figure that is made of the means of each part over the epochs.
-fn jackknifed(parts: &[Vec<f64>], figure: impl Fn(&[f64]) -> f64) -> Rerun {
-    let of_epochs = |kept: &[usize]| {
-        let mean = |part: &Vec<f64>| kept.iter().map(|&e| part[e]).sum::<f64>() / kept.len() as f64;
-        Some(figure(&parts.iter().map(mean).collect::<Vec<_>>()))
-    };
-    Rerun::jackknife(EPOCHS, Variance::NONE, of_epochs).unwrap()
-}
-
-#[test]
-fn the_jackknife_covers_slopes_and_shares() {
-    for machine in machines() {
-        let run = |random: &mut RandomOrder| {
-            let meshes = meshes(machine, random);
-            let jackknifed = jackknifed(&meshes, slope);
-            // A slope is linear: its jackknife is the plain interval of its value in each epoch.
-            let of_epoch = |e: usize| slope(&meshes.iter().map(|mesh| mesh[e]).collect::<Vec<_>>());
-            let own = Rerun::of(&(0..EPOCHS).map(of_epoch).collect::<Vec<_>>(), Variance::NONE).unwrap();
-            let [low, other] = [own, jackknifed].map(|rerun| rerun.plain().low().unwrap());
-            assert!((low - other).abs() < 1e-9, "{own:?} {jackknifed:?}");
-            jackknifed
-        };
-        as_promised(held(PAIRS, run), &format!("slopes of {machine:?}"));
-    }
-    for placement in [0.0, 0.04, 0.1] {
-        let machine = Machine { placement, ..Machine::default() };
-        // The share of the first in the squares of two effects: about a half, and both are as large as ten standard
-        // errors.
-        let share = |effects: &[f64]| effects[0] * effects[0] / (effects[0] * effects[0] + effects[1] * effects[1]);
-        let run = |random: &mut RandomOrder| {
-            jackknifed(&[[1.5, 1.0], [1.0, 1.3]].map(|times| machine.values(1, times, random)), share)
-        };
-        as_promised(held(PAIRS, run), &format!("shares, placement {placement}"));
-    }
-}
-
-#[test]
-fn bonferroni_intervals_hold_together() {
-    let machine = Machine::default();
-    const LOOKS: usize = 20;
-    let all = |looks: usize| {
-        let once = |run: &u64| {
-            let mut random = RandomOrder::new(*run);
-            (0..LOOKS).all(|_| {
-                let mut run = || mean_of(&[machine.ratio([1.0, 1.0], &mut random)], Variance::NONE).plain();
-                let (first, second) = (run(), run());
-                first.among(looks).holds(second.estimate)
-            })
-        };
-        (0..400).filter(once).count() as f64 / 4.0
-    };
-    let (alone, together) = (all(1), all(LOOKS));
-    assert!(alone < 50.0, "{alone} % at 95 % each");
-    assert!((92.0..=98.0).contains(&together), "{together} % of all {LOOKS}");
-}
-
 #[test]
 fn half_widths_are_those_of_students_t() {
     // Five values with a deviation of 0.01 times the root of 2.5, or without any.
@@ -292,12 +224,8 @@ fn of_one_epoch_there_is_an_estimate_and_no_interval() {
     let cell = vec![[2.0, 2.1, 1.9, 2.0].map(libm::log).to_vec()];
     let one = mean_of(&[cell], Variance { square: 1.0, freedom: 1.0 }).ratio();
     assert!((one.estimate - 2.0).abs() < 1e-12 && one.interval.is_none(), "{one:?}");
-    assert_eq!(Rerun::jackknife(1, Variance::NONE, |_| Some(3.0)).unwrap().plain(), Estimate::alone(3.0));
     assert_eq!((Rerun::of(&[], Variance::NONE), epoch_values(&[])), (None, None));
     assert_eq!(epoch_values(&[vec![vec![]]]), None);
     assert_eq!(Rerun::change(&[], &[0.0; 5], [Variance::NONE; 2]), None);
     assert_eq!(Rerun::change(&[0.0], &[0.0; 5], [Variance::NONE; 2]).unwrap().plain(), Estimate::alone(0.0));
-    // A figure that needs all epochs has no interval.
-    let fragile = |kept: &[usize]| (kept.len() == 3).then_some(1.0);
-    assert_eq!(Rerun::jackknife(3, Variance::NONE, fragile).unwrap().plain(), Estimate::alone(1.0));
 }

@@ -14,7 +14,7 @@ pub fn data(tradeoff: &Tradeoff) -> String {
     let roles = roles_of(&labels);
     let colour = |label: &String| {
         let place = labels.iter().position(|other| other == label).expect("all labels are listed");
-        format!("--{}", roles[place].name())
+        format!("--{}", roles[place].name)
     };
     let point = |p: &TradeoffPoint| {
         json!({

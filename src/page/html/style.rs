@@ -13,7 +13,7 @@ pub fn sheet() -> String {
     sheet += include_str!("page.css");
     // Drawings name the colour on white paper.
     for role in roles() {
-        let (name, light) = (role.name(), hex(role.light));
+        let (name, light) = (role.name, hex(role.light));
         sheet += &format!(".chart [fill=\"{light}\"] {{ fill: var(--{name}); }}\n");
         sheet += &format!(".chart [stroke=\"{light}\"] {{ stroke: var(--{name}); }}\n");
     }
@@ -21,5 +21,5 @@ pub fn sheet() -> String {
 }
 
 fn properties(colour: impl Fn(&Role) -> String) -> String {
-    roles().map(|role| format!("--{}: {};", role.name(), colour(&role))).collect::<Vec<_>>().join(" ")
+    roles().map(|role| format!("--{}: {};", role.name, colour(&role))).collect::<Vec<_>>().join(" ")
 }

@@ -89,8 +89,8 @@ fn pixels(camera: &CameraRays, wrong: &[(&StructureWork, ErrorMap)]) -> Inspecto
     inspector(camera, chosen, which)
 }
 
-pub fn section(found: Vec<(Block, String)>, left_out: Vec<Block>) -> Section {
+pub fn section(found: Vec<(Block, String)>) -> Section {
     let what = "The camera rays of a picture, each held against exact arithmetic.";
-    let (blocks, command) = introduced("Pictures of wrong answers", what, found, left_out);
+    let (blocks, command) = introduced("Pictures of wrong answers", what, found);
     Section { id: "errors", title: TITLE, command, blocks }
 }

@@ -108,8 +108,8 @@ fn stepped(cost: u64, scale: u64) -> u64 {
     libm::round(libm::expm1(step * unit)) as u64
 }
 
-pub fn section(found: Vec<(Block, String)>, left_out: Vec<Block>) -> Section {
+pub fn section(found: Vec<(Block, String)>) -> Section {
     let what = "Where the work is: brighter pixels cost more triangle tests and steps.";
-    let (blocks, command) = introduced("Heat maps of the structures", what, found, left_out);
+    let (blocks, command) = introduced("Heat maps of the structures", what, found);
     Section { id: "heat", title: TITLE, command, blocks }
 }

@@ -10,7 +10,6 @@ use crate::report::number::count;
 use crate::report::words::{listed, scene_name};
 use crate::report::{Art, Block, Cell, Figure, Picture, Table};
 use crate::request::guide;
-use crate::scene::Builtin;
 use crate::study::measure::guarded;
 
 const SIDE: u32 = 208;
@@ -42,26 +41,14 @@ fn halved(fine: &RgbImage) -> RgbImage {
 }
 
 fn caption(loaded: &[LoadedScene]) -> String {
-    let is_builtin = |own: &LoadedScene| {
-        let name = own.request.word.to_str().and_then(|word| word.split(':').next());
-        Builtin::find(name.unwrap_or_default()).is_ok()
-    };
-    let all_builtin = loaded.iter().all(is_builtin);
-    let cameras = if all_builtin {
-        "with the source report's cameras, lights and materials"
-    } else {
-        "the built-in ones with the source report's cameras, lights and materials, those of scene files with their \
-         own, and meshes with a camera that has them whole in view"
-    };
-    let asked = loaded.iter().filter_map(|own| {
-        let view = own.request.view.looks_from()?;
-        let from = if view == "--inside" { "within" } else { "where its command says" };
-        Some(format!("{} is seen from {from} ({view})", own.scene.name))
-    });
+    let asked =
+        loaded.iter().filter_map(|own| Some(format!("{} ({})", own.scene.name, own.request.view.looks_from()?)));
     let asked: Vec<String> = asked.collect();
-    let asked = if asked.is_empty() { String::new() } else { format!("; {}", listed(&asked)) };
-    let colon = if all_builtin { "" } else { ":" };
-    format!("The scenes as they were traced, rendered by sahara{colon} {cameras}{asked}.")
+    let asked = if asked.is_empty() { String::new() } else { format!("; seen otherwise: {}", listed(&asked)) };
+    format!(
+        "The scenes as they were traced, rendered by sahara. Built-in ones have the source report's cameras, lights and \
+         materials; a mesh has a camera that has it whole in view{asked}."
+    )
 }
 
 /// `lost` are the scenes without a picture.
@@ -91,19 +78,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_built_in_scenes_have_the_cameras_of_the_source_report() {
-        let caption = |word: &str, name: &str, view: &str| super::caption(&[LoadedScene::cube(word, name, view)]);
-        let cube = caption("cube", "Cube", "{}");
-        assert!(cube.contains("rendered by sahara with the source report's cameras") && !cube.contains("--"), "{cube}");
-        assert_eq!(caption("cube:stand-in", "Cube", "{}"), cube);
-        let mine = caption("mine.ply", "mine", "{}");
-        assert!(
-            mine.contains("the built-in ones with the source report's") && mine.contains("whole in view"),
-            "{mine}"
-        );
-        let inside = caption("mine.ply", "mine", r#"{"inside":true}"#);
-        assert!(inside.ends_with("whole in view; mine is seen from within (--inside)."), "{inside}");
-        let looked = caption("cube", "Cube", r#"{"camera":"0,0,9 0,0,0"}"#);
-        assert!(looked.ends_with("; Cube is seen from where its command says (--camera)."), "{looked}");
+    fn a_scene_that_is_seen_from_elsewhere_is_named() {
+        let caption = |view: &str| super::caption(&[LoadedScene::cube("cube", "Cube", view)]);
+        assert!(caption("{}").ends_with("whole in view."));
+        assert!(caption(r#"{"inside":true}"#).ends_with("seen otherwise: Cube (--inside)."));
     }
 }

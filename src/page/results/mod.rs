@@ -3,7 +3,6 @@
 //! All three are made from one run. The data file has every sentence with a number in it, by its key, and the digests
 //! of the other files: whoever changes a number by hand, or forgets a file, is told by a test.
 
-mod counts;
 mod marks;
 mod paper;
 mod run_facts;
@@ -19,13 +18,12 @@ pub use marks::{OPEN, fill, marked};
 pub use run_facts::RunFacts;
 
 use super::document::Document;
-use super::runs::{COMPARE, Runs};
+use super::runs::Runs;
 use super::sections::tally;
 use crate::measure::Estimate;
 use crate::measure::program::digest;
 use crate::report::plot::WIDTH;
 use crate::study::Studies;
-use crate::study::measurement::{Measurement, measurements};
 
 /// The command that makes all of it.
 pub const COMMAND: &str = "sahara report RUN.. --results";
@@ -50,13 +48,6 @@ pub struct ResultsData {
     pub run: RunFacts,
     /// By key: the name of the study or part, a full stop, and the key of the finding.
     pub statements: BTreeMap<String, Statement>,
-    /// The triangle test of each structure that is compared, by its label: after a change of a default the numbers are
-    /// of another.
-    pub tests: BTreeMap<String, String>,
-    /// What structures count for primary rays, by scene and label. No machine changes it: it tells whether trees and
-    /// searches are still those of the run.
-    #[serde(default)]
-    pub counts: BTreeMap<String, BTreeMap<String, String>>,
     /// Digests (SHA-256) of the other files, by their paths beside this one.
     pub files: BTreeMap<String, String>,
 }
@@ -89,16 +80,7 @@ impl Results {
         let mut files: BTreeMap<String, String> =
             figures.iter().map(|(name, bytes)| (format!("{FIGURES}/{name}"), digest(bytes))).collect();
         files.insert(PAPER.into(), digest(paper.as_bytes()));
-        let compared: Vec<Measurement> = runs.of(COMPARE).map_or(vec![], |run| measurements(&run.dataset));
-        let data = ResultsData {
-            schema: 3,
-            made_by: COMMAND.into(),
-            run,
-            statements,
-            tests: compared.iter().map(|own| (own.label.clone(), own.triangle_test.clone())).collect(),
-            counts: counts::of(&compared),
-            files,
-        };
+        let data = ResultsData { schema: 3, made_by: COMMAND.into(), run, statements, files };
         Ok(Self { data, paper, figures })
     }
 

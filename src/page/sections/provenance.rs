@@ -1,31 +1,21 @@
 //! Where the numbers come from.
 
-use crate::escaped::Escaped as _;
 use crate::measure::Provenance;
 use crate::page::document::Section;
-use crate::page::runs::{Runs, Source, scene_titles};
+use crate::page::runs::{Runs, scene_titles};
 use crate::report::number::plural;
 use crate::report::words::{command_line, each_once, listed};
 use crate::report::{Block, Table};
 use crate::study::Dataset;
 
-/// Every file and every machine; `missing` is what no run has measured.
+/// Every machine; `missing` is what no run has measured.
 pub fn section(runs: &Runs, missing: Vec<Block>) -> Section {
-    let source = |source: &Source| {
-        let Source { path, kind, commands } = source;
-        [path.escaped().to_string(), kind.clone(), commands.join("; ")]
-    };
-    let files = Table::of_texts(
-        "Files that this report was made from",
-        ["file or folder", "holds", "made by"],
-        runs.sources.iter().map(source).collect(),
-    );
-    let files = files.noted(vec![
+    let machines = machines(runs).noted(vec![
         "Of each scene of a study the cases count that were measured last, with the same settings by one build on one \
          machine. Of several settings, builds or machines the one with the most cases of a study is shown."
             .into(),
     ]);
-    let mut blocks = vec![Block::Table(files), Block::Table(machines(runs))];
+    let mut blocks = vec![Block::Table(machines)];
     blocks.extend(warnings(&runs.provenances()).map(Block::Table));
     blocks.extend(runs.notes.iter().map(|note| Block::Note(note.clone())));
     if !missing.is_empty() {

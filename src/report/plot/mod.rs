@@ -1,5 +1,5 @@
-//! Charts as data: bars, curves and scatter plots. With the feature `page` they are drawn, as SVG and as PNG, the same
-//! picture, of the width that is asked for, so that text keeps its size on a narrow screen.
+//! Charts as data: bars, curves and scatter plots. With the feature `page` they are drawn as SVG, of the width that is
+//! asked for, so that text keeps its size on a narrow screen.
 
 mod bars;
 mod chart;
@@ -10,7 +10,7 @@ mod scatter;
 mod tradeoff;
 
 pub use bars::{Bar, BarGroup, Bars};
-pub use chart::{Chart, Format, WIDTH};
+pub use chart::{Chart, WIDTH};
 pub use curves::{Curves, Line};
 #[cfg(feature = "page")]
 pub use drawing::{palette, tick_text};

@@ -4,8 +4,6 @@ use crate::report::words::distinct;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scatter {
-    /// May be empty.
-    pub title: String,
     pub x_title: String,
     pub y_title: String,
     pub points: Vec<Point>,

@@ -44,7 +44,6 @@ impl Tradeoff {
             group: point.label.clone(),
         };
         Scatter {
-            title: String::new(),
             x_title: "memory, MiB".into(),
             y_title: "million rays a second".into(),
             points: of_case.iter().map(point).collect(),

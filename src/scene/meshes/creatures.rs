@@ -4,10 +4,8 @@ use glam::Vec3;
 
 use super::fit::fit;
 use super::sdf::{Blend, Frame, Knot, Sdf, split_to};
-use crate::{
-    geometry::Aabb,
-    scene::{Material, Model},
-};
+use crate::geometry::Aabb;
+use crate::scene::{Material, Model};
 
 const EYE: usize = 96;
 

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use crate::{geometry::Aabb, scene::Model};
+use crate::geometry::Aabb;
+use crate::scene::Model;
 
 /// Scales and moves `model` along each axis so that its box is `bounds` to the last bit; the unit normals of
 /// its vertices turn with it and become those of the corners.

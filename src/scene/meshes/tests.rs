@@ -2,7 +2,6 @@
 
 use std::collections::{HashMap, HashSet};
 
-use glam::DVec3;
 use sha2::{Digest, Sha256};
 
 use super::*;
@@ -26,16 +25,6 @@ fn loose_and_crowded_edges(mesh: &Mesh) -> (usize, usize) {
 /// The number of connected pieces.
 fn pieces(model: &Model) -> usize {
     sdf::pieces(model.positions.len(), &model.triangles).into_iter().collect::<HashSet<_>>().len()
-}
-
-fn area(mesh: &Mesh) -> f64 {
-    let doubled = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).length();
-    (0..mesh.len() as u32).map(|t| doubled(mesh.corners(t).map(Vec3::as_dvec3)) / 2.0).sum()
-}
-
-fn volume(mesh: &Mesh) -> f64 {
-    let sixfold = |[a, b, c]: [DVec3; 3]| a.dot(b.cross(c));
-    (0..mesh.len() as u32).map(|t| sixfold(mesh.corners(t).map(Vec3::as_dvec3)) / 6.0).sum()
 }
 
 /// Of vertices and indices; the first 16 digits tell a change as well as all 64 would.
@@ -121,42 +110,4 @@ fn every_mesh_has_its_known_properties() {
         assert!(model.material_of.is_empty() || model.material_of.len() == known.triangles, "materials of {name}");
         assert!(model.material_of.iter().all(|&m| (m as usize) < model.materials.len()), "materials of {name}");
     }
-}
-
-#[test]
-fn areas_and_volumes_are_those_of_the_polyhedra() {
-    let mesh = |name: &str| by_name(name).map(|m| Mesh::new(m.positions, m.triangles).unwrap()).unwrap();
-    let close = |value: f64, wanted: f64| assert!((value / wanted - 1.0).abs() < 1e-6, "{value} is not {wanted}");
-    close(area(&mesh("cube")), 24.0);
-    close(volume(&mesh("cube")), 8.0);
-    close(area(&mesh("cornellbox")), 20.0);
-    close(area(&mesh("plane_y")), 4.0);
-
-    // An icosahedron of radius 1 has edges of length 4 / sqrt(10 + 2 sqrt 5); its corners are cut to steps of
-    // 1/200,000.
-    let edge = 4.0 / (10.0 + 2.0 * 5f64.sqrt()).sqrt();
-    let about = |value: f64, wanted: f64| assert!((value / wanted - 1.0).abs() < 3e-5, "{value} is not {wanted}");
-    about(area(&mesh("icosahedron")), 5.0 * 3f64.sqrt() * edge * edge);
-    about(volume(&mesh("icosahedron")), 5.0 / 12.0 * (3.0 + 5f64.sqrt()) * edge.powi(3));
-    assert_eq!(volume(&mesh("inside_out_icosahedron")), -volume(&mesh("icosahedron")));
-
-    // A torus of quadrilaterals holds the prisms of its cross-section: 24 sides of the tube, 48 of the ring.
-    let part = |n: f64| n / std::f64::consts::TAU * (std::f64::consts::TAU / n).sin();
-    close(volume(&mesh("torus")), std::f64::consts::TAU * std::f64::consts::PI * 0.37 * 0.37 * part(48.0) * part(24.0));
-    for name in ["icosphere", "uv_sphere"] {
-        let share = volume(&mesh(name)) / (std::f64::consts::PI * 4.0 / 3.0);
-        assert!((0.98..1.0).contains(&share), "{name} fills {share} of the ball");
-    }
-}
-
-#[test]
-fn flat_meshes_look_the_right_way() {
-    let normals = |name: &str| -> Vec<Vec3> {
-        let m = by_name(name).unwrap();
-        let corners = |t: &[u32; 3]| t.map(|i| m.positions[i as usize]);
-        m.triangles.iter().map(corners).map(|[a, b, c]| (b - a).cross(c - a).normalize()).collect()
-    };
-    assert_eq!(normals("plane_y"), [Vec3::Y; 2]);
-    let inward = [Vec3::Y, -Vec3::Y, Vec3::Z, -Vec3::X, Vec3::X];
-    assert_eq!(normals("cornellbox"), inward.map(|n| [n, n]).as_flattened());
 }

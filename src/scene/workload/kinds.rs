@@ -1,7 +1,7 @@
 //! The kinds of workloads.
 //!
-//! To add one, write the function that makes its rays and add a line to the table below. Names, the command line,
-//! completions and `sahara list` follow from it.
+//! To add one, write the function that makes its rays and add a line to the table below. Names, the command line and
+//! `sahara list` follow from it.
 
 use std::str::FromStr;
 

@@ -23,11 +23,13 @@ pub fn figure(number: usize, of_kind: &JudgedRays) -> Figure {
     Figure {
         id: format!("accuracy-{}-{}-{number}", slug(&epoch.scene), slug(kind)),
         caption: format!(
-            "{}, {kind} rays: share of wrong answers (missed, invented, or at a wrong depth) against time. Lower and further \
+            "{}, {} {}: share of wrong answers (missed, invented, or at a wrong depth) against time. Lower and further \
              left is better; both axes are logarithmic. Labels name the triangle test, colours the structure. Filled: \
              nothing is faster and less wrong. Arrow: not one wrong answer was seen in n rays; the dot is the upper bound \
              with 95 % confidence, about 3/n.{few}",
-            epoch.title()
+            epoch.title(),
+            count(of_kind.most(|own| own.errors.rays)),
+            of_kind.description()
         ),
         alt: format!(
             "Scatter plot of {} structures and triangle tests on {} {kind} rays. On the front: {}.",
@@ -41,7 +43,6 @@ pub fn figure(number: usize, of_kind: &JudgedRays) -> Figure {
 }
 
 fn scatter(of_kind: &JudgedRays) -> Scatter {
-    let JudgedRays { epoch, structures, .. } = of_kind;
     let point = |own: &Judged| Point {
         x: own.ns_per_ray,
         y: 100.0 * own.error_bound,
@@ -50,12 +51,10 @@ fn scatter(of_kind: &JudgedRays) -> Scatter {
         label: own.structure.triangle_test.clone(),
         group: without_test(own),
     };
-    let rays = count(of_kind.most(|own| own.errors.rays));
     Scatter {
-        title: format!("{}: {rays} {}", epoch.title(), of_kind.description()),
         x_title: "ns per ray, one thread".into(),
         y_title: "wrong answers, % at most (95 % confidence)".into(),
-        points: structures.iter().map(point).collect(),
+        points: of_kind.structures.iter().map(point).collect(),
     }
 }
 

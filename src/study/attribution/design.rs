@@ -101,16 +101,6 @@ mod tests {
     use crate::registry::Registry;
 
     #[test]
-    fn cells_stand_where_they_say() {
-        let cells: Vec<Treatment> = Treatment::all().collect();
-        assert_eq!((cells.len(), cells[0], cells[CELLS - 1]), (36, Treatment::REPORT, Treatment::SAH));
-        for (i, cell) in cells.iter().enumerate() {
-            assert_eq!(cell.number(), i);
-        }
-        assert_eq!(Treatment::SAH.role(), "SAH exact / SAH / plane intervals");
-    }
-
-    #[test]
     fn the_corners_are_the_trees_that_they_stand_for() {
         let registry = Registry::builtin();
         // Numbers as the tree reads them: 1 and 1.0 are one.

@@ -124,25 +124,3 @@ fn parts_by_order(factor: Factor) -> [Weights; 6] {
 }
 
 const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[track_caller]
-    fn close(a: f64, b: f64) {
-        assert!((a - b).abs() < 1e-12, "{a} {b}");
-    }
-
-    #[test]
-    fn parts_add_up_to_the_whole_whatever_the_cells_hold() {
-        let logs: Vec<f64> = (0..CELLS).map(|i| libm::sin(i as f64 * 1.7) * 3.0).collect();
-        let value = |weights: Weights| -> f64 { weights.iter().zip(&logs).map(|(weight, log)| weight * log).sum() };
-        let parts: f64 = Factor::ALL.into_iter().map(|factor| value(part(factor))).sum();
-        close(parts, value(gain(Treatment::REPORT, Treatment::SAH)));
-        // Contrasts take no notice of what all cells share.
-        for factor in Factor::ALL {
-            close(part(factor).iter().sum(), 0.0);
-        }
-    }
-}

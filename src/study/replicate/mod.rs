@@ -27,24 +27,20 @@ pub const STUDY: Study = Study {
     name: "replicate",
     question: "Reproduce the source report's tables and test its conclusion",
     presets: Presets { full: "", quick: "--epochs 2 --runs 2 --budget 1" },
-    options: || ReplicateArgs::augment_args(Command::new("replicate")),
+    options: || Options::augment_args(Command::new("replicate")),
     plan,
     report,
 };
 
-#[derive(Clone, Debug, clap::Args)]
-struct ReplicateArgs {
-    // Claims are judged by these numbers, all of them together: few epochs leave what is sure to luck.
-    #[command(flatten)]
-    measuring: Measuring<8, 3, 5>,
-}
+// Claims are judged by these numbers, all of them together: few epochs leave what is sure to luck.
+type Options = Measuring<8, 3, 5>;
 
 /// Tells where secondary rays start: over a triangle test in single precision, as the report's program has one. The
 /// exact test decides edges otherwise, and with them a few rays.
 const GUIDE: &str = "sah-kd:test=moller-trumbore";
 
 fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
-    let ReplicateArgs { measuring } = ReplicateArgs::from_arg_matches(matches)?;
+    let measuring = Options::from_arg_matches(matches)?;
     let guide = registry.choose(GUIDE)?.label;
     let settings = Settings { whole: true, guide, ..Settings::new(&measuring, registry)? };
     let rows: Vec<&Row> = MAIN.iter().chain(&HARD).collect();

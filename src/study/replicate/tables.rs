@@ -78,8 +78,7 @@ fn table(title: &str, scenes: &[Replicated], columns: &[ReplicatedColumn]) -> Ta
 }
 
 fn settings(main: &[Replicated]) -> Table {
-    let mut table =
-        Table::of("Seconds of median-kd with other settings", main, &[("scene", &|own| own.first().title().into())]);
+    let mut table = table("Seconds of median-kd with other settings", main, &[]);
     for setting in &SWEEP {
         table.push_column(setting.role(), main.iter().map(|own| seconds(own, &setting.role())));
         table.push_column("report", main.iter().map(|own| setting.of(own.report.scene).into()));

@@ -1,4 +1,4 @@
-//! Axes with round numbers, and the names of what is drawn beside or below them.
+//! Axes with round numbers, and the names of what is drawn below them.
 
 use std::fmt::Debug;
 
@@ -7,7 +7,7 @@ use plotters::coord::cartesian::Cartesian2d;
 use plotters::coord::combinators::{BindKeyPoints, IntoLogRange, LogCoord, WithKeyPoints};
 use plotters::coord::ranged1d::{DefaultFormatting, Ranged};
 use plotters::element::Circle;
-use plotters::prelude::DrawingBackend;
+use plotters::prelude::SVGBackend;
 use plotters::style::Color;
 use plotters::style::text_anchor::HPos;
 
@@ -40,7 +40,8 @@ fn log_axis([low, high]: [f64; 2], length: i32, room: impl Fn(f64) -> i32) -> Lo
     let powers = (2..20).map(|step| (step, FACTORS[3]));
     let ticks = |(step, factors): (i32, &[f64])| -> Vec<f64> {
         let exponents = exponents.clone().filter(|exponent| exponent % step == 0);
-        let ticks = exponents.flat_map(|exponent| factors.iter().map(move |factor| factor * power(exponent)));
+        let ticks =
+            exponents.flat_map(|exponent| factors.iter().map(move |factor| factor * libm::exp10(f64::from(exponent))));
         ticks.filter(|tick| (low..=high).contains(tick)).collect()
     };
     let fit = |ticks: &Vec<f64>| {
@@ -70,7 +71,7 @@ pub const BOTTOM_WITHOUT_TITLE: i32 = 52;
 /// Between an axis and what is drawn beside it.
 pub const GAP: i32 = 20;
 
-pub type Axes<'a, B, Y = LogAxis> = ChartContext<'a, B, Cartesian2d<LogAxis, Y>>;
+pub type Axes<'a, Y = LogAxis> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<LogAxis, Y>>;
 
 /// What is written on axes, and the room for it: above, to the left and to the right.
 pub struct AxisLabels<'a, V = f64> {
@@ -83,14 +84,8 @@ pub struct AxisLabels<'a, V = f64> {
 }
 
 /// Two axes in `area`.
-pub fn axes<'a, B, Y>(
-    area: &Area<B>,
-    x: LogAxis,
-    y: Y,
-    labels: &AxisLabels<Y::ValueType>,
-) -> DrawResult<B, Axes<'a, B, Y>>
+pub fn axes<'a, Y>(area: &Area<'a>, x: LogAxis, y: Y, labels: &AxisLabels<Y::ValueType>) -> DrawResult<Axes<'a, Y>>
 where
-    B: DrawingBackend,
     Y: Ranged<ValueType: Debug, FormatOption = DefaultFormatting>,
 {
     let bottom = if labels.x_title.is_empty() { BOTTOM_WITHOUT_TITLE } else { BOTTOM };
@@ -108,68 +103,40 @@ where
 }
 
 /// Two logarithmic axes in `area`, with these titles, from the first to the last of these values.
-pub fn log_log<'a, B: DrawingBackend>(
-    area: &Area<B>,
-    top: i32,
+pub fn log_log<'a>(
+    area: &Area<'a>,
     [x_title, y_title]: [&str; 2],
     [x_ends, y_ends]: [[f64; 2]; 2],
-) -> DrawResult<B, Axes<'a, B>> {
+) -> DrawResult<Axes<'a>> {
     let (width, height) = area.dim_in_pixel();
-    let y = upward(y_ends, height as i32 - top - BOTTOM);
+    let y = upward(y_ends, height as i32 - GAP - BOTTOM);
     let texts: Vec<String> = y.bold_points().iter().map(|tick| tick_text(*tick)).collect();
     // The title beside the labels is as wide as text is high.
     let left = widest(&texts) + GAP + TEXT;
     // A number below the end of the axis reaches beyond it by half its width.
     let right = 3 * GAP;
     let x = across(x_ends, width as i32 - left - GAP - right);
-    axes(area, x, y, &AxisLabels { x_title, y_title, y_text: &|y| tick_text(*y), top, left, right })
-}
-
-/// Whether a drawing is so wide that there is room beside its axes.
-pub fn is_roomy(width: i32) -> bool {
-    width >= 1120
+    axes(area, x, y, &AxisLabels { x_title, y_title, y_text: &|y| tick_text(*y), top: GAP, left, right })
 }
 
 /// Height of a name.
 const LINE: i32 = 40;
 
-/// Room that names take beside and below the axes of a drawing `width` wide: one of the two.
-pub fn legend_room(names: &[String], width: i32) -> [i32; 2] {
-    match names.len() {
-        0 => [0, 0],
-        _ if is_roomy(width) => [widest(names) + 4 * GAP, 0],
-        lines => [0, lines as i32 * LINE + GAP],
-    }
+/// Height of the names below the axes.
+pub fn legend_height(names: &[String]) -> i32 {
+    if names.is_empty() { 0 } else { names.len() as i32 * LINE + GAP }
 }
 
-/// Height of a drawing with axes of this height and with names.
-pub fn height_with_legend(axes: i32, names: &[String], width: i32) -> i32 {
-    match legend_room(names, width) {
-        [0, below] => axes + below,
-        _ => axes.max(names.len() as i32 * LINE + GAP),
-    }
-}
-
-/// Draws names with a dot of their colours, to the right of the axes or below them. Gives the area that is left.
-pub fn legend<B: DrawingBackend>(area: &Area<B>, names: &[String], colours: &[Colour]) -> DrawResult<B, Area<B>> {
+/// Draws names with a dot of their colours below the axes. Gives the area that is left.
+pub fn legend<'a>(area: &Area<'a>, names: &[String], colours: &[Colour]) -> DrawResult<Area<'a>> {
     const DOT: i32 = 8;
-    let (width, height) = area.dim_in_pixel();
-    let (axes, beside) = match legend_room(names, width as i32) {
-        [0, 0] => return Ok(area.clone()),
-        [0, below] => area.split_vertically(height as i32 - below),
-        [right, _] => area.split_horizontally(width as i32 - right),
-    };
+    let (axes, below) = area.split_vertically(area.dim_in_pixel().1 as i32 - legend_height(names));
     for (i, (name, colour)) in names.iter().zip(colours).enumerate() {
         let y = 3 * GAP / 2 + i as i32 * LINE;
-        beside.draw(&Circle::new((GAP, y), DOT, colour.filled()))?;
-        text(&beside, name, (2 * GAP, y), INK.light, HPos::Left)?;
+        below.draw(&Circle::new((GAP, y), DOT, colour.filled()))?;
+        text(&below, name, (2 * GAP, y), INK.light, HPos::Left)?;
     }
     Ok(axes)
-}
-
-/// A power of ten, as exact as it can be.
-fn power(exponent: i32) -> f64 {
-    format!("1e{exponent}").parse().expect("a number")
 }
 
 /// A round number as an axis says it: `0.001`, `20`, `5,000`, `1e6`.
@@ -202,12 +169,5 @@ mod tests {
             assert_eq!(axis.bold_points().iter().map(|tick| tick_text(*tick)).collect::<Vec<_>>(), texts);
         }
         assert_eq!([0.0, 20.0].map(tick_text), ["0", "20"]);
-    }
-
-    #[test]
-    fn a_range_has_room_and_is_never_empty() {
-        assert_eq!(padded([1.0, 100.0].into_iter(), [0.5, 0.0]), [0.1, 100.0]);
-        assert_eq!(padded([3.0].into_iter(), [0.0, 0.0]), [3.0, 6.0]);
-        assert_eq!(padded(std::iter::empty(), [0.1, 0.1]), [1.0, 10.0]);
     }
 }

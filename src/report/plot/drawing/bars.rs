@@ -3,11 +3,10 @@
 use plotters::coord::combinators::{BindKeyPoints, WithKeyPoints};
 use plotters::coord::types::RangedCoordi32;
 use plotters::element::Rectangle;
-use plotters::prelude::DrawingBackend;
 use plotters::style::Color;
 use plotters::style::text_anchor::HPos;
 
-use super::axes::{self, Axes, AxisLabels, BOTTOM_WITHOUT_TITLE, GAP, axes, height_with_legend, legend, legend_room};
+use super::axes::{self, Axes, AxisLabels, BOTTOM_WITHOUT_TITLE, GAP, axes, legend, legend_height};
 use super::canvas::{Area, DrawResult, Place, TEXT, line, text, widest, width_of};
 use super::palette::{Colour, INK, MIDDLE, PAPER, PARTS, colours};
 use crate::measure::Estimate;
@@ -81,11 +80,10 @@ impl Bars {
 
     /// Height of the drawing where it is `width` wide.
     pub fn height(&self, width: i32) -> i32 {
-        let [right, _] = legend_room(&self.parts, width);
-        height_with_legend(self.layout(width - right).height + FOOT, &self.parts, width)
+        self.layout(width).height + FOOT + legend_height(&self.parts)
     }
 
-    pub fn draw<B: DrawingBackend>(&self, whole: &Area<B>) -> DrawResult<B> {
+    pub fn draw(&self, whole: &Area) -> DrawResult {
         let part_colours: Vec<Colour> = (0..self.parts.len()).map(|part| part_colours(part)[0]).collect();
         let area = legend(whole, &self.parts, &part_colours)?;
         let width = area.dim_in_pixel().0 as i32;
@@ -103,14 +101,14 @@ impl Bars {
         text(whole, &self.x_title, (middle, layout.height + FOOT / 2), MIDDLE.light, HPos::Center)
     }
 
-    fn draw_group<B: DrawingBackend>(
+    fn draw_group<'s>(
         &self,
-        whole: &Area<B>,
+        whole: &Area<'s>,
         group: &BarGroup,
         layout: &Layout,
-        cell: &Area<B>,
+        cell: &Area<'s>,
         left: i32,
-    ) -> DrawResult<B> {
+    ) -> DrawResult {
         let x = axes::across(self.ends(), cell.dim_in_pixel().0 as i32 - GAP - left - NUMBER);
         let rows = 0..self.labels.len();
         let bottom = rows.len() as i32 * layout.step;
@@ -162,19 +160,19 @@ impl Bars {
 }
 
 /// The axes of a group. Their vertical values are pixels from the top of the rows.
-struct BarChart<'a, B: DrawingBackend> {
-    whole: &'a Area<B>,
+struct BarChart<'a, 's> {
+    whole: &'a Area<'s>,
     layout: &'a Layout,
-    axes: Axes<'a, B, WithKeyPoints<RangedCoordi32>>,
+    axes: Axes<'s, WithKeyPoints<RangedCoordi32>>,
 }
 
-impl<B: DrawingBackend> BarChart<'_, B> {
+impl BarChart<'_, '_> {
     fn place(&self, x: f64, y: i32) -> Place {
         self.axes.backend_coord(&(x, y))
     }
 
     /// Draws a bar between two values. Gives its corners.
-    fn bar(&self, row: usize, [from, to]: [f64; 2], colour: Colour) -> DrawResult<B, [Place; 2]> {
+    fn bar(&self, row: usize, [from, to]: [f64; 2], colour: Colour) -> DrawResult<[Place; 2]> {
         let (middle, half) = (self.layout.middle(row), self.layout.bar / 2);
         let corners = [self.place(from.min(to), middle - half), self.place(from.max(to), middle + half)];
         self.whole.draw(&Rectangle::new(corners, colour.filled()))?;
@@ -182,7 +180,7 @@ impl<B: DrawingBackend> BarChart<'_, B> {
     }
 
     /// Draws the factors of a product as bars, those above 1 to the right and those below it to the left.
-    fn factors(&self, row: usize, factors: &[f64]) -> DrawResult<B> {
+    fn factors(&self, row: usize, factors: &[f64]) -> DrawResult {
         let (mut up, mut down) = (1.0, 1.0);
         for (part, &factor) in factors.iter().enumerate() {
             let side = if factor >= 1.0 { &mut up } else { &mut down };
@@ -201,7 +199,7 @@ impl<B: DrawingBackend> BarChart<'_, B> {
 
     /// Draws the interval of a value, `below` the middle of its row, and the number behind it and behind `end`, where
     /// the bar ends.
-    fn value(&self, row: usize, value: Estimate, end: f64, below: i32) -> DrawResult<B> {
+    fn value(&self, row: usize, value: Estimate, end: f64, below: i32) -> DrawResult {
         let (axis, middle) = (self.axes.x_range(), self.layout.middle(row));
         let high = value.high().unwrap_or(value.estimate);
         if let Some(interval) = value.interval {
@@ -213,7 +211,7 @@ impl<B: DrawingBackend> BarChart<'_, B> {
 
     /// An interval as an error bar, on a plate of its own so that it is seen on a bar. An end beyond the axis has no
     /// mark: the interval goes on.
-    fn whisker(&self, ends: [f64; 2], y: i32) -> DrawResult<B> {
+    fn whisker(&self, ends: [f64; 2], y: i32) -> DrawResult {
         let axis = self.axes.x_range();
         let stem = ends.map(|end| self.place(end.clamp(axis.start, axis.end), y));
         line(self.whole, &stem, PAPER.light, 7)?;

@@ -1,22 +1,23 @@
-//! What all charts draw with: areas of any backend, and text in the one font.
+//! What all charts draw with: areas of an SVG file, and text in the one font.
 //!
 //! Lengths are pixels, two for each unit of width that a chart is asked for: pictures are sharp where they are shown
 //! smaller.
 
+use std::io;
 use std::sync::Once;
 
 use plotters::coord::Shift;
 use plotters::drawing::{DrawingArea, DrawingAreaErrorKind};
 use plotters::element::PathElement;
-use plotters::prelude::DrawingBackend;
+use plotters::prelude::SVGBackend;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontStyle, IntoFont, TextStyle, register_font};
 
 use super::palette::Colour;
 
-pub type Area<B> = DrawingArea<B, Shift>;
+pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
-pub type DrawResult<B, T = ()> = Result<T, DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
+pub type DrawResult<T = ()> = Result<T, DrawingAreaErrorKind<io::Error>>;
 
 /// A place in pixels, from the top left corner of the drawing.
 pub type Place = (i32, i32);
@@ -52,10 +53,10 @@ pub fn widest<'a>(texts: impl IntoIterator<Item = &'a String>) -> i32 {
 }
 
 /// Draws a line of text, which begins, has its middle or ends at `place`, at half its height.
-pub fn text<B: DrawingBackend>(area: &Area<B>, text: &str, place: Place, colour: Colour, side: HPos) -> DrawResult<B> {
+pub fn text(area: &Area, text: &str, place: Place, colour: Colour, side: HPos) -> DrawResult {
     area.draw_text(text, &text_style(colour).pos(Pos::new(side, VPos::Center)), place)
 }
 
-pub fn line<B: DrawingBackend>(area: &Area<B>, points: &[Place], colour: Colour, width: u32) -> DrawResult<B> {
+pub fn line(area: &Area, points: &[Place], colour: Colour, width: u32) -> DrawResult {
     area.draw(&PathElement::new(points, colour.stroke_width(width)))
 }

@@ -1,12 +1,10 @@
-//! Draws a chart of any kind, as SVG and as PNG.
+//! Draws a chart of any kind as SVG.
 
-use image::RgbImage;
 use plotters::drawing::IntoDrawingArea;
-use plotters::prelude::{BitMapBackend, DrawingBackend, SVGBackend};
+use plotters::prelude::SVGBackend;
 
 use super::canvas::{Area, DrawResult, register};
 use super::palette::PAPER;
-use crate::render::png;
 use crate::report::plot::chart::Chart;
 
 /// Memory takes every stroke, and the font is there: nothing can fail.
@@ -14,7 +12,7 @@ const DRAWN: &str = "memory takes every stroke, and the font is registered";
 
 impl Chart {
     /// Width and height in pixels where it is to be `width` wide.
-    fn size(&self, width: f64) -> (u32, u32) {
+    pub(super) fn size(&self, width: f64) -> (u32, u32) {
         let width = if matches!(self, Self::Scatter(_)) { 800.0 } else { width };
         let width = (2.0 * width).round() as i32;
         let height = match self {
@@ -26,7 +24,7 @@ impl Chart {
         (width as u32, height as u32)
     }
 
-    fn draw<B: DrawingBackend>(&self, area: &Area<B>) -> DrawResult<B> {
+    fn draw(&self, area: &Area) -> DrawResult {
         register();
         area.fill(&PAPER.light)?;
         match self {
@@ -43,13 +41,5 @@ impl Chart {
         let mut text = String::new();
         self.draw(&SVGBackend::with_string(&mut text, self.size(width)).into_drawing_area()).expect(DRAWN);
         text
-    }
-
-    /// The bytes of a PNG file of two pixels a unit.
-    pub fn png(&self, width: f64) -> Vec<u8> {
-        let (width, height) = self.size(width);
-        let mut bytes = vec![255; width as usize * height as usize * 3];
-        self.draw(&BitMapBackend::with_buffer(&mut bytes, (width, height)).into_drawing_area()).expect(DRAWN);
-        png(&RgbImage::from_raw(width, height, bytes).expect("all pixels are there"))
     }
 }

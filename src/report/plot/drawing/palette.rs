@@ -5,7 +5,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use plotters::style::RGBColor;
 
 use crate::measure::checksum;
-use crate::report::words::bare;
 
 /// A colour of a drawing, by its value on white paper; a page in dark colours shows another in its place.
 pub type Colour = RGBColor;
@@ -13,36 +12,14 @@ pub type Colour = RGBColor;
 /// A colour by its role: what a drawing says, what white paper shows, and what dark paper shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Role {
-    name: &'static str,
-    /// 0 for the colour itself.
-    shade: usize,
+    /// Of the custom property of style sheets.
+    pub name: &'static str,
     pub light: Colour,
     pub dark: Colour,
 }
 
 const fn role(name: &'static str, light: [u8; 3], dark: [u8; 3]) -> Role {
-    Role { name, shade: 0, light: RGBColor(light[0], light[1], light[2]), dark: RGBColor(dark[0], dark[1], dark[2]) }
-}
-
-/// How far shades are from their colour, in percent of the way to black on white paper and to white on dark paper: the
-/// contrast to the paper only grows.
-const SHADES: [u16; 4] = [24, 42, 58, 72];
-
-impl Role {
-    /// Name of the custom property of style sheets.
-    pub fn name(self) -> String {
-        format!("{}{}", self.name, ["", "a", "b", "c", "d"][self.shade])
-    }
-
-    /// The `shade`th of [`SHADES`], counted from 1.
-    fn shaded(self, shade: usize) -> Self {
-        let share = SHADES[shade - 1];
-        let mix = |colour: Colour, end: u16| {
-            let channel = |c: u8| ((u16::from(c) * (100 - share) + end * share) / 100) as u8;
-            RGBColor(channel(colour.0), channel(colour.1), channel(colour.2))
-        };
-        Self { shade, light: mix(self.light, 0), dark: mix(self.dark, 255), ..self }
-    }
+    Role { name, light: RGBColor(light[0], light[1], light[2]), dark: RGBColor(dark[0], dark[1], dark[2]) }
 }
 
 pub const PAPER: Role = role("paper", [255, 255, 255], [20, 23, 27]);
@@ -87,8 +64,7 @@ pub const PARTS: [Role; 3] = [
 ];
 
 pub fn roles() -> impl Iterator<Item = Role> {
-    let shades = SERIES.into_iter().flat_map(|role| (1..=SHADES.len()).map(move |shade| role.shaded(shade)));
-    [PAPER, INK, MIDDLE, FAINT].into_iter().chain(SERIES).chain(shades).chain(PARTS)
+    [PAPER, INK, MIDDLE, FAINT].into_iter().chain(SERIES).chain(PARTS)
 }
 
 /// The structures with a colour of their own, the same in every chart.
@@ -114,23 +90,15 @@ pub fn colours(labels: &[String]) -> Vec<Colour> {
     roles_of(labels).into_iter().map(|role| role.light).collect()
 }
 
-/// A colour for each label. The bare name of a structure has the colour of its structure, in every chart; with keys it
-/// has a shade of that. Other names have one of the other colours, and their variants shades of it. What has no fixed
-/// colour is told by its text: it is the same in another chart, but where two texts of one chart meet.
+/// A colour for each label. The bare name of a structure has the colour of its structure, in every chart; other labels,
+/// those with keys among them, have one of the other colours. That is told by their text: it is the same in another
+/// chart, but where two texts of one chart meet.
 pub fn roles_of(labels: &[String]) -> Vec<Role> {
-    let names: Vec<&str> = labels.iter().map(|label| bare(label)).collect();
-    let own = |name: &str| STRUCTURES.iter().position(|structure| *structure == name);
-    let others = spread(names.iter().copied().filter(|name| own(name).is_none()), SERIES.len() - STRUCTURES.len());
-    let role = |(label, name): (&String, &str)| {
-        let series = own(name).unwrap_or_else(|| STRUCTURES.len() + others[name]);
-        if label == name {
-            return SERIES[series];
-        }
-        let variants = labels.iter().zip(&names).filter(|(label, other)| **other == name && *label != name);
-        let shades = spread(variants.map(|(label, _)| label.as_str()), SHADES.len());
-        SERIES[series].shaded(1 + shades[label.as_str()])
-    };
-    labels.iter().zip(names.iter().copied()).map(role).collect()
+    let own = |label: &str| STRUCTURES.iter().position(|structure| *structure == label);
+    let others = labels.iter().map(String::as_str).filter(|label| own(label).is_none());
+    let others = spread(others, SERIES.len() - STRUCTURES.len());
+    let role = |label: &String| SERIES[own(label).unwrap_or_else(|| STRUCTURES.len() + others[label.as_str()])];
+    labels.iter().map(role).collect()
 }
 
 /// For each of `texts` a number below `n`, all different as long as there are enough: the one that the text decides, or
@@ -175,44 +143,27 @@ mod tests {
     fn everything_that_is_read_has_enough_contrast_and_a_colour_and_a_name_of_its_own() {
         let all: Vec<Role> = roles().collect();
         for (i, role) in all.iter().enumerate() {
-            let differs = |o: &Role| o.light != role.light && o.dark != role.dark && o.name() != role.name();
-            assert!(all[..i].iter().all(differs), "{}", role.name());
+            let differs = |o: &Role| o.light != role.light && o.dark != role.dark && o.name != role.name;
+            assert!(all[..i].iter().all(differs), "{}", role.name);
             let is_read = ![PAPER, FAINT].contains(role) && !PARTS.contains(role);
             for (colour, paper) in [(role.light, PAPER.light), (role.dark, PAPER.dark)] {
                 let contrast = contrast(colour, paper);
-                assert!(!is_read || contrast >= 4.5, "{}: {contrast}", role.name());
+                assert!(!is_read || contrast >= 4.5, "{}: {contrast}", role.name);
             }
         }
     }
 
-    fn of(labels: &[&str]) -> Vec<Role> {
-        roles_of(&labels.iter().map(|label| (*label).to_owned()).collect::<Vec<_>>())
-    }
-
     #[test]
-    fn structures_keep_their_colour_in_every_chart_and_variants_have_shades_of_it() {
+    fn labels_keep_their_colour_in_every_chart_and_never_have_that_of_another_structure() {
+        let of = |labels: &[&str]| roles_of(&labels.iter().map(|label| (*label).to_owned()).collect::<Vec<_>>());
         let names = ["grid", "sah-kd:leaf=4", "sah-kd", "sah-kd:leaf=2", "median-kd", "grid:cell=2", "embree"];
         let many = of(&names);
         for (i, (label, role)) in names.iter().zip(&many).enumerate() {
-            assert_eq!(of(&[label]), [*role], "{label}");
-            assert_eq!((role.name, role.shade > 0), (of(&[bare(label)])[0].name, label.contains(':')), "{label}");
+            assert_eq!(STRUCTURES.contains(label), SERIES[..STRUCTURES.len()].contains(role), "{label}");
             assert!(!many[..i].contains(role), "{label}");
         }
-        // In another order, and without the bare name, too.
-        assert_eq!(of(&["median-kd", "sah-kd:leaf=2"]), [many[4], many[3]]);
-        // As many variants as there are shades are told apart.
-        let variants = of(&["sah-kd:leaf=0", "sah-kd:leaf=1", "sah-kd:leaf=2", "sah-kd:leaf=3"]);
-        assert_eq!(variants.iter().map(|role| role.shade).collect::<BTreeSet<usize>>().len(), SHADES.len());
-    }
-
-    #[test]
-    fn a_label_never_has_the_colour_of_another_structure_however_many_there_are() {
-        let label = |i: usize| format!("{}:leaf={i}", ["sah-kd", "grid", "median-kd"][i % 3]);
-        let labels: Vec<String> = (0..60).map(label).chain((0..20).map(|i| format!("own-{i}"))).collect();
-        for (label, role) in labels.iter().zip(roles_of(&labels)) {
-            let structure = SERIES.iter().position(|series| series.name == role.name).and_then(|i| STRUCTURES.get(i));
-            let own = bare(label);
-            assert_eq!(structure.copied(), STRUCTURES.contains(&own).then_some(own), "{label}");
-        }
+        assert_eq!(of(&["embree", "median-kd"]), [many[6], many[4]]);
+        let labels: Vec<String> = (0..60).map(|i| format!("sah-kd:leaf={i}")).collect();
+        assert!(roles_of(&labels).iter().all(|role| !SERIES[..STRUCTURES.len()].contains(role)));
     }
 }

@@ -3,21 +3,18 @@
 use std::collections::BTreeMap;
 
 use plotters::element::{Circle, Polygon, Rectangle};
-use plotters::prelude::DrawingBackend;
 use plotters::style::Color;
 use plotters::style::text_anchor::HPos;
 
-use super::axes::{GAP, height_with_legend, is_roomy, legend, log_log, padded};
+use super::axes::{legend, legend_height, log_log, padded};
 use super::canvas::{Area, DrawResult, Place, TEXT, line, text, width_of};
 use super::labels::{Corners, place};
-use super::palette::{Colour, INK, MIDDLE, PAPER, colours};
+use super::palette::{Colour, MIDDLE, PAPER, colours};
 use crate::report::plot::scatter::{LABELLED, Point, Scatter};
 
 const RADIUS: i32 = 10;
 
 const ARROW: i32 = 44;
-
-const TITLE: i32 = 60;
 
 /// A point where it is drawn.
 struct Dot<'a> {
@@ -27,27 +24,25 @@ struct Dot<'a> {
 }
 
 impl Scatter {
-    /// Names of the colours; none where there is room for labels that say the same.
-    fn names(&self, width: i32) -> Vec<String> {
+    /// Names of the colours; none where the labels say the same.
+    fn names(&self) -> Vec<String> {
         let is_said = self.points.iter().all(|point| point.label == point.group);
-        if is_said && is_roomy(width) { vec![] } else { self.groups() }
+        if is_said { vec![] } else { self.groups() }
     }
 
     /// Height of the drawing where it is `width` wide.
     pub fn height(&self, width: i32) -> i32 {
-        height_with_legend(width.min(880), &self.names(width), width)
+        width.min(880) + legend_height(&self.names())
     }
 
-    pub fn draw<B: DrawingBackend>(&self, whole: &Area<B>) -> DrawResult<B> {
-        let (groups, names) = (self.groups(), self.names(whole.dim_in_pixel().0 as i32));
+    pub fn draw(&self, whole: &Area) -> DrawResult {
+        let (groups, names) = (self.groups(), self.names());
         let colours = colours(&groups);
         let area = legend(whole, &names, &colours)?;
-        let top = if self.title.is_empty() { GAP } else { TITLE };
-        text(whole, &self.title, (GAP, TITLE / 2), INK.light, HPos::Left)?;
         // Room on the right for a label, below for the arrows of bounds.
         let x_ends = padded(self.points.iter().map(|point| point.x), [0.1, 0.2]);
         let y_ends = padded(self.points.iter().map(|point| point.y), [0.15, 0.1]);
-        let axes = log_log(&area, top, [&self.x_title, &self.y_title], [x_ends, y_ends])?;
+        let axes = log_log(&area, [&self.x_title, &self.y_title], [x_ends, y_ends])?;
         let colours: BTreeMap<&str, Colour> = groups.iter().map(String::as_str).zip(colours).collect();
         let dots = self.points.iter().map(|point| {
             let Point { x, y, group, .. } = point;
@@ -59,15 +54,10 @@ impl Scatter {
         let (x, y) = axes.plotting_area().get_pixel_range();
         let front = front(&dots, x.end);
         line(whole, &front, MIDDLE.light, 4)?;
-        let lines = front.windows(2).map(|ends| {
-            let [(left, y), (right, end)] = [ends[0], ends[1]];
-            [(left - 4, y.min(end) - 4), (right + 4, y.max(end) + 4)]
-        });
-        let obstacles: Vec<Corners> = dots.iter().map(Dot::corners).chain(lines).collect();
-        // Among too many points nobody would find what belongs to a label, and what the legend says is said once.
+        let obstacles: Vec<Corners> = dots.iter().map(Dot::corners).collect();
+        // Among too many points nobody would find what belongs to a label.
         let is_shown = |dot: &&Dot| dots.len() <= LABELLED || dot.point.is_front;
-        let is_said = |dot: &&Dot| !names.is_empty() && dot.point.label == dot.point.group;
-        let labelled: Vec<&Dot> = dots.iter().filter(|dot| is_shown(dot) && !is_said(dot)).collect();
+        let labelled: Vec<&Dot> = dots.iter().filter(is_shown).collect();
         draw_labels(whole, &labelled, &obstacles, [(x.start + 12, y.start), (x.end - 4, y.end - 8)])?;
         // What is on the front is drawn last, so that it is on top.
         dots.iter().rev().try_for_each(|dot| dot.draw(whole))
@@ -82,7 +72,7 @@ impl Dot<'_> {
         [(x - around, y - around), (x + around, y + below)]
     }
 
-    fn draw<B: DrawingBackend>(&self, area: &Area<B>) -> DrawResult<B> {
+    fn draw(&self, area: &Area) -> DrawResult {
         let Self { point, place: (x, y), colour } = *self;
         if point.is_bound {
             let (tip, wings) = (y + ARROW, y + ARROW - 14);
@@ -105,12 +95,7 @@ fn front(dots: &[Dot], end: i32) -> Vec<Place> {
 }
 
 /// Draws the labels of some points, the first of which choose first.
-fn draw_labels<B: DrawingBackend>(
-    area: &Area<B>,
-    dots: &[&Dot],
-    obstacles: &[Corners],
-    frame: Corners,
-) -> DrawResult<B> {
+fn draw_labels(area: &Area, dots: &[&Dot], obstacles: &[Corners], frame: Corners) -> DrawResult {
     let widths = dots.iter().map(|dot| (dot.place, width_of(&dot.point.label)));
     let boxes = place(&widths.collect::<Vec<_>>(), TEXT, obstacles, frame);
     for (dot, [min, max]) in dots.iter().zip(&boxes) {

@@ -1,5 +1,3 @@
-use std::path::Path;
-
 use crate::measure::Estimate;
 use crate::report::plot::*;
 
@@ -13,7 +11,6 @@ fn scatter() -> Scatter {
         group: "tree".into(),
     };
     Scatter {
-        title: "uniform rays".into(),
         x_title: "ns per ray".into(),
         y_title: "error".into(),
         points: [(200.0, 0.02, "fast"), (250.0, 3e-5, "exact"), (4000.0, 0.02, "slow")].map(point).into(),
@@ -21,20 +18,12 @@ fn scatter() -> Scatter {
 }
 
 #[test]
-fn both_forms_hold_the_picture() {
-    let chart = Chart::Scatter(scatter());
-    let svg = chart.svg(900.0);
-    for text in ["uniform rays", "ns per ray", "error", "fast", "exact", "slow", "tree", "0.001", "1,000"] {
+fn the_drawing_holds_its_texts_and_the_colours_of_its_groups() {
+    let svg = Chart::Scatter(scatter()).svg(900.0);
+    for text in ["ns per ray", "error", "fast", "exact", "slow", "tree", "0.001", "1,000"] {
         assert!(svg.contains(&format!("\n{text}\n")), "{text} is not in {svg}");
     }
-    let png = chart.png(360.0);
-    let picture = image::load_from_memory(&png).unwrap().into_rgb8();
-    assert_eq!(picture.width(), 1600);
-    // The colour of the only group is there, and text is not pale boxes: dark pixels are many.
-    let colour = palette::colours(&["tree".to_owned()])[0];
-    assert!(picture.pixels().any(|pixel| pixel.0 == [colour.0, colour.1, colour.2]));
-    assert!(picture.pixels().filter(|pixel| pixel.0.iter().all(|&c| c < 90)).count() > 2000);
-    assert_eq!((chart.svg(900.0), chart.png(360.0)), (svg, png));
+    assert!(svg.contains(&palette::hex(palette::colours(&["tree".to_owned()])[0])), "{svg}");
 }
 
 #[test]
@@ -66,31 +55,13 @@ fn the_front_of_a_tradeoff_is_what_nothing_beats_in_both_and_names_are_said_once
     }
 }
 
-fn height(chart: &Chart, width: f64) -> f64 {
-    let svg = chart.svg(width);
-    let (_, rest) = svg.split_once("height=\"").unwrap();
-    rest.split_once('"').unwrap().0.parse::<f64>().unwrap()
-}
-
 #[test]
-fn there_is_room_for_the_name_of_each_line_which_stand_as_the_lines_end() {
+fn there_is_room_for_the_name_of_each_line() {
     let line = |i: usize| Line { label: format!("tree {i}"), note: "n^1".into(), points: vec![(1.0, (i + 1) as f64)] };
     let of = |lines: usize| {
         Chart::Curves(Curves { x_title: "x".into(), y_title: "y".into(), lines: (0..lines).map(line).collect() })
     };
-    assert_eq!(height(&of(3), 900.0), height(&of(1), 900.0));
-    assert!(height(&of(3), 360.0) > height(&of(1), 360.0));
-    assert!(height(&of(30), 900.0) > 30.0 * 32.0);
-    let svg = of(3).svg(900.0);
-    assert!(svg.find("tree 2 n^1").unwrap() < svg.find("tree 0 n^1").unwrap());
-}
-
-#[test]
-fn the_ending_tells_the_form() {
-    assert_eq!(["a/b.SVG", "b.png"].map(|path| Format::of(Path::new(path)).unwrap()), [Format::Svg, Format::Png]);
-    for wrong in ["b", "b.pdf", "svg", ".png"] {
-        assert!(Format::of(Path::new(wrong)).unwrap_err().to_string().contains(".svg or .png"));
-    }
+    assert!(of(30).size(900.0).1 > of(1).size(900.0).1 + 29 * 32);
 }
 
 #[test]
@@ -102,8 +73,8 @@ fn long_names_leave_bars_their_room() {
             |label: &str| Chart::Bars(Bars::of_products("times", parts.clone(), [(label.to_owned(), bar.clone())]));
         let (short, long) = (of("a"), of("sah-hybrid:test=moller-trumbore,batch=packets,quality=high"));
         // On a narrow screen names stand above their bars, which makes the drawing higher.
-        assert!(height(&long, 360.0) > height(&short, 360.0));
-        assert_eq!(height(&long, 1600.0), height(&short, 1600.0));
+        assert!(long.size(360.0).1 > short.size(360.0).1);
+        assert_eq!(long.size(1600.0), short.size(1600.0));
         assert!(long.svg(360.0).contains("packets"));
     }
 }

@@ -8,7 +8,8 @@ use glam::Vec3;
 
 use super::sdf::{Sdf, split_to};
 use super::{fit::fit, noise};
-use crate::{geometry::Aabb, scene::Model};
+use crate::geometry::Aabb;
+use crate::scene::Model;
 
 /// As many as the dragon of the source report has.
 const TRIANGLES: usize = 130_858;

@@ -8,7 +8,8 @@ use glam::Vec3;
 
 use super::fit::fit;
 use super::sdf::{Blend, Sdf, rounded_intersection, split_to};
-use crate::{geometry::Aabb, scene::Model};
+use crate::geometry::Aabb;
+use crate::scene::Model;
 
 /// As many as the statue of the source report has.
 const TRIANGLES: usize = 275_690;
