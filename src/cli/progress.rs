@@ -98,6 +98,7 @@ impl Screen for OnTerminal<'_> {
         if self.is_job {
             self.terminal.tell(&format!("measures {title}"));
         }
+        self.log(title);
         (self.case, self.work) = (title.into(), work);
         self.bar.set_message(title.to_owned());
         // A process of its own loads it now.
