@@ -1,5 +1,7 @@
-//! Imports between the modules of the crate go downward only, without circles.
+//! Imports go downward only, between modules of the crate and between their files: no circles, whatever path an import takes.
+//! Some crates of others are imported in one folder alone.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
@@ -20,92 +22,299 @@ const LAYERS: [&[&str]; 9] = [
 /// No structure imports another.
 const STRUCTURES: usize = 3;
 
-/// The layer of a module, and its place in the layer.
-fn place(module: &str) -> Option<[usize; 2]> {
-    let mut layers = LAYERS.iter().enumerate();
-    layers.find_map(|(layer, names)| Some([layer, names.iter().position(|name| *name == module)?]))
+/// Crates of others, and the folder that alone may import them: who needs what they do asks that folder for it.
+const ENCLOSED: [(&str, &str); 2] = [("gltf", "scene::load"), ("tobj", "scene::load")];
+
+/// What each imports.
+type Graph = BTreeMap<String, BTreeSet<String>>;
+
+/// Source files by module path, `bvh8::node`; a folder's `mod.rs` is the folder. Without comments, and without what is
+/// compiled for tests alone.
+struct Sources(BTreeMap<String, String>);
+
+impl Sources {
+    fn of_the_crate() -> Self {
+        let mut found = vec![];
+        collect(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), "", &mut found);
+        Self::new(found)
+    }
+
+    fn new(files: Vec<(String, String)>) -> Self {
+        let (mut sources, mut tests) = (BTreeMap::new(), vec![]);
+        for (module, text) in files {
+            let lines: Vec<&str> = text.lines().map(|line| line.split("//").next().unwrap_or("")).collect();
+            let code = lines.join("\n");
+            let (left, items) = without_test_items(&code);
+            // `mod tests;`: a whole file for tests.
+            let names = items.iter().filter_map(|item| item.strip_suffix(';')?.rsplit_once("mod "));
+            tests.extend(names.map(|(_, name)| join(&module, name)));
+            sources.insert(module, left);
+        }
+        sources.retain(|module, _| !tests.iter().any(|test| is_in(module, test)));
+        Self(sources)
+    }
+
+    /// The file in which the item of a path is defined; re-exports are followed, `rounds` of them so far.
+    fn home(&self, path: &str, rounds: usize) -> Option<String> {
+        let mut module = String::new();
+        let mut rest = path;
+        while !rest.is_empty() {
+            let (segment, after) = rest.split_once("::").unwrap_or((rest, ""));
+            let below = join(&module, segment);
+            if !self.0.contains_key(&below) {
+                // A name that the module only hands on is at home elsewhere.
+                let exports =
+                    imports(self.0.get(&module)?).into_iter().filter(|used| used.public == Some(true) && rounds < 8);
+                let mut targets = exports.filter_map(|used| self.absolute(&module, &used.path));
+                let target = targets.find(|target| target.rsplit("::").next() == Some(segment));
+                return target.map_or(Some(module), |target| self.home(&join(&target, after), rounds + 1));
+            }
+            (module, rest) = (below, after);
+        }
+        (!module.is_empty()).then_some(module)
+    }
+
+    /// The path from the root of the crate that a path written in `module` stands for; none for other crates.
+    fn absolute(&self, module: &str, path: &str) -> Option<String> {
+        let base = match top(path) {
+            "crate" | "sahara_core" => "",
+            "self" | "super" => module,
+            child if self.0.contains_key(&join(module, child)) => module,
+            _ => return None,
+        };
+        let mut own: Vec<&str> = base.split("::").filter(|segment| !segment.is_empty()).collect();
+        for segment in path.split("::") {
+            match segment {
+                "crate" | "sahara_core" | "self" => {}
+                "super" => _ = own.pop(),
+                segment => own.push(segment),
+            }
+        }
+        Some(own.join("::"))
+    }
+
+    /// Imports of crates outside of the folders that they are kept to.
+    fn escaped(&self) -> Vec<String> {
+        let mut faults = vec![];
+        for (module, text) in &self.0 {
+            let crates = imports(text).into_iter().map(|used| used.path.trim_start_matches(':').to_owned());
+            let crates: BTreeSet<String> = crates.map(|path| top(&path).to_owned()).collect();
+            let is_fault = |(name, folder): &&(&str, &str)| crates.contains(*name) && !is_in(module, folder);
+            faults.extend(ENCLOSED.iter().filter(is_fault).map(|(name, _)| format!("{module} imports {name}")));
+        }
+        faults
+    }
+
+    /// Which files each file imports.
+    fn graph(&self) -> Graph {
+        let mut graph = Graph::new();
+        for (module, text) in self.0.iter().filter(|(module, _)| !["", "lib", "main"].contains(&module.as_str())) {
+            // What a folder hands on of its files is no import of its own, and what its code calls in them is in a `mod`.
+            let is_own = |used: &Import| match used.public {
+                Some(public) => !public,
+                None => ["crate", "super"].contains(&top(&used.path)),
+            };
+            let used = imports(text).into_iter().filter(is_own);
+            let homes = used.filter_map(|used| self.home(&self.absolute(module, &used.path)?, 0));
+            graph.insert(module.clone(), homes.filter(|home| home != module).collect());
+        }
+        graph
+    }
 }
 
-/// The text without comments and without items that are compiled for tests only.
-fn shipped(text: &str) -> String {
-    let code: Vec<&str> = text.lines().map(|line| line.split("//").next().unwrap_or("")).collect();
-    let code = code.join("\n");
-    let mut parts = code.split("#[cfg(test)]");
-    let mut left = parts.next().unwrap_or("").to_owned();
-    for part in parts {
+fn join(module: &str, name: &str) -> String {
+    [module, name].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("::")
+}
+
+/// The first name of a path: of a file, the module of the crate that it belongs to.
+fn top(path: &str) -> &str {
+    path.split("::").next().unwrap_or(path)
+}
+
+/// Whether a file is that of a folder or lies in it.
+fn is_in(module: &str, folder: &str) -> bool {
+    module.strip_prefix(folder).is_some_and(|rest| rest.is_empty() || rest.starts_with("::"))
+}
+
+fn collect(folder: &Path, module: &str, found: &mut Vec<(String, String)>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let stem = path.file_stem().unwrap().to_str().unwrap().to_owned();
+        if path.is_dir() {
+            // The core is a crate of its own; the suite re-exports its modules under their names.
+            let is_core = module.is_empty() && stem == "core";
+            collect(&path, &if is_core { String::new() } else { join(module, &stem) }, found);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            let name = if stem == "mod" { module.to_owned() } else { join(module, &stem) };
+            found.push((name, fs::read_to_string(&path).unwrap()));
+        }
+    }
+}
+
+/// The text without the items that are compiled for tests alone, and these items.
+fn without_test_items(text: &str) -> (String, Vec<&str>) {
+    let (mut left, mut items, mut rest) = (String::new(), vec![], text);
+    while let Some((before, after)) = rest.split_once("#[cfg(test)]") {
+        left.push_str(before);
         let mut depth = 0;
         let ends = |c: char| {
             depth += i32::from(c == '{') - i32::from(c == '}');
             depth == 0 && (c == '}' || c == ';')
         };
-        left += part.find(ends).map_or("", |end| &part[end + 1..]);
+        let end = after.find(ends).map_or(after.len(), |at| at + 1);
+        items.push(after[..end].trim());
+        rest = &after[end..];
     }
-    left
+    (left + rest, items)
 }
 
-/// What is wrong with the imports of a file of `module`, a line for each fault.
-fn faults(module: &str, text: &str) -> Vec<String> {
-    let is_of_name = |c: char| c.is_alphanumeric() || c == '_';
-    let Some(own) = place(module) else {
-        return vec![format!("the module {module:?} has no layer: add it to tests/layers.rs")];
+/// One path of a `use`, which may be public, or a path in code.
+struct Import {
+    public: Option<bool>,
+    path: String,
+}
+
+/// All paths of all `use` items, their lists written out, and the paths in code.
+fn imports(text: &str) -> Vec<Import> {
+    let is_of_path = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
+    let mut found = vec![];
+    // Whether the `use` that is read is public, what stands before its open lists, and the word before.
+    let (mut public, mut heads, mut last, mut at) = (None, vec![String::new()], "", 0);
+    for piece in text.split_inclusive(|c| !is_of_path(c)) {
+        let word = piece.trim_end_matches(|c| !is_of_path(c));
+        let line = text[..at].rsplit('\n').next().unwrap_or("").trim();
+        at += piece.len();
+        if public.is_none() {
+            if word == "use" && (line.is_empty() || line.starts_with("pub")) {
+                public = Some(line.starts_with("pub"));
+            } else if word.contains("::") {
+                found.push(Import { public, path: word.trim_end_matches(':').into() });
+            }
+            continue;
+        }
+        let path = format!("{}{word}", heads.last().expect("braces are paired"));
+        match &piece[word.len()..] {
+            "{" => heads.push(path),
+            _ if word.is_empty() || word == "as" || last == "as" => {}
+            _ => found.push(Import { public, path: path.trim_end_matches(':').into() }),
+        }
+        match &piece[word.len()..] {
+            "}" => _ = heads.pop(),
+            ";" => public = None,
+            _ => {}
+        }
+        if !word.is_empty() {
+            last = word;
+        }
+    }
+    found
+}
+
+/// What is wrong between modules of the crate: as their places are in one order, none import each other in circles.
+fn upward(graph: &Graph) -> Vec<String> {
+    let place = |module: &str| {
+        let mut places = LAYERS.iter().enumerate();
+        places.find_map(|(layer, names)| Some([layer, names.iter().position(|name| *name == module)?]))
     };
-    let is_right = |other: [usize; 2]| other < own && [other[0], own[0]] != [STRUCTURES; 2];
-    let text = shipped(text);
-    let mut faults = vec![];
-    // `my_crate::` is another crate.
-    for (at, root) in text.match_indices("crate::").filter(|(at, _)| !text[..*at].ends_with(is_of_name)) {
-        let path = &text[at + root.len()..];
-        let name = path.split(|c| !is_of_name(c)).next().unwrap_or("");
-        if path.starts_with('{') {
-            faults.push(format!("{module} imports a list from the root of the crate: write one `use` a module"));
-        } else if name != module && place(name).is_some_and(|other| !is_right(other)) {
-            faults.push(format!("{module} imports {name}"));
+    let mut faults = BTreeSet::new();
+    for (file, homes) in graph {
+        let Some(own) = place(top(file)) else {
+            faults.insert(format!("the module {:?} has no layer: add it to tests/layers.rs", top(file)));
+            continue;
+        };
+        for home in homes.iter().filter(|home| top(home) != top(file)) {
+            let is_right = |other: [usize; 2]| other < own && [other[0], own[0]] != [STRUCTURES; 2];
+            if !place(top(home)).is_some_and(is_right) {
+                faults.insert(format!("{file} imports {home}"));
+            }
         }
     }
-    faults
+    faults.into_iter().collect()
 }
 
-/// The Rust files below a folder, without those of tests, each with the module of the crate that it belongs to.
-fn files(folder: &Path, module: &str, found: &mut Vec<(String, String)>) {
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        let stem = path.file_stem().unwrap().to_str().unwrap().to_owned();
-        let own = if module.is_empty() { &stem } else { module };
-        if path.is_dir() && stem != "tests" {
-            // The core is a crate of its own; the suite re-exports its modules under their names.
-            files(&path, if own == "core" { "" } else { own }, found);
-        } else if path.extension().is_some_and(|end| end == "rs") && !["tests", "lib", "main"].contains(&&*stem) {
-            found.push((own.to_owned(), fs::read_to_string(&path).unwrap()));
+/// The files that import each other in circles, or lie between two: those left when what imports nothing of the rest, and
+/// what nothing of the rest imports, is taken away again and again.
+fn circles(graph: &Graph) -> Vec<&str> {
+    let mut left: Vec<&str> = graph.keys().map(String::as_str).collect();
+    loop {
+        let imports = |from: &str, to: &str| graph[from].contains(to);
+        let is_bound = |name: &&str| {
+            left.iter().any(|other| imports(name, other)) && left.iter().any(|other| imports(other, name))
+        };
+        let bound: Vec<&str> = left.iter().copied().filter(is_bound).collect();
+        if bound.len() == left.len() {
+            return left;
         }
+        left = bound;
     }
+}
+
+/// Everything that is wrong, a line each.
+fn faults(sources: &Sources) -> Vec<String> {
+    let graph = sources.graph();
+    let circles = circles(&graph).into_iter().map(|file| format!("{file} is in a circle")).collect();
+    [upward(&graph), sources.escaped(), circles].concat()
 }
 
 #[test]
 fn imports_go_downward_without_circles() {
-    let mut found = vec![];
-    files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), "", &mut found);
-    assert!(found.len() > 300, "the files of both crates are found");
-    let faults: Vec<String> = found.iter().flat_map(|(module, text)| faults(module, text)).collect();
-    assert!(faults.is_empty(), "imports must go downward:\n{}", faults.join("\n"));
+    let sources = Sources::of_the_crate();
+    assert!(sources.0.len() > 300, "the files of both crates are found");
+    let faults = faults(&sources);
+    assert!(faults.is_empty(), "imports must go downward, and these crates into their folders:\n{}", faults.join("\n"));
 }
+
+/// Modules and their texts.
+type Files<'a> = &'a [(&'a str, &'a str)];
 
 #[test]
 fn planted_faults_are_found() {
-    for (module, text, expected) in [
-        ("accel", "use crate::geometry::Ray;\nuse super::Hit;", None),
-        ("accel", "use crate::kdtree::KdTree as Tree;", Some("accel imports kdtree")),
-        ("accel", "fn f() { let x = crate::registry::builtin(); }", Some("accel imports registry")),
-        ("accel", "use crate::{geometry::Ray, exact};", Some("accel imports a list")),
-        ("accel", "/// See [`crate::registry`].\n// use crate::cli;\nuse my_crate::cli;", None),
-        ("accel", "#[cfg(test)]\nmod tests {\n    use crate::registry::Registry;\n}\n", None),
-        ("attic", "", Some("the module \"attic\" has no layer")),
+    const NODE: (&str, &str) = ("bvh8", "mod node;\nmod stack;\npub use node::Node;\npub(crate) use stack::Stack;\n");
+    const OF_TWO: &[&str] = &["bvh8::node is in a circle", "bvh8::stack is in a circle"];
+    let cases: [(Files, &[&str]); 26] = [
+        (&[("accel", "use crate::geometry::Ray;\nuse super::geometry::Mesh;")], &[]),
+        (&[("accel", "use crate::kdtree::KdTree as Tree;")], &["accel imports kdtree"]),
+        (&[("accel", "use super::kdtree::KdTree;")], &["accel imports kdtree"]),
+        (&[("accel", "fn f() { let x = crate::registry::builtin(); }")], &["accel imports registry"]),
+        (&[("accel", "use crate::{geometry::{Mesh, Ray}, scene::Model, exact};")], &["accel imports scene"]),
+        (&[("accel", "use crate::{\n    kdtree,\n    cli::f,\n};")], &["accel imports cli", "accel imports kdtree"]),
+        (&[("accel", "/// See [`crate::registry`].\n// use crate::cli;\nuse my_crate::cli;")], &[]),
+        (&[("accel", "#[cfg(test)]\nmod tests {\n    use crate::registry::Registry;\n}\n")], &[]),
+        (&[("attic", "")], &["the module \"attic\" has no layer: add it to tests/layers.rs"]),
         // Structures do not know each other, and modules of one layer import one way.
-        ("bvh8", "use crate::kdtree::KdTree;", Some("bvh8 imports kdtree")),
-        ("scene", "use crate::oracle::Tree;", Some("scene imports oracle")),
-        ("oracle", "use crate::scene::Scene;", None),
-    ] {
-        let found = faults(module, text);
-        assert_eq!(found.len(), expected.iter().len(), "{text}: {found:?}");
-        assert!(found.iter().zip(expected).all(|(found, start)| found.starts_with(start)), "{text}: {found:?}");
+        (&[("bvh8", "use crate::kdtree::KdTree;")], &["bvh8 imports kdtree"]),
+        (&[("scene", "use crate::oracle::Tree;"), ("oracle", "")], &["scene imports oracle"]),
+        (&[("build", "use crate::bvh8::node::Node;"), ("bvh8::node", "")], &["build imports bvh8::node"]),
+        // Crates that one folder alone imports.
+        (&[("scene::loaded", "use gltf::{Document, json};")], &["scene::loaded imports gltf"]),
+        (&[("scene", "use ::gltf as reader;")], &["scene imports gltf"]),
+        (&[("cli", "use std::{fs, io};\nfn f() { ::gltf::Gltf::open(path) }")], &["cli imports gltf"]),
+        (&[("cli", "fn f() { tobj::load_obj(path) }")], &["cli imports tobj"]),
+        (&[("cli", "use super::gltf;\nfn f(gltf: u32) { g(\"gltf\", gltf) }")], &[]),
+        (&[("cli", "#[cfg(test)]\nuse tobj::Model;")], &[]),
+        (&[("scene::load", "use gltf::Document;"), ("scene::load::obj", "fn f() { tobj::load_obj(path) }")], &[]),
+        // Files of one folder; what it re-exports is at home in its file, and its own items count.
+        (&[NODE, ("bvh8::node", "use super::stack::DEPTH;"), ("bvh8::stack", "use super::node::Node;")], OF_TWO),
+        (&[NODE, ("bvh8::node", "use super::Stack;"), ("bvh8::stack", "use crate::bvh8::Node;")], OF_TWO),
+        (&[NODE, ("bvh8::node", "fn f() { super::stack::g() }"), ("bvh8::stack", "use super::{node::Node};")], OF_TWO),
+        (&[NODE, ("bvh8::node", ""), ("bvh8::stack", "use crate::bvh8::Node;")], &[]),
+        (
+            &[("bvh8", "mod node;\nuse node::Node;\nstruct Tree;"), ("bvh8::node", "use super::Tree;")],
+            &["bvh8 is in a circle", "bvh8::node is in a circle"],
+        ),
+        (&[("bvh8", "mod node;\nfn f() { node::g() }"), ("bvh8::node", "")], &[]),
+        (
+            &[
+                ("bvh8", "mod node;\n#[cfg(test)]\nmod tests;\n"),
+                ("bvh8::node", "#[cfg(test)]\nuse super::tests::mesh;"),
+                ("bvh8::tests", "use super::node::Node;"),
+            ],
+            &[],
+        ),
+    ];
+    for (files, expected) in cases {
+        let others = ["kdtree", "bvh8", "registry", "scene", "geometry", "exact", "cli"].map(|name| (name, ""));
+        let all = others.iter().chain(files).map(|(module, text)| (module.to_string(), text.to_string()));
+        assert_eq!(faults(&Sources::new(all.collect())), expected, "{files:?}");
     }
 }

@@ -34,7 +34,7 @@ pub fn table(table: &Table, screen: Screen) -> String {
     let table = with_short_names(table.clone().without_empty_columns());
     let title = table.title.escaped();
     let title = if screen.colour { format!("\x1b[1m{title}\x1b[0m") } else { title.to_string() };
-    let mut text = title + "\n";
+    let mut text = if table.title.is_empty() { String::new() } else { title + "\n" };
     for columns in blocks(&table, screen.width.map(usize::from)) {
         for line in grid(&table, &columns, screen).lines() {
             text.push_str(line.trim_end());

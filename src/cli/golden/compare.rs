@@ -82,6 +82,9 @@ impl Args {
     /// The pictures; those of folders that neither has are nothing to compare.
     fn pairs(&self) -> anyhow::Result<Vec<Pair>> {
         let [expected, actual] = [&self.expected, &self.actual];
+        if let Some(missing) = [expected, actual].into_iter().find(|path| !path.exists()) {
+            anyhow::bail!("there is no {}: name two folders or two pictures", missing.escaped());
+        }
         match (expected.is_dir(), actual.is_dir()) {
             (true, true) => {
                 let two = || format!("{} and {}", expected.escaped(), actual.escaped());
