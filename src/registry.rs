@@ -233,4 +233,12 @@ mod tests {
         let choice = registry.choose("a").unwrap();
         assert!(choice.build(&Arc::new(empty())).is_err() && choice.entry.absence().is_none());
     }
+
+    #[test]
+    fn a_removed_value_names_its_replacement() {
+        let error = Registry::builtin().choose("sah-bvh:batch=interleaved").map(|choice| choice.label).unwrap_err();
+        let sentence = "sah-bvh no longer takes batch=interleaved: use batch=packets, which interleaves the rays that do \
+                        not form a packet";
+        assert_eq!(error.to_string(), sentence);
+    }
 }

@@ -31,9 +31,15 @@ pub enum ChoiceError {
     Form { spec: String, part: String },
     #[error("{name} does not take {given} ({reason}){suggestion}; allowed: {values}")]
     Value { name: String, given: String, reason: String, suggestion: String, values: String },
+    #[error("{name} no longer takes {given}: use {instead}")]
+    Removed { name: String, given: String, instead: &'static str },
     #[error("{name} cannot be configured so: {reason}")]
     Config { name: String, reason: String },
 }
+
+/// Values that keys took in earlier versions, and what to use now.
+const REMOVED: [(&str, &str, &str); 1] =
+    [("batch", "interleaved", "batch=packets, which interleaves the rays that do not form a packet")];
 
 impl Choice {
     /// `entry` with values of some keys; `name_test` where its name alone would be that of another entry.
@@ -61,6 +67,9 @@ impl Choice {
             let value = serde_json::from_str(text).unwrap_or_else(|_| Value::String(text.into()));
             entry.takes(key, &value).map_err(|reason| {
                 let (name, given) = (entry.name.clone(), format!("{key}={text}"));
+                if let Some(&(.., instead)) = REMOVED.iter().find(|removed| (removed.0, removed.1) == (key, text)) {
+                    return ChoiceError::Removed { name, given, instead };
+                }
                 let values = entry.values(key);
                 ChoiceError::Value {
                     name,
