@@ -121,3 +121,54 @@ fn results_are_of_one_commit_and_one_machine_and_tell_its_threads() {
         assert!(sentence.contains(part), "{sentence}");
     }
 }
+
+/// The text without code, marked places and targets of links.
+fn unmarked(text: &str) -> String {
+    let filled = fill(text, |_| Some(String::new())).unwrap();
+    let prose: Vec<&str> = filled.split("```").step_by(2).collect();
+    let prose: String = prose.concat().split('`').step_by(2).collect();
+    prose
+        .split("](")
+        .enumerate()
+        .map(|(i, part)| if i == 0 { part } else { part.split_once(')').map_or("", |p| p.1) })
+        .collect()
+}
+
+/// Numbers with a few words around them.
+fn numbers(text: &str) -> Vec<String> {
+    let part = |c: char| c.is_ascii_digit() || c == '.' || c == ',';
+    let begins = |at: &usize| !text[..*at].ends_with(part);
+    let starts = text.match_indices(|c: char| c.is_ascii_digit()).map(|(at, _)| at).filter(begins);
+    let around = |at: usize| {
+        let before =
+            text[..at].rfind([' ', '\n']).map_or(0, |blank| text[..blank].rfind([' ', '\n']).map_or(0, |b| b + 1));
+        text[before..].split_whitespace().take(4).collect::<Vec<_>>().join(" ")
+    };
+    starts.map(around).collect()
+}
+
+/// Numbers that were not measured: statuses, the level of intervals, what a ratio is compared with, and a licence.
+const ALLOWED: [&str; 3] = ["in 95 % of", "from 1.", "Apache 2.0,"];
+
+#[test]
+fn readme_holds_no_number_that_nothing_holds() {
+    let text = unmarked(&readme());
+    let (before, statuses) = text.split_once("Exit status: ").unwrap();
+    let (statuses, after) = statuses.split_once("\n\n").unwrap();
+    for status in statuses.split_once(". ").map_or(statuses, |first| first.0).split(", ") {
+        let Some((number, words)) = status.split_once(' ').filter(|s| s.0.parse::<u8>().is_ok()) else { continue };
+        let known = crate::cli::exit_status::STATUSES
+            .lines()
+            .find_map(|line| line.trim().strip_prefix(number)?.strip_prefix("  "));
+        let word = words.split_whitespace().find(|word| word.len() > 3).unwrap();
+        assert!(known.is_some_and(|known| known.contains(word)), "README.md: {status}; --help: {known:?}");
+    }
+    let stray = [before, after].map(numbers).concat();
+    let stray: Vec<&String> = stray.iter().filter(|s| !ALLOWED.iter().any(|allowed| s.contains(allowed))).collect();
+    assert!(
+        stray.is_empty(),
+        "mark these in README.md, so that `{COMMAND}` fills them in, or leave them out: {stray:?}"
+    );
+    assert_eq!(numbers("it is 1.8 as fast\nin 5 s; 3 %").len(), 3, "it finds what is a number");
+    assert_eq!(numbers(&unmarked("a `4 %` [b](5%) <!-- sahara: k -->6 %<!-- / --> c\n```\n7 %\n```\n")), [""; 0]);
+}

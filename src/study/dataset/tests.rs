@@ -11,7 +11,7 @@ use crate::study::case::tests::example as case;
 use crate::study::epoch::tests::example as epoch;
 use crate::study::epoch::{RayCounts, Rays};
 use crate::study::{Check, Settings, Studies};
-use crate::validate::{ErrorCounts, Ulps};
+use crate::validate::{ErrorCounts, Kind, Ulps};
 
 /// Cases with all that a case may have, and an epoch likewise.
 fn with_all_fields() -> Dataset {
@@ -46,6 +46,12 @@ fn with_all_fields() -> Dataset {
             parts: vec![SubsetSamples { rays: 10, ns: vec![10] }],
             wrong: true,
             declined: Some("t_min".into()),
+            checked: Some(Checked {
+                rounded: 1,
+                fault: Some(Kind::Lost),
+                example: Some(("ray".into(), "lost".into())),
+                ..Checked::default()
+            }),
             counts: Some(RayCounts { whole_tests: Some(1), ..RayCounts::default() }),
             errors: Some(ErrorCounts { ulps: Some(Ulps::default()), ..ErrorCounts::default() }),
             slowest_ns: Some(1),
