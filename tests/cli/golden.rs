@@ -131,7 +131,7 @@ fn pictures_of_another_layout_and_what_cannot_be_compared_are_told() {
     assert_eq!(prints(&["golden", "compare", &folders.path("a.png"), &folders.path("again.png")]), "1 identical\n");
 
     let [a, none, folder] = ["a.png", "none.png", ""].map(|name| folders.path(name));
-    refuses_in_a_line(&["golden", "compare", &a, &none], &["none.png", "No such file"]);
+    refuses_in_a_line(&["golden", "compare", &a, &none], &["none.png", "there is no"]);
     refuses_in_a_line(&["golden", "compare", &a, &folder], &["a folder and a file"]);
     fs::create_dir(folders.path("empty")).unwrap();
     let empty = folders.path("empty");

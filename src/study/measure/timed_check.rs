@@ -36,8 +36,9 @@ pub struct TimedCheck<'a> {
 struct TreeHits {
     name: &'static str,
     triangle_test: &'static str,
-    accel: Box<dyn DynAccel>,
-    /// Judges differences: brute force over the same test, or over `exact` for a test that is a structure's own.
+    /// The tree. A structure over its test must return its bits, others what exact arithmetic and rounding allow.
+    tree: Reference,
+    /// Judges differences: brute force over the structure's test, or over `exact` for a test of its own.
     judge: Reference,
     /// By workload and ray; nothing where it was not needed yet.
     hits: Vec<Vec<Option<Option<Hit>>>>,
@@ -60,7 +61,7 @@ impl<'a> TimedCheck<'a> {
 
         let place = self.reference(built)?;
         let expected = self.references[place].hits_of(pair.workload, workload, &timed);
-        Ok(Some(self.judged(&self.references[place].judge, &chosen, &expected, &found)))
+        Ok(Some(self.judged(&self.references[place], &chosen, &expected, &found)))
     }
 
     /// The rays of a workload that any epoch times, by their positions.
@@ -86,20 +87,22 @@ impl<'a> TimedCheck<'a> {
         let choice = registry.choose(&format!("{name}:quality=fast,test={test}"));
         let accel = choice.map_err(|cause| BuildError::Config(cause.to_string()))?.build(&self.scene.mesh)?;
         let judge = Reference::of_test(own_test, &self.scene.mesh)?;
+        let tree = Reference { test: judge.test.filter(|_| test == own_test), ..Reference::structure(accel, own_test) };
         let hits = self.workloads.iter().map(|workload| vec![None; workload.rays.len()]).collect();
-        self.references.push(TreeHits { name, triangle_test: own_test, accel, judge, hits });
+        self.references.push(TreeHits { name, triangle_test: own_test, tree, judge, hits });
         Ok(self.references.len() - 1)
     }
 
     /// What the structure gets wrong. The tree may be wrong itself, so brute force judges the rays on which they differ, or
     /// as many of them as it can afford.
-    fn judged(&self, judge: &Reference, rays: &[Ray], expected: &[Option<Hit>], found: &QueryResults) -> Checked {
+    fn judged(&self, known: &TreeHits, rays: &[Ray], expected: &[Option<Hit>], found: &QueryResults) -> Checked {
+        let TreeHits { tree, judge, .. } = known;
         let mesh = &self.scene.mesh;
         let mut checked = Checked { rays: rays.len(), ..Checked::default() };
         let accused: Vec<usize> = match found {
             QueryResults::Any(found) => (0..rays.len()).filter(|&i| found[i] != expected[i].is_some()).collect(),
             QueryResults::Closest(found) => {
-                let differing = differences(judge, mesh, rays, expected, found);
+                let differing = differences(tree, mesh, rays, expected, found);
                 let rounds = |kind: Kind| matches!(kind, Kind::Depth | Kind::TriangleTest);
                 checked.rounded = differing.iter().filter(|(_, kind)| rounds(*kind)).count();
                 differing.into_iter().filter(|(_, kind)| kind.is_error()).map(|(index, _)| index).collect()
@@ -132,7 +135,7 @@ impl TreeHits {
         let hits = &mut self.hits[place];
         let missing: Vec<usize> = wanted.iter().copied().filter(|&index| hits[index].is_none()).collect();
         let rays: Vec<Ray> = missing.iter().map(|&index| workload.rays[index]).collect();
-        let traced = self.accel.closest_by_chunks(&rays, TILE);
+        let traced = self.tree.accel.closest_by_chunks(&rays, TILE);
         missing.into_iter().zip(traced).for_each(|(index, hit)| hits[index] = Some(hit));
         wanted.iter().map(|&index| hits[index].flatten()).collect()
     }
