@@ -102,7 +102,8 @@ const FINDINGS: [Finding; 4] = [
     },
     Finding {
         cause: "in the far face of a box: the same, and elsewhere 1 / 0 is a large number, which makes boxes half-open",
-        structures: &["bvh", "parry", "tinybvh", "embree", "embree-robust"],
+        // tinybvh too, on the rim of the mesh, where its own triangle test may round as well.
+        structures: &["bvh", "parry", "embree", "embree-robust"],
         mesh: BOX,
         ray: "0.375,3.875,1.0 0.0,-1.0,0.0",
         kind: Kind::Lost,

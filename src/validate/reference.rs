@@ -104,7 +104,9 @@ impl Reference {
 
     #[cfg(feature = "peer-embree")]
     fn in_disputes(disputed: ScalarTest, mesh: &Arc<Mesh>) -> Result<Self, BuildError> {
-        Ok(Self { test: None, disputed: Some(disputed), ..Self::brute_force::<Exact>(mesh)? })
+        // What that test rounds is known exactly: no bound is needed.
+        let precision = Precision::Exact;
+        Ok(Self { test: None, precision, disputed: Some(disputed), ..Self::brute_force::<Exact>(mesh)? })
     }
 
     /// Its closest hits, one for each ray, found on all threads of the pool.
