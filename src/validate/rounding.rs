@@ -25,9 +25,9 @@ pub enum Precision {
     Single,
 }
 
-/// A line and a triangle, and the bounds for a test that computes with corners A times as far from the origin of the
-/// coordinates as numbers get: a barycentric weight is off by `OPERATIONS` roundings of A times an edge over the
-/// determinant, a depth by as many of A times the square of an edge over the determinant, and of itself.
+/// A line, a triangle, and how far a test may be off. With A the largest distance of the corners and the ray's origin from
+/// the origin of the coordinates, a barycentric weight is off by at most `OPERATIONS` roundings of A times the longest edge
+/// over the determinant, a depth by as many of A times the square of that edge over the determinant, and of itself.
 ///
 /// # References
 /// Higham: Accuracy and Stability of Numerical Algorithms, 2nd edition, 2002 (running error of inner products).
