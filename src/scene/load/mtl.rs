@@ -1,15 +1,14 @@
 //! Wavefront MTL, the materials of OBJ files, by tobj.
 
 use std::collections::HashMap;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use glam::Vec3;
 
 use super::error::quoted;
+use super::files::{canonical, named_below, read_start};
 use super::notes::Notes;
 use super::text::{lines, name, plain, words};
-use super::{below, read_file};
 use crate::escaped::Escaped as _;
 use crate::scene::Material;
 
@@ -43,13 +42,12 @@ pub(super) fn read(
                 continue;
             }
         };
-        // The same file may have several names.
-        let file = fs::canonicalize(&path).unwrap_or_else(|_| path.clone());
+        let file = canonical(path.clone());
         if files.contains(&file) {
             continue;
         }
         files.push(file);
-        match read_file(&path) {
+        match read_start(&path, u64::MAX) {
             Ok(bytes) => read_library(&bytes, &path, used, &mut known, notes),
             Err(cause) => notes.add(format!("the materials in {} cannot be read ({cause})", path.escaped())),
         }
@@ -65,8 +63,8 @@ pub(super) fn read(
 /// The files that a line names: one file whose name contains spaces, if it exists, otherwise several.
 fn paths<'a>(names: &'a [u8], folder: &'a Path) -> Box<dyn Iterator<Item = Result<PathBuf, String>> + 'a> {
     let path = move |name: &[u8]| {
-        let slashes = name.iter().map(|&byte| if byte == b'\\' { b'/' } else { byte }).collect();
-        below(folder, file_name(slashes)).ok_or_else(|| {
+        let slashes: Vec<u8> = name.iter().map(|&byte| if byte == b'\\' { b'/' } else { byte }).collect();
+        named_below(folder, &slashes).ok_or_else(|| {
             format!("the material file {} is not below the folder of this file: it is not read", quoted(name))
         })
     };
@@ -74,18 +72,6 @@ fn paths<'a>(names: &'a [u8], folder: &'a Path) -> Box<dyn Iterator<Item = Resul
         Ok(whole) if whole.is_file() => Box::new(std::iter::once(Ok(whole))),
         _ => Box::new(words(names).map(path)),
     }
-}
-
-/// The file whose name has these bytes, which need not be text.
-#[cfg(unix)]
-fn file_name(bytes: Vec<u8>) -> PathBuf {
-    use std::os::unix::ffi::OsStringExt as _;
-    std::ffi::OsString::from_vec(bytes).into()
-}
-
-#[cfg(not(unix))]
-fn file_name(bytes: Vec<u8>) -> PathBuf {
-    String::from_utf8_lossy(&bytes).into_owned().into()
 }
 
 fn read_library(bytes: &[u8], path: &Path, used: &HashMap<Vec<u8>, u32>, known: &mut Known, notes: &mut Notes) {

@@ -1,16 +1,21 @@
 //! The text of a glTF document, alone or in a binary file.
 //!
 //! The crate `gltf` has the types of a document and checks its indices. By itself it refuses valid files for what is not
-//! read here, and misreads some invalid ones. The document is therefore cut down to what is read before the crate sees
-//! it.
+//! read here, and misreads some invalid ones. Each item of a list is therefore cut down to what is read before the crate
+//! sees it, and replaced by an empty one if nothing refers to it.
 
 use std::collections::{HashMap, HashSet};
+use std::fmt::Display;
 use std::ops::Range;
 use std::sync::LazyLock;
 
+use gltf::json::scene::UnitQuaternion;
 use gltf::json::validation::{Error, Validate as _};
-use gltf::json::{Path, Root};
-use serde_json::Value;
+use gltf::json::{Index, Path, Root};
+use serde::Deserialize;
+use serde::de::{DeserializeOwned, IgnoredAny};
+use serde_json::value::RawValue;
+use serde_json::{Deserializer, Value, json};
 
 use super::extensions;
 use crate::scene::load::error::{Fault, message, quoted};
@@ -23,35 +28,29 @@ const MOST_OBJECTS: usize = 1 << 16;
 /// So many bytes of the file allow for one more object.
 const BYTES_AN_OBJECT: usize = 48;
 
-/// The most entries of lists and objects, per object.
-const ENTRIES_AN_OBJECT: usize = 12;
-
 /// The keys that are read, apart from those of joints and weights.
 static KEYS: LazyLock<HashSet<&str>> = LazyLock::new(|| {
-    "accessors asset attributes baseColorFactor buffer bufferView bufferViews buffers byteLength byteOffset byteStride \
-    children componentType count indices inverseBindMatrices joints material materials matrix mesh meshes mode name nodes \
-    normalized pbrMetallicRoughness primitives rotation scale scene scenes skin skins sparse targets translation type uri \
-    values version NORMAL POSITION"
+    "attributes baseColorFactor buffer bufferView byteLength byteOffset byteStride children componentType count indices \
+    inverseBindMatrices joints material matrix mesh mode name nodes normalized pbrMetallicRoughness primitives rotation \
+    scale skin sparse targets translation type uri values NORMAL POSITION"
         .split_whitespace()
         .collect()
 });
 
-/// The keys of objects; serde takes a list for an object as well.
-const OBJECTS: [&str; 5] = ["asset", "indices", "pbrMetallicRoughness", "sparse", "values"];
+/// The keys of objects, and of items of lists; serde takes a list for an object as well.
+const OBJECTS: [&str; 5] = ["", "indices", "pbrMetallicRoughness", "sparse", "values"];
 
 /// The keys of numbers that may be 2^32 or more. Indices may not: the crate would cut them off.
 const LARGE: [&str; 8] =
     ["baseColorFactor", "byteLength", "byteOffset", "count", "matrix", "rotation", "scale", "translation"];
 
-/// By nodes, the accessors of translations, rotations and scales of the instances of their meshes.
-pub(super) type Instances = HashMap<usize, [Option<usize>; 3]>;
-
 pub(super) struct Document {
     /// All indices are in range; accessors are not checked against their buffers.
     pub root: Root,
-    pub instances: Instances,
-    /// Whether each material has a texture.
-    pub textured: Vec<bool>,
+    /// By nodes, the accessors of translations, rotations and scales of the instances of their meshes.
+    pub instances: HashMap<usize, [Option<usize>; 3]>,
+    /// The numbers of materials with a texture.
+    pub textured: Vec<u32>,
     /// About extensions.
     pub notes: Notes,
 }
@@ -60,33 +59,171 @@ pub(super) struct Document {
 pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fault> {
     let (text, chunk) = if bytes.starts_with(b"glTF") { chunks(bytes)? } else { (plain(bytes)?, None) };
     check_size(text, bytes.len())?;
-    let mut value: Value = serde_json::from_slice(text).map_err(|error| no_gltf(&message(&error)))?;
-    // Other versions and extensions first: they explain what is wrong with the rest.
-    check_version(&value)?;
+    let members = members(text)?;
+    check_version(&members.asset)?;
     let mut notes = Notes::default();
-    extensions::check(&value, &mut notes)?;
+    extensions::check(&members.extensions_required, &members.extensions_used, &mut notes)?;
 
-    let list = |key: &str| value.get(key).and_then(Value::as_array).into_iter().flatten();
-    let textured = list("materials").map(is_textured).collect();
-    let mut instances = HashMap::new();
-    for (number, node) in list("nodes").enumerate() {
+    let (mut instances, mut textured) = (HashMap::new(), vec![]);
+    let mut root = Root { scene: typed("scene", members.scene)?, ..Root::default() };
+    root.scenes = list("scenes", &members.scenes, |_, scene| {
+        // The crate wants this list, which is optional.
+        scene.as_object_mut().map(|scene| scene.entry("nodes").or_insert_with(|| json!([])));
+    })?;
+    let mut add_instances = |number, node: &mut Value| {
         let accessors = extensions::instances(node);
-        if accessors.iter().any(Option::is_some) {
-            instances
-                .insert(number, accessors.map(|accessor| Some(accessor?.as_u64().map_or(usize::MAX, |n| n as usize))));
+        if accessors != [None; 3] {
+            instances.insert(number, accessors);
         }
+    };
+    for (number, text) in members.nodes.iter().enumerate() {
+        let node = Node::plain(text.get()).map_or_else(|| item("nodes", number, text, &mut add_instances), Ok)?;
+        root.nodes.push(node);
     }
-    // The crate wants this list, which is optional.
-    for scene in value.get_mut("scenes").and_then(Value::as_array_mut).into_iter().flatten() {
-        if let Value::Object(scene) = scene {
-            scene.entry("nodes").or_insert_with(|| Value::Array(Vec::new()));
+    root.materials = list("materials", &members.materials, |number, material| {
+        let is_textured = |(key, value): (&String, &Value)| key.ends_with("Texture") && !value.is_null();
+        let parts = [Some(&*material), material.get("pbrMetallicRoughness")].into_iter().flatten();
+        if parts.filter_map(Value::as_object).flatten().any(is_textured) {
+            textured.push(number as u32);
         }
+    })?;
+    root.skins = list("skins", &members.skins, |_, _| {})?;
+    let read = numbers(root.nodes.iter().filter_map(|node| node.mesh));
+    root.meshes = list("meshes", &members.meshes, replace(&read, json!({"primitives": []})))?;
+    let mut read = numbers(root.skins.iter().filter_map(|skin| skin.inverse_bind_matrices));
+    read.extend(instances.values().flatten().flatten());
+    for primitive in root.meshes.iter().flat_map(|mesh| &mesh.primitives) {
+        read.extend(numbers(primitive.attributes.values().copied().chain(primitive.indices)));
     }
-    prune("", &mut value).map_err(|(place, problem)| Fault::part(place.trim_start_matches('.'), problem))?;
-    let root = serde_path_to_error::deserialize(value)
-        .map_err(|error| Fault::part(error.path().to_string(), message(error.inner())))?;
+    let empty = json!({"componentType": 5126, "count": 0, "type": "SCALAR"});
+    root.accessors = list("accessors", &members.accessors, replace(&read, empty))?;
+    let sparse = root.accessors.iter().filter_map(|accessor| accessor.sparse.as_ref());
+    let mut read = numbers(sparse.flat_map(|sparse| [sparse.indices.buffer_view, sparse.values.buffer_view]));
+    read.extend(numbers(root.accessors.iter().filter_map(|accessor| accessor.buffer_view)));
+    root.buffer_views =
+        list("bufferViews", &members.buffer_views, replace(&read, json!({"buffer": 0, "byteLength": 0})))?;
+    let read = numbers(root.buffer_views.iter().map(|view| view.buffer));
+    root.buffers = list("buffers", &members.buffers, replace(&read, json!({"byteLength": 0, "uri": "data:;base64,"})))?;
     validate(&root)?;
     Ok((Document { root, instances, textured, notes }, chunk))
+}
+
+fn numbers<T>(indices: impl Iterator<Item = Index<T>>) -> HashSet<usize> {
+    indices.map(|index| index.value()).collect()
+}
+
+/// What replaces the items of a list that are not read: they may be anything.
+fn replace(read: &HashSet<usize>, empty: Value) -> impl FnMut(usize, &mut Value) {
+    move |number, item| {
+        if !read.contains(&number) {
+            item.clone_from(&empty);
+        }
+    }
+}
+
+/// The version of a document in any version.
+#[derive(Deserialize)]
+struct Versioned {
+    #[serde(default)]
+    asset: Value,
+}
+
+/// A document whose items are text: as values they would take twenty times as much memory.
+#[derive(Default, Deserialize)]
+#[serde(rename_all = "camelCase", default)]
+struct Members<'a> {
+    asset: Value,
+    extensions_required: Value,
+    extensions_used: Value,
+    scene: Value,
+    #[serde(borrow)]
+    scenes: Vec<&'a RawValue>,
+    nodes: Vec<&'a RawValue>,
+    materials: Vec<&'a RawValue>,
+    skins: Vec<&'a RawValue>,
+    meshes: Vec<&'a RawValue>,
+    accessors: Vec<&'a RawValue>,
+    buffer_views: Vec<&'a RawValue>,
+    buffers: Vec<&'a RawValue>,
+}
+
+fn members(text: &[u8]) -> Result<Members<'_>, Fault> {
+    if !text.trim_ascii_start().starts_with(b"{") {
+        return Err(no_gltf("it is no JSON object"));
+    }
+    serde_json::from_slice(text).or_else(|error| {
+        // The lists of glTF 1.0 are objects.
+        let versioned: Versioned = serde_json::from_slice(text).map_err(|_| no_gltf(&message(&error)))?;
+        check_version(&versioned.asset)?;
+        let again: Result<Members, _> = serde_path_to_error::deserialize(&mut Deserializer::from_slice(text));
+        let place = again.err().map(|error| error.path().to_string());
+        Err(Fault::part(place.unwrap_or_default(), message(&error)))
+    })
+}
+
+/// A node as most files have it. It is read at once, for there may be very many.
+#[derive(Deserialize)]
+struct Node {
+    children: Option<Vec<u32>>,
+    matrix: Option<[f32; 16]>,
+    mesh: Option<u32>,
+    rotation: Option<[f32; 4]>,
+    scale: Option<[f32; 3]>,
+    skin: Option<u32>,
+    translation: Option<[f32; 3]>,
+    extensions: Option<IgnoredAny>,
+}
+
+impl Node {
+    /// The node, if it is an object without extensions and has nothing wrong.
+    fn plain(text: &str) -> Option<gltf::json::Node> {
+        let node: Self = serde_json::from_str(text).ok().filter(|_| text.starts_with('{'))?;
+        let children = node.children.map(|children| children.into_iter().map(Index::new).collect());
+        node.extensions.is_none().then(|| gltf::json::Node {
+            children,
+            matrix: node.matrix,
+            mesh: node.mesh.map(Index::new),
+            rotation: node.rotation.map(UnitQuaternion),
+            scale: node.scale,
+            skin: node.skin.map(Index::new),
+            translation: node.translation,
+            ..gltf::json::Node::default()
+        })
+    }
+}
+
+fn list<T: DeserializeOwned>(
+    key: &str,
+    items: &[&RawValue],
+    mut change: impl FnMut(usize, &mut Value),
+) -> Result<Vec<T>, Fault> {
+    items.iter().enumerate().map(|(number, text)| item(key, number, text, &mut change)).collect()
+}
+
+/// An item of a list, passed through `change` and then cut down to what is read.
+fn item<T: DeserializeOwned>(
+    key: &str,
+    number: usize,
+    text: &RawValue,
+    change: &mut impl FnMut(usize, &mut Value),
+) -> Result<T, Fault> {
+    let place = format!("{key}[{number}]");
+    let mut value = serde_json::from_str(text.get()).map_err(|error| {
+        // It counts lines from the start of the item.
+        let problem = message(&error);
+        Fault::part(&place, problem.split(" at line ").next().unwrap_or_default())
+    })?;
+    change(number, &mut value);
+    typed(&place, value)
+}
+
+/// A value of a type of the crate, without what is not read.
+fn typed<T: DeserializeOwned>(place: &str, mut value: Value) -> Result<T, Fault> {
+    let fault = |below: &dyn Display, problem| Fault::part(format!("{place}{below}"), problem);
+    prune("", &mut value).map_err(|(below, problem)| fault(&below, problem))?;
+    T::deserialize(&value)
+        .or_else(|_| serde_path_to_error::deserialize(value))
+        .map_err(|error| fault(&format_args!(".{}", error.path()), message(error.inner())))
 }
 
 /// Cuts out what is not read. An error is the place in the value, and the problem there.
@@ -137,25 +274,17 @@ fn validate(root: &Root) -> Result<(), Fault> {
     fault.map_or(Ok(()), Err)
 }
 
-fn is_textured(material: &Value) -> bool {
-    let parts = [Some(material), material.get("pbrMetallicRoughness")];
-    let mut members = parts.into_iter().flatten().filter_map(Value::as_object).flatten();
-    members.any(|(key, value)| key.ends_with("Texture") && !value.is_null())
-}
-
-fn check_version(document: &Value) -> Result<(), Fault> {
-    let asset = document.get("asset").ok_or_else(|| no_gltf("it has no `asset`"))?;
+fn check_version(asset: &Value) -> Result<(), Fault> {
     let version = |key: &str| asset.get(key).and_then(Value::as_str);
-    match (version("minVersion"), version("version")) {
-        (Some(least), _) if least != "2.0" => Err(Fault::part(
-            "asset",
-            format!("it needs glTF {}, and 2.0 is read here: export it as that", quoted(least)),
-        )),
-        (_, Some(version)) if version.split('.').next() != Some("2") => {
-            Err(Fault::part("asset", format!("it is glTF {}: convert it to 2.0", quoted(version))))
+    let problem = match (version("minVersion"), version("version")) {
+        (Some(least), _) if least != "2.0" => {
+            format!("it needs glTF {}, and 2.0 is read here: export it as that", quoted(least))
         }
-        _ => Ok(()),
-    }
+        (_, Some(version)) if version.split('.').next() == Some("2") => return Ok(()),
+        (_, Some(version)) => format!("it is glTF {}: convert it to 2.0", quoted(version)),
+        (_, None) => return Err(no_gltf("it has no `asset` with a version")),
+    };
+    Err(Fault::part("asset", problem))
 }
 
 fn no_gltf(problem: &str) -> Fault {
@@ -186,15 +315,12 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<Range<usize>>), Fault> {
 
 /// Checks the number of objects in a document against the size of its file; those in strings count as well.
 fn check_size(text: &[u8], bytes: usize) -> Result<(), Fault> {
-    let count = |bytes: &[u8]| text.iter().filter(|byte| bytes.contains(byte)).count();
-    let (objects, entries) = (count(b"{"), count(b",["));
+    let objects = text.iter().filter(|byte| **byte == b'{').count();
     let most = MOST_OBJECTS + bytes / BYTES_AN_OBJECT;
-    for (count, most, what) in [(objects, most, "objects"), (entries, ENTRIES_AN_OBJECT * most, "entries")] {
-        if count > most {
-            let problem =
-                format!("its text describes {count} {what}, and more than {most} are not read: split the file");
-            return Err(Fault::file(problem));
-        }
+    if objects > most {
+        let problem =
+            format!("its text describes {objects} objects, and more than {most} are not read: split the file");
+        return Err(Fault::file(problem));
     }
     Ok(())
 }
