@@ -101,7 +101,8 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
         "material has a texture, which is left out: it shows its base colour as it is",
         "materials have textures, which are left out: they show their base colour as it is",
     ];
-    notes.count(textured.iter().filter(|material| used.contains(material)).count(), texture);
+    let textured = (0..).zip(&textured).filter(|(number, is_textured)| **is_textured && used.contains(number)).count();
+    notes.count(textured, texture);
     let morph = [
         "primitive has morph targets, which are left out: it keeps its basic form",
         "primitives have morph targets, which are left out: they keep their basic form",

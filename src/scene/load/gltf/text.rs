@@ -1,11 +1,10 @@
 //! The text of a glTF document, alone or in a binary file.
 //!
 //! The crate `gltf` has the types of a document and checks its indices. By itself it refuses valid files for what is not
-//! read here, and misreads some invalid ones. Each item of a list is therefore cut down to what is read before the crate
-//! sees it, and replaced by an empty one if nothing refers to it.
+//! read here, and misreads some invalid ones. It is therefore cut down to what is read before the crate sees
+//! it.
 
 use std::collections::{HashMap, HashSet};
-use std::fmt::Display;
 use std::ops::Range;
 use std::sync::LazyLock;
 
@@ -15,7 +14,7 @@ use gltf::json::{Index, Path, Root};
 use serde::Deserialize;
 use serde::de::{DeserializeOwned, IgnoredAny};
 use serde_json::value::RawValue;
-use serde_json::{Deserializer, Value, json};
+use serde_json::{Value, json};
 
 use super::extensions;
 use crate::scene::load::error::{Fault, message, quoted};
@@ -37,8 +36,8 @@ static KEYS: LazyLock<HashSet<&str>> = LazyLock::new(|| {
         .collect()
 });
 
-/// The keys of objects, and of items of lists; serde takes a list for an object as well.
-const OBJECTS: [&str; 5] = ["", "indices", "pbrMetallicRoughness", "sparse", "values"];
+/// The keys of objects; serde takes a list for an object as well.
+const OBJECTS: [&str; 4] = ["indices", "pbrMetallicRoughness", "sparse", "values"];
 
 /// The keys of numbers that may be 2^32 or more. Indices may not: the crate would cut them off.
 const LARGE: [&str; 8] =
@@ -49,8 +48,8 @@ pub(super) struct Document {
     pub root: Root,
     /// By nodes, the accessors of translations, rotations and scales of the instances of their meshes.
     pub instances: HashMap<usize, [Option<usize>; 3]>,
-    /// The numbers of materials with a texture.
-    pub textured: Vec<u32>,
+    /// Whether each material has a texture.
+    pub textured: Vec<bool>,
     /// About extensions.
     pub notes: Notes,
 }
@@ -59,51 +58,57 @@ pub(super) struct Document {
 pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fault> {
     let (text, chunk) = if bytes.starts_with(b"glTF") { chunks(bytes)? } else { (plain(bytes)?, None) };
     check_size(text, bytes.len())?;
-    let members = members(text)?;
-    check_version(&members.asset)?;
+    let members: HashMap<String, &RawValue> =
+        serde_json::from_slice(text).map_err(|error| no_gltf(&message(&error)))?;
+    let list = |key: &str| members.get(key).map_or(Ok(Value::Null), |text| parsed(key, text));
+    // Other versions and extensions first: they explain what is wrong with the rest.
+    check_version(&list("asset")?)?;
     let mut notes = Notes::default();
-    extensions::check(&members.extensions_required, &members.extensions_used, &mut notes)?;
+    extensions::check(&list("extensionsRequired")?, &list("extensionsUsed")?, &mut notes)?;
 
-    let (mut instances, mut textured) = (HashMap::new(), vec![]);
-    let mut root = Root { scene: typed("scene", members.scene)?, ..Root::default() };
-    root.scenes = list("scenes", &members.scenes, |_, scene| {
-        // The crate wants this list, which is optional.
-        scene.as_object_mut().map(|scene| scene.entry("nodes").or_insert_with(|| json!([])));
-    })?;
-    let mut add_instances = |number, node: &mut Value| {
-        let accessors = extensions::instances(node);
-        if accessors != [None; 3] {
-            instances.insert(number, accessors);
-        }
-    };
-    for (number, text) in members.nodes.iter().enumerate() {
-        let node = Node::plain(text.get()).map_or_else(|| item("nodes", number, text, &mut add_instances), Ok)?;
-        root.nodes.push(node);
+    let mut instances = HashMap::new();
+    let mut root = Root { scene: typed("scene", list("scene")?)?, ..Root::default() };
+    let nodes = members.get("nodes").map_or(Ok(vec![]), |text| parsed("nodes", text))?;
+    for (number, text) in nodes.into_iter().enumerate() {
+        root.nodes.push(match Node::plain(text) {
+            Some(node) => node,
+            None => {
+                let place = format!("nodes[{number}]");
+                let node = parsed(&place, text)?;
+                instances.insert(number, extensions::instances(&node));
+                typed(&place, node)?
+            }
+        });
     }
-    root.materials = list("materials", &members.materials, |number, material| {
-        let is_textured = |(key, value): (&String, &Value)| key.ends_with("Texture") && !value.is_null();
-        let parts = [Some(&*material), material.get("pbrMetallicRoughness")].into_iter().flatten();
-        if parts.filter_map(Value::as_object).flatten().any(is_textured) {
-            textured.push(number as u32);
-        }
-    })?;
-    root.skins = list("skins", &members.skins, |_, _| {})?;
+    // The crate wants a list of nodes, which is optional.
+    let mut scenes = list("scenes")?;
+    for scene in scenes.as_array_mut().into_iter().flatten().filter_map(Value::as_object_mut) {
+        scene.entry("nodes").or_insert_with(|| json!([]));
+    }
+    root.scenes = typed_list("scenes", scenes)?;
+    let materials = list("materials")?;
+    let textured = materials.as_array().into_iter().flatten().map(is_textured).collect();
+    root.materials = typed_list("materials", materials)?;
+    root.skins = typed_list("skins", list("skins")?)?;
+
+    // What nothing refers to may be anything.
     let read = numbers(root.nodes.iter().filter_map(|node| node.mesh));
-    root.meshes = list("meshes", &members.meshes, replace(&read, json!({"primitives": []})))?;
+    root.meshes = typed_list("meshes", without(&read, list("meshes")?, &json!({"primitives": []})))?;
     let mut read = numbers(root.skins.iter().filter_map(|skin| skin.inverse_bind_matrices));
     read.extend(instances.values().flatten().flatten());
     for primitive in root.meshes.iter().flat_map(|mesh| &mesh.primitives) {
         read.extend(numbers(primitive.attributes.values().copied().chain(primitive.indices)));
     }
     let empty = json!({"componentType": 5126, "count": 0, "type": "SCALAR"});
-    root.accessors = list("accessors", &members.accessors, replace(&read, empty))?;
+    root.accessors = typed_list("accessors", without(&read, list("accessors")?, &empty))?;
     let sparse = root.accessors.iter().filter_map(|accessor| accessor.sparse.as_ref());
     let mut read = numbers(sparse.flat_map(|sparse| [sparse.indices.buffer_view, sparse.values.buffer_view]));
     read.extend(numbers(root.accessors.iter().filter_map(|accessor| accessor.buffer_view)));
-    root.buffer_views =
-        list("bufferViews", &members.buffer_views, replace(&read, json!({"buffer": 0, "byteLength": 0})))?;
+    let empty = json!({"buffer": 0, "byteLength": 0});
+    root.buffer_views = typed_list("bufferViews", without(&read, list("bufferViews")?, &empty))?;
     let read = numbers(root.buffer_views.iter().map(|view| view.buffer));
-    root.buffers = list("buffers", &members.buffers, replace(&read, json!({"byteLength": 0, "uri": "data:;base64,"})))?;
+    let empty = json!({"byteLength": 0, "uri": "data:;base64,"});
+    root.buffers = typed_list("buffers", without(&read, list("buffers")?, &empty))?;
     validate(&root)?;
     Ok((Document { root, instances, textured, notes }, chunk))
 }
@@ -112,53 +117,27 @@ fn numbers<T>(indices: impl Iterator<Item = Index<T>>) -> HashSet<usize> {
     indices.map(|index| index.value()).collect()
 }
 
-/// What replaces the items of a list that are not read: they may be anything.
-fn replace(read: &HashSet<usize>, empty: Value) -> impl FnMut(usize, &mut Value) {
-    move |number, item| {
+/// A list with empty items in the place of those that are not read.
+fn without(read: &HashSet<usize>, mut list: Value, empty: &Value) -> Value {
+    for (number, item) in list.as_array_mut().into_iter().flatten().enumerate() {
         if !read.contains(&number) {
-            item.clone_from(&empty);
+            item.clone_from(empty);
         }
     }
+    list
 }
 
-/// The version of a document in any version.
-#[derive(Deserialize)]
-struct Versioned {
-    #[serde(default)]
-    asset: Value,
-}
-
-/// A document whose items are text: as values they would take twenty times as much memory.
-#[derive(Default, Deserialize)]
-#[serde(rename_all = "camelCase", default)]
-struct Members<'a> {
-    asset: Value,
-    extensions_required: Value,
-    extensions_used: Value,
-    scene: Value,
-    #[serde(borrow)]
-    scenes: Vec<&'a RawValue>,
-    nodes: Vec<&'a RawValue>,
-    materials: Vec<&'a RawValue>,
-    skins: Vec<&'a RawValue>,
-    meshes: Vec<&'a RawValue>,
-    accessors: Vec<&'a RawValue>,
-    buffer_views: Vec<&'a RawValue>,
-    buffers: Vec<&'a RawValue>,
-}
-
-fn members(text: &[u8]) -> Result<Members<'_>, Fault> {
-    if !text.trim_ascii_start().starts_with(b"{") {
-        return Err(no_gltf("it is no JSON object"));
-    }
-    serde_json::from_slice(text).or_else(|error| {
-        // The lists of glTF 1.0 are objects.
-        let versioned: Versioned = serde_json::from_slice(text).map_err(|_| no_gltf(&message(&error)))?;
-        check_version(&versioned.asset)?;
-        let again: Result<Members, _> = serde_path_to_error::deserialize(&mut Deserializer::from_slice(text));
-        let place = again.err().map(|error| error.path().to_string());
-        Err(Fault::part(place.unwrap_or_default(), message(&error)))
+fn parsed<'a, T: Deserialize<'a>>(place: &str, text: &'a RawValue) -> Result<T, Fault> {
+    serde_json::from_str(text.get()).map_err(|error| {
+        // It counts lines from the start of this text.
+        let problem = message(&error);
+        Fault::part(place, problem.split(" at line ").next().unwrap_or_default())
     })
+}
+
+/// A list of items of the crate; a missing one is empty.
+fn typed_list<T: DeserializeOwned>(key: &str, list: Value) -> Result<Vec<T>, Fault> {
+    if list.is_null() { Ok(vec![]) } else { typed(key, list) }
 }
 
 /// A node as most files have it. It is read at once, for there may be very many.
@@ -176,8 +155,8 @@ struct Node {
 
 impl Node {
     /// The node, if it is an object without extensions and has nothing wrong.
-    fn plain(text: &str) -> Option<gltf::json::Node> {
-        let node: Self = serde_json::from_str(text).ok().filter(|_| text.starts_with('{'))?;
+    fn plain(text: &RawValue) -> Option<gltf::json::Node> {
+        let node: Self = serde_json::from_str(text.get()).ok().filter(|_| text.get().starts_with('{'))?;
         let children = node.children.map(|children| children.into_iter().map(Index::new).collect());
         node.extensions.is_none().then(|| gltf::json::Node {
             children,
@@ -192,38 +171,13 @@ impl Node {
     }
 }
 
-fn list<T: DeserializeOwned>(
-    key: &str,
-    items: &[&RawValue],
-    mut change: impl FnMut(usize, &mut Value),
-) -> Result<Vec<T>, Fault> {
-    items.iter().enumerate().map(|(number, text)| item(key, number, text, &mut change)).collect()
-}
-
-/// An item of a list, passed through `change` and then cut down to what is read.
-fn item<T: DeserializeOwned>(
-    key: &str,
-    number: usize,
-    text: &RawValue,
-    change: &mut impl FnMut(usize, &mut Value),
-) -> Result<T, Fault> {
-    let place = format!("{key}[{number}]");
-    let mut value = serde_json::from_str(text.get()).map_err(|error| {
-        // It counts lines from the start of the item.
-        let problem = message(&error);
-        Fault::part(&place, problem.split(" at line ").next().unwrap_or_default())
-    })?;
-    change(number, &mut value);
-    typed(&place, value)
-}
-
 /// A value of a type of the crate, without what is not read.
 fn typed<T: DeserializeOwned>(place: &str, mut value: Value) -> Result<T, Fault> {
-    let fault = |below: &dyn Display, problem| Fault::part(format!("{place}{below}"), problem);
-    prune("", &mut value).map_err(|(below, problem)| fault(&below, problem))?;
-    T::deserialize(&value)
-        .or_else(|_| serde_path_to_error::deserialize(value))
-        .map_err(|error| fault(&format_args!(".{}", error.path()), message(error.inner())))
+    prune("", &mut value).map_err(|(below, problem)| Fault::part(format!("{place}{below}"), problem))?;
+    serde_path_to_error::deserialize(value).map_err(|error| {
+        let place = format!("{place}.{}", error.path()).replace(".[", "[");
+        Fault::part(place.trim_end_matches('.'), message(error.inner()))
+    })
 }
 
 /// Cuts out what is not read. An error is the place in the value, and the problem there.
@@ -272,6 +226,12 @@ fn validate(root: &Root) -> Result<(), Fault> {
         }
     });
     fault.map_or(Ok(()), Err)
+}
+
+fn is_textured(material: &Value) -> bool {
+    let parts = [Some(material), material.get("pbrMetallicRoughness")];
+    let mut members = parts.into_iter().flatten().filter_map(Value::as_object).flatten();
+    members.any(|(key, value)| key.ends_with("Texture") && !value.is_null())
 }
 
 fn check_version(asset: &Value) -> Result<(), Fault> {

@@ -174,7 +174,7 @@ fn malformed_files_are_refused_with_their_part() {
         ("/accessors/0/count", json!("4"), ["accessors[0].count:", "invalid type"]),
         ("/accessors/3/componentType", json!(5126), ["accessor 3:", "reach beyond the 12 bytes"]),
         ("/accessors/3/componentType", json!(5122), ["accessor 3: it must be Scalar of unsigned", "not Scalar of I16"]),
-        ("/materials", json!([[]]), ["materials[0]:", "a list stands where glTF has none"]),
+        ("/materials", json!([[]]), ["materials:", "a list stands where glTF has none"]),
         ("/meshes", json!({"a": {}}), ["meshes:", "invalid type: map"]),
         ("/nodes/0/rotation", json!([1, 2]), ["nodes[0].rotation", "invalid length 2"]),
         ("/asset", json!([]), ["it is no glTF 2.0 file:", "no `asset` with a version"]),
