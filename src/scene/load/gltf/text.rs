@@ -8,11 +8,10 @@ use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::sync::LazyLock;
 
-use gltf::json::scene::UnitQuaternion;
 use gltf::json::validation::{Error, Validate as _};
-use gltf::json::{Index, Path, Root};
+use gltf::json::{Index, Node, Path, Root};
 use serde::Deserialize;
-use serde::de::{DeserializeOwned, IgnoredAny};
+use serde::de::DeserializeOwned;
 use serde_json::value::RawValue;
 use serde_json::{Value, json};
 
@@ -68,9 +67,9 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fa
 
     let mut instances = HashMap::new();
     let mut root = Root { scene: typed("scene", list("scene")?)?, ..Root::default() };
-    let nodes = members.get("nodes").map_or(Ok(vec![]), |text| parsed("nodes", text))?;
+    let nodes: Vec<&RawValue> = members.get("nodes").map_or(Ok(vec![]), |text| parsed("nodes", text))?;
     for (number, text) in nodes.into_iter().enumerate() {
-        root.nodes.push(match Node::plain(text) {
+        root.nodes.push(match plain_node(text.get()) {
             Some(node) => node,
             None => {
                 let place = format!("nodes[{number}]");
@@ -140,35 +139,13 @@ fn typed_list<T: DeserializeOwned>(key: &str, list: Value) -> Result<Vec<T>, Fau
     if list.is_null() { Ok(vec![]) } else { typed(key, list) }
 }
 
-/// A node as most files have it. It is read at once, for there may be very many.
-#[derive(Deserialize)]
-struct Node {
-    children: Option<Vec<u32>>,
-    matrix: Option<[f32; 16]>,
-    mesh: Option<u32>,
-    rotation: Option<[f32; 4]>,
-    scale: Option<[f32; 3]>,
-    skin: Option<u32>,
-    translation: Option<[f32; 3]>,
-    extensions: Option<IgnoredAny>,
-}
-
-impl Node {
-    /// The node, if it is an object without extensions and has nothing wrong.
-    fn plain(text: &RawValue) -> Option<gltf::json::Node> {
-        let node: Self = serde_json::from_str(text.get()).ok().filter(|_| text.get().starts_with('{'))?;
-        let children = node.children.map(|children| children.into_iter().map(Index::new).collect());
-        node.extensions.is_none().then(|| gltf::json::Node {
-            children,
-            matrix: node.matrix,
-            mesh: node.mesh.map(Index::new),
-            rotation: node.rotation.map(UnitQuaternion),
-            scale: node.scale,
-            skin: node.skin.map(Index::new),
-            translation: node.translation,
-            ..gltf::json::Node::default()
-        })
-    }
+/// A node without extensions and without anything wrong, as most are. It is read at once, for there may be very many.
+fn plain_node(text: &str) -> Option<Node> {
+    let node: Node = serde_json::from_str(text).ok()?;
+    let mut numbers = text.as_bytes().split(|byte| !byte.is_ascii_digit() && *byte != b'.');
+    let may_be_cut_off = numbers.any(|number| number.len() > 9 && !number.contains(&b'.'));
+    let is_plain = text.starts_with('{') && node.extensions.is_none() && !may_be_cut_off;
+    is_plain.then_some(Node { camera: None, extras: None, weights: None, ..node })
 }
 
 /// A value of a type of the crate, without what is not read.
