@@ -57,59 +57,90 @@ pub(super) struct Document {
 pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fault> {
     let (text, chunk) = if bytes.starts_with(b"glTF") { chunks(bytes)? } else { (plain(bytes)?, None) };
     check_size(text, bytes.len())?;
-    let members: HashMap<String, &RawValue> =
-        serde_json::from_slice(text).map_err(|error| no_gltf(&message(&error)))?;
-    let list = |key: &str| members.get(key).map_or(Ok(Value::Null), |text| parsed(key, text));
+    if !text.trim_ascii_start().starts_with(b"{") {
+        return Err(no_gltf("it is no JSON object"));
+    }
+    let members = serde_json::from_slice::<Members>(text).or_else(|error| {
+        // The nodes of glTF 1.0 are no list.
+        let versioned: Versioned = serde_json::from_slice(text).map_err(|_| no_gltf(&message(&error)))?;
+        check_version(&versioned.asset)?;
+        Err(no_gltf(&message(&error)))
+    })?;
     // Other versions and extensions first: they explain what is wrong with the rest.
-    check_version(&list("asset")?)?;
+    check_version(&members.asset)?;
     let mut notes = Notes::default();
-    extensions::check(&list("extensionsRequired")?, &list("extensionsUsed")?, &mut notes)?;
+    extensions::check(&members.extensions_required, &members.extensions_used, &mut notes)?;
 
     let mut instances = HashMap::new();
-    let mut root = Root { scene: typed("scene", list("scene")?)?, ..Root::default() };
-    let nodes: Vec<&RawValue> = members.get("nodes").map_or(Ok(vec![]), |text| parsed("nodes", text))?;
-    for (number, text) in nodes.into_iter().enumerate() {
+    let mut root = Root { scene: typed("scene", members.scene)?, ..Root::default() };
+    for (number, text) in members.nodes.into_iter().enumerate() {
         root.nodes.push(match plain_node(text.get()) {
             Some(node) => node,
             None => {
                 let place = format!("nodes[{number}]");
-                let node = parsed(&place, text)?;
+                let node = serde_json::from_str(text.get()).map_err(|error| Fault::part(&place, message(&error)))?;
                 instances.insert(number, extensions::instances(&node));
                 typed(&place, node)?
             }
         });
     }
     // The crate wants a list of nodes, which is optional.
-    let mut scenes = list("scenes")?;
+    let mut scenes = members.scenes;
     for scene in scenes.as_array_mut().into_iter().flatten().filter_map(Value::as_object_mut) {
         scene.entry("nodes").or_insert_with(|| json!([]));
     }
     root.scenes = typed_list("scenes", scenes)?;
-    let materials = list("materials")?;
+    let materials = members.materials;
     let textured = materials.as_array().into_iter().flatten().map(is_textured).collect();
     root.materials = typed_list("materials", materials)?;
-    root.skins = typed_list("skins", list("skins")?)?;
+    root.skins = typed_list("skins", members.skins)?;
 
     // What nothing refers to may be anything.
     let read = numbers(root.nodes.iter().filter_map(|node| node.mesh));
-    root.meshes = typed_list("meshes", without(&read, list("meshes")?, &json!({"primitives": []})))?;
+    root.meshes = typed_list("meshes", without(&read, members.meshes, &json!({"primitives": []})))?;
     let mut read = numbers(root.skins.iter().filter_map(|skin| skin.inverse_bind_matrices));
     read.extend(instances.values().flatten().flatten());
     for primitive in root.meshes.iter().flat_map(|mesh| &mesh.primitives) {
         read.extend(numbers(primitive.attributes.values().copied().chain(primitive.indices)));
     }
     let empty = json!({"componentType": 5126, "count": 0, "type": "SCALAR"});
-    root.accessors = typed_list("accessors", without(&read, list("accessors")?, &empty))?;
+    root.accessors = typed_list("accessors", without(&read, members.accessors, &empty))?;
     let sparse = root.accessors.iter().filter_map(|accessor| accessor.sparse.as_ref());
     let mut read = numbers(sparse.flat_map(|sparse| [sparse.indices.buffer_view, sparse.values.buffer_view]));
     read.extend(numbers(root.accessors.iter().filter_map(|accessor| accessor.buffer_view)));
     let empty = json!({"buffer": 0, "byteLength": 0});
-    root.buffer_views = typed_list("bufferViews", without(&read, list("bufferViews")?, &empty))?;
+    root.buffer_views = typed_list("bufferViews", without(&read, members.buffer_views, &empty))?;
     let read = numbers(root.buffer_views.iter().map(|view| view.buffer));
     let empty = json!({"byteLength": 0, "uri": "data:;base64,"});
-    root.buffers = typed_list("buffers", without(&read, list("buffers")?, &empty))?;
+    root.buffers = typed_list("buffers", without(&read, members.buffers, &empty))?;
     validate(&root)?;
     Ok((Document { root, instances, textured, notes }, chunk))
+}
+
+/// The version of a document in any version.
+#[derive(Deserialize)]
+struct Versioned {
+    #[serde(default)]
+    asset: Value,
+}
+
+/// A document. Nodes are text, for as values they would take twenty times as much memory, and there may be very many.
+#[derive(Default, Deserialize)]
+#[serde(rename_all = "camelCase", default)]
+struct Members<'a> {
+    asset: Value,
+    extensions_required: Value,
+    extensions_used: Value,
+    scene: Value,
+    scenes: Value,
+    #[serde(borrow)]
+    nodes: Vec<&'a RawValue>,
+    materials: Value,
+    skins: Value,
+    meshes: Value,
+    accessors: Value,
+    buffer_views: Value,
+    buffers: Value,
 }
 
 fn numbers<T>(indices: impl Iterator<Item = Index<T>>) -> HashSet<usize> {
@@ -124,14 +155,6 @@ fn without(read: &HashSet<usize>, mut list: Value, empty: &Value) -> Value {
         }
     }
     list
-}
-
-fn parsed<'a, T: Deserialize<'a>>(place: &str, text: &'a RawValue) -> Result<T, Fault> {
-    serde_json::from_str(text.get()).map_err(|error| {
-        // It counts lines from the start of this text.
-        let problem = message(&error);
-        Fault::part(place, problem.split(" at line ").next().unwrap_or_default())
-    })
 }
 
 /// A list of items of the crate; a missing one is empty.

@@ -53,6 +53,15 @@ fn an_unsupported_version_is_reported_before_its_syntax() {
         let text = json!({"asset": asset, "meshes": {"a": {}}}).to_string();
         assert_refused("a.gltf", text.as_bytes(), &["asset", words]);
     }
+    // A list for an object, and nodes that are no list.
+    for (text, words) in [
+        (r#"[{"version": "2.0"}]"#, ["it is no glTF 2.0 file", "no JSON object"]),
+        (r#"{"asset": {"version": "2.0"}, "nodes": {}}"#, ["it is no glTF 2.0 file", "invalid type: map"]),
+        (r#"{"asset": {"version": "1.0"}, "nodes": {}}"#, ["asset", "it is glTF `1.0`"]),
+        (r#"{"asset": {"version": "2.0"}, "nodes": [{"mesh": 1e999}]}"#, ["nodes[0]:", "number out of range"]),
+    ] {
+        assert_refused("a.gltf", text.as_bytes(), &words);
+    }
     let mut later = document();
     later["asset"] = json!({"version": "2.1", "minVersion": "2.0"});
     assert!(loaded(later.to_string().as_bytes()).is_ok());
