@@ -8,6 +8,7 @@ mod placement;
 mod shape;
 mod text;
 
+use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
 use std::num::Saturating;
 use std::path::Path;
@@ -53,8 +54,8 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
     let mut sizes = Sizes::default();
     for placement in &placements {
         let mesh = placement.mesh.index();
-        if !shapes.contains_key(&mesh) {
-            shapes.insert(mesh, Shape::count(&placement.mesh)?);
+        if let Entry::Vacant(shape) = shapes.entry(mesh) {
+            shape.insert(Shape::count(&placement.mesh)?);
         }
         let [copies, joints] = placement.sizes(accessors)?.map(Saturating);
         for (total, size) in sizes.iter_mut().zip(shapes[&mesh].sizes) {

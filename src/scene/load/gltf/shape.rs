@@ -74,7 +74,7 @@ impl<'a> Shape<'a> {
         let normals = attribute(Semantic::Normals)?;
         let corners = primitive.indices().map_or(vertices, |indices| indices.count());
         let is_list = primitive.mode() == Mode::Triangles;
-        if is_list && corners % 3 != 0 {
+        if is_list && !corners.is_multiple_of(3) {
             return Err(fault(mesh, &primitive, format!("its {corners} corners do not make whole triangles")));
         }
 
