@@ -1,4 +1,5 @@
-//! Loading alone of a mesh in each format: `cargo bench --bench load -- obj`. A million triangles, few in a test.
+//! Loading alone of a mesh in each format, and of a glTF file of many nodes: `cargo bench --bench load -- obj`. A million
+//! triangles and a hundred thousand nodes, few in a test.
 
 use std::fs;
 use std::path::Path;
@@ -70,6 +71,18 @@ impl Grid {
     }
 }
 
+/// A triangle of the buffer at each of as many nodes, with matrices.
+fn nodes(count: usize) -> String {
+    let matrix = |i: usize| format!("[1,0,0.125,0,0,1,0,0,-0.125,0,1,0,{},{},0.5,1]", i as f64 / 7.0, i as f64 / -3.0);
+    let node = |i: usize| format!(r#"{{"name":"node {i}","mesh":0,"matrix":{}}}"#, matrix(i));
+    format!(
+        r#"{{"asset":{{"version":"2.0"}},"buffers":[{{"uri":"mesh.bin","byteLength":36}}],"bufferViews":[
+        {{"buffer":0,"byteLength":36}}],"accessors":[{{"bufferView":0,"componentType":5126,"type":"VEC3","count":3}}],
+        "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],"nodes":[{}]}}"#,
+        (0..count).map(node).collect::<Vec<_>>().join(",")
+    )
+}
+
 fn bytes(position: Vec3) -> Vec<u8> {
     position.to_array().map(f32::to_le_bytes).concat()
 }
@@ -79,13 +92,14 @@ fn little(triangle: [usize; 3]) -> Vec<u8> {
 }
 
 /// Writes the mesh in each format, once for all benches.
-fn write(grid: &Grid, folder: &Path) {
+fn write(grid: &Grid, node_count: usize, folder: &Path) {
     let (document, buffer) = grid.gltf();
     let files = [
         ("mesh.obj", grid.obj().into_bytes()),
         ("mesh.ply", grid.ply()),
         ("mesh.gltf", document.into_bytes()),
         ("mesh.bin", buffer),
+        ("nodes.gltf", nodes(node_count).into_bytes()),
     ];
     for (name, bytes) in files {
         fs::write(folder.join(name), bytes).expect("a temporary folder takes files");
@@ -94,16 +108,19 @@ fn write(grid: &Grid, folder: &Path) {
 
 fn loading(criterion: &mut Criterion) {
     let is_timed = std::env::args().any(|argument| argument == "--bench");
-    let grid = Grid { side: if is_timed { 708 } else { 20 } };
+    let (side, node_count) = if is_timed { (708, 100_000) } else { (20, 20) };
+    let grid = Grid { side };
     let [_, triangles] = grid.counts();
     let folder = tempfile::tempdir().expect("a temporary folder");
-    write(&grid, folder.path());
+    write(&grid, node_count, folder.path());
 
     let mut group = criterion.benchmark_group("load");
-    group.sample_size(10).throughput(Throughput::Elements(triangles as u64));
-    for format in ["obj", "ply", "gltf"] {
-        let path = folder.path().join(format!("mesh.{format}"));
-        group.bench_function(format, |bencher| {
+    group.sample_size(10);
+    let files =
+        [("mesh.obj", triangles), ("mesh.ply", triangles), ("mesh.gltf", triangles), ("nodes.gltf", node_count)];
+    for (name, triangles) in files {
+        let path = folder.path().join(name);
+        group.throughput(Throughput::Elements(triangles as u64)).bench_function(name, |bencher| {
             bencher.iter(|| {
                 let model = load(&path).expect("a mesh of our own loads");
                 assert_eq!(model.triangles.len(), triangles);

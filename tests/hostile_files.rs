@@ -101,7 +101,7 @@ fn obj_files() -> Vec<(Files, [&'static str; 2])> {
         (obj(b"\x89PNG\r\n\x1a\n\0\0".to_vec()), ["line 1:", "another format"]),
         (obj(b"solid cube\nfacet normal 0 0 1\n".to_vec()), ["line 1: `solid cube`", "another format"]),
         (after(TRIANGLE, "", 0, "f 1 2 99999999999\n"), ["line 4:", "more than a mesh can hold"]),
-        (after("", "v 0 0 1\n", 3_000_000, "v 0 0 x\n"), ["line 3000001:", "three numbers are needed"]),
+        (after("", "v 0 0 1\n", 3_000_000, "v 0 0 x\n"), ["line 3000001:", "three finite numbers are needed"]),
         (after(TRIANGLE, "f 1 1 1\n", 3_000_000, "f 1 2 x\n"), ["line 3000004:", "`x` is not a vertex index"]),
         (after("v 0 0 0\nvn 0 0 1\n", "f 1//1 1//1 1//1\n", 2_000_000, "f x"), ["line 2000003:", "not a vertex index"]),
         (after("v 0 0 0\nf", " 1", 10_000_000, "\n"), ["line 2:", "more than 1048576 corners"]),

@@ -1,6 +1,7 @@
 //! Mesh files: Wavefront OBJ with MTL, PLY, and glTF 2.0.
 
 mod error;
+mod files;
 mod gltf;
 mod mtl;
 mod notes;
@@ -11,11 +12,10 @@ mod polygon;
 mod tests;
 mod text;
 
-use std::fs;
-use std::io;
-use std::path::{Component, Path, PathBuf};
+use std::path::Path;
 
 use self::error::Fault;
+use self::files::read_start;
 use super::Model;
 use crate::geometry::Mesh;
 
@@ -46,7 +46,7 @@ pub fn load(path: &Path) -> Result<Model, LoadError> {
         _ => return Err(LoadError::UnknownFormat { file: path.into() }),
     };
 
-    let bytes = read_file(path).map_err(|cause| LoadError::Unreadable { file: path.into(), cause })?;
+    let bytes = read_start(path, u64::MAX).map_err(|cause| LoadError::Unreadable { file: path.into(), cause })?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut model = read(bytes, folder).map_err(|fault| LoadError::Malformed {
         file: path.into(),
@@ -56,28 +56,6 @@ pub fn load(path: &Path) -> Result<Model, LoadError> {
     Mesh::check(&model.positions, &model.triangles).map_err(|cause| LoadError::Mesh { file: path.into(), cause })?;
     flatten_bad_normals(&mut model);
     Ok(model)
-}
-
-/// The path of the file `name` in `folder` or below it; none if it leads out of it.
-fn below(folder: &Path, name: impl AsRef<Path>) -> Option<PathBuf> {
-    let mut depth = 0_usize;
-    for component in name.as_ref().components() {
-        match component {
-            Component::Normal(_) => depth += 1,
-            Component::CurDir => {}
-            Component::ParentDir => depth = depth.checked_sub(1)?,
-            Component::RootDir | Component::Prefix(_) => return None,
-        }
-    }
-    Some(folder.join(name))
-}
-
-/// Reads regular files only: a pipe or a device might never end.
-fn read_file(path: &Path) -> io::Result<Vec<u8>> {
-    if !fs::metadata(path)?.is_file() {
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, "it is not a regular file"));
-    }
-    fs::read(path)
 }
 
 /// Makes triangles flat that have a normal of length zero, because shading divides by the length of a normal.

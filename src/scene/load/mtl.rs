@@ -1,72 +1,76 @@
 //! Wavefront MTL, the materials of OBJ files, by tobj.
 
-use std::collections::HashMap;
-use std::fs;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
 use glam::Vec3;
 
 use super::error::quoted;
+use super::files::{canonical, named_below, read_start};
 use super::notes::Notes;
 use super::text::{lines, name, plain, words};
-use super::{below, read_file};
 use crate::escaped::Escaped as _;
 use crate::scene::Material;
 
 /// The most libraries that are read, more than any exporter writes.
 pub(super) const MOST_LIBRARIES: usize = 64;
 
-/// A material, and whether it has a texture.
-type Known = HashMap<Vec<u8>, (Material, bool)>;
+/// The materials of an OBJ file.
+struct Materials {
+    /// The numbers of their names.
+    numbers: HashMap<Vec<u8>, u32>,
+    /// By their numbers, those that a library defines, and whether they have a texture.
+    known: Vec<Option<(Material, bool)>>,
+}
 
-/// Reads the materials whose names are keys of `used`, each library once. A library that cannot be read gives a note and
-/// not an error, because the mesh is complete without it. Of two materials with one name the later counts.
+/// Reads the materials with these names in the order of their numbers, each library once. A library that cannot be read
+/// gives a note and not an error, because the mesh is complete without it. Of two materials with one name the later counts.
 pub(super) fn read(
     libraries: &[Vec<u8>],
-    used: &HashMap<Vec<u8>, u32>,
+    numbers: HashMap<Vec<u8>, u32>,
     folder: &Path,
     notes: &mut Notes,
-) -> HashMap<Vec<u8>, Material> {
+) -> Vec<Material> {
     let paths = libraries.iter().flat_map(|names| paths(names, folder));
     let mut paths: Vec<_> = paths.take(MOST_LIBRARIES + 1).collect();
     if paths.len() > MOST_LIBRARIES {
         paths.pop();
         notes.add(format!("of the material files, only the first {MOST_LIBRARIES} are read"));
     }
-    let mut known = Known::new();
-    let mut files: Vec<PathBuf> = vec![];
+    let mut materials = Materials { known: vec![None; numbers.len()], numbers };
+    let mut files: HashSet<PathBuf> = HashSet::new();
     for path in paths {
-        let path = match path {
-            Ok(path) => path,
-            Err(problem) => {
-                notes.add(problem);
-                continue;
-            }
-        };
-        // The same file may have several names.
-        let file = fs::canonicalize(&path).unwrap_or_else(|_| path.clone());
-        if files.contains(&file) {
-            continue;
-        }
-        files.push(file);
-        match read_file(&path) {
-            Ok(bytes) => read_library(&bytes, &path, used, &mut known, notes),
-            Err(cause) => notes.add(format!("the materials in {} cannot be read ({cause})", path.escaped())),
+        match path {
+            Ok(path) if !files.insert(canonical(path.clone())) => {}
+            Ok(path) => match read_start(&path, u64::MAX) {
+                Ok(bytes) => materials.read_library(&bytes, &path, notes),
+                Err(cause) => notes.add(format!("the materials in {} cannot be read ({cause})", path.escaped())),
+            },
+            Err(problem) => notes.add(problem),
         }
     }
     let textured = [
         "material has a texture, which is left out: it shows Kd as it is",
         "materials have textures, which are left out: they show Kd as it is",
     ];
-    notes.count(known.values().filter(|(_, has_texture)| *has_texture).count(), textured);
-    known.into_iter().map(|(name, (material, _))| (name, material)).collect()
+    notes.count(materials.known.iter().flatten().filter(|(_, has_texture)| *has_texture).count(), textured);
+
+    let mut names: Vec<_> = materials.numbers.into_iter().collect();
+    names.sort_unstable_by_key(|(_, number)| *number);
+    let all = names.into_iter().zip(materials.known).map(|((name, _), known)| {
+        if known.is_none() && name != b"default" {
+            notes.add(format!("material {} is in no .mtl file: it is shaded light grey", quoted(&name)));
+        }
+        known.map_or_else(|| Material::named(String::from_utf8_lossy(&name)), |(material, _)| material)
+    });
+    all.collect()
 }
 
 /// The files that a line names: one file whose name contains spaces, if it exists, otherwise several.
 fn paths<'a>(names: &'a [u8], folder: &'a Path) -> Box<dyn Iterator<Item = Result<PathBuf, String>> + 'a> {
     let path = move |name: &[u8]| {
-        let slashes = name.iter().map(|&byte| if byte == b'\\' { b'/' } else { byte }).collect();
-        below(folder, file_name(slashes)).ok_or_else(|| {
+        let slashes: Vec<u8> = name.iter().map(|&byte| if byte == b'\\' { b'/' } else { byte }).collect();
+        named_below(folder, &slashes).ok_or_else(|| {
             format!("the material file {} is not below the folder of this file: it is not read", quoted(name))
         })
     };
@@ -76,35 +80,25 @@ fn paths<'a>(names: &'a [u8], folder: &'a Path) -> Box<dyn Iterator<Item = Resul
     }
 }
 
-/// The file whose name has these bytes, which need not be text.
-#[cfg(unix)]
-fn file_name(bytes: Vec<u8>) -> PathBuf {
-    use std::os::unix::ffi::OsStringExt as _;
-    std::ffi::OsString::from_vec(bytes).into()
-}
-
-#[cfg(not(unix))]
-fn file_name(bytes: Vec<u8>) -> PathBuf {
-    String::from_utf8_lossy(&bytes).into_owned().into()
-}
-
-fn read_library(bytes: &[u8], path: &Path, used: &HashMap<Vec<u8>, u32>, known: &mut Known, notes: &mut Notes) {
-    let text = match plain(bytes) {
-        Ok(text) => text,
-        Err(fault) => return notes.add(format!("{}: {}", path.escaped(), fault.problem)),
-    };
-    // The current material; none if no face uses it.
-    let mut current = None;
-    for (number, line) in lines(text) {
-        // tobj refuses the empty name, to which `usemtl` alone refers, and keeps a comment after a name.
-        if words(line).next() == Some(b"newmtl") {
-            let name = name(line);
-            let new = (Material::named(String::from_utf8_lossy(name)), false);
-            current = used.contains_key(name).then(|| known.entry(name.to_vec()).insert_entry(new).into_mut());
-        } else if let Some(material) = &mut current
-            && read_value(line, material).is_none()
-        {
-            notes.add(format!("{}, line {number}: {} is ignored", path.escaped(), quoted(line)));
+impl Materials {
+    fn read_library(&mut self, bytes: &[u8], path: &Path, notes: &mut Notes) {
+        let text = match plain(bytes) {
+            Ok(text) => text,
+            Err(fault) => return notes.add(format!("{}: {}", path.escaped(), fault.problem)),
+        };
+        // The current material; none if no face uses it.
+        let mut current = None;
+        for (number, line) in lines(text) {
+            // tobj refuses the empty name, to which `usemtl` alone refers, and keeps a comment after a name.
+            if words(line).next() == Some(b"newmtl") {
+                let name = name(line);
+                let known = self.numbers.get(name).map(|&number| &mut self.known[number as usize]);
+                current = known.map(|known| known.insert((Material::named(String::from_utf8_lossy(name)), false)));
+            } else if let Some(material) = &mut current
+                && read_value(line, material).is_none()
+            {
+                notes.add(format!("{}, line {number}: {} is ignored", path.escaped(), quoted(line)));
+            }
         }
     }
 }

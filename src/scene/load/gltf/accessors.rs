@@ -3,12 +3,13 @@
 //! The crate's iterators panic or misread where an accessor does not fit its type, its buffer view or its buffer. All
 //! of this is checked before.
 
-use std::iter::repeat_n;
+use std::array;
 
-use gltf::accessor::sparse::Sparse;
-use gltf::accessor::{DataType, Dimensions, Item, Iter};
+use gltf::accessor::sparse::IndexType;
+use gltf::accessor::util::{ItemIter, SparseIndicesIter, SparseIter};
+use gltf::accessor::{DataType, Dimensions, Item};
 use gltf::buffer::View;
-use gltf::{Accessor, Buffer, Document};
+use gltf::{Accessor, Document};
 
 use super::buffers::Bytes;
 use crate::scene::load::error::Fault;
@@ -23,31 +24,110 @@ pub(super) struct Accessors<'a> {
 /// Elements, or other things that are read from them.
 pub(super) type Elements<'a, T> = Result<Box<dyn Iterator<Item = T> + 'a>, Fault>;
 
+/// Bytes of elements, and the distance of two of them.
+type Strided<'a> = (&'a [u8], usize);
+
+/// The elements of an accessor: those without a place are zero, and the sparse ones take the place of others.
+struct Stored<'a> {
+    all: Option<Strided<'a>>,
+    indices: SparseIndicesIter<'a>,
+    sparse: Strided<'a>,
+}
+
+/// The crate has items of up to four components.
+struct Vector<T, const N: usize>([T; N]);
+
+impl<T: Item, const N: usize> Item for Vector<T, N> {
+    fn from_slice(bytes: &[u8]) -> Self {
+        Self(array::from_fn(|i| T::from_slice(&bytes[i * size_of::<T>()..])))
+    }
+
+    fn zero() -> Self {
+        Self(array::from_fn(|_| T::zero()))
+    }
+}
+
 impl<'a> Accessors<'a> {
     pub fn new(document: &'a Document, buffers: &'a [Bytes]) -> Result<Self, Fault> {
         let accessors = Self { document, buffers };
-        for accessor in document.accessors() {
-            accessors.check_ranges(&accessor).map_err(|problem| fault(accessor.index(), problem))?;
-        }
+        document.accessors().try_for_each(|accessor| accessors.stored(&accessor).map(drop))?;
         Ok(accessors)
     }
 
-    fn check_ranges(self, accessor: &Accessor<'a>) -> Result<(), String> {
-        let (count, size) = (accessor.count(), accessor.size());
-        if let Some(view) = accessor.view().filter(|_| count > 0) {
-            self.bytes(&view, accessor.offset(), count, size)?;
-        }
-        let Some(sparse) = accessor.sparse().filter(|_| count > 0) else { return Ok(()) };
-        if sparse.count() == 0 || sparse.count() > count {
-            return Err(format!("{} of its {count} elements are sparse", sparse.count()));
-        }
-        self.bytes(&sparse.values().view(), sparse.values().offset(), sparse.count(), size)?;
-        self.sparse_indices(&sparse).map(drop)
+    pub fn get(self, number: usize) -> Result<Accessor<'a>, Fault> {
+        let missing = || fault(number, format!("the document has {} accessors", self.document.accessors().len()));
+        self.document.accessors().nth(number).ok_or_else(missing)
     }
 
-    /// The bytes of `count` elements, at least one, of `size` bytes from `offset` in a buffer view, and the distance of
-    /// two elements.
-    fn bytes(self, view: &View<'a>, offset: usize, count: usize, size: usize) -> Result<(&'a [u8], usize), String> {
+    /// The elements of an accessor: indices for one number each, vectors for three or four, matrices for sixteen. Vectors
+    /// may be stored as small integers.
+    pub fn read<const N: usize>(self, number: usize) -> Elements<'a, [f64; N]> {
+        use DataType::{F32, I8, I16, U8, U16, U32};
+        let accessor = self.get(number)?;
+        let (kind, types, wanted) = match N {
+            1 => (Dimensions::Scalar, &[U8, U16, U32][..], "unsigned integers"),
+            3 => (Dimensions::Vec3, &[I8, U8, I16, U16, F32][..], "floats or 8- or 16-bit integers"),
+            4 => (Dimensions::Vec4, &[I8, U8, I16, U16, F32][..], "floats or 8- or 16-bit integers"),
+            _ => (Dimensions::Mat4, &[F32][..], "floats"),
+        };
+        let (found, component) = (accessor.dimensions(), accessor.data_type());
+        if found != kind || !types.contains(&component) {
+            return Err(fault(number, format!("it must be {kind:?} of {wanted}, not {found:?} of {component:?}")));
+        }
+        match component {
+            I8 => self.scaled::<i8, N>(accessor, 127.0),
+            U8 => self.scaled::<u8, N>(accessor, 255.0),
+            I16 => self.scaled::<i16, N>(accessor, 32767.0),
+            U16 => self.scaled::<u16, N>(accessor, 65535.0),
+            U32 => self.scaled::<u32, N>(accessor, 1.0),
+            F32 => self.scaled::<f32, N>(accessor, 1.0),
+        }
+    }
+
+    /// The elements of an accessor; where it is normalised, as shares of `one`, which is 1 for types that cannot be.
+    fn scaled<T: Item + Into<f64> + 'a, const N: usize>(self, from: Accessor<'a>, one: f64) -> Elements<'a, [f64; N]> {
+        let Stored { all, indices, sparse } = self.stored(&from)?;
+        let items = |(bytes, stride)| ItemIter::<Vector<T, N>>::new(bytes, stride);
+        let elements = SparseIter::with_base_count(all.map(items), from.count(), indices, items(sparse));
+        let is_scaled = from.normalized() && one != 1.0;
+        let scaled = move |c: f64| if is_scaled { f64::from((c / one) as f32).max(-1.0) } else { c };
+        Ok(Box::new(elements.map(move |Vector(components)| components.map(|c| scaled(c.into())))))
+    }
+
+    /// Where the elements of an accessor lie. Sparse ones ascend, for the crate leaves out those that do not.
+    fn stored(self, accessor: &Accessor<'a>) -> Result<Stored<'a>, Fault> {
+        let fault = |problem| fault(accessor.index(), problem);
+        let bytes = |view, offset, count, size| self.bytes(&view, offset, count, size).map_err(fault);
+        let (count, size) = (accessor.count(), accessor.size());
+        let all = accessor.view().filter(|_| count > 0);
+        let all = all.map(|view| bytes(view, accessor.offset(), count, size)).transpose()?;
+        let Some(sparse) = accessor.sparse().filter(|_| count > 0) else {
+            return Ok(Stored { all, indices: SparseIndicesIter::U8(ItemIter::new(&[], 1)), sparse: (&[], 1) });
+        };
+        if sparse.count() == 0 || sparse.count() > count {
+            return Err(fault(format!("{} of its {count} elements are sparse", sparse.count())));
+        }
+        let (indices, values) = (sparse.indices(), sparse.values());
+        let values = bytes(values.view(), values.offset(), sparse.count(), size)?;
+        let kind = indices.index_type();
+        let (data, stride) = bytes(indices.view(), indices.offset(), sparse.count(), kind.size())?;
+        let indices = match kind {
+            IndexType::U8 => SparseIndicesIter::U8(ItemIter::new(data, stride)),
+            IndexType::U16 => SparseIndicesIter::U16(ItemIter::new(data, stride)),
+            IndexType::U32 => SparseIndicesIter::U32(ItemIter::new(data, stride)),
+        };
+        let mut least = 0;
+        for index in indices.clone().map(|index| index as usize) {
+            if index < least || index >= count {
+                return Err(fault(format!("its sparse element {index} does not ascend or is none of {count}")));
+            }
+            least = index + 1;
+        }
+        Ok(Stored { all, indices, sparse: values })
+    }
+
+    /// The bytes of `count` elements, at least one, of `size` bytes from `offset` in a buffer view.
+    fn bytes(self, view: &View<'a>, offset: usize, count: usize, size: usize) -> Result<Strided<'a>, String> {
         let number = view.index();
         let stride = view.stride().unwrap_or(size);
         if stride < size {
@@ -61,90 +141,6 @@ impl<'a> Accessors<'a> {
         let beyond = || format!("its {count} elements reach beyond the {} bytes of buffer view {number}", data.len());
         Ok((end.and_then(|end| data.get(offset..end)).ok_or_else(beyond)?, stride))
     }
-
-    fn sparse_indices(self, sparse: &Sparse<'a>) -> Result<impl Iterator<Item = usize> + use<'a>, String> {
-        let indices = sparse.indices();
-        let size = indices.index_type().size();
-        let (bytes, stride) = self.bytes(&indices.view(), indices.offset(), sparse.count(), size)?;
-        let number = |bytes: &[u8]| bytes.iter().rev().fold(0, |sum, &byte| sum << 8 | usize::from(byte));
-        Ok(bytes.chunks(stride).map(move |bytes| number(&bytes[..size])))
-    }
-
-    pub fn get(self, number: usize) -> Result<Accessor<'a>, Fault> {
-        let missing = || fault(number, format!("the document has {} accessors", self.document.accessors().len()));
-        self.document.accessors().nth(number).ok_or_else(missing)
-    }
-
-    /// The elements of an accessor of type `T`.
-    fn items<T: Item + Copy + 'a>(self, accessor: Accessor<'a>) -> Result<impl Iterator<Item = T> + use<'a, T>, Fault> {
-        let (number, count) = (accessor.index(), accessor.count());
-        if let Some(sparse) = accessor.sparse().filter(|_| count > 0) {
-            // The crate leaves out elements that do not ascend.
-            let mut least = 0;
-            for index in self.sparse_indices(&sparse).map_err(|problem| fault(number, problem))? {
-                if index < least || index >= count {
-                    let problem = format!("its sparse element {index} does not ascend or is none of {count}");
-                    return Err(fault(number, problem));
-                }
-                least = index + 1;
-            }
-        }
-        let data = move |buffer: Buffer<'a>| Some(&self.buffers[buffer.index()][..]);
-        let stored = if count > 0 { Iter::<T>::new(accessor, data) } else { None };
-        // Without a buffer view and sparse elements all elements are zero.
-        let zeros = if stored.is_none() { count } else { 0 };
-        Ok(stored.into_iter().flatten().chain(repeat_n(T::zero(), zeros)))
-    }
-
-    /// The elements of an accessor of three or four real numbers, which may be stored as small integers.
-    pub fn floats<const N: usize>(self, number: usize) -> Elements<'a, [f32; N]>
-    where
-        [f32; N]: Item,
-        [i8; N]: Item,
-        [u8; N]: Item,
-        [i16; N]: Item,
-        [u16; N]: Item,
-    {
-        let accessor = self.get(number)?;
-        let is_normalized = accessor.normalized();
-        let scaled = move |c: f32, one: f32| if is_normalized { (c / one).max(-1.0) } else { c };
-        let kind = if N == 3 { Dimensions::Vec3 } else { Dimensions::Vec4 };
-        if accessor.dimensions() != kind || accessor.data_type() == DataType::U32 {
-            return Err(unlike(&accessor, &format!("{kind:?} of floats or 8- or 16-bit integers")));
-        }
-        Ok(match accessor.data_type() {
-            DataType::I8 => Box::new(self.items::<[i8; N]>(accessor)?.map(move |v| v.map(|c| scaled(c.into(), 127.0)))),
-            DataType::U8 => Box::new(self.items::<[u8; N]>(accessor)?.map(move |v| v.map(|c| scaled(c.into(), 255.0)))),
-            DataType::I16 => {
-                Box::new(self.items::<[i16; N]>(accessor)?.map(move |v| v.map(|c| scaled(c.into(), 32767.0))))
-            }
-            DataType::U16 => {
-                Box::new(self.items::<[u16; N]>(accessor)?.map(move |v| v.map(|c| scaled(c.into(), 65535.0))))
-            }
-            _ => Box::new(self.items(accessor)?),
-        })
-    }
-
-    pub fn matrices(self, accessor: Accessor<'a>) -> Elements<'a, [[f32; 4]; 4]> {
-        match (accessor.dimensions(), accessor.data_type()) {
-            (Dimensions::Mat4, DataType::F32) => Ok(Box::new(self.items(accessor)?)),
-            _ => Err(unlike(&accessor, "Mat4 of floats")),
-        }
-    }
-
-    pub fn indices(self, accessor: Accessor<'a>) -> Elements<'a, u32> {
-        Ok(match (accessor.dimensions(), accessor.data_type()) {
-            (Dimensions::Scalar, DataType::U8) => Box::new(self.items::<u8>(accessor)?.map(u32::from)),
-            (Dimensions::Scalar, DataType::U16) => Box::new(self.items::<u16>(accessor)?.map(u32::from)),
-            (Dimensions::Scalar, DataType::U32) => Box::new(self.items::<u32>(accessor)?),
-            _ => return Err(unlike(&accessor, "Scalar of unsigned integers")),
-        })
-    }
-}
-
-fn unlike(accessor: &Accessor, wanted: &str) -> Fault {
-    let (kind, component) = (accessor.dimensions(), accessor.data_type());
-    fault(accessor.index(), format!("it must be {wanted}, not {kind:?} of {component:?}"))
 }
 
 pub(super) fn fault(number: usize, problem: String) -> Fault {

@@ -5,9 +5,7 @@ use serde_json::Value;
 use crate::scene::load::error::{Fault, quoted};
 use crate::scene::load::notes::Notes;
 
-const INSTANCING: &str = "EXT_mesh_gpu_instancing";
-
-const READ: [&str; 2] = [INSTANCING, "KHR_mesh_quantization"];
+const READ: [&str; 2] = ["EXT_mesh_gpu_instancing", "KHR_mesh_quantization"];
 
 /// Extensions without which there may be no triangles, and what removes them.
 const COMPRESSION: [(&str, &str); 3] = [
@@ -24,28 +22,29 @@ const SHADING: &str = "ADOBE_materials_ EXT_lights_ EXT_materials_ EXT_mesh_feat
 ///
 /// # Errors
 /// A document that requires an extension without which its triangles cannot be read, or an unknown one.
-pub(super) fn check(document: &Value, notes: &mut Notes) -> Result<(), Fault> {
-    let is_shading = |name: &str| SHADING.split_whitespace().any(|start| name.starts_with(start));
-    let names = |list: &str| -> Vec<String> {
-        let list = document.get(list).and_then(Value::as_array).into_iter().flatten();
-        list.filter_map(Value::as_str).map(str::to_owned).collect()
+pub(super) fn check(required: &Value, used: &Value, notes: &mut Notes) -> Result<(), Fault> {
+    let others = |list| {
+        let names = Value::as_array(list).into_iter().flatten().filter_map(Value::as_str);
+        names.filter(|name| !READ.contains(name)).map(|name| {
+            let is_shading = SHADING.split_whitespace().any(|start| name.starts_with(start));
+            (name, is_shading, COMPRESSION.iter().find(|(compression, _)| *compression == name))
+        })
     };
-    let compression = |name: &str| COMPRESSION.iter().find(|(compression, _)| *compression == name);
-    for name in names("extensionsRequired").iter().filter(|name| !READ.contains(&name.as_str())) {
-        let remedy = match compression(name) {
-            _ if is_shading(name) => {
-                notes.add(format!("the required extension {} changes no triangle and is left out", quoted(name)));
-                continue;
-            }
+    for (name, is_shading, compression) in others(required) {
+        if is_shading {
+            notes.add(format!("the required extension {} changes no triangle and is left out", quoted(name)));
+            continue;
+        }
+        let remedy = match compression {
             Some((_, tool)) => format!("decompress the file with {tool}"),
             None => "export the file without it".to_owned(),
         };
         let problem = format!("the file requires {}, which is not read: {remedy}", quoted(name));
         return Err(Fault::part("extensionsRequired", problem));
     }
-    for name in names("extensionsUsed") {
+    for (name, is_shading, compression) in others(used) {
         // What is compressed and not required is there uncompressed as well.
-        if !READ.contains(&name.as_str()) && compression(&name).is_none() && !is_shading(&name) {
+        if !is_shading && compression.is_none() {
             notes.add(format!("the extension {} is left out: what it changes is missing", quoted(name)));
         }
     }
@@ -53,8 +52,8 @@ pub(super) fn check(document: &Value, notes: &mut Notes) -> Result<(), Fault> {
 }
 
 /// The accessors of translations, rotations and scales of the instances of a node, as far as there are such.
-pub(super) fn instances(node: &Value) -> [Option<&Value>; 3] {
-    let instancing = node.get("extensions").and_then(|extensions| extensions.get(INSTANCING));
-    let attributes = instancing.and_then(|instancing| instancing.get("attributes"));
-    ["TRANSLATION", "ROTATION", "SCALE"].map(|key| attributes.and_then(|attributes| attributes.get(key)))
+pub(super) fn instances(node: &Value) -> [Option<usize>; 3] {
+    let attributes = node.pointer("/extensions/EXT_mesh_gpu_instancing/attributes");
+    let number = |accessor: &Value| accessor.as_u64().map_or(usize::MAX, |number| number as usize);
+    ["TRANSLATION", "ROTATION", "SCALE"].map(|key| attributes.and_then(|all| all.get(key)).map(number))
 }

@@ -3,23 +3,19 @@
 use glam::DMat4;
 use gltf::{Document, Node};
 
-use super::placement::{Placement, local};
-use super::text::Instances;
+use super::placement::local;
 use crate::scene::load::error::Fault;
 
 /// Deeper graphs are rejected.
 const DEEPEST: usize = 1024;
 
-/// The meshes of the default scene, or of all roots when the file names no default scene, in the order of a walk that
+/// The nodes of the default scene, or of all roots when the file names no default scene, in the order of a walk that
 /// visits a node before its children; and the transforms of all nodes to world space.
 ///
 /// # Errors
 /// A graph that is not a forest: a node with two parents, a cycle, a scene that shows a node twice or names one that is
 /// no root; or a graph deeper than 1024 nodes.
-pub(super) fn placements<'a>(
-    document: &'a Document,
-    instances: &Instances,
-) -> Result<(Vec<Placement<'a>>, Vec<DMat4>), Fault> {
+pub(super) fn walk(document: &Document) -> Result<(Vec<Node<'_>>, Vec<DMat4>), Fault> {
     let fault = |node: usize, problem: String| Err(Fault::part(format!("node {node}"), problem));
     let nodes: Vec<Node> = document.nodes().collect();
     let mut parents: Vec<Option<usize>> = vec![None; nodes.len()];
@@ -32,47 +28,47 @@ pub(super) fn placements<'a>(
         }
     }
     let is_root = |node: usize| parents[node].is_none();
-    let shown: Vec<usize> = match document.default_scene() {
+    let roots: Vec<usize> = match document.default_scene() {
         Some(scene) => scene.nodes().map(|node| node.index()).collect(),
         None => (0..nodes.len()).filter(|&node| is_root(node)).collect(),
     };
     let mut is_shown = vec![false; nodes.len()];
-    for &node in &shown {
-        if std::mem::replace(&mut is_shown[node], true) {
-            return fault(node, "the scene shows it twice: list roots only, each once".to_owned());
+    for &root in &roots {
+        if std::mem::replace(&mut is_shown[root], true) {
+            return fault(root, "the scene shows it twice: list roots only, each once".to_owned());
         }
     }
 
     // Visit all nodes, those that are shown first.
     let hidden = (0..nodes.len()).filter(|&node| !is_shown[node]);
-    let roots = hidden.chain(shown.iter().rev().copied()).filter(|&node| is_root(node));
-    let mut waiting: Vec<(usize, DMat4, usize)> = roots.map(|node| (node, DMat4::IDENTITY, 1)).collect();
-    let mut worlds = vec![None; nodes.len()];
-    let mut placements = Vec::new();
-    while let Some((number, above, depth)) = waiting.pop() {
+    let mut waiting: Vec<usize> = hidden.chain(roots.iter().rev().copied()).filter(|&node| is_root(node)).collect();
+    let mut worlds = vec![DMat4::IDENTITY; nodes.len()];
+    // 0 for a node that is not yet visited.
+    let mut depths = vec![0; nodes.len()];
+    let mut shown = Vec::new();
+    while let Some(number) = waiting.pop() {
+        let node = &nodes[number];
+        let (mut above, mut depth) = (DMat4::IDENTITY, 1);
+        if let Some(parent) = parents[number] {
+            (above, depth) = (worlds[parent], depths[parent] + 1);
+            is_shown[number] = is_shown[parent];
+        }
+        worlds[number] = above * local(node);
+        depths[number] = depth;
         if depth > DEEPEST {
             return fault(number, format!("it lies deeper than {DEEPEST} nodes: flatten the hierarchy"));
         }
-        let node = &nodes[number];
-        let world = above * local(node.transform());
-        worlds[number] = Some(world);
-        if let Some(mesh) = node.mesh().filter(|_| is_shown[number]) {
-            let instances = instances.get(&number).copied().unwrap_or_default();
-            placements.push(Placement { node: number, world, mesh, skin: node.skin(), instances });
-        }
+        shown.extend(is_shown[number].then(|| node.clone()));
         let first = waiting.len();
-        for child in node.children().map(|child| child.index()) {
-            is_shown[child] = is_shown[number];
-            waiting.push((child, world, depth + 1));
-        }
+        waiting.extend(node.children().map(|child| child.index()));
         waiting[first..].reverse();
     }
-    if let Some(node) = worlds.iter().position(Option::is_none) {
+    if let Some(node) = depths.iter().position(|depth| *depth == 0) {
         return fault(node, "it is its own ancestor: remove the cycle".to_owned());
     }
-    if let (Some(scene), Some(i)) = (document.default_scene(), shown.iter().position(|&node| !is_root(node))) {
-        let problem = format!("node {} is a child of another one: list roots only", shown[i]);
+    if let (Some(scene), Some(i)) = (document.default_scene(), roots.iter().position(|&node| !is_root(node))) {
+        let problem = format!("node {} is a child of another one: list roots only", roots[i]);
         return Err(Fault::part(format!("scenes[{}].nodes[{i}]", scene.index()), problem));
     }
-    Ok((placements, worlds.into_iter().flatten().collect()))
+    Ok((shown, worlds))
 }

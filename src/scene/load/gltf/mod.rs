@@ -10,6 +10,7 @@ mod text;
 
 use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
+use std::num::Saturating;
 use std::path::Path;
 
 use glam::{DMat3, DMat4, DVec3, Vec3};
@@ -17,15 +18,13 @@ use gltf::Document;
 
 use self::accessors::Accessors;
 use self::placement::{Placement, Pose};
-use self::shape::Shape;
+use self::shape::{Attribute, Shape, Sizes};
 use super::error::Fault;
 use crate::scene::{Material, Model};
 
 /// A scene may have this many triangles, and vertices, more than its files have bytes. Without shared meshes it cannot
 /// have more than there are bytes.
 const MOST_REPEATED: usize = 1 << 24;
-
-const NO_MATERIAL: u32 = u32::MAX;
 
 /// Reads a glTF file and expands its node graph: every mesh once for each node or instance that shows it, in the pose of
 /// its skin if it has one.
@@ -44,23 +43,28 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
     let buffers = buffers::read(&mut root.buffers, chunk, folder)?;
     let size = size + buffers::size(&buffers);
     let document = Document::from_json_without_validation(root);
-    let (placements, worlds) = graph::placements(&document, &instances)?;
     let accessors = Accessors::new(&document, &buffers)?;
+    let (shown, worlds) = graph::walk(&document)?;
+    let placements = shown.into_iter().filter_map(|node| {
+        let instances = instances.get(&node.index()).copied().unwrap_or_default();
+        Some(Placement { mesh: node.mesh()?, node, instances })
+    });
+    let placements: Vec<Placement> = placements.collect();
     let mut shapes = HashMap::new();
-    let mut totals = [0_usize; 4];
+    let mut sizes = Sizes::default();
     for placement in &placements {
-        let shape: &Shape = match shapes.entry(placement.mesh.index()) {
-            Entry::Occupied(shape) => shape.into_mut(),
-            Entry::Vacant(shape) => shape.insert(Shape::count(&placement.mesh)?),
-        };
-        let [copies, joints] = placement.sizes(accessors)?;
-        for (total, size) in totals.iter_mut().zip(shape.sizes) {
-            *total = total.saturating_add(size.saturating_mul(copies));
+        let mesh = placement.mesh.index();
+        if let Entry::Vacant(shape) = shapes.entry(mesh) {
+            shape.insert(Shape::count(&placement.mesh)?);
         }
-        totals[3] = totals[3].saturating_add(copies).saturating_add(joints);
+        let [copies, joints] = placement.sizes(accessors)?.map(Saturating);
+        for (total, size) in sizes.iter_mut().zip(shapes[&mesh].sizes) {
+            *total += size * copies;
+        }
+        sizes[3] += copies + joints;
     }
-    let mut model = Model::default();
-    if totals[2] == 0 {
+    let mut model = Model { materials: document.materials().enumerate().map(material).collect(), ..Model::default() };
+    if sizes[2].0 == 0 {
         let surfaces: usize = shapes.values().map(|shape| shape.parts.len()).sum();
         let others: usize = shapes.values().map(|shape| shape.left_out).sum();
         let (nodes, meshes) = (document.nodes().len(), document.meshes().len());
@@ -68,32 +72,28 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
         let problem = format!("it shows no triangles: of its {nodes} nodes and {meshes} meshes it shows {shown}");
         return Err(Fault::file(problem));
     }
-    reserve(&mut model, totals, size)?;
+    reserve(&mut model, sizes.map(|size| size.0), size)?;
     for placement in &placements {
         for pose in placement.poses(&worlds, accessors)? {
             add(&mut model, placement, &pose, &shapes[&placement.mesh.index()], accessors)?;
         }
     }
 
-    // Drop redundant data.
+    // Drop redundant data, and add the material of parts without one.
     if model.normals.is_empty() {
         model.normal_indices = Vec::new();
     }
     let used: HashSet<u32> = model.material_of.iter().copied().collect();
-    let textured = (0..).zip(&textured).filter(|(number, is_textured)| **is_textured && used.contains(number)).count();
-    model.materials = document.materials().enumerate().map(material).collect();
-    let default = model.materials.len() as u32;
-    if model.material_of.contains(&NO_MATERIAL) || model.materials.is_empty() {
+    if used.contains(&(model.materials.len() as u32)) {
         model.materials.push(Material::named("default"));
-        model.material_of.iter_mut().filter(|m| **m == NO_MATERIAL).for_each(|m| *m = default);
     }
-    if model.material_of.iter().all(|&m| m == 0) {
+    if used == HashSet::from([0]) {
         model.material_of = Vec::new();
     }
 
     let is_unposed = |placement: &&Placement| {
         let mut positions = shapes[&placement.mesh.index()].positions.iter();
-        placement.skin.is_some() && positions.any(|attribute| attribute.influences.is_empty())
+        placement.node.skin().is_some() && positions.any(|attribute| attribute.influences.is_empty())
     };
     let unposed =
         ["node has a skin without joints: it stands unposed", "nodes have skins without joints: they stand unposed"];
@@ -102,6 +102,7 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
         "material has a texture, which is left out: it shows its base colour as it is",
         "materials have textures, which are left out: they show their base colour as it is",
     ];
+    let textured = (0..).zip(&textured).filter(|(number, is_textured)| **is_textured && used.contains(number)).count();
     notes.count(textured, texture);
     let morph = [
         "primitive has morph targets, which are left out: it keeps its basic form",
@@ -144,40 +145,38 @@ fn add<'a>(
     shape: &Shape<'a>,
     accessors: Accessors<'a>,
 ) -> Result<(), Fault> {
+    let vectors = |attribute: &Attribute| -> Result<_, Fault> {
+        let vectors = accessors.read(attribute.vectors)?.map(DVec3::from_array);
+        Ok(vectors.zip(pose.transforms(attribute, accessors)?))
+    };
     let mut first_vertices = Vec::new();
     for attribute in &shape.positions {
         let first = model.positions.len();
         first_vertices.push(first as u32);
-        let positions = accessors.floats(attribute.vectors)?.zip(pose.transforms(attribute, accessors)?);
-        let place = |(p, transform): ([f32; 3], DMat4)| transform.transform_point3(p.map(f64::from).into()).as_vec3();
-        model.positions.extend(positions.map(place));
+        let placed = |(position, transform): (DVec3, DMat4)| transform.transform_point3(position).as_vec3();
+        model.positions.extend(vectors(attribute)?.map(placed));
         if let Some(number) = model.positions[first..].iter().position(|placed| !placed.is_finite()) {
             let (mesh, placed) = (placement.mesh.index(), model.positions[first + number].to_array());
             let problem = format!("it places vertex {number} of mesh {mesh} at {placed:?}, which is not finite");
-            return Err(Fault::part(format!("node {}", placement.node), problem + ": scale it down"));
+            return Err(Fault::part(format!("node {}", placement.node.index()), problem + ": scale it down"));
         }
     }
     let mut first_normals = Vec::new();
     for attribute in &shape.normals {
         first_normals.push(model.normals.len() as u32);
-        let normals = accessors.floats(attribute.vectors)?.zip(pose.transforms(attribute, accessors)?);
-        model.normals.extend(normals.map(|(normal, transform): ([f32; 3], DMat4)| {
-            let turned = to_normal(DMat3::from_mat4(transform)) * DVec3::from(normal.map(f64::from));
-            turned.normalize_or_zero().as_vec3()
-        }));
+        let turned = |(normal, transform): (DVec3, DMat4)| to_normal(DMat3::from_mat4(transform)) * normal;
+        model.normals.extend(vectors(attribute)?.map(turned).map(|normal| normal.normalize_or_zero().as_vec3()));
     }
     for part in &shape.parts {
         let first_transform = pose.transforms(&shape.positions[part.positions], accessors)?.next();
         let is_mirrored = first_transform.is_some_and(|transform| transform.determinant() < 0.0);
-        let material = part.primitive.material().index().map_or(NO_MATERIAL, |material| material as u32);
+        let material = part.primitive.material().index().unwrap_or(model.materials.len());
         for corners in part.triangles(accessors)? {
             let corners = Model::placed(corners, is_mirrored);
             model.triangles.push(corners.map(|i| first_vertices[part.positions] + i));
-            model.normal_indices.push(match part.normals {
-                Some(normals) => corners.map(|i| first_normals[normals] + i),
-                None => [Model::FLAT; 3],
-            });
-            model.material_of.push(material);
+            let flat = [Model::FLAT; 3];
+            model.normal_indices.push(part.normals.map_or(flat, |normals| corners.map(|i| first_normals[normals] + i)));
+            model.material_of.push(material as u32);
         }
     }
     Ok(())

@@ -1,5 +1,7 @@
 //! A mesh of a glTF file, in its own space.
 
+use std::num::Saturating;
+
 use gltf::mesh::Mode;
 use gltf::{Mesh, Primitive, Semantic};
 use indexmap::IndexSet;
@@ -7,14 +9,16 @@ use indexmap::IndexSet;
 use super::accessors::Accessors;
 use crate::scene::load::error::Fault;
 
+/// The numbers of vertices, normals and triangles, and of what else is read to place them.
+pub(super) type Sizes = [Saturating<usize>; 4];
+
 /// A mesh whose accessors are counted, but not yet read. Its primitives often share accessors.
 #[derive(Default)]
 pub(super) struct Shape<'a> {
     pub positions: IndexSet<Attribute>,
     pub normals: IndexSet<Attribute>,
     pub parts: Vec<Part<'a>>,
-    /// The numbers of vertices, normals and triangles, and of what else is read to place them.
-    pub sizes: [usize; 4],
+    pub sizes: Sizes,
     /// Primitives that are points or lines, or have no positions.
     pub left_out: usize,
     /// Primitives with morph targets.
@@ -26,7 +30,6 @@ pub(super) struct Shape<'a> {
 pub(super) struct Attribute {
     pub vectors: usize,
     pub influences: Vec<[usize; 2]>,
-    pub count: usize,
 }
 
 /// The triangles of a primitive.
@@ -34,7 +37,6 @@ pub(super) struct Part<'a> {
     pub primitive: Primitive<'a>,
     mesh: usize,
     vertices: usize,
-    corners: usize,
     /// Index into [`Shape::positions`].
     pub positions: usize,
     /// Index into [`Shape::normals`].
@@ -45,57 +47,54 @@ impl<'a> Shape<'a> {
     pub fn count(mesh: &Mesh<'a>) -> Result<Self, Fault> {
         let mut shape = Self::default();
         for primitive in mesh.primitives() {
-            let fault = |problem| fault(mesh.index(), &primitive, problem);
             let is_surface = !matches!(primitive.mode(), Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip);
-            let Some(positions) = primitive.get(&Semantic::Positions).filter(|_| is_surface) else {
-                shape.left_out += 1;
-                continue;
-            };
-            let vertices = positions.count();
-            let attribute = |semantic: Semantic| match primitive.get(&semantic) {
-                Some(accessor) if accessor.count() != vertices => {
-                    let (name, count) = (semantic.to_string(), accessor.count());
-                    Err(fault(format!("its {name} has {count} elements for {vertices} vertices")))
-                }
-                accessor => Ok(accessor.map(|accessor| accessor.index())),
-            };
-            let mut influences = Vec::new();
-            for set in 0.. {
-                match (attribute(Semantic::Joints(set))?, attribute(Semantic::Weights(set))?) {
-                    (Some(joints), Some(weights)) => influences.push([joints, weights]),
-                    _ => break,
-                }
+            match primitive.get(&Semantic::Positions).filter(|_| is_surface) {
+                Some(positions) => shape.add(mesh.index(), primitive, positions.index(), positions.count())?,
+                None => shape.left_out += 1,
             }
-            let normals = attribute(Semantic::Normals)?;
-            let corners = primitive.indices().map_or(vertices, |indices| indices.count());
-            if primitive.mode() == Mode::Triangles && corners % 3 != 0 {
-                return Err(fault(format!("its {corners} corners do not make whole triangles")));
-            }
-            let whole = |vectors| Attribute { vectors, influences: influences.clone(), count: vertices };
-            let positions = shape.positions.insert_full(whole(positions.index())).0;
-            let normals = normals.map(|normals| shape.normals.insert_full(whole(normals)).0);
-            shape.morphed += usize::from(primitive.morph_targets().len() > 0);
-            shape.parts.push(Part { primitive, mesh: mesh.index(), vertices, corners, positions, normals });
         }
-        shape.sizes = shape.sizes();
         Ok(shape)
     }
 
-    fn sizes(&self) -> [usize; 4] {
-        let sum = |numbers: &mut dyn Iterator<Item = usize>| numbers.fold(0, usize::saturating_add);
+    fn add(&mut self, mesh: usize, primitive: Primitive<'a>, positions: usize, vertices: usize) -> Result<(), Fault> {
+        let attribute = |semantic: Semantic| match primitive.get(&semantic) {
+            Some(accessor) if accessor.count() != vertices => {
+                let (name, count) = (semantic.to_string(), accessor.count());
+                Err(fault(mesh, &primitive, format!("its {name} has {count} elements for {vertices} vertices")))
+            }
+            accessor => Ok(accessor.map(|accessor| accessor.index())),
+        };
+        let mut influences = Vec::new();
+        for set in 0.. {
+            match (attribute(Semantic::Joints(set))?, attribute(Semantic::Weights(set))?) {
+                (Some(joints), Some(weights)) => influences.push([joints, weights]),
+                _ => break,
+            }
+        }
+        let normals = attribute(Semantic::Normals)?;
+        let corners = primitive.indices().map_or(vertices, |indices| indices.count());
+        let is_list = primitive.mode() == Mode::Triangles;
+        if is_list && !corners.is_multiple_of(3) {
+            return Err(fault(mesh, &primitive, format!("its {corners} corners do not make whole triangles")));
+        }
+
         // A part takes time even if it has no triangles.
-        let influences =
-            |attribute: &Attribute| attribute.influences.len().saturating_mul(attribute.count.saturating_add(1));
-        let others = self.positions.iter().map(influences).chain([self.parts.len()]);
-        [
-            sum(&mut self.positions.iter().map(|positions| positions.count)),
-            sum(&mut self.normals.iter().map(|normals| normals.count)),
-            sum(&mut self.parts.iter().map(|part| match part.primitive.mode() {
-                Mode::Triangles => part.corners / 3,
-                _ => part.corners.saturating_sub(2),
-            })),
-            sum(&mut { others }),
-        ]
+        self.sizes[2] += if is_list { corners / 3 } else { corners.saturating_sub(2) };
+        self.sizes[3] += 1;
+        let mut add = |vectors, kind: usize| {
+            let list = if kind == 0 { &mut self.positions } else { &mut self.normals };
+            let (index, is_new) = list.insert_full(Attribute { vectors, influences: influences.clone() });
+            if is_new {
+                self.sizes[kind] += vertices;
+                self.sizes[3] += Saturating(influences.len()) * Saturating(vertices.saturating_add(1));
+            }
+            index
+        };
+        let positions = add(positions, 0);
+        let normals = normals.map(|normals| add(normals, 1));
+        self.morphed += usize::from(primitive.morph_targets().len() > 0);
+        self.parts.push(Part { primitive, mesh, vertices, positions, normals });
+        Ok(())
     }
 }
 
@@ -103,7 +102,7 @@ impl<'a> Part<'a> {
     /// The vertices of its triangles.
     pub fn triangles(&self, accessors: Accessors<'a>) -> Result<Vec<[u32; 3]>, Fault> {
         let corners: Vec<u32> = match self.primitive.indices() {
-            Some(indices) => accessors.indices(indices)?.collect(),
+            Some(indices) => accessors.read(indices.index())?.map(|[index]| index as u32).collect(),
             None => (0..self.vertices as u32).collect(),
         };
         if let Some(i) = corners.iter().position(|&vertex| vertex as usize >= self.vertices) {

@@ -1,7 +1,7 @@
 //! The text of a glTF document, alone or in a binary file.
 //!
 //! The crate `gltf` has the types of a document and checks its indices. By itself it refuses valid files for what is not
-//! read here, and misreads some invalid ones. The document is therefore cut down to what is read before the crate sees
+//! read here, and misreads some invalid ones. It is therefore cut down to what is read before the crate sees
 //! it.
 
 use std::collections::{HashMap, HashSet};
@@ -9,8 +9,11 @@ use std::ops::Range;
 use std::sync::LazyLock;
 
 use gltf::json::validation::{Error, Validate as _};
-use gltf::json::{Path, Root};
-use serde_json::Value;
+use gltf::json::{Index, Node, Path, Root};
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use serde_json::value::RawValue;
+use serde_json::{Value, json};
 
 use super::extensions;
 use crate::scene::load::error::{Fault, message, quoted};
@@ -23,33 +26,27 @@ const MOST_OBJECTS: usize = 1 << 16;
 /// So many bytes of the file allow for one more object.
 const BYTES_AN_OBJECT: usize = 48;
 
-/// The most entries of lists and objects, per object.
-const ENTRIES_AN_OBJECT: usize = 12;
-
 /// The keys that are read, apart from those of joints and weights.
 static KEYS: LazyLock<HashSet<&str>> = LazyLock::new(|| {
-    "accessors asset attributes baseColorFactor buffer bufferView bufferViews buffers byteLength byteOffset byteStride \
-    children componentType count indices inverseBindMatrices joints material materials matrix mesh meshes mode name nodes \
-    normalized pbrMetallicRoughness primitives rotation scale scene scenes skin skins sparse targets translation type uri \
-    values version NORMAL POSITION"
+    "attributes baseColorFactor buffer bufferView byteLength byteOffset byteStride children componentType count indices \
+    inverseBindMatrices joints material matrix mesh mode name nodes normalized pbrMetallicRoughness primitives rotation \
+    scale skin sparse targets translation type uri values NORMAL POSITION"
         .split_whitespace()
         .collect()
 });
 
 /// The keys of objects; serde takes a list for an object as well.
-const OBJECTS: [&str; 5] = ["asset", "indices", "pbrMetallicRoughness", "sparse", "values"];
+const OBJECTS: [&str; 4] = ["indices", "pbrMetallicRoughness", "sparse", "values"];
 
 /// The keys of numbers that may be 2^32 or more. Indices may not: the crate would cut them off.
 const LARGE: [&str; 8] =
     ["baseColorFactor", "byteLength", "byteOffset", "count", "matrix", "rotation", "scale", "translation"];
 
-/// By nodes, the accessors of translations, rotations and scales of the instances of their meshes.
-pub(super) type Instances = HashMap<usize, [Option<usize>; 3]>;
-
 pub(super) struct Document {
     /// All indices are in range; accessors are not checked against their buffers.
     pub root: Root,
-    pub instances: Instances,
+    /// By nodes, the accessors of translations, rotations and scales of the instances of their meshes.
+    pub instances: HashMap<usize, [Option<usize>; 3]>,
     /// Whether each material has a texture.
     pub textured: Vec<bool>,
     /// About extensions.
@@ -60,33 +57,127 @@ pub(super) struct Document {
 pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fault> {
     let (text, chunk) = if bytes.starts_with(b"glTF") { chunks(bytes)? } else { (plain(bytes)?, None) };
     check_size(text, bytes.len())?;
-    let mut value: Value = serde_json::from_slice(text).map_err(|error| no_gltf(&message(&error)))?;
+    if !text.trim_ascii_start().starts_with(b"{") {
+        return Err(no_gltf("it is no JSON object"));
+    }
+    let members = serde_json::from_slice::<Members>(text).or_else(|error| {
+        // The nodes of glTF 1.0 are no list.
+        let versioned: Versioned = serde_json::from_slice(text).map_err(|_| no_gltf(&message(&error)))?;
+        check_version(&versioned.asset)?;
+        Err(no_gltf(&message(&error)))
+    })?;
     // Other versions and extensions first: they explain what is wrong with the rest.
-    check_version(&value)?;
+    check_version(&members.asset)?;
     let mut notes = Notes::default();
-    extensions::check(&value, &mut notes)?;
+    extensions::check(&members.extensions_required, &members.extensions_used, &mut notes)?;
 
-    let list = |key: &str| value.get(key).and_then(Value::as_array).into_iter().flatten();
-    let textured = list("materials").map(is_textured).collect();
     let mut instances = HashMap::new();
-    for (number, node) in list("nodes").enumerate() {
-        let accessors = extensions::instances(node);
-        if accessors.iter().any(Option::is_some) {
-            instances
-                .insert(number, accessors.map(|accessor| Some(accessor?.as_u64().map_or(usize::MAX, |n| n as usize))));
-        }
+    let mut root = Root { scene: typed("scene", members.scene)?, ..Root::default() };
+    for (number, text) in members.nodes.into_iter().enumerate() {
+        root.nodes.push(match plain_node(text.get()) {
+            Some(node) => node,
+            None => {
+                let place = format!("nodes[{number}]");
+                let node = serde_json::from_str(text.get()).map_err(|error| Fault::part(&place, message(&error)))?;
+                instances.insert(number, extensions::instances(&node));
+                typed(&place, node)?
+            }
+        });
     }
-    // The crate wants this list, which is optional.
-    for scene in value.get_mut("scenes").and_then(Value::as_array_mut).into_iter().flatten() {
-        if let Value::Object(scene) = scene {
-            scene.entry("nodes").or_insert_with(|| Value::Array(Vec::new()));
-        }
+    // The crate wants a list of nodes, which is optional.
+    let mut scenes = members.scenes;
+    for scene in scenes.as_array_mut().into_iter().flatten().filter_map(Value::as_object_mut) {
+        scene.entry("nodes").or_insert_with(|| json!([]));
     }
-    prune("", &mut value).map_err(|(place, problem)| Fault::part(place.trim_start_matches('.'), problem))?;
-    let root = serde_path_to_error::deserialize(value)
-        .map_err(|error| Fault::part(error.path().to_string(), message(error.inner())))?;
+    root.scenes = typed_list("scenes", scenes)?;
+    let materials = members.materials;
+    let textured = materials.as_array().into_iter().flatten().map(is_textured).collect();
+    root.materials = typed_list("materials", materials)?;
+    root.skins = typed_list("skins", members.skins)?;
+
+    // What nothing refers to may be anything.
+    let read = numbers(root.nodes.iter().filter_map(|node| node.mesh));
+    root.meshes = typed_list("meshes", without(&read, members.meshes, &json!({"primitives": []})))?;
+    let mut read = numbers(root.skins.iter().filter_map(|skin| skin.inverse_bind_matrices));
+    read.extend(instances.values().flatten().flatten());
+    for primitive in root.meshes.iter().flat_map(|mesh| &mesh.primitives) {
+        read.extend(numbers(primitive.attributes.values().copied().chain(primitive.indices)));
+    }
+    let empty = json!({"componentType": 5126, "count": 0, "type": "SCALAR"});
+    root.accessors = typed_list("accessors", without(&read, members.accessors, &empty))?;
+    let sparse = root.accessors.iter().filter_map(|accessor| accessor.sparse.as_ref());
+    let mut read = numbers(sparse.flat_map(|sparse| [sparse.indices.buffer_view, sparse.values.buffer_view]));
+    read.extend(numbers(root.accessors.iter().filter_map(|accessor| accessor.buffer_view)));
+    let empty = json!({"buffer": 0, "byteLength": 0});
+    root.buffer_views = typed_list("bufferViews", without(&read, members.buffer_views, &empty))?;
+    let read = numbers(root.buffer_views.iter().map(|view| view.buffer));
+    let empty = json!({"byteLength": 0, "uri": "data:;base64,"});
+    root.buffers = typed_list("buffers", without(&read, members.buffers, &empty))?;
     validate(&root)?;
     Ok((Document { root, instances, textured, notes }, chunk))
+}
+
+/// The version of a document in any version.
+#[derive(Deserialize)]
+struct Versioned {
+    #[serde(default)]
+    asset: Value,
+}
+
+/// A document. Nodes are text, for as values they would take twenty times as much memory, and there may be very many.
+#[derive(Default, Deserialize)]
+#[serde(rename_all = "camelCase", default)]
+struct Members<'a> {
+    asset: Value,
+    extensions_required: Value,
+    extensions_used: Value,
+    scene: Value,
+    scenes: Value,
+    #[serde(borrow)]
+    nodes: Vec<&'a RawValue>,
+    materials: Value,
+    skins: Value,
+    meshes: Value,
+    accessors: Value,
+    buffer_views: Value,
+    buffers: Value,
+}
+
+fn numbers<T>(indices: impl Iterator<Item = Index<T>>) -> HashSet<usize> {
+    indices.map(|index| index.value()).collect()
+}
+
+/// A list with empty items in the place of those that are not read.
+fn without(read: &HashSet<usize>, mut list: Value, empty: &Value) -> Value {
+    for (number, item) in list.as_array_mut().into_iter().flatten().enumerate() {
+        if !read.contains(&number) {
+            item.clone_from(empty);
+        }
+    }
+    list
+}
+
+/// A list of items of the crate; a missing one is empty.
+fn typed_list<T: DeserializeOwned>(key: &str, list: Value) -> Result<Vec<T>, Fault> {
+    if list.is_null() { Ok(vec![]) } else { typed(key, list) }
+}
+
+/// A node without extensions and without anything wrong, as most are. It is read at once, for there may be very many.
+fn plain_node(text: &str) -> Option<Node> {
+    let node: Node = serde_json::from_str(text).ok()?;
+    let mut numbers = text.as_bytes().split(|byte| !byte.is_ascii_digit() && *byte != b'.');
+    let may_be_cut_off = numbers.any(|number| number.len() > 9 && !number.contains(&b'.'));
+    let is_plain = text.starts_with('{') && node.extensions.is_none() && !may_be_cut_off;
+    is_plain.then_some(Node { camera: None, extras: None, weights: None, ..node })
+}
+
+/// A value of a type of the crate, without what is not read.
+fn typed<T: DeserializeOwned>(place: &str, mut value: Value) -> Result<T, Fault> {
+    prune("", &mut value).map_err(|(below, problem)| Fault::part(format!("{place}{below}"), problem))?;
+    serde_path_to_error::deserialize(value).map_err(|error| {
+        let place = format!("{place}.{}", error.path()).replace(".[", "[");
+        Fault::part(place.trim_end_matches('.'), message(error.inner()))
+    })
 }
 
 /// Cuts out what is not read. An error is the place in the value, and the problem there.
@@ -143,19 +234,17 @@ fn is_textured(material: &Value) -> bool {
     members.any(|(key, value)| key.ends_with("Texture") && !value.is_null())
 }
 
-fn check_version(document: &Value) -> Result<(), Fault> {
-    let asset = document.get("asset").ok_or_else(|| no_gltf("it has no `asset`"))?;
+fn check_version(asset: &Value) -> Result<(), Fault> {
     let version = |key: &str| asset.get(key).and_then(Value::as_str);
-    match (version("minVersion"), version("version")) {
-        (Some(least), _) if least != "2.0" => Err(Fault::part(
-            "asset",
-            format!("it needs glTF {}, and 2.0 is read here: export it as that", quoted(least)),
-        )),
-        (_, Some(version)) if version.split('.').next() != Some("2") => {
-            Err(Fault::part("asset", format!("it is glTF {}: convert it to 2.0", quoted(version))))
+    let problem = match (version("minVersion"), version("version")) {
+        (Some(least), _) if least != "2.0" => {
+            format!("it needs glTF {}, and 2.0 is read here: export it as that", quoted(least))
         }
-        _ => Ok(()),
-    }
+        (_, Some(version)) if version.split('.').next() == Some("2") => return Ok(()),
+        (_, Some(version)) => format!("it is glTF {}: convert it to 2.0", quoted(version)),
+        (_, None) => return Err(no_gltf("it has no `asset` with a version")),
+    };
+    Err(Fault::part("asset", problem))
 }
 
 fn no_gltf(problem: &str) -> Fault {
@@ -186,15 +275,12 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<Range<usize>>), Fault> {
 
 /// Checks the number of objects in a document against the size of its file; those in strings count as well.
 fn check_size(text: &[u8], bytes: usize) -> Result<(), Fault> {
-    let count = |bytes: &[u8]| text.iter().filter(|byte| bytes.contains(byte)).count();
-    let (objects, entries) = (count(b"{"), count(b",["));
+    let objects = text.iter().filter(|byte| **byte == b'{').count();
     let most = MOST_OBJECTS + bytes / BYTES_AN_OBJECT;
-    for (count, most, what) in [(objects, most, "objects"), (entries, ENTRIES_AN_OBJECT * most, "entries")] {
-        if count > most {
-            let problem =
-                format!("its text describes {count} {what}, and more than {most} are not read: split the file");
-            return Err(Fault::file(problem));
-        }
+    if objects > most {
+        let problem =
+            format!("its text describes {objects} objects, and more than {most} are not read: split the file");
+        return Err(Fault::file(problem));
     }
     Ok(())
 }

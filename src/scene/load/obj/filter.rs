@@ -6,7 +6,7 @@
 
 use std::borrow::Cow;
 use std::collections::HashMap;
-use std::io::{self, BufRead, Read, Write as _};
+use std::io::{self, Cursor, Read, Write as _};
 
 use super::vectors::Vectors;
 use crate::scene::load::error::{Fault, quoted};
@@ -70,9 +70,8 @@ pub(super) struct Contents {
 
 pub(super) struct Filter<'a> {
     statements: Box<dyn Iterator<Item = (Reading, usize, Cow<'a, [u8]>)> + 'a>,
-    /// The statement for tobj, the bytes of it that tobj has read, its line in the file, and why there is none.
-    statement: Vec<u8>,
-    read: usize,
+    /// The statement for tobj, its line in the file, and why there is none.
+    statement: Cursor<Vec<u8>>,
     line: usize,
     problem: Option<String>,
     contents: Contents,
@@ -83,18 +82,16 @@ impl<'a> Filter<'a> {
         let read = move |reading| statements(text).map(move |(line, statement)| (reading, line, statement));
         Self {
             statements: Box::new([Reading::Vectors, Reading::Faces].into_iter().flat_map(read)),
-            statement: vec![],
-            read: 0,
+            statement: Cursor::default(),
             line: 0,
             problem: None,
             contents: Contents { material: Some(b"default".to_vec()), models: 1, ..Contents::default() },
         }
     }
 
-    /// Why tobj ended with this error, which can only be about numbers: faces are checked before tobj sees them.
+    /// Why tobj ended with this error: by itself it finds nothing wrong in what it is given.
     pub fn fault(self, error: tobj::LoadError) -> Fault {
-        let of_tobj = || format!("three numbers are needed ({error}): {}", quoted(&self.statement));
-        Fault::line(self.line, self.problem.unwrap_or_else(of_tobj))
+        Fault::line(self.line, self.problem.unwrap_or_else(|| error.to_string()))
     }
 
     /// What the text holds once tobj has read it: triangles, or another format, in which tobj finds nothing wrong.
@@ -129,9 +126,10 @@ impl<'a> Filter<'a> {
 
     /// Writes the next statement for tobj, none at the end of the text.
     fn advance(&mut self) -> Result<(), String> {
-        let Self { statement: to_tobj, contents, .. } = self;
+        let Self { statement, contents, .. } = self;
+        statement.set_position(0);
+        let to_tobj = statement.get_mut();
         to_tobj.clear();
-        self.read = 0;
         while to_tobj.is_empty()
             && let Some((reading, line, statement)) = self.statements.next()
         {
@@ -139,22 +137,10 @@ impl<'a> Filter<'a> {
             let mut words = words(&statement);
             let Some(keyword) = words.next() else { continue };
             match (reading, keyword) {
-                (Reading::Vectors, b"v") => {
-                    contents.vertices.last_model.push(0);
-                    // tobj takes nan, inf and 1e999 for coordinates.
-                    if !words.clone().take(3).filter_map(number::<f32>).all(f32::is_finite) {
-                        return Err(format!("a vertex is not finite: {}", quoted(&statement)));
-                    }
-                    vector(to_tobj, "v", words.by_ref())?;
-                    // tobj divides by a fourth number. More are colours, which tobj wants for every vertex or none.
-                    if let (Some(weight), None) = (words.next(), words.next()) {
-                        contents.weighted += usize::from(number::<f32>(weight) != Some(1.0));
-                    }
-                }
-                (Reading::Vectors, b"vn") => {
-                    contents.normals.last_model.push(0);
-                    vector(to_tobj, "vn", words)?;
-                }
+                (Reading::Vectors, b"v" | b"vn") => contents.vector(keyword, words, to_tobj).ok_or_else(|| {
+                    let what = if keyword == b"v" { "finite numbers" } else { "numbers" };
+                    format!("three {what} are needed: {}", quoted(&statement))
+                })?,
                 (Reading::Faces, b"v") => contents.vertices.so_far += 1,
                 (Reading::Faces, b"vn") => contents.normals.so_far += 1,
                 (Reading::Faces, b"f") => contents.face(words, to_tobj)?,
@@ -174,22 +160,33 @@ impl<'a> Filter<'a> {
     }
 }
 
-/// Writes a statement with up to three numbers. tobj decides whether they are numbers and enough.
-fn vector<'w>(to_tobj: &mut Vec<u8>, keyword: &str, words: impl Iterator<Item = &'w [u8]>) -> Result<(), String> {
-    to_tobj.extend_from_slice(keyword.as_bytes());
-    for word in words.take(3) {
-        // tobj also splits words at white space outside of ASCII, and would find a fourth number.
-        if !word.iter().all(u8::is_ascii_graphic) {
-            return Err(format!("{} is not a number", quoted(word)));
-        }
-        to_tobj.push(b' ');
-        to_tobj.extend_from_slice(word);
-    }
-    to_tobj.push(b'\n');
-    Ok(())
-}
-
 impl Contents {
+    /// Writes a vertex or a normal with its three numbers; none if it has not as many. tobj also splits words at white
+    /// space outside of ASCII, and takes nan, inf and 1e999 for coordinates.
+    fn vector<'w>(
+        &mut self,
+        keyword: &[u8],
+        mut words: impl Iterator<Item = &'w [u8]>,
+        to_tobj: &mut Vec<u8>,
+    ) -> Option<()> {
+        let is_vertex = keyword == b"v";
+        let vectors = if is_vertex { &mut self.vertices } else { &mut self.normals };
+        vectors.last_model.push(0);
+        to_tobj.extend_from_slice(keyword);
+        for _ in 0..3 {
+            let word = words.next()?;
+            number(word).filter(|number: &f32| number.is_finite() || !is_vertex)?;
+            to_tobj.push(b' ');
+            to_tobj.extend_from_slice(word);
+        }
+        to_tobj.push(b'\n');
+        // tobj divides by a fourth number. More are colours, which tobj wants for every vertex or none.
+        if is_vertex && let (Some(weight), None) = (words.next(), words.next()) {
+            self.weighted += usize::from(number::<f32>(weight) != Some(1.0));
+        }
+        Some(())
+    }
+
     fn face<'w>(&mut self, words: impl Iterator<Item = &'w [u8]>, to_tobj: &mut Vec<u8>) -> Result<(), String> {
         self.corners.clear();
         for word in words {
@@ -265,26 +262,15 @@ fn is_among(keywords: &str, keyword: &[u8]) -> bool {
     keywords.split(' ').any(|known| known.as_bytes() == keyword)
 }
 
-impl BufRead for Filter<'_> {
-    fn fill_buf(&mut self) -> io::Result<&[u8]> {
-        if self.read == self.statement.len()
+/// One statement at a time.
+impl Read for Filter<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        if self.statement.position() == self.statement.get_ref().len() as u64
             && let Err(problem) = self.advance()
         {
             self.problem = Some(problem);
             return Err(io::ErrorKind::InvalidData.into());
         }
-        Ok(&self.statement[self.read..])
-    }
-
-    fn consume(&mut self, bytes: usize) {
-        self.read += bytes;
-    }
-}
-
-impl Read for Filter<'_> {
-    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        let bytes = self.fill_buf()?.read(buffer)?;
-        self.consume(bytes);
-        Ok(bytes)
+        self.statement.read(buffer)
     }
 }

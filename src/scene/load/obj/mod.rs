@@ -5,33 +5,35 @@
 mod filter;
 mod vectors;
 
+use std::io::BufReader;
 use std::mem;
 use std::path::Path;
 
 use tobj::{LoadOptions, load_obj_buf};
 
 use self::filter::{Contents, Filter};
-use super::error::{Fault, quoted};
+use super::error::Fault;
 use super::mtl;
 use super::notes::Notes;
 use super::polygon::Splitter;
 use super::text::plain;
-use crate::scene::{Material, Model};
+use crate::scene::Model;
 
 /// Reads the text of an OBJ file and the MTL files that it names, which are searched in `folder`.
 ///
 /// A face is flat unless all its corners have normals.
 pub(super) fn read(bytes: &[u8], folder: &Path) -> Result<Model, Fault> {
     // tobj takes a byte order mark for a part of the first keyword, and finds nothing in UTF-16.
-    let mut filter = Filter::new(plain(bytes)?);
-    let (parts, _) = match load_obj_buf(&mut filter, &LoadOptions::default(), |_| Ok(Default::default())) {
-        Ok(read) => read,
+    let mut filter = BufReader::new(Filter::new(plain(bytes)?));
+    let read = load_obj_buf(&mut filter, &LoadOptions::default(), |_| Ok(Default::default()));
+    let filter = filter.into_inner();
+    let mut notes = Notes::default();
+    let (parts, mut contents) = match read {
+        Ok((parts, _)) => (parts, filter.finish(&mut notes)?),
         Err(error) => return Err(filter.fault(error)),
     };
-    let mut notes = Notes::default();
-    let mut contents = filter.finish(&mut notes)?;
     let mut model = triangles(parts, &mut contents, &mut notes);
-    model.materials = materials(contents, folder, &mut notes);
+    model.materials = mtl::read(&contents.libraries, contents.materials, folder, &mut notes);
     model.notes = notes.into_vec();
     Ok(model)
 }
@@ -88,19 +90,4 @@ fn triangles(parts: Vec<tobj::Model>, contents: &mut Contents, notes: &mut Notes
     }
     splitter.note(notes);
     model
-}
-
-fn materials(contents: Contents, folder: &Path, notes: &mut Notes) -> Vec<Material> {
-    let mut known = mtl::read(&contents.libraries, &contents.materials, folder, notes);
-    let mut names: Vec<_> = contents.materials.into_iter().collect();
-    names.sort_unstable_by_key(|(_, number)| *number);
-    let material = |(name, _): (Vec<u8>, u32)| {
-        known.remove(&name).unwrap_or_else(|| {
-            if name != b"default" {
-                notes.add(format!("material {} is in no .mtl file: it is shaded light grey", quoted(&name)));
-            }
-            Material::named(String::from_utf8_lossy(&name))
-        })
-    };
-    names.into_iter().map(material).collect()
 }

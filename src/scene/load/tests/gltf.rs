@@ -96,9 +96,12 @@ pub(super) fn binary() -> Vec<u8> {
     bytes
 }
 
-pub(super) fn text() -> Vec<u8> {
+/// Whole documents: the square, with a skin, and with instances.
+pub(super) fn texts() -> [Vec<u8>; 3] {
     let uri = format!("data:application/octet-stream;base64,{}", base64::encode(data()));
-    changed(&[("/buffers/0/uri", uri.into())])
+    let text =
+        |changes: Vec<(&str, Value)>| changed(&[&changes[..], &[("/buffers/0/uri", uri.clone().into())]].concat());
+    [vec![], geometry::skinned(), geometry::instanced_square()].map(text)
 }
 
 #[test]
@@ -109,7 +112,7 @@ fn buffers_lie_apart_or_within() {
     assert_eq!((&model.normals[..], &model.normal_indices), (&[Vec3::Z; 4][..], &model.triangles));
     assert_eq!((model.materials.len(), model.material_of.len(), model.notes.len()), (1, 0, 0));
     assert_eq!(load_files(&[("a.glb", &binary())]).unwrap(), model);
-    assert_eq!(load_files(&[("a.gltf", &text())]).unwrap(), model);
+    assert_eq!(load_files(&[("a.gltf", &texts()[0])]).unwrap(), model);
     let escaped = changed(&[("/buffers/0/uri", "a%20b.bin".into())]);
     assert_eq!(load_files(&[("a.gltf", &escaped), ("a b.bin", &data())]).unwrap(), model);
 }

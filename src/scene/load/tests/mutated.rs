@@ -131,12 +131,15 @@ type Files = Vec<(&'static str, Vec<u8>)>;
 
 /// Loads as many damaged files of each format, always the same.
 fn assert_damaged_files_are_safe(cases: u32) {
-    let formats: [Files; 6] = [
+    let [gltf, skin, instances] = gltf::texts();
+    let formats: [Files; 8] = [
         vec![("a.obj", OBJ.into()), ("a.mtl", MTL.into())],
         vec![("a.ply", ply::ASCII.into())],
         vec![("a.ply", ply::binary(true, "short", "uchar"))],
         vec![("a.ply", ply::binary(false, "uint", "int"))],
-        vec![("a.gltf", gltf::text())],
+        vec![("a.gltf", gltf)],
+        vec![("a.gltf", skin)],
+        vec![("a.gltf", instances)],
         vec![("a.glb", gltf::binary())],
     ];
     for files in formats {

@@ -133,13 +133,13 @@ fn lines_without_a_known_keyword_are_reported() {
 #[test]
 fn malformed_files_are_refused_with_their_line() {
     for (text, words) in [
-        ("v 0 0 0\nv 1 0\n", ["a.obj, line 2:", "three numbers are needed (position parse error): `v 1 0`"]),
-        ("v 0 0 x\n", ["line 1:", "three numbers are needed (position parse error): `v 0 0 x`"]),
-        ("v 0 0 0\nvn 0 \\\n0\nf 1 1 1\n", ["line 2:", "three numbers are needed (normal parse error): `vn 0 0`"]),
+        ("v 0 0 0\nv 1 0\n", ["a.obj, line 2:", "three finite numbers are needed: `v 1 0`"]),
+        ("v 0 0 x\n", ["line 1:", "three finite numbers are needed: `v 0 0 x`"]),
+        ("v 0 0 0\nvn 0 \\\n0\nf 1 1 1\n", ["line 2:", "three numbers are needed: `vn 0  0`"]),
         ("v 0,5 0 0\n", ["line 1:", "`v 0,5 0 0`"]),
-        ("v 0 0 nan\n", ["line 1:", "a vertex is not finite: `v 0 0 nan`"]),
-        ("v 0 0 0\nv 0 -inf 0\n", ["line 2:", "a vertex is not finite"]),
-        ("v 0 0 1e39\n", ["line 1:", "not finite"]),
+        ("v 0 0 nan\n", ["line 1:", "three finite numbers are needed: `v 0 0 nan`"]),
+        ("v 0 0 0\nv 0 -inf 0\n", ["line 2:", "finite numbers"]),
+        ("v 0 0 1e39\n", ["line 1:", "finite numbers"]),
         ("v 0 0 0\nf 0 1 1\n", ["line 2:", "vertex index 0"]),
         ("v 0 0 0\nf 1 1 2\nf 1 1 1\n", ["line 2:", "vertex 2, but the file has only 1"]),
         ("v 0 0 0\nf 1 1 -2\n", ["line 2:", "-2 reaches before the first of the 1"]),
@@ -154,7 +154,7 @@ fn malformed_files_are_refused_with_their_line() {
     ] {
         assert_refused("a.obj", text.as_bytes(), &words);
     }
-    assert_refused("a.obj", b"v 0 0 \xff\xfe\n", &["line 1:", "is not a number"]);
+    assert_refused("a.obj", b"v 0 0 \xff\xfe\n", &["line 1:", "three finite numbers"]);
     // In a name a stray byte does no harm.
     assert!(load_files(&[("a.obj", b"# caf\xe9\nv 0 0 0\nusemtl \xe9\nf 1 1 1\n")]).is_ok());
 }
@@ -198,7 +198,7 @@ fn what_tobj_misreads_is_read() {
     }
     // It finds fewer or more words than there are.
     for text in ["v 1 2\u{a0}3 4\n", "v \u{a0} \u{a0} \u{a0}\n", "v 1 2\u{b}3 4\n"] {
-        assert_refused("a.obj", text.as_bytes(), &["line 1:", "is not a number"]);
+        assert_refused("a.obj", text.as_bytes(), &["line 1:", "three finite numbers are needed"]);
     }
 }
 

@@ -109,6 +109,10 @@ fn instanced(attributes: Value) -> Value {
     json!({"mesh": 0, "translation": [7, 0, 0], "extensions": {"EXT_mesh_gpu_instancing": {"attributes": attributes}}})
 }
 
+pub(super) fn instanced_square() -> Vec<(&'static str, Value)> {
+    instances(instanced(json!({"TRANSLATION": 5, "ROTATION": 6, "SCALE": 7})), true)
+}
+
 #[test]
 fn instances_are_expanded() {
     for required in [false, true] {
@@ -116,7 +120,7 @@ fn instances_are_expanded() {
         assert_eq!((model.triangles.len(), model.notes.len()), (4, 0));
         assert_eq!((model.positions[0], model.positions[4]), (Vec3::X * 7.0, Vec3::new(7.0, 0.0, 5.0)));
     }
-    let all = gltf(&instances(instanced(json!({"TRANSLATION": 5, "ROTATION": 6, "SCALE": 7})), true));
+    let all = gltf(&instanced_square());
     // The corner (1, 1, 0), scaled and mirrored to (2, -1, 0), turned to (-2, 1, 0), shifted by the instance and the node.
     let expected = Quat::from_xyzw(0.0, 0.0, 1.0, 0.0) * Vec3::new(2.0, -1.0, 0.0) + Vec3::new(7.0, 0.0, 5.0);
     assert_eq!(all.positions[6], expected);
@@ -133,7 +137,7 @@ fn instances_are_expanded() {
 }
 
 /// The square, moved by two joints: its left side by one at x = 100, its right side by one at y = 5.
-fn skinned() -> Vec<(&'static str, Value)> {
+pub(super) fn skinned() -> Vec<(&'static str, Value)> {
     let mut bytes: Vec<u8> = [[0, 0, 0, 0], [1, 0, 0, 0], [1, 0, 0, 0], [0, 0, 0, 0]].concat();
     // Weights that do not sum to one.
     bytes.extend([[255, 0, 0, 0], [100, 0, 0, 0], [128, 128, 0, 0], [255, 0, 0, 0_u8]].concat());

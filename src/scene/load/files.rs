@@ -1,0 +1,41 @@
+//! The files that a mesh file names.
+
+use std::fs::{self, File};
+use std::io::{self, Read as _};
+use std::path::{Component, Path, PathBuf};
+
+/// The path of a file in `folder` or below it; none if it leads out of it. The file has these bytes as its name, which need
+/// not be text.
+pub(super) fn named_below(folder: &Path, name: &[u8]) -> Option<PathBuf> {
+    #[cfg(unix)]
+    let name: &std::ffi::OsStr = std::os::unix::ffi::OsStrExt::from_bytes(name);
+    #[cfg(not(unix))]
+    let name = &*String::from_utf8_lossy(name);
+
+    let mut depth = 0_usize;
+    for component in Path::new(name).components() {
+        match component {
+            Component::Normal(_) => depth += 1,
+            Component::CurDir => {}
+            Component::ParentDir => depth = depth.checked_sub(1)?,
+            Component::RootDir | Component::Prefix(_) => return None,
+        }
+    }
+    Some(folder.join(name))
+}
+
+/// The same file may have several names.
+pub(super) fn canonical(path: PathBuf) -> PathBuf {
+    fs::canonicalize(&path).unwrap_or(path)
+}
+
+/// Reads at most `longest` bytes of a regular file: a pipe or a device might never end.
+pub(super) fn read_start(path: &Path, longest: u64) -> io::Result<Vec<u8>> {
+    let file = fs::metadata(path)?;
+    if !file.is_file() {
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "it is not a regular file"));
+    }
+    let mut bytes = Vec::with_capacity(file.len().min(longest) as usize);
+    File::open(path)?.take(longest).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
