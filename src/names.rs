@@ -25,7 +25,7 @@ pub(crate) use named_enum;
 
 /// A name that is none of those known.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("there is no {what} {name:?}{}; there are: {}", suggestion(name, known.iter().copied()), known.join(", "))]
+#[error("there is no {what} {name:?}{}; the choices are: {}", suggestion(name, known.iter().copied()), known.join(", "))]
 pub struct Unknown {
     what: &'static str,
     name: String,

@@ -24,7 +24,7 @@ pub(crate) use standard::{note, print, take_failure, tell, tell_error};
 pub enum OutputError {
     #[error("cannot write {}: {problem}", path.escaped())]
     Place { path: PathBuf, problem: String },
-    #[error("cannot write {}: {cause}: choose a place that exists, may be written and has room", path.escaped())]
+    #[error("cannot write {}: {cause}: choose an existing, writable folder with free space", path.escaped())]
     Write { path: PathBuf, cause: io::Error },
 }
 

@@ -10,30 +10,31 @@ use super::{Session, interrupt};
 use crate::escaped::Escaped as _;
 use crate::report::Table;
 use crate::report::number::duration;
-use crate::request::scenes;
+use crate::request::{MEASURING, OUTPUT, SCENES, scenes};
 use crate::study::journal::JournalError;
 use crate::study::{Effort, Status, Study};
 
 pub const NAME: &str = "all";
 
-/// Every study, one after the other: a run that is killed goes on with the case that it was at
+/// Run every study; the same command resumes a killed run
 #[derive(Clone, Debug, clap::Args)]
+#[command(next_help_heading = MEASURING)]
 pub struct Args {
-    /// The folder of journals: the same command again goes on where the last one stopped
-    #[arg(long, value_name = "DIR", default_value = RUNS)]
+    /// Folder of journals: the same command resumes there
+    #[arg(long, help_heading = OUTPUT, value_name = "DIR", default_value = RUNS)]
     dir: PathBuf,
     /// Measure everything again; earlier results stay, and the newest count
     #[arg(long)]
     fresh: bool,
     /// Run everything in one process: faster, but the intervals no longer cover memory-layout effects, and builds have no
-    /// limit
+    /// time limit
     #[arg(long)]
     in_process: bool,
-    /// A few minutes for trying out: few scenes, rays and epochs; its numbers mean little
+    /// Try everything in a few minutes: few scenes, rays and epochs; the numbers mean little
     #[arg(long)]
     quick: bool,
-    /// Scenes and mesh files, in place of those of each study; some have scenes of their own
-    #[arg(long, value_name = "SCENE|FILE", num_args = 1..)]
+    /// Scenes and mesh files instead of each study's own; some studies ignore this
+    #[arg(long, help_heading = SCENES, value_name = "SCENE|FILE", num_args = 1..)]
     scenes: Vec<OsString>,
 }
 
@@ -43,7 +44,7 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
         Common { dir: Some(args.dir.clone()), fresh: args.fresh, in_process: args.in_process, ..Common::default() };
     if !args.scenes.is_empty() {
         // What is not there is refused before the studies that have scenes of their own are measured.
-        let _waiting = spinner("loads scenes", terminal);
+        let _waiting = spinner("loading scenes", terminal);
         scenes(&suite.registry, &args.scenes)?;
     }
     let mut outcome = Status::Right;
@@ -53,7 +54,7 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
     for (i, study) in studies.iter().enumerate() {
         let rest: Vec<&str> = studies[i + 1..].iter().map(|study| study.name).collect();
         let left = if rest.is_empty() { "nothing".into() } else { rest.join(", ") };
-        terminal.tell(&format!("{}; then left: {left}", study.name));
+        terminal.tell(&format!("{}; remaining: {left}", study.name));
         let start = Instant::now();
         let words = study.preset(effort, &args.scenes);
         let found = study.matches(&words).map_err(anyhow::Error::from);
@@ -69,18 +70,18 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
         }
         outcome = outcome.and(found);
         let words = match found {
-            Status::Wrong => "wrong answers",
+            Status::Wrong => "wrong hits",
             Status::Failed => "failed",
-            Status::Refused => "a structure has no times",
-            _ => "right",
+            Status::Refused => "a structure has no time",
+            _ => "correct",
         };
         let took = duration(start.elapsed().as_nanos() as f64);
         rows.push([study.name.into(), took, words.into(), format!("{}/", study.name)]);
     }
-    let title = format!("All studies, in {}", args.dir.escaped());
+    let title = format!("All studies in {}", args.dir.escaped());
     // Without the cases that were measured before.
-    let mut table = Table::of_texts(&title, ["study", "took this time", "answers", "journal"], rows);
-    table.notes.push(format!("{} `sahara report {} -o OUT` makes the page.", left(outcome), args.dir.escaped()));
+    let mut table = Table::of_texts(&title, ["study", "time taken", "result", "journal"], rows);
+    table.notes.push(format!("{} `sahara report {} -o OUT` writes the page.", left(outcome), args.dir.escaped()));
     terminal.print_table(&table);
     Ok(outcome)
 }
@@ -88,9 +89,9 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
 /// What there is still to be measured; scenes may have failed beside wrong answers, which weigh more.
 fn left(outcome: Status) -> &'static str {
     match outcome {
-        Status::Failed => "The same command tries again what failed.",
-        Status::Wrong => "The same command tries again what failed, if anything has.",
-        _ => "Nothing is left.",
+        Status::Failed => "The same command retries what failed.",
+        Status::Wrong => "The same command retries anything that failed.",
+        _ => "Everything is measured.",
     }
 }
 

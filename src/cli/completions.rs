@@ -4,12 +4,13 @@ use clap_complete::Shell;
 use clap_mangen::Man;
 
 use super::Suite;
+use super::exit_status::STATUSES;
 use super::terminal::Terminal;
 use crate::study::Status;
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// The shell; or `man` for the manual page
+    /// Shell, or `man` for the manual page
     #[arg(value_name = "SHELL|man", value_parser = ["bash", "elvish", "fish", "powershell", "zsh", "man"])]
     form: String,
 }
@@ -23,7 +24,7 @@ fn text(suite: &Suite, form: &str) -> anyhow::Result<String> {
     let (mut output, mut command) = (vec![], super::shown(&suite.studies));
     let Ok(shell) = form.parse::<Shell>() else {
         // The page of the command, then those of all that it can be told to do.
-        command = command.disable_help_subcommand(true);
+        command = command.disable_help_subcommand(true).after_long_help(STATUSES);
         command.build();
         Man::new(command.clone()).render(&mut output)?;
         command.get_subcommands().try_for_each(|own| Man::new(own.clone()).render(&mut output))?;

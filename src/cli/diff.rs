@@ -5,32 +5,36 @@ use std::path::PathBuf;
 use super::terminal::Terminal;
 use crate::output::OutputFile;
 use crate::report::{Report, markdown};
+use crate::request::{OUTPUT, STRUCTURES};
 use crate::study::Status;
-use crate::study::diff::{Comparison, Side, read, sentences, settings, tables, unlike};
+use crate::study::diff::{Comparison, Side, cautions, read, sentences, settings, tables, unlike};
+
+/// The group of options that make an exit status of a comparison.
+const GATE: &str = "Gate";
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// The old run: a file of `--export-json`, or a folder of --dir
+    /// Old run: a file of --export-json or a folder of --dir
     #[arg(value_name = "A")]
     old: PathBuf,
-    /// The new run
+    /// New run
     #[arg(value_name = "B")]
     new: PathBuf,
-    /// Exit with status 3 if a structure is slower by PERCENT or more and surely slower, with 4 if the interval contains
-    /// PERCENT
-    #[arg(long, value_name = "PERCENT", value_parser = percent)]
+    /// Exit with status 3 if a structure is slower by PERCENT or more and its interval excludes 0, with 4 if the interval
+    /// contains PERCENT
+    #[arg(long, help_heading = GATE, value_name = "PERCENT", value_parser = percent)]
     fail_on_regression: Option<f64>,
-    /// How often the gate looks at most, measuring more in between: every look is a chance to be wrong
-    #[arg(long, value_name = "N", default_value_t = 1, requires = "fail_on_regression", value_parser = clap::value_parser!(u8).range(1..=100))]
+    /// Maximum number of looks at growing data; intervals widen accordingly
+    #[arg(long, help_heading = GATE, value_name = "N", default_value_t = 1, requires = "fail_on_regression", value_parser = clap::value_parser!(u8).range(1..=100))]
     looks: u8,
-    /// The structure that changes are judged relative to, one that is the same in both runs [default: those of obvhs]
-    #[arg(long, value_name = "NAME")]
+    /// Structure that changes are relative to, unchanged between the runs [default: obvhs]
+    #[arg(long, help_heading = STRUCTURES, value_name = "NAME")]
     reference: Option<String>,
     /// Write the comparison as JSON
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, help_heading = OUTPUT, value_name = "FILE")]
     export_json: Option<PathBuf>,
     /// Write the tables as Markdown
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, help_heading = OUTPUT, value_name = "FILE")]
     export_markdown: Option<PathBuf>,
 }
 
@@ -38,7 +42,7 @@ fn percent(text: &str) -> Result<f64, String> {
     let percent = text.trim_end_matches('%').parse::<f64>().ok();
     percent
         .filter(|percent| *percent > 0.0 && *percent <= 1000.0)
-        .ok_or("give per cent, above 0 and at most 1000".into())
+        .ok_or("give a percentage above 0 and at most 1000".into())
 }
 
 pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
@@ -54,7 +58,7 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     if let Some(name) = &args.reference {
         anyhow::ensure!(
             a.has_reference() && b.has_reference(),
-            "--reference {name}: the runs have no such structure in common; name one that both have measured"
+            "--reference {name}: the runs do not share this structure; name one that both have measured"
         );
     }
 
@@ -63,19 +67,20 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
         comparison.settings = settings(&a.case, &b.case);
     }
     let tables = tables(&comparison);
-    tables.iter().for_each(|table| terminal.print_table(table));
-    let mut foot = vec![format!("Old: {}", a.provenance.line()), format!("New: {}", b.provenance.line())];
+    tables.iter().for_each(|table| terminal.print_results(table));
+    let mut notes = vec![format!("Old: {}", a.provenance.line()), format!("New: {}", b.provenance.line())];
     for (side, dataset) in [("Old", &old), ("New", &new)] {
-        foot.extend(dataset.notes.iter().map(|note| format!("{side}: {note}")));
+        notes.extend(dataset.notes.iter().map(|note| format!("{side}: {note}")));
     }
-    foot.extend(sentences(&comparison));
+    let foot = [cautions(&comparison), sentences(&comparison)].concat();
+    terminal.print_notes(notes.clone());
     terminal.print_lines(&foot);
     if let Some(file) = json {
         file.write(&serde_json::to_vec_pretty(&comparison)?)?;
     }
     if let Some(file) = markdown_file {
         let report = Report { blocks: tables.into_iter().map(Into::into).collect(), ..Report::default() };
-        file.write(markdown::report(&report, &foot).as_bytes())?;
+        file.write(markdown::report(&report, &[notes, foot].concat()).as_bytes())?;
     }
     Ok(comparison.status())
 }

@@ -11,18 +11,19 @@ use crate::output;
 use crate::study::{Status, StudyError};
 
 /// One rule for all commands; what a baseline is known to get wrong is no fault of a run.
-pub(crate) const STATUSES: &str = "Exit status:
-  0  right
-  1  usage, input or output that cannot be had, or a scene that could not be measured
-  2  wrong answers, or answers without an end
-  3  a regression (diff --fail-on-regression)
-  4  the samples do not tell whether there is a regression
-  5  right, but for a structure that could not be built, panicked or could not take part
-130  interrupted by Ctrl-C: what was measured is shown, and the same command goes on where a journal keeps it
-Wrong answers of a baseline from another project with known defects are shown, cost it its time, and do not \
-change the status: 2 is for everything else. Tables name the defects.
+pub(crate) const STATUSES: &str = "\
+Exit status:
+  0    correct
+  1    bad usage, unreadable input, unwritable output, or a failed scene
+  2    wrong hits, or a query that never returned
+  3    regression (diff --fail-on-regression)
+  4    inconclusive: the interval contains the threshold
+  5    correct, but a structure failed to build, panicked or was skipped
+  130  interrupted by Ctrl-C; with a journal the same command resumes
 
-`-` in place of a file to write is standard output; tables and messages go to standard error then.";
+Wrong hits of a baseline with known defects do not change the status; tables
+name the defects. `-` as an output file is standard output; tables and messages
+then go to standard error.";
 
 /// Ends with what was found; an error is told first.
 pub(super) fn of(found: anyhow::Result<Status>) -> ExitCode {

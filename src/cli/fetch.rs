@@ -18,13 +18,13 @@ use crate::study::Status;
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// Built-in scenes and scene files (.toml); all built-in scenes if none is named
+    /// Built-in scenes and scene files (.toml) [default: all built-in scenes]
     #[arg(value_name = "SCENE|F.toml")]
     scenes: Vec<OsString>,
-    /// Only say what would be fetched, from where and under what licence
+    /// Only list files, sources and licences
     #[arg(long)]
     list: bool,
-    /// The folder of real meshes [default: SAHARA_DATA, or scenes/data]
+    /// Folder of real meshes [default: SAHARA_DATA, or scenes/data]
     #[arg(long, value_name = "FOLDER")]
     data: Option<PathBuf>,
 }
@@ -38,7 +38,7 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     // What is named twice counts once.
     let files = each_once_by(files, |one, other| (&one.0, &one.1.file) == (&other.0, &other.1.file));
     if files.is_empty() {
-        terminal.print("these scenes name no real mesh: there is nothing to fetch\n");
+        terminal.print("these scenes use no real mesh: nothing to fetch\n");
         return Ok(Status::Right);
     }
     // The licences of all come before the first download.
@@ -51,7 +51,7 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     for (_, real) in &files {
         let path = folder.join(&real.file);
         if real.sha256.is_none() && path.is_file() {
-            terminal.print(&format!("{}: is there, not verified: its scene file gives no sha256\n", path.escaped()));
+            terminal.print(&format!("{}: present, not verified (its scene file has no sha256)\n", path.escaped()));
             continue;
         }
         if let Err(error) = fetch(real, &folder, terminal) {
@@ -59,7 +59,7 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
             failed += 1;
         }
     }
-    anyhow::ensure!(failed == 0, "{failed} of {} files could not be fetched: see above", files.len());
+    anyhow::ensure!(failed == 0, "{failed} of {} files could not be fetched (see above)", files.len());
     Ok(Status::Right)
 }
 
@@ -92,7 +92,7 @@ fn fetch(real: &RealMesh, folder: &Path, terminal: &Terminal) -> anyhow::Result<
     let fetched = Client::default().fetch(&file, &mut |got| bar.set_position(got));
     bar.finish_and_clear();
     let what = match fetched? {
-        FetchOutcome::AlreadyThere => "is there".to_owned(),
+        FetchOutcome::AlreadyThere => "present, SHA-256 verified".to_owned(),
         FetchOutcome::Downloaded { bytes: n } => format!("fetched, {}, SHA-256 verified", bytes(n as usize)),
     };
     terminal.print(&format!("{}: {what}\n", file.path.escaped()));
@@ -103,11 +103,11 @@ fn fetch(real: &RealMesh, folder: &Path, terminal: &Terminal) -> anyhow::Result<
 fn fetch(real: &RealMesh, folder: &Path, terminal: &Terminal) -> anyhow::Result<()> {
     let file = DataFile::new(real, folder)?;
     if file.is_there()? {
-        terminal.print(&format!("{}: is there\n", file.path.escaped()));
+        terminal.print(&format!("{}: present, SHA-256 verified\n", file.path.escaped()));
         return Ok(());
     }
     anyhow::bail!(
-        "this sahara was built without the feature `fetch`: download {} to {} yourself",
+        "this sahara was built without the feature `fetch`: download {} to {} yourself, or rebuild with `--features fetch`",
         file.url,
         file.path.escaped()
     )

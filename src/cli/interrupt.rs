@@ -29,7 +29,7 @@ pub fn watch() {
                 if !may_stop || ASKED.swap(true, Ordering::SeqCst) {
                     end_by(signal, signals);
                 }
-                crate::output::tell(format_args!("\nStops; Ctrl-C once more ends at once."));
+                crate::output::tell(format_args!("\nStopping; press Ctrl-C again to quit now."));
                 crate::study::process::end();
             }
         });

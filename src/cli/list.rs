@@ -16,7 +16,7 @@ use crate::study::Status;
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// What to tell more of: a structure, `scenes`, `structures`, `studies` or `hard` [default: all names]
+    /// A structure (prints its options), `scenes`, `structures`, `studies` or `hard` [default: all names]
     #[arg(value_name = "STRUCTURE|KIND")]
     what: Option<String>,
 }
@@ -38,7 +38,7 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
             let known = registry.names();
             anyhow::ensure!(
                 known.iter().any(|known| known.eq_ignore_ascii_case(name)),
-                "there is no structure {name:?}{}; there are: {}; other lists are: {}",
+                "there is no structure {name:?}{}; the structures are: {}; other lists: {}",
                 suggestion(name, known.iter().copied()),
                 known.join(", "),
                 KINDS.join(", ")
@@ -63,8 +63,8 @@ fn names(suite: &Suite) -> Table {
     ];
     // Notes are wrapped.
     let notes = lines.into_iter().map(|(what, names): (&str, Vec<&str>)| format!("{what}: {}.", names.join(", ")));
-    let more = format!("`sahara list STRUCTURE` says what its keys mean; other lists are: {}.", KINDS.join(", "));
-    Table { title: "What there is".into(), ..Table::default() }.noted(notes.chain([more]).collect())
+    let more = format!("More: `sahara list STRUCTURE` (its options), or: {}.", KINDS.join(", "));
+    Table { title: "Names".into(), ..Table::default() }.noted(notes.chain([more]).collect())
 }
 
 fn scenes() -> anyhow::Result<Table> {
@@ -116,9 +116,9 @@ fn remarks(entry: &Entry) -> Vec<String> {
     let name = &entry.name;
     let mut remarks = vec![];
     if !entry.conventions.is_empty() {
-        remarks.push(format!("{name}, otherwise by design: {}.", entry.conventions.join("; ")));
+        remarks.push(format!("{name} differs by design: {}.", entry.conventions.join("; ")));
     }
-    remarks.extend(entry.absence().map(|absence| format!("{name} is absent: {absence}.")));
+    remarks.extend(entry.absence().map(|absence| format!("{name} is not available: {absence}.")));
     remarks
 }
 
@@ -133,7 +133,7 @@ fn keys(registry: &Registry, name: &str) -> Table {
     let (mut shown, mut notes) = (vec![], vec![]);
     for [key, default, meaning, values] in rows {
         let short = values.chars().count() <= 28;
-        shown.push([key.clone(), default, if short { values.clone() } else { "see below".into() }]);
+        shown.push([key.clone(), default, if short { values.clone() } else { "below".into() }]);
         let said = if short { String::new() } else { values };
         let words: Vec<String> = [meaning, said].into_iter().filter(|words| !words.is_empty()).collect();
         if !words.is_empty() {
@@ -145,11 +145,11 @@ fn keys(registry: &Registry, name: &str) -> Table {
         notes.push(format!("It declines {}.", declined.join(", ")));
     }
     notes.extend(remarks(first));
-    let title = format!("{}: keys, as in --structure {}:key=value,..", first.name, first.name);
+    let title = format!("{}: options, as in --structure {}:key=value,..", first.name, first.name);
     Table::of_texts(&title, ["key", "default", "values"], shown).noted(notes)
 }
 
 fn studies(suite: &Suite) -> Table {
     let rows = suite.studies.iter().map(|study| [study.name.to_owned(), study.question.to_owned()]).collect();
-    Table::of_texts("Studies", ["name", "question"], rows)
+    Table::of_texts("Studies", ["name", "what it does"], rows)
 }

@@ -1,6 +1,6 @@
 //! The command `sahara`.
 //!
-//! Results go to stdout, progress and errors to stderr. `sahara --help` lists the exit statuses of all commands.
+//! Results go to stdout, progress and errors to stderr. `sahara COMMAND --help` lists the exit statuses.
 
 mod all;
 mod completions;
@@ -36,6 +36,7 @@ use crate::measure::{keep_to, program};
 use crate::names::suggestion;
 use crate::panics;
 use crate::registry::Registry;
+use crate::request::{MEASURING, OUTPUT};
 use crate::simd::Level;
 use crate::study::process::{self, Listened, Processes, Written, build_watch, measure_into};
 use crate::study::{Case, Status, Studies, Study};
@@ -44,9 +45,24 @@ use terminal::{Colour, Terminal};
 
 const ABOUT: &str = "Benchmark, validate and image-test ray-tracing acceleration structures.";
 
-const LONG_ABOUT: &str = "Benchmark, validate and image-test ray-tracing acceleration structures.
+const USAGE: &str = "sahara [COMMAND] [OPTIONS]      (no command: compare on the built-in scenes)";
 
-Without a command: `compare` on the built-in scenes.";
+/// One screen of 80 x 24, prompt included: the options that all commands share are in the help of each.
+const SCREEN: &str = "\
+{about}
+
+{usage-heading} {usage}
+
+Commands (`sahara COMMAND --help` explains options and exit statuses):
+{subcommands}
+
+{after-help}";
+
+const EXAMPLES: &str = "\
+Examples:
+  sahara compare mesh.obj -s sah-hybrid -s obvhs-bvh2    # verify hits, then time
+  sahara validate mesh.obj --adversarial                 # check hits only
+  sahara golden compare expected/ actual/                # compare rendered images";
 
 pub struct Suite {
     pub registry: Registry,
@@ -59,42 +75,47 @@ impl From<Registry> for Suite {
     }
 }
 
+/// The position of options of all commands: behind those of each command.
+const GLOBAL: usize = 900;
+
 /// Options of all commands.
 #[derive(Debug, clap::Args)]
 struct Global {
-    /// When to use colour; `auto` asks the terminal and honours NO_COLOR
-    #[arg(long, global = true, value_enum, default_value_t, value_name = "WHEN")]
-    color: Colour,
-    /// Show no progress and no warnings
-    #[arg(long, short, global = true)]
-    quiet: bool,
-    /// Print all columns of tables, and what they mean
-    #[arg(long, global = true)]
+    /// Print all notes and table columns
+    #[arg(long, global = true, help_heading = OUTPUT, display_order = GLOBAL)]
     verbose: bool,
-    /// Run on these instructions instead of the best ones here: portable, avx2 or avx512, where this build has them; the answers are the same
-    #[arg(long, global = true)]
+    /// Hide progress and warnings
+    #[arg(long, short, global = true, hide_short_help = true, help_heading = OUTPUT, display_order = GLOBAL)]
+    quiet: bool,
+    /// When to use colour; `auto`: on a terminal, unless NO_COLOR is set
+    #[arg(long, global = true, hide_short_help = true, help_heading = OUTPUT, display_order = GLOBAL)]
+    #[arg(value_enum, default_value_t, value_name = "WHEN")]
+    color: Colour,
+    /// Instruction set: portable, avx2 or avx512, as far as this build and processor have them; hits are the same on all
+    /// [default: the best one]
+    #[arg(long, global = true, hide_short_help = true, help_heading = MEASURING, display_order = GLOBAL)]
     level: Option<Level>,
 }
 
 // Options of the processes that a run starts. No doc comment: clap would take it for what the whole command does.
 #[derive(Debug, clap::Args)]
 struct Process {
-    /// Measure this case: how a run or a scheduler starts a process
+    /// Measure this case (used by runs and schedulers)
     #[arg(id = "process-case", long = process::CASE, global = true, hide = true, requires = "process-out", value_parser = read_case)]
     case: Option<Case>,
-    /// Write that case into this file
+    /// Write the case into this file
     #[arg(id = "process-out", long = process::OUT, global = true, hide = true, requires = "process-case")]
     out: Option<PathBuf>,
-    /// Say on standard output what is done, and wait for an answer: a run listens
+    /// Report progress on standard output and wait for replies
     #[arg(long = process::LISTEN, global = true, hide = true, requires = "process-case")]
     listen: bool,
-    /// Keep to these cores
+    /// Pin to these cores
     #[arg(long = process::CORES, global = true, hide = true, requires = "process-case", value_delimiter = ',')]
     cores: Vec<usize>,
 }
 
 fn read_case(text: &str) -> Result<Case, String> {
-    serde_json::from_str(text).map_err(|cause| format!("it is no case of this version of sahara: {cause}"))
+    serde_json::from_str(text).map_err(|cause| format!("this is not a case of this version of sahara: {cause}"))
 }
 
 struct Session<'a> {
@@ -107,24 +128,24 @@ struct Session<'a> {
 // The commands that are no study. No doc comment: clap would take it for what the whole command does.
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Compare two runs (across machines: by their ratios to obvhs); with a threshold, a gate
+    /// Compare two runs, or fail on a regression
     Diff(diff::Args),
-    /// Hold every structure against a reference, hit for hit
+    /// Check every structure's hits against a reference
     Validate(Box<validate::Args>),
-    /// Record, import and show files of rays; write rays with exact answers
+    /// Record, import and print ray files, with exact hits
     Rays(rays::Args),
-    /// Write what runs have measured as a page, Markdown and tidy data
+    /// Write the results of runs as a web page, Markdown and CSV
     #[cfg(feature = "page")]
     Report(report::Args),
-    /// Download the real meshes that scene files name, verified; licences are shown first
+    /// Download and verify the real meshes of scenes
     Fetch(fetch::Args),
-    /// Draw a picture
+    /// Render a picture of a scene
     Render(render::Args),
-    /// Check or make the golden images
+    /// Check or update golden images, or compare any pictures
     Golden(golden::Args),
-    /// Name what there is, and say what the keys of a structure mean
+    /// List scenes, structures and studies, or a structure's options
     List(list::Args),
-    /// Print a completion script for a shell, or the manual page
+    /// Print a shell completion script or the manual page
     Completions(completions::Args),
 }
 
@@ -137,17 +158,18 @@ const STUDY: &str = "study";
 const REPORT: &str = "report";
 
 /// What is said of HTML and figures where they are left out.
-pub(crate) const NO_PAGE: &str = "this sahara was built without the feature `page`: build it with that feature";
+pub(crate) const NO_PAGE: &str = "this sahara was built without the feature `page`: rebuild it with `--features page`";
 
 /// The commands that people are shown.
 fn shown(studies: &Studies) -> clap::Command {
     let whole = clap::Command::new("sahara").version(env!("CARGO_PKG_VERSION")).max_term_width(100);
-    let mut command = Global::augment_args(whole).about(ABOUT).long_about(LONG_ABOUT).after_help(exit_status::STATUSES);
+    let whole = whole.about(ABOUT).override_usage(USAGE).help_template(SCREEN).after_help(EXAMPLES);
+    let mut command = Global::augment_args(whole);
     command = command.subcommands(studies.find(COMPARE).map(study::command));
     command = command.subcommands(studies.find(REPLICATE).map(study::command));
     let all = clap::Command::new(all::NAME);
     let listed = clap::Command::new(STUDY)
-        .about("Run an experiment with a question of its own")
+        .about("Run an experiment, or plan one for a cluster")
         .subcommand_required(true)
         .arg_required_else_help(true)
         // A name that is no study gets the list of those there are.
@@ -165,7 +187,18 @@ fn command(studies: &Studies) -> clap::Command {
     let rest = || clap::Arg::new("rest").num_args(0..).trailing_var_arg(true).allow_hyphen_values(true);
     let old = |(name, _): &(&'static str, _)| clap::Command::new(*name).hide(true).disable_help_flag(true).arg(rest());
     let command = command.subcommands(moved::COMMANDS.iter().map(old));
-    if cfg!(feature = "page") { command } else { command.subcommand(old(&(REPORT, NO_PAGE))) }
+    let command = if cfg!(feature = "page") { command } else { command.subcommand(old(&(REPORT, NO_PAGE))) };
+    let mut command = command.mut_subcommands(with_statuses);
+    // `sahara help` exists once it is built; its line would not leave room for a prompt.
+    command.build();
+    command.mut_subcommand("help", |help| help.hide(true))
+}
+
+/// The command with the exit statuses at the end of its long help, and so below it.
+fn with_statuses(command: clap::Command) -> clap::Command {
+    let own = command.get_after_help().is_none();
+    let command = command.mut_subcommands(with_statuses);
+    if own { command.after_long_help(exit_status::STATUSES) } else { command }
 }
 
 /// Runs the command line of this process over structures, with the studies of this crate, or over a whole [`Suite`].
@@ -174,8 +207,8 @@ pub fn main(suite: impl Into<Suite>) -> ExitCode {
     run_with(&suite.into(), std::env::args_os(), true)
 }
 
-const PANIC: &str = "the panic above ended the command: if it is a structure's, leave that out, or find the mesh or ray with \
-                     `sahara validate`; else it is a fault of sahara";
+const PANIC: &str = "the panic above ended the command: if a structure caused it, omit the structure or find the mesh or ray with \
+                     `sahara validate`; otherwise it is a bug in sahara";
 
 /// Runs `args`, the name of the program first. They need not be those of this program, so all is measured in this process.
 pub fn run(suite: &Suite, args: impl IntoIterator<Item = OsString>) -> ExitCode {
@@ -205,7 +238,7 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, starts_proc
     let session = Session { suite, terminal: &terminal, processes: processes.as_ref() };
     let run = || match (&process.case, &process.out) {
         (Some(case), Some(out)) => measure_case(&session, &process, case, out, args.clone()),
-        _ => dispatch(&session, &matches, &global),
+        _ => dispatch(&session, &matches, &global).inspect(|_| terminal.print_note_count()),
     };
     // A structure of another crate may panic where its command has nothing else to go on with.
     let found = if may_panic { Ok(run()) } else { catch_unwind(AssertUnwindSafe(run)) };
@@ -217,7 +250,7 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, starts_proc
 
 fn not_text(args: &[OsString]) -> anyhow::Error {
     let names: Vec<String> = args.iter().filter(|arg| arg.to_str().is_none()).map(quoted).collect();
-    anyhow::anyhow!("{} is not UTF-8 text: files and folders may have such names, but nothing else", names.join(" or "))
+    anyhow::anyhow!("{} is not UTF-8 text: only names of files and folders may contain such bytes", names.join(" or "))
 }
 
 fn measure_case(
@@ -242,8 +275,8 @@ fn measure_case(
     let tell = |what: &str| crate::output::tell(format_args!("{} {what}", out.escaped()));
     match measure_into(case, out, &suite.registry, &watch, &mut OnTerminal::of_job(terminal))? {
         Written::Now => {}
-        Written::Before => tell("holds this case already: nothing is measured."),
-        Written::Meanwhile => tell("has been written by another process meanwhile: its case is kept."),
+        Written::Before => tell("already holds this case: nothing is measured."),
+        Written::Meanwhile => tell("was written by another process in the meantime: its case is kept."),
     }
     Ok(Status::Right)
 }
@@ -296,6 +329,6 @@ fn find<'a>(suite: &'a Suite, study: &str) -> anyhow::Result<&'a Study> {
         }
         let names: Vec<&str> = suite.studies.iter().map(|study| study.name).chain([all::NAME, plan::NAME]).collect();
         let suggestion = suggestion(study, names.iter().copied());
-        anyhow::anyhow!("there is no study {study:?}{suggestion}; there are: {}", names.join(", "))
+        anyhow::anyhow!("there is no study {study:?}{suggestion}; the studies are: {}", names.join(", "))
     })
 }

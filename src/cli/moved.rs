@@ -9,12 +9,12 @@ pub const COMMANDS: [(&str, &str); 5] = [
 ];
 
 pub const STUDIES: [(&str, &str); 10] = [
-    ("predictions", "its claims are judged by the studies that measure them: `sahara study all`, then `sahara report`"),
-    ("crossover", "`sahara compare` on scenes with few and with many layers; its results are in papers/TUNING.md"),
+    ("predictions", "the studies that measure its claims judge them: `sahara study all`, then `sahara report`"),
+    ("crossover", "`sahara compare` on scenes with few and many layers; results: papers/TUNING.md"),
     ("break-even", "the column \"pays off after\" of `sahara compare --wide`"),
-    ("threads", "`sahara compare --threads N`; its results are in papers/TUNING.md"),
-    ("binary", "`sahara compare -s sah-kd -s obvhs-bvh2`; its results are in papers/TUNING.md"),
-    ("costs", "papers/TUNING.md has what a node and a triangle test cost"),
+    ("threads", "`sahara compare --threads N`; results: papers/TUNING.md"),
+    ("binary", "`sahara compare -s sah-kd -s obvhs-bvh2`; results: papers/TUNING.md"),
+    ("costs", "papers/TUNING.md lists the cost of a node and of a triangle test"),
     ("parameters", "`sahara replicate` measures the report's settings"),
     ("partitions", "`sahara compare -s sah-kd-wide -s sah-kd-tight -s sah-hybrid -s sah-bvh`"),
     ("counts", "`sahara compare --wide`"),

@@ -11,6 +11,7 @@ use super::{Session, study as command};
 use crate::escaped::{Escaped as _, quoted};
 use crate::measure::{Provenance, Threads};
 use crate::report::words::{each_once, each_once_by};
+use crate::request::{MEASURING, OUTPUT, SCENES};
 use crate::simd::Level;
 use crate::study::journal::file_name;
 use crate::study::process::{CASE, OUT};
@@ -23,22 +24,22 @@ const OUTPUTS: [&str; 4] = ["--export-json", "--export-csv", "--export-markdown"
 
 const NO_SCENE: &str = "--scenes needs a scene: --scenes SCENE..";
 
-/// Print a study as jobs for a cluster: one command a line, each of which measures one case and writes one file
+/// Print a study as jobs for a cluster: one command per line, each measures one case and writes one file
 #[derive(Clone, Debug, clap::Args)]
 pub struct Args {
-    /// Studies, or `all`, as `study all` measures them [default: all]
+    /// Studies, or `all`, with the settings of `study all` [default: all]
     #[arg(value_name = "NAME", allow_hyphen_values = true)]
     name: Option<OsString>,
     /// Folder of journals: each job writes DIR/NAME/CASE.json [default: runs]
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, help_heading = OUTPUT, value_name = "DIR")]
     dir: Option<PathBuf>,
-    /// The quick form of each study, which `study all --quick` measures
-    #[arg(long)]
+    /// Use the settings of `study all --quick`
+    #[arg(long, help_heading = MEASURING)]
     quick: bool,
-    /// Scenes and mesh files, in place of those of the studies
-    #[arg(long, value_name = "SCENE|FILE", num_args = 1..)]
+    /// Scenes and mesh files instead of the studies' own
+    #[arg(long, help_heading = SCENES, value_name = "SCENE|FILE", num_args = 1..)]
     scenes: Vec<OsString>,
-    /// More studies, the options above, and options of the studies
+    /// More studies, the options below, and options of the studies
     #[arg(value_name = "NAME|OPTION", trailing_var_arg = true, allow_hyphen_values = true)]
     rest: Vec<OsString>,
 }
@@ -91,7 +92,7 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
     let (args, names, options) = args.split()?;
     if let Some(name) = options.iter().filter_map(|word| word.to_str()).find(|word| suite.studies.find(word).is_some())
     {
-        anyhow::bail!("{name} stands behind options: names of studies come first, `sahara study plan {name} ..`");
+        anyhow::bail!("{name} follows an option: put the names of studies first, `sahara study plan {name} ..`");
     }
     let output = options.iter().find(|word| {
         let name = word.split_once("=").map_or(&***word, |(name, _)| name);
@@ -99,13 +100,13 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
     });
     if let Some(output) = output {
         anyhow::bail!(
-            "{} is of a whole study, and each job measures one case of it: give it to the study once all jobs are done",
+            "{} needs a whole study, but each job measures one case: pass it to the study when all jobs are done",
             output.escaped()
         );
     }
     anyhow::ensure!(
         !options.iter().any(|word| word == "--fresh"),
-        "--fresh is of a whole study, and each job measures one case of it: name another folder with --dir"
+        "--fresh needs a whole study, but each job measures one case: choose another folder with --dir"
     );
     let named = names.iter().filter(|name| *name != super::all::NAME);
     let named: Vec<&Study> =
@@ -117,7 +118,7 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
     // Two jobs of one case would write one file.
     for study in each_once_by(studies, |one, other| one.name == other.name) {
         if !args.scenes.is_empty() && !study.names_scenes() {
-            terminal.tell(&format!("{}: on scenes of its own, whatever --scenes names", study.name));
+            terminal.tell(&format!("{}: has its own scenes and ignores --scenes", study.name));
         }
         // What one study does not take is refused before scenes are loaded for another one.
         let words = words(study, &args, whole, &options);
@@ -126,7 +127,7 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
     }
     let (mut lines, mut warnings) = (String::new(), vec![]);
     for (study, words, matches) in commands {
-        let waiting = spinner(format!("plans {}", study.name), terminal);
+        let waiting = spinner(format!("planning {}", study.name), terminal);
         let plan = (study.plan)(&matches, &suite.registry)?;
         drop(waiting);
         warnings.extend(plan.warnings);

@@ -61,7 +61,7 @@ pub struct OnTerminal<'a> {
 
 impl<'a> OnTerminal<'a> {
     pub fn new(terminal: &'a Terminal) -> Self {
-        let bar = spinner("loads scenes", terminal);
+        let bar = spinner("loading scenes", terminal);
         let logged = (!terminal.quiet && !io::stderr().is_terminal()).then(Instant::now);
         let case = String::new();
         Self { terminal, bar, case, work: 0, done: 0, logged, warned: vec![], is_job: false }
@@ -96,7 +96,7 @@ impl Screen for OnTerminal<'_> {
 
     fn case(&mut self, title: &str, work: u64) {
         if self.is_job {
-            self.terminal.tell(&format!("measures {title}"));
+            self.terminal.tell(&format!("measuring {title}"));
         }
         self.log(title);
         (self.case, self.work) = (title.into(), work);
@@ -107,15 +107,15 @@ impl Screen for OnTerminal<'_> {
 
     fn stage(&mut self, stage: &Stage) {
         let (text, step) = match stage {
-            Stage::Build(label) => (format!("builds {label}"), 5),
-            Stage::Rays(kind) => (format!("makes {kind} rays"), 15),
-            Stage::Check(label) => (format!("checks {label}"), 20),
+            Stage::Build(label) => (format!("building {label}"), 5),
+            Stage::Rays(kind) => (format!("generating {kind} rays"), 15),
+            Stage::Check(label) => (format!("checking {label}"), 20),
             Stage::Trace(taken, total) => {
-                ("is timed".into(), 30 + (STEPS - 30) * *taken as u64 / (*total).max(1) as u64)
+                ("timing".into(), 30 + (STEPS - 30) * *taken as u64 / (*total).max(1) as u64)
             }
-            Stage::Count => ("is counted".into(), STEPS),
+            Stage::Count => ("counting".into(), STEPS),
         };
-        let text = format!("{} {text}", self.case);
+        let text = format!("{}: {text}", self.case);
         // Nothing is drawn while samples are taken.
         match stage {
             Stage::Trace(..) => self.bar.disable_steady_tick(),
@@ -150,7 +150,7 @@ impl Screen for OnTerminal<'_> {
     }
 
     fn table(&mut self, table: &Table) {
-        self.bar.suspend(|| self.terminal.print_table(table));
+        self.bar.suspend(|| self.terminal.print_results(table));
     }
 
     fn end(&mut self) {

@@ -13,47 +13,46 @@ use crate::escaped::Escaped as _;
 use crate::registry::{Choice, Registry};
 use crate::render::{ErrorMap, ViewError, ViewKind, coarse_size, costs, draw, hottest, png, with_heat_bar};
 use crate::report::number::count;
-use crate::request::{self, BRUTE_FORCE, SAH_TREE, ViewArgs, is_large};
+use crate::request::{self, BRUTE_FORCE, OUTPUT, SAH_TREE, STRUCTURES, ViewArgs, is_large};
 use crate::scene::Scene;
 use crate::study::Status;
 use crate::study::measure::{PANICKED, guarded};
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// A built-in scene, a scene file (.toml) or a mesh file
+    /// Built-in scene, scene file (.toml) or mesh file
     #[arg(value_name = "SCENE|FILE")]
     scene: OsString,
-    /// The picture, a PNG file; - is standard output
-    #[arg(long, short, value_name = "F.png")]
+    /// PNG file to write; - is standard output
+    #[arg(long, short, help_heading = OUTPUT, value_name = "F.png")]
     output: PathBuf,
-    /// shaded, depth, normal, primitive, heat (tests and steps of each pixel) or error (where answers are wrong, by exact
-    /// arithmetic)
-    #[arg(long, default_value = "shaded", value_name = "VIEW")]
+    /// shaded, depth, normal, primitive, heat (tests and steps per pixel) or error (wrong hits, by exact arithmetic)
+    #[arg(long, help_heading = OUTPUT, default_value = "shaded", value_name = "VIEW")]
     view: ViewKind,
-    /// The structure that answers
-    #[arg(long, short, default_value = SAH_TREE, value_name = "NAME[:key=value,..]")]
+    /// Structure that traces the rays
+    #[arg(long, short, help_heading = STRUCTURES, default_value = SAH_TREE, value_name = "NAME[:key=value,..]")]
     structure: String,
     #[command(flatten)]
     from: ViewArgs,
-    /// Tests and steps that the heat view shows brightest [default: of the costliest tree of all, so that the pictures of
-    /// all structures can be compared; where building all of them would take minutes, of the one that answers]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    /// Tests and steps at the bright end of the heat scale [default: the maximum over all trees, so that pictures of all
+    /// structures are comparable; on very large meshes, that of this structure]
+    #[arg(long, help_heading = OUTPUT, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     hottest: Option<u64>,
 }
 
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     anyhow::ensure!(
         args.hottest.is_none() || args.view == ViewKind::Heat,
-        "--hottest is the scale of --view heat: leave it out, or ask for that view"
+        "--hottest sets the scale of --view heat: omit it, or add --view heat"
     );
     let choice = request::structure(registry, &args.structure)?;
     let file = request::output(registry, &args.output, std::slice::from_ref(&args.scene), None)?;
     is_png(&args.output)?;
-    let waiting = spinner(format!("loads {}", args.scene.escaped()), terminal);
+    let waiting = spinner(format!("loading {}", args.scene.escaped()), terminal);
     let scene = args.from.of(request::scene(registry, &args.scene)?)?;
     let size = scene.size;
 
-    waiting.set_message(format!("{} builds {}", scene.name, choice.label));
+    waiting.set_message(format!("{}: building {}", scene.name, choice.label));
     let accel = choice.build(&scene.mesh)?;
     let scaled_alone = args.hottest.is_none() && is_large(scene.mesh.len());
     let scale = match (args.view, args.hottest) {
@@ -61,7 +60,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         (ViewKind::Heat, None) => common_scale(registry, &scene, &waiting)?,
         (_, hottest) => hottest.unwrap_or(1),
     };
-    waiting.set_message(format!("{} is drawn by {}", scene.name, choice.label));
+    waiting.set_message(format!("{}: drawing with {}", scene.name, choice.label));
     let drawn = guarded(|| -> Result<_, ViewError> {
         let errors = (args.view == ViewKind::Error).then(|| ErrorMap::new(&scene, accel.as_ref(), size));
         let picture = match &errors {
@@ -76,7 +75,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     if args.view == ViewKind::Heat {
         picture = with_heat_bar(picture, scale);
         legend = format!(
-            "; below it the colours from 0 to {} tests and steps, marked at 1 and each power of ten",
+            "; the colour bar runs from 0 to {} tests and steps, with ticks at 1 and every power of ten",
             count(scale)
         );
     }
@@ -89,12 +88,11 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         picture.width(),
         picture.height()
     ));
-    let notes: Vec<String> = scene.notes.iter().map(|note| format!("{}: {note}", scene.name)).collect();
-    terminal.print_lines(&notes);
+    terminal.print_notes(scene.notes.iter().map(|note| format!("{}: {note}", scene.name)));
     if args.view == ViewKind::Heat && scaled_alone {
         terminal.print_lines(&[format!(
-            "{}: the scale is that of this structure alone, since it would take minutes to build all among so many triangles: --hottest \
-             gives several pictures one scale",
+            "{}: the scale is this structure's own (building all structures would take minutes); --hottest sets a common \
+             scale",
             scene.name
         )]);
     }
@@ -109,7 +107,7 @@ fn is_png(path: &Path) -> anyhow::Result<()> {
     let ending = path.extension().unwrap_or("png".as_ref());
     anyhow::ensure!(
         ending.eq_ignore_ascii_case("png"),
-        "cannot write {} as {}: pictures are PNG files: end the name in .png, or give - for standard output",
+        "cannot write {} as {}: pictures are PNG files; end the name in .png, or pass - for standard output",
         path.escaped(),
         ending.escaped()
     );
@@ -128,7 +126,7 @@ fn common_scale(registry: &Registry, scene: &Scene, waiting: &ProgressBar) -> an
     let mut scale = 1;
     for choice in request::structures(registry, &[])? {
         if choice.entry.name != BRUTE_FORCE && choice.entry.observed == Observed::ALL {
-            waiting.set_message(format!("{} builds {} for the scale", scene.name, choice.label));
+            waiting.set_message(format!("{}: building {} for the scale", scene.name, choice.label));
             scale = scale.max(hottest(&costs(scene, choice.build(&scene.mesh)?.as_ref(), size)?));
         }
     }

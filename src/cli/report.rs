@@ -11,22 +11,23 @@ use crate::escaped::Escaped as _;
 use crate::output::{OutputFile, OutputFolder};
 use crate::page::results::{self, Results};
 use crate::page::{Runs, document, draw, files, left_out};
+use crate::request::OUTPUT;
 use crate::study::{Status, Studies};
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// Files of `--export-json`, and folders of them and of journals [default: runs]
+    /// Files of `--export-json`, folders of them and journals [default: runs]
     #[arg(value_name = "RUN")]
     runs: Vec<PathBuf>,
-    /// Folder for the page, Markdown, figures and data; an older report there is replaced
-    #[arg(long, short, value_name = "DIR", required_unless_present = "results")]
+    /// Folder for the page, Markdown, figures and data; replaces an older report there
+    #[arg(long, short, help_heading = OUTPUT, value_name = "DIR", required_unless_present = "results")]
     output: Option<PathBuf>,
-    /// Write the findings of one run as a short paper into this folder, RESULTS.md, its figures and results.json, and
-    /// fill in the numbers of the README.md beside the folder, where that has marks for them
-    #[arg(long, value_name = "DIR", num_args = 0..=1, require_equals = true, default_missing_value = "papers")]
+    /// Write the findings of one run into this folder as a short paper (RESULTS.md, figures, results.json), and update the
+    /// marked numbers in the README.md next to the folder
+    #[arg(long, help_heading = OUTPUT, value_name = "DIR", num_args = 0..=1, require_equals = true, default_missing_value = "papers")]
     results: Option<PathBuf>,
-    /// Leave out what must be drawn first: pictures of the scenes, heat maps and wrong answers
-    #[arg(long)]
+    /// Omit pictures of the scenes, heat maps and error maps, which take time to render
+    #[arg(long, help_heading = OUTPUT)]
     no_pictures: bool,
 }
 
@@ -35,15 +36,15 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
     let results = args.results.as_deref().map(ResultsFolder::check).transpose()?;
     anyhow::ensure!(
         !args.runs.is_empty() || Path::new(RUNS).exists(),
-        "there is no folder {RUNS} here: `sahara compare --dir {RUNS}` keeps what it measures there; or name files of \
-         `--export-json`, or folders"
+        "there is no folder {RUNS} here: measure with `sahara compare --dir {RUNS}`, or name files of `--export-json` or \
+         folders"
     );
     let paths = if args.runs.is_empty() { vec![PathBuf::from(RUNS)] } else { args.runs.clone() };
     let runs = Runs::read(&paths, &suite.studies)?;
 
     let mut pictures = left_out();
     if folder.is_some() && !args.no_pictures {
-        let waiting = spinner("loads scenes", terminal);
+        let waiting = spinner("loading scenes", terminal);
         pictures = draw(&runs, &suite.registry, &mut |what| waiting.set_message(what));
     }
     let document = document(&runs, &suite.studies, if folder.is_some() { pictures } else { vec![] });
@@ -61,15 +62,12 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
     for number in &document.answer.numbers {
         terminal.print(&format!("  {}: {} {}\n", number.label, number.number, number.interval));
     }
-    for note in &runs.notes {
-        terminal.print(&format!("{note}\n"));
-    }
+    terminal.print_notes(runs.notes.clone());
     match &document.missing()[..] {
         [] => {}
         [one] => terminal.print(&format!("not measured: {}: {}\n", one.what, one.command)),
         all => terminal.print(&format!(
-            "not measured: {} other questions, which the end of the page names with their commands; `sahara study all` \
-             measures all\n",
+            "not measured: {} other studies (the end of the page lists their commands); `sahara study all` measures all\n",
             all.len()
         )),
     }
@@ -93,7 +91,7 @@ impl ResultsFolder {
     fn check(folder: &Path) -> anyhow::Result<Self> {
         anyhow::ensure!(
             folder.is_dir(),
-            "there is no folder {}: make it, or name another one with --results=DIR",
+            "there is no folder {}: create it, or name another one with --results=DIR",
             folder.escaped()
         );
         let readme = folder.canonicalize()?.parent().map(|parent| parent.join("README.md"));

@@ -11,34 +11,36 @@ use crate::output::{OutputFile, STDOUT};
 #[cfg(feature = "page")]
 use crate::report::{Figure, Report, plot::WIDTH};
 use crate::report::{csv, markdown};
+use crate::request::OUTPUT;
 use crate::study::{self, Run, RunOutcome, Status, Study};
 
 pub const RUNS: &str = "runs";
 
 /// Options of every study beside its own.
 #[derive(Clone, Debug, Default, clap::Args)]
+#[command(next_help_heading = OUTPUT)]
 pub struct Common {
-    /// The folder of journals: the same command again goes on where the last one stopped, and other scenes and settings
-    /// are added [default: runs; `compare` keeps none without it]
+    /// Folder of journals: the same command resumes there; other scenes and settings add to it [default: runs; `compare`
+    /// keeps none without it]
     #[arg(long, value_name = "DIR")]
     pub dir: Option<PathBuf>,
     /// Measure these cases again; earlier results stay, and the newest count
-    #[arg(long)]
+    #[arg(long, help_heading = MEASURING)]
     pub fresh: bool,
     /// Run everything in one process: faster, but the intervals no longer cover memory-layout effects, and builds have no
-    /// limit
-    #[arg(long)]
+    /// time limit
+    #[arg(long, help_heading = MEASURING)]
     pub in_process: bool,
-    /// Write what was measured as JSON, which `report` and `diff` read
+    /// Write the results as JSON, for `report` and `diff`
     #[arg(long, value_name = "FILE")]
     pub export_json: Option<PathBuf>,
-    /// Write one row per measured thing as CSV
+    /// Write the results as CSV, one row per case
     #[arg(long, value_name = "FILE")]
     pub export_csv: Option<PathBuf>,
     /// Write the tables as Markdown
     #[arg(long, value_name = "FILE")]
     pub export_markdown: Option<PathBuf>,
-    /// Draw the study's first figure; may be repeated
+    /// Write the study's first figure as SVG; may be repeated
     #[arg(long, value_name = "F.svg")]
     pub plot: Vec<PathBuf>,
 }
@@ -60,7 +62,7 @@ impl Common {
         }
         let is_svg = |path: &&PathBuf| path.as_os_str() == STDOUT || path.extension().is_some_and(|end| end == "svg");
         if let Some(path) = self.plot.iter().find(|path| !is_svg(path)) {
-            anyhow::bail!("cannot plot to {}: name a file that ends in .svg", path.escaped());
+            anyhow::bail!("cannot plot to {}: give a file name that ends in .svg", path.escaped());
         }
         Ok(())
     }
@@ -82,10 +84,36 @@ impl Common {
     }
 }
 
+/// Options that few people need: `--help` shows them, `-h` does not.
+const RARE: [&str; 18] = [
+    "camera",
+    "inside",
+    "size",
+    "quality",
+    "runner_limit",
+    "reference",
+    "only",
+    "like",
+    "runs",
+    "budget",
+    "threads",
+    "seed",
+    "build_limit",
+    "fresh",
+    "in_process",
+    "export_csv",
+    "export_markdown",
+    "plot",
+];
+
 pub fn command(study: &Study) -> clap::Command {
     let command = Common::augment_args((study.options)().name(study.name));
     // The options come with what they themselves are about.
-    command.about(study.question).long_about(None)
+    let command = command.about(study.question).long_about(None);
+    command.mut_args(|option| {
+        let is_rare = RARE.contains(&option.get_id().as_str());
+        option.hide_short_help(is_rare)
+    })
 }
 
 pub fn run(session: &Session, study: &Study, matches: &ArgMatches) -> anyhow::Result<Status> {
@@ -111,8 +139,9 @@ pub fn run_as(session: &Session, study: &Study, matches: &ArgMatches, common: &C
     let outcome = study::run(study, matches, &plan, &mut run)?;
     drop(screen);
 
-    let RunOutcome { dataset, report, tables, foot, status, failures } = outcome;
-    tables.iter().for_each(|table| terminal.print_table(table));
+    let RunOutcome { dataset, report, tables, notes, foot, status, failures } = outcome;
+    tables.iter().for_each(|table| terminal.print_results(table));
+    terminal.print_notes(notes.clone());
     terminal.print_lines(&foot);
     failures.iter().for_each(crate::output::tell_error);
     // Files are written whole, when all is measured.
@@ -124,7 +153,7 @@ pub fn run_as(session: &Session, study: &Study, matches: &ArgMatches, common: &C
             file.write(&csv::table(&report.data))?;
         }
         if let Some(file) = files.markdown {
-            file.write(markdown::report(&report, &foot).as_bytes())?;
+            file.write(markdown::report(&report, &[notes, foot].concat()).as_bytes())?;
         }
         #[cfg(feature = "page")]
         plot(study, &report, files.plots)?;
@@ -137,7 +166,7 @@ pub fn run_as(session: &Session, study: &Study, matches: &ArgMatches, common: &C
 fn plot(study: &Study, report: &Report, plots: Vec<OutputFile>) -> anyhow::Result<()> {
     for file in plots {
         let chart = report.figures().find_map(Figure::chart);
-        let chart = chart.ok_or_else(|| anyhow::anyhow!("study {} has no picture", study.name))?;
+        let chart = chart.ok_or_else(|| anyhow::anyhow!("study {} has no figure: omit --plot", study.name))?;
         file.write(chart.svg(WIDTH).as_bytes())?;
     }
     Ok(())

@@ -1,5 +1,6 @@
 //! Where output goes, and what it may look like.
 
+use std::cell::RefCell;
 use std::io::{self, IsTerminal, Write};
 
 use clap::ValueEnum;
@@ -7,6 +8,7 @@ use comfy_table::Table as Probe;
 
 use crate::escaped::Escaped as _;
 use crate::output::{self, stdout_is_taken, tell};
+use crate::report::number::plural;
 use crate::report::{Screen, Table, terminal, wrapped};
 
 /// When to use colour.
@@ -15,9 +17,9 @@ pub enum Colour {
     /// On a terminal, unless NO_COLOR is set
     #[default]
     Auto,
-    /// Even into a file
+    /// Also in files and pipes
     Always,
-    /// Nowhere
+    /// No colour
     Never,
 }
 
@@ -25,10 +27,12 @@ pub struct Terminal {
     screen: Screen,
     /// Whether somebody looks at standard output.
     shown: bool,
-    /// Whether progress is left out.
+    /// Whether progress is hidden.
     pub quiet: bool,
-    /// Whether tables are printed with all their columns.
+    /// Whether tables are printed with all their columns and notes.
     pub verbose: bool,
+    /// Notes that were not printed, each once.
+    hidden: RefCell<Vec<String>>,
 }
 
 impl Terminal {
@@ -42,10 +46,10 @@ impl Terminal {
         };
         // Some terminals do not know their width, and say zero.
         let width = if shown { Probe::new().width().filter(|&width| width > 0) } else { None };
-        Self { screen: Screen { width, colour }, shown, quiet, verbose: false }
+        Self { screen: Screen { width, colour }, shown, quiet, verbose: false, hidden: RefCell::default() }
     }
 
-    /// The same, which prints tables with all their columns if `verbose`.
+    /// The same, which prints tables with all their columns and notes if `verbose`.
     pub fn verbose(self, verbose: bool) -> Self {
         Self { verbose, ..self }
     }
@@ -72,10 +76,44 @@ impl Terminal {
         }
     }
 
-    /// Prints a table, but for columns in which no row says anything, with a blank line after it.
+    /// Prints a table with its notes, but for columns in which no row says anything, and a blank line after it.
     pub fn print_table(&self, table: &Table) {
         let table = if self.verbose { table.clone() } else { table.clone().without_details() };
+        let table = terminal::with_short_names(table);
         self.print(&(terminal::table(&table, self.screen) + "\n"));
+    }
+
+    /// Prints a table of measurements: its notes are shown as [`print_notes`](Self::print_notes) shows them.
+    pub fn print_results(&self, table: &Table) {
+        if self.verbose {
+            return self.print_table(table);
+        }
+        let mut table = terminal::with_short_names(table.clone().without_details());
+        self.hide(std::mem::take(&mut table.notes));
+        self.print(&(terminal::table(&table, self.screen) + "\n"));
+    }
+
+    /// Prints what explains results if `verbose`; else [`print_note_count`](Self::print_note_count) says that it is there.
+    pub fn print_notes(&self, notes: impl IntoIterator<Item = String>) {
+        let notes: Vec<String> = notes.into_iter().collect();
+        if self.verbose { self.print_lines(&notes) } else { self.hide(notes) }
+    }
+
+    fn hide(&self, notes: Vec<String>) {
+        let mut hidden = self.hidden.borrow_mut();
+        for note in notes {
+            if !hidden.contains(&note) {
+                hidden.push(note);
+            }
+        }
+    }
+
+    /// Says how many notes were not printed, if any.
+    pub fn print_note_count(&self) {
+        match self.hidden.borrow().len() {
+            0 => {}
+            n => self.print(&format!("{}: --verbose shows {}\n", plural(n, "note"), if n == 1 { "it" } else { "them" })),
+        }
     }
 
     /// Prints lines of text, broken where the screen ends.

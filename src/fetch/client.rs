@@ -101,7 +101,7 @@ impl Client {
 
 fn sentence(error: &ureq::Error) -> String {
     match error {
-        ureq::Error::TooManyRedirects => format!("it redirects more than {REDIRECTS} times, perhaps in a circle"),
+        ureq::Error::TooManyRedirects => format!("it redirects more than {REDIRECTS} times, perhaps in a loop"),
         other => other.to_string(),
     }
 }

@@ -28,38 +28,38 @@ pub enum FetchOutcome {
 /// Why a file was not fetched.
 #[derive(Debug, thiserror::Error)]
 pub enum FetchError {
-    #[error("{file} cannot be fetched: its scene file gives no sha256 to verify it by{}", unpack.as_ref().map_or(String::new(), |how| format!("; download {url} yourself, then {how}, into {}", folder.escaped())))]
+    #[error("{file} cannot be fetched: its scene file has no sha256 to verify it{}", unpack.as_ref().map_or(String::new(), |how| format!("; download {url} yourself, then {how}, into {}", folder.escaped())))]
     NoHash { file: String, url: String, unpack: Option<String>, folder: PathBuf },
     #[error(
-        "{file} cannot be fetched: its scene file gives the url {url:?}, which does not begin with https:// or http://"
+        "{file} cannot be fetched: the url {url:?} in its scene file does not begin with https:// or http://"
     )]
     Address { file: String, url: String },
-    #[error("{} is there with other contents (SHA-256 {found}, not {expected}): rename or remove it and fetch again", path.escaped())]
+    #[error("{} exists with other contents (SHA-256 {found}, not {expected}): rename or remove it and fetch again", path.escaped())]
     Other { path: PathBuf, found: String, expected: String },
     #[error("{url}: the server answers {status}: {}", advice(*status))]
     Status { url: String, status: u16 },
     #[error("{url}: {cause}: check the connection and fetch again")]
     Connection { url: String, cause: String },
     #[error(
-        "{url}: the file has more than {most} bytes, the size in the scene file or the most that is fetched without one: \
-         nothing of it is kept"
+        "{url}: the file has more than {most} bytes, the size in the scene file or the default limit: nothing is kept"
     )]
     TooLarge { url: String, most: u64 },
     #[error(
-        "{url}: what came has the SHA-256 {found}, not {expected}: nothing of it is kept; the file there has changed, or was changed on the way"
+        "{url}: the download has the SHA-256 {found}, not {expected}: nothing is kept; the file has changed on the \
+         server or in transit"
     )]
     Hash { url: String, found: String, expected: String },
-    #[error("cannot read {}: {cause}: check that it may be read", path.escaped())]
+    #[error("cannot read {}: {cause}: check its permissions", path.escaped())]
     Read { path: PathBuf, cause: std::io::Error },
-    #[error("cannot write {}: {cause}: choose a folder that may be written and has room (SAHARA_DATA)", path.escaped())]
+    #[error("cannot write {}: {cause}: choose a writable folder with free space (SAHARA_DATA)", path.escaped())]
     Write { path: PathBuf, cause: std::io::Error },
 }
 
 fn advice(status: u16) -> &'static str {
     match status {
-        404 | 410 => "there is no such file any more; look for the mesh by its origin",
-        401 | 403 => "it does not give the file to everybody",
+        404 | 410 => "the file is gone; search for the mesh by its origin",
+        401 | 403 => "it restricts access to the file",
         429 | 500.. => "try again later",
-        _ => "look at the address in a browser",
+        _ => "open the address in a browser",
     }
 }

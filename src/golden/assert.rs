@@ -61,7 +61,7 @@ pub fn assert_image(path: impl AsRef<Path>, actual: impl Into<DynamicImage>, how
 /// If the picture is not accepted, or the golden image cannot be read.
 pub fn check_image(path: &Path, actual: &DynamicImage, how: Match, out: &Path) -> Result<(), GoldenError> {
     let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
-    let remedy = "run the test once with SAHARA_GOLDEN=update to make the golden image";
+    let remedy = "run the test once with SAHARA_GOLDEN=update to create the golden image";
     let expected = file::read(path).map_err(|cause| match cause {
         PictureError::Read { .. } => GoldenError::Missing { cause, remedy },
         cause => GoldenError::Picture(cause),

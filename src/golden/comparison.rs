@@ -57,12 +57,13 @@ pub fn compare(
     let said = |verdict, sentence: String| (Comparison::said(name, verdict, sentence), None);
     let [wanted, found] = [expected, actual].map(Layout::of);
     if wanted != found {
-        return said(Verdict::Differs, format!("{wanted} are expected, and it has {found}"));
+        return said(Verdict::Differs, format!("expected {wanted}, found {found}"));
     }
     if let Some(mask) = mask.filter(|mask| mask.size != wanted.size) {
         let [width, height] = mask.size;
         let sentence =
-            format!("the mask has {width} x {height} pixels, and the picture has {wanted}: give one of its size");
+            format!("the mask has {width} x {height} pixels, but the picture has {wanted}: use a mask of the same \
+                     size");
         return said(Verdict::Failed, sentence);
     }
     let masked = mask.map(|mask| mask.applied(expected, actual.clone()));

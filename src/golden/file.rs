@@ -21,7 +21,7 @@ pub enum PictureError {
     Read { path: PathBuf, cause: Error },
     #[error("cannot read the picture {}, {}: {}", path.escaped(), reason(cause), in_a_line(cause))]
     Decode { path: PathBuf, cause: ImageError },
-    #[error("cannot write the picture {} as PNG, which takes 8 or 16 bits a channel: {}", path.escaped(), in_a_line(cause))]
+    #[error("cannot write the picture {} as PNG with 8 or 16 bits per channel: {}", path.escaped(), in_a_line(cause))]
     Encode { path: PathBuf, cause: ImageError },
     #[error("cannot make the directory {}: {cause}", path.escaped())]
     Directory { path: PathBuf, cause: Error },
@@ -34,7 +34,7 @@ fn reason(cause: &ImageError) -> String {
         ImageError::Limits(_) => format!("which takes more than {LARGEST} MiB"),
         ImageError::Unsupported(_) if cfg!(feature = "pictures") => "which is not PNG, JPEG, WebP or EXR".into(),
         ImageError::Unsupported(_) => "which is not PNG (JPEG, WebP and EXR need the feature `pictures`)".into(),
-        _ => "which is damaged or cut off".into(),
+        _ => "which is damaged or truncated".into(),
     }
 }
 
@@ -77,7 +77,7 @@ fn decoded(bytes: &[u8]) -> ImageResult<DynamicImage> {
     if format == Some(ImageFormat::Jpeg) && !is_whole_jpeg(bytes) {
         return Err(ImageError::Decoding(DecodingError::new(
             ImageFormat::Jpeg.into(),
-            "the end of its pixels is missing",
+            "its pixel data is truncated",
         )));
     }
     Ok(picture)

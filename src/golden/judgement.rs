@@ -84,7 +84,7 @@ pub struct Judgement<'a> {
 
 /// FLIP is not for floats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("FLIP is for pictures of 8 or 16 bits a channel, and these are floats: give a largest difference instead")]
+#[error("FLIP needs pictures of 8 or 16 bits per channel, and these are floats: use --max-difference instead")]
 pub struct NoFlip;
 
 impl<'a> Judgement<'a> {

@@ -70,7 +70,7 @@ impl Display for Layout {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let [width, height] = self.size;
         let channels = ["grey", "grey and alpha", "RGB", "RGBA"][usize::from(self.channels) - 1];
-        write!(f, "{width} x {height} pixels of {channels} with {} bits a channel", self.bits)
+        write!(f, "{width} x {height} pixels of {channels} with {} bits per channel", self.bits)
     }
 }
 

@@ -37,35 +37,35 @@ pub enum GoldenError {
     #[error("{cause}: {remedy}")]
     Missing { cause: PictureError, remedy: &'static str },
     #[error(
-        "the golden image {} has {expected}, and what was drawn has {found}: see {}; if it is right, {remedy}",
+        "the golden image {} has {expected}, but the rendered picture has {found}: see {}; if it is correct, {remedy}",
         path.escaped(), shown.escaped()
     )]
     Layout { path: PathBuf, expected: Layout, found: Layout, shown: PathBuf, remedy: &'static str },
     #[error(
-        "the golden image {} has {} x {} pixels, and {} x {} are asked for: give --size {}x{}, or make it with \
+        "the golden image {} has {} x {} pixels, but {} x {} are requested: pass --size {}x{}, or replace it with \
          `sahara golden update`",
         path.escaped(), golden[0], golden[1], asked[0], asked[1], golden[0], golden[1]
     )]
     Size { path: PathBuf, golden: [u32; 2], asked: [u32; 2] },
     #[error(
-        "the golden image {} was drawn with {golden}, and now it is {asked}: give the former, or make the image with \
-         `sahara golden update`",
+        "the golden image {} was rendered with {golden}, but {asked} is requested: pass the former, or replace the \
+         image with `sahara golden update`",
         path.escaped()
     )]
     Camera { path: PathBuf, golden: String, asked: String },
     #[error(
-        "{} is not as `sahara golden update` writes it, so somebody else may have made it: --force replaces it",
+        "{} was not written by `sahara golden update`: pass --force to replace it",
         .0.escaped()
     )]
     Foreign(PathBuf),
     #[error(
-        "the golden images of built-in scenes are in this program, and its sources are not here: --goldens DIR makes \
-         others in a folder"
+        "the golden images of built-in scenes are part of the program, whose sources are not here: pass --goldens DIR \
+         to use a folder"
     )]
     NoSources,
     #[error("{label}: {}: see {}; the golden image is {}", difference.sentence(*size), shown.escaped(), path.escaped())]
     Differs { label: String, path: PathBuf, difference: Box<Difference>, size: [u32; 2], shown: PathBuf },
-    #[error("{refusal}; but these could not be written: {cause}")]
+    #[error("{refusal}; but the pictures could not be written: {cause}")]
     NotShown { refusal: Box<GoldenError>, cause: Box<GoldenError> },
     #[error(transparent)]
     NoFlip(#[from] NoFlip),

@@ -21,7 +21,7 @@ pub const SIZE: [u32; 2] = [160, 160];
 /// The views that golden images are made of: those that depend on nothing but the hits.
 pub const VIEWS: [ViewKind; 4] = [ViewKind::Shaded, ViewKind::Depth, ViewKind::Normal, ViewKind::Primitive];
 
-const REMEDY: &str = "make the golden images with `sahara golden update`";
+const REMEDY: &str = "create the golden images with `sahara golden update`";
 
 /// Files of built-in scenes.
 struct Builtin {

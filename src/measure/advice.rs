@@ -33,37 +33,37 @@ impl Conditions {
     pub fn warnings(&self) -> Vec<String> {
         let &Self { cores, seconds, denormals, .. } = self;
         let debug = self.debug.then(|| {
-            "the program is built without optimisation: build it with --release before you trust a time".into()
+            "sahara is built without optimisation: rebuild with --release for meaningful times".into()
         });
         let load = self.load.filter(|&load| load > 0.5 * cores as f64).map(|load| {
             let noun = if cores == 1 { "core" } else { "cores" };
             format!(
-                "the load average was {load:.1} on {cores} {noun} before the run: end other programs; until then trust \
-                 ratios, not times"
+                "the load average was {load:.1} on {cores} {noun} before the run: stop other programs, or trust \
+                 ratios only"
             )
         });
         let governor = (self.governor.as_deref() == Some("powersave")).then(|| {
-            "the clock rate is governed by powersave: `cpupower frequency-set -g performance` makes times steadier"
+            "the CPU governor is powersave: `cpupower frequency-set -g performance` makes times steadier"
                 .into()
         });
         let clock = self.clock_rates.filter(|(before, after)| *after < CLOCK_FALL * before).map(|(before, after)| {
             let [before, after] = [before, after].map(|khz| khz * 1e-6);
             format!(
-                "the clock rate fell from {before:.2} to {after:.2} GHz: the processor throttles; let it cool, or run fewer \
+                "the clock rate fell from {before:.2} to {after:.2} GHz: the CPU throttles; let it cool, or use fewer \
                  threads"
             )
         });
         let is_often = |&n: &u64| n as f64 > INTERRUPTIONS * seconds.max(1.0);
         let interruptions = self.interruptions.filter(is_often).map(|n| {
             format!(
-                "the measuring thread was interrupted {n} times in {seconds:.0} s: another program wants its core; end it, or \
-                 repeat the run"
+                "the measuring thread was interrupted {n} times in {seconds:.0} s: another program uses its core; \
+                 stop it and rerun"
             )
         });
         let is_changed = !matches!(denormals, "kept" | "unknown");
         let denormals = is_changed.then(|| {
             format!(
-                "small numbers are not exact ({denormals}): a library has changed the control word; hits may differ"
+                "denormals are not exact ({denormals}): a library changed the FPU control word; hits may differ"
             )
         });
         [debug, load, governor, clock, interruptions, denormals].into_iter().flatten().collect()
@@ -77,9 +77,9 @@ const OWN_CLOCK: std::ops::RangeInclusive<f64> = 0.95..=1.25;
 /// to its own.
 pub fn of_own_clock(label: &str, outside: f64) -> Option<String> {
     let why = if outside < 1.0 {
-        "its times are not in seconds, or add up those of several threads: report the elapsed time"
+        "its times are not seconds, or are sums over threads: report the elapsed time"
     } else {
-        "it leaves work out of its times, or another program wants its core: check what it times, or repeat the run"
+        "its timer omits some work, or another program uses its core: check the timer, or rerun"
     };
     let sentence = || format!("{label}: its passes take {outside:.2} times as long as it reports: {why}");
     (!OWN_CLOCK.contains(&outside)).then(sentence)
@@ -100,15 +100,15 @@ pub fn of_samples(cases: &[&[f64]]) -> Vec<String> {
     let outliers: usize = cases.iter().map(|case| outliers(case)).sum();
     let many = (outliers as f64 > OUTLIERS * all as f64).then(|| {
         format!(
-            "{outliers} of {all} samples are outliers: something interrupts the run; repeat it on a quieter machine, or with \
-             more --runs"
+            "{outliers} of {all} samples are outliers: something interrupts the run; use a quieter machine or more \
+             --runs"
         )
     });
     let trend = trend(cases).filter(|&ratio| ratio > TREND).map(|ratio| {
         let percent = (ratio - 1.0) * 100.0;
         format!(
-            "all cases grew slower, by {percent:.0} % over the run: the processor throttles or others load it; ratios are \
-             paired within rounds and suffer less than times"
+            "all cases slowed by {percent:.0} % during the run: the CPU throttles or other programs load it; ratios \
+             are paired within rounds and suffer less than times"
         )
     });
     [many, trend].into_iter().flatten().collect()

@@ -132,7 +132,8 @@ impl Provenance {
         let Self { threads, cores, .. } = self;
         (threads > cores).then(|| {
             let noun = if *cores == 1 { "core" } else { "cores" };
-            format!("{threads} threads share {cores} {noun}: they take turns, and times are those of neither number; ask for {cores} at most")
+            format!("{threads} threads share {cores} {noun}, so times describe neither number: use --threads {cores} \
+                     at most")
         })
     }
 
@@ -151,14 +152,16 @@ impl Provenance {
     pub fn line(&self) -> String {
         let threads = if self.threads == 1 { "1 thread".into() } else { format!("{} threads", self.threads) };
         let pinned = match self.pinned.as_deref() {
-            Some([core]) => format!(", pinned to core {core}"),
-            Some(_) => ", each pinned to a core".into(),
+            Some([core]) => format!(" on core {core}"),
+            Some(_) => ", each on its own core".into(),
             None => ", not pinned".into(),
         };
         let Self { cpu, simd, rustc, version, commit, profile, date, .. } = self;
         let day = date.split('T').next().unwrap_or(date);
+        // The digest of the compiler is in the data.
+        let rustc = rustc.split(" (").next().unwrap_or(rustc);
         let lacking = self.lacking().map_or(String::new(), |feature| {
-            format!(" (built without {feature}, so that structures of others do without: set target-cpu=native)")
+            format!(" (baselines are built without {feature}: set target-cpu=native)")
         });
         format!("{cpu}, {simd}{lacking}, {threads}{pinned}; sahara {version} ({commit}, {profile}), {rustc}; {day}")
     }

@@ -40,7 +40,7 @@ impl OutputFile {
     pub fn apart_from<'a>(self, inputs: impl IntoIterator<Item = &'a Path>) -> Result<Self, OutputError> {
         let is_own = |input: &Path| self.regular.is_some() && input.canonicalize().ok() == self.regular;
         match inputs.into_iter().any(is_own) {
-            true => Err(OutputError::place(&self.path, "it is one of the files to read: name another one")),
+            true => Err(OutputError::place(&self.path, "it is an input file: name another file")),
             false => Ok(self),
         }
     }

@@ -28,7 +28,7 @@ impl OutputFolder {
         let folder = Self { path: path.into(), resolved: resolved(path).map_err(failed)? };
         if let Some(other) = folder.foreign().map_err(failed)? {
             let problem =
-                format!("it contains {other}, which sahara has not written there: name another folder, or empty it");
+                format!("it contains {other}, which sahara did not write: name another folder, or empty it");
             return Err(OutputError::place(path, problem));
         }
         folder.temporary().map_err(failed)?;
@@ -40,7 +40,7 @@ impl OutputFolder {
         let is_inside = |input: &&Path| input.canonicalize().is_ok_and(|input| input.starts_with(&self.resolved));
         match inputs.into_iter().find(is_inside) {
             Some(input) => {
-                let problem = format!("{}, one of the files to read, is in it: name another folder", input.escaped());
+                let problem = format!("it contains {}, an input file: name another folder", input.escaped());
                 Err(OutputError::place(&self.path, problem))
             }
             None => Ok(self),

@@ -6,15 +6,15 @@ use crate::study::journal::JournalError;
 /// Why runs cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
-    #[error("{} is JSON but no run of sahara: name files of `--export-json`, or of a study", path.escaped())]
+    #[error("{} is JSON, but not a run of sahara: name files of `--export-json` or of a study", path.escaped())]
     Foreign { path: PathBuf },
-    #[error("{} is of the study {study:?}, which this sahara does not know: leave it out", path.escaped())]
+    #[error("{} belongs to the study {study:?}, which this sahara does not have: omit it", path.escaped())]
     Unknown { path: PathBuf, study: String },
     #[error(transparent)]
     Journal(#[from] JournalError),
     #[error(
-        "there is no run in {}: `sahara study all` makes a whole one, `sahara compare --export-json {}/compare.json` a \
-         small one",
+        "there is no run in {}: measure one with `sahara study all`, or a small one with `sahara compare \
+         --export-json {}/compare.json`",
         path.escaped(),
         path.escaped()
     )]

@@ -55,7 +55,7 @@ impl<'a> Runs<'a> {
                     }
                     // A folder may hold what others have written.
                     Err(RunError::Foreign { .. } | RunError::Unknown { .. }) if is_folder => {
-                        runs.notes.push(format!("{} is no run and is left out.", file.escaped()));
+                        runs.notes.push(format!("{} is not a run: ignored.", file.escaped()));
                     }
                     Err(error) => return Err(error),
                 }
@@ -122,7 +122,7 @@ pub fn also_measured(dataset: &Dataset) -> String {
     let commands: Vec<String> =
         dataset.commands().into_iter().map(|line| format!("`{}`", command_line(line))).collect();
     let (scenes, day) = (listed(&scene_titles(dataset)), date.split('T').next().unwrap_or(date));
-    format!("Also measured, and not shown: {scenes} on {cpu}, commit {commit}, {day} ({}).", listed(&commands))
+    format!("Measured but not shown: {scenes} on {cpu}, commit {commit}, {day} ({}).", listed(&commands))
 }
 
 /// The cases that the file `path` holds, and what is to be said of them.

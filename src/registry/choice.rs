@@ -21,25 +21,25 @@ pub struct Choice {
 /// Why a choice of structure is rejected.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ChoiceError {
-    #[error("there is no structure {name:?}{suggestion}; there are: {known}")]
+    #[error("there is no structure {name:?}{suggestion}; the structures are: {known}")]
     Unknown { name: String, suggestion: String, known: String },
-    #[error("{name} is not offered over the triangle test {test:?}{suggestion}; it is over: {known}")]
+    #[error("{name} does not support the triangle test {test:?}{suggestion}; its tests are: {known}")]
     Test { name: String, test: String, suggestion: String, known: String },
-    #[error("{name} has no key {key:?}{suggestion}; its keys are: {known}")]
+    #[error("{name} has no option {key:?}{suggestion}; its options are: {known}")]
     Key { name: String, key: String, suggestion: String, known: String },
     #[error("{part:?} in {spec:?} is not of the form key=value")]
     Form { spec: String, part: String },
-    #[error("{name} does not take {given} ({reason}){suggestion}; allowed: {values}")]
+    #[error("{name} does not accept {given} ({reason}){suggestion}; allowed: {values}")]
     Value { name: String, given: String, reason: String, suggestion: String, values: String },
-    #[error("{name} no longer takes {given}: use {instead}")]
+    #[error("{name} no longer accepts {given}: use {instead}")]
     Removed { name: String, given: String, instead: &'static str },
-    #[error("{name} cannot be configured so: {reason}")]
+    #[error("{name} rejects this configuration: {reason}")]
     Config { name: String, reason: String },
 }
 
 /// Values that keys took in earlier versions, and what to use now.
 const REMOVED: [(&str, &str, &str); 1] =
-    [("batch", "interleaved", "batch=packets, which interleaves the rays that do not form a packet")];
+    [("batch", "interleaved", "batch=packets, which interleaves the rays outside packets")];
 
 impl Choice {
     /// `entry` with values of some keys; `name_test` where its name alone would be that of another entry.

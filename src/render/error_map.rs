@@ -88,7 +88,7 @@ impl ErrorMap {
         let painted = PAINTED.map(|(outcome, name, colour, _)| format!("{name} {} ({colour})", self.count(outcome)));
         let right = self.count(Outcome::Right) + self.count(Outcome::Nothing);
         format!(
-            "{}, right {right} (grey, brighter where nearer); errors are drawn three pixels wide",
+            "{}, correct {right} (grey, brighter where nearer); errors are three pixels wide",
             painted.join(", ")
         )
     }

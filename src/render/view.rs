@@ -33,7 +33,7 @@ named_enum! {
 
 /// The heat of a structure that does not report tests and steps.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the structure does not report its tests and steps, so there is no heat to show: choose another view")]
+#[error("the structure does not count tests and steps, which the heat view shows: choose another view or structure")]
 pub struct ViewError;
 
 impl FromStr for ViewKind {

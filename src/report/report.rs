@@ -35,6 +35,8 @@ pub struct Finding {
     pub value: Option<Estimate>,
     /// Name that a page shows as its answer: the label of the fastest structure.
     pub name: Option<String>,
+    /// Whether the terminal shows the sentence with `--verbose` alone.
+    pub is_detail: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -151,20 +153,25 @@ pub struct Missing {
 impl Finding {
     /// A finding without a number of its own.
     pub fn new(key: impl Into<String>, sentence: impl Into<String>) -> Self {
-        Self { key: key.into(), sentence: sentence.into(), value: None, name: None }
+        Self { key: key.into(), sentence: sentence.into(), value: None, name: None, is_detail: false }
     }
 
     /// A name that a page's answer goes by, and no sentence.
     pub fn named(key: impl Into<String>, name: impl Into<String>) -> Self {
-        Self { key: key.into(), sentence: String::new(), value: None, name: Some(name.into()) }
+        Self { name: Some(name.into()), ..Self::new(key, "") }
     }
 
     pub fn number(key: impl Into<String>, value: Estimate) -> Self {
-        Self { key: key.into(), sentence: String::new(), value: Some(value), name: None }
+        Self::new(key, "").of(value)
     }
 
     pub fn of(self, value: Estimate) -> Self {
         Self { value: Some(value), ..self }
+    }
+
+    /// The same finding, which the terminal shows with `--verbose` alone.
+    pub fn detail(self) -> Self {
+        Self { is_detail: true, ..self }
     }
 }
 
@@ -175,6 +182,12 @@ impl Report {
 
     pub fn sentences(&self) -> impl Iterator<Item = &str> {
         self.findings.iter().map(|finding| finding.sentence.as_str()).filter(|sentence| !sentence.is_empty())
+    }
+
+    /// The sentences that the terminal always shows.
+    pub fn headlines(&self) -> impl Iterator<Item = &str> {
+        let shown = self.findings.iter().filter(|finding| !finding.is_detail && !finding.sentence.is_empty());
+        shown.map(|finding| finding.sentence.as_str())
     }
 
     /// The claims as a table; nothing without a claim.

@@ -31,7 +31,7 @@ pub fn note(block: &Block) -> Option<String> {
 /// The table in lines of at most the screen's width: columns for which there is no room follow below, after the first
 /// column once more.
 pub fn table(table: &Table, screen: Screen) -> String {
-    let table = with_short_names(table.clone().without_empty_columns());
+    let table = table.clone().without_empty_columns();
     let title = table.title.escaped();
     let title = if screen.colour { format!("\x1b[1m{title}\x1b[0m") } else { title.to_string() };
     let mut text = if table.title.is_empty() { String::new() } else { title + "\n" };
@@ -55,7 +55,7 @@ pub fn table(table: &Table, screen: Screen) -> String {
 const ABOVE: char = '…';
 
 /// Below a structure, the same with more keys is named by these keys alone: its whole label leaves no room for figures.
-fn with_short_names(mut table: Table) -> Table {
+pub fn with_short_names(mut table: Table) -> Table {
     let names: Vec<String> = table.rows.iter().map(|row| row.first().map_or(String::new(), Cell::text)).collect();
     let mut has_short = false;
     for (names, row) in names.windows(2).zip(table.rows.iter_mut().skip(1)) {
@@ -65,7 +65,7 @@ fn with_short_names(mut table: Table) -> Table {
         }
     }
     if has_short {
-        table.notes.push(format!("{ABOVE}: the structure of the row above, with these keys."));
+        table.notes.push(format!("{ABOVE}: the structure of the row above with these options."));
     }
     table
 }

@@ -1,31 +1,32 @@
 //! How much is timed, as options.
 
-use super::Seconds;
+use super::{MEASURING, Seconds};
 
 /// How much is timed. The numbers are the defaults of a study, as texts: clap keeps one default value of another type
 /// for all parameters.
 #[derive(Clone, Debug, clap::Args)]
+#[command(next_help_heading = MEASURING)]
 pub struct Measuring<const EPOCHS: u16 = 5, const RUNS: u16 = 3, const BUDGET: u32 = 8> {
-    /// Epochs: in each all structures are built anew; more of them can be added later
+    /// Epochs: each rebuilds all structures; a later run can add more
     #[arg(long, value_name = "N", default_value = EPOCHS.to_string(), value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub epochs: u16,
     /// Samples per case and epoch (fewer if the budget runs out)
     #[arg(long, value_name = "N", default_value = RUNS.to_string(), value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub runs: u16,
-    /// Seconds for the samples of an epoch of a scene: slow cases are timed on fewer rays. none: all rays are timed, and
-    /// no structure is dropped for slowness
+    /// Seconds of samples per scene and epoch: slow cases are timed on fewer rays. `none` times all rays and drops no slow
+    /// structure
     #[arg(long, value_name = "SECONDS|none", default_value = BUDGET.to_string(), value_parser = Limit::parse,
         allow_negative_numbers = true)]
     pub budget: Limit,
-    /// Threads that build and trace; 1 is the unit of comparison
+    /// Threads for building and tracing
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: u16,
-    /// Seed of the rays and of the order of samples
+    /// Seed of the rays and of the sample order
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,
 }
 
-/// What something may take; nothing where it may take what it will.
+/// A time limit; `None` is unlimited.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limit(pub Option<Seconds>);
 

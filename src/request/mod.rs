@@ -1,5 +1,6 @@
 //! What several commands ask for: scenes, structures, rays and views, as options and as data that another process reads.
 
+mod headings;
 mod measuring;
 mod os_text;
 mod ray_kind;
@@ -9,6 +10,7 @@ mod seconds;
 mod structures;
 mod view;
 
+pub use headings::{MEASURING, OUTPUT, RAYS, SCENES, STRUCTURES};
 pub use measuring::{Limit, Measuring};
 pub use ray_kind::RayKind;
 pub use rays::{RaySource, Rays, WORKLOADS, WorkloadRequest, each_kind, rays_or_all, recorded, replayed};

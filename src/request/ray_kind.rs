@@ -38,14 +38,14 @@ impl RayKind {
     /// What the rays are, in a few words.
     pub fn description(self) -> &'static str {
         match self {
-            Self::Uniform => "rays of the camera and random lines, half of each",
-            Self::Edge => "rays through points of edges",
+            Self::Uniform => "camera rays and random lines, half of each",
+            Self::Edge => "rays through points on edges",
             Self::Vertex => "rays through vertices",
-            Self::Axis => "rays along the axes, with coordinates of vertices",
-            Self::Grazing => "rays nearly in the plane of a triangle",
+            Self::Axis => "axis-parallel rays through vertex coordinates",
+            Self::Grazing => "rays almost in the plane of a triangle",
             Self::Scale => "rays with directions 1e-30 to 1e30 long",
             Self::Offset => "rays from 1e3 to 1e6 scene sizes away",
-            Self::Surface => "rays from points of triangles",
+            Self::Surface => "rays from points on triangles",
         }
     }
 
@@ -95,6 +95,6 @@ impl FromStr for RayKind {
     type Err = Unknown;
 
     fn from_str(name: &str) -> Result<Self, Unknown> {
-        find("kind of rays", Self::ALL, name, Self::name)
+        find("workload", Self::ALL, name, Self::name)
     }
 }

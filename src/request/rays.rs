@@ -120,11 +120,12 @@ pub fn each_kind<K: Copy + PartialEq>(named: &[K], own: &[K]) -> Vec<K> {
 
 /// Rays on the command line.
 #[derive(Clone, Debug, clap::Args)]
+#[command(next_help_heading = super::RAYS)]
 pub struct Rays {
-    /// A workload; may be repeated [default: those of the study]
+    /// Workload; may be repeated [default: the study's]
     #[arg(long, short, value_name = "KIND")]
     pub workload: Vec<WorkloadKind>,
-    /// Rays of a workload that are timed, at most, in whole tiles of the scene's picture
+    /// Rays to time per workload at most, in whole tiles of the scene's picture
     #[arg(long, value_name = "N|all", default_value = "all", value_parser = rays_or_all)]
     pub rays: usize,
 }
@@ -155,7 +156,7 @@ pub fn rays_or_all(text: &str) -> Result<usize, String> {
     match text.parse() {
         _ if text == "all" => Ok(usize::MAX),
         Ok(count @ 1..=MOST) => Ok(count),
-        _ => Err(format!("give a number of rays from 1 to {MOST}, or all")),
+        _ => Err(format!("give a number of rays from 1 to {MOST}, or `all`")),
     }
 }
 
@@ -179,7 +180,7 @@ impl RaySource {
         let is_number = text.trim_start_matches(['-', '+']).bytes().all(|byte| byte.is_ascii_digit());
         match rays_or_all(text) {
             Ok(count) => Ok(Self::Count(count)),
-            Err(sentence) if is_number => Err(format!("{sentence}, or a file of rays")),
+            Err(sentence) if is_number => Err(format!("{sentence}, or a ray file")),
             Err(_) => Ok(Self::File(text.into())),
         }
     }
@@ -206,7 +207,7 @@ impl RaySource {
     /// If all are asked for.
     pub fn number(&self) -> anyhow::Result<usize> {
         match self {
-            Self::Count(usize::MAX) => anyhow::bail!("there is no end of such rays: give a number of them, not all"),
+            Self::Count(usize::MAX) => anyhow::bail!("the number of such rays is unlimited: give a number, not `all`"),
             Self::Count(count) => Ok(*count),
             Self::File(_) => Ok(0),
         }
@@ -227,17 +228,17 @@ pub fn recorded(
     let file = RayFile::read(path)?;
     let name = match named {
         [] if file.scene.is_empty() => {
-            anyhow::bail!("{} holds rays of no scene in particular: name a scene", path.escaped())
+            anyhow::bail!("{} names no scene: name one on the command line", path.escaped())
         }
         // Names of built-in scenes are names; what else a file says is no path to follow.
         [] if Builtin::find(&file.scene).is_err() => anyhow::bail!(
-            "{} holds rays of {:?}, which is no built-in scene: name the mesh or scene file that they were recorded for",
+            "{} has rays of {:?}, which is not a built-in scene: name the mesh or scene file that they were recorded for",
             path.escaped(),
             file.scene
         ),
         [] => OsStr::new(&file.scene),
         [one] => one,
-        _ => anyhow::bail!("{} holds rays of one scene: name one scene, not {}", path.escaped(), named.len()),
+        _ => anyhow::bail!("{} has rays of one scene: name one scene, not {}", path.escaped(), named.len()),
     };
     let scene = scene(registry, name)?;
     file.check_scene(&scene).map_err(|problem| anyhow::anyhow!("{}: {problem}", path.escaped()))?;
@@ -259,7 +260,7 @@ pub fn replayed<K>(
     let (Some((scene, file)), Some(path)) = (recorded(registry, source, named)?, source.file()) else {
         return Ok(None);
     };
-    anyhow::ensure!(workloads.is_empty(), "the rays are those of the file: leave --workload out");
+    anyhow::ensure!(workloads.is_empty(), "the file defines the rays: omit --workload");
     Ok(Some((scene, WorkloadRequest::File { path: path.into(), hash: file.workload.hash(), rays })))
 }
 

@@ -68,7 +68,7 @@ impl SceneRequest {
         let scene = self.view.of(scene(registry, &self.word)?)?;
         anyhow::ensure!(
             scene.hash().starts_with(&self.hash),
-            "the scene {} is not what it was when it was planned: plan it anew (Snakemake: remove plan.txt)",
+            "the scene {} has changed since it was planned: plan it anew (Snakemake: remove plan.txt)",
             self.word.escaped()
         );
         Ok(scene)
@@ -114,7 +114,7 @@ fn distinct(scenes: Vec<(OsString, Scene)>) -> anyhow::Result<Vec<(OsString, Sce
         };
         anyhow::ensure!(
             other.hash() == scene.hash(),
-            "two different scenes are called {}: tables could not tell them apart; rename one",
+            "two different scenes have the name {}: rename one",
             scene.name
         );
     }
@@ -180,7 +180,7 @@ pub fn named_notes<'a>(scenes: impl IntoIterator<Item = &'a Scene>, of: fn(&Scen
 #[derive(Clone, Debug, Default, clap::Args)]
 pub struct Scenes {
     /// Built-in scenes, scene files (.toml), mesh files (.obj, .ply, .gltf, .glb) and generated scenes (icosphere:LEVEL)
-    /// [default: those of the study, else all built-in ones]
+    /// [default: the study's scenes, else all built-in scenes]
     #[arg(value_name = "SCENE|FILE")]
     pub scenes: Vec<OsString>,
 }
@@ -199,12 +199,12 @@ impl Scenes {
 /// Which meshes the built-in scenes are measured with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Meshes {
-    /// Stand-ins, and the real meshes where they have been fetched
+    /// Stand-ins, and real meshes if present
     #[default]
     Both,
-    /// Real meshes only; fail if a mesh has not been fetched
+    /// Real meshes only; fail if one is missing
     Real,
-    /// Stand-ins alone
+    /// Stand-ins only
     StandIns,
 }
 
@@ -214,7 +214,7 @@ pub struct ScenesAndMeshes {
     #[command(flatten)]
     pub named: Scenes,
     /// Meshes of the built-in scenes
-    #[arg(long, value_name = "WHICH", value_enum, default_value_t)]
+    #[arg(long, help_heading = super::SCENES, value_name = "WHICH", value_enum, default_value_t)]
     pub meshes: Meshes,
 }
 
@@ -240,7 +240,7 @@ impl ScenesAndMeshes {
             }
         }
         if let (Meshes::Real, Some(note)) = (self.meshes, self.note(scenes.iter().map(|(_, scene)| scene))) {
-            anyhow::bail!("{note} Without `--meshes real` stand-ins are measured.");
+            anyhow::bail!("{note} Omit `--meshes real` to measure stand-ins.");
         }
         Ok(scenes)
     }
@@ -254,7 +254,7 @@ impl ScenesAndMeshes {
         let names: Vec<&str> = read.clone().filter(alone).map(|scene| scene.name.as_str()).collect();
         (!names.is_empty() && self.meshes != Meshes::StandIns).then(|| {
             format!(
-                "The real meshes of {} are not there: `sahara fetch` gets them, SAHARA_DATA names their folder.",
+                "The real meshes of {} are missing: `sahara fetch` downloads them; SAHARA_DATA sets their folder.",
                 listed(&names)
             )
         })

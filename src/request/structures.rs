@@ -164,7 +164,7 @@ pub fn known_tests(registry: &Registry, tests: &[String]) -> anyhow::Result<()> 
     for test in tests {
         anyhow::ensure!(
             known.iter().any(|known| known.eq_ignore_ascii_case(test)),
-            "there is no triangle test {test:?}{}; there are: {}",
+            "there is no triangle test {test:?}{}; the tests are: {}",
             suggestion(test, known.iter().copied()),
             known.join(", ")
         );
@@ -178,13 +178,14 @@ pub fn known_tests(registry: &Registry, tests: &[String]) -> anyhow::Result<()> 
 /// If the registry is empty.
 pub fn guide(registry: &Registry) -> anyhow::Result<Choice> {
     let guide = registry.choose(SAH_TREE).ok().or_else(|| registry.all().into_iter().next());
-    guide.context("no structure is registered: there is nothing to run")
+    guide.context("no structure is registered: register one with `Registry::with`")
 }
 
 /// Structures on the command line.
 #[derive(Clone, Debug, Default, clap::Args)]
+#[command(next_help_heading = super::STRUCTURES)]
 pub struct Structures {
-    /// A structure, with keys that differ from their defaults; may be repeated [default: those of the study]
+    /// Structure with options (see `sahara list NAME`); may be repeated, `all` is one of each name [default: the study's]
     #[arg(long, short, value_name = "NAME[:key=value,..]")]
     pub structure: Vec<String>,
     /// Default build quality of eight-wide trees
@@ -236,7 +237,7 @@ pub fn is_large(triangles: usize) -> bool {
 /// Said of a scene with so many.
 pub fn left_out(scene: &Scene) -> String {
     format!(
-        "{}: {BRUTE_FORCE} is left out: it would take minutes among so many triangles; --structure {BRUTE_FORCE} runs it",
+        "{}: {BRUTE_FORCE} is skipped (minutes on so many triangles); pass --structure {BRUTE_FORCE} to run it",
         scene.name
     )
 }
@@ -246,25 +247,25 @@ pub fn left_out(scene: &Scene) -> String {
 pub fn known_defect(structure: &str) -> Option<&'static str> {
     match structure {
         "obvhs-bvh2" | "obvhs-cwbvh" => Some(
-            "obvhs 0.4.0 has a triangle test in single precision, clamps the inverse of small direction components, \
-             loses rays in the plane of a box face, and its CwBvh rays with a component of -0.0",
+            "obvhs 0.4.0 tests triangles in single precision, clamps the inverse of small direction components and \
+             loses rays in the plane of a box face; its CwBvh also loses rays with a component of -0.0",
         ),
         "bvh" => Some(
-            "bvh 0.13 lets a ray in the plane of a box face meet no box, its triangle test has absolute epsilons, and \
-             its stack holds 32 nodes",
+            "bvh 0.13 loses rays in the plane of a box face, its triangle test uses absolute epsilons, and its stack \
+             holds 32 nodes",
         ),
         "parry" => Some(
-            "parry3d 0.31 clamps the inverse of small direction components, and loses rays in the plane of a box face",
+            "parry3d 0.31 clamps the inverse of small direction components and loses rays in the plane of a box face",
         ),
         "tinybvh" => Some(
-            "tinybvh 1.6 widens no box, cancels far from the origin, refuses small determinants and divides \
-             approximately",
+            "tinybvh 1.6 does not widen boxes, suffers cancellation far from the origin, rejects small determinants \
+             and divides approximately",
         ),
         "embree" => Some(
-            "Embree without ROBUST widens no box, loses hits far from the origin, rays in the plane of a box face and \
-             hits at the origin",
+            "Embree without ROBUST does not widen boxes; it loses hits far from the origin, rays in the plane of a box \
+             face and hits at the ray origin",
         ),
-        "embree-robust" => Some("Embree loses rays in the plane of a box face and with very short directions"),
+        "embree-robust" => Some("Embree loses rays in the plane of a box face and rays with very short directions"),
         _ => None,
     }
 }

@@ -12,16 +12,17 @@ use crate::scene::{Camera, Scene};
 
 /// Options that take the place of a scene's own camera and picture.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, clap::Args)]
+#[command(next_help_heading = super::SCENES)]
 pub struct ViewArgs {
-    /// Eye, target and vertical field of view in degrees [default: those of the scene; all of a bare mesh is seen from outside]
+    /// Eye, target and vertical field of view in degrees [default: the scene's; a bare mesh fills the picture]
     #[arg(long, value_name = "ex,ey,ez tx,ty,tz [fov]", allow_hyphen_values = true)]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     camera: Option<Look>,
-    /// Look from the middle of the scene's box along its longer side, for rooms and buildings; the light of a bare mesh is there as well
+    /// View the scene from the middle of its bounding box, along the longer side; a bare mesh is lit from there
     #[arg(long, conflicts_with = "camera")]
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     inside: bool,
-    /// Pixels of the picture: primary rays are one for each [default: those of the scene]
+    /// Picture size in pixels, one primary ray per pixel [default: the scene's]
     #[arg(long, value_name = "WxH")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     size: Option<Size>,
@@ -75,7 +76,7 @@ impl FromStr for Look {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let refusal = || "write \"ex,ey,ez tx,ty,tz\" and, if you like, a field of view in degrees".to_owned();
+        let refusal = || "write \"ex,ey,ez tx,ty,tz\" and optionally a field of view in degrees".to_owned();
         match numbers(text).map_err(|_| refusal())?[..] {
             [ex, ey, ez, tx, ty, tz, ref rest @ ..] if rest.len() < 2 => {
                 let vertical_fov = rest.first().copied();
@@ -108,7 +109,7 @@ impl ViewArgs {
     pub fn of(&self, scene: Scene) -> anyhow::Result<Scene> {
         let mut scene = self.seen(scene)?;
         if scene.is_framed && self.looks_from().is_none() {
-            let note = "seen from outside, all of it: --inside looks from within, --camera from anywhere";
+            let note = "the camera shows the whole mesh from outside; --inside or --camera changes the view";
             scene.notes.push(note.into());
         }
         Ok(scene)
@@ -142,7 +143,7 @@ impl ViewArgs {
     /// If there is one.
     pub fn is_unasked(&self) -> anyhow::Result<()> {
         let asked = self.looks_from().is_some() || self.size.is_some();
-        anyhow::ensure!(!asked, "the rays are those of the file: leave --camera, --inside and --size out");
+        anyhow::ensure!(!asked, "the file defines the rays: omit --camera, --inside and --size");
         Ok(())
     }
 }

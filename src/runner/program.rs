@@ -28,7 +28,7 @@ impl Program {
         let named = command.split_once('=').filter(|(name, _)| !name.is_empty() && name.chars().all(is_plain));
         let (name, line) = named.map_or((None, command), |(name, line)| (Some(name.to_owned()), line));
         let words = shlex::split(line).filter(|words| !words.is_empty());
-        let words = words.ok_or("a runner is a program and its arguments, in quotes where they hold spaces")?;
+        let words = words.ok_or("a runner is a program with its arguments: quote arguments that contain spaces")?;
         let program = Self { name, command: command.into(), words, limit };
         program.start(1).map(|_| program)
     }

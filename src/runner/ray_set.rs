@@ -78,7 +78,7 @@ impl<'a> RaySet<'a> {
         let reply = state.session.request(&request)?;
         let ns = reply.text.strip_prefix("passed ").and_then(nanoseconds);
         let ns = ns.ok_or_else(|| {
-            format!("{}; SECONDS are finite and not negative", unexpected(&request, &reply.text, "passed SECONDS"))
+            format!("{}; SECONDS must be finite and not negative", unexpected(&request, &reply.text, "passed SECONDS"))
         })?;
         self.own_ns.store(ns, Ordering::Relaxed);
         if reply.ns > LONG_NS {

@@ -79,11 +79,11 @@ impl Session {
             Ok(line) => line,
             Err(RecvTimeoutError::Timeout) => {
                 let limit = self.limit.as_secs_f64();
-                return Err(format!("it does not answer {request:?} within {limit} s: --runner-limit gives it longer"));
+                return Err(format!("it does not reply to {request:?} within {limit} s: raise --runner-limit"));
             }
             Err(RecvTimeoutError::Disconnected) => {
                 let how = self.end(GRACE_PERIOD).map_or("it closed its output".into(), |status| status.to_string());
-                return Err(format!("it ends instead of answering {request:?} ({how})"));
+                return Err(format!("it ended instead of replying to {request:?} ({how})"));
             }
         };
         let ns = start.elapsed().as_nanos() as u64;
@@ -118,7 +118,7 @@ fn text(line: &[u8]) -> String {
 
 /// The error for a reply of another form than `form`.
 pub(super) fn unexpected(request: &str, reply: &str, form: &str) -> String {
-    format!("it answers {reply:?} to {request:?}, not {form:?}: its messages belong on standard error")
+    format!("it replies {reply:?} to {request:?}, not {form:?}: write messages to standard error")
 }
 
 /// Nanoseconds from the seconds that a runner reports, a number that is finite and not negative.

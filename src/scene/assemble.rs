@@ -34,7 +34,7 @@ pub(super) fn assemble(file: &SceneFile, origin: &Origin) -> Result<Scene, Scene
 
     if let Some(wanted) = file.triangles.filter(|_| !parts.replaced) {
         let count = parts.triangles.len();
-        let problem = format!("the file says {wanted} triangles, but its objects have {count}: correct one of them");
+        let problem = format!("the file states {wanted} triangles, but its objects have {count}: correct one of them");
         if count != wanted {
             return Err(origin.value("triangles", problem));
         }
@@ -85,7 +85,7 @@ impl Parts {
         let materials = file.materials.iter().map(|(name, m)| m.material(name)).collect();
         let textures: Vec<&str> =
             file.materials.values().flat_map(|m| m.texture.iter().chain(&m.normal_map)).map(String::as_str).collect();
-        let left_out = format!("textures left out, their materials show Kd as it is: {}", textures.join(", "));
+        let left_out = format!("textures ignored (materials use Kd): {}", textures.join(", "));
         Self { materials, notes: (!textures.is_empty()).then_some(left_out).into_iter().collect(), ..Self::default() }
     }
 
@@ -128,7 +128,7 @@ impl Parts {
                 self.replaced |= object.mesh.is_some();
                 let model = self.take_real(real, &path, model);
                 if model.triangles.is_empty() {
-                    let problem = format!("of {} no triangle is left: leave out fewer materials", real.file);
+                    let problem = format!("{} has no triangle left: exclude fewer materials", real.file);
                     return Err(origin.value(&format!("{key}.real.exclude_materials"), problem));
                 }
                 return Ok((model, placement));
@@ -155,7 +155,7 @@ impl Parts {
             _ => {
                 let names: Vec<&str> = meshes::GENERATORS.iter().map(|g| g.name).collect();
                 let meant = suggestion(mesh, names.iter().copied());
-                let problem = format!("there is no mesh `{mesh}`{meant}; give a file or one of {}", names.join(", "));
+                let problem = format!("there is no mesh `{mesh}`{meant}; name a file or one of {}", names.join(", "));
                 let model = meshes::by_name(mesh).ok_or_else(|| origin.value(&key, problem))?;
                 Ok((model, placement))
             }
@@ -167,11 +167,11 @@ impl Parts {
         without_materials(&mut model, &real.exclude_materials);
         let count = model.triangles.len();
         let left_out = before - count;
-        let instead = real.reported_triangles.map_or(String::new(), |n| format!(" in place of the report's {n}"));
+        let instead = real.reported_triangles.map_or(String::new(), |n| format!(" instead of the report's {n}"));
         self.notes.push(format!("real mesh {}: {count} triangles{instead}", path.escaped()));
         if left_out > 0 {
             let materials = real.exclude_materials.join(", ");
-            self.notes.push(format!("{left_out} triangles of the real mesh left out, of the materials {materials}"));
+            self.notes.push(format!("{left_out} triangles of the real mesh excluded (materials {materials})"));
         }
         model
     }
@@ -227,12 +227,12 @@ fn append<T>(all: &mut Vec<T>, mut more: Vec<T>) {
 fn missing(real: &RealMesh, key: &str, origin: &Origin) -> SceneError {
     let problem = match origin.real_meshes {
         Some(folder) => format!(
-            "{} is not in {}: `sahara fetch {}` gets it or says how, and SAHARA_DATA can name another folder",
+            "{} is not in {}: `sahara fetch {}` downloads it or says how; SAHARA_DATA sets the folder",
             real.file,
             folder.escaped(),
             origin.file
         ),
-        None => format!("{} is a real mesh, and no folder of them is given: give one, or name a `mesh`", real.file),
+        None => format!("{} is a real mesh, but no folder of real meshes is set: set one, or name a `mesh`", real.file),
     };
     origin.value(&format!("{key}.real.file"), problem)
 }

@@ -20,9 +20,9 @@ pub enum CameraError {
     NotFinite,
     #[error("the camera's eye and target are the same point: move one of them")]
     NoDirection,
-    #[error("the camera's up points along its view, or has no length: choose another up")]
+    #[error("the camera's up is parallel to its view or has no length: choose another up")]
     NoUp,
-    #[error("the camera's vertical field of view must lie between 0 and 180 degrees, without the ends")]
+    #[error("the camera's vertical field of view must be above 0 and below 180 degrees")]
     FieldOfView,
 }
 

@@ -11,7 +11,7 @@ use crate::geometry::MeshError;
 /// An error of a scene in one line: the file, the key in it, the problem and a remedy.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
-    #[error("{}: the scene cannot be read ({cause}): check that it exists and may be opened", file.escaped())]
+    #[error("{}: cannot read the scene ({cause}): check that it exists and its permissions", file.escaped())]
     Unreadable { file: PathBuf, cause: std::io::Error },
     #[error("{file}, line {line}: {problem}")]
     Syntax { file: String, line: usize, problem: String },
@@ -21,11 +21,11 @@ pub enum SceneError {
     Camera { file: String, cause: CameraError },
     #[error("{file}, `{key}`: {cause}")]
     Load { file: String, key: String, cause: LoadError },
-    #[error("{file}: its coordinates reach from {:?} to {:?}, where f32 has no place for a camera \
-         before it: scale it, or move it nearer to 0", min.to_array(), max.to_array())]
+    #[error("{file}: its coordinates range from {:?} to {:?}, where f32 cannot represent a camera in front of it: \
+             scale it, or move it nearer to 0", min.to_array(), max.to_array())]
     Extent { file: String, min: Vec3, max: Vec3 },
     #[error("{file}: {cause}")]
     Mesh { file: String, cause: MeshError },
-    #[error("there is no built-in scene `{name}`{suggestion}; the scenes are {all}; a file is named with its ending")]
+    #[error("there is no built-in scene `{name}`{suggestion}; the scenes are {all}; name files with their extension")]
     Unknown { name: String, suggestion: String, all: String },
 }

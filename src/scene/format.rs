@@ -186,12 +186,12 @@ impl SceneFile {
     fn check(&self) -> Result<(), (String, String)> {
         // The name is printed in tables and plans and is part of file names.
         let is_word = !self.name.trim().is_empty() && !self.name.contains(char::is_control);
-        demand(is_word, "name", "give a name, in one line and without control characters")?;
+        demand(is_word, "name", "give a name on one line without control characters")?;
         let in_size = self.size.iter().all(|n| (1..=16384).contains(n));
-        demand(in_size, "size", "width and height lie between 1 and 16384: change them")?;
+        demand(in_size, "size", "width and height must be between 1 and 16384")?;
         demand(self.recursion_limit <= 64, "recursion_limit", "give at most 64")?;
         let offset = self.ray_offset.unwrap_or(0.0);
-        demand(offset.is_finite() && offset >= 0.0, "ray_offset", "give a distance that is not negative")?;
+        demand(offset.is_finite() && offset >= 0.0, "ray_offset", "give a distance of at least 0")?;
         demand(!self.objects.is_empty(), "objects", "a scene needs at least one object: add one")?;
         numbers(&self.background, 0.0, "background")?;
 
@@ -216,7 +216,7 @@ impl SceneFile {
             }
             if let Some(terrain) = object.terrain {
                 let alone = object.mesh.is_none() && object.real.is_none() && object.stands_in_for.is_none();
-                let problem = "give it alone: `mesh`, `real` and `stands_in_for` are for other objects";
+                let problem = "use it alone, without `mesh`, `real` and `stands_in_for`";
                 demand(alone, &format!("objects[{i}].terrain"), problem)?;
                 let key = format!("objects[{i}].terrain.triangles");
                 demand((1..=Terrain::MOST).contains(&terrain.triangles), &key, "give 1 to 134217728 (2^27)")?;
@@ -224,7 +224,7 @@ impl SceneFile {
                 let problem = "name a mesh or a file, or give `terrain` or `real`";
                 demand(object.real.is_some(), &format!("objects[{i}].mesh"), problem)?;
                 let placed = (object.rot, object.sca, object.tra) != ([0.0; 3], [1.0; 3], [0.0; 3]);
-                let problem = "there is no `mesh` that it is about: put it into `real`, or leave it out";
+                let problem = "it describes no `mesh`: move it into `real`, or remove it";
                 demand(!placed, &format!("objects[{i}].rot, sca or tra"), problem)?;
                 demand(object.stands_in_for.is_none(), &format!("objects[{i}].stands_in_for"), problem)?;
             }
@@ -232,7 +232,7 @@ impl SceneFile {
             demand(!both, &format!("objects[{i}].materials"), "give `material` or `materials`, not both")?;
             let named = object.material.iter().chain(object.materials.iter().flat_map(BTreeMap::values));
             for name in named {
-                let problem = format!("there is no material `{name}` in the file: add `materials.{name}`");
+                let problem = format!("the file has no material `{name}`: add `materials.{name}`");
                 demand(self.materials.contains_key(name), &format!("objects[{i}].material"), &problem)?;
             }
             if let Some(real) = &object.real {

@@ -38,7 +38,9 @@ pub struct RunOutcome {
     pub report: Report,
     /// Tables that were not printed while the run went on.
     pub tables: Vec<Table>,
-    /// Sentences below the tables.
+    /// What explains the tables.
+    pub notes: Vec<String>,
+    /// The findings below the tables.
     pub foot: Vec<String>,
     pub status: Status,
     /// What ended the measuring of scenes; the others are measured.
@@ -73,11 +75,11 @@ pub fn run(study: &Study, matches: &ArgMatches, plan: &Plan, run: &mut Run) -> a
     let mut outcome = engine.outcome(stopped, run.screen)?;
     if stopped {
         let kept = match keep {
-            true if left < all => " and kept; the same command goes on with the others",
+            true if left < all => " and kept; the same command resumes",
             true => "",
-            false => "; --dir DIR keeps what is measured",
+            false => "; --dir DIR keeps them",
         };
-        outcome.foot.push(format!("Interrupted: {} of {all} cases are measured{kept}.", all - left));
+        outcome.foot.push(format!("Interrupted: {} of {all} cases measured{kept}.", all - left));
         outcome.status = Status::Interrupted;
     }
     run.screen.end();
@@ -232,7 +234,7 @@ impl Engine<'_> {
         let dataset = self.dataset(measured);
         let report = self.report(&dataset);
         screen.warn(&report.warnings);
-        let (mut tables, mut foot) = (vec![], vec![]);
+        let (mut tables, mut notes, mut foot) = (vec![], vec![], vec![]);
         if is_reported || !dataset.measured.is_empty() {
             // Exclude interrupted and failed scenes: they would limit means over scenes to the epochs that they have.
             let lacks = |case: &Case| {
@@ -242,18 +244,19 @@ impl Engine<'_> {
             let whole = self.joined(|case| !is_cut(case)).measured;
             let of_whole = if whole.is_empty() { report.clone() } else { self.report(&self.dataset(whole)) };
             tables = terminal::summary_tables(&of_whole);
-            let notes = report.blocks.iter().filter_map(terminal::note);
-            foot.extend(notes);
             foot.extend(report.failures.iter().map(|own| own.sentence.clone()).filter(|own| !own.is_empty()));
             foot.extend(unchecked);
-            foot.extend(self.plan.notes.iter().cloned());
+            foot.extend(of_whole.headlines().map(String::from));
             foot.push(dataset.provenance.line());
-            foot.extend(of_whole.sentences().map(String::from));
             foot.extend(dataset.verdicts());
+            notes.extend(report.blocks.iter().filter_map(terminal::note));
+            notes.extend(self.plan.notes.iter().cloned());
+            notes.extend(of_whole.sentences().map(String::from));
+            notes.retain(|note| !foot.contains(note));
         }
         let failed = |error: &StudyError| if error.is_wrong_answer() { Status::Wrong } else { Status::Failed };
         let status = self.failures.iter().map(failed).fold(Status::of(&report.failures), Status::and);
         let failures = std::mem::take(&mut self.failures);
-        Ok(RunOutcome { dataset: is_reported.then_some(dataset), report, tables, foot, status, failures })
+        Ok(RunOutcome { dataset: is_reported.then_some(dataset), report, tables, notes, foot, status, failures })
     }
 }

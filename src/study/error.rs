@@ -8,8 +8,8 @@ pub enum StudyError {
     #[error("{structure} cannot be built over {scene}: {cause}")]
     Build { structure: String, scene: String, cause: BuildError },
     #[error(
-        "{scene}: {structures} structures at once need about {needed:.0} GB, and there are {there:.0} GB of memory: \
-         name {}a smaller scene",
+        "{scene}: {structures} structures need about {needed:.0} GB at once, but this machine has {there:.0} GB: name \
+         {}a smaller scene",
         fewer(*most)
     )]
     Memory { scene: String, structures: usize, needed: f64, there: f64, most: usize },
@@ -20,18 +20,20 @@ pub enum StudyError {
     #[error("{failure} The study compares all of its trees or none.")]
     Missing { failure: String, wrong: bool },
     #[error(
-        "{one} and {other}, over the same triangle test, give different answers to the {rays} rays of {scene}: one is wrong"
+        "{one} and {other}, over the same triangle test, return different hits for the {rays} rays of {scene}: one is \
+         wrong"
     )]
     Disagree { one: String, other: String, scene: String, rays: String },
-    #[error("nothing was measured: these scenes have no rays of the workloads named")]
+    #[error("nothing was measured: these scenes have no rays of these workloads; name others")]
     Nothing,
-    #[error("{scene} has no rays of the workload named: leave the scene out, or name another workload")]
+    #[error("{scene} has no rays of this workload: omit the scene, or name another workload")]
     NoRays { scene: String },
     #[error(
-        "{structure} on the {rays} rays of {scene}: epoch 0 and epoch {epoch} differ in {what}, so that their times cannot be compared"
+        "{structure} on the {rays} rays of {scene}: epoch 0 and epoch {epoch} differ in {what}, so their times are \
+         not comparable"
     )]
     Apart { structure: String, scene: String, rays: String, epoch: usize, what: &'static str },
-    #[error("the process that measures {key}: {cause}; --in-process measures it in this one, and shows more")]
+    #[error("the process that measures {key}: {cause}; --in-process measures in this process and shows more")]
     Process { key: String, cause: String },
     #[error("{key} cannot be measured: {cause}")]
     Case { key: String, cause: String },

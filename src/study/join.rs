@@ -35,7 +35,7 @@ pub fn join(mut measured: Vec<Measured>) -> JoinedEpochs {
         let mut own: Vec<Epoch> = places.iter().map(|&place| measured[place].epoch.clone()).collect();
         if case.epoch != 0 {
             let lacks = lacks(&case.scene_title(), &[0]);
-            joined.unchecked.push(format!("{lacks}; epoch 0 checks the answers, so the scene is left out."));
+            joined.unchecked.push(format!("{lacks}; epoch 0 checks the hits, so the scene is left out."));
             out.extend(places);
             continue;
         }
@@ -142,7 +142,7 @@ fn one(epochs: &mut [Epoch]) -> Result<(), StudyError> {
             }
             let Some(other) = epochs.iter().find(|epoch| of(epoch).rays != first.rays) else { continue };
             if !is_program {
-                return Err(apart(other, &first.workload, "the number of rays that are timed"));
+                return Err(apart(other, &first.workload, "the number of timed rays"));
             }
             if !reduce(epochs, place, kind) {
                 refuse(epochs, place, UNSTEADY);
@@ -156,11 +156,11 @@ fn one(epochs: &mut [Epoch]) -> Result<(), StudyError> {
 
 /// Said of a structure of others that answers otherwise once it is built again, as packets do in which other rays
 /// travel together.
-const CHANGED: &str = "built again, it gives other answers than before: its times cannot be compared";
+const CHANGED: &str = "after a rebuild it returns other hits than before: its times are not comparable";
 
 /// Said of a program whose epochs have no rays in common.
 const UNSTEADY: &str =
-    "by its own clock it is more than sixteen times as slow in one epoch as in another: they have no rays in common";
+    "one epoch is more than sixteen times as slow as another by its own clock: the epochs share no rays";
 
 /// Refuses a structure in all epochs, for wrong answers if that is so in one of them.
 fn refuse(epochs: &mut [Epoch], place: usize, reason: &str) {

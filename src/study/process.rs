@@ -108,7 +108,7 @@ impl Processes {
         if status.success() && out.exists() {
             return Ok(());
         }
-        Err(failure(format!("it ended without an answer ({status})")))
+        Err(failure(format!("it ended without a reply ({status})")))
     }
 }
 
@@ -266,7 +266,7 @@ pub fn build_watch(case: &Case, args: Vec<OsString>) -> BuildWatch {
     let case = case.clone();
     let again = move |structure: usize| {
         let mut case = case.clone();
-        let reason = format!("its build takes more than {limit} s: --build-limit SECONDS gives it more, none all");
+        let reason = format!("its build takes more than {limit} s: raise --build-limit, or set it to none");
         case.structures[structure].skipped = Some(reason);
         let text = serde_json::to_string(&case).expect("a case has text keys");
         let is_case = |arg: &OsString| arg.to_string_lossy().starts_with(&format!("--{CASE}="));

@@ -42,20 +42,20 @@ impl<'a> Judge<'a> {
         let pixel = |picture: &DynamicImage| picture.crop_imm(column, row, 1, 1);
         let [wanted, painted] = [expected, actual].map(pixel);
         let side = match () {
-            () if exact == wanted => "exact arithmetic sides with the golden image".into(),
+            () if exact == wanted => "exact arithmetic confirms the golden image".into(),
             () if exact == painted => {
-                format!("exact arithmetic sides with {structure}: the golden image is out of date")
+                format!("exact arithmetic confirms {structure}: the golden image is out of date")
             }
-            () => format!("exact arithmetic sides with neither and gives {}", self.values(&exact)),
+            () => format!("exact arithmetic confirms neither and gives {}", self.values(&exact)),
         };
         let [hit, exact_hit] = [accel, self.exact.as_ref()].map(|accel| accel.closest(&[ray])[0]);
         let wrong = error_name(outcome(self.oracle.nearest(&ray).as_ref(), hit, DepthRule::STRICT));
         let primary = match wrong {
             Some(wrong) => wrong,
             None if hit.map(|hit| hit.prim) != exact_hit.map(|hit| hit.prim) => {
-                "right, with another triangle at the same t"
+                "correct, with another triangle at the same t"
             }
-            None => "right, so the cause is another ray of the pixel",
+            None => "correct, so the cause is another ray of the pixel",
         };
         let [wanted, painted] = [&wanted, &painted].map(|pixel| self.values(pixel));
         let sentence = format!(

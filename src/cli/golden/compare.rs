@@ -17,6 +17,9 @@ use crate::report::number::count;
 use crate::report::{Cell, Table, Tone};
 use crate::study::Status;
 
+/// The group of options that say which pictures are accepted.
+const TOLERANCE: &str = "Tolerance";
+
 /// What the statuses of all commands mean here.
 const STATUSES: &str = "Exit status: 0, all are accepted; 2, a picture differs; 1, one is missing, additional or cannot \
                         be read.";
@@ -24,26 +27,26 @@ const STATUSES: &str = "Exit status: 0, all are accepted; 2, a picture differs; 
 #[derive(Debug, clap::Args)]
 #[command(after_help = STATUSES)]
 pub struct Args {
-    /// The picture that is right (PNG; JPEG, WebP and EXR with the feature `pictures`), or a folder of pictures
+    /// Reference picture (PNG; JPEG, WebP and EXR with the feature `pictures`), or a folder of pictures
     expected: PathBuf,
-    /// The picture that is compared with it, or a folder with pictures of the same names
+    /// Picture to compare with it, or a folder of pictures with the same names
     actual: PathBuf,
-    /// Accept pictures that differ by at most this in each channel: in 1/255 of full scale at any depth, of floats as they are
-    /// [default: 0, all values are equal]
-    #[arg(long, value_name = "N", value_parser = at_least_0, allow_negative_numbers = true)]
+    /// Accept differences of at most N per channel, in 1/255 of full scale at any bit depth; floats use their own units
+    /// [default: 0]
+    #[arg(long, help_heading = TOLERANCE, value_name = "N", value_parser = at_least_0, allow_negative_numbers = true)]
     max_difference: Option<f64>,
-    /// Accept pictures in which so many pixels, or so many percent of them, differ by more
-    #[arg(long, value_name = "N|P%", value_parser = allowed)]
+    /// Accept N pixels, or P percent of them, that differ by more
+    #[arg(long, help_heading = TOLERANCE, value_name = "N|P%", value_parser = allowed)]
     allow_pixels: Option<Allowed>,
-    /// Accept pictures with a mean FLIP of at most this, from 0 to 1: differences that a person sees
-    #[arg(long, value_name = "X", value_parser = at_least_0, conflicts_with_all = ["max_difference", "allow_pixels"],
+    /// Accept a mean FLIP error of at most X, from 0 to 1 (visible differences)
+    #[arg(long, help_heading = TOLERANCE, value_name = "X", value_parser = at_least_0, conflicts_with_all = ["max_difference", "allow_pixels"],
         allow_negative_numbers = true)]
     max_flip: Option<f64>,
-    /// With --max-flip, pixels in a degree of sight [default: 67, a screen of 3840 pixels, 0.7 m wide, from 0.7 m]
-    #[arg(long, value_name = "N", value_parser = pixels_per_degree, requires = "max_flip", allow_negative_numbers = true)]
+    /// Pixels per degree of visual angle for --max-flip [default: 67, a 0.7 m screen of 3840 pixels seen from 0.7 m]
+    #[arg(long, help_heading = TOLERANCE, value_name = "N", value_parser = pixels_per_degree, requires = "max_flip", allow_negative_numbers = true)]
     pixels_per_degree: Option<f64>,
-    /// A picture of their size: what is black in it is not compared
-    #[arg(long, value_name = "M.png")]
+    /// Picture of the same size whose black pixels are not compared
+    #[arg(long, help_heading = TOLERANCE, value_name = "M.png")]
     mask: Option<PathBuf>,
     #[command(flatten)]
     outputs: Outputs,
@@ -89,7 +92,7 @@ impl Args {
             (true, true) => {
                 let two = || format!("{} and {}", expected.escaped(), actual.escaped());
                 let pairs = pairs(expected, actual).with_context(|| format!("cannot read {}", two()))?;
-                anyhow::ensure!(!pairs.is_empty(), "there are no pictures in {}: name folders that have some", two());
+                anyhow::ensure!(!pairs.is_empty(), "{} contain no pictures: name folders with pictures", two());
                 Ok(pairs)
             }
             (false, false) => {
@@ -117,13 +120,13 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
         let inside = [&args.expected, &args.actual].into_iter().find(|folder| is_in(folder));
         if let Some(folder) = inside {
             anyhow::bail!(
-                "the page would be compared the next time: name a --page that is not in {}",
+                "the next comparison would include the page: choose a --page outside {}",
                 folder.escaped()
             );
         }
     }
     let mask = args.mask.as_deref().map(|path| read_mask(path, terminal)).transpose()?;
-    let waiting = spinner("compares pictures", terminal);
+    let waiting = spinner("comparing pictures", terminal);
     let title = format!("{} against {}", args.actual.escaped(), args.expected.escaped());
     let comparisons = outputs.with_page(&title, |page| {
         let compared = pairs.par_iter().enumerate();
@@ -152,8 +155,8 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
 fn read_mask(path: &Path, terminal: &Terminal) -> anyhow::Result<Mask> {
     let mask = Mask::new(&read(path)?);
     let [masked, all] = [mask.masked() as u64, mask.size.map(u64::from).iter().product()];
-    anyhow::ensure!(masked < all, "the mask {} is all black: nothing would be compared", path.escaped());
-    terminal.print(&format!("{}: {} of {} pixels are not compared\n", path.escaped(), count(masked), count(all)));
+    anyhow::ensure!(masked < all, "the mask {} is all black, so nothing would be compared: use another mask", path.escaped());
+    terminal.print(&format!("{}: {} of {} pixels are masked\n", path.escaped(), count(masked), count(all)));
     Ok(mask)
 }
 
@@ -166,7 +169,7 @@ fn compare(
 ) -> io::Result<Comparison> {
     let name = pair.name.escaped().to_string();
     let only = |verdict, [own, other]: [&Path; 2]| {
-        Comparison::said(&name, verdict, format!("it is in {} and not in {}", own.escaped(), other.escaped()))
+        Comparison::said(&name, verdict, format!("exists in {} but not in {}", own.escaped(), other.escaped()))
     };
     let mut refused = None;
     let mut picture = |path: &Option<PathBuf>| match path.as_deref().map(read).transpose() {

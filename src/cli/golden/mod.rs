@@ -16,6 +16,7 @@ use crate::golden::{Comparison, Verdict};
 use crate::output::{OutputError, OutputFile, OutputFolder};
 use crate::registry::Registry;
 use crate::report::number::count;
+use crate::request::OUTPUT;
 use crate::study::Status;
 
 #[derive(Debug, clap::Args)]
@@ -26,11 +27,11 @@ pub struct Args {
 
 #[derive(Debug, clap::Subcommand)]
 enum Action {
-    /// Check that structures draw scenes as their golden images, byte for byte
+    /// Check that structures reproduce the golden images of scenes byte for byte
     Check(scenes::CheckArgs),
-    /// Make the golden images of scenes
+    /// Create or update golden images of scenes
     Update(scenes::UpdateArgs),
-    /// Compare two pictures, or two folders of pictures, of any renderer
+    /// Compare two pictures, or two folders of pictures, from any renderer
     Compare(compare::Args),
 }
 
@@ -44,8 +45,9 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
 
 /// Where results go besides the terminal.
 #[derive(Debug, clap::Args)]
+#[command(next_help_heading = OUTPUT)]
 struct Outputs {
-    /// Folder for a page of all comparisons; an older page there is replaced
+    /// Write a web page of all comparisons into this folder, replacing an older page
     #[arg(long, value_name = "DIR")]
     page: Option<PathBuf>,
     /// Write the comparisons as JSON
@@ -71,7 +73,7 @@ impl Outputs {
     fn check<'a>(&self, inputs: impl Iterator<Item = &'a Path> + Clone) -> anyhow::Result<CheckedOutputs> {
         anyhow::ensure!(
             self.page.is_none() || cfg!(feature = "page"),
-            "--page: this program is built without the feature `page`: leave the option out, or build it with the feature"
+            "--page: this sahara was built without the feature `page`: omit the option, or rebuild with `--features page`"
         );
         let page = self.page.as_deref().map(|path| OutputFolder::check(path)?.apart_from(inputs.clone()));
         let json = self.export_json.as_deref().map(|path| OutputFile::check(path)?.apart_from(inputs));

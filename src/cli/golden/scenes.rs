@@ -15,7 +15,9 @@ use crate::names::find;
 use crate::registry::{Choice, Registry};
 use crate::render::ViewKind;
 use crate::report::words::{each_once_by, slug};
-use crate::request::{self, BRUTE_FORCE, SAH_TREE, ViewArgs, known_defect, stand_in};
+use crate::request::{
+    self, BRUTE_FORCE, OUTPUT, SAH_TREE, SCENES, STRUCTURES, ViewArgs, known_defect, stand_in,
+};
 use crate::scene::{BUILTIN, Builtin, Scene};
 use crate::study::Status;
 
@@ -24,17 +26,17 @@ const WORK: u64 = 1 << 32;
 
 #[derive(Debug, clap::Args)]
 struct Targets {
-    /// Built-in scenes, scene files (.toml) and mesh files; all built-in scenes if none is named
+    /// Built-in scenes, scene files (.toml) and mesh files [default: all built-in scenes]
     #[arg(value_name = "SCENE|FILE")]
     scenes: Vec<OsString>,
     /// shaded, depth, normal or primitive
-    #[arg(long, default_value = "shaded", value_name = "VIEW", value_parser = view)]
+    #[arg(long, help_heading = SCENES, default_value = "shaded", value_name = "VIEW", value_parser = view)]
     view: ViewKind,
     #[command(flatten)]
     from: ViewArgs,
-    /// Folder of golden images, NAME.golden.png or NAME.VIEW.golden.png [default: beside each file; those of built-in scenes
-    /// are in the program]
-    #[arg(long, value_name = "DIR")]
+    /// Folder of golden images, NAME.golden.png or NAME.VIEW.golden.png [default: next to each file; the program contains
+    /// those of built-in scenes]
+    #[arg(long, help_heading = SCENES, value_name = "DIR")]
     goldens: Option<PathBuf>,
 }
 
@@ -42,8 +44,8 @@ struct Targets {
 pub struct CheckArgs {
     #[command(flatten)]
     targets: Targets,
-    /// A structure, with keys that differ from their defaults; may be repeated [default: all over the exact triangle test]
-    #[arg(long, short, value_name = "NAME[:key=value,..]")]
+    /// Structure with options (see `sahara list NAME`); may be repeated [default: all over the exact triangle test]
+    #[arg(long, short, help_heading = STRUCTURES, value_name = "NAME[:key=value,..]")]
     structure: Vec<String>,
     #[command(flatten)]
     outputs: Outputs,
@@ -53,11 +55,11 @@ pub struct CheckArgs {
 pub struct UpdateArgs {
     #[command(flatten)]
     targets: Targets,
-    /// The structure that draws [default: brute-force:test=exact; the SAH tree over that test where this would take minutes]
-    #[arg(long, short, value_name = "NAME[:key=value,..]")]
+    /// Structure that renders [default: brute-force:test=exact, or sah-kd:test=exact if that would take minutes]
+    #[arg(long, short, help_heading = STRUCTURES, value_name = "NAME[:key=value,..]")]
     structure: Option<String>,
-    /// Replace also pictures that this command has not made
-    #[arg(long)]
+    /// Also replace pictures that this command did not create
+    #[arg(long, help_heading = OUTPUT)]
     force: bool,
 }
 
@@ -98,7 +100,7 @@ impl Targets {
             let beside = || path.is_file().then(|| path.parent().unwrap_or(Path::new("")).to_path_buf());
             let folder = self.goldens.clone().or_else(beside);
             let folder =
-                folder.with_context(|| format!("{}: --goldens DIR says where its picture is", word.escaped()))?;
+                folder.with_context(|| format!("{}: name the folder of its golden image with --goldens DIR", word.escaped()))?;
             let name = if path.is_file() { stem(path) } else { slug(&word.escaped().to_string()) };
             let golden = SceneGolden::file(&folder, &name, self.view, &scene);
             return Ok(Target::new(scene, golden, word));
@@ -114,14 +116,14 @@ impl Targets {
             None => {
                 anyhow::ensure!(
                     is_default,
-                    "the golden images in the program are shaded, {} x {} pixels and from the scene's own camera, and {} view \
-                     {} is asked for: --goldens DIR keeps others",
+                    "the built-in golden images are shaded, {} x {} pixels and use the scene's camera, but the request is {} \
+                     view {}: keep other images in a folder with --goldens DIR",
                     SIZE[0],
                     SIZE[1],
                     self.view.name(),
                     self.from.words()
                 );
-                SceneGolden::builtin(&name).with_context(|| format!("{name} has no golden image in the program"))?
+                SceneGolden::builtin(&name).with_context(|| format!("{name} has no built-in golden image: name a folder with --goldens DIR"))?
             }
         };
         let word = if scene.stand_ins.is_empty() { name.into() } else { stand_in(&name) };
@@ -152,7 +154,7 @@ pub fn check(registry: &Registry, args: &CheckArgs, terminal: &Terminal) -> anyh
             if args.structure.is_empty() && target.default != BRUTE_FORCE {
                 choices.retain(|choice| choice.entry.name != BRUTE_FORCE);
                 terminal.print(&format!(
-                    "{}: {BRUTE_FORCE} is left out, since it would take minutes: -s {BRUTE_FORCE} runs it\n",
+                    "{}: {BRUTE_FORCE} is skipped (it would take minutes); pass -s {BRUTE_FORCE} to run it\n",
                     target.scene.name
                 ));
             }
@@ -201,7 +203,7 @@ fn check_scene(
                 comparison.command = Some(command);
             }
             if is_known {
-                comparison.said.push("its known defects do not change the exit status".into());
+                comparison.said.push("known defects do not change the exit status".into());
             } else {
                 status = Status::Wrong;
             }
@@ -218,7 +220,7 @@ fn check_scene(
         comparisons.push(comparison);
     }
     if !right.is_empty() {
-        terminal.print(&format!("{}: byte for byte the same with {}\n", scene.name, right.join(", ")));
+        terminal.print(&format!("{}: identical bytes with {}\n", scene.name, right.join(", ")));
     }
     Ok(status)
 }
@@ -230,10 +232,10 @@ pub fn update(registry: &Registry, args: &UpdateArgs, terminal: &Terminal) -> an
         let spec = args.structure.clone().unwrap_or_else(|| format!("{default}:test={TRIANGLE_TEST}"));
         let accel = request::structure(registry, &spec)?.build(&scene.mesh)?;
         let what = match golden.update(&scene, accel.as_ref(), overwrite)? {
-            Update::Same => "as it was".into(),
-            Update::New => "made anew".into(),
-            Update::Layout(old) => format!("made anew, it had {old}"),
-            Update::Changed(difference) => format!("made anew: {}", difference.sentence(golden.size)),
+            Update::Same => "unchanged".into(),
+            Update::New => "created".into(),
+            Update::Layout(old) => format!("replaced, it had {old}"),
+            Update::Changed(difference) => format!("replaced: {}", difference.sentence(golden.size)),
         };
         terminal.print(&format!("{}: {what}, {}\n", scene.name, golden.path().escaped()));
     }

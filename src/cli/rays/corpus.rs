@@ -25,7 +25,7 @@ use crate::registry::Registry;
 use crate::report::number::{bytes, count, plural};
 use crate::report::words::{listed, slug};
 use crate::report::{Cell, Table};
-use crate::request::{self, RayKind, stand_in};
+use crate::request::{self, OUTPUT, RAYS as HEADING, RayKind, stand_in};
 use crate::scene::files::{ExactHitFile, RayFile, mesh_bytes};
 use crate::scene::{BUILTIN, Builtin, Scene, Workload};
 use crate::study::Status;
@@ -40,17 +40,17 @@ const SEED: u64 = 1;
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// Scenes, with our own meshes in place of fetched ones; scene files or mesh files [default: all built-in scenes]
+    /// Scenes (with stand-ins for fetched meshes), scene files or mesh files [default: all built-in scenes]
     #[arg(value_name = "SCENE|FILE")]
     scenes: Vec<OsString>,
-    /// The folder; an older corpus there is replaced
-    #[arg(long, short, value_name = "DIR")]
+    /// Folder to write; replaces an older corpus there
+    #[arg(long, short, help_heading = OUTPUT, value_name = "DIR")]
     output: PathBuf,
-    /// Rays of each kind
-    #[arg(long, value_name = "N", default_value_t = RAYS, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    /// Rays per workload
+    #[arg(long, help_heading = HEADING, value_name = "N", default_value_t = RAYS, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     rays: u32,
     /// Seed of the rays
-    #[arg(long, value_name = "N", default_value_t = SEED)]
+    #[arg(long, help_heading = HEADING, value_name = "N", default_value_t = SEED)]
     seed: u64,
 }
 
@@ -68,7 +68,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let all = || BUILTIN.iter().map(|builtin| builtin.name.into()).collect();
     let named = if args.scenes.is_empty() { all() } else { args.scenes.clone() };
 
-    let waiting = spinner("loads scenes", terminal);
+    let waiting = spinner("loading scenes", terminal);
     // Our own meshes are the same everywhere.
     let own = |name: &OsString| if Builtin::find(name).is_ok() { stand_in(name) } else { name.clone() };
     let scenes = request::scenes(registry, &named.iter().map(own).collect::<Vec<OsString>>())?;
@@ -78,7 +78,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     for scene in scenes {
         let part = part(&scene, args, &waiting)?;
         if let Some(twice) = part.files.keys().find(|name| files.contains_key(*name)) {
-            anyhow::bail!("two of these scenes would have a file {twice}: rename one");
+            anyhow::bail!("two of these scenes would write a file {twice}: rename one");
         }
         rows.push(part.row(&scene));
         if !scene.stand_ins.is_empty() {
@@ -87,15 +87,15 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         files.extend(part.files);
     }
 
-    waiting.set_message(format!("writes {}", folder.path().escaped()));
+    waiting.set_message(format!("writing {}", folder.path().escaped()));
     let sums = sums(&files);
     let digest_of_sums = digest(sums.as_bytes());
     files.insert(SUMS.into(), sums.into_bytes());
     folder.write(&files.into_iter().collect::<Vec<_>>())?;
     drop(waiting);
 
-    let title = format!("{}: rays of {} kinds with their exact answers", args.output.escaped(), RayKind::ALL.len());
-    let note = format!("{} with meshes of our own, whether or not the real ones were fetched.", listed(&stand_ins));
+    let title = format!("{}: {} workloads with exact hits", args.output.escaped(), RayKind::ALL.len());
+    let note = format!("{}: stand-in meshes, whether or not the real ones are present.", listed(&stand_ins));
     let notes = if stand_ins.is_empty() { vec![] } else { vec![note] };
     terminal.print_table(&Table::new(title, ["scene", "triangles", "rays", "hits", "bytes"], rows).noted(notes));
     verdict(args, &digest_of_sums, terminal)
@@ -110,8 +110,8 @@ fn verdict(args: &Args, digest: &str, terminal: &Terminal) -> anyhow::Result<Sta
     };
     if status == Status::Wrong {
         terminal.print_lines(&[format!(
-            "This machine computes something else than the published corpus, whose {SUMS} has the SHA-256 {CORPUS_SHA256}: \
-             do not compare with numbers of others, and report this."
+            "This corpus differs from the published one, whose {SUMS} has the SHA-256 {CORPUS_SHA256}: do not compare its \
+             numbers with those of others, and report this as a bug."
         )]);
     }
     terminal.print(&format!("SHA-256 of {SUMS}: {digest}{said}\n"));
@@ -136,13 +136,13 @@ fn part(scene: &Scene, args: &Args, waiting: &ProgressBar) -> anyhow::Result<Par
     let stem = slug(&scene.name);
     let mut part = Part { files: Files::new(), rays: 0, hits: 0 };
     part.files.insert(format!("{stem}.ply"), mesh_bytes(&scene.mesh));
-    waiting.set_message(format!("{} builds the oracle", scene.name));
+    waiting.set_message(format!("{}: building the oracle", scene.name));
     let oracle = Oracle::new(&scene.mesh);
     for kind in RayKind::ALL {
         let name = kind.name();
-        waiting.set_message(format!("{} answers {} exactly: {name}", scene.name, plural(args.rays as usize, "ray")));
+        waiting.set_message(format!("{}: computing exact hits of {}: {name}", scene.name, plural(args.rays as usize, "ray")));
         let (file, truth) = answered(scene, kind, args.rays as usize, args.seed, &oracle).map_err(|problem| {
-            anyhow::anyhow!("no {name} rays can be made for {}: {problem}: scale the mesh", scene.name)
+            anyhow::anyhow!("{} has no {name} rays: {problem}: scale the mesh", scene.name)
         })?;
         part.rays += truth.hits.len();
         part.hits += truth.hits.iter().flatten().count();

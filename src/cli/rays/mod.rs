@@ -16,7 +16,7 @@ use crate::geometry::Ray;
 use crate::output::OutputFile;
 use crate::registry::Registry;
 use crate::report::number::plural;
-use crate::request::{self, rays_or_all};
+use crate::request::{self, OUTPUT, RAYS, SCENES, rays_or_all};
 use crate::scene::files::RayFile;
 use crate::scene::{Sampling, Workload, WorkloadKind};
 use crate::study::Status;
@@ -29,59 +29,59 @@ pub struct Args {
 
 #[derive(Debug, Subcommand)]
 enum Action {
-    /// Write the rays of a workload, as `compare` makes them
+    /// Write the rays of a workload that `compare` would trace
     Record(Record),
-    /// Make a ray file from text, one ray a line: "ox,oy,oz dx,dy,dz [t_min,t_max]", with blanks or commas
+    /// Convert text to a ray file, one ray per line: "ox,oy,oz dx,dy,dz [t_min,t_max]", with spaces or commas
     Import(Import),
-    /// Say what a ray file holds
+    /// Print the contents of a ray file
     Show(Show),
-    /// Write a folder of meshes, rays and exact answers: whoever answers these rays can count the wrong answers
+    /// Write meshes, rays and exact hits, so that other ray tracers can count their errors
     Corpus(corpus::Args),
 }
 
 #[derive(Debug, clap::Args)]
 struct Record {
-    /// A built-in scene, a scene file (.toml) or a mesh file
+    /// Built-in scene, scene file (.toml) or mesh file
     #[arg(value_name = "SCENE|FILE")]
     scene: OsString,
-    /// The kind of rays
-    #[arg(long, short, value_name = "KIND", default_value = "primary")]
+    /// Workload
+    #[arg(long, short, help_heading = RAYS, value_name = "KIND", default_value = "primary")]
     workload: WorkloadKind,
-    /// The ray file
-    #[arg(long, short, value_name = "F.rays")]
+    /// Ray file to write
+    #[arg(long, short, help_heading = OUTPUT, value_name = "F.rays")]
     output: PathBuf,
-    /// Rays at most, evenly spread over the workload
-    #[arg(long, value_name = "N|all", default_value = "all", value_parser = rays_or_all)]
+    /// Number of rays at most, evenly spread over the workload
+    #[arg(long, help_heading = RAYS, value_name = "N|all", default_value = "all", value_parser = rays_or_all)]
     rays: usize,
     /// Seed of the rays
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, help_heading = RAYS, value_name = "N", default_value_t = 1)]
     seed: u64,
 }
 
 #[derive(Debug, clap::Args)]
 struct Import {
-    /// The text; empty lines and what follows a `#` are left out
+    /// Text file; empty lines and `#` comments are ignored
     text: PathBuf,
-    /// The ray file
-    #[arg(long, short, value_name = "F.rays")]
+    /// Ray file to write
+    #[arg(long, short, help_heading = OUTPUT, value_name = "F.rays")]
     output: PathBuf,
-    /// The scene that the rays are for [default: none in particular]
-    #[arg(long, value_name = "SCENE|FILE")]
+    /// Scene that the rays belong to [default: none]
+    #[arg(long, help_heading = SCENES, value_name = "SCENE|FILE")]
     scene: Option<OsString>,
-    /// What to call the rays
-    #[arg(long, value_name = "NAME", default_value = "imported")]
+    /// Workload name of the rays
+    #[arg(long, help_heading = RAYS, value_name = "NAME", default_value = "imported")]
     name: String,
-    /// Ask whether anything is hit, not what is hit first
-    #[arg(long)]
+    /// Any-hit rays instead of closest-hit rays
+    #[arg(long, help_heading = RAYS)]
     any: bool,
 }
 
 #[derive(Debug, clap::Args)]
 struct Show {
-    /// The ray file
+    /// Ray file
     file: PathBuf,
-    /// Print the rays as text, and nothing else
-    #[arg(long)]
+    /// Print only the rays, as text
+    #[arg(long, help_heading = OUTPUT)]
     text: bool,
 }
 
@@ -96,29 +96,29 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
 
 fn record(registry: &Registry, args: &Record, terminal: &Terminal) -> anyhow::Result<Status> {
     let output = request::output(registry, &args.output, std::slice::from_ref(&args.scene), None)?;
-    let waiting = spinner(format!("loads {}", args.scene.escaped()), terminal);
+    let waiting = spinner(format!("loading {}", args.scene.escaped()), terminal);
     let scene = request::scene(registry, &args.scene)?;
     let guide = request::guide(registry)?;
-    waiting.set_message(format!("{} builds {}", scene.name, guide.label));
+    waiting.set_message(format!("{}: building {}", scene.name, guide.label));
     let guide = guide.build(&scene.mesh)?;
-    waiting.set_message(format!("{} makes {} rays", scene.name, args.workload.name()));
+    waiting.set_message(format!("{}: generating {} rays", scene.name, args.workload.name()));
     let sampling = Sampling::some(&scene, args.rays, args.seed);
     let workload = Workload::new(&scene, args.workload, &sampling, guide.as_ref());
     drop(waiting);
-    anyhow::ensure!(!workload.rays.is_empty(), "{} has no {} rays: nothing to record", scene.name, workload.name);
+    anyhow::ensure!(!workload.rays.is_empty(), "{} has no {} rays to record: name another workload", scene.name, workload.name);
     finish(&RayFile::new(&scene, workload), &output, terminal)
 }
 
 fn import(registry: &Registry, args: &Import, terminal: &Terminal) -> anyhow::Result<Status> {
     let output = request::output(registry, &args.output, args.scene.as_slice(), [args.text.as_path()])?;
-    let waiting = spinner(format!("reads {}", args.text.escaped()), terminal);
+    let waiting = spinner(format!("reading {}", args.text.escaped()), terminal);
     let text = std::fs::read_to_string(&args.text).with_context(|| format!("cannot read {}", args.text.escaped()))?;
     let rays = parse(&text).map_err(|problem| anyhow::anyhow!("{}: {problem}", args.text.escaped()))?;
     let query = if args.any { Query::Any } else { Query::Closest };
     let workload = Workload { name: args.name.clone(), query, rays };
     let file = match &args.scene {
         Some(scene) => {
-            waiting.set_message(format!("loads {}", scene.escaped()));
+            waiting.set_message(format!("loading {}", scene.escaped()));
             RayFile::new(&request::scene(registry, scene)?, workload)
         }
         None => RayFile { scene: String::new(), scene_hash: None, workload },
@@ -147,7 +147,7 @@ fn finish(file: &RayFile, output: &OutputFile, terminal: &Terminal) -> anyhow::R
 }
 
 fn show(args: &Show, terminal: &Terminal) -> anyhow::Result<Status> {
-    let waiting = spinner(format!("reads {}", args.file.escaped()), terminal);
+    let waiting = spinner(format!("reading {}", args.file.escaped()), terminal);
     let file = RayFile::read(&args.file)?;
     drop(waiting);
     if args.text {
@@ -155,14 +155,14 @@ fn show(args: &Show, terminal: &Terminal) -> anyhow::Result<Status> {
         return Ok(Status::Right);
     }
     terminal.print(&format!("{}: {}\n", args.file.escaped(), described(&file)));
-    let scene = file.scene_hash.as_deref().unwrap_or("none in particular");
+    let scene = file.scene_hash.as_deref().unwrap_or("none");
     terminal.print(&format!("scene hash: {scene}\nfirst ray: {}\n", file.workload.rays[0]));
     Ok(Status::Right)
 }
 
 fn described(file: &RayFile) -> String {
     let (workload, scene) = (&file.workload, if file.scene.is_empty() { "no scene" } else { &file.scene });
-    let query = if workload.query == Query::Any { "any hit" } else { "the closest hit" };
+    let query = if workload.query == Query::Any { "any hit" } else { "closest hit" };
     let (rays, hash) = (plural(workload.rays.len(), "ray"), workload.hash());
-    format!("{rays} of the kind {:?} for {scene}, asking for {query}, hash {hash}", workload.name)
+    format!("{rays} of the workload {:?} for {scene}, query {query}, hash {hash}", workload.name)
 }

@@ -33,7 +33,7 @@ impl Run<'_> {
     ) -> anyhow::Result<Status> {
         let (args, workload) = (self.args, &file.workload);
         let [choice] = &self.structures[..] else {
-            anyhow::bail!("a file holds the answers of one structure: name one with --structure");
+            anyhow::bail!("a hit file holds the hits of one structure: name one with --structure");
         };
         let output = request::output(self.registry, to, &args.scenes, args.source().file())?;
         let label = &choice.label;
@@ -41,28 +41,28 @@ impl Run<'_> {
         let can = accel.capabilities();
         let declined = workload.rays.iter().find_map(|ray| can.declines(ray));
         if let Some(what) = declined.or((workload.query == Query::Any && !can.any_hit).then_some("any hit")) {
-            anyhow::bail!("{label} declines {what}, which these rays need");
+            anyhow::bail!("{label} declines {what}, which these rays need: name another structure");
         }
         let rays = workload.rays.len();
-        waiting.set_message(format!("{}: {label} traces {}", scene.name, plural(rays, "ray")));
+        waiting.set_message(format!("{}: tracing {} with {label}", scene.name, plural(rays, "ray")));
         let mut hits = vec![];
         for batch in workload.rays.chunks(BATCH) {
             let (accel, query, batch) = (Arc::clone(&accel), workload.query, batch.to_vec());
             let traced = watched(args.limit.duration(), move || traced(accel.as_ref(), query, &batch));
-            let advice = || format!("{label}: find the ray by the same command without --export-hits");
+            let advice = || format!("{label}: run the same command without --export-hits to find the ray");
             hits.extend(traced.with_context(advice)?);
         }
         HitFile::new(workload, hits).write(&output)?;
         drop(waiting);
-        let (path, answers, hash) = (output.path().escaped(), plural(rays, "answer"), workload.hash());
-        self.terminal.print(&format!("{path}: {answers} of {label} to the rays {hash}\n"));
+        let (path, results, hash) = (output.path().escaped(), plural(rays, "result"), workload.hash());
+        self.terminal.print(&format!("{path}: {results} of {label} for the rays {hash}\n"));
         Ok(Status::Right)
     }
 
     pub fn check_hits(&self, scene: &Scene, file: &RayFile, waiting: ProgressBar) -> anyhow::Result<Outcome> {
         let (args, choice) = (self.args, &self.reference);
         let path = args.hits.as_deref().context("the caller has seen it")?;
-        anyhow::ensure!(args.test.len() < 2, "answers come from one triangle test: name one");
+        anyhow::ensure!(args.test.len() < 2, "a hit file has one triangle test: name one");
         let test = args.test.first().map_or("own", String::as_str);
         request::known_tests(self.registry, &args.test)?;
         let hit_file = HitFile::read(path)?;
@@ -82,10 +82,9 @@ impl Run<'_> {
             }
         };
         drop(waiting);
-        let mut notes = scene.notes.clone();
-        notes.extend(note);
-        notes.extend(found.worst.iter().map(|worst| format!("{name}: {worst}")));
-        notes.extend(note_on_reference(&name, &found));
+        let notes: Vec<String> =
+            scene.notes.iter().cloned().chain(note).chain(note_on_reference(&name, &found)).collect();
+        let faults = found.worst.iter().map(|worst| format!("{name}: {worst}")).collect();
         let outcome = Outcome {
             scene: scene.name.clone(),
             label: name,
@@ -95,7 +94,8 @@ impl Run<'_> {
             found: Ok(found),
         };
         let outcomes = std::slice::from_ref(&outcome);
-        self.terminal.print_table(&scene_table(scene, &rays, &reference_name, outcomes, notes));
+        self.terminal.print_table(&scene_table(scene, &rays, &reference_name, outcomes, faults));
+        self.terminal.print_notes(notes);
         Ok(outcome)
     }
 }

@@ -20,7 +20,9 @@ use super::terminal::Terminal;
 use crate::accel::DynAccel;
 use crate::geometry::Ray;
 use crate::registry::{Choice, Registry};
-use crate::request::{self, BRUTE_FORCE, RaySource, Seconds, ViewArgs, recorded};
+use crate::request::{
+    self, BRUTE_FORCE, OUTPUT, RAYS, RaySource, SCENES, STRUCTURES, Seconds, ViewArgs, recorded,
+};
 use crate::scene::Scene;
 use crate::study::Status;
 use crate::validate::{LIMIT, watched};
@@ -39,58 +41,58 @@ pub struct Args {
     scenes: Vec<OsString>,
     #[command(flatten)]
     from: ViewArgs,
-    /// A structure, with keys that differ from their defaults; may be repeated [default: all, one of each name]
-    #[arg(long, short, value_name = "NAME[:key=value,..]")]
+    /// Structure with options (see `sahara list NAME`); may be repeated [default: one of each name]
+    #[arg(long, short, help_heading = STRUCTURES, value_name = "NAME[:key=value,..]")]
     structure: Vec<String>,
-    /// A program in another language as a structure, with its arguments; NAME is how tables call it; may be repeated
-    #[arg(long, value_name = "[NAME=]COMMAND", allow_hyphen_values = true)]
+    /// External program, with arguments, to check as a structure; NAME is its name in tables; may be repeated
+    #[arg(long, help_heading = STRUCTURES, value_name = "[NAME=]COMMAND", allow_hyphen_values = true)]
     runner: Vec<String>,
     /// Default build quality of eight-wide trees
-    #[arg(long, value_parser = request::QUALITIES)]
+    #[arg(long, help_heading = STRUCTURES, value_parser = request::QUALITIES)]
     quality: Option<String>,
-    /// Rays per scene, divided among the workloads, or a file of rays to replay; by default, and of a file, fewer if brute force would
-    /// take minutes [default: 10000]
-    #[arg(long, value_name = "N|F.rays")]
+    /// Rays per scene, divided among the workloads, or a ray file to replay; fewer if brute force would take minutes, unless
+    /// N is given [default: 10000]
+    #[arg(long, help_heading = RAYS, value_name = "N|F.rays")]
     rays: Option<RaySource>,
-    /// The reference: `brute-force` with each structure's own triangle test, or another structure (also `brute-force:test=exact`), with
-    /// exact arithmetic as the judge where the two differ
-    #[arg(long, value_name = "NAME[:key=value,..]", default_value = BRUTE_FORCE)]
+    /// Reference: `brute-force` with each structure's own triangle test, or another structure, e.g. `brute-force:test=exact`;
+    /// exact arithmetic decides where the two differ
+    #[arg(long, help_heading = STRUCTURES, value_name = "NAME[:key=value,..]", default_value = BRUTE_FORCE)]
     against: String,
     /// Trace rays that break traversals instead of the workloads
-    #[arg(long, conflicts_with_all = ["ray", "camera", "inside", "size"])]
+    #[arg(long, help_heading = RAYS, conflicts_with_all = ["ray", "camera", "inside", "size"])]
     adversarial: bool,
-    /// Run hard cases instead of scenes, by name or number: what ray tracers are known to get wrong, each structure in a process of its
-    /// own; without a name all cases (see `sahara list hard`)
-    #[arg(long, value_name = "CASE", num_args = 0.., conflicts_with_all = [
+    /// Run hard cases instead of scenes, by name or number (see `sahara list hard`): known failures of ray tracers, each
+    /// structure in its own process [default: all cases]
+    #[arg(long, help_heading = SCENES, value_name = "CASE", num_args = 0.., conflicts_with_all = [
         "scenes", "ray", "adversarial", "hits", "export_hits", "against", "seed", "camera", "inside", "size",
     ])]
     hard: Option<Vec<String>>,
-    /// Trace only this ray, and print what every structure returns; may be repeated
-    #[arg(long, value_name = "ox,oy,oz dx,dy,dz", allow_hyphen_values = true, value_parser = Ray::parse_valid,
+    /// Trace only this ray and print every structure's hit; may be repeated
+    #[arg(long, help_heading = RAYS, value_name = "ox,oy,oz dx,dy,dz", allow_hyphen_values = true, value_parser = Ray::parse_valid,
         conflicts_with_all = ["rays", "seed", "camera", "inside", "size"])]
     ray: Vec<Ray>,
-    /// Check the hits of this file, for the rays of the file of --rays, instead of structures
-    #[arg(long, value_name = "F.hits", conflicts_with_all = ["structure", "runner", "quality", "export_hits", "limit"])]
+    /// Check the hits in this file, for the ray file of --rays, instead of structures
+    #[arg(long, help_heading = STRUCTURES, value_name = "F.hits", conflicts_with_all = ["structure", "runner", "quality", "export_hits", "limit"])]
     hits: Option<PathBuf>,
-    /// With --hits the triangle test that found them [default: an unknown one, judged by exact arithmetic]; with --hard the test of all
-    /// structures that offer it, may be repeated [default: each structure's own]
-    #[arg(long, short, value_name = "NAME")]
+    /// With --hits: the triangle test of these hits [default: unknown; exact arithmetic decides]. With --hard: the test of
+    /// all structures that offer it; may be repeated [default: each structure's own]
+    #[arg(long, short, help_heading = STRUCTURES, value_name = "NAME")]
     test: Vec<String>,
-    /// Fail, with status 2, also where a triangle test rounds and the tree is right
-    #[arg(long)]
+    /// Count rounding of the triangle test as a failure (status 2)
+    #[arg(long, help_heading = OUTPUT)]
     strict: bool,
     /// Write verdicts, counts and the worst rays as JSON
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, help_heading = OUTPUT, value_name = "FILE")]
     export_json: Option<PathBuf>,
-    /// Write the hits of one structure for the rays of the file of --rays
-    #[arg(long, value_name = "F.hits", conflicts_with = "against")]
+    /// Write the hits of one structure for the ray file of --rays
+    #[arg(long, help_heading = OUTPUT, value_name = "F.hits", conflicts_with = "against")]
     export_hits: Option<PathBuf>,
-    /// Seconds that a structure may take for 256 rays, or for its build and for each further million triangles of it, before it counts
-    /// as hanging
-    #[arg(long, value_name = "SECONDS", default_value_t = Seconds::whole(LIMIT.as_secs() as u32), allow_negative_numbers = true)]
+    /// Time limit in seconds for 256 rays and for a build (again for each million triangles): a structure that exceeds it
+    /// hangs
+    #[arg(long, help_heading = STRUCTURES, value_name = "SECONDS", default_value_t = Seconds::whole(LIMIT.as_secs() as u32), allow_negative_numbers = true)]
     limit: Seconds,
     /// Seed of the rays [default: 1]
-    #[arg(long, value_name = "N")]
+    #[arg(long, help_heading = RAYS, value_name = "N")]
     seed: Option<u64>,
 }
 
@@ -106,7 +108,7 @@ struct Run<'a> {
 pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     anyhow::ensure!(
         args.test.is_empty() || args.hard.is_some() || args.hits.is_some(),
-        "--test is for --hits and --hard: here name it with the structure, as in sah-kd:test=exact"
+        "--test works with --hits and --hard only: name the test with the structure, as in sah-kd:test=exact"
     );
     if let Some(cases) = &args.hard {
         return hard::run(registry, args, cases, terminal);
@@ -116,14 +118,14 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let json = json.transpose()?;
     let reference = ReferenceChoice::named(registry, &args.against)?;
     let run = Run { registry, args, structures, reference, terminal };
-    let waiting = spinner("loads scenes", terminal);
+    let waiting = spinner("loading scenes", terminal);
     let replay = recorded(registry, &args.source(), &args.scenes)?;
     if replay.is_some() {
         args.from.is_unasked()?;
     }
     anyhow::ensure!(
         replay.is_none() || args.seed.is_none() && !args.adversarial,
-        "the rays are those of the file: leave --adversarial and --seed out"
+        "the file defines the rays: omit --adversarial and --seed"
     );
     if let Some(output) = &args.export_hits {
         let ((_, scene), file) = replay.context(NEEDS_RAYS)?;
@@ -151,10 +153,10 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         outcomes
     };
 
-    terminal.print_lines(&[RETRACE].map(String::from));
-    if terminal.verbose {
-        terminal.print_lines(&LEGEND.map(String::from));
+    if outcomes.iter().any(Outcome::has_example) {
+        terminal.print_lines(&[RETRACE].map(String::from));
     }
+    terminal.print_notes(LEGEND.map(String::from));
     let verdicts = outcome::verdicts(&outcomes);
     terminal.print_lines(&outcome::sentences(&verdicts));
     if let Some(file) = json {
@@ -164,7 +166,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     Ok(outcomes.iter().fold(Status::Right, |status, own| status.and(own.status(args.strict))))
 }
 
-const NEEDS_RAYS: &str = "answers belong to rays of a file: give one with --rays F.rays";
+const NEEDS_RAYS: &str = "hits need the rays that they belong to: pass --rays F.rays";
 
 impl Args {
     fn source(&self) -> RaySource {
@@ -184,7 +186,7 @@ impl Args {
     }
 
     fn build(&self, choice: &Choice, scene: &Scene, waiting: &ProgressBar) -> Result<Arc<dyn DynAccel>, BuildFailure> {
-        waiting.set_message(format!("{} builds {}", scene.name, choice.label));
+        waiting.set_message(format!("{}: building {}", scene.name, choice.label));
         let (own, mesh) = (choice.clone(), Arc::clone(&scene.mesh));
         let limit = self.limit.duration() * u32::try_from(1 + mesh.len() / 1_000_000).unwrap_or(u32::MAX);
         // The registry catches a panic of the builder: what ends without a result hangs.

@@ -12,7 +12,7 @@ use crate::validate::{Kind, Validation};
 /// Why a structure could not be built.
 #[derive(Debug, thiserror::Error)]
 pub enum BuildFailure {
-    #[error("it hangs: its builder did not end within {0} s: see --limit")]
+    #[error("it hangs: its build did not finish within {0} s (see --limit)")]
     Hangs(f64),
     #[error(transparent)]
     Refused(#[from] BuildError),
@@ -53,6 +53,11 @@ impl Outcome {
                 if verdict.wrong > 0 || strict && verdict.rounded > 0 { Status::Wrong } else { Status::Right }
             }
         }
+    }
+
+    /// Whether a ray is printed that shows a difference from the reference.
+    pub fn has_example(&self) -> bool {
+        self.found.as_ref().is_ok_and(|found| !found.worst.is_empty())
     }
 
     fn verdict(&self) -> Verdict {

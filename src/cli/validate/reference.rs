@@ -64,8 +64,8 @@ impl ReferenceChoice {
         let note = (sample.len() < recorded.len()).then(|| {
             let [some, all] = [sample.len(), recorded.len()].map(|rays| count(rays as u64));
             format!(
-                "{some} of the {all} rays of the file, evenly spread, since brute force would run more than \
-                 2^{FILE_TESTS} triangle tests for all: --against {SAH_TREE} traces all"
+                "only {some} of the {all} rays of the file, evenly spread: all would take brute force more than \
+                 2^{FILE_TESTS} triangle tests; --against {SAH_TREE} traces all"
             )
         });
         (sample, note)
@@ -123,7 +123,7 @@ pub fn closest_hits(
 ) -> Vec<Option<Hit>> {
     let mut hits = Vec::with_capacity(rays.len());
     for some in rays.chunks((PROGRESS_TESTS / scene.mesh.len().max(1)).max(1)) {
-        waiting.set_message(format!("{}: {name} traces {} of {} rays", scene.name, hits.len(), rays.len()));
+        waiting.set_message(format!("{}: {name} has traced {} of {} rays", scene.name, hits.len(), rays.len()));
         hits.extend(reference.closest_hits(some));
     }
     hits

@@ -19,7 +19,7 @@ impl Run<'_> {
     pub fn validate(&self, scene: &Scene, recorded: Option<&[Ray]>) -> anyhow::Result<Vec<Outcome>> {
         let Self { args, terminal, .. } = self;
         let triangles = scene.mesh.len();
-        let mut notes = scene.notes.clone();
+        let (mut notes, mut shown) = (scene.notes.clone(), vec![]);
         let rays = self.rays(scene, recorded, &mut notes)?;
         let named = Structures { structure: args.structure.clone(), quality: None };
         let mut references = References { scene, rays: &rays, choice: &self.reference, known: BTreeMap::new() };
@@ -32,7 +32,7 @@ impl Run<'_> {
             let waiting = spinner(String::new(), terminal);
             let (reference, expected) = references.get(choice.triangle_test(), &waiting)?;
             let found = args.build(choice, scene, &waiting).map(|accel| {
-                waiting.set_message(format!("{} checks {}", scene.name, choice.label));
+                waiting.set_message(format!("{}: checking {}", scene.name, choice.label));
                 let limit = args.limit.duration();
                 if !args.ray.is_empty() {
                     of_structures.push(answers(&choice.label, &accel, &rays, &scene.mesh, limit));
@@ -43,35 +43,20 @@ impl Run<'_> {
                 }
             });
             let outcome = Outcome::new(&scene.name, choice, found);
-            notes.extend(self.notes(choice, &outcome));
+            notes.extend(notes_on(choice, &outcome));
+            shown.extend(faults(choice, &outcome));
             outcomes.push(outcome);
         }
         let hits: Vec<u64> = outcomes.iter().filter_map(|own| Some(own.found.as_ref().ok()?.hits)).collect();
         if args.ray.is_empty() && !hits.is_empty() && hits.iter().all(|&hits| hits == 0) {
-            notes.push("No ray hits anything by the reference: no hit could be lost, and this shows little.".into());
+            shown.push("The reference hits nothing: no hit could be lost, so this run shows little.".into());
         }
-        terminal.print_table(&scene_table(scene, &rays, &self.reference, &outcomes, notes));
+        terminal.print_table(&scene_table(scene, &rays, &self.reference, &outcomes, shown));
+        terminal.print_notes(notes.into_iter().map(|note| format!("{}: {note}", scene.name)));
         if !args.ray.is_empty() {
             terminal.print_table(&answer_table(&scene.name, &of_structures));
         }
         Ok(outcomes)
-    }
-
-    /// What is to be said of an outcome beside its row.
-    fn notes(&self, choice: &Choice, outcome: &Outcome) -> Vec<String> {
-        let label = &choice.label;
-        let found = match &outcome.found {
-            Ok(found) => found,
-            Err(failure) => return vec![format!("{label}: {failure}")],
-        };
-        let mut notes = vec![];
-        if let Some(defect) = known_defect(&choice.entry.name).filter(|_| found.errors() > 0) {
-            notes.push(format!("{label}: its known defects, which do not change the exit status: {defect}"));
-        }
-        notes.extend(declined(choice, found));
-        notes.extend(found.worst.iter().map(|worst| format!("{label}: {worst}")));
-        notes.extend(note_on_reference(label, found));
-        notes
     }
 
     /// Recorded or given rays, or else rays of every workload or stratum, of each the same number.
@@ -85,11 +70,11 @@ impl Run<'_> {
         if !args.ray.is_empty() {
             return Ok(args.ray.clone());
         }
-        let _waiting = spinner(format!("{} makes rays", scene.name), terminal);
+        let _waiting = spinner(format!("{}: generating rays", scene.name), terminal);
         let affordable = reference.affordable(scene.mesh.len());
         if args.rays.is_none() && affordable < DEFAULT_RAYS {
             notes.push(format!(
-                "about {affordable} rays, since brute force would take minutes for {DEFAULT_RAYS}: --rays sets the number"
+                "only about {affordable} rays: brute force would take minutes for {DEFAULT_RAYS}; --rays sets the number"
             ));
         }
         let number = args.rays.clone().unwrap_or(RaySource::Count(affordable));
@@ -106,6 +91,24 @@ impl Run<'_> {
         let of_kind = |&kind| Workload::new(scene, kind, &sampling, tracer.as_ref()).rays;
         Ok(WorkloadKind::ALL.iter().flat_map(of_kind).collect())
     }
+}
+
+/// Why a structure has no row of numbers, or the rays that show it wrong.
+fn faults(choice: &Choice, outcome: &Outcome) -> Vec<String> {
+    let label = &choice.label;
+    match &outcome.found {
+        Ok(found) => found.worst.iter().map(|worst| format!("{label}: {worst}")).collect(),
+        Err(failure) => vec![format!("{label}: {failure}")],
+    }
+}
+
+/// What explains the row of an outcome.
+fn notes_on(choice: &Choice, outcome: &Outcome) -> Vec<String> {
+    let Ok(found) = &outcome.found else { return vec![] };
+    let label = &choice.label;
+    let defect = known_defect(&choice.entry.name).filter(|_| found.errors() > 0);
+    let defect = defect.map(|defect| format!("{label}: known defects (they do not change the exit status): {defect}"));
+    [defect, declined(choice, found), note_on_reference(label, found)].into_iter().flatten().collect()
 }
 
 fn declined(choice: &Choice, found: &Validation) -> Option<String> {

@@ -66,21 +66,20 @@ fn errors(own: &Outcome, of: fn(&Validation) -> u64) -> Cell {
 /// Where the reference has another triangle test, exact arithmetic may find either of the two wrong.
 pub fn note_on_reference(name: &str, found: &Validation) -> Option<String> {
     let rays = plural(found.reference_errors as usize, "ray");
-    (found.reference_errors > 0).then(|| format!("On {rays} the reference is wrong and not {name}: no errors of it."))
+    (found.reference_errors > 0).then(|| format!("On {rays} the reference is wrong, not {name}."))
 }
 
-pub const RETRACE: &str = "To trace a ray again: sahara validate SCENE --structure NAME --ray \"ox,oy,oz dx,dy,dz\"";
+pub const RETRACE: &str = "Trace a ray again: sahara validate SCENE --structure NAME --ray \"ox,oy,oz dx,dy,dz\"";
 
 /// What the columns mean.
 pub const LEGEND: [&str; 3] = [
-    "hits: rays that hit something by the reference. wrong: hits that no rounding of the triangle test explains, contradictions, \
-     panics and queries that never return; none in a correct structure. rounded: hits that differ from the reference by what the \
-     triangle test rounds; they change the exit status under --strict alone.",
-    "structure errors: hits lost or invented although the structure's own triangle test, run over all triangles, says otherwise. \
-     answer errors: wrong hits of a structure with a test of its own, by exact arithmetic and a bound of rounding. depth errors: of \
-     those, depths that are off by more than 4 ulps and more than 1e-6, and by no more than the bound.",
-    "test errors: those that the triangle test causes, not the structure. ties: hits on another triangle at the same depth; no \
-     errors.",
+    "hits: rays with a hit in the reference. wrong: hits that no rounding of the triangle test explains, contradictions, panics \
+     and queries that never return; a correct structure has none. rounded: hits that differ from the reference because the \
+     triangle test rounds; they change the exit status only with --strict.",
+    "structure errors: hits lost or invented although the structure's own triangle test, run over all triangles, disagrees. answer \
+     errors: wrong hits of a structure with its own test, by exact arithmetic and a rounding bound. depth errors: depths of such a \
+     structure that are off by more than 4 ulps and more than 1e-6, but within the bound.",
+    "test errors: errors of the triangle test, not of the structure. ties: hits on another triangle at the same depth; not errors.",
 ];
 
 /// One row per ray: number of the ray, t, triangle, and where on it.
@@ -116,7 +115,7 @@ const ANSWERS: [&str; 6] = ["structure", "ray", "t", "triangle", "u", "v"];
 pub fn answer_table(scene: &str, of_structures: &[Vec<Vec<Cell>>]) -> Table {
     let rays = of_structures.first().map_or(0, Vec::len);
     let rows = (0..rays).flat_map(|ray| of_structures.iter().map(move |rows| rows[ray].clone()));
-    let note = "u, v: weights of the second and third corner of the triangle where the ray meets its plane, in f64. \
-                Triangles count from 0.";
-    Table::new(format!("{scene}: answers"), ANSWERS, rows).noted(vec![note.into()])
+    let note = "u, v: barycentric weights of the second and third corner where the ray meets the triangle's plane, in f64. \
+                Triangle numbers start at 0.";
+    Table::new(format!("{scene}: hits"), ANSWERS, rows).noted(vec![note.into()])
 }

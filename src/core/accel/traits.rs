@@ -30,7 +30,7 @@ pub enum BuildError {
     #[error("declined: it has no {0}, which these rays need")]
     Declined(&'static str),
     /// The structure's own code panicked.
-    #[error("its builder panicked on this mesh: leave the structure out, or look at extreme coordinates")]
+    #[error("its builder panicked on this mesh: omit the structure, or check for extreme coordinates")]
     Panic,
 }
 

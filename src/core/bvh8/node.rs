@@ -38,8 +38,8 @@ impl Limits {
             return Ok(());
         }
         Err(BuildError::Mesh(format!(
-            "the mesh is too large for this structure: {triangles} triangles with a duplication of {duplication} may take \
-             {most} binary nodes, of at most {}; a smaller `duplication` takes fewer",
+            "the mesh is too large for this structure: {triangles} triangles with a duplication of {duplication} may \
+             need {most} binary nodes, but the limit is {}; lower `duplication`",
             self.binary
         )))
     }
@@ -51,8 +51,8 @@ impl Limits {
             return Ok(());
         }
         Err(BuildError::Mesh(format!(
-            "the mesh is too large or too odd for this structure: it takes {levels} levels, {nodes} nodes and {blocks} \
-             blocks, of at most {}, {} and {}",
+            "the mesh is too large or too irregular for this structure: it needs {levels} levels, {nodes} nodes and \
+             {blocks} blocks; the limits are {}, {} and {}",
             self.levels, self.nodes, self.blocks
         )))
     }

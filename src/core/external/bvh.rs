@@ -172,7 +172,7 @@ impl<T: TriangleTest> Accel for SvenstaroBvh<T> {
 
     const TRIANGLE_TEST: &'static str = T::NAME;
     const OBSERVED: Observed = Observed::TESTS;
-    const CONVENTIONS: &'static [&'static str] = &["walks unit directions: t is multiplied by the direction's length"];
+    const CONVENTIONS: &'static [&'static str] = &["traces unit directions: t is multiplied by the direction's length"];
 
     fn build(mesh: &Arc<Mesh>, config: &SvenstaroBvhConfig) -> Result<Self, BuildError> {
         let leaves = Leaves::new(mesh);

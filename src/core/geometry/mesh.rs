@@ -29,7 +29,7 @@ pub enum MeshError {
     OutOfRange { triangle: usize, index: u32, vertices: usize },
     /// There are more than numbers can tell apart.
     #[allow(missing_docs)]
-    #[error("{count} {what} are more than the {limit} a mesh can hold: split the scene")]
+    #[error("{count} {what} exceed the limit of {limit} per mesh: split the scene")]
     TooMany { what: &'static str, count: usize, limit: usize },
 }
 

@@ -29,8 +29,8 @@ impl Limits {
             return Ok(());
         }
         Err(BuildError::Mesh(format!(
-            "the mesh is too large for a KD-tree: it takes at least {nodes} nodes and {references} references, of at most \
-             {most_nodes} and {most_references}; larger leaves or less duplication take fewer"
+            "the mesh is too large for a KD-tree: it needs at least {nodes} nodes and {references} references; the \
+             limits are {most_nodes} and {most_references}; use larger leaves or less duplication"
         )))
     }
 }

@@ -31,7 +31,7 @@ pub enum Level {
 
 /// A name that is no level, or one that this machine or build does not have.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("there is no level {name:?} here; there are: {known}")]
+#[error("there is no level {name:?} here; the levels are: {known}")]
 pub struct UnknownLevel {
     name: String,
     known: String,

@@ -10,7 +10,7 @@ use crate::report::number::{count, plural};
 use crate::report::words::{listed, slug};
 use crate::report::{Art, Block, Colours, Figure, Overlay, Picture, Table};
 
-pub const TITLE: &str = "Where are answers wrong?";
+pub const TITLE: &str = "Wrong hits, pixel by pixel";
 
 /// The pictures of all structures with a wrong answer, with the command that draws one; a sentence where none has one.
 /// Nothing without structures.
@@ -22,7 +22,7 @@ pub fn block(camera: &CameraRays) -> Option<(Block, String)> {
     match (wrong.is_empty(), right.is_empty()) {
         (true, true) => None,
         (true, false) => {
-            let text = format!("{}: all {rays} are answered right by {}.", camera.name, listed(&right));
+            let text = format!("{}: every hit of {rays} is correct with {}.", camera.name, listed(&right));
             Some((Block::Text(text), String::new()))
         }
         (false, _) => {
@@ -39,7 +39,7 @@ fn figure(camera: &CameraRays, wrong: &[(&StructureWork, ErrorMap)], right: &[&s
         let errors = errors.map(|(name, n, _)| format!("{name}: {}", count(n as u64))).collect::<Vec<_>>().join(", ");
         Picture {
             name: structure.label.clone(),
-            alt: format!("Wrong answers of {} on {}: {errors}", structure.label, camera.name),
+            alt: format!("Wrong hits of {} on {}: {errors}", structure.label, camera.name),
             note: errors,
             png: png(&map.picture()),
             size: camera.exact.size,
@@ -52,11 +52,11 @@ fn figure(camera: &CameraRays, wrong: &[(&StructureWork, ErrorMap)], right: &[&s
         [structure.label.as_str().into()].into_iter().chain(numbers).collect()
     };
     let rays = plural(camera.exact.rays.len(), "camera ray");
-    let right = if right.is_empty() { String::new() } else { format!(" Without an error: {}.", listed(right)) };
+    let right = if right.is_empty() { String::new() } else { format!(" No errors: {}.", listed(right)) };
     Figure {
         id: format!("errors-{}", slug(&camera.loaded.scene.name)),
         caption: format!(
-            "{}: answers to {rays} that exact arithmetic finds wrong, drawn three pixels wide; right ones are grey, \
+            "{}: wrong hits among {rays}, by exact arithmetic, drawn three pixels wide. Correct hits are grey, \
              brighter where nearer.{right}",
             camera.name
         ),
@@ -79,9 +79,9 @@ fn pixels(camera: &CameraRays, wrong: &[(&StructureWork, ErrorMap)]) -> Inspecto
     let (all, most) = (pixels.len(), most_rays(camera.structures.len()));
     let chosen: Vec<usize> = pixels.into_iter().step_by(all.div_ceil(most).max(1)).collect();
     let which = match chosen.len() {
-        n if n == all => format!("{} that some structure answers wrong can be asked for.", plural(n, "pixel")),
+        n if n == all => format!("Select any of {} with a wrong hit.", plural(n, "pixel")),
         n => format!(
-            "{} of the {} that some structure answers wrong can be asked for.",
+            "Select any of {} (of {} with a wrong hit).",
             count(n as u64),
             plural(all, "pixel")
         ),
@@ -90,7 +90,7 @@ fn pixels(camera: &CameraRays, wrong: &[(&StructureWork, ErrorMap)]) -> Inspecto
 }
 
 pub fn section(found: Vec<(Block, String)>) -> Section {
-    let what = "The camera rays of a picture, each held against exact arithmetic.";
-    let (blocks, command) = introduced("Pictures of wrong answers", what, found);
+    let what = "Hits of the camera rays of a picture, checked against exact arithmetic.";
+    let (blocks, command) = introduced("Pictures of wrong hits", what, found);
     Section { id: "errors", title: TITLE, command, blocks }
 }

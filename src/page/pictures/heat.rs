@@ -12,7 +12,7 @@ use crate::report::plot::tick_text;
 use crate::report::words::slug;
 use crate::report::{Art, Block, Colours, Figure, Overlay, Picture, Table};
 
-pub const TITLE: &str = "Where is the work?";
+pub const TITLE: &str = "Cost per pixel";
 
 struct Heat<'a> {
     label: &'a str,
@@ -38,8 +38,8 @@ pub fn block(camera: &CameraRays) -> Option<(Block, String)> {
         let mean = figures(heat.mean());
         Picture {
             name: heat.label.into(),
-            note: format!("{mean} a ray"),
-            alt: format!("Heat map of {} on {name}: {mean} tests and steps a ray on average", heat.label),
+            note: format!("{mean} per ray"),
+            alt: format!("Heat map of {} on {name}: {mean} tests and steps per ray on average", heat.label),
             png: png(&from_pixels(size, colours.collect())),
             size,
         }
@@ -51,9 +51,9 @@ pub fn block(camera: &CameraRays) -> Option<(Block, String)> {
     let figure = Figure {
         id: format!("heat-{}", slug(&camera.loaded.scene.name)),
         caption: format!(
-            "{name}: triangle tests and steps of each camera ray, all structures on one logarithmic scale from 0 to \
-             {}, which all but one in two hundred pixels stay below. Brute force, which tests every triangle for every \
-             ray, would darken all of them and is left out.",
+            "{name}: triangle tests and traversal steps of each camera ray. All structures share one logarithmic \
+             scale from 0 to {}; 99.5 % of the pixels are below its end. Brute force is left out: its cost would \
+             darken all other maps.",
             count(scale)
         ),
         alt: String::new(),
@@ -82,8 +82,8 @@ fn grid(camera: &CameraRays) -> Inspector {
     let found = strides.into_iter().find(|(_, pixels)| pixels.len() <= most);
     let (stride, pixels) = found.expect("no pixel is few enough");
     let which = match stride {
-        1 => "Every pixel can be asked for.".into(),
-        _ => format!("One pixel in {stride} of one row in {stride} can be asked for."),
+        1 => "Select any pixel.".into(),
+        _ => format!("Select any pixel of a grid with a spacing of {stride} pixels."),
     };
     inspector(camera, pixels, which)
 }
@@ -94,7 +94,7 @@ fn ramp(scale: u64) -> Colours {
     let ticks = std::iter::once((0.0, "0".to_owned())).chain(tens.map(|cost| (place(cost), tick_text(cost))));
     let at = |i: i32| libm::expm1(f64::from(i) / 16.0 * libm::log1p(scale as f64));
     Colours::Ramp {
-        title: "Triangle tests and steps of a camera ray:".into(),
+        title: "Triangle tests and traversal steps of a camera ray:".into(),
         colours: (0..=16).map(|i| hex(heat_colour(libm::round(at(i)) as u64, scale))).collect(),
         ticks: ticks.chain([(1.0, count(scale))]).collect(),
     }
@@ -109,7 +109,7 @@ fn stepped(cost: u64, scale: u64) -> u64 {
 }
 
 pub fn section(found: Vec<(Block, String)>) -> Section {
-    let what = "Where the work is: brighter pixels cost more triangle tests and steps.";
+    let what = "Cost per pixel (triangle tests + traversal steps); brighter is more expensive.";
     let (blocks, command) = introduced("Heat maps of the structures", what, found);
     Section { id: "heat", title: TITLE, command, blocks }
 }

@@ -49,7 +49,7 @@ pub fn draw(runs: &Runs, registry: &Registry, progress: &mut dyn FnMut(String)) 
     largest.sort_by_key(|own| std::cmp::Reverse(own.scene.mesh.len()));
     let (mut heat, mut errors) = (vec![], vec![]);
     for own in largest.into_iter().take(LARGEST) {
-        progress(format!("draws heat and errors of {}", own.scene.name));
+        progress(format!("drawing heat and errors of {}", own.scene.name));
         let rays = CameraRays::new(own, runs, registry);
         heat.extend(heat::block(&rays));
         errors.extend(errors::block(&rays));
@@ -63,7 +63,7 @@ fn hex([r, g, b]: [u8; 3]) -> String {
 
 /// What was `found`, introduced by a sentence, with its commands; where there is none, that these pictures are missing.
 fn introduced(pictures: &str, sentence: &str, found: Vec<(Block, String)>) -> (Vec<Block>, String) {
-    let note = "Scenes of more than four million triangles are left out: `sahara render` draws them.";
+    let note = "Scenes of more than four million triangles are left out; `sahara render` draws them.";
     let first = match found.is_empty() {
         true => Block::missing(pictures, "sahara compare --dir runs"),
         false => Block::Text(format!("{sentence} {note}")),
@@ -82,6 +82,6 @@ pub fn left_out() -> Vec<Section> {
     vec![
         section("scenes", scenes::TITLE, "Pictures of the scenes"),
         section("heat", heat::TITLE, "Heat maps of the structures"),
-        section("errors", errors::TITLE, "Pictures of wrong answers"),
+        section("errors", errors::TITLE, "Pictures of wrong hits"),
     ]
 }

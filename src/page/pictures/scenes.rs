@@ -46,8 +46,8 @@ fn caption(loaded: &[LoadedScene]) -> String {
     let asked: Vec<String> = asked.collect();
     let asked = if asked.is_empty() { String::new() } else { format!("; seen otherwise: {}", listed(&asked)) };
     format!(
-        "The scenes as they were traced, rendered by sahara. Built-in ones have the source report's cameras, lights and \
-         materials; a mesh has a camera that has it whole in view{asked}."
+        "The traced scenes, rendered by sahara. Built-in scenes use the source report's cameras, lights and \
+         materials; the default camera of a mesh shows all of it{asked}."
     )
 }
 
@@ -67,7 +67,7 @@ pub fn section(pictures: Vec<Picture>, loaded: &[LoadedScene], lost: &[String]) 
         }));
     }
     for name in lost {
-        let what = format!("A picture of {name}: it is not here, or is not what was measured");
+        let what = format!("A picture of {name}: the scene is missing, or has changed since the measurement");
         blocks.push(Block::missing(&what, "sahara render FILE -o F.png"));
     }
     Section { id: "scenes", title: TITLE, command, blocks }

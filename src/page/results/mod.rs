@@ -94,7 +94,7 @@ impl Results {
             let study = studies.iter().find(|study| key.split('.').next() == Some(study.name));
             let study = study.ok_or_else(|| {
                 let known = self.data.statements.keys().map(String::as_str).collect::<Vec<_>>().join(", ");
-                anyhow::anyhow!("README.md marks {key:?}, and there is no such statement; there are: {known}")
+                anyhow::anyhow!("README.md marks {key:?}, but there is no such statement; the statements are: {known}")
             })?;
             let text = format!("Not measured in this run (`{}`).", study.command_line());
             self.data.statements.insert(key, Statement { text, value: None });

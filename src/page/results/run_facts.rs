@@ -35,8 +35,8 @@ impl RunFacts {
                 [] => Ok("unknown".into()),
                 [only] => Ok(only.into()),
                 _ => anyhow::bail!(
-                    "these runs are of more than one {what} ({}): results are of one run; measure all of it anew into \
-                     a folder of its own",
+                    "these runs have more than one {what} ({}), but results come from one run: measure everything \
+                     again into a new folder",
                     values.join(", ")
                 ),
             }

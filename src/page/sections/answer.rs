@@ -63,8 +63,8 @@ fn banner(runs: &Runs) -> String {
     if !runs.commands().iter().any(|command| command.split(' ').any(|word| word == "--quick")) {
         return String::new();
     }
-    "A quick look, for trying out: these runs were made with --quick, on few scenes, few rays and few epochs. Their \
-     numbers and what follows from them mean little; `sahara study all` without --quick measures them."
+    "A quick trial: these runs used --quick, with few scenes, rays and epochs. Their numbers and conclusions mean \
+     little; run `sahara study all` without --quick for real results."
         .into()
 }
 
@@ -149,6 +149,6 @@ fn otherwise(runs: &Runs) -> (String, Answer) {
     }
     answer
         .sentences
-        .push("The source report's question is not measured by these runs: `sahara replicate` measures it.".into());
+        .push("These runs do not measure the source report's question; `sahara replicate` does.".into());
     (title, answer)
 }

@@ -11,8 +11,8 @@ use crate::study::Dataset;
 /// Every machine; `missing` is what no run has measured.
 pub fn section(runs: &Runs, missing: Vec<Block>) -> Section {
     let machines = machines(runs).noted(vec![
-        "Of each scene of a study the cases count that were measured last, with the same settings by one build on one \
-         machine. Of several settings, builds or machines the one with the most cases of a study is shown."
+        "The newest cases of each scene and study count, if they share settings, build and machine. The page shows \
+         the settings, build and machine with the most cases of a study."
             .into(),
     ]);
     let mut blocks = vec![Block::Table(machines)];
@@ -21,7 +21,7 @@ pub fn section(runs: &Runs, missing: Vec<Block>) -> Section {
     if !missing.is_empty() {
         blocks.push(Block::Fold(format!("Not measured: {}", plural(missing.len(), "part")), missing));
     }
-    Section { id: "provenance", title: "Where the numbers come from", blocks, ..Section::default() }
+    Section { id: "provenance", title: "Provenance", blocks, ..Section::default() }
 }
 
 fn machines(runs: &Runs) -> Table {
@@ -55,5 +55,5 @@ fn machines(runs: &Runs) -> Table {
 fn warnings(all: &[&Provenance]) -> Option<Table> {
     let rows = all.iter().flat_map(|p| p.warnings.iter().map(|warning| [command_line(&p.command), warning.clone()]));
     let rows: Vec<[String; 2]> = each_once(rows);
-    (!rows.is_empty()).then(|| Table::of_texts("What spoilt these runs", ["command", "warning"], rows))
+    (!rows.is_empty()).then(|| Table::of_texts("Conditions that disturbed these runs", ["command", "warning"], rows))
 }

@@ -18,21 +18,21 @@ const VERSION: u32 = 1;
 /// Reads the header of a file of `what`, which must begin with `magic`.
 pub(super) fn header(bytes: &[u8], magic: &[u8; 8], what: &str) -> Result<FileHeader, String> {
     if bytes.len() < 8 || bytes[..8] != magic[..] {
-        return Err(format!("this is no file of {what}: it does not begin with {:?}", String::from_utf8_lossy(magic)));
+        return Err(format!("this is not a file of {what}: it does not begin with {:?}", String::from_utf8_lossy(magic)));
     }
     if bytes.len() < HEADER_BYTES {
-        return Err(format!("the file is cut short: {} bytes, fewer than its header has", bytes.len()));
+        return Err(format!("the file is truncated: {} bytes are less than its header", bytes.len()));
     }
     let (version, query) = (number(bytes, 8), number(bytes, 12));
     if version != VERSION {
         return Err(format!(
-            "version {version} of files of {what} is not known here, only {VERSION}: use a newer sahara"
+            "version {version} of files of {what} is unknown, only {VERSION} is supported: use a newer sahara"
         ));
     }
     let query = match query {
         0 => Query::Closest,
         1 => Query::Any,
-        other => return Err(format!("the query {other} is not known: 0 is the closest hit, 1 any hit")),
+        other => return Err(format!("the query {other} is unknown: 0 is closest hit, 1 is any hit")),
     };
     let eight = |at: usize| -> [u8; 8] { bytes[at..at + 8].try_into().expect("eight bytes") };
     Ok(FileHeader { query, count: u64::from_le_bytes(eight(16)), hash: eight(24) })
@@ -61,7 +61,7 @@ pub(super) fn number(bytes: &[u8], at: usize) -> u32 {
 pub(super) fn body(bytes: &[u8], at: usize, count: u64, size: u64) -> Result<&[u8], String> {
     let Some(body) = bytes.get(at..) else {
         return Err(format!(
-            "the file is cut short: it has {} bytes, and the first item begins at byte {at}",
+            "the file is truncated: it has {} bytes, but the first item begins at byte {at}",
             bytes.len()
         ));
     };
@@ -69,8 +69,8 @@ pub(super) fn body(bytes: &[u8], at: usize, count: u64, size: u64) -> Result<&[u
     match count.checked_mul(size) {
         Some(expected) if expected == found => Ok(body),
         Some(expected) if expected < found => {
-            Err(format!("{} bytes follow after the last of {count}: it was changed", found - expected))
+            Err(format!("{} bytes follow the last of {count}: the file was changed", found - expected))
         }
-        _ => Err(format!("the file is cut short: it should hold {count}, and holds {}", found / size)),
+        _ => Err(format!("the file is truncated: it should hold {count}, but holds {}", found / size)),
     }
 }

@@ -77,7 +77,7 @@ impl HitFile {
     pub fn hits_of_rays(&self, rays: &RaysId) -> Result<&[Option<Hit>], String> {
         if self.hash != rays.hash || self.hits.len() != rays.count {
             return Err(format!(
-                "these are the hits of {} rays with the hash {}, not of the {} rays with the hash {}",
+                "these are hits of {} rays with the hash {}, not of the {} rays with the hash {}",
                 self.hits.len(),
                 hexadecimal(&self.hash),
                 rays.count,
@@ -86,7 +86,7 @@ impl HitFile {
         }
         if self.query != rays.query {
             let (theirs, ours) = (self.query.name(), rays.query.name());
-            return Err(format!("these are hits of the query {theirs:?}, and that of the rays is {ours:?}"));
+            return Err(format!("these hits have the query {theirs:?}, but the rays have {ours:?}"));
         }
         Ok(&self.hits)
     }

@@ -24,7 +24,7 @@ pub use rays::RayFile;
 /// Why a file of rays or hits cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
-    #[error("cannot read {}: {cause}: check that it exists and may be read", path.escaped())]
+    #[error("cannot read {}: {cause}: check that it exists and its permissions", path.escaped())]
     Read { path: PathBuf, cause: std::io::Error },
     #[error("{}: {problem}", path.escaped())]
     Content { path: PathBuf, problem: String },

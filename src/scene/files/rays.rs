@@ -55,8 +55,8 @@ impl RayFile {
             !finite || ray.t_min.is_nan() || ray.t_max.is_nan()
         };
         match rays.iter().position(bad) {
-            _ if rays.is_empty() => Err("there is no ray in it".into()),
-            Some(at) => Err(format!("ray {} of {} is not made of finite numbers: {}", at + 1, rays.len(), rays[at])),
+            _ if rays.is_empty() => Err("it has no rays".into()),
+            Some(at) => Err(format!("ray {} of {} has a number that is not finite: {}", at + 1, rays.len(), rays[at])),
             None => Ok(()),
         }
     }
@@ -77,8 +77,8 @@ impl RayFile {
     pub fn check_scene(&self, scene: &Scene) -> Result<(), String> {
         match &self.scene_hash {
             Some(hash) if *hash != scene.hash() => Err(format!(
-                "the rays were recorded for the scene {:?} with the hash {}, and {:?} as it is here has {}: record them \
-                 again, or use the meshes that they were recorded with",
+                "the rays were recorded for the scene {:?} with the hash {}, but {:?} here has {}: record them again, \
+                 or use the original meshes",
                 self.scene,
                 &hash[..16],
                 scene.name,
@@ -106,7 +106,7 @@ impl RayFile {
 
     pub(super) fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
         let FileHeader { query, count, hash } = header(bytes, MAGIC, "rays")?;
-        let short = || "the file is cut short within its header".to_owned();
+        let short = || "the file is truncated in its header".to_owned();
         if bytes.len() < NAMES {
             return Err(short());
         }
@@ -115,7 +115,7 @@ impl RayFile {
         let scene = rest.get(..lengths[0]).ok_or_else(short)?;
         let name = rest[lengths[0]..].get(..lengths[1]).ok_or_else(short)?;
         let text = |bytes: &[u8]| {
-            String::from_utf8(bytes.to_vec()).map_err(|_| "a name in the header is no UTF-8: it was changed".to_owned())
+            String::from_utf8(bytes.to_vec()).map_err(|_| "a name in the header is not UTF-8: the file was changed".to_owned())
         };
         let (scene, name) = (text(scene)?, text(name)?);
         Self::check_names(&scene, &name)?;
@@ -123,7 +123,7 @@ impl RayFile {
         let start = (NAMES + lengths[0] + lengths[1]).next_multiple_of(HEADER_BYTES);
         let body = body(bytes, start, count, 32)?;
         if rays_hash(body) != hash {
-            return Err("the rays do not have the hash that the header says: the file was changed".into());
+            return Err("the rays do not match the hash in the header: the file was changed".into());
         }
         let rays: Vec<Ray> = body.chunks_exact(32).map(ray).collect();
         Self::check(&rays)?;

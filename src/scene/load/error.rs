@@ -9,11 +9,11 @@ use crate::geometry::MeshError;
 /// An error of a mesh file in one line: the file, the location in it, the problem and a remedy.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
-    #[error("{}: its extension is not that of a known format: give an .obj, .ply, .gltf or .glb file", file.escaped())]
+    #[error("{}: unknown extension: use an .obj, .ply, .gltf or .glb file", file.escaped())]
     UnknownFormat { file: PathBuf },
-    #[error("{}: this is a folder: give a mesh file in it, .obj, .ply, .gltf or .glb, or a scene file, .toml", file.escaped())]
+    #[error("{}: this is a folder: name a mesh file in it (.obj, .ply, .gltf or .glb) or a scene file (.toml)", file.escaped())]
     Folder { file: PathBuf },
-    #[error("{}: the file cannot be read ({cause}): check that it exists and may be opened", file.escaped())]
+    #[error("{}: cannot read the file ({cause}): check that it exists and its permissions", file.escaped())]
     Unreadable { file: PathBuf, cause: std::io::Error },
     #[error("{}{location}: {problem}", file.escaped())]
     Malformed { file: PathBuf, location: Location, problem: String },

@@ -73,6 +73,6 @@ fn flatten_bad_normals(model: &mut Model) {
     if flattened > 0 {
         model
             .notes
-            .push(format!("{flattened} triangles have a normal without length or direction: they are shaded flat"));
+            .push(format!("{flattened} triangles have an invalid normal: shaded flat"));
     }
 }

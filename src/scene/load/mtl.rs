@@ -35,7 +35,7 @@ pub(super) fn read(
     let mut paths: Vec<_> = paths.take(MOST_LIBRARIES + 1).collect();
     if paths.len() > MOST_LIBRARIES {
         paths.pop();
-        notes.add(format!("of the material files, only the first {MOST_LIBRARIES} are read"));
+        notes.add(format!("only the first {MOST_LIBRARIES} material files are read"));
     }
     let mut materials = Materials { known: vec![None; numbers.len()], numbers };
     let mut files: HashSet<PathBuf> = HashSet::new();
@@ -44,14 +44,14 @@ pub(super) fn read(
             Ok(path) if !files.insert(canonical(path.clone())) => {}
             Ok(path) => match read_start(&path, u64::MAX) {
                 Ok(bytes) => materials.read_library(&bytes, &path, notes),
-                Err(cause) => notes.add(format!("the materials in {} cannot be read ({cause})", path.escaped())),
+                Err(cause) => notes.add(format!("cannot read the materials in {} ({cause})", path.escaped())),
             },
             Err(problem) => notes.add(problem),
         }
     }
     let textured = [
-        "material has a texture, which is left out: it shows Kd as it is",
-        "materials have textures, which are left out: they show Kd as it is",
+        "material has a texture: ignored, Kd is used",
+        "materials have textures: ignored, Kd is used",
     ];
     notes.count(materials.known.iter().flatten().filter(|(_, has_texture)| *has_texture).count(), textured);
 
@@ -59,7 +59,7 @@ pub(super) fn read(
     names.sort_unstable_by_key(|(_, number)| *number);
     let all = names.into_iter().zip(materials.known).map(|((name, _), known)| {
         if known.is_none() && name != b"default" {
-            notes.add(format!("material {} is in no .mtl file: it is shaded light grey", quoted(&name)));
+            notes.add(format!("material {} is in no .mtl file: shaded light grey", quoted(&name)));
         }
         known.map_or_else(|| Material::named(String::from_utf8_lossy(&name)), |(material, _)| material)
     });
@@ -71,7 +71,7 @@ fn paths<'a>(names: &'a [u8], folder: &'a Path) -> Box<dyn Iterator<Item = Resul
     let path = move |name: &[u8]| {
         let slashes: Vec<u8> = name.iter().map(|&byte| if byte == b'\\' { b'/' } else { byte }).collect();
         named_below(folder, &slashes).ok_or_else(|| {
-            format!("the material file {} is not below the folder of this file: it is not read", quoted(name))
+            format!("the material file {} is outside the folder of this file: not read", quoted(name))
         })
     };
     match path(names) {

@@ -12,7 +12,7 @@ const MOST: usize = 12;
 
 /// The sentence of [`Notes::count`] about faces that make no triangle.
 pub(super) const SMALL_FACES: [&str; 2] =
-    ["face with fewer than three corners is left out", "faces with fewer than three corners are left out"];
+    ["face with fewer than three corners: ignored", "faces with fewer than three corners: ignored"];
 
 impl Notes {
     pub fn add(&mut self, note: impl Into<String>) {
@@ -34,7 +34,7 @@ impl Notes {
 
     pub fn into_vec(mut self) -> Vec<String> {
         if self.more > 0 {
-            self.kept.push(format!("{} more notes on this file are left out", self.more));
+            self.kept.push(format!("{} more notes on this file", self.more));
         }
         self.kept
     }

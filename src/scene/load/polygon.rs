@@ -52,10 +52,10 @@ impl Splitter {
         for (count, what) in [
             (
                 self.crossing,
-                "cross themselves: they are fans around their first corner, which may not be what was meant",
+                "cross themselves: split into fans around their first corner, perhaps not as intended",
             ),
-            (self.bent, "are neither convex nor flat: their surface is one of several that they could mean"),
-            (self.large, "have very many corners and are not convex: they are fans, which may overlap"),
+            (self.bent, "are neither convex nor flat: their surface is ambiguous"),
+            (self.large, "have very many corners and are not convex: split into fans, which may overlap"),
         ] {
             if count > 0 {
                 notes.add(format!("{count} polygons {what}"));

@@ -12,21 +12,21 @@ pub fn figure(number: usize, of_kind: &JudgedRays) -> Figure {
     let JudgedRays { epoch, kind, structures, .. } = of_kind;
     let front = structures.iter().filter(|own| own.dominated_by.is_none()).map(|own| {
         let (ns, error) = (figures(own.ns_per_ray), figures(100.0 * own.error_bound));
-        format!("{}, {ns} ns a ray, error at most {error} %", own.structure.label)
+        format!("{}, {ns} ns per ray, error at most {error} %", own.structure.label)
     });
     let front: Vec<String> = front.collect();
     let few = if structures.len() > LABELLED {
-        format!(" Of more than {LABELLED} points those that are filled are labelled.")
+        format!(" Only filled points are labelled (more than {LABELLED} points).")
     } else {
         String::new()
     };
     Figure {
         id: format!("accuracy-{}-{}-{number}", slug(&epoch.scene), slug(kind)),
         caption: format!(
-            "{}, {} {}: share of wrong answers (missed, invented, or at a wrong depth) against time. Lower and further \
-             left is better; both axes are logarithmic. Labels name the triangle test, colours the structure. Filled: \
-             nothing is faster and less wrong. Arrow: not one wrong answer was seen in n rays; the dot is the upper bound \
-             with 95 % confidence, about 3/n.{few}",
+            "{}, {} {}: share of wrong results (missed, invented, or at a wrong depth) against time. Lower and further \
+             left is better; both axes are logarithmic. Labels name the triangle test, colours the structure. Filled: no \
+             other point is faster and less wrong. Arrow: no wrong result in n rays; the dot is the upper bound with 95 % \
+             confidence, about 3/n.{few}",
             epoch.title(),
             count(of_kind.most(|own| own.errors.rays)),
             of_kind.description()
@@ -53,7 +53,7 @@ fn scatter(of_kind: &JudgedRays) -> Scatter {
     };
     Scatter {
         x_title: "ns per ray, one thread".into(),
-        y_title: "wrong answers, % at most (95 % confidence)".into(),
+        y_title: "wrong results, upper bound in % (95 % confidence)".into(),
         points: of_kind.structures.iter().map(point).collect(),
     }
 }

@@ -23,14 +23,14 @@ pub fn finding(of_kind: &JudgedRays) -> Option<Finding> {
     }
     let rays = count(own.iter().map(|judged| judged.errors.rays).max()?);
     let right = match &right[..] {
-        [] => format!("over no triangle test are all answers right in {rays} rays"),
+        [] => format!("wrong somewhere in {rays} rays over every triangle test"),
         tests => format!("right in all of {rays} rays over {}", listed(tests)),
     };
     let wrong = if wrong.is_empty() { String::new() } else { format!("; wrong over {}", listed(&wrong)) };
     let without = own.iter().filter(|judged| judged.errors.errors() == 0);
     let fastest = without.min_by(|one, other| one.ns_per_ray.total_cmp(&other.ns_per_ray));
     let fastest = fastest.map_or(String::new(), |judged| {
-        format!("; the fastest of ours without an error is {}", judged.structure.label)
+        format!("; the fastest of them without an error is {}", judged.structure.label)
     });
     let (scene, kind) = (of_kind.epoch.title(), of_kind.kind);
     let key = slug(&format!("{} {kind}", of_kind.epoch.scene));

@@ -20,8 +20,8 @@ use crate::report::number::count;
 use crate::report::words::each_once_by;
 use crate::report::{Block, Failure, Report};
 use crate::request::{
-    BRUTE_FORCE, RayKind, RaySource, Scenes, Seconds, StructureRequest, WorkloadRequest, each_kind, guide,
-    known_defect, known_tests, replayed, scene_files, specs, structure,
+    BRUTE_FORCE, MEASURING, RAYS, RayKind, RaySource, STRUCTURES, Scenes, Seconds, StructureRequest, WorkloadRequest,
+    each_kind, guide, known_defect, known_tests, replayed, scene_files, specs, structure,
 };
 use crate::scene::Scene;
 use crate::triangle::{Exact, TriangleTest};
@@ -29,7 +29,7 @@ use judged::{JudgedRays, judged};
 
 pub const STUDY: Study = Study {
     name: "accuracy",
-    question: "What does being right cost: error rates and speed of every structure over every triangle test",
+    question: "Measure error rates and speed of every structure over every triangle test",
     presets: Presets {
         full: "dragon cornellbox -w uniform -w vertex -w grazing",
         quick: "cube -w vertex --rays 500 --runs 2 --budget 1",
@@ -43,28 +43,27 @@ pub const STUDY: Study = Study {
 struct AccuracyArgs {
     #[command(flatten)]
     scenes: Scenes,
-    /// A structure, over every triangle test unless it names one; may be repeated [default: all; brute-force only on
-    /// meshes of at most 5,000 triangles]
-    #[arg(long, short, value_name = "NAME[:key=value,..]")]
+    /// Structure, over every triangle test unless it names one; may be repeated [default: all; brute-force only on meshes
+    /// of at most 5,000 triangles]
+    #[arg(long, short, help_heading = STRUCTURES, value_name = "NAME[:key=value,..]")]
     structure: Vec<String>,
-    /// A triangle test; may be repeated [default: all]
-    #[arg(long, short, value_name = "NAME")]
+    /// Triangle test; may be repeated [default: all]
+    #[arg(long, short, help_heading = STRUCTURES, value_name = "NAME")]
     test: Vec<String>,
-    /// A kind of rays: uniform, edge, vertex, axis, grazing, scale, offset or surface; may be repeated [default: all]
-    #[arg(long, short, value_name = "KIND")]
+    /// Workload: uniform, edge, vertex, axis, grazing, scale, offset or surface; may be repeated [default: all]
+    #[arg(long, short, help_heading = RAYS, value_name = "KIND")]
     workload: Vec<RayKind>,
-    /// Rays of each kind: without an error among n, the error is below about 3/n with 95 % confidence; or a file of
-    /// rays to replay, in place of kinds
-    #[arg(long, value_name = "N|F.rays", default_value = "20000")]
+    /// Rays per workload (0 errors in n rays: error rate below about 3/n with 95 % confidence), or a ray file to replay
+    #[arg(long, help_heading = RAYS, value_name = "N|F.rays", default_value = "20000")]
     rays: RaySource,
-    /// Samples of every structure on every kind of rays
-    #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..))]
+    /// Samples per structure and workload
+    #[arg(long, help_heading = MEASURING, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..))]
     runs: u16,
-    /// Seconds that the samples of a scene may take: what is slow is timed on fewer rays to keep within them
-    #[arg(long, value_name = "SECONDS", default_value_t = BUDGET, allow_negative_numbers = true)]
+    /// Seconds of samples per scene: slow cases are timed on fewer rays
+    #[arg(long, help_heading = MEASURING, value_name = "SECONDS", default_value_t = BUDGET, allow_negative_numbers = true)]
     budget: Seconds,
-    /// Seed of the rays and of the order of samples
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    /// Seed of the rays and of the sample order
+    #[arg(long, help_heading = MEASURING, value_name = "N", default_value_t = 1)]
     seed: u64,
 }
 
@@ -107,8 +106,8 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     let mut plan = Plan::by_epoch(STUDY.name, &planned).by_scene().noting(scenes.iter().map(|(_, scene)| scene));
     if scenes.iter().any(leaves_out) && structures.iter().any(is_left_out) {
         plan.notes.push(format!(
-            "{BRUTE_FORCE} is left out of meshes with more than {} triangles: --structure {BRUTE_FORCE} runs it, on a \
-             part of the rays.",
+            "{BRUTE_FORCE} is skipped on meshes of more than {} triangles; pass --structure {BRUTE_FORCE} to run it on a \
+             subset of the rays.",
             count(SMALL as u64)
         ));
     }
@@ -139,15 +138,15 @@ fn structures(registry: &Registry, named: &[String], tests: &[String]) -> anyhow
         }
     }
     let chosen = each_once_by(chosen, |one, other| one.spec == other.spec);
-    chosen.first().context("none of the structures is offered over the triangle tests asked for: see `sahara list`")?;
+    chosen.first().context("no structure is available over these triangle tests: see `sahara list`")?;
     Ok(chosen)
 }
 
 fn report(dataset: &Dataset, _: &ArgMatches) -> Report {
     let all = judged(dataset);
     let mut blocks = vec![Block::Text(
-        "Exact arithmetic decides for every ray what it truly meets. Kinds of rays are never added up: each fails in \
-         its own way. On the front are those that nothing beats in both speed and error."
+        "Exact arithmetic gives the true hit of every ray. Workloads are never pooled: each fails in its own way. The \
+         front holds the structures that no other one beats in both speed and error."
             .into(),
     )];
     for (i, of_kind) in all.iter().enumerate() {

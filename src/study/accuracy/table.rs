@@ -24,7 +24,7 @@ pub fn table(of_kind: &JudgedRays) -> Table {
     let timed = of_kind.most(|own| own.rays.rays as u64);
     for own in structures.iter().filter(|own| (own.rays.rays as u64) < timed) {
         let [few, all] = [own.rays.rays as u64, timed].map(count);
-        notes.push(format!("{}: timed on {few} of the {all} rays that the others are timed on", own.structure.label));
+        notes.push(format!("{}: timed on {few} of the {all} rays of the others", own.structure.label));
     }
     let tone = |own: &Judged| if own.dominated_by.is_none() { Tone::Best } else { Tone::Plain };
     let errors = |n: u64| Cell::from(n).with(if n > 0 { Tone::Wrong } else { Tone::Plain });
@@ -57,13 +57,14 @@ fn ulps(own: &Judged, value: fn(&Ulps) -> f64) -> Cell {
 
 /// What the columns mean.
 pub const LEGEND: [&str; 4] = [
-    "slowest: nanoseconds that the slowest of the rays takes when it is asked alone, with what asking takes.",
-    "error: share of rays with a wrong answer by exact arithmetic: missed, false hits, or a depth that is off by more \
-     than 4 units in the last place and more than 1e-6; at most: its upper bound with 95 % confidence by Clopper and \
-     Pearson (no error in n rays: about 3/n).",
-    "primitive: hits at a triangle that is not the nearest, by whatever little; not part of the error. ulps: error of \
-     t where the triangle is right; at most 0.5 is correctly rounded.",
-    "dominated by: at most as slow and at most as wrong, and better in one of the two; blank on the front.",
+    "slowest: nanoseconds of the slowest ray, traced alone, including the call.",
+    "error: share of rays with a wrong result by exact arithmetic: a missed hit, a false hit, or a depth that is off by \
+     more than 4 units in the last place and more than 1e-6. at most: its upper bound with 95 % confidence (Clopper and \
+     Pearson; about 3/n for no error in n rays).",
+    "primitive: hits on a triangle that is not the nearest, however small the difference; not part of the error. ulps: \
+     error of t on the correct triangle; at most 0.5 is correctly rounded.",
+    "dominated by: a structure that is at most as slow and at most as wrong, and better in one of the two; blank on the \
+     front.",
 ];
 
 /// One row for each structure and kind of rays.

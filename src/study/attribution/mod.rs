@@ -18,7 +18,8 @@ use super::{Dataset, Plan, PlannedScene, Presets, Settings, Study, claims};
 use crate::registry::Registry;
 use crate::report::Report;
 use crate::request::{
-    Measuring, ScenesAndMeshes, StructureRequest, WorkloadRequest, known_tests, rays_or_all, scene_files, structure,
+    Measuring, RAYS, STRUCTURES, ScenesAndMeshes, StructureRequest, WorkloadRequest, known_tests, rays_or_all,
+    scene_files, structure,
 };
 use crate::scene::WorkloadKind;
 use design::{Treatment, trees};
@@ -27,7 +28,7 @@ const NAME: &str = "attribution";
 
 pub const STUDY: Study = Study {
     name: NAME,
-    question: "How much of the SAH speedup comes from the split plane, the stop rule and the traversal?",
+    question: "Attribute the SAH speedup to the split plane, the stop rule and the traversal",
     presets: Presets { full: "", quick: "torus --rays 1024 --epochs 2 --runs 2 --budget 1" },
     options: || AttributionArgs::augment_args(Command::new(NAME)),
     plan,
@@ -38,14 +39,14 @@ pub const STUDY: Study = Study {
 struct AttributionArgs {
     #[command(flatten)]
     scenes: ScenesAndMeshes,
-    /// The workload
-    #[arg(long, short, value_name = "KIND", default_value = "primary")]
+    /// Workload
+    #[arg(long, short, help_heading = RAYS, value_name = "KIND", default_value = "primary")]
     workload: WorkloadKind,
-    /// Rays of a workload that are timed, at most, in whole tiles of the scene's picture
-    #[arg(long, value_name = "N|all", default_value = "all", value_parser = rays_or_all)]
+    /// Rays to time at most, in whole tiles of the scene's picture
+    #[arg(long, help_heading = RAYS, value_name = "N|all", default_value = "all", value_parser = rays_or_all)]
     rays: usize,
-    /// The triangle test of all trees
-    #[arg(long, short, value_name = "NAME", default_value = "exact")]
+    /// Triangle test of all trees
+    #[arg(long, short, help_heading = STRUCTURES, value_name = "NAME", default_value = "exact")]
     test: String,
     // Claims are judged by these numbers, all of them together: few epochs leave what is sure to luck.
     #[command(flatten)]

@@ -15,9 +15,9 @@ pub fn blocks(results: &[Attribution]) -> Vec<Block> {
     sorted.sort_by_key(|r| HARD.iter().position(|name| r.first().scene == *name).unwrap_or(HARD.len()));
     vec![
         Block::Text(
-            "One kind of tree in every combination of six planes, three stop rules and two traversals. From the \
-             report's tree to the SAH tree three things are switched; each is credited with its gain, averaged over \
-             all orders of switching, so that the parts multiply to the whole."
+            "One tree type in every combination of six split planes, three stop rules and two traversals. The \
+             report's tree and the SAH tree differ in these three factors. Each factor is credited with its gain, \
+             averaged over all orders of switching, so the parts multiply to the whole."
                 .into(),
         ),
         Block::figure(figure(&sorted)),
@@ -35,9 +35,9 @@ fn figure(results: &[&Attribution]) -> Figure {
     let told: Vec<String> = results.iter().map(|r| split(r).sentence).collect();
     Figure {
         id: "attribution".into(),
-        caption: "How many times faster the SAH tree is than the report's, and the factors whose product that is. The \
-                  axis is logarithmic: lengths add up to the whole. Factors below 1 stand to the left. The line below \
-                  a bar is the 95 % interval of the whole."
+        caption: "Speedup of the SAH tree over the report's tree, as a product of factors. The axis is logarithmic: \
+                  lengths add up to the whole. Factors below 1 extend to the left. The line below a bar is the 95 % \
+                  interval of the whole."
             .into(),
         alt: format!("Stacked bar chart. {}", told.join(" ")),
         art: Art::Chart(Chart::Bars(Bars::of_products(
@@ -52,7 +52,7 @@ fn figure(results: &[&Attribution]) -> Figure {
 /// One row for each scene: the answer.
 fn headlines(results: &[&Attribution]) -> Table {
     let table = Table::of(
-        "Speedup of the SAH tree, and what it is due to",
+        "Speedup of the SAH tree and its factors",
         results,
         &[
             ("scene", &|r| r.first().scene_title().into()),
@@ -63,9 +63,9 @@ fn headlines(results: &[&Attribution]) -> Table {
             ("plane alone", &|r| r.plane_alone().into()),
         ],
     );
-    let note = "whole: how many times faster the SAH tree is than the report's; the three parts multiply to it. plane \
-                alone: exact SAH against the report's plane where both stop at 8 triangles, as far as planes divide \
-                them, and have plane intervals. [95 %: of another run of the same plan]";
+    let note = "whole: speedup of the SAH tree over the report's tree; the three parts multiply to it. plane alone: \
+                exact SAH against the report's plane when both stop at 8 triangles, as far as planes divide them, and \
+                use plane intervals. Intervals are 95 % prediction intervals for a rerun.";
     let noise = results.first().and_then(|r| r.noise.log()).unwrap_or(0.0);
     let noise = format!("A/A noise of all scenes: a factor of {:.3}.", libm::exp(noise));
     table.noted(vec![note.into(), noise]).explained()
@@ -92,5 +92,5 @@ pub fn trees(results: &[Attribution]) -> Table {
     let shape = ["references_per_triangle", "sah_cost", "depth", "bytes", "build_ns"];
     let trees: Vec<&Measurement> = results.iter().flat_map(|r| &r.trees).collect();
     push_columns(&mut table, &[&names[..], &shape].concat(), &trees);
-    table.noted(vec!["speedup: over the report's tree, the first. ~: on a part of the rays.".into()]).explained()
+    table.noted(vec!["speedup: over the report's tree, the first row. ~: timed on a subset of the rays.".into()]).explained()
 }

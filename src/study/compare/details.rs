@@ -57,13 +57,12 @@ pub fn pays_off_after(all: &[Measurement], own: &Measurement) -> Option<f64> {
 pub fn legend(first: &str) -> Vec<String> {
     vec![
         format!(
-            "build: seen from outside, median over epochs; peak: most memory held during a build. refs a triangle: references in \
-             leaves for each triangle; SAH cost: expected triangle tests of a random line. tests, steps: triangle tests and \
-             nodes entered for each {first} ray."
+            "build: wall time, median over epochs. peak: largest memory use during a build. refs a triangle: leaf \
+             references per triangle. SAH cost: expected triangle tests of a random line. tests, steps: triangle \
+             tests and entered nodes per {first} ray."
         ),
-        "checked: rays whose answers were checked; sampled: share of the rays that was timed. Both are of \
-         the first workload. pays off: rays after which a slower build is made up for, against the structure that is built the \
-         fastest. Empty: unknown, or never."
+        "checked: checked rays; sampled: share of timed rays; both for the first workload. pays off: rays after which \
+         a slower build breaks even with the fastest build. Empty: unknown or never."
             .into(),
     ]
 }

@@ -58,14 +58,15 @@ pub fn mean_table(all: &[Measurement], references: &[Reference]) -> Table {
     let wrong = untimed().filter(|r| r.is_disqualified() || r.declined.is_none()).count();
     let declined = untimed().count() - wrong;
     let mut notes = vec![];
-    for (n, why) in [(wrong, "with wrong answers"), (declined, "that a structure declines")] {
+    for (n, why) in [(wrong, "with wrong hits"), (declined, "that a structure declines")] {
         if n > 0 {
-            notes.push(format!("{} {why} left out.", plural(n, "case")));
+            notes.push(format!("{} {why}: left out.", plural(n, "case")));
         }
     }
     if table.rows.iter().flatten().any(|cell| !cell.note.is_empty()) {
         notes.push(
-            "(n of m): the mean is over n of the m cases in which the reference has a time; it cannot be ranked with the others."
+            "(n of m): mean over n of the m cases in which the reference has a time; not comparable with the other \
+             rows."
                 .into(),
         );
     }
@@ -79,5 +80,5 @@ fn uneven(all: &[Measurement]) -> Option<String> {
     let epochs = || all.iter().filter(|r| r.mrays_per_s.is_some()).map(|r| r.epochs);
     let (least, most) = (epochs().min()?, epochs().max()?);
     let first = if least == 1 { "the first".to_owned() } else { format!("the first {least}") };
-    (least < most).then(|| format!("Scenes have {least} to {most} epochs: intervals of means are of {first} of each."))
+    (least < most).then(|| format!("Scenes have {least} to {most} epochs: intervals of means use {first} of each."))
 }

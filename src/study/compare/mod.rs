@@ -22,6 +22,7 @@ use crate::report::{Failure, Report};
 use options::{CompareArgs, NAME};
 pub use rank::FASTEST;
 use rank::Ranking;
+use table::refusals;
 pub use reference::Reference;
 
 /// The structures of `study all`: all names, and each again over a triangle test of the other precision.
@@ -57,12 +58,19 @@ fn report(dataset: &Dataset, matches: &ArgMatches) -> Report {
     }
 }
 
-/// The tables tell them, but for the ray that shows a structure wrong: it is told once for each structure.
+/// The tables show them, but for the ray that shows a structure wrong and the reason of a refusal: each is said once.
 fn failures(dataset: &Dataset) -> Vec<Failure> {
     let mut told: Vec<String> = vec![];
     let mut failures = dataset.failures();
+    let scenes = dataset.scenes();
+    let refused = scenes.iter().flat_map(|scene| &scene.epochs[0].structures);
+    let refused: Vec<_> = refused.filter(|own| own.refused.is_some() && !own.is_twin()).collect();
+    let mut reasons = refusals(&refused).into_iter();
     for own in &mut failures {
-        if !own.wrong || known_defect(&own.structure).is_some() || told.contains(&own.structure) {
+        if own.refused && !refused.is_empty() {
+            // There are no fewer refusals than reasons.
+            own.sentence = reasons.next().unwrap_or_default();
+        } else if !own.wrong || known_defect(&own.structure).is_some() || told.contains(&own.structure) {
             own.sentence.clear();
         } else {
             told.push(own.structure.clone());

@@ -9,8 +9,8 @@ use crate::measure::{Provenance, Threads};
 use crate::registry::{Registry, is_named};
 use crate::report::words::each_once_by;
 use crate::request::{
-    BRUTE_FORCE, Limit, Measuring, RaySource, SceneRequest, Scenes, Seconds, StructureRequest, Structures, ViewArgs,
-    WORKLOADS, WorkloadRequest, each_kind, is_obvhs, left_out, replayed, scene_files, structures_at, with_twin,
+    BRUTE_FORCE, Limit, MEASURING, Measuring, OUTPUT, RAYS, RaySource, STRUCTURES, SceneRequest, Scenes, Seconds,
+    StructureRequest, Structures, ViewArgs, WORKLOADS, WorkloadRequest, each_kind, is_obvhs, left_out, replayed, scene_files, structures_at, with_twin,
 };
 use crate::scene::{Scene, WorkloadKind};
 use crate::study::case::SLOWEST;
@@ -27,43 +27,41 @@ pub struct CompareArgs {
     pub from: ViewArgs,
     #[command(flatten)]
     pub structures: Structures,
-    /// External program (with arguments) to benchmark as a structure; it times itself. May be repeated; `-s none` omits
-    /// the built-in structures. FORMAT.md of the ray files specifies its input and output
-    #[arg(long, value_name = "[NAME=]COMMAND")]
+    /// External program, with arguments, to benchmark as a structure; it times itself (protocol: FORMAT.md). May be
+    /// repeated; `-s none` omits the built-in structures
+    #[arg(long, value_name = "[NAME=]COMMAND", help_heading = STRUCTURES)]
     pub runner: Vec<String>,
     /// Timeout in seconds for each reply of an external program, including builds
-    #[arg(long, value_name = "SECONDS", requires = "runner", default_value_t = RUNNER_LIMIT, allow_negative_numbers = true)]
+    #[arg(long, help_heading = STRUCTURES, value_name = "SECONDS", requires = "runner", default_value_t = RUNNER_LIMIT, allow_negative_numbers = true)]
     pub runner_limit: Seconds,
-    /// The structure that speeds are related to; measured even if it is not among those named [default: median-kd and
-    /// the better obvhs BVH; without them the first one]
-    #[arg(long, value_name = "NAME[:key=value,..]")]
+    /// Structure that speeds are relative to; always measured [default: median-kd and the better obvhs BVH, if measured,
+    /// else the first structure]
+    #[arg(long, help_heading = STRUCTURES, value_name = "NAME[:key=value,..]")]
     pub reference: Option<String>,
-    /// A gate: measure this structure, or the --runner of this name, and the reference, by default obvhs-bvh2, nothing else
-    #[arg(long, value_name = "NAME[:key=value,..]", conflicts_with_all = ["structure", "quick"])]
+    /// Measure only this structure, or the --runner of this name, and the reference (default: obvhs-bvh2), for a gate
+    #[arg(long, help_heading = STRUCTURES, value_name = "NAME[:key=value,..]", conflicts_with_all = ["structure", "quick"])]
     pub only: Option<String>,
-    /// Refuse, before anything is built, what `diff` could not compare with this run: a file of --export-json, or a folder
-    /// of --dir
-    #[arg(long, value_name = "RUN")]
+    /// Stop before the first build if `diff` could not compare the results with this run: a file of --export-json or a
+    /// folder of --dir
+    #[arg(long, help_heading = MEASURING, value_name = "RUN")]
     pub like: Option<PathBuf>,
-    /// A workload; may be repeated [default: primary, shadow, diffuse, random]
-    #[arg(long, short, value_name = "KIND")]
+    /// Workload; may be repeated [default: primary, shadow, diffuse, random]
+    #[arg(long, short, help_heading = RAYS, value_name = "KIND")]
     pub workload: Vec<WorkloadKind>,
-    /// Rays of a workload that are timed, at most, in whole tiles of the scene's picture; or a file of rays
-    #[arg(long, value_name = "N|all|F.rays", default_value = "all")]
+    /// Rays to time per workload at most, or a ray file to replay
+    #[arg(long, help_heading = RAYS, value_name = "N|all|F.rays", default_value = "all")]
     pub rays: RaySource,
     #[command(flatten)]
     pub measuring: Measuring<4, 1, 2>,
-    /// A coarse answer within seconds: up to three epochs of few rays, without brute-force unless it is named, and no
-    /// further epoch that would take a scene beyond 4 s
-    #[arg(long, conflicts_with_all = ["epochs", "runs", "budget"])]
+    /// Coarse result in seconds: few rays, up to three epochs and about 4 s per scene; no brute-force unless named
+    #[arg(long, help_heading = MEASURING, conflicts_with_all = ["epochs", "runs", "budget"])]
     pub quick: bool,
-    /// Time limit of a build in seconds [default: 60 + 30 per million triangles; with --quick 10 + 10; none
-    /// with --budget none]
-    #[arg(long, value_name = "SECONDS|none", value_parser = Limit::parse, allow_negative_numbers = true)]
+    /// Time limit of a build in seconds [default: 60 + 30 per million triangles; with --quick 10 + 10; none with --budget
+    /// none]
+    #[arg(long, help_heading = MEASURING, value_name = "SECONDS|none", value_parser = Limit::parse, allow_negative_numbers = true)]
     pub build_limit: Option<Limit>,
-    /// Print all columns: builds, memory, the shape of the trees, tests, steps, checks, ratios to both references, and
-    /// after how many rays a build pays off
-    #[arg(long)]
+    /// Print all columns: builds, memory, tree shape, tests, steps, checks, both ratios, and when a build pays off
+    #[arg(long, help_heading = OUTPUT)]
     pub wide: bool,
 }
 
@@ -105,7 +103,7 @@ impl CompareArgs {
             let runner = StructureRequest::of_runner(command, self.runner_limit.seconds())?;
             anyhow::ensure!(
                 structures.iter().all(|other| other.spec != runner.spec || *other == runner),
-                "--runner {command:?} and another one have one name, {}: rename one of the programs",
+                "--runner {command:?} and another runner share the name {}: rename one with NAME=COMMAND",
                 runner.spec
             );
             structures.push(runner);
@@ -124,7 +122,7 @@ impl CompareArgs {
             let other =
                 structures.iter().find(|own| own.runner.is_some() && !asked().any(|asked| is_named(&own.spec, asked)));
             if let Some(other) = other {
-                anyhow::bail!("--only {name} measures nothing else: leave the runner {} out", other.spec);
+                anyhow::bail!("--only {name} measures nothing else: omit the runner {}", other.spec);
             }
         }
         // Both sides of a gate are timed on all rays.

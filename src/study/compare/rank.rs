@@ -76,8 +76,10 @@ impl<'a> Ranking<'a> {
         let right: Vec<&Ranked> = precise.iter().copied().filter(|row| !errs(row)).collect();
         let ranks = [("right", "with right answers", &right), ("single", "in single precision", &single)];
         let firsts = ranks.into_iter().filter_map(|(key, words, rows)| self.first(key, words, rows));
-        let (mut found, fastest): (Vec<Finding>, Vec<Finding>) = firsts.unzip();
-        found.extend(self.cost(&precise, &single));
+        let (firsts, fastest): (Vec<Finding>, Vec<Finding>) = firsts.unzip();
+        let mut found: Vec<Finding> =
+            firsts.into_iter().enumerate().map(|(i, own)| if i > 0 { own.detail() } else { own }).collect();
+        found.extend(self.cost(&precise, &single).map(Finding::detail));
         found.extend(self.ranked.iter().filter_map(|row| self.brought(row)));
         // What is right is the fastest, if anything is.
         found.extend(fastest.into_iter().next());

@@ -26,12 +26,12 @@ pub fn checked(all: &[Measurement]) -> Option<Finding> {
     };
     let erring: Vec<String> = distinct(all.iter().map(|r| &r.label)).iter().filter_map(of).collect();
     let erring =
-        if erring.is_empty() { String::new() } else { format!(" Wrong answers, and so no time: {}.", listed(&erring)) };
+        if erring.is_empty() { String::new() } else { format!(" Wrong, so not timed: {}.", listed(&erring)) };
     let (wrong, rays) = sum(&|r| r.declined.is_none() && known_defect(&r.structure).is_none());
-    let wrong = if wrong == 0 { "none".into() } else { count(wrong) };
     let sentence = format!(
-        "Of {} answers of structures without known defects, held against another tree, brute force and exact arithmetic, \
-         {wrong} is wrong.{erring}",
+        "Wrong hits: {} in {} checked rays (by another tree, brute force and exact arithmetic; known defects \
+         excluded).{erring}",
+        count(wrong),
         count(rays)
     );
     (rays > 0).then(|| Finding::new("checked", sentence))
@@ -127,7 +127,7 @@ fn bars(all: &[Measurement]) -> Figure {
         match all.iter().find(|r| r.workload == *workload && r.label == *label) {
             None => Bar::Missing("not measured".into()),
             Some(own) if own.declined.is_some() => Bar::Missing("declined".into()),
-            Some(own) if own.is_disqualified() => Bar::Missing("wrong answers".into()),
+            Some(own) if own.is_disqualified() => Bar::Missing("wrong hits".into()),
             Some(own) => ratio(own).map_or(Bar::Missing("not timed".into()), Bar::Of),
         }
     };
@@ -152,8 +152,8 @@ fn bars(all: &[Measurement]) -> Figure {
     Figure {
         id: format!("speed-{}", slug(&all[0].scene)),
         caption: format!(
-            "{name}, {} triangles: speed as a multiple of {unit} on the same rays, longer is faster. Whiskers are 95 % intervals; \
-             the axis is logarithmic.",
+            "{name}, {} triangles: speed as a multiple of {unit} on the same rays; longer is faster. Whiskers are 95 % intervals. \
+             The axis is logarithmic.",
             count(all[0].triangles as u64)
         ),
         alt: format!("Bar chart for {name}. Fastest against {unit} by workload: {fastest}."),

@@ -22,21 +22,21 @@ pub fn legend(all: &[Measurement], references: &[Reference]) -> Vec<String> {
     if all.iter().any(|r| r.epochs > 1) {
         ratios += ", with 95 % prediction intervals for a rerun on a quiet machine; =: not distinguishable from 1";
     }
-    let mut speeds = "Under each kind of rays: million rays a second, median".to_owned();
+    let mut speeds = "Workload columns: million rays per second, median".to_owned();
     if all.iter().any(Measurement::is_disqualified) {
-        speeds += "; n/m wrong: wrong answers to n of m rays, and then no time";
+        speeds += "; n/m wrong: wrong hits on n of m rays, so no time";
     }
     if all.iter().any(|r| r.mrays_per_s.is_some() && r.sampled) {
         speeds += "; ~: timed on a subset of the rays";
     }
     if all.iter().any(|r| r.query == Query::Any) {
-        speeds += "; *: timed by any hit, the others by closest hit";
+        speeds += "; *: any hit, the others closest hit";
     }
     let mut legend = vec![speeds + ".", ratios + "."];
     let has = |part: &str| all.iter().any(|r| r.label.contains(part));
     if has(PACKETS) {
-        let obvhs = if has("obvhs") { "; obvhs has no such call, and answers ray by ray" } else { "" };
-        legend.push(format!("{PACKETS}: asked for many rays in one call{obvhs}."));
+        let obvhs = if has("obvhs") { "; obvhs has no such call and traces single rays" } else { "" };
+        legend.push(format!("{PACKETS}: many rays per call{obvhs}."));
     }
     legend
 }
@@ -52,7 +52,7 @@ pub fn refusals(refused: &[&Structure]) -> Vec<String> {
 
 /// A scene whose structures are all refused.
 pub fn nothing_measured(scene: &str, refused: &[&Structure]) -> Table {
-    let title = format!("{scene}: every structure is refused, or no ray is left");
+    let title = format!("{scene}: every structure failed to build, or no ray is left");
     Table::of(title, refused, &[("structure", &|own| (&own.label).into())]).of_one_scene()
 }
 
@@ -115,10 +115,10 @@ pub(super) fn control(all: &[Measurement]) -> Option<String> {
     let (twins, label) = (trace_noise(all), &all.iter().find(|r| r.twin_samples_ns.is_some())?.label);
     let noise = libm::exp(twins.log()?) - 1.0;
     let holding = twins.holding_one();
-    let holding = holding.map_or(String::new(), |(n, all)| format!("; {n} of {all} ratios hold 1 in their intervals"));
+    let holding = holding.map_or(String::new(), |(n, all)| format!("; {n} of {all} intervals contain 1"));
     // What the epochs scatter by may hide it: that is no proof of none.
     let noise = match noise {
-        0.0 => "not seen above the scatter of the epochs".into(),
+        0.0 => "none beyond the variation of the epochs".into(),
         _ => format!("{}%", figures(noise * 100.0)),
     };
     Some(format!("A/A noise ({label} twice): {noise}{holding}."))
@@ -133,7 +133,7 @@ fn defects(all: &[Measurement]) -> Vec<String> {
             format!("{} of {} {}", count(r.structure_errors as u64), count(r.checked_rays as u64), r.workload)
         };
         let shares: Vec<String> = wrong().map(share).collect();
-        Some(format!("{label} answers {} rays wrong; its known defects: {defect}.", shares.join(", ")))
+        Some(format!("{label} returns wrong hits on {} rays; known defects: {defect}.", shares.join(", ")))
     };
     distinct(all.iter().map(|r| &r.label)).iter().filter_map(note).collect()
 }
@@ -148,7 +148,7 @@ fn unfit_tests(all: &[Measurement]) -> Vec<String> {
     let note = |own: &Measurement| {
         let hits = exact(own).filter(|&hits| 100 * hits.abs_diff(own.hits) > hits)?;
         Some(format!(
-            "By {} {} of {} {} rays hit something, by exact arithmetic {}: its speed is one of wrong answers.",
+            "{} finds hits for {} of {} {} rays, exact arithmetic for {}: its speed is that of a wrong result.",
             own.triangle_test,
             count(own.hits as u64),
             count(own.counted_rays as u64),

@@ -17,7 +17,7 @@ pub fn figure(scenes: &[Vec<Measurement>], references: &[Reference]) -> Option<F
         least.map_or(String::new(), |point| point.label.clone())
     };
     let alt = format!(
-        "Scatter plot of {} structures on {}, {} rays: the fastest is {}, the smallest {}, the first that is built {}.",
+        "Scatter plot of {} structures on {}, {} rays: fastest {}, smallest {}, fastest build {}.",
         first.points.len(),
         first.scene,
         first.workload,
@@ -29,10 +29,11 @@ pub fn figure(scenes: &[Vec<Measurement>], references: &[Reference]) -> Option<F
     Some(Figure {
         id: "tradeoff".into(),
         caption: format!(
-            "{}, {} rays: speed against what it costs; higher is faster, further left is cheaper, and both axes are logarithmic. \
-             On the page any scene and kind of rays can be chosen, and time of the build in place of memory. There the solid line joins \
-             what nothing beats in both; over time of the build a dashed one passes through all that would be done with their build and \
-             so many rays as soon as the first. All are medians, on the same rays for all; their intervals are in the tables. Brute force is left out.",
+            "{}, {} rays: speed against memory. Higher is faster, further left is smaller; both axes are logarithmic. \
+             The page lets readers choose scene, workload and build time instead of memory. The solid line joins the \
+             structures that no other one beats in both. On the plot over build time a dashed line joins structures \
+             that finish build and the chosen number of rays at the same time as the first. Points are medians on the \
+             same rays; the tables have their intervals. Brute force is left out.",
             first.scene, first.workload
         ),
         alt,

@@ -33,7 +33,7 @@ use crate::request::{REPORT_TREE, known_defect};
 use keys::other_keys;
 
 pub use read::read;
-pub use table::{sentences, tables};
+pub use table::{cautions, sentences, tables};
 pub use unlike::{Unlike, settings, unlike, unlike_plan};
 
 /// One of the two runs.
@@ -258,12 +258,12 @@ fn wrong(old: &Measurement, new: &Measurement) -> Option<Wrong> {
     let known = known_defect(&new.structure).is_some();
     let more = errors > 0 && !known && (old.structure_errors == 0 || rate(new) > 2.0 * rate(old));
     let what = if more {
-        format!("{errors} of {checked} answers are wrong, {} of {} were", old.structure_errors, old.checked_rays)
+        format!("{errors} of {checked} rays have a wrong hit, {} of {} had", old.structure_errors, old.checked_rays)
     } else if old.triangle_test != new.triangle_test {
         // Another test has other hits: each is held against its own by the checks of its run.
         return None;
     } else if old.counted_rays == new.counted_rays && old.hits != new.hits {
-        format!("{} of {} rays hit, {} did", new.hits, new.counted_rays, old.hits)
+        format!("{} of {} rays hit, {} did before", new.hits, new.counted_rays, old.hits)
     } else if old.rays == new.rays && old.answers.is_some() && new.answers.is_some() && old.answers != new.answers {
         "hits have another t or primitive".into()
     } else {

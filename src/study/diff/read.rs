@@ -15,10 +15,10 @@ use crate::study::journal::{CaseFile, JournalError, files, newest};
 pub fn read(path: &Path) -> anyhow::Result<Dataset> {
     let found = if path.is_dir() { of_folder(path)? } else { Some(of_export(path)?) };
     let found = found.filter(|own| !own.measured.is_empty());
-    found.ok_or_else(|| anyhow::anyhow!("{} holds nothing that was measured: {ADVICE}", path.escaped()))
+    found.ok_or_else(|| anyhow::anyhow!("{} has no results: {ADVICE}", path.escaped()))
 }
 
-const ADVICE: &str = "give a file of `--export-json`, or a folder of `--dir`";
+const ADVICE: &str = "name a file of `--export-json` or a folder of `--dir`";
 
 fn of_folder(path: &Path) -> anyhow::Result<Option<Dataset>> {
     let mut paths = files(path)?;
@@ -44,7 +44,7 @@ fn of_export(path: &Path) -> anyhow::Result<Dataset> {
     let text =
         std::fs::read(path).map_err(|cause| anyhow::anyhow!("cannot read {} ({cause}): {ADVICE}", path.escaped()))?;
     let value: Value = serde_json::from_slice(&text)
-        .map_err(|cause| anyhow::anyhow!("{} is torn or no JSON ({cause}): {ADVICE}", path.escaped()))?;
-    anyhow::ensure!(Dataset::is_dataset(&value), "{} is no export of a study: {ADVICE}", path.escaped());
+        .map_err(|cause| anyhow::anyhow!("{} is truncated or not JSON ({cause}): {ADVICE}", path.escaped()))?;
+    anyhow::ensure!(Dataset::is_dataset(&value), "{} is not an export of a study: {ADVICE}", path.escaped());
     Ok(Dataset::read(path, value)?)
 }

@@ -11,6 +11,27 @@ pub fn tables(comparison: &Comparison) -> Vec<Table> {
     [structures(comparison), cells(comparison)].map(Table::explained).into()
 }
 
+/// What may change the reading of the tables: other hits, machines or settings, and times without a reference.
+pub fn cautions(comparison: &Comparison) -> Vec<String> {
+    let mut cautions: Vec<String> =
+        comparison.wrong.iter().map(|wrong| format!("Wrong: {}: {}.", wrong.case, wrong.what)).collect();
+    if comparison.references.is_empty() {
+        let sentence = "Times are not normalised, because the runs share no obvhs structure over its own triangle test: a \
+                        slower machine counts as a change.";
+        cautions.push(sentence.into());
+    }
+    cautions.extend(comparison.machines.as_ref().map(|[old, new]| {
+        // The lanes stand in brackets.
+        let cpu = |machine: &String| machine.rsplit_once(" (").map(|(cpu, _)| cpu.to_owned());
+        let two = if cpu(old) == cpu(new) { "Two instruction sets" } else { "Two machines" };
+        format!("{two}, {old} and {new}: they may cause a change, not the code.")
+    }));
+    if !comparison.settings.is_empty() {
+        cautions.push(format!("Settings differ: {}.", listed(&comparison.settings)));
+    }
+    cautions
+}
+
 /// What a gate says of each structure, in a sentence: whether it is right, and how its time has changed.
 pub fn sentences(comparison: &Comparison) -> Vec<String> {
     let Some(threshold) = comparison.threshold_percent.map(figures) else { return vec![] };
@@ -18,15 +39,15 @@ pub fn sentences(comparison: &Comparison) -> Vec<String> {
         let wrong = comparison.wrong.iter().filter(|wrong| wrong.structure == change.structure).count();
         let right = match wrong {
             0 => format!("right on {} checked rays", count(change.checked_rays as u64)),
-            n => format!("wrong or other answers in {}", plural(n, "cell")),
+            n => format!("wrong or other hits in {}", plural(n, "cell")),
         };
         let slower = || change.time.map_or(String::new(), slower);
         let speed = match change.finding {
             Finding::Faster | Finding::Slower | Finding::Regression => slower(),
             Finding::NoDifference => format!("no change beyond noise, {}", slower()),
-            Finding::Inconclusive => format!("inconclusive, as the interval contains {threshold} %: {}", slower()),
+            Finding::Inconclusive => format!("inconclusive, the interval contains {threshold} %: {}", slower()),
             Finding::Unknown if change.time.is_some() => {
-                "one epoch tells no change of time: measure more with --epochs".into()
+                "one epoch shows no change of time: measure more with --epochs".into()
             }
             Finding::Unknown => "no time to compare".into(),
         };
@@ -55,38 +76,25 @@ fn structures(comparison: &Comparison) -> Table {
         let worst = worst.map_or(Cell::empty(), |cell| percent(cell).noted(place(cell)));
         vec![Cell::from(&change.structure), percent(change), word(change), change.cells.into(), worst]
     });
-    let by = if comparison.references.is_empty() {
-        "Times are compared as they are, for the runs have no structure of obvhs over its own triangle test in common: a machine that was slower counts as a change."
-            .to_owned()
-    } else {
-        format!("Normalised by {}, measured in the same rounds.", comparison.references.join(" and "))
-    };
     let looked_for = comparison.threshold_percent.map(|percent| {
         let percent = figures(percent);
         format!(
-            "Regression: {percent}% slower or more, and surely slower. Inconclusive: the interval contains {percent}%."
+            "Regression: {percent}% slower or more, with an interval above 0. Inconclusive: the interval contains {percent}%."
         )
     });
-    let mut notes = vec![by];
-    notes.extend(comparison.machines.as_ref().map(|[old, new]| {
-        // The lanes stand in brackets.
-        let cpu = |machine: &String| machine.rsplit_once(" (").map(|(cpu, _)| cpu.to_owned());
-        let two = if cpu(old) == cpu(new) { "Two sets of lanes" } else { "Two machines" };
-        format!("{two}, {old} and {new}: what has changed may be due to them and not to the code.")
-    }));
-    if !comparison.settings.is_empty() {
-        notes.push(format!("Settings differ: {}.", listed(&comparison.settings)));
+    let mut notes = vec![];
+    if !comparison.references.is_empty() {
+        notes.push(format!("Normalised by {}, measured in the same rounds.", comparison.references.join(" and ")));
     }
     notes.push(format!(
-        "Each interval allows for {} judged together{}: in 95 % of the cases all of them hold.",
+        "The 95 % intervals hold jointly for {}{}.",
         plural(comparison.structures.len(), "structure"),
-        if comparison.looks > 1 { format!(" at up to {} looks", comparison.looks) } else { String::new() }
+        if comparison.looks > 1 { format!(" and up to {} looks", comparison.looks) } else { String::new() }
     ));
     notes.extend(looked_for);
-    notes.extend(comparison.wrong.iter().map(|wrong| format!("Wrong: {}: {}.", wrong.case, wrong.what)));
     for (only, whose) in [(&comparison.only_old, "old"), (&comparison.only_new, "new")] {
         if let Some(first) = only.first() {
-            notes.push(format!("{} in the {whose} run alone, as {first}.", plural(only.len(), "case")));
+            notes.push(format!("{} only in the {whose} run, e.g. {first}.", plural(only.len(), "case")));
         }
     }
     let differ = if comparison.differences.is_empty() {
@@ -119,8 +127,8 @@ fn cells(comparison: &Comparison) -> Table {
     let share = |n: usize| format!("{n} of {ratios} ({}%)", figures(100.0 * n as f64 / ratios as f64));
     let reproduced = (ratios > 0).then(|| {
         format!(
-            "Of the ratios to the report's tree and to obvhs, {} of the old run lie within the new run's intervals, {} of the new within \
-             the old's; {} have not changed, by intervals of the change, which know the spread of both.",
+            "Ratios to the report's tree and to obvhs: {} of the old run lie within the new run's intervals, {} of the new run \
+             within the old run's; {} have not changed, by intervals of the change, which include the spread of both runs.",
             share(old_in_new),
             share(new_in_old),
             share(unchanged)

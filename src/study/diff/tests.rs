@@ -83,7 +83,7 @@ fn without_references_times_count_as_they_are() {
     assert!(comparison.references.is_empty());
     assert!((change_of(&comparison, "sah-kd").time.unwrap().estimate - 1.5).abs() < 1e-9);
     assert_eq!(change_of(&comparison, "sah-kd").finding, Finding::Slower);
-    assert!(tables(&comparison)[0].notes[0].contains("as they are"));
+    assert!(cautions(&comparison)[0].contains("not normalised"));
 }
 
 #[test]
@@ -206,7 +206,7 @@ fn what_weighs_most_decides_and_settings_that_differ_are_named() {
     other.settings.threads = 2;
     assert_eq!(settings(&case, &other), ["threads 1 and 2"]);
     let named = Comparison { settings: settings(&case, &other), ..comparison };
-    assert!(tables(&named)[0].notes.iter().any(|note| note == "Settings differ: threads 1 and 2."));
+    assert!(cautions(&named).iter().any(|note| note == "Settings differ: threads 1 and 2."));
 }
 
 #[test]
@@ -225,7 +225,7 @@ fn cases_of_one_run_alone_are_named() {
     let comparison = compare(&old, &new, None, 1);
     assert_eq!(comparison.only_old, ["sah-kd on the primary rays of Cube"]);
     assert!(comparison.only_new.is_empty());
-    assert!(tables(&comparison)[0].notes.iter().any(|note| note.contains("old run alone")));
+    assert!(tables(&comparison)[0].notes.iter().any(|note| note.contains("only in the old run")));
     new = run(1.0, 1.0);
     (new[1].samples_ns, new[1].trace_ns) = (vec![], None);
     let comparison = compare(&old, &new, Some(5.0), 1);
@@ -278,7 +278,7 @@ fn twelve_structures_and_several_looks_do_not_make_a_false_alarm() {
     assert!(alarms(10) <= 2.0, "{} %", alarms(10));
     let comparison = compare(&noise(12, 1), &noise(12, 2), Some(5.0), 10);
     let note = tables(&comparison)[0].notes[1].clone();
-    assert!(note.contains("12 structures judged together at up to 10 looks"), "{note}");
+    assert!(note.contains("12 structures and up to 10 looks"), "{note}");
 }
 
 #[test]

@@ -10,7 +10,7 @@ use crate::study::{Case, Dataset};
 
 /// Why two runs cannot be compared: what differs, in the old run and in the new.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the runs are unlike: {what} is {old} in the old and {new} in the new: {advice}")]
+#[error("the runs are not comparable: {what} is {old} in the old run and {new} in the new: {advice}")]
 pub struct Unlike {
     pub what: String,
     pub old: String,
@@ -19,13 +19,13 @@ pub struct Unlike {
 }
 
 const SAME_MACHINE: &str = "measure both on the same machine, with the same options";
-const SAME_UNIT: &str = "on two machines only ratios to a structure of obvhs over its own triangle test are compared, and these \
-                         runs have no such structure in common";
-const SAME_INPUT: &str = "measure the old one again on the same scenes and rays";
-const SAME_BUILD: &str = "build both alike";
+const SAME_UNIT: &str = "two machines are compared by ratios to an obvhs structure over its own triangle test: measure such a \
+                         structure in both runs";
+const SAME_INPUT: &str = "measure the old run again on the same scenes and rays";
+const SAME_BUILD: &str = "build both in the same way";
 const SAME_RAYS: &str = "measure both with --budget none, which times all rays";
-const YARDSTICK: &str = "a gate judges changes relative to a reference in the same rounds: measure both sides with --budget none, \
-                         which measures obvhs-bvh2 as well, or name another structure with --reference";
+const YARDSTICK: &str = "a gate needs a reference that both runs time in the same rounds: measure both with --budget none, which \
+                         includes obvhs-bvh2, or name another structure with --reference";
 
 fn differ(what: &str, old: &str, new: &str, advice: &'static str) -> Result<(), Unlike> {
     if old == new { Ok(()) } else { Err(Unlike { what: what.into(), old: old.into(), new: new.into(), advice }) }
@@ -43,7 +43,7 @@ pub fn unlike(old: &Side, new: &Side, gate: bool) -> Result<(), Unlike> {
     if pairs.is_empty() {
         let whose = |side: &Side| side.all.first().map_or("nothing".into(), case);
         let (old, new) = (whose(old), whose(new));
-        return Err(Unlike { what: "every case, as the first,".into(), old, new, advice: SAME_INPUT });
+        return Err(Unlike { what: "the first case".into(), old, new, advice: SAME_INPUT });
     }
     let (a, b) = (&old.provenance, &new.provenance);
     if gate || !has_unit {
@@ -79,16 +79,16 @@ pub fn unlike(old: &Side, new: &Side, gate: bool) -> Result<(), Unlike> {
         };
         // What both have is timed on other scenes or rays.
         let (old, new) = (timed(old), timed(new));
-        return Err(Unlike { what: "the yardstick".into(), old, new, advice: YARDSTICK });
+        return Err(Unlike { what: "the reference".into(), old, new, advice: YARDSTICK });
     }
     Ok(())
 }
 
 fn other_machine(old: &Provenance, new: &Provenance, advice: &'static str) -> Result<(), Unlike> {
     differ("the processor", &old.cpu, &new.cpu, advice)?;
-    differ("the instruction set of our lanes", &old.simd, &new.simd, advice)?;
+    differ("the SIMD instruction set", &old.simd, &new.simd, advice)?;
     differ("the target", &old.target, &new.target, SAME_BUILD)?;
-    differ("the set of instructions for the compiler", &old.target_features, &new.target_features, SAME_BUILD)
+    differ("the set of target features", &old.target_features, &new.target_features, SAME_BUILD)
 }
 
 /// Refuses cases that are about to be measured on `here` and that a gate could not compare with those of the run `old`.
@@ -105,9 +105,9 @@ pub fn unlike_plan(old: &Dataset, cases: &[Case], here: &Provenance) -> Result<(
         };
         differ(&format!("the hash of the scene {title}"), &old.scene.hash, &new.scene.hash, SAME_INPUT)?;
         let rays = |case: &Case| serde_json::to_string(&case.workloads).expect("workloads are text");
-        differ(&format!("the choice of rays of {title}"), &rays(old), &rays(new), SAME_INPUT)?;
+        differ(&format!("the ray selection of {title}"), &rays(old), &rays(new), SAME_INPUT)?;
         differ("the seed", &old.settings.seed.to_string(), &new.settings.seed.to_string(), SAME_INPUT)?;
-        differ("where secondary rays start", &old.settings.guide, &new.settings.guide, SAME_INPUT)?;
+        differ("the structure that finds the origins of secondary rays", &old.settings.guide, &new.settings.guide, SAME_INPUT)?;
         let budget = |case: &Case| case.settings.budget_ns.map_or("none".to_owned(), |ns| duration(ns as f64));
         differ("the budget", &budget(old), &budget(new), SAME_RAYS)?;
     }

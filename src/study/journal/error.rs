@@ -7,33 +7,35 @@ use crate::output::OutputError;
 /// Why a journal, a case of one or an export cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum JournalError {
-    #[error("cannot read {}: {cause}: name what a study has written", path.escaped())]
+    #[error("cannot read {}: {cause}: name a folder that a study has written", path.escaped())]
     Read { path: PathBuf, cause: io::Error },
     #[error(
-        "cannot write {}: {cause}: what was measured before is kept; give it room, or name another folder with --dir",
+        "cannot write {}: {cause}: earlier results are kept; free some space, or choose another folder with --dir",
         path.escaped()
     )]
     Write { path: PathBuf, cause: io::Error },
     #[error(
-        "another run is measuring into {}: give the same command again when it has ended, or name another folder with --dir",
+        "another run is measuring into {}: repeat this command when it has finished, or choose another folder with \
+         --dir",
         .0.escaped()
     )]
     Busy(PathBuf),
     #[error(transparent)]
     Place(OutputError),
-    #[error("{} is not a case of a study: move it away, or name another place", .0.escaped())]
+    #[error("{} is not a case of a study: move it away, or name another folder", .0.escaped())]
     Foreign(PathBuf),
     #[error(
-        "{} holds another case than the one to be measured: name another place with --out",
+        "{} holds another case: name another file with --out",
         .0.escaped()
     )]
     Other(PathBuf),
     #[error(
-        "{} has version {there} of the form of cases, this sahara writes version {here}: name another folder, or measure it again",
+        "{} has version {there} of the case format, this sahara writes version {here}: choose another folder, or \
+         measure again",
         path.escaped()
     )]
     Schema { path: PathBuf, there: u32, here: u32 },
-    #[error("{} does not read: {problem}; remove it, and the command that wrote it measures its case again", path.escaped())]
+    #[error("{} does not read: {problem}; remove it and repeat the command that wrote it", path.escaped())]
     Damaged { path: PathBuf, problem: String },
 }
 

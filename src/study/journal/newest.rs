@@ -97,7 +97,7 @@ fn dataset(files: &[CaseFile]) -> Dataset {
     dataset.notes.extend(missing);
     if let Some(path) = replaced.first() {
         let cases = plural(replaced.len(), "case");
-        dataset.notes.push(format!("{cases} measured again since, as in {}.", path.escaped()));
+        dataset.notes.push(format!("{cases} measured again later, e.g. in {}.", path.escaped()));
     }
     // Times of different cases may be of different hosts, which one processor does not make alike.
     let hosts = each_once(files.iter().map(|file| file.provenance.host.as_str()));

@@ -7,7 +7,7 @@ use crate::panics::caught;
 
 /// Said of a structure whose traversal panicked.
 pub const PANICKED: &str =
-    "its traversal panicked on these rays: leave the structure out, or find the ray with `sahara validate`";
+    "its traversal panicked on these rays: omit the structure, or find the ray with `sahara validate`";
 
 /// The result of asking a structure, or nothing if it panicked.
 pub fn guarded<R>(ask: impl FnOnce() -> R) -> Option<R> {

@@ -361,9 +361,9 @@ fn settle(rays: &mut Rays, check: Checked, scene: &OsStr, built: &Built) {
             None => format!("-s {}", built.choice.label),
         };
         let go_on = check.example.as_ref().map_or(String::new(), |(ray, sentence)| {
-            format!("; {sentence}; go on with: sahara validate {} {structure} --ray \"{ray}\"", scene.escaped())
+            format!("; {sentence}; see: sahara validate {} {structure} --ray \"{ray}\"", scene.escaped())
         });
-        let counts = format!("{} wrong answers to {} rays", check.errors, check.rays);
+        let counts = format!("{} wrong hits on {} rays", check.errors, check.rays);
         *rays =
             Rays { untimed: Some(counts + &go_on), ns: vec![], parts: vec![], rays: 0, checksum: 0, ..rays.clone() };
     }

@@ -4,6 +4,6 @@ pub enum SampleFailure {
     /// The structure panicked, or the program that it runs in failed: a clause.
     #[error("{0}")]
     Ended(String),
-    #[error("asked the same rays again, it gives other answers: the structure is not pure")]
+    #[error("it returns other hits when it traces the same rays again: the structure is not deterministic")]
     Unsteady,
 }

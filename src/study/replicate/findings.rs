@@ -52,12 +52,12 @@ const OWN: &str = "Starters";
 fn rays(main: &[Replicated]) -> Option<Finding> {
     let off = |own: &Replicated| own.total().abs_diff(own.report.rays);
     let told =
-        |own: &Replicated| format!("{} is {} of {} off", own.first().title(), count(off(own)), count(own.report.rays));
+        |own: &Replicated| format!("{} is off by {} of {}", own.first().title(), count(off(own)), count(own.report.rays));
     let far: Vec<String> = main.iter().filter(|own| off(own) > CLOSE).map(told).collect();
     let exceptions = if far.is_empty() { String::new() } else { format!("; {}", listed(&far)) };
     let (close, all) = (main.len() - far.len(), plural(main.len(), "scene"));
     let sentence =
-        format!("The report's ray counts are found again to within {CLOSE} rays in {close} of {all}{exceptions}.");
+        format!("Our ray counts match the report's within {CLOSE} rays in {close} of {all}{exceptions}.");
     (!main.is_empty()).then(|| Finding::new("rays", sentence))
 }
 
@@ -80,6 +80,6 @@ fn order(main: &[Replicated]) -> Option<Finding> {
     let order = Order::of(&ranked.collect::<Option<Vec<_>>>()?, CLAIMS);
     let reversed = order.reversed.iter().map(|&[more, less]| [names[more], names[less]].join(" gains less than "));
     let reversed = listed(&reversed.collect::<Vec<_>>());
-    let told = format!("Surely not in the order expected: {reversed}.");
+    let told = format!("Clearly not in the expected order: {reversed}.");
     Some(Finding::new("order", if reversed.is_empty() { String::new() } else { told }).of(order.tau))
 }

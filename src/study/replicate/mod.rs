@@ -71,8 +71,8 @@ fn structures(registry: &Registry, row: &Row) -> anyhow::Result<Vec<StructureReq
 fn report(dataset: &Dataset, _: &ArgMatches) -> Report {
     let all = replicated(dataset);
     let (main, hard) = all.split_at(all.partition_point(|own| !own.report.is_hard()));
-    let text = "Rays, seconds and settings as in the source report, ours beside its own. Seconds are of different \
-                machines and code: compare their ratios.";
+    let text = "Rays, seconds and settings of the source report next to ours. Seconds come from different machines \
+                and code: compare their ratios.";
     let tables = tables::tables(&all, main, hard).into_iter().map(Block::Table);
     let findings = findings(main, hard);
     Report {

@@ -6,10 +6,10 @@ use crate::report::{Cell, Table, Value};
 
 /// The tables in the order of the report; `all` are the `main` scenes, then the `hard` ones.
 pub fn tables(all: &[Replicated], main: &[Replicated], hard: &[Replicated]) -> Vec<Table> {
-    let note = "~: a part of the rays was timed and stands for all. improvement: brute-force / median-kd; times faster: \
-                median-kd / sah-kd, of times of one round.";
-    let easy = table("Seconds of all rays, construction left out", main, &SECONDS).noted(vec![note.into()]);
-    let hard = table("Hard scenes: seconds of the primary rays, construction left out", hard, &SECONDS);
+    let note = "~: extrapolated from a subset of the rays. improvement: brute-force / median-kd; times faster: \
+                median-kd / sah-kd; both from times of one round.";
+    let easy = table("Seconds for all rays, without construction", main, &SECONDS).noted(vec![note.into()]);
+    let hard = table("Hard scenes: seconds for the primary rays, without construction", hard, &SECONDS);
     let t_primes = table("t' = seconds / (rays x triangles)", all, &T_PRIMES);
     let all = [rays(all), easy, t_primes, settings(main), hard];
     all.into_iter().filter(Table::says_something).map(Table::explained).collect()
@@ -31,9 +31,9 @@ fn rays(all: &[Replicated]) -> Table {
         ],
     )
     .noted(vec![
-        "Hard scenes: primary rays alone, as in the report. Starters has creatures of our own, and so its own rays."
+        "Hard scenes: primary rays only, as in the report. Starters uses our own creatures, so its rays differ."
             .into(),
-        "Secondary rays start where a triangle test in single precision finds a hit, as in the report's program."
+        "Secondary rays start at the hits of a single-precision triangle test, as in the report's program."
             .into(),
     ])
 }
@@ -84,7 +84,8 @@ fn settings(main: &[Replicated]) -> Table {
         table.push_column("report", main.iter().map(|own| setting.of(own.report.scene).into()));
     }
     table.noted(vec![
-        "Leaf limit / match threshold. The report's figures of Teapot and Torus, swapped in print, stand right.".into(),
+        "Leaf limit / match threshold. The report's figures of Teapot and Torus are swapped in print and corrected \
+         here.".into(),
     ])
 }
 

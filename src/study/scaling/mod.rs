@@ -20,7 +20,7 @@ use super::{Dataset, Plan, PlannedScene, Presets, Settings, Study, claims};
 use crate::registry::Registry;
 use crate::report::Report;
 use crate::report::number::count;
-use crate::request::{Measuring, Rays, Scenes, Structures, scene_files, with_twin};
+use crate::request::{Measuring, Rays, SCENES, Scenes, Structures, scene_files, with_twin};
 use crate::scene::spheres::{FINEST, triangles};
 use crate::scene::{Scene, WorkloadKind};
 use growth::{FAMILY, LEVEL, LEVEL_8, MESHES, SPHERES, growths};
@@ -29,7 +29,7 @@ const NAME: &str = "scaling";
 
 pub const STUDY: Study = Study {
     name: NAME,
-    question: "How do time, build and memory grow with the number of triangles?",
+    question: "Measure how time, build and memory grow with the number of triangles",
     presets: Presets { full: "", quick: "torus --finest 4 --rays 1024 --epochs 2 --runs 2 --budget 1" },
     options: || ScalingArgs::augment_args(Command::new(NAME)),
     plan,
@@ -48,9 +48,9 @@ struct ScalingArgs {
     // Beside the icospheres.
     #[command(flatten)]
     scenes: Scenes,
-    /// The finest icosphere: 0 has 20 triangles, each next one four times as many, and the last one, 10, 16 million
-    /// [default: the last one whose trees fit into memory together]
-    #[arg(long, value_name = "LEVEL", value_parser = clap::value_parser!(u32).range(0..=i64::from(FINEST)))]
+    /// Finest icosphere: level 0 has 20 triangles, each level four times as many, level 10 has 16 million [default: the
+    /// finest level whose trees fit into memory together]
+    #[arg(long, help_heading = SCENES, value_name = "LEVEL", value_parser = clap::value_parser!(u32).range(0..=i64::from(FINEST)))]
     finest: Option<u32>,
     #[command(flatten)]
     structures: Structures,
@@ -92,14 +92,13 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
 
     if all.iter().any(|planned| planned.epochs < epochs) {
         plan.notes.push(format!(
-            "Meshes of more than {} triangles are measured in {few} epochs, for their builds take minutes.",
+            "Meshes of more than {} triangles have only {few} epochs: their builds take minutes.",
             count(LEVEL_8 as u64)
         ));
     }
     if args.finest.is_none() && finest < FINEST {
         let note = format!(
-            "Icospheres of more than {} triangles are left out: the trees over them do not fit into the memory of this \
-             machine together.",
+            "Icospheres of more than {} triangles are skipped: their trees do not fit into this machine's memory together.",
             count(triangles(finest) as u64)
         );
         plan.warnings.push(note.clone());

@@ -20,7 +20,7 @@ struct Quantity {
 
 const TIME: Quantity = Quantity {
     id: "time",
-    words: "Time of a ray",
+    words: "Time per ray",
     y_title: "nanoseconds a ray",
     value: |point| point.ns_per_ray,
     power: |growth| growth.time,
@@ -28,8 +28,8 @@ const TIME: Quantity = Quantity {
 
 const BUILD: Quantity = Quantity {
     id: "build",
-    words: "Time of the build",
-    y_title: "milliseconds of the build",
+    words: "Build time",
+    y_title: "build time in milliseconds",
     value: |point| point.build_ns * 1e-6,
     power: |growth| growth.build,
 };
@@ -82,9 +82,9 @@ pub fn blocks(growths: &[Growth]) -> Vec<Block> {
     let groups: Vec<&[Growth]> = growths.chunk_by(|a, b| a.family == b.family && a.workload == b.workload).collect();
     let Some(first) = groups.first() else { return vec![] };
     let mut blocks = vec![Block::Text(
-        "If a query were logarithmic in the number of triangles n, its power of n would be near 0; a power of 1 means \
-         that twice the triangles take twice the time. One sphere, divided more and more finely and seen alike, asks \
-         this without anything else that changes; different meshes differ in more than their size."
+        "A query that is logarithmic in the number of triangles n has a power of n near 0; a power of 1 means that \
+         twice the triangles take twice the time. Icospheres of one sphere, subdivided more finely and seen by the \
+         same camera, change only n; different meshes differ in more than their size."
             .into(),
     )];
     let spheres = groups.iter().filter(|group| group[0].family == SPHERES);
@@ -117,8 +117,8 @@ fn figure(group: &[Growth], quantity: &Quantity) -> Figure {
     Figure {
         id: format!("scaling-{}-{}-{}", quantity.id, slug(first.family), slug(&first.workload)),
         caption: format!(
-            "{}, {};{rays} both axes are logarithmic, so that a power of n is a straight line. Its exponent stands \
-             behind the name.",
+            "{}, {};{rays} both axes are logarithmic, so a power of n is a straight line. The label gives its \
+             exponent.",
             quantity.words, first.family,
         ),
         alt: format!("Line chart over the number of triangles. {}.", told.join("; ")),
@@ -164,8 +164,8 @@ fn exponents(family: &[Growth]) -> Option<Table> {
         ],
     );
     let note = "Least squares on logarithms over the meshes on which the structure has more than one leaf, with 95 % \
-                intervals for another run on these meshes; counts and memory do not vary. +-: half of the 95 % \
-                interval of the power of time by the scatter of the meshes about it.";
+                intervals for a rerun on these meshes; counts and memory do not vary. +-: half of the 95 % interval \
+                of the power of time from the scatter of the meshes.";
     family.iter().any(|growth| growth.time.is_some()).then(|| table.noted(vec![note.into()]).explained())
 }
 
@@ -175,7 +175,7 @@ fn points(family: &[Growth]) -> Table {
         if point.is_fitted() { cell } else { cell.noted("one leaf") }
     };
     Table::of(
-        format!("{}: what was measured", family[0].family),
+        format!("{}: measurements", family[0].family),
         all_points(family),
         &[
             ("structure", &|(growth, point)| name(growth, point)),

@@ -107,7 +107,7 @@ pub fn answers(subject: &Subject, meshes: &[Named], count: usize) -> Result<(), 
     let findings = findings(subject, meshes, count)?;
     let traced: u64 = findings.iter().map(|f| f.validation.rays).sum();
     if traced == 0 && findings.iter().any(|f| f.validation.declined > 0) {
-        return Err(format!("{} declines every ray: there is nothing to compare", subject.name));
+        return Err(format!("{} declines every ray, so nothing is compared", subject.name));
     }
     let lines = findings.iter().filter(|f| wrong(f)).map(|f| f.line(&subject.name));
     outcome(lines.collect())

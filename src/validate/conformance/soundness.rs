@@ -75,14 +75,14 @@ pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(),
             let differ = traced.plain.iter().zip(&traced.counted).position(|(a, b)| answer(*a) != answer(*b));
             let differ = differ.or_else(|| traced.any.iter().zip(&traced.any_counted).position(|(a, b)| a != b));
             if let Some(i) = differ {
-                lines.push(format!("{place}: counting changes the answer of ray \"{}\"", rays[i]));
+                lines.push(format!("{place}: counting changes the hit of ray \"{}\"", rays[i]));
             }
 
             let bits = |hit: Option<Hit>| hit.map(|h| (h.t.to_bits(), h.prim));
             let differ = traced.plain.iter().zip(&traced.loaded).position(|(a, b)| bits(*a) != bits(*b));
             let differ = differ.or_else(|| traced.any.iter().zip(&traced.any_loaded).position(|(a, b)| a != b));
             if let Some(i) = differ {
-                lines.push(format!("{place}: loading changes the answer of ray \"{}\"", rays[i]));
+                lines.push(format!("{place}: loading changes the hit of ray \"{}\"", rays[i]));
             }
 
             let hit = traced.plain.iter().any(Option::is_some);

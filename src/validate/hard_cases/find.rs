@@ -5,7 +5,7 @@ use super::catalogue::CASES;
 
 /// A name that is no case.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("there is no hard case {name:?}; the nearest names are: {nearest}; `sahara list hard` names all")]
+#[error("there is no hard case {name:?}; similar names: {nearest}; `sahara list hard` lists all")]
 pub struct UnknownCase {
     name: String,
     nearest: String,

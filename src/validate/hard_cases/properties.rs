@@ -32,7 +32,7 @@ pub(super) fn any_equals_closest(subject: &Subject, rays: usize) -> Result<Prope
 }
 
 pub(super) fn batch_equals_single(subject: &Subject, rays: usize) -> Result<Property, String> {
-    let errors = |found: &Validation| (found.unrepeatable, "the hit of the ray alone is another");
+    let errors = |found: &Validation| (found.unrepeatable, "the single ray has another hit");
     validated(subject, &[star(), soup(500, 1)], rays, errors)
 }
 

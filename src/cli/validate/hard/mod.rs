@@ -64,10 +64,10 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
 
     if terminal.verbose {
         tables(&cases, &columns).iter().for_each(|table| terminal.print_table(table));
-        terminal.print_lines(&LEGEND.map(String::from));
     } else {
         summary(&cases, &columns).iter().for_each(|table| terminal.print_table(table));
     }
+    terminal.print_notes(LEGEND.map(String::from));
     let verdicts: Vec<Verdicts> = columns.iter().map(verdicts).collect();
     terminal.print_lines(&sentences(&verdicts));
     if let Some(file) = json {

@@ -13,15 +13,15 @@ pub struct Column<'a> {
 }
 
 pub const LEGEND: [&str; 4] = [
-    "A dot: nothing wrong. m: missed, d: wrong depth (t off by more than 4 ulps and more than 1e-6; behind the stroke \
-     those off by more than 1 %, or 0.1 % on another primitive), S: structure errors, in percent of the true hits; f: false \
+    "Dot: no error. m: missed, d: wrong depth (t off by more than 4 ulps and more than 1e-6; after the slash: off by \
+     more than 1 %, or 0.1 % on another primitive), S: structure errors, all in percent of the true hits. f: false \
      hits, in percent of the rays.",
-    "S counts the hits that exact arithmetic confirms and no rounding of the triangle test could hide, and that the structure \
-     did not return, or returned otherwise. c: rays on which any hit, closest hit and batches contradict each other.",
-    "hang, panic, crash: no result; refused: the structure cannot be built over the mesh; declined: it does not support \
-     such rays. The truth is exact; the interval is half-open.",
-    "A star: not in the totals, because the input is not valid, systems differ about what is right, or nothing can be hit; \
-     a plus: added to the catalogue's measured cases.",
+    "S counts hits that the structure lost or changed although exact arithmetic confirms them and no rounding of the \
+     triangle test could hide them. c: rays on which any hit, closest hit and batches contradict each other.",
+    "hang, panic, crash: no result. refused: the build over this mesh failed. declined: the structure does not \
+     support such rays. The true hits are exact; the ray interval is half-open.",
+    "Star: not in the totals (the input is invalid, systems disagree on the correct hit, or nothing can be hit). \
+     Plus: an addition to the catalogue's measured cases.",
 ];
 
 /// The tables of a run that have rows: hits, errors of t, times of invalid rays, properties, totals.
@@ -37,8 +37,8 @@ pub fn tables(cases: &[&HardCase], columns: &[Column]) -> Vec<Table> {
     let slowness = |_: &HardCase, score: &Score| Some(format!("{} x", figures(score.rays()?.slowness?)).into());
     let all = [
         of_rays.noted(notes(cases, columns, |case| !is_property(case))),
-        table(cases, columns, "t error in ulps where the primitive is right: median/p99/max", ulps),
-        table(cases, columns, "Time of invalid rays over that of valid ones on the same mesh", slowness),
+        table(cases, columns, "Error of t in ulps on the correct primitive: median/p99/max", ulps),
+        table(cases, columns, "Time of invalid rays relative to valid rays on the same mesh", slowness),
         of_properties.noted(notes(cases, columns, is_property)),
         totals(cases, columns),
     ];
@@ -171,8 +171,8 @@ fn totals(cases: &[&HardCase], columns: &[Column]) -> Table {
         rows.push(row);
     }
     let note = format!(
-        "(+n): cases without a result, whose rays are in no sum; f: false hits, as a number; E: m, d and f together, in \
-         percent of all rays. {} for a structure that traces all.",
+        "(+n): cases without a result; their rays are in no sum. f: number of false hits. E: m, d and f together, in \
+         percent of all rays. A structure that traces all rays has {}.",
         plural(most_hits as usize, "true hit")
     );
     Table::new("Totals", names, rows).noted(vec![note])

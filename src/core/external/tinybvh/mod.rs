@@ -137,7 +137,7 @@ fn built(corners: Positions, quality: Quality) -> Result<(bvh8_cpu::BVH, TreeSha
     let (shape, waiting) = shape(wide.nodes());
     if waiting > STACK {
         let sentence =
-            format!("tinybvh walks with a stack of {STACK} nodes, and its tree over this mesh needs {waiting}");
+            format!("tinybvh has a stack of {STACK} nodes, but its tree over this mesh needs {waiting}");
         return Err(BuildError::Mesh(sentence));
     }
     Ok((bvh8_cpu::BVH::new(&wide).map_err(refusal)?, shape))
@@ -177,10 +177,11 @@ impl Accel for TinyBvh {
     const OBSERVED: Observed = Observed::NONE;
     const CAPABILITIES: Capabilities = Capabilities { closed_start: false, ..Capabilities::ALL };
     const CONVENTIONS: &'static [&'static str] = &[
-        "a ray with t_min starts at the point of t_min, rounded",
-        "walks unit directions: t is divided by the direction's length; nothing farther than 1e30",
-        "rays that would end the process (NaN, or the unit direction or origin over direction overflows) are not asked, and hit nothing",
-        "builds large scenes on threads of its own, whatever --threads says",
+        "a ray with t_min starts at the rounded point at t_min",
+        "traces unit directions: t is divided by the direction's length; no hits beyond 1e30",
+        "rays that would crash the process (NaN, or an overflow of the unit direction or of origin over direction) \
+         are not traced and hit nothing",
+        "builds large scenes on its own threads, regardless of --threads",
     ];
 
     fn build(mesh: &Arc<Mesh>, config: &TinyBvhConfig) -> Result<Self, BuildError> {

@@ -119,7 +119,7 @@ impl<'a> Accessors<'a> {
         let mut least = 0;
         for index in indices.clone().map(|index| index as usize) {
             if index < least || index >= count {
-                return Err(fault(format!("its sparse element {index} does not ascend or is none of {count}")));
+                return Err(fault(format!("its sparse element {index} does not ascend or is not below {count}")));
             }
             least = index + 1;
         }

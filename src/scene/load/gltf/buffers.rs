@@ -35,13 +35,13 @@ pub(super) fn read(list: &mut [Buffer], mut chunk: Option<Vec<u8>>, folder: &Pat
             return embedded(&uri).map(Rc::new);
         }
         if uri.contains(':') {
-            return Err(format!("its URI {} is no relative path: put the buffer beside the file", quoted(uri)));
+            return Err(format!("its URI {} is not a relative path: put the buffer next to the file", quoted(uri)));
         }
         let name: Vec<u8> = percent_decode_str(&uri).collect();
-        let outside = || format!("its file {} is not below the folder of this one: put it there", quoted(&name));
+        let outside = || format!("its file {} is outside the folder of this file: move it there", quoted(&name));
         let path = canonical(named_below(folder, &name).ok_or_else(outside)?);
         if !files.contains_key(&path) {
-            let unread = |cause| format!("its file {} cannot be read ({cause}): put it beside this one", quoted(&name));
+            let unread = |cause| format!("its file {} cannot be read ({cause}): put it next to this file", quoted(&name));
             files.insert(path.clone(), Rc::new(read_start(&path, longest).map_err(unread)?));
         }
         Ok(Rc::clone(&files[&path]))
@@ -52,7 +52,7 @@ pub(super) fn read(list: &mut [Buffer], mut chunk: Option<Vec<u8>>, folder: &Pat
         let data = read(number, buffer.uri.take()).map_err(fault)?;
         let (owed, found) = (buffer.byte_length.0, data.len());
         if (found as u64) < owed {
-            return Err(fault(format!("it should have {owed} bytes and has {found}: it is truncated")));
+            return Err(fault(format!("it should have {owed} bytes but has {found}: it is truncated")));
         }
         buffers.push(data);
     }
@@ -60,6 +60,6 @@ pub(super) fn read(list: &mut [Buffer], mut chunk: Option<Vec<u8>>, folder: &Pat
 }
 
 fn embedded(uri: &str) -> Result<Vec<u8>, String> {
-    let (_, data) = uri.split_once(";base64,").ok_or("its data URI is not in base64")?;
+    let (_, data) = uri.split_once(";base64,").ok_or("its data URI is not base64")?;
     base64::decode(data).map_err(|error| format!("its data URI cannot be read: {}", message(error)))
 }

@@ -32,20 +32,20 @@ pub(super) fn check(required: &Value, used: &Value, notes: &mut Notes) -> Result
     };
     for (name, is_shading, compression) in others(required) {
         if is_shading {
-            notes.add(format!("the required extension {} changes no triangle and is left out", quoted(name)));
+            notes.add(format!("the required extension {} changes no triangle and is ignored", quoted(name)));
             continue;
         }
         let remedy = match compression {
             Some((_, tool)) => format!("decompress the file with {tool}"),
             None => "export the file without it".to_owned(),
         };
-        let problem = format!("the file requires {}, which is not read: {remedy}", quoted(name));
+        let problem = format!("the file requires {}, which sahara does not support: {remedy}", quoted(name));
         return Err(Fault::part("extensionsRequired", problem));
     }
     for (name, is_shading, compression) in others(used) {
         // What is compressed and not required is there uncompressed as well.
         if !is_shading && compression.is_none() {
-            notes.add(format!("the extension {} is left out: what it changes is missing", quoted(name)));
+            notes.add(format!("the extension {} is ignored, with what it changes", quoted(name)));
         }
     }
     Ok(())

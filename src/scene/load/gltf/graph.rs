@@ -35,7 +35,7 @@ pub(super) fn walk(document: &Document) -> Result<(Vec<Node<'_>>, Vec<DMat4>), F
     let mut is_shown = vec![false; nodes.len()];
     for &root in &roots {
         if std::mem::replace(&mut is_shown[root], true) {
-            return fault(root, "the scene shows it twice: list roots only, each once".to_owned());
+            return fault(root, "the scene shows it twice: list each root once".to_owned());
         }
     }
 
@@ -67,7 +67,7 @@ pub(super) fn walk(document: &Document) -> Result<(Vec<Node<'_>>, Vec<DMat4>), F
         return fault(node, "it is its own ancestor: remove the cycle".to_owned());
     }
     if let (Some(scene), Some(i)) = (document.default_scene(), roots.iter().position(|&node| !is_root(node))) {
-        let problem = format!("node {} is a child of another one: list roots only", roots[i]);
+        let problem = format!("node {} is a child of another node: list roots only", roots[i]);
         return Err(Fault::part(format!("scenes[{}].nodes[{i}]", scene.index()), problem));
     }
     Ok((shown, worlds))

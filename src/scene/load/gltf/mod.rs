@@ -69,7 +69,7 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
         let others: usize = shapes.values().map(|shape| shape.left_out).sum();
         let (nodes, meshes) = (document.nodes().len(), document.meshes().len());
         let shown = format!("{surfaces} primitives of triangles, and {others} of points, lines or without positions");
-        let problem = format!("it shows no triangles: of its {nodes} nodes and {meshes} meshes it shows {shown}");
+        let problem = format!("it has no triangles: it shows {shown} from {nodes} nodes and {meshes} meshes");
         return Err(Fault::file(problem));
     }
     reserve(&mut model, sizes.map(|size| size.0), size)?;
@@ -96,22 +96,22 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
         placement.node.skin().is_some() && positions.any(|attribute| attribute.influences.is_empty())
     };
     let unposed =
-        ["node has a skin without joints: it stands unposed", "nodes have skins without joints: they stand unposed"];
+        ["node has a skin without joints: unposed", "nodes have skins without joints: unposed"];
     notes.count(placements.iter().filter(is_unposed).count(), unposed);
     let texture = [
-        "material has a texture, which is left out: it shows its base colour as it is",
-        "materials have textures, which are left out: they show their base colour as it is",
+        "material has a texture: ignored, the base colour is used",
+        "materials have textures: ignored, the base colours are used",
     ];
     let textured = (0..).zip(&textured).filter(|(number, is_textured)| **is_textured && used.contains(number)).count();
     notes.count(textured, texture);
     let morph = [
-        "primitive has morph targets, which are left out: it keeps its basic form",
-        "primitives have morph targets, which are left out: they keep their basic form",
+        "primitive has morph targets: ignored",
+        "primitives have morph targets: ignored",
     ];
     notes.count(shapes.values().map(|shape| shape.morphed).sum(), morph);
     let left_out = [
-        "primitive is points or lines, or has no positions: it is left out",
-        "primitives are points or lines, or have no positions: they are left out",
+        "primitive is points or lines, or has no positions: ignored",
+        "primitives are points or lines, or have no positions: ignored",
     ];
     notes.count(shapes.values().map(|shape| shape.left_out).sum(), left_out);
     model.notes = notes.into_vec();
@@ -134,7 +134,7 @@ fn reserve(model: &mut Model, sizes: [usize; 4], bytes: usize) -> Result<(), Fau
         return Ok(());
     }
     let shown = format!("its nodes show {triangles} triangles and {vertices} vertices");
-    Err(Fault::file(format!("{shown}, and more than {most} do not fit from files of {bytes} bytes: split the scene")))
+    Err(Fault::file(format!("{shown}, but the limit for files of {bytes} bytes is {most}: split the scene")))
 }
 
 /// Adds the triangles of a mesh in a pose.

@@ -85,7 +85,7 @@ impl Pose {
         for &[numbers, weights] in &attribute.influences {
             let highest = accessors.read::<4>(numbers)?.flatten().fold(0.0, f64::max) as usize;
             if highest >= joints.len() {
-                return Err(fault(numbers, format!("it names joint {highest}, and the skin has {}", joints.len())));
+                return Err(fault(numbers, format!("it names joint {highest}, but the skin has {}", joints.len())));
             }
             sets.push(accessors.read::<4>(numbers)?.zip(accessors.read::<4>(weights)?));
         }

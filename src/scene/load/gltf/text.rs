@@ -58,7 +58,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fa
     let (text, chunk) = if bytes.starts_with(b"glTF") { chunks(bytes)? } else { (plain(bytes)?, None) };
     check_size(text, bytes.len())?;
     if !text.trim_ascii_start().starts_with(b"{") {
-        return Err(no_gltf("it is no JSON object"));
+        return Err(no_gltf("it is not a JSON object"));
     }
     let members = serde_json::from_slice::<Members>(text).or_else(|error| {
         // The nodes of glTF 1.0 are no list.
@@ -191,7 +191,7 @@ fn prune(key: &str, value: &mut Value) -> Result<(), (String, String)> {
             });
         }
         Value::Array(list) if OBJECTS.contains(&key) || list.iter().any(Value::is_array) => {
-            "a list stands where glTF has none".to_owned()
+            "unexpected list".to_owned()
         }
         Value::Array(list) => {
             return list.iter_mut().enumerate().try_for_each(|(i, value)| {
@@ -238,7 +238,7 @@ fn check_version(asset: &Value) -> Result<(), Fault> {
     let version = |key: &str| asset.get(key).and_then(Value::as_str);
     let problem = match (version("minVersion"), version("version")) {
         (Some(least), _) if least != "2.0" => {
-            format!("it needs glTF {}, and 2.0 is read here: export it as that", quoted(least))
+            format!("it needs glTF {}, but sahara supports 2.0: export it as 2.0", quoted(least))
         }
         (_, Some(version)) if version.split('.').next() == Some("2") => return Ok(()),
         (_, Some(version)) => format!("it is glTF {}: convert it to 2.0", quoted(version)),
@@ -248,7 +248,7 @@ fn check_version(asset: &Value) -> Result<(), Fault> {
 }
 
 fn no_gltf(problem: &str) -> Fault {
-    Fault::file(format!("it is no glTF 2.0 file: {problem}"))
+    Fault::file(format!("it is not a glTF 2.0 file: {problem}"))
 }
 
 /// The text of a binary file, and where its binary chunk lies. Further chunks are ignored, as the format has it.
@@ -257,7 +257,7 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<Range<usize>>), Fault> {
     let length = match (word(4), word(8)) {
         (Some(2), Some(length)) if length > bytes.len() => {
             let found = bytes.len();
-            let problem = format!("the header tells of {length} bytes, there are {found}: the file is truncated");
+            let problem = format!("the header states {length} bytes, but there are {found}: the file is truncated");
             return Err(Fault::file(problem));
         }
         (Some(2), Some(length)) => length,
@@ -268,7 +268,7 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<Range<usize>>), Fault> {
         let data = start + 8..(start + 8).checked_add(word(start)?)?;
         (bytes.get(start + 4..start + 8)? == kind && data.end <= length).then_some(data)
     };
-    let text = chunk(12, b"JSON").ok_or_else(|| no_gltf("its first chunk is no whole JSON chunk"))?;
+    let text = chunk(12, b"JSON").ok_or_else(|| no_gltf("its first chunk is not a complete JSON chunk"))?;
     let binary = chunk(text.end, b"BIN\0");
     Ok((&bytes[text], binary))
 }
@@ -279,7 +279,7 @@ fn check_size(text: &[u8], bytes: usize) -> Result<(), Fault> {
     let most = MOST_OBJECTS + bytes / BYTES_AN_OBJECT;
     if objects > most {
         let problem =
-            format!("its text describes {objects} objects, and more than {most} are not read: split the file");
+            format!("its text describes {objects} objects, but the limit is {most}: split the file");
         return Err(Fault::file(problem));
     }
     Ok(())

@@ -100,24 +100,25 @@ impl<'a> Filter<'a> {
         notes.count(small_faces, SMALL_FACES);
         notes.count(
             shapes,
-            ["point, line, curve or surface is left out", "points, lines, curves or surfaces are left out"],
+            ["point, line, curve or surface: ignored", "points, lines, curves or surfaces: ignored"],
         );
         notes.count(
             weighted,
             [
-                "vertex has a weight w other than 1, which is ignored",
-                "vertices have weights w other than 1, which are ignored",
+                "vertex has a weight w other than 1: ignored",
+                "vertices have weights w other than 1: ignored",
             ],
         );
         match &self.contents.first_unknown {
-            None if triangles == 0 => return Err(Fault::file("it holds no triangles: no face has three corners")),
+            None if triangles == 0 => return Err(Fault::file("it has no triangles: no face has three corners")),
             Some((line, statement)) if triangles == 0 => {
                 let problem =
-                    format!("{statement} begins with no keyword of OBJ, and no face follows: this is another format");
+                    format!("{statement} does not begin with an OBJ keyword, and no face follows: this is another \
+                             format");
                 return Err(Fault::line(*line, problem));
             }
             Some((line, statement)) => notes.add(format!(
-                "{unknown} lines without a keyword of OBJ are passed over, the first is line {line}: {statement}"
+                "{unknown} lines without an OBJ keyword are ignored; the first is line {line}: {statement}"
             )),
             None => {}
         }
@@ -191,7 +192,7 @@ impl Contents {
         self.corners.clear();
         for word in words {
             if self.corners.len() == MOST_CORNERS {
-                return Err(format!("a face with more than {MOST_CORNERS} corners is taken for a mistake"));
+                return Err(format!("the face has more than {MOST_CORNERS} corners: split it, or correct the line"));
             }
             self.corners.push(self.corner(word)?);
         }

@@ -37,8 +37,8 @@ impl Vectors {
             0 => Err(format!("{what} index 0: indices count from 1, or backwards from -1")),
             ..0 => usize::try_from(so_far as i64 + index)
                 .map(|before| before as u32 + 1)
-                .map_err(|_| format!("{what} index {index} reaches before the first of the {so_far} so far")),
-            _ if index >= u32::MAX.into() => Err(format!("{what} {index} is more than a mesh can hold")),
+                .map_err(|_| format!("{what} index {index} precedes the first of the {so_far} so far")),
+            _ if index >= u32::MAX.into() => Err(format!("{what} {index} exceeds the limit of a mesh")),
             _ if index > count as i64 => Err(format!(
                 "a face names {what} {index}, but the file has only {count}: it is truncated or wrongly numbered"
             )),

@@ -49,12 +49,12 @@ impl Header {
             }
             number += 1;
         }
-        let problem = "the PLY header does not end with a line `end_header`: the file is truncated or no PLY file";
+        let problem = "the PLY header does not end with a line `end_header`: the file is truncated or not PLY";
         Err(Fault::line(number, problem))
     }
 
     fn line(&mut self, line: &str) -> Result<(), String> {
-        let unknown = || format!("{} is no line of a PLY header, or not in its place", quoted(line));
+        let unknown = || format!("{} is not a line of a PLY header, or is misplaced", quoted(line));
         let named = |name| Kind::named(name).ok_or_else(unknown);
         let words: Vec<&str> = line.split_ascii_whitespace().collect();
         let full_name = match (&words[..], self.encoding, self.elements.last_mut()) {
@@ -143,7 +143,7 @@ impl Element {
             let length = property.length.map_or(Ok(1.0), |kind| (kind.readers[self.encoding])(rows))?;
             let count = length as usize;
             if count as f64 != length || count > longest {
-                return Err(format!("a list has {length} entries: all but 0 to {longest} are taken for a mistake"));
+                return Err(format!("a list has {length} entries: the limit is {longest}"));
             }
             let read = property.kind.readers[self.encoding];
             for _ in 0..count {

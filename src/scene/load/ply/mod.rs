@@ -41,8 +41,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Model, Fault> {
         return Err(Fault::file(problem));
     }
     if triangles == 0 {
-        let problem = "no element `face` or `tristrips` has a row with three corners: point clouds are no meshes";
-        return Err(Fault::file(format!("it holds no triangles: {} vertices, but {problem}", vertex.count)));
+        let problem = "no element `face` or `tristrips` has a row with three corners: point clouds are not meshes";
+        return Err(Fault::file(format!("it has no triangles: {} vertices, but {problem}", vertex.count)));
     }
 
     model.triangles.reserve_exact(triangles);
@@ -113,7 +113,7 @@ fn polygons(element: &Element, rows: &mut &[u8], vertices: usize, mut take: impl
                 }
             }
             Some((_, corner)) if !is_strip || corner != -1.0 => {
-                return Err(format!("its corner {corner} is none of the {vertices} vertices"));
+                return Err(format!("its corner {corner} is not one of the {vertices} vertices"));
             }
             // The end of a row, or of a strip within it.
             _ => {

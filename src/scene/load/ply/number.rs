@@ -49,7 +49,7 @@ fn chunk<const BYTES: usize>(rows: &mut &[u8]) -> Result<[u8; BYTES], &'static s
 
 fn parse<N: std::str::FromStr + Into<f64>>(rows: &mut &[u8]) -> Result<f64, &'static str> {
     let word = word(rows).ok_or("the line has too few numbers, or the file is truncated")?;
-    let word = std::str::from_utf8(word).map_err(|_| "the line is no ASCII text")?;
+    let word = std::str::from_utf8(word).map_err(|_| "the line is not ASCII text")?;
     word.parse().map(N::into).map_err(|_| "the line does not hold the numbers that the header declares")
 }
 

@@ -91,12 +91,12 @@ fn on_two_machines_ratios_to_obvhs_are_compared_and_nothing_else() {
     assert!(unlike(&old, &new, true).is_err(), "a gate wants one machine");
     let comparison = Comparison::new(&old, &new, None, 1);
     assert!((change_of(&comparison, "sah-kd").time.unwrap().estimate - 1.1).abs() < 1e-9);
-    let has_note = |comparison: &Comparison, part: &str| tables(comparison)[0].notes.iter().any(|n| n.contains(part));
+    let has_note = |comparison: &Comparison, part: &str| cautions(comparison).iter().any(|n| n.contains(part));
     assert!(has_note(&comparison, "Two machines, ") && has_note(&comparison, "Other (avx2)"));
     assert_eq!(compare(&old.all, &run(3.0, 1.1), None, 1).machines, None);
     // Another set of lanes on one machine is no other machine.
     let lanes = edited(1.0, 1.1, &|side| side.provenance.simd = "others".into());
-    assert!(has_note(&Comparison::new(&old, &lanes, None, 1), "Two sets of lanes, "));
+    assert!(has_note(&Comparison::new(&old, &lanes, None, 1), "Two instruction sets, "));
 
     // Other rays are refused there as well, and so are times without a unit.
     let refused = |edit: &Edit| unlike(&old, &elsewhere(edit), false).unwrap_err().to_string();
