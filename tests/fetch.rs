@@ -132,9 +132,9 @@ fn a_file_is_fetched_once_and_whole() {
 fn what_is_wrong_is_refused_in_a_sentence_and_not_kept() {
     let server = Server::start();
     for (path, bytes, parts) in [
-        ("/wrong", Some(mesh().len()), ["SHA-256", "nothing of it is kept"]),
-        ("/long", Some(mesh().len()), ["more than", "nothing of it is kept"]),
-        ("/missing", None, ["404", "no such file"]),
+        ("/wrong", Some(mesh().len()), ["SHA-256", "nothing is kept"]),
+        ("/long", Some(mesh().len()), ["more than", "nothing is kept"]),
+        ("/missing", None, ["404", "the file is gone"]),
         ("/broken", None, ["503", "try again later"]),
         ("/circle", None, ["redirects", "circle"]),
         ("/nonsense", None, ["/nonsense", "check the connection"]),

@@ -97,18 +97,18 @@ fn obj_files() -> Vec<(Files, [&'static str; 2])> {
     };
     let names: String = (0..500_000).map(|i| format!("usemtl m{i}\nf 1 2 3\n")).collect();
     vec![
-        (obj(vec![0; 100]), ["line 1:", "no keyword of OBJ"]),
+        (obj(vec![0; 100]), ["line 1:", "OBJ keyword"]),
         (obj(b"\x89PNG\r\n\x1a\n\0\0".to_vec()), ["line 1:", "another format"]),
         (obj(b"solid cube\nfacet normal 0 0 1\n".to_vec()), ["line 1: `solid cube`", "another format"]),
-        (after(TRIANGLE, "", 0, "f 1 2 99999999999\n"), ["line 4:", "more than a mesh can hold"]),
+        (after(TRIANGLE, "", 0, "f 1 2 99999999999\n"), ["line 4:", "exceeds the limit of a mesh"]),
         (after("", "v 0 0 1\n", 3_000_000, "v 0 0 x\n"), ["line 3000001:", "three finite numbers are needed"]),
         (after(TRIANGLE, "f 1 1 1\n", 3_000_000, "f 1 2 x\n"), ["line 3000004:", "`x` is not a vertex index"]),
         (after("v 0 0 0\nvn 0 0 1\n", "f 1//1 1//1 1//1\n", 2_000_000, "f x"), ["line 2000003:", "not a vertex index"]),
         (after("v 0 0 0\nf", " 1", 10_000_000, "\n"), ["line 2:", "more than 1048576 corners"]),
         (after("v 0 0 0\nf", " \\\n1", 1_000_000, " x\n"), ["line 2:", "`x` is not a vertex index"]),
-        (after("v 0 0 0\n", "f\n", 10_000_000, ""), ["a.obj", "holds no triangles"]),
-        (after("", "\u{ff}", 20_000_000, ""), ["line 1:", "no keyword of OBJ"]),
-        (obj(b"\xff".repeat(50_000_000)), ["line 1:", "no keyword of OBJ"]),
+        (after("v 0 0 0\n", "f\n", 10_000_000, ""), ["a.obj", "has no triangles"]),
+        (after("", "\u{ff}", 20_000_000, ""), ["line 1:", "OBJ keyword"]),
+        (obj(b"\xff".repeat(50_000_000)), ["line 1:", "OBJ keyword"]),
         (
             obj([TRIANGLE.as_bytes(), names.as_bytes(), b"f 1 2"].concat().repeat(2)),
             ["line 1000004:", "`2v` is not a vertex index"],
@@ -137,16 +137,16 @@ fn ply_files() -> Vec<(Files, [&'static str; 2])> {
             ["line 4:", "declared twice"],
         ),
         (ply("format ascii 2.0\n", b""), ["a.ply", "PLY header"]),
-        (ply("format ascii 1.0\nelement vertex -1\n", b""), ["line 3:", "no line of a PLY header"]),
+        (ply("format ascii 1.0\nelement vertex -1\n", b""), ["line 3:", "not a line of a PLY header"]),
         (ply("format ascii 1.0\nproperty float x\n", b""), ["a.ply", "PLY header"]),
-        (ply("format ascii 1.0\nelement vertex 1\nproperty quad x\n", b""), ["line 4:", "no line of a PLY header"]),
+        (ply("format ascii 1.0\nelement vertex 1\nproperty quad x\n", b""), ["line 4:", "not a line of a PLY header"]),
         (ply(&mesh(little, 1 << 49, 1), &[0; 100]), ["element vertex:", "rows"]),
         (ply(&mesh(little, 1, 1 << 49), &[0; 100]), ["element face:", "rows"]),
         (ply(&mesh(little, 1, 1), &[&[0; 3][..], &[0xff; 4], &[0; 99]].concat()), ["face 0:", "4294967295 entries"]),
         (ply(&mesh(little, 1, 15_001), &wrong), ["face 15000:", "its corner 1 is none of the 1"]),
         (ply(&mesh("ascii", 1, 1), b"0 0 0\n99999999999 0\n"), ["face 0:", "taken for a mistake"]),
         (ply(&mesh("ascii", 1, 1), b"0 0 0\n3 0 -1 0\n"), ["face 0:", "`3 0 -1 0`"]),
-        (ply(&mesh("ascii", 1, 1), b"0 0 \xff\n3 0 0 0\n"), ["vertex 0:", "no ASCII text"]),
+        (ply(&mesh("ascii", 1, 1), b"0 0 \xff\n3 0 0 0\n"), ["vertex 0:", "not ASCII text"]),
     ]
 }
 
@@ -199,12 +199,12 @@ fn gltf_files() -> Vec<(Files, [&'static str; 2])> {
     let chunk = vec![0; 80_000_000];
 
     vec![
-        (text(vec![]), ["a.gltf", "no glTF 2.0 file"]),
-        (text(b"{".to_vec()), ["line 1 column 1", "no glTF 2.0 file"]),
-        (text(b"{\"asset\":{\"version\":\"2.0\"}}\xff".to_vec()), ["line 1 column", "no glTF 2.0 file"]),
+        (text(vec![]), ["a.gltf", "not a glTF 2.0 file"]),
+        (text(b"{".to_vec()), ["line 1 column 1", "not a glTF 2.0 file"]),
+        (text(b"{\"asset\":{\"version\":\"2.0\"}}\xff".to_vec()), ["line 1 column", "not a glTF 2.0 file"]),
         (text(b"\xff\xfe{\0".to_vec()), ["line 1:", "UTF-16"]),
         (text(b"[".repeat(5_000_000)), ["a.gltf", "5000000 entries"]),
-        (text(b"{\"a\":".repeat(60_000)), ["line 1 column", "no glTF 2.0 file"]),
+        (text(b"{\"a\":".repeat(60_000)), ["line 1 column", "not a glTF 2.0 file"]),
         (text(b"{\"asset\":{\"version\":\"2.0\"},\"meshes\":7}".to_vec()), ["a.gltf, meshes:", "integer `7`"]),
         (list("\"nodes\":", "{},", 10_000_000), ["a.gltf", "10000003 objects"]),
         (list("\"accessors\":[{\"min\":", "0,", 20_000_000), ["a.gltf", "entries"]),
@@ -224,7 +224,7 @@ fn gltf_files() -> Vec<(Files, [&'static str; 2])> {
         (gltf(&shown, 12 * megabyte), ["a.gltf", "174762000 vertices"]),
         (text(embedded.to_string().into_bytes()), ["accessor 0:", "4 elements reach beyond the 36 bytes"]),
         (vec![("a.glb", glb(binary.to_string().as_bytes(), &chunk))], ["accessor 0:", "4 elements reach beyond"]),
-        (vec![("a.glb", b"glTF\x02\0\0\0\x0c\0\0\0".to_vec())], ["a.glb", "no glTF 2.0 file"]),
+        (vec![("a.glb", b"glTF\x02\0\0\0\x0c\0\0\0".to_vec())], ["a.glb", "not a glTF 2.0 file"]),
         (vec![("a.glb", b"glTF".to_vec())], ["a.glb", "within its header"]),
     ]
 }

@@ -22,6 +22,8 @@ mod report;
 mod study;
 mod terminal;
 mod validate;
+#[cfg(test)]
+mod wording;
 
 use std::ffi::OsString;
 use std::panic::{AssertUnwindSafe, catch_unwind};

@@ -110,9 +110,7 @@ impl Screen for OnTerminal<'_> {
             Stage::Build(label) => (format!("building {label}"), 5),
             Stage::Rays(kind) => (format!("generating {kind} rays"), 15),
             Stage::Check(label) => (format!("checking {label}"), 20),
-            Stage::Trace(taken, total) => {
-                ("timing".into(), 30 + (STEPS - 30) * *taken as u64 / (*total).max(1) as u64)
-            }
+            Stage::Trace(taken, total) => ("timing".into(), 30 + (STEPS - 30) * *taken as u64 / (*total).max(1) as u64),
             Stage::Count => ("counting".into(), STEPS),
         };
         let text = format!("{}: {text}", self.case);

@@ -11,7 +11,7 @@ use crate::output::{OutputFile, STDOUT};
 #[cfg(feature = "page")]
 use crate::report::{Figure, Report, plot::WIDTH};
 use crate::report::{csv, markdown};
-use crate::request::OUTPUT;
+use crate::request::{MEASURING, OUTPUT};
 use crate::study::{self, Run, RunOutcome, Status, Study};
 
 pub const RUNS: &str = "runs";

@@ -112,7 +112,9 @@ impl Terminal {
     pub fn print_note_count(&self) {
         match self.hidden.borrow().len() {
             0 => {}
-            n => self.print(&format!("{}: --verbose shows {}\n", plural(n, "note"), if n == 1 { "it" } else { "them" })),
+            n => {
+                self.print(&format!("{}: --verbose shows {}\n", plural(n, "note"), if n == 1 { "it" } else { "them" }))
+            }
         }
     }
 

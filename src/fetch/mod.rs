@@ -30,9 +30,7 @@ pub enum FetchOutcome {
 pub enum FetchError {
     #[error("{file} cannot be fetched: its scene file has no sha256 to verify it{}", unpack.as_ref().map_or(String::new(), |how| format!("; download {url} yourself, then {how}, into {}", folder.escaped())))]
     NoHash { file: String, url: String, unpack: Option<String>, folder: PathBuf },
-    #[error(
-        "{file} cannot be fetched: the url {url:?} in its scene file does not begin with https:// or http://"
-    )]
+    #[error("{file} cannot be fetched: the url {url:?} in its scene file does not begin with https:// or http://")]
     Address { file: String, url: String },
     #[error("{} exists with other contents (SHA-256 {found}, not {expected}): rename or remove it and fetch again", path.escaped())]
     Other { path: PathBuf, found: String, expected: String },

@@ -61,9 +61,10 @@ pub fn compare(
     }
     if let Some(mask) = mask.filter(|mask| mask.size != wanted.size) {
         let [width, height] = mask.size;
-        let sentence =
-            format!("the mask has {width} x {height} pixels, but the picture has {wanted}: use a mask of the same \
-                     size");
+        let sentence = format!(
+            "the mask has {width} x {height} pixels, but the picture has {wanted}: use a mask of the same \
+                     size"
+        );
         return said(Verdict::Failed, sentence);
     }
     let masked = mask.map(|mask| mask.applied(expected, actual.clone()));

@@ -75,10 +75,7 @@ fn decoded(bytes: &[u8]) -> ImageResult<DynamicImage> {
     let format = reader.format();
     let picture = reader.decode()?;
     if format == Some(ImageFormat::Jpeg) && !is_whole_jpeg(bytes) {
-        return Err(ImageError::Decoding(DecodingError::new(
-            ImageFormat::Jpeg.into(),
-            "its pixel data is truncated",
-        )));
+        return Err(ImageError::Decoding(DecodingError::new(ImageFormat::Jpeg.into(), "its pixel data is truncated")));
     }
     Ok(picture)
 }

@@ -32,9 +32,9 @@ impl Conditions {
     /// One sentence for each condition that spoils measurements.
     pub fn warnings(&self) -> Vec<String> {
         let &Self { cores, seconds, denormals, .. } = self;
-        let debug = self.debug.then(|| {
-            "sahara is built without optimisation: rebuild with --release for meaningful times".into()
-        });
+        let debug = self
+            .debug
+            .then(|| "sahara is built without optimisation: rebuild with --release for meaningful times".into());
         let load = self.load.filter(|&load| load > 0.5 * cores as f64).map(|load| {
             let noun = if cores == 1 { "core" } else { "cores" };
             format!(
@@ -43,8 +43,7 @@ impl Conditions {
             )
         });
         let governor = (self.governor.as_deref() == Some("powersave")).then(|| {
-            "the CPU governor is powersave: `cpupower frequency-set -g performance` makes times steadier"
-                .into()
+            "the CPU governor is powersave: `cpupower frequency-set -g performance` makes times steadier".into()
         });
         let clock = self.clock_rates.filter(|(before, after)| *after < CLOCK_FALL * before).map(|(before, after)| {
             let [before, after] = [before, after].map(|khz| khz * 1e-6);
@@ -62,9 +61,7 @@ impl Conditions {
         });
         let is_changed = !matches!(denormals, "kept" | "unknown");
         let denormals = is_changed.then(|| {
-            format!(
-                "denormals are not exact ({denormals}): a library changed the FPU control word; hits may differ"
-            )
+            format!("denormals are not exact ({denormals}): a library changed the FPU control word; hits may differ")
         });
         [debug, load, governor, clock, interruptions, denormals].into_iter().flatten().collect()
     }

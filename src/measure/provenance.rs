@@ -132,8 +132,10 @@ impl Provenance {
         let Self { threads, cores, .. } = self;
         (threads > cores).then(|| {
             let noun = if *cores == 1 { "core" } else { "cores" };
-            format!("{threads} threads share {cores} {noun}, so times describe neither number: use --threads {cores} \
-                     at most")
+            format!(
+                "{threads} threads share {cores} {noun}, so times describe neither number: use --threads {cores} \
+                     at most"
+            )
         })
     }
 

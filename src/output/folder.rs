@@ -27,8 +27,7 @@ impl OutputFolder {
         let failed = |cause| OutputError::write(path, cause);
         let folder = Self { path: path.into(), resolved: resolved(path).map_err(failed)? };
         if let Some(other) = folder.foreign().map_err(failed)? {
-            let problem =
-                format!("it contains {other}, which sahara did not write: name another folder, or empty it");
+            let problem = format!("it contains {other}, which sahara did not write: name another folder, or empty it");
             return Err(OutputError::place(path, problem));
         }
         folder.temporary().map_err(failed)?;

@@ -81,7 +81,7 @@ fn every_figure_has_a_name_of_its_own_a_caption_and_words_for_those_who_do_not_s
     assert_eq!(page.matches("<code>sahara study compare --dir runs</code>").count(), 1);
     assert!(markdown.contains("```console\nsahara study compare --dir runs\n```"));
     assert!(page.contains("<summary>More</summary>") && markdown.contains("**More**"));
-    assert!(page.contains("the slider moves") && !markdown.contains("slider"));
+    assert!(page.contains("The slider moves") && !markdown.contains("slider"));
 }
 
 #[test]
@@ -118,7 +118,7 @@ fn the_answer_goes_by_what_is_measured() {
         (&[("replicate", &HARD), ("attribution", &["Lucy"])], SAH, "Yes", 4, &["Primary", "On Lucy", tally], 1),
         (&[("attribution", &["Lucy"])], SAH, "Yes, on Lucy", 1, &["8.00 [7.00, 9.00] times on Lucy", "On Lucy"], 2),
         (&[("compare", &["Cube"])], "Which structure is the fastest on Cube?", "sah-kd", 0, &[own, "replicate"], 0),
-        (&[("attribution", &["Cube"])], SAH, "Not measured", 0, &["`sahara replicate` measures it"], 0),
+        (&[("attribution", &["Cube"])], SAH, "Not measured", 0, &["`sahara replicate` does"], 0),
     ];
     for (studies, title, verdict, numbers, sentences, parts) in cases {
         let document = document(&runs(studies));
@@ -164,10 +164,10 @@ fn a_quick_look_says_so_before_its_verdict() {
         forms(&document(&read(folder(&[("case.json", text.into_bytes())]).path())))
     };
     for form in of("study all --quick") {
-        let (banner, verdict) = (form.find("A quick look").unwrap(), form.find("sah-kd.").unwrap());
+        let (banner, verdict) = (form.find("A quick trial").unwrap(), form.find("sah-kd.").unwrap());
         assert!(banner < verdict, "{}", &form[..verdict.min(2000)]);
     }
-    assert!(of("study all").iter().all(|form| !form.contains("A quick look")));
+    assert!(of("study all").iter().all(|form| !form.contains("A quick trial")));
 }
 
 #[test]
@@ -219,8 +219,8 @@ fn what_cannot_be_read_is_one_sentence() {
         ("torn.json", export[..export.len() / 2].to_vec(), "does not read"),
         ("empty.json", vec![], "does not read"),
         ("text.json", b"hello".to_vec(), "does not read"),
-        ("other.json", b"{\"a\": 1}".to_vec(), "no run of sahara"),
-        ("list.json", b"[1, 2]".to_vec(), "no run of sahara"),
+        ("other.json", b"{\"a\": 1}".to_vec(), "not a run of sahara"),
+        ("list.json", b"[1, 2]".to_vec(), "not a run of sahara"),
         ("half.json", case.as_bytes()[..case.len() / 2].to_vec(), "does not read"),
         ("astrology.json", changed("\"study\":\"compare\"", "\"study\":\"astrology\""), "astrology"),
         ("broken.json", changed("\"scene_hash\":", "\"scene_hush\":"), "missing field `scene_hash`"),

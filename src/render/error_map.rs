@@ -87,10 +87,7 @@ impl ErrorMap {
     pub fn legend(&self) -> String {
         let painted = PAINTED.map(|(outcome, name, colour, _)| format!("{name} {} ({colour})", self.count(outcome)));
         let right = self.count(Outcome::Right) + self.count(Outcome::Nothing);
-        format!(
-            "{}, correct {right} (grey, brighter where nearer); errors are three pixels wide",
-            painted.join(", ")
-        )
+        format!("{}, correct {right} (grey, brighter where nearer); errors are three pixels wide", painted.join(", "))
     }
 
     /// The errors: their name, number of pixels and colour (red, green, blue).

@@ -112,11 +112,7 @@ fn distinct(scenes: Vec<(OsString, Scene)>) -> anyhow::Result<Vec<(OsString, Sce
             each.push((word, scene));
             continue;
         };
-        anyhow::ensure!(
-            other.hash() == scene.hash(),
-            "two different scenes have the name {}: rename one",
-            scene.name
-        );
+        anyhow::ensure!(other.hash() == scene.hash(), "two different scenes have the name {}: rename one", scene.name);
     }
     Ok(each)
 }

@@ -115,7 +115,7 @@ fn materials_go_to_parts_by_name() {
     assert_eq!(scene.material_of, [0, 0, 0, 0, 1, 1, 0, 0, 0, 0]);
     assert_eq!(scene.material(Hit::new(1.0, 4).prim).name, "B");
     assert!(scene.has_mirrors());
-    assert_eq!(scene.notes, ["textures left out, their materials show Kd as it is: b.png"]);
+    assert_eq!(scene.notes, ["textures ignored (materials use Kd): b.png"]);
     assert!(message(&text(whole)).contains("part `left` has no material"));
     assert!(message(&text("roof = \"A\"")).contains("no part `roof`, only: floor, ceiling, back, right, left"));
 }
@@ -140,7 +140,7 @@ fn a_real_mesh_takes_the_place_of_its_stand_in() {
     assert_eq!(with.mesh.corners(0), [Vec3::new(0.0, 1.0, 7.0), Vec3::new(1.0, 0.0, 7.0), Vec3::new(0.0, 0.0, 7.0)]);
     assert_eq!(with.material(Hit::new(1.0, 0).prim).diffuse, Vec3::X);
     assert!(
-        with.notes.iter().any(|n| n.ends_with("thing.obj: 1 triangles in place of the report's 3")),
+        with.notes.iter().any(|n| n.ends_with("thing.obj: 1 triangles instead of the report's 3")),
         "{:?}",
         with.notes
     );
@@ -155,9 +155,9 @@ fn a_scene_of_real_meshes_alone_says_how_to_get_them() {
     let refused = |folder| made(&text, folder).unwrap_err().to_string();
     let error = refused(Some(folder.path()));
     assert!(error.contains("`objects[0].real.file`: thing.obj is not in") && error.contains("sahara fetch"), "{error}");
-    assert!(refused(None).contains("no folder of them is given"), "{}", refused(None));
+    assert!(refused(None).contains("no folder of real meshes is set"), "{}", refused(None));
     let with = |key: &str| message(&PLAIN.replace("mesh = \"cube\"", &format!("{key}, {real}")));
-    assert!(with("sca = [2, 2, 2]").contains("put it into `real`"));
+    assert!(with("sca = [2, 2, 2]").contains("move it into `real`"));
     assert!(with("stands_in_for = \"a thing\"").contains("`objects[0].stands_in_for`"));
     assert!(
         message(&PLAIN.replace("mesh = \"cube\"", "")).contains("name a mesh or a file, or give `terrain` or `real`")

@@ -44,7 +44,7 @@ pub enum StudyError {
 }
 
 /// What epochs differ in, where one of them has wrong [answers](StudyError::Apart).
-pub const ANSWERS: &str = "the answers";
+pub const ANSWERS: &str = "the hits";
 
 /// What to name where so many structures fit into memory, before what else helps.
 fn fewer(most: usize) -> String {

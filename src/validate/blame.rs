@@ -196,7 +196,7 @@ fn outside(ray: &Ray, found: Hit) -> String {
     if t_min <= found.t && found.t < t_max {
         return String::new();
     }
-    format!(", and t = {:?} is not in [{t_min:?}, {t_max:?}): no t below 0 counts, whatever t_min is", found.t)
+    format!(", and t = {:?} is not in [{t_min:?}, {t_max:?}): t below 0 never counts", found.t)
 }
 
 /// Nothing is lost or invented that rounding could not: who of the two is off?

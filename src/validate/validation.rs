@@ -169,7 +169,9 @@ impl Validation {
     pub(super) fn ended(mut self, expected: Option<Hit>, rays: &[Ray], call: Call, kind: Kind, why: String) -> Self {
         let (index, verdict) = match call {
             Call::Ray(index) => (index, why),
-            Call::Batch => (0, format!("{why}, in the batch of {} rays that begins here, not as a single ray", rays.len())),
+            Call::Batch => {
+                (0, format!("{why}, in the batch of {} rays that begins here, not as a single ray", rays.len()))
+            }
         };
         let ray = WorstRay {
             index: index as u64,

@@ -176,7 +176,7 @@ fn the_scatter_plot_shows_every_case_and_what_is_done_first() {
             "(() => {{ const range = document.querySelector('#figure-tradeoff .budget input'); range.value = {power}; \
              range.dispatchEvent(new Event('input')); return document.querySelector('#figure-tradeoff .result').textContent; }})()"
         ));
-        assert!(result.starts_with(&format!("{} is done first", least(&total(rays)))), "{result}");
+        assert!(result.starts_with(&format!("{} finishes first", least(&total(rays)))), "{result}");
     }
     assert_eq!(browser.complaints(), Vec::<String>::new());
 }

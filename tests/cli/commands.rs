@@ -114,7 +114,7 @@ fn lists_and_completions_name_everything() {
     }
     assert!(list.lines().count() < 24, "it fits a screen: {list}");
     let keys = prints(&["list", "Median-KD"]);
-    for words in ["threshold  0.7", "vertex-median, spatial-median", "where a node is split", "exact, moller"] {
+    for words in ["threshold  0.7", "vertex-median, spatial-median", "split plane of a node", "exact, moller"] {
         let said = keys.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(said.contains(&words.replace("  ", " ")), "{words} is not in {keys}");
     }
@@ -128,12 +128,70 @@ fn lists_and_completions_name_everything() {
         assert_eq!(output.status.code(), Some(RIGHT));
         assert!(stderr(&output).is_empty() && stdout(&output).contains("sahara"), "{line}");
     }
-    // Its sentences are broken where the screen ends, and nowhere else.
-    let help = prints(&["--help"]);
-    let paragraph = help.lines().skip_while(|line| !line.starts_with("Wrong answers"));
-    let lengths: Vec<usize> = paragraph.take_while(|line| !line.is_empty()).map(str::len).collect();
-    let (_, whole) = lengths.split_last().unwrap_or_else(|| panic!("no such paragraph: {help}"));
-    assert!(whole.iter().all(|length| 2 * length > lengths[0]), "{help}");
+}
+
+/// The lines of a help on a screen of 80 columns.
+fn help(line: &str) -> Vec<String> {
+    let output = command(&words(line)).env("COLUMNS", "80").output().unwrap();
+    assert_eq!(output.status.code(), Some(RIGHT), "{line}: {}", stderr(&output));
+    stdout(&output).lines().map(String::from).collect()
+}
+
+#[test]
+fn the_first_help_fits_a_screen_with_its_prompt_and_ends_with_examples() {
+    for line in ["--help", "-h", "help"] {
+        let lines = help(line);
+        assert!(lines.len() < 24 && lines.iter().all(|line| line.chars().count() <= 80), "{line}: {lines:#?}");
+        let examples = lines.iter().skip_while(|line| *line != "Examples:").skip(1);
+        assert!(examples.clone().all(|line| line.starts_with("  sahara ")) && examples.count() >= 3, "{lines:#?}");
+    }
+}
+
+#[test]
+fn compare_has_a_short_help_and_a_whole_one_in_groups() {
+    let options = |lines: &[String]| lines.iter().filter(|line| line.trim_start().starts_with('-')).count();
+    let (short, long) = (help("compare -h"), help("compare --help"));
+    assert!(short.len() <= 48 && (8..=12).contains(&options(&short)), "{short:#?}");
+    assert!(options(&long) > 30, "{long:#?}");
+    for heading in ["Scenes:", "Structures:", "Rays:", "Measuring:", "Output:"] {
+        assert!(long.iter().any(|line| line == heading), "{heading} is not in {long:#?}");
+    }
+    assert!(long.iter().any(|line| line == "Exit status:") && !short.iter().any(|line| line == "Exit status:"));
+}
+
+#[test]
+fn no_line_of_help_is_longer_than_a_screen() {
+    for line in [
+        "compare -h",
+        "compare --help",
+        "validate -h",
+        "validate --help",
+        "replicate --help",
+        "diff --help",
+        "study --help",
+        "study all --help",
+        "study plan --help",
+        "study accuracy --help",
+        "study scaling --help",
+        "study attribution --help",
+        "rays --help",
+        "rays record --help",
+        "rays import --help",
+        "rays show --help",
+        "rays corpus --help",
+        "report --help",
+        "fetch --help",
+        "render --help",
+        "golden --help",
+        "golden check --help",
+        "golden update --help",
+        "golden compare --help",
+        "list --help",
+        "completions --help",
+    ] {
+        let lines = help(line);
+        assert!(lines.iter().all(|line| line.chars().count() <= 80), "{line}: {lines:#?}");
+    }
 }
 
 #[test]

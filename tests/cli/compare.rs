@@ -87,13 +87,38 @@ fn compare_says_who_won_and_relates_to_what_is_asked_for() {
     let said = |args: &[&str]| stdout(&sahara(args)).split_whitespace().collect::<Vec<_>>().join(" ");
     let text = said(&args);
     assert!(text.contains("x sah-kd") && !text.contains("x median"), "{text}");
-    assert!(text.contains("none is wrong.") && text.contains("is the fastest over 2 cells"), "{text}");
-    let text = said(&[&args[..], &["--reference", "median-kd:leaf=8"]].concat());
+    assert!(text.contains("Wrong hits: 0 in ") && text.contains("is the fastest over 2 cells"), "{text}");
+    let text = said(&[&args[..], &["--reference", "median-kd:leaf=8", "--verbose"]].concat());
     assert!(text.contains("x median-kd:leaf=8: speed against median-kd:leaf=8"), "{text}");
     let last = text.rsplit("structures with right answers").next().unwrap();
     assert!(last.contains("median-kd:leaf=8"), "that sentence is about the reference: {last}");
-    let help = stdout(&sahara(&["--help"]));
-    assert!(help.contains("Exit status") && help.contains("known defects"), "{help}");
+}
+
+/// The blocks of an output that blank lines divide.
+fn blocks(text: &str) -> Vec<Vec<&str>> {
+    text.trim_end().split("\n\n").map(|block| block.lines().collect()).collect()
+}
+
+#[test]
+fn tables_stand_alone_and_notes_are_counted_unless_all_is_asked_for() {
+    let run = ["compare", "cube", "starters", "-s", "sah-kd", "-s", "sah-hybrid", "-s", "sah-hybrid:batch=packets"];
+    let run = [&run[..], &["-w", "primary", "--rays", "256", "--epochs", "2", "--budget", "1"]].concat();
+    let brief = prints(&run);
+    let (foot, tables) = blocks(&brief).split_last().map(|(foot, rest)| (foot.clone(), rest.to_vec())).unwrap();
+    // The title, the header and a row for each structure.
+    assert!(tables.len() == 3 && tables.iter().all(|table| table.len() == 2 + 3), "{brief}");
+    let (count, foot) = foot.split_last().unwrap();
+    assert!(foot.len() <= 5 && count.ends_with(" notes: --verbose shows them"), "{brief}");
+    let number: usize = count.split(' ').next().unwrap().parse().unwrap();
+
+    let verbose = prints(&[&run[..], &["--verbose"]].concat());
+    assert!(
+        !verbose.contains("--verbose") && verbose.lines().count() >= brief.lines().count() + number - 1,
+        "{verbose}"
+    );
+    for note in ["stands in for", "textures ignored", "A/A noise", "Workload columns", "the row above"] {
+        assert!(verbose.contains(note) && !brief.contains(note), "{note}: {verbose}");
+    }
 }
 
 #[test]
@@ -121,9 +146,9 @@ fn tables_fit_80_columns_and_wide_ones_have_the_rest() {
 #[test]
 fn a_quick_comparison_says_that_it_is_coarse_in_colour_as_asked() {
     for (colour, is_there) in [("always", true), ("never", false)] {
-        let quick = ["compare", "cube", "-s", "sah-kd", "-s", "sah-bvh", "--quick", "--color", colour];
+        let quick = ["compare", "cube", "-s", "sah-kd", "-s", "sah-bvh", "--quick", "--verbose", "--color", colour];
         let text = stdout(&sahara(&quick)).split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(text.contains("Coarse: ") && text.contains("none is wrong."), "{text}");
+        assert!(text.contains("Coarse: ") && text.contains("Wrong hits: 0 in "), "{text}");
         assert_eq!(text.contains("\x1b["), is_there, "{text}");
     }
     refuses(&["compare", "cube", "--quick", "--epochs", "9"], &["--quick", "--epochs"]);
@@ -134,7 +159,7 @@ fn rays_that_no_scene_has_are_no_result() {
     let folder = tempfile::tempdir().unwrap();
     let json = path_text(&folder.path().join("none.json"));
     let mirror = ["compare", "cube", "-w", "mirror", "--quick", "-s", "sah-kd", "--export-json", &json];
-    refuses_in_a_line(&mirror, &["nothing was measured: these scenes have no rays of the workloads named"]);
+    refuses_in_a_line(&mirror, &["nothing was measured: these scenes have no rays of these workloads"]);
     assert!(!folder.path().join("none.json").exists());
     // A scene that has them is enough.
     prints(&["compare", "cube", "billards", "-w", "mirror", "--quick", "-s", "sah-kd"]);

@@ -98,7 +98,7 @@ fn what_a_corpus_cannot_be_made_of_is_refused_and_nothing_of_others_is_replaced(
     prints(&["rays", "corpus", &square, "-o", &out, "--rays", "3"]);
     let before = files(Path::new(&out));
     let inside = path_text(&Path::new(&out).join("square.ply"));
-    refuses_in_a_line(&["rays", "corpus", &inside, "-o", &out], &["square.ply", "files to read"]);
+    refuses_in_a_line(&["rays", "corpus", &inside, "-o", &out], &["square.ply", "an input file"]);
     assert!(files(Path::new(&out)) == before);
 }
 

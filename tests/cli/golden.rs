@@ -145,7 +145,7 @@ fn pictures_of_another_layout_and_what_cannot_be_compared_are_told() {
         refuses_in_a_line(&["golden", "compare", &empty, &folder, "--page", &inside], &["not in", "empty"]);
         refuses_in_a_line(&["golden", "compare", &a, &a, "--page", &folder], &["a.png", "another folder"]);
     }
-    refuses_in_a_line(&["golden", "compare", &a, &a, "--export-json", &a], &["a.png", "one of the files to read"]);
+    refuses_in_a_line(&["golden", "compare", &a, &a, "--export-json", &a], &["a.png", "an input file"]);
 }
 
 #[test]

@@ -29,7 +29,7 @@ fn what_cannot_be_shown_is_refused_by_its_reason() {
         assert!(!picture.exists());
     };
     let far = write(&folder, "far.obj", "v -3e38 0 0\nv 3e38 0 0\nv 0 3e38 0\nf 1 2 3\n");
-    refused(&far, &["far", "its coordinates reach from", "3e38"]);
+    refused(&far, &["far", "its coordinates range from", "3e38"]);
     let points = write(&folder, "points.obj", "v 0 0 0\nv 1 0 0\np 1 2\n");
     refused(&points, &["points.obj", "no triangles: no face has three corners"]);
     let scene = "name = \"S\"\n[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 0]\nvertical_fov = 40\n\
@@ -82,7 +82,7 @@ fn a_terrain_needs_no_file_and_a_wrong_one_is_refused() {
     for (wrong, parts) in [
         ("0", ["objects[0].terrain.triangles", "1 to 134217728"]),
         ("10, seed = -1", ["ground.toml, line 10", "u32"]),
-        ("10 }\nmesh = \"cube\" # { 1", ["objects[0].terrain", "give it alone"]),
+        ("10 }\nmesh = \"cube\" # { 1", ["objects[0].terrain", "use it alone"]),
     ] {
         fs::write(&scene, terrain(wrong)).unwrap();
         refuses(&["render", &file, "-o", &picture], &parts);

@@ -54,7 +54,7 @@ fn files_of_any_name_are_taken_and_shown_escaped() {
             ("rays record @.obj -o @.rays --rays 16", &[shown, "16 rays"]),
             ("rays show @.rays", &[shown, "16 rays"]),
             ("rays import @.txt -o @-2.rays --scene @.obj", &[shown, "1 ray"]),
-            ("validate @.obj --rays @.rays -s sah-kd --export-hits @.hits", &[shown, "16 answers"]),
+            ("validate @.obj --rays @.rays -s sah-kd --export-hits @.hits", &[shown, "16 results"]),
             ("validate @.obj --rays @.rays --hits @.hits", &[shown]),
             ("rays corpus @.obj -o @.corpus --rays 4", &[shown]),
             ("study compare @.obj -s sah-kd --rays 16 --epochs 1 --dir @.runs", &[shown]),

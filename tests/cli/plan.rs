@@ -100,10 +100,10 @@ fn what_cannot_be_planned_is_one_sentence() {
         ("compare scaling --dir a --dir b", &["--dir", twice]),
         ("compare --rays 64 --quick --quick", &["--quick", twice]),
         // What writes what came of a study.
-        ("attribution --rays 64 --export-json x.json", &["--", "once all jobs are done"]),
-        ("attribution --rays 64 --export-csv=x.csv", &["--", "once all jobs are done"]),
-        ("attribution --rays 64 --plot x.svg", &["--", "once all jobs are done"]),
-        ("attribution --scenes cube --plot x.svg", &["--plot", "once all jobs are done"]),
+        ("attribution --rays 64 --export-json x.json", &["--", "when all jobs are done"]),
+        ("attribution --rays 64 --export-csv=x.csv", &["--", "when all jobs are done"]),
+        ("attribution --rays 64 --plot x.svg", &["--", "when all jobs are done"]),
+        ("attribution --scenes cube --plot x.svg", &["--plot", "when all jobs are done"]),
         // A job that finds its case measures nothing, whatever is asked.
         ("attribution --rays 64 --fresh", &["--fresh", "--dir"]),
     ] {
@@ -175,7 +175,7 @@ fn a_job_measures_once_and_refuses_what_is_not_its_own() {
     let both = both.map(|child| child.wait_with_output().unwrap());
     assert!(both.iter().all(|output| output.status.code() == Some(RIGHT)), "{both:?}");
     let is_other = |output: &&Output| {
-        ["holds this case already", "its case is kept"].iter().any(|part| stderr(output).contains(part))
+        ["already holds this case", "its case is kept"].iter().any(|part| stderr(output).contains(part))
     };
     assert_eq!(both.iter().filter(is_other).count(), 1, "{both:?}");
     assert_eq!(fs::read_dir(folder.path().join("attribution")).unwrap().count(), 1);
@@ -222,7 +222,7 @@ fn what_cannot_be_written_is_one_sentence_and_no_file() {
         let mut command = Command::new("sh");
         command.args(["-c", &shell, env!("CARGO_BIN_EXE_sahara")]).env_remove("SAHARA_DATA");
         let output = command.stdin(Stdio::null()).output().unwrap();
-        refused_in_a_line(&output, &["cannot write", "give it room"]);
+        refused_in_a_line(&output, &["cannot write", "free some space"]);
         assert_eq!(fs::read_dir(folder.path().join("runs/attribution")).unwrap().count(), 0, "nothing is left");
     }
     done(&lines[0]);

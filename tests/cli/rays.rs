@@ -114,7 +114,7 @@ fn rays_of_a_mesh_file_ask_for_it_and_nothing_that_is_read_is_written() {
         &[&["study", "accuracy"], &replay[..], &["--export-json", "mine.obj"]].concat(),
     ];
     for args in overwriting {
-        refuses(&folder, args, &["files to read"]);
+        refuses(&folder, args, &["an input file"]);
     }
     let now = |name: &str| fs::read(folder.path().join(name)).unwrap();
     assert!(now("mine.obj") == mesh.as_bytes() && now("rays.txt") == text.as_bytes() && now("f.rays") == rays);
@@ -136,7 +136,7 @@ fn text_becomes_rays_and_rays_become_text() {
     refuses(&folder, &["compare", "--rays", "f.rays", "-w", "primary"], &["--workload"]);
     refuses(&folder, &["compare", "--rays", "no.rays"], &["no.rays", "check that it exists"]);
     right(&folder, &["rays", "import", "rays.txt", "-o", "free.rays", "--any"]);
-    refuses(&folder, &["validate", "--rays", "free.rays"], &["name a scene"]);
+    refuses(&folder, &["validate", "--rays", "free.rays"], &["names no scene"]);
     right(&folder, &["validate", "cube", "--rays", "free.rays", "-s", "sah-kd"]);
 
     fs::write(folder.path().join("blanks.txt"), "0 0 5 0 0 -1\n0.5, 0, 5  0, 0, -1 [0.25 7]\n").unwrap();

@@ -232,15 +232,15 @@ fn wrong_answers_are_seen_where_speed_is() {
         let args = format!("compare teapot -s mybvh:fault={fault} -s sah-kd -w diffuse --budget 1 --runs 2 --epochs 1");
         let (printed, right) = sahara(&args);
         assert_eq!(right, is_timed, "{fault}: {printed}");
-        let advice = format!("go on with: sahara validate teapot -s mybvh:fault={fault} --ray");
+        let advice = format!("see: sahara validate teapot -s mybvh:fault={fault} --ray");
         assert_eq!(printed.split_whitespace().collect::<Vec<_>>().join(" ").contains(&advice), !is_timed, "{printed}");
     }
 }
 
 #[test]
 fn the_command_knows_the_structures_and_what_they_decline() {
-    content("validate torus -s grid -s modest --rays 2000", &["modest declines any hit, t_min, t_max: "]);
-    let compare = "compare cube -s grid -s modest -w primary -w shadow --rays 400 --runs 2";
+    content("validate torus -s grid -s modest --rays 2000 --verbose", &["modest declines any hit, t_min, t_max: "]);
+    let compare = "compare cube -s grid -s modest -w primary -w shadow --rays 400 --runs 2 --verbose";
     content(compare, &["declined", "modest declines any hit, which shadow"]);
     content("list structures", &["declines", "grid"]);
     content("list grid", &["resolution"]);
@@ -284,7 +284,7 @@ fn a_study_of_another_crate_is_in_the_command_in_study_all_and_on_the_page() {
     content(lines[0], &[]);
     assert_eq!(std::fs::read_dir(path("jobs/duplication")).unwrap().count(), 1);
 
-    content(&format!("study all --quick --fresh --dir {runs}"), &["duplication/", "Nothing is left"]);
+    content(&format!("study all --quick --fresh --dir {runs}"), &["duplication/", "Everything is measured"]);
     content(&format!("report {runs} -o {page} --no-pictures"), &["index.html"]);
     let html = std::fs::read_to_string(folder.path().join("page/index.html")).unwrap();
     assert!(html.contains(DUPLICATION.question) && html.contains("staircase 64"), "the page");

@@ -119,10 +119,7 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
         };
         let inside = [&args.expected, &args.actual].into_iter().find(|folder| is_in(folder));
         if let Some(folder) = inside {
-            anyhow::bail!(
-                "the next comparison would include the page: choose a --page outside {}",
-                folder.escaped()
-            );
+            anyhow::bail!("the next comparison would include the page: choose a --page outside {}", folder.escaped());
         }
     }
     let mask = args.mask.as_deref().map(|path| read_mask(path, terminal)).transpose()?;
@@ -155,7 +152,11 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
 fn read_mask(path: &Path, terminal: &Terminal) -> anyhow::Result<Mask> {
     let mask = Mask::new(&read(path)?);
     let [masked, all] = [mask.masked() as u64, mask.size.map(u64::from).iter().product()];
-    anyhow::ensure!(masked < all, "the mask {} is all black, so nothing would be compared: use another mask", path.escaped());
+    anyhow::ensure!(
+        masked < all,
+        "the mask {} is all black, so nothing would be compared: use another mask",
+        path.escaped()
+    );
     terminal.print(&format!("{}: {} of {} pixels are masked\n", path.escaped(), count(masked), count(all)));
     Ok(mask)
 }

@@ -15,9 +15,7 @@ use crate::names::find;
 use crate::registry::{Choice, Registry};
 use crate::render::ViewKind;
 use crate::report::words::{each_once_by, slug};
-use crate::request::{
-    self, BRUTE_FORCE, OUTPUT, SAH_TREE, SCENES, STRUCTURES, ViewArgs, known_defect, stand_in,
-};
+use crate::request::{self, BRUTE_FORCE, OUTPUT, SAH_TREE, SCENES, STRUCTURES, ViewArgs, known_defect, stand_in};
 use crate::scene::{BUILTIN, Builtin, Scene};
 use crate::study::Status;
 
@@ -99,8 +97,9 @@ impl Targets {
             let path = Path::new(word);
             let beside = || path.is_file().then(|| path.parent().unwrap_or(Path::new("")).to_path_buf());
             let folder = self.goldens.clone().or_else(beside);
-            let folder =
-                folder.with_context(|| format!("{}: name the folder of its golden image with --goldens DIR", word.escaped()))?;
+            let folder = folder.with_context(|| {
+                format!("{}: name the folder of its golden image with --goldens DIR", word.escaped())
+            })?;
             let name = if path.is_file() { stem(path) } else { slug(&word.escaped().to_string()) };
             let golden = SceneGolden::file(&folder, &name, self.view, &scene);
             return Ok(Target::new(scene, golden, word));
@@ -123,7 +122,8 @@ impl Targets {
                     self.view.name(),
                     self.from.words()
                 );
-                SceneGolden::builtin(&name).with_context(|| format!("{name} has no built-in golden image: name a folder with --goldens DIR"))?
+                SceneGolden::builtin(&name)
+                    .with_context(|| format!("{name} has no built-in golden image: name a folder with --goldens DIR"))?
             }
         };
         let word = if scene.stand_ins.is_empty() { name.into() } else { stand_in(&name) };

@@ -110,8 +110,8 @@ fn verdict(args: &Args, digest: &str, terminal: &Terminal) -> anyhow::Result<Sta
     };
     if status == Status::Wrong {
         terminal.print_lines(&[format!(
-            "This corpus differs from the published one, whose {SUMS} has the SHA-256 {CORPUS_SHA256}: do not compare its \
-             numbers with those of others, and report this as a bug."
+            "This corpus differs from the published one, whose {SUMS} has the SHA-256 {CORPUS_SHA256}: do not compare \
+             its numbers with published ones, and report this as a bug."
         )]);
     }
     terminal.print(&format!("SHA-256 of {SUMS}: {digest}{said}\n"));
@@ -140,10 +140,13 @@ fn part(scene: &Scene, args: &Args, waiting: &ProgressBar) -> anyhow::Result<Par
     let oracle = Oracle::new(&scene.mesh);
     for kind in RayKind::ALL {
         let name = kind.name();
-        waiting.set_message(format!("{}: computing exact hits of {}: {name}", scene.name, plural(args.rays as usize, "ray")));
-        let (file, truth) = answered(scene, kind, args.rays as usize, args.seed, &oracle).map_err(|problem| {
-            anyhow::anyhow!("{} has no {name} rays: {problem}: scale the mesh", scene.name)
-        })?;
+        waiting.set_message(format!(
+            "{}: computing exact hits of {}: {name}",
+            scene.name,
+            plural(args.rays as usize, "ray")
+        ));
+        let (file, truth) = answered(scene, kind, args.rays as usize, args.seed, &oracle)
+            .map_err(|problem| anyhow::anyhow!("{} has no {name} rays: {problem}: scale the mesh", scene.name))?;
         part.rays += truth.hits.len();
         part.hits += truth.hits.iter().flatten().count();
         part.files.insert(format!("{stem}-{name}.rays"), file.to_bytes());

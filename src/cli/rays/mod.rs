@@ -105,7 +105,12 @@ fn record(registry: &Registry, args: &Record, terminal: &Terminal) -> anyhow::Re
     let sampling = Sampling::some(&scene, args.rays, args.seed);
     let workload = Workload::new(&scene, args.workload, &sampling, guide.as_ref());
     drop(waiting);
-    anyhow::ensure!(!workload.rays.is_empty(), "{} has no {} rays to record: name another workload", scene.name, workload.name);
+    anyhow::ensure!(
+        !workload.rays.is_empty(),
+        "{} has no {} rays to record: name another workload",
+        scene.name,
+        workload.name
+    );
     finish(&RayFile::new(&scene, workload), &output, terminal)
 }
 

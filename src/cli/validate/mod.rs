@@ -20,9 +20,7 @@ use super::terminal::Terminal;
 use crate::accel::DynAccel;
 use crate::geometry::Ray;
 use crate::registry::{Choice, Registry};
-use crate::request::{
-    self, BRUTE_FORCE, OUTPUT, RAYS, RaySource, SCENES, STRUCTURES, Seconds, ViewArgs, recorded,
-};
+use crate::request::{self, BRUTE_FORCE, OUTPUT, RAYS, RaySource, SCENES, STRUCTURES, Seconds, ViewArgs, recorded};
 use crate::scene::Scene;
 use crate::study::Status;
 use crate::validate::{LIMIT, watched};

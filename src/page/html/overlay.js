@@ -108,10 +108,10 @@
     const copy = async () => {
       try {
         await navigator.clipboard.writeText(code.textContent);
-        status.textContent = "The command is copied.";
+        status.textContent = "Command copied.";
       } catch {
         getSelection().selectAllChildren(code);
-        status.textContent = "The command is selected: copy it.";
+        status.textContent = "Command selected: copy it.";
       }
     };
 
@@ -142,7 +142,7 @@
 
     stage.tabIndex = 0;
     stage.setAttribute("role", "application");
-    stage.setAttribute("aria-label", "Pixels: arrows move, Page Up and Page Down go through all, Enter copies the command");
+    stage.setAttribute("aria-label", "Pixels: arrows move, Page Up and Page Down step through all, Enter copies the command");
     panel.querySelector(".which").textContent = data.which;
     panel.hidden = false;
     figure.classList.add("inspected");

@@ -26,7 +26,7 @@
   };
   const costs = {
     bytes: { title: "memory of the finished structure", words: bytes, unit: (high) => high > 2e6 ? [1048576, "MiB"] : [1024, "KiB"] },
-    build: { title: "time of the build", words: duration, unit: (high) => high > 2e9 ? [1e9, "s"] : [1e6, "ms"] },
+    build: { title: "build time", words: duration, unit: (high) => high > 2e9 ? [1e9, "s"] : [1e6, "ms"] },
   };
 
   for (const root of document.querySelectorAll(".scatter")) {
@@ -124,7 +124,7 @@
       const after = points.filter((p) => p !== first).sort((a, b) => total(a) - total(b))[0];
       const times = after ? figures(total(after) / total(first)) : "";
       const next = after ? `; ${after.label} takes ${times === "1" ? "" : `${times} times `}as long` : "";
-      result.textContent = `${first.label} is done first, build included, after ${duration(total(first))}${next}.`;
+      result.textContent = `${first.label} finishes first, build included, after ${duration(total(first))}${next}.`;
 
       // Who is next to overtake, from no ray upward.
       let [now, from] = [points.reduce((a, b) => b.build < a.build ? b : a), 0];
@@ -138,7 +138,7 @@
         now = overtakes;
         done.push(`${now.label} from ${rays(from)} rays`);
       }
-      order.textContent = `Done first, from no ray upward: ${done.join(", ")}.`;
+      order.textContent = `Finished first, by number of rays: ${done.join(", ")}.`;
     };
     const kinds = () => fill(kind, data.filter((one) => one.scene === scene.value).map((one) => one.rays));
     fill(scene, distinct(data.map((one) => one.scene)));

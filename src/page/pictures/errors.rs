@@ -80,11 +80,7 @@ fn pixels(camera: &CameraRays, wrong: &[(&StructureWork, ErrorMap)]) -> Inspecto
     let chosen: Vec<usize> = pixels.into_iter().step_by(all.div_ceil(most).max(1)).collect();
     let which = match chosen.len() {
         n if n == all => format!("Select any of {} with a wrong hit.", plural(n, "pixel")),
-        n => format!(
-            "Select any of {} (of {} with a wrong hit).",
-            count(n as u64),
-            plural(all, "pixel")
-        ),
+        n => format!("Select any of {} (of {} with a wrong hit).", count(n as u64), plural(all, "pixel")),
     };
     inspector(camera, chosen, which)
 }

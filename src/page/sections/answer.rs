@@ -147,8 +147,6 @@ fn otherwise(runs: &Runs) -> (String, Answer) {
             answer.sentences.extend(sentence("right").or_else(|| sentence("single")).map(|found| ended(&found)));
         }
     }
-    answer
-        .sentences
-        .push("These runs do not measure the source report's question; `sahara replicate` does.".into());
+    answer.sentences.push("These runs do not measure the source report's question; `sahara replicate` does.".into());
     (title, answer)
 }

@@ -18,7 +18,10 @@ const VERSION: u32 = 1;
 /// Reads the header of a file of `what`, which must begin with `magic`.
 pub(super) fn header(bytes: &[u8], magic: &[u8; 8], what: &str) -> Result<FileHeader, String> {
     if bytes.len() < 8 || bytes[..8] != magic[..] {
-        return Err(format!("this is not a file of {what}: it does not begin with {:?}", String::from_utf8_lossy(magic)));
+        return Err(format!(
+            "this is not a file of {what}: it does not begin with {:?}",
+            String::from_utf8_lossy(magic)
+        ));
     }
     if bytes.len() < HEADER_BYTES {
         return Err(format!("the file is truncated: {} bytes are less than its header", bytes.len()));

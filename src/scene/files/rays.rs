@@ -115,7 +115,8 @@ impl RayFile {
         let scene = rest.get(..lengths[0]).ok_or_else(short)?;
         let name = rest[lengths[0]..].get(..lengths[1]).ok_or_else(short)?;
         let text = |bytes: &[u8]| {
-            String::from_utf8(bytes.to_vec()).map_err(|_| "a name in the header is not UTF-8: the file was changed".to_owned())
+            String::from_utf8(bytes.to_vec())
+                .map_err(|_| "a name in the header is not UTF-8: the file was changed".to_owned())
         };
         let (scene, name) = (text(scene)?, text(name)?);
         Self::check_names(&scene, &name)?;

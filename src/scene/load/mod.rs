@@ -71,8 +71,6 @@ fn flatten_bad_normals(model: &mut Model) {
         }
     }
     if flattened > 0 {
-        model
-            .notes
-            .push(format!("{flattened} triangles have an invalid normal: shaded flat"));
+        model.notes.push(format!("{flattened} triangles have an invalid normal: shaded flat"));
     }
 }

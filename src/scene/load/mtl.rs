@@ -49,10 +49,7 @@ pub(super) fn read(
             Err(problem) => notes.add(problem),
         }
     }
-    let textured = [
-        "material has a texture: ignored, Kd is used",
-        "materials have textures: ignored, Kd is used",
-    ];
+    let textured = ["material has a texture: ignored, Kd is used", "materials have textures: ignored, Kd is used"];
     notes.count(materials.known.iter().flatten().filter(|(_, has_texture)| *has_texture).count(), textured);
 
     let mut names: Vec<_> = materials.numbers.into_iter().collect();
@@ -70,9 +67,8 @@ pub(super) fn read(
 fn paths<'a>(names: &'a [u8], folder: &'a Path) -> Box<dyn Iterator<Item = Result<PathBuf, String>> + 'a> {
     let path = move |name: &[u8]| {
         let slashes: Vec<u8> = name.iter().map(|&byte| if byte == b'\\' { b'/' } else { byte }).collect();
-        named_below(folder, &slashes).ok_or_else(|| {
-            format!("the material file {} is outside the folder of this file: not read", quoted(name))
-        })
+        named_below(folder, &slashes)
+            .ok_or_else(|| format!("the material file {} is outside the folder of this file: not read", quoted(name)))
     };
     match path(names) {
         Ok(whole) if whole.is_file() => Box::new(std::iter::once(Ok(whole))),

@@ -92,5 +92,7 @@ pub fn trees(results: &[Attribution]) -> Table {
     let shape = ["references_per_triangle", "sah_cost", "depth", "bytes", "build_ns"];
     let trees: Vec<&Measurement> = results.iter().flat_map(|r| &r.trees).collect();
     push_columns(&mut table, &[&names[..], &shape].concat(), &trees);
-    table.noted(vec!["speedup: over the report's tree, the first row. ~: timed on a subset of the rays.".into()]).explained()
+    table
+        .noted(vec!["speedup: over the report's tree, the first row. ~: timed on a subset of the rays.".into()])
+        .explained()
 }

@@ -22,8 +22,8 @@ use crate::report::{Failure, Report};
 use options::{CompareArgs, NAME};
 pub use rank::FASTEST;
 use rank::Ranking;
-use table::refusals;
 pub use reference::Reference;
+use table::refusals;
 
 /// The structures of `study all`: all names, and each again over a triangle test of the other precision.
 const FULL: &str = "-s all -s sah-hybrid:batch=packets -s median-kd:test=moller-trumbore -s sah-kd:test=moller-trumbore \

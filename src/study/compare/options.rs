@@ -10,7 +10,8 @@ use crate::registry::{Registry, is_named};
 use crate::report::words::each_once_by;
 use crate::request::{
     BRUTE_FORCE, Limit, MEASURING, Measuring, OUTPUT, RAYS, RaySource, STRUCTURES, SceneRequest, Scenes, Seconds,
-    StructureRequest, Structures, ViewArgs, WORKLOADS, WorkloadRequest, each_kind, is_obvhs, left_out, replayed, scene_files, structures_at, with_twin,
+    StructureRequest, Structures, ViewArgs, WORKLOADS, WorkloadRequest, each_kind, is_obvhs, left_out, replayed,
+    scene_files, structures_at, with_twin,
 };
 use crate::scene::{Scene, WorkloadKind};
 use crate::study::case::SLOWEST;

@@ -148,7 +148,7 @@ fn unfit_tests(all: &[Measurement]) -> Vec<String> {
     let note = |own: &Measurement| {
         let hits = exact(own).filter(|&hits| 100 * hits.abs_diff(own.hits) > hits)?;
         Some(format!(
-            "{} finds hits for {} of {} {} rays, exact arithmetic for {}: its speed is that of a wrong result.",
+            "{} finds hits for {} of {} {} rays, exact arithmetic for {}: its speed is not comparable.",
             own.triangle_test,
             count(own.hits as u64),
             count(own.counted_rays as u64),

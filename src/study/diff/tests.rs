@@ -122,7 +122,7 @@ fn answers_that_changed_are_wrong() {
     assert_eq!(wrong.len(), 1);
     assert_eq!(
         (&wrong[0].case[..], &wrong[0].what[..]),
-        ("sah-kd on the primary rays of Cube", "3 of 100 answers are wrong, 0 of 100 were")
+        ("sah-kd on the primary rays of Cube", "3 of 100 rays have a wrong hit, 0 of 100 had")
     );
     assert!(with(&|r| r.hits = 19)[0].what.contains("19 of 1000 rays hit, 20 did"));
     assert!(with(&|r| r.answers = Some(0))[0].what.contains("another t"));
@@ -181,7 +181,7 @@ fn a_gate_ends_in_a_sentence_a_structure() {
     let mut wrong = run(1.0, 1.0);
     wrong[1].structure_errors = 3;
     let found = sentences(&compare(&run(1.0, 1.0), &wrong, Some(10.0), 1))[1].clone();
-    assert!(found.starts_with("sah-kd: wrong or other answers in 1 cell;"), "{found}");
+    assert!(found.starts_with("sah-kd: wrong or other hits in 1 cell;"), "{found}");
     assert!(sentences(&compare(&run(1.0, 1.0), &wrong, None, 1)).is_empty(), "no gate");
 }
 

@@ -107,7 +107,12 @@ pub fn unlike_plan(old: &Dataset, cases: &[Case], here: &Provenance) -> Result<(
         let rays = |case: &Case| serde_json::to_string(&case.workloads).expect("workloads are text");
         differ(&format!("the ray selection of {title}"), &rays(old), &rays(new), SAME_INPUT)?;
         differ("the seed", &old.settings.seed.to_string(), &new.settings.seed.to_string(), SAME_INPUT)?;
-        differ("the structure that finds the origins of secondary rays", &old.settings.guide, &new.settings.guide, SAME_INPUT)?;
+        differ(
+            "the structure that finds the origins of secondary rays",
+            &old.settings.guide,
+            &new.settings.guide,
+            SAME_INPUT,
+        )?;
         let budget = |case: &Case| case.settings.budget_ns.map_or("none".to_owned(), |ns| duration(ns as f64));
         differ("the budget", &budget(old), &budget(new), SAME_RAYS)?;
     }

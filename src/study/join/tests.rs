@@ -44,7 +44,7 @@ fn a_scene_without_its_first_epoch_is_left_out_and_one_without_another_is_named(
     let given = [epochs("a", &[1, 2]), epochs("b", &[0, 2]), epochs("c", &[0, 1, 2])].concat();
     let (cases, JoinedEpochs { unchecked, missing, .. }) = joined(given);
     assert!(cases.len() == 5 && cases.iter().all(|epoch| epoch.scene != "a"));
-    assert_eq!(unchecked, ["a: epoch 0 is not measured; epoch 0 checks the answers, so the scene is left out."]);
+    assert_eq!(unchecked, ["a: epoch 0 is not measured; epoch 0 checks the hits, so the scene is left out."]);
     assert_eq!(missing, ["b: epoch 1 is not measured."]);
 }
 
@@ -52,10 +52,10 @@ fn a_scene_without_its_first_epoch_is_left_out_and_one_without_another_is_named(
 fn what_the_first_epoch_found_wrong_has_no_time_anywhere() {
     let mut given = epochs("a", &[1, 0]);
     let wrong = &mut given[1].structures[0].rays[0];
-    (wrong.untimed, wrong.wrong, wrong.ns) = (Some("3 wrong answers to 9 rays".into()), true, vec![]);
+    (wrong.untimed, wrong.wrong, wrong.ns) = (Some("3 wrong hits on 9 rays".into()), true, vec![]);
     let (cases, _) = joined(given.clone());
     let one = &cases[0].structures[0].rays[0];
-    assert!(one.ns.is_empty() && one.wrong && one.untimed.as_deref() == Some("3 wrong answers to 9 rays"));
+    assert!(one.ns.is_empty() && one.wrong && one.untimed.as_deref() == Some("3 wrong hits on 9 rays"));
     assert_eq!(cases[0].structures[1], given[0].structures[1]);
     // A study that compares all or nothing leaves the scene out.
     let (cases, JoinedEpochs { failures, .. }) = joined_as(given, true);
@@ -84,7 +84,7 @@ fn structures_over_the_exact_test_that_answer_otherwise_are_a_wrong_answer() {
     assert!(with(["moller-trumbore"; 2], &|_| ()).is_empty(), "it rounds");
     let known = |structure: &mut Structure| structure.name = "obvhs-bvh2".into();
     assert!(with(["exact", "exact"], &known).is_empty(), "it is known to err");
-    let untimed = |structure: &mut Structure| structure.rays[0].untimed = Some("3 wrong answers to 9 rays".into());
+    let untimed = |structure: &mut Structure| structure.rays[0].untimed = Some("3 wrong hits on 9 rays".into());
     assert!(with(["exact", "exact"], &untimed).is_empty(), "it has been told already");
     let fewer = |structure: &mut Structure| structure.rays[0].counts.as_mut().unwrap().rays = 10;
     assert!(with(["exact", "exact"], &fewer).is_empty(), "of other rays");
@@ -105,11 +105,11 @@ fn epochs_that_differ_in_what_they_must_not_are_named() {
     let answers = failure(|epoch| epoch.structures[1].rays[0].checksum = 2);
     let sentence = answers.to_string();
     assert!(sentence.contains("y on the primary rays of a") && sentence.contains("epoch 1"), "{sentence}");
-    assert!(sentence.contains("the answers") && answers.is_wrong_answer(), "{sentence}");
+    assert!(sentence.contains("the hits") && answers.is_wrong_answer(), "{sentence}");
     // What else may differ is no wrong answer, as where a structure that counts could not be built in one of them.
     for (other, what) in [
         (failure(|epoch| epoch.structures[1].rays[0].hash = "12".into()), "differ in the rays"),
-        (failure(|epoch| epoch.structures[1].rays[0].rays = 250), "the number of rays that are timed"),
+        (failure(|epoch| epoch.structures[1].rays[0].rays = 250), "the number of timed rays"),
         (failure(|epoch| epoch.structures[1].rays[0].ns.truncate(2)), "the number of samples"),
         (failure(|epoch| epoch.structures[1].label = "z".into()), "the structures"),
     ] {

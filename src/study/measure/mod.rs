@@ -236,7 +236,7 @@ impl<'a> Bench<'a> {
     /// Counts the errors of all structures against the exact oracle. A structure that declines some of the rays is
     /// refused: its rate would be of other rays.
     fn judge(&mut self, progress: &mut dyn FnMut(Stage)) {
-        progress(Stage::Rays("the exact answers to all".into()));
+        progress(Stage::Rays("exact results for all".into()));
         let oracle = Oracle::new(&self.prepared.scene.mesh);
         let budget_ns = self.case.settings.budget_ns.unwrap_or(u64::MAX / 2);
         let pairs = Pair::all(self.structures.len(), self.workloads.len());

@@ -51,13 +51,13 @@ const OWN: &str = "Starters";
 
 fn rays(main: &[Replicated]) -> Option<Finding> {
     let off = |own: &Replicated| own.total().abs_diff(own.report.rays);
-    let told =
-        |own: &Replicated| format!("{} is off by {} of {}", own.first().title(), count(off(own)), count(own.report.rays));
+    let told = |own: &Replicated| {
+        format!("{} is off by {} of {}", own.first().title(), count(off(own)), count(own.report.rays))
+    };
     let far: Vec<String> = main.iter().filter(|own| off(own) > CLOSE).map(told).collect();
     let exceptions = if far.is_empty() { String::new() } else { format!("; {}", listed(&far)) };
     let (close, all) = (main.len() - far.len(), plural(main.len(), "scene"));
-    let sentence =
-        format!("Our ray counts match the report's within {CLOSE} rays in {close} of {all}{exceptions}.");
+    let sentence = format!("Our ray counts match the report's within {CLOSE} rays in {close} of {all}{exceptions}.");
     (!main.is_empty()).then(|| Finding::new("rays", sentence))
 }
 

@@ -31,10 +31,8 @@ fn rays(all: &[Replicated]) -> Table {
         ],
     )
     .noted(vec![
-        "Hard scenes: primary rays only, as in the report. Starters uses our own creatures, so its rays differ."
-            .into(),
-        "Secondary rays start at the hits of a single-precision triangle test, as in the report's program."
-            .into(),
+        "Hard scenes: primary rays only, as in the report. Starters uses our own creatures, so its rays differ.".into(),
+        "Secondary rays start at the hits of a single-precision triangle test, as in the report's program.".into(),
     ])
 }
 
@@ -85,7 +83,8 @@ fn settings(main: &[Replicated]) -> Table {
     }
     table.noted(vec![
         "Leaf limit / match threshold. The report's figures of Teapot and Torus are swapped in print and corrected \
-         here.".into(),
+         here."
+            .into(),
     ])
 }
 

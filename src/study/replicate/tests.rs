@@ -134,7 +134,7 @@ fn claims_about_all_scenes_are_judged_with_all_scenes() {
     let order = value(&report, "order").unwrap();
     assert!((order.estimate - (1.0 - 16.0 / 35.0)).abs() < 1e-12, "{order:?}");
     let told = &report.finding("order").unwrap().sentence;
-    assert!(told.starts_with("Surely") && told.contains("Infinitycandy gains less than Cube"), "{told}");
+    assert!(told.starts_with("Clearly") && told.contains("Infinitycandy gains less than Cube"), "{told}");
     assert_eq!(report.verdicts.len(), 12);
     assert!(report.verdicts.iter().all(|verdict| verdict.value.is_some()));
 }

@@ -136,8 +136,7 @@ fn built(corners: Positions, quality: Quality) -> Result<(bvh8_cpu::BVH, TreeSha
     let wide = mbvh::BVH::new(&binary);
     let (shape, waiting) = shape(wide.nodes());
     if waiting > STACK {
-        let sentence =
-            format!("tinybvh has a stack of {STACK} nodes, but its tree over this mesh needs {waiting}");
+        let sentence = format!("tinybvh has a stack of {STACK} nodes, but its tree over this mesh needs {waiting}");
         return Err(BuildError::Mesh(sentence));
     }
     Ok((bvh8_cpu::BVH::new(&wide).map_err(refusal)?, shape))

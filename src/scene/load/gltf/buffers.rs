@@ -41,7 +41,8 @@ pub(super) fn read(list: &mut [Buffer], mut chunk: Option<Vec<u8>>, folder: &Pat
         let outside = || format!("its file {} is outside the folder of this file: move it there", quoted(&name));
         let path = canonical(named_below(folder, &name).ok_or_else(outside)?);
         if !files.contains_key(&path) {
-            let unread = |cause| format!("its file {} cannot be read ({cause}): put it next to this file", quoted(&name));
+            let unread =
+                |cause| format!("its file {} cannot be read ({cause}): put it next to this file", quoted(&name));
             files.insert(path.clone(), Rc::new(read_start(&path, longest).map_err(unread)?));
         }
         Ok(Rc::clone(&files[&path]))

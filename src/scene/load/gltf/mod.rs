@@ -95,8 +95,7 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
         let mut positions = shapes[&placement.mesh.index()].positions.iter();
         placement.node.skin().is_some() && positions.any(|attribute| attribute.influences.is_empty())
     };
-    let unposed =
-        ["node has a skin without joints: unposed", "nodes have skins without joints: unposed"];
+    let unposed = ["node has a skin without joints: unposed", "nodes have skins without joints: unposed"];
     notes.count(placements.iter().filter(is_unposed).count(), unposed);
     let texture = [
         "material has a texture: ignored, the base colour is used",
@@ -104,10 +103,7 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
     ];
     let textured = (0..).zip(&textured).filter(|(number, is_textured)| **is_textured && used.contains(number)).count();
     notes.count(textured, texture);
-    let morph = [
-        "primitive has morph targets: ignored",
-        "primitives have morph targets: ignored",
-    ];
+    let morph = ["primitive has morph targets: ignored", "primitives have morph targets: ignored"];
     notes.count(shapes.values().map(|shape| shape.morphed).sum(), morph);
     let left_out = [
         "primitive is points or lines, or has no positions: ignored",

@@ -278,8 +278,7 @@ fn check_size(text: &[u8], bytes: usize) -> Result<(), Fault> {
     let objects = text.iter().filter(|byte| **byte == b'{').count();
     let most = MOST_OBJECTS + bytes / BYTES_AN_OBJECT;
     if objects > most {
-        let problem =
-            format!("its text describes {objects} objects, but the limit is {most}: split the file");
+        let problem = format!("its text describes {objects} objects, but the limit is {most}: split the file");
         return Err(Fault::file(problem));
     }
     Ok(())

@@ -98,23 +98,18 @@ impl<'a> Filter<'a> {
     pub fn finish(self, notes: &mut Notes) -> Result<Contents, Fault> {
         let Contents { triangles, small_faces, shapes, weighted, unknown, .. } = self.contents;
         notes.count(small_faces, SMALL_FACES);
-        notes.count(
-            shapes,
-            ["point, line, curve or surface: ignored", "points, lines, curves or surfaces: ignored"],
-        );
+        notes.count(shapes, ["point, line, curve or surface: ignored", "points, lines, curves or surfaces: ignored"]);
         notes.count(
             weighted,
-            [
-                "vertex has a weight w other than 1: ignored",
-                "vertices have weights w other than 1: ignored",
-            ],
+            ["vertex has a weight w other than 1: ignored", "vertices have weights w other than 1: ignored"],
         );
         match &self.contents.first_unknown {
             None if triangles == 0 => return Err(Fault::file("it has no triangles: no face has three corners")),
             Some((line, statement)) if triangles == 0 => {
-                let problem =
-                    format!("{statement} does not begin with an OBJ keyword, and no face follows: this is another \
-                             format");
+                let problem = format!(
+                    "{statement} does not begin with an OBJ keyword, and no face follows: this is another \
+                             format"
+                );
                 return Err(Fault::line(*line, problem));
             }
             Some((line, statement)) => notes.add(format!(

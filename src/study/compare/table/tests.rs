@@ -72,7 +72,7 @@ fn what_is_declined_is_neither_right_nor_wrong() {
     assert_eq!(cell(&table, "sah-kd", "x median"), "8.00 (1 of 2)", "of the workloads that it does not decline");
     assert_eq!(table.notes, ["sah-kd declines any hit, which random rays need."]);
     let means = mean_table(&all);
-    assert_eq!(means.notes[0], "1 case that a structure declines left out.");
+    assert_eq!(means.notes[0], "1 case that a structure declines: left out.");
     assert_eq!(cell(&means, "sah-kd", "all x median"), "8.00 (1 of 2)");
 }
 
@@ -88,7 +88,7 @@ fn a_wrong_structure_shows_its_errors_and_no_time_and_a_known_defect_is_named() 
         assert_eq!(shown, ["3/100 wrong", "", right]);
     }
     assert_eq!(table.notes.len(), 1);
-    assert!(table.notes[0].starts_with("obvhs-bvh2 answers 3 of 100 primary rays wrong"), "{:?}", table.notes);
+    assert!(table.notes[0].starts_with("obvhs-bvh2 returns wrong hits on 3 of 100 primary rays"), "{:?}", table.notes);
 }
 
 #[test]
@@ -104,7 +104,7 @@ fn a_triangle_test_that_misses_what_is_hit_is_named() {
     let notes = scene_table(&all, &[]).notes;
     assert_eq!((label.as_str(), notes.len()), ("obvhs-bvh2", 1), "{notes:?}");
     assert!(
-        notes[0].starts_with("By rt-triangle 0 of 1,000 primary rays hit something, by exact arithmetic 20"),
+        notes[0].starts_with("rt-triangle finds hits for 0 of 1,000 primary rays, exact arithmetic for 20"),
         "{notes:?}"
     );
 }
@@ -132,7 +132,7 @@ fn what_lies_within_the_noise_is_said_to_be_no_difference() {
         record.twin_samples_ns = Some(twin.collect());
     }
     let note = &scene_table(&all, &[]).notes[0];
-    assert!(note.contains("twice): not seen above the scatter of the epochs; 2 of 2"), "{note}");
+    assert!(note.contains("twice): none beyond the variation of the epochs; 2 of 2"), "{note}");
 }
 
 #[test]
@@ -157,7 +157,7 @@ fn a_mean_over_fewer_scenes_names_its_count_and_is_not_ranked() {
     let table = mean_table(&all);
     assert_eq!([cell(&table, "sah-kd", "primary"), cell(&table, "sah-bvh", "primary")], ["2.00", "9.00 (2 of 3)"]);
     assert_eq!(cell(&table, "sah-bvh", "all x median"), "9.00 (2 of 3)");
-    assert!(table.title.contains("3 scenes") && table.notes[0] == "1 case with wrong answers left out.", "{table:?}");
+    assert!(table.title.contains("3 scenes") && table.notes[0] == "1 case with wrong hits: left out.", "{table:?}");
     let best = |row: &str| table.rows.iter().find(|r| r[0].text() == row).unwrap()[1].tone;
     assert_eq!((best("sah-kd"), best("sah-bvh")), (Tone::Best, Tone::Plain));
     assert!(table.notes.iter().any(|note| note.starts_with("(n of m)")), "{:?}", table.notes);
@@ -177,7 +177,7 @@ fn means_are_those_of_the_scenes_and_their_intervals_of_the_epochs_that_all_have
     }
     let table = mean_table(&all);
     assert_eq!(cell(&table, "sah-kd", "primary"), "8.00");
-    assert!(table.notes.contains(&"Scenes have 1 to 5 epochs: intervals of means are of the first of each.".into()));
+    assert!(table.notes.contains(&"Scenes have 1 to 5 epochs: intervals of means use the first of each.".into()));
     assert!(mean_table(&cube()).notes.iter().all(|note| !note.contains("epochs")));
     let whole: Vec<Measurement> = all.into_iter().filter(|record| record.label != "obvhs-cwbvh").collect();
     assert!(mean_table(&whole).notes.iter().all(|note| !note.starts_with("(n of m)")), "no row lacks a case");

@@ -26,9 +26,9 @@ fn runs_that_differ_in_more_than_their_code_are_unlike() {
             side.all[2].config = serde_json::json!({ "leaf": 8, "threshold": 0.8 });
         }),
         ("the processor", &|side| side.provenance.cpu = "Other".into()),
-        ("the instruction set", &|side| side.provenance.simd = "portable".into()),
+        ("the SIMD instruction set", &|side| side.provenance.simd = "portable".into()),
         ("the profile", &|side| side.provenance.profile = "other".into()),
-        ("for the compiler", &|side| side.provenance.target_features = "sse2".into()),
+        ("target features", &|side| side.provenance.target_features = "sse2".into()),
         ("the version of obvhs", &|side| side.provenance.obvhs = "0.5.0".into()),
         ("the hash of the scene Cube", &|side| side.all[0].scene_hash = "ff".into()),
         ("the hash of the primary rays of Cube", &|side| side.all[0].workload_hash = "ff".into()),
@@ -105,5 +105,5 @@ fn on_two_machines_ratios_to_obvhs_are_compared_and_nothing_else() {
     let untimed = refused(&|side| {
         side.all.iter_mut().filter(|own| is_reference(own)).for_each(|own| own.trace_ns = None);
     });
-    assert!(untimed.contains("the processor is") && untimed.contains("ratios to a structure of obvhs"), "{untimed}");
+    assert!(untimed.contains("the processor is") && untimed.contains("ratios to an obvhs structure"), "{untimed}");
 }
