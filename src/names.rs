@@ -105,6 +105,6 @@ mod tests {
         assert_eq!(Fruit::ALL.map(|one| fruit(one.name())), Fruit::ALL.map(Ok));
         let refused = fruit("appel").unwrap_err().to_string();
         assert_eq!((fruit("APPLE"), named(SCENES, "Drago", |name| name)), (Ok(Fruit::Apple), None));
-        assert_eq!(refused, "there is no fruit \"appel\" (did you mean apple?); there are: apple, sour-cherry");
+        assert_eq!(refused, "there is no fruit \"appel\" (did you mean apple?); the choices are: apple, sour-cherry");
     }
 }

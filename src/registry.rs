@@ -237,8 +237,8 @@ mod tests {
     #[test]
     fn a_removed_value_names_its_replacement() {
         let error = Registry::builtin().choose("sah-bvh:batch=interleaved").map(|choice| choice.label).unwrap_err();
-        let sentence = "sah-bvh no longer takes batch=interleaved: use batch=packets, which interleaves the rays that do \
-                        not form a packet";
+        let sentence = "sah-bvh no longer accepts batch=interleaved: use batch=packets, which interleaves the rays \
+                        outside packets";
         assert_eq!(error.to_string(), sentence);
     }
 }

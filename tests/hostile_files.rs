@@ -144,7 +144,7 @@ fn ply_files() -> Vec<(Files, [&'static str; 2])> {
         (ply(&mesh(little, 1, 1 << 49), &[0; 100]), ["element face:", "rows"]),
         (ply(&mesh(little, 1, 1), &[&[0; 3][..], &[0xff; 4], &[0; 99]].concat()), ["face 0:", "4294967295 entries"]),
         (ply(&mesh(little, 1, 15_001), &wrong), ["face 15000:", "its corner 1 is none of the 1"]),
-        (ply(&mesh("ascii", 1, 1), b"0 0 0\n99999999999 0\n"), ["face 0:", "taken for a mistake"]),
+        (ply(&mesh("ascii", 1, 1), b"0 0 0\n99999999999 0\n"), ["face 0:", "the limit is"]),
         (ply(&mesh("ascii", 1, 1), b"0 0 0\n3 0 -1 0\n"), ["face 0:", "`3 0 -1 0`"]),
         (ply(&mesh("ascii", 1, 1), b"0 0 \xff\n3 0 0 0\n"), ["vertex 0:", "not ASCII text"]),
     ]

@@ -35,7 +35,7 @@ pub struct Args {
     #[command(flatten)]
     from: ViewArgs,
     /// Tests and steps at the bright end of the heat scale [default: the maximum over all trees, so that pictures of all
-    /// structures are comparable; on very large meshes, that of this structure]
+    /// structures are comparable; on very large meshes, the maximum of this structure]
     #[arg(long, help_heading = OUTPUT, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     hottest: Option<u64>,
 }

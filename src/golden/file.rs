@@ -245,7 +245,7 @@ mod tests {
             fs::write(&path, &good[..length]).unwrap();
             // Eight bytes tell the format, and all pixels are there before the last chunk, which says nothing.
             if (8..good.len() - 12).contains(&length) {
-                refusal("damaged or cut off");
+                refusal("damaged or truncated");
             }
         }
         let other = if cfg!(feature = "pictures") { "not PNG, JPEG, WebP or EXR" } else { "feature `pictures`" };

@@ -62,7 +62,7 @@ fn value(sample: &[u8]) -> f64 {
         [byte] => byte.into(),
         [a, b] => u16::from_ne_bytes([a, b]).into(),
         [a, b, c, d] => f32::from_ne_bytes([a, b, c, d]).into(),
-        _ => unreachable!("pictures have 8, 16 or 32 bits a channel"),
+        _ => unreachable!("pictures have 8, 16 or 32 bits per channel"),
     }
 }
 
@@ -87,10 +87,10 @@ mod tests {
         assert_eq!(
             said.map(|picture| Layout::of(&picture).to_string()),
             [
-                "4 x 2 pixels of RGB with 8 bits a channel",
-                "4 x 2 pixels of RGBA with 8 bits a channel",
-                "4 x 2 pixels of grey with 16 bits a channel",
-                "4 x 2 pixels of RGB with 32 bits a channel",
+                "4 x 2 pixels of RGB with 8 bits per channel",
+                "4 x 2 pixels of RGBA with 8 bits per channel",
+                "4 x 2 pixels of grey with 16 bits per channel",
+                "4 x 2 pixels of RGB with 32 bits per channel",
             ]
         );
     }

@@ -302,7 +302,7 @@ mod tests {
 
         scene.size = [16, 6];
         let size = refusal(&scene);
-        assert!(size.contains("8 x 6 pixels, and 16 x 6") && size.contains("--size 8x6"), "{size}");
+        assert!(size.contains("8 x 6 pixels, but 16 x 6") && size.contains("--size 8x6"), "{size}");
         scene.size = [8, 6];
         let old = camera_note(&scene.camera);
         scene.camera = Camera::new(glam::Vec3::new(1.0, 2.0, 5.5), glam::Vec3::ZERO, glam::Vec3::Y, 30.0).unwrap();

@@ -197,7 +197,7 @@ mod tests {
             (vec![steady.clone()], None),
             (vec![spoilt(&[(7, 1500.0)])], None),
             (vec![spoilt(&[(3, 2000.0), (7, 1500.0), (12, 1800.0)])], Some("3 of 20 samples are outliers")),
-            (vec![growing(0.2), growing(0.22)], Some("all cases grew slower, by 21 %")),
+            (vec![growing(0.2), growing(0.22)], Some("all cases slowed by 21 %")),
             (vec![growing(0.03)], None),
             (vec![wavering], None),
             (vec![short], None),

@@ -183,7 +183,7 @@ fn of_two_runs_the_newest_cases_count_and_what_is_not_shown_is_said() {
     type Case<'a> = (Files, &'a [&'a str], &'a [&'a str], &'a str);
     let cases: [Case; 6] = [
         (export("compare", &three, &old), &three, &[], ""),
-        (again, &three, &[], "compare: 1 case measured again since"),
+        (again, &three, &[], "compare: 1 case measured again later"),
         (journal("compare", &["Torus"], &new), &["Cube", "Dragon", "Lucy", "Torus"], &[], ""),
         (journal("compare", &["Torus"], &other_cpu), &three, &["Torus"], ""),
         (export("compare", &["Torus"], &other_commit), &three, &["Torus"], ""),
@@ -202,7 +202,7 @@ fn of_two_runs_the_newest_cases_count_and_what_is_not_shown_is_said() {
             assert!(runs.notes.iter().all(|own| own.contains(note)), "{:?}", runs.notes);
             for form in forms(&document(&runs)) {
                 let said =
-                    others.iter().all(|scene| form.contains(&format!("Also measured, and not shown: {scene} on ")));
+                    others.iter().all(|scene| form.contains(&format!("Measured but not shown: {scene} on ")));
                 assert!(said && form.contains(note));
             }
         }
@@ -244,7 +244,7 @@ fn what_is_no_run_is_left_out_of_a_folder_and_named() {
     files.push(("notes.json".into(), b"[{\"claim\": \"x\"}]".to_vec()));
     let (folder, run) = (folder(&files), files[0].0.clone());
     let runs = read(folder.path());
-    assert!(runs.of("compare").is_some() && runs.notes[0].ends_with("notes.json is no run and is left out."));
+    assert!(runs.of("compare").is_some() && runs.notes[0].ends_with("notes.json is not a run: ignored."));
     fs::remove_file(folder.path().join(run)).unwrap();
     assert!(refused(folder.path().into()).to_string().contains("there is no run"));
 }
@@ -280,5 +280,5 @@ fn scenes_are_drawn_as_they_were_measured_and_those_that_are_gone_are_named() {
     let Block::Figure(figure) = &heat.blocks[1] else { panic!("no heat") };
     assert_eq!((figure.id.as_str(), figure.pictures().len()), ("heat-cube", 2));
     assert!(heat.command.starts_with("sahara render cube --view heat --hottest "), "{}", heat.command);
-    assert!(matches!(&errors.blocks[1], Block::Text(text) if text.contains("answered right by median-kd and sah-kd")));
+    assert!(matches!(&errors.blocks[1], Block::Text(text) if text.contains("is correct with median-kd and sah-kd")));
 }

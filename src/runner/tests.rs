@@ -21,7 +21,7 @@ fn a_program_is_called_by_its_file_and_arguments() {
     let name = |command: &str| Program::new(command, Duration::from_secs(10)).map(|program| program.name());
     let echo = "sh -c 'echo runner 1 closest any; cat > /dev/null'";
     assert_eq!(name(&format!("/bin/{echo}")).unwrap(), "sh -c echo runner 1 closest any; cat > /dev/null");
-    assert!(name("'").unwrap_err().contains("in quotes"));
+    assert!(name("'").unwrap_err().contains("quote arguments"));
     assert!(name("sh -c 'echo runner 2 closest'").unwrap_err().contains("runner 1 closest any"));
 }
 

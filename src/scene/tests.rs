@@ -77,14 +77,14 @@ fn errors_name_the_file_the_location_and_a_remedy() {
     starts(changed("60", "'60'"), "test.toml, line 3: invalid type");
     starts(
         changed("cube", "cub"),
-        "test.toml, `objects[0].mesh`: there is no mesh `cub` (did you mean cube?); give a file or one of cube,",
+        "test.toml, `objects[0].mesh`: there is no mesh `cub` (did you mean cube?); name a file or one of cube,",
     );
-    starts(changed("60", "180"), "test.toml, `camera`: the camera's vertical field of view must lie");
+    starts(changed("60", "180"), "test.toml, `camera`: the camera's vertical field of view must be");
     starts(changed("[0, 0, 0]", "[0, 0, 5]"), "test.toml, `camera`: the camera's eye and target are the same");
-    starts(changed("[0, 0, 0]", "[0, 1, 5]"), "test.toml, `camera`: the camera's up points along");
+    starts(changed("[0, 0, 0]", "[0, 1, 5]"), "test.toml, `camera`: the camera's up is parallel");
     starts(
         changed("\"cube\"", "\"cube\", material = \"Red\""),
-        "test.toml, `objects[0].material`: there is no material",
+        "test.toml, `objects[0].material`: the file has no material",
     );
     starts(changed("\"cube\"", "\"cube\", tra = [nan, 0, 0]"), "test.toml, `objects[0].rot, sca or tra`: give finite");
     starts(changed("\"cube\"", "\"cube\", sca = [3e38, 3e38, 3e38], tra = [3e38, 0, 0]"), "test.toml: vertex");
@@ -96,11 +96,11 @@ fn errors_name_the_file_the_location_and_a_remedy() {
     for r in ["1.5", "-0.1", "nan"] {
         starts(message(&mirror(r)), "test.toml, `materials.M.r`: give a share, from 0 to 1");
     }
-    starts(changed("name", "size = [0, 1]\nname"), "test.toml, `size`: width and height lie between");
-    starts(changed("name", "triangles = 13\nname"), "test.toml, `triangles`: the file says 13 triangles, but");
+    starts(changed("name", "size = [0, 1]\nname"), "test.toml, `size`: width and height must be between");
+    starts(changed("name", "triangles = 13\nname"), "test.toml, `triangles`: the file states 13 triangles, but");
 
     let missing = Scene::read(std::path::Path::new("no/such.toml"), None).unwrap_err().to_string();
-    assert!(missing.starts_with("no/such.toml: the scene cannot be read"), "{missing}");
+    assert!(missing.starts_with("no/such.toml: cannot read the scene"), "{missing}");
 }
 
 #[test]
@@ -168,7 +168,7 @@ fn a_scene_of_real_meshes_alone_says_how_to_get_them() {
     assert_eq!((scene.mesh.len(), scene.stand_ins.len()), (1, 0));
     assert!(scene.notes.iter().any(|note| note.ends_with("thing.obj: 1 triangles")), "{:?}", scene.notes);
     let wrong = made(&format!("triangles = 2\n{text}"), Some(folder.path())).unwrap_err().to_string();
-    assert!(wrong.contains("says 2 triangles, but its objects have 1"), "{wrong}");
+    assert!(wrong.contains("states 2 triangles, but its objects have 1"), "{wrong}");
 }
 
 #[test]

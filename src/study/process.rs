@@ -307,7 +307,7 @@ mod tests {
         let case = example("Cube", 0, &["sah-kd"]);
         let error = processes.measure(&case, &out.path().join("a.json"), None, &mut |_| ()).unwrap_err();
         let sentence = error.to_string();
-        assert!(sentence.contains("Cube epoch 0") && sentence.contains("without an answer"), "{sentence}");
+        assert!(sentence.contains("Cube epoch 0") && sentence.contains("without a reply"), "{sentence}");
         assert!(error.is_of_one_scene() && !error.is_wrong_answer());
     }
 }

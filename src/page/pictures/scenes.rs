@@ -80,7 +80,7 @@ mod tests {
     #[test]
     fn a_scene_that_is_seen_from_elsewhere_is_named() {
         let caption = |view: &str| super::caption(&[LoadedScene::cube("cube", "Cube", view)]);
-        assert!(caption("{}").ends_with("whole in view."));
+        assert!(caption("{}").ends_with("shows all of it."));
         assert!(caption(r#"{"inside":true}"#).ends_with("seen otherwise: Cube (--inside)."));
     }
 }

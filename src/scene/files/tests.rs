@@ -51,7 +51,7 @@ fn damaged_files_are_refused_with_a_sentence() {
     let whole = file.to_bytes();
     let refusal = |bytes: &[u8]| RayFile::from_bytes(bytes).unwrap_err();
     assert!(refusal(b"").contains("SAHARAYS") && refusal(b"PNG and so on, long enough").contains("SAHARAYS"));
-    assert!(refusal(&whole[..whole.len() - 1]).contains("cut short"));
+    assert!(refusal(&whole[..whole.len() - 1]).contains("truncated"));
     assert!(refusal(&[&whole[..], &[0]].concat()).contains("1 bytes follow"));
     let changed = |at: usize, to: u8| {
         let mut bytes = whole.clone();
@@ -60,8 +60,8 @@ fn damaged_files_are_refused_with_a_sentence() {
     };
     assert!(changed(8, 9).contains("version 9"));
     assert!(changed(12, 7).contains("query 7"));
-    assert!(changed(23, 0xff).contains("cut short"));
-    assert!(changed(67, 0xff).contains("cut short"));
+    assert!(changed(23, 0xff).contains("truncated"));
+    assert!(changed(67, 0xff).contains("truncated"));
     assert!(changed(72, 0xff).contains("UTF-8"));
     assert!(changed(72, 0x1b).contains("control character"));
     assert!(changed(whole.len() - 5, whole[whole.len() - 5] ^ 1).contains("changed"));
@@ -110,7 +110,7 @@ fn rays_and_hits_of_another_scene_are_refused() {
     let any = Workload { query: Query::Any, ..file.workload.clone() };
     assert!(hits.hits_of(&any).unwrap_err().contains("\"any\""));
     let cut = HitFile::from_bytes(&hits.to_bytes()[..100]).unwrap_err();
-    assert!(cut.contains("cut short"), "{cut}");
+    assert!(cut.contains("truncated"), "{cut}");
     assert!(HitFile::from_bytes(&file.to_bytes()).unwrap_err().contains("SAHAHITS"));
     drop(scene);
 }

@@ -91,7 +91,7 @@ fn what_is_refused_or_owes_the_truth_and_errs_fails() {
                 own.epoch.structures[1].refused = Some("it panicked".into());
                 own.epoch.structures[1].rays.clear();
             },
-            &[("brute-force on Cube is refused: it panicked.", false)],
+            &[("brute-force on Cube has no result: it panicked.", false)],
         ),
     ];
     for (change, expected) in changes {

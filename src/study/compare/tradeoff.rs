@@ -107,7 +107,7 @@ mod tests {
         assert_eq!(cases.len(), 1, "one structure alone is no comparison");
         let points: Vec<(&str, f64)> = cases[0].points.iter().map(|p| (p.label.as_str(), p.ns_per_ray)).collect();
         assert_eq!(points, [("sah-kd", 500.0), ("sah-bvh", 250.0)]);
-        assert!(figure.alt.contains("the fastest is sah-bvh") && figure.data.rows.len() == 2, "{}", figure.alt);
+        assert!(figure.alt.contains("fastest sah-bvh") && figure.data.rows.len() == 2, "{}", figure.alt);
         assert!(super::figure(&[all[..2].to_vec()], &[]).is_none());
 
         // One that is timed on a part of the rays, which take it less than the others, is compared on them.

@@ -143,7 +143,7 @@ fn cases_of_equal_settings_are_a_dataset_and_what_was_measured_again_counts_once
     measure(&mut elsewhere, &later, "2026-03-01");
     let cube = datasets(read()).into_iter().find(|own| own.measured[0].case.settings.runs == 9).unwrap();
     let notes = cube.notes.join(" ");
-    assert!(notes.contains("1 case measured again since") && notes.contains("2 hosts"), "{notes}");
+    assert!(notes.contains("1 case measured again later") && notes.contains("2 hosts"), "{notes}");
     assert!(notes.contains("epoch 1 is not measured"), "{notes}");
 }
 

@@ -67,7 +67,7 @@ mod tests {
         assert_eq!(fits_into(None, 1000, 1 << 30), Ok(()), "nothing is refused where nothing is known");
 
         let refusal = |most| StudyError::Memory { scene: "A".into(), structures: 9, needed: 27.0, there: 25.0, most };
-        let numbers = "A: 9 structures at once need about 27 GB, and there are 25 GB of memory: name ";
+        let numbers = "A: 9 structures need about 27 GB at once, but this machine has 25 GB: name ";
         let said = [0, 1, 7].map(|most| refusal(most).to_string());
         let advice = ["", "at most 1 structure, or ", "at most 7 structures, or "];
         assert_eq!(said, advice.map(|advice| format!("{numbers}{advice}a smaller scene")));

@@ -18,7 +18,7 @@ fn polygons_are_fans_and_vertices_keep_their_order() {
     assert!(model.normals.is_empty() && model.normal_indices.is_empty() && model.material_of.is_empty());
     assert_eq!(model.materials, [Material::named("default")]);
     let left_out =
-        ["1 face with fewer than three corners is left out", "2 points, lines, curves or surfaces are left out"];
+        ["1 face with fewer than three corners: ignored", "2 points, lines, curves or surfaces: ignored"];
     assert_eq!(model.notes, left_out);
 }
 
@@ -112,7 +112,7 @@ fn marks_line_ends_and_comments_do_not_hide_vertices() {
 #[test]
 fn elements_other_than_faces_are_reported_and_a_material_may_have_no_name() {
     let model = obj(&format!("{SQUARE}l 1 2\np 1\nf 1 2 3\ncurv 0 1 1 2\no name\n"));
-    assert_eq!(model.notes, ["3 points, lines, curves or surfaces are left out"]);
+    assert_eq!(model.notes, ["3 points, lines, curves or surfaces: ignored"]);
     let library = ("a.mtl", &b"newmtl red\nKd 1 0 0\nnewmtl\nKd 0 1 0\n"[..]);
     let text = format!("mtllib a.mtl\n{SQUARE}usemtl red\nf 1 2 3\nusemtl\nf 1 2 3\n");
     let model = load_files(&[("a.obj", text.as_bytes()), library]).unwrap();
@@ -123,7 +123,7 @@ fn elements_other_than_faces_are_reported_and_a_material_may_have_no_name() {
 #[test]
 fn lines_without_a_known_keyword_are_reported() {
     let model = obj(&format!("{SQUARE}vertex 1 2 3\nfoo\nf 1 2 3\nvt 0 0\ncstype bezier\n"));
-    assert_eq!(model.notes, ["2 lines without a keyword of OBJ are passed over, the first is line 6: `vertex 1 2 3`"]);
+    assert_eq!(model.notes, ["2 lines without an OBJ keyword are ignored; the first is line 6: `vertex 1 2 3`"]);
     let html = b"\n<!DOCTYPE html>\n<p>404</p>\n";
     assert_refused("a.obj", html, &["line 2: `<!DOCTYPE html>`", "OBJ keyword", "another format"]);
     assert_refused("a.obj", b"", &["has no triangles"]);
@@ -142,10 +142,10 @@ fn malformed_files_are_refused_with_their_line() {
         ("v 0 0 1e39\n", ["line 1:", "finite numbers"]),
         ("v 0 0 0\nf 0 1 1\n", ["line 2:", "vertex index 0"]),
         ("v 0 0 0\nf 1 1 2\nf 1 1 1\n", ["line 2:", "vertex 2, but the file has only 1"]),
-        ("v 0 0 0\nf 1 1 -2\n", ["line 2:", "-2 reaches before the first of the 1"]),
+        ("v 0 0 0\nf 1 1 -2\n", ["line 2:", "-2 precedes the first of the 1"]),
         ("v 0 0 0\nf 1//1 1//1 1//1\n", ["line 2:", "normal 1, but the file has only 0"]),
         ("v 0 0 0\nf 1//0 1//1 1//1\n", ["line 2:", "normal index 0"]),
-        ("v 0 0 0\nf 1 1 5000000000\n", ["line 2:", "vertex 5000000000 is more"]),
+        ("v 0 0 0\nf 1 1 5000000000\n", ["line 2:", "vertex 5000000000 exceeds"]),
         ("v 0 0 0\nf 1 1 99999999999999999999\n", ["line 2:", "not a vertex index"]),
         ("v 0 0 0\nf 1 1 -9223372036854775808\n", ["line 2:", "precedes"]),
         ("v 0 0 0\nvn 0 0 1\nf 1 1 1/1/1/1\n", ["line 3:", "more than three indices"]),
@@ -184,13 +184,13 @@ fn what_tobj_misreads_is_read() {
     let weights = "v 2 0 0 2\nv 0 2 0 0\nv 0 0 2 x\nv 1 1 1 1.0\n";
     let model = obj(&format!("{weights}f 1 2 3 4\n"));
     assert_eq!(model.positions[..2], [Vec3::X * 2.0, Vec3::Y * 2.0]);
-    assert_eq!(model.notes[0], "3 vertices have weights w other than 1, which are ignored");
+    assert_eq!(model.notes[0], "3 vertices have weights w other than 1: ignored");
 
     // It panics on these normals.
     let normals = format!("{SQUARE}vn 0 0 1\nvn 0 0 1\nvn 0 0 1\n");
     for (normal, words) in [
-        ("-4", "normal index -4 reaches before the first of the 3"),
-        ("6148914691236517206", "normal 6148914691236517206 is more than a mesh can hold"),
+        ("-4", "normal index -4 precedes the first of the 3"),
+        ("6148914691236517206", "normal 6148914691236517206 exceeds the limit of a mesh"),
         ("9", "normal 9, but the file has only 3"),
     ] {
         let text = format!("{normals}f 1//1 2//{normal} 3//1\n");

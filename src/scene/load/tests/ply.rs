@@ -123,7 +123,7 @@ fn strips_begin_anew_at_minus_one_and_their_winding_alternates() {
     let refused = |elements: &str, numbers: &[i32], words: &[&str]| {
         assert_refused("a.ply", &with_vertices(elements, numbers), words);
     };
-    refused(&strips(1), &[4, 0, 1, 2, -2], &["tristrips 0:", "corner -2 is none of the 7"]);
+    refused(&strips(1), &[4, 0, 1, 2, -2], &["tristrips 0:", "corner -2 is not one of the 7"]);
     refused(&strips(1), &[4, 0, 1, 2, 7], &["tristrips 0:", "corner 7"]);
     refused(&strips(1), &[-1, 0, 1, 2], &["tristrips 0:", "-1 entries"]);
     refused(&strips(1), &[9, 0, 1, 2], &["tristrips 0:", "truncated"]);
@@ -177,10 +177,10 @@ fn malformed_files_are_refused_by_name_and_number() {
         ("element edge", "element vertex", ["line", "declared twice"]),
         ("end_header", "end_head", ["line 16:", "not a line of a PLY header"]),
         ("end_header", "comment", ["line 17:", "not a line of a PLY header"]),
-        ("\n1 4 0 1 2 3\n", "\n1 9999999 0 1 2 3\n", ["face 0:", "9999999 entries: all but 0 to 1048576"]),
-        ("\n1 4 0 1 2 3\n", "\n1 4 0 1 2 5\n", ["face 0:", "corner 5 is none of the 5"]),
+        ("\n1 4 0 1 2 3\n", "\n1 9999999 0 1 2 3\n", ["face 0:", "9999999 entries: the limit is 1048576"]),
+        ("\n1 4 0 1 2 3\n", "\n1 4 0 1 2 5\n", ["face 0:", "corner 5 is not one of the 5"]),
         ("\n1 4 0 1 2 3\n", "\n1 4 0 1 2 -1\n", ["face 0:", "corner -1"]),
-        ("\n1 4 0 1 2 3\n", "\n1 18446744073709551615 0 1 2 3\n", ["face 0:", "for a mistake"]),
+        ("\n1 4 0 1 2 3\n", "\n1 18446744073709551615 0 1 2 3\n", ["face 0:", "the limit is"]),
         ("\n1 4 0 1 2 3\n", "\n1 5 0 1 2 3\n", ["face 0:", "too few"]),
         ("\n1 4 0 1 2 3\n", "\n1 -4 0 1 2 3\n", ["face 0:", "-4 entries"]),
         ("\n1 1 0", "\n1 x 0", ["vertex 2:", "numbers"]),
