@@ -47,7 +47,7 @@ use terminal::{Colour, Terminal};
 
 const ABOUT: &str = "Benchmark, validate and image-test ray-tracing acceleration structures.";
 
-const USAGE: &str = "sahara [COMMAND] [OPTIONS]      (no command: compare on the built-in scenes)";
+const USAGE: &str = "sahara [COMMAND] [OPTIONS]  (no command: compare on the built-in scenes)";
 
 /// One screen of 80 x 24, prompt included: the options that all commands share are in the help of each.
 const SCREEN: &str = "\
@@ -56,15 +56,13 @@ const SCREEN: &str = "\
 {usage-heading} {usage}
 
 Commands (`sahara COMMAND --help` explains options and exit statuses):
-{subcommands}
-
-{after-help}";
+{subcommands}{after-help}";
 
 const EXAMPLES: &str = "\
 Examples:
-  sahara compare mesh.obj -s sah-hybrid -s obvhs-bvh2    # verify hits, then time
-  sahara validate mesh.obj --adversarial                 # check hits only
-  sahara golden compare expected/ actual/                # compare rendered images";
+  sahara compare mesh.obj -s sah-bvh -s obvhs-bvh2  # verify hits, then time
+  sahara validate mesh.obj --adversarial            # check hits only
+  sahara golden compare expected/ actual/           # compare rendered images";
 
 pub struct Suite {
     pub registry: Registry,
@@ -89,9 +87,9 @@ struct Global {
     /// Hide progress and warnings
     #[arg(long, short, global = true, hide_short_help = true, help_heading = OUTPUT, display_order = GLOBAL)]
     quiet: bool,
-    /// When to use colour; `auto`: on a terminal, unless NO_COLOR is set
+    /// When to use colour: auto (on a terminal, unless NO_COLOR is set), always or never
     #[arg(long, global = true, hide_short_help = true, help_heading = OUTPUT, display_order = GLOBAL)]
-    #[arg(value_enum, default_value_t, value_name = "WHEN")]
+    #[arg(value_enum, default_value_t, value_name = "WHEN", hide_possible_values = true)]
     color: Colour,
     /// Instruction set: portable, avx2 or avx512, as far as this build and processor have them; hits are the same on all
     /// [default: the best one]
@@ -165,8 +163,9 @@ pub(crate) const NO_PAGE: &str = "this sahara was built without the feature `pag
 /// The commands that people are shown.
 fn shown(studies: &Studies) -> clap::Command {
     let whole = clap::Command::new("sahara").version(env!("CARGO_PKG_VERSION")).max_term_width(100);
-    let whole = whole.about(ABOUT).override_usage(USAGE).help_template(SCREEN).after_help(EXAMPLES);
-    let mut command = Global::augment_args(whole);
+    // The options come with what they themselves are about.
+    let whole = Global::augment_args(whole).about(ABOUT).long_about(None);
+    let mut command = whole.override_usage(USAGE).help_template(SCREEN).after_help(EXAMPLES);
     command = command.subcommands(studies.find(COMPARE).map(study::command));
     command = command.subcommands(studies.find(REPLICATE).map(study::command));
     let all = clap::Command::new(all::NAME);

@@ -201,8 +201,7 @@ fn of_two_runs_the_newest_cases_count_and_what_is_not_shown_is_said() {
             assert_eq!(runs.notes.len(), usize::from(!note.is_empty()), "{:?}", runs.notes);
             assert!(runs.notes.iter().all(|own| own.contains(note)), "{:?}", runs.notes);
             for form in forms(&document(&runs)) {
-                let said =
-                    others.iter().all(|scene| form.contains(&format!("Measured but not shown: {scene} on ")));
+                let said = others.iter().all(|scene| form.contains(&format!("Measured but not shown: {scene} on ")));
                 assert!(said && form.contains(note));
             }
         }

@@ -153,7 +153,9 @@ mod tests {
             assert_eq!(brute.sample(&recorded, 12), (recorded.clone(), None));
             let (sample, note) = brute.sample(&recorded, 10_000_000);
             assert!(sample.len() == 6871 && sample.is_sorted() && sample[6870] > 19_900, "{sample:?}");
-            assert!(note.is_some_and(|note| note.starts_with("only 6,871 of the 20,000 rays") && note.contains("2^36")));
+            assert!(
+                note.is_some_and(|note| note.starts_with("only 6,871 of the 20,000 rays") && note.contains("2^36"))
+            );
         }
         assert_eq!(tree.sample(&recorded, 10_000_000), (recorded, None));
     }

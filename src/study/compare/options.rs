@@ -42,10 +42,6 @@ pub struct CompareArgs {
     /// Measure only this structure, or the --runner of this name, and the reference (default: obvhs-bvh2), for a gate
     #[arg(long, help_heading = STRUCTURES, value_name = "NAME[:key=value,..]", conflicts_with_all = ["structure", "quick"])]
     pub only: Option<String>,
-    /// Stop before the first build if `diff` could not compare the results with this run: a file of --export-json or a
-    /// folder of --dir
-    #[arg(long, help_heading = MEASURING, value_name = "RUN")]
-    pub like: Option<PathBuf>,
     /// Workload; may be repeated [default: primary, shadow, diffuse, random]
     #[arg(long, short, help_heading = RAYS, value_name = "KIND")]
     pub workload: Vec<WorkloadKind>,
@@ -54,6 +50,10 @@ pub struct CompareArgs {
     pub rays: RaySource,
     #[command(flatten)]
     pub measuring: Measuring<4, 1, 2>,
+    /// Stop before the first build if `diff` could not compare the results with this run: a file of --export-json or a
+    /// folder of --dir
+    #[arg(long, help_heading = MEASURING, value_name = "RUN")]
+    pub like: Option<PathBuf>,
     /// Coarse result in seconds: few rays, up to three epochs and about 4 s per scene; no brute-force unless named
     #[arg(long, help_heading = MEASURING, conflicts_with_all = ["epochs", "runs", "budget"])]
     pub quick: bool,

@@ -17,8 +17,7 @@ fn polygons_are_fans_and_vertices_keep_their_order() {
     assert_eq!(model.positions, [Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y]);
     assert!(model.normals.is_empty() && model.normal_indices.is_empty() && model.material_of.is_empty());
     assert_eq!(model.materials, [Material::named("default")]);
-    let left_out =
-        ["1 face with fewer than three corners: ignored", "2 points, lines, curves or surfaces: ignored"];
+    let left_out = ["1 face with fewer than three corners: ignored", "2 points, lines, curves or surfaces: ignored"];
     assert_eq!(model.notes, left_out);
 }
 
