@@ -233,9 +233,9 @@ fn ray_files() -> Vec<(Files, [&'static str; 2])> {
     let head = |magic: &[u8], count: u64| [magic, &[1, 0, 0, 0, 0, 0, 0, 0], &count.to_le_bytes(), &[0; 48]].concat();
     vec![
         (vec![("a.rays", head(b"SAHARAYS", 0))], ["a.rays", "the first item begins at byte 96"]),
-        (vec![("a.rays", head(b"SAHARAYS", u64::MAX))], ["a.rays", "cut short"]),
-        (vec![("a.rays", [head(b"SAHARAYS", 1 << 59), vec![0; 99]].concat())], ["a.rays", "cut short"]),
-        (vec![("a.hits", head(b"SAHAHITS", u64::MAX))], ["a.hits", "cut short"]),
+        (vec![("a.rays", head(b"SAHARAYS", u64::MAX))], ["a.rays", "truncated"]),
+        (vec![("a.rays", [head(b"SAHARAYS", 1 << 59), vec![0; 99]].concat())], ["a.rays", "truncated"]),
+        (vec![("a.hits", head(b"SAHAHITS", u64::MAX))], ["a.hits", "truncated"]),
     ]
 }
 

@@ -171,5 +171,5 @@ fn a_build_that_takes_too_long_is_refused_and_the_others_are_measured() {
     let output = sahara(&[&small[..], &["-s", "sah-kd", "-s", "brute-force", "--build-limit", "0.001"]].concat());
     let said = stdout(&output);
     assert_eq!(output.status.code(), Some(5), "{said}");
-    assert!(said.contains("refused") && said.contains("--build-limit"), "{said}");
+    assert!(said.contains("Refused: ") && said.contains("--build-limit"), "{said}");
 }

@@ -131,7 +131,7 @@ fn a_job_ends_at_once_and_leaves_nothing() {
     let long = ["attribution", "--scenes", "sphere", "--runs", "1000", "--budget", "30", "--epochs", "2"];
     let lines = plan(folder.path(), &long);
     for signal in [Signal::SIGINT, Signal::SIGKILL] {
-        ends_by(signal, job(&lines[1]), "measures attribution, epoch 2 of 2: Sphere\n");
+        ends_by(signal, job(&lines[1]), "measuring attribution, epoch 2 of 2: Sphere\n");
         assert_eq!(fs::read_dir(file(&lines[1]).parent().unwrap()).unwrap().count(), 0);
     }
 }

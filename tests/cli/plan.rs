@@ -52,7 +52,7 @@ fn done(line: &str) {
     let output = run(line);
     assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
     assert!(output.stdout.is_empty() && file(line).is_file());
-    assert!(stderr(&output).starts_with("measures "), "its log says what it was: {}", stderr(&output));
+    assert!(stderr(&output).starts_with("measuring "), "its log says what it was: {}", stderr(&output));
 }
 
 #[test]

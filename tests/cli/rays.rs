@@ -142,7 +142,7 @@ fn text_becomes_rays_and_rays_become_text() {
     fs::write(folder.path().join("blanks.txt"), "0 0 5 0 0 -1\n0.5, 0, 5  0, 0, -1 [0.25 7]\n").unwrap();
     right(&folder, &["rays", "import", "blanks.txt", "-o", "blanks.rays", "--scene", "torus"]);
     assert_eq!(right(&folder, &["rays", "show", "blanks.rays", "--text"]), shown);
-    let coarse = right(&folder, &["compare", "--rays", "f.rays", "--quick", "-s", "sah-kd"]);
+    let coarse = right(&folder, &["compare", "--rays", "f.rays", "--quick", "--verbose", "-s", "sah-kd"]);
     assert!(coarse.contains("Coarse") && coarse.contains("Torus"), "{coarse}");
 
     refuses(&folder, &["rays", "import", "rays.txt", "-o", "bad.rays", "--name", "a\nb"], &["control character"]);
@@ -162,5 +162,5 @@ fn text_becomes_rays_and_rays_become_text() {
     }
     let bytes = fs::read(folder.path().join("f.rays")).unwrap();
     fs::write(folder.path().join("cut.rays"), &bytes[..bytes.len() - 3]).unwrap();
-    refuses(&folder, &["rays", "show", "cut.rays"], &["cut.rays", "cut short"]);
+    refuses(&folder, &["rays", "show", "cut.rays"], &["cut.rays", "truncated"]);
 }

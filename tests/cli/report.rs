@@ -53,7 +53,10 @@ fn a_report_is_written_whole_with_pictures_and_again_in_its_place() {
     // Heat has one scale on the page and in a picture: the costliest tree of all is among those of the page.
     let scale: u64 = page.split("--hottest ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
     let said = prints(&["render", "torus", "--view", "heat", "-o", text(&place.path().join("heat.png"))]);
-    assert!(said.contains("512 x 527 pixels") && said.contains(&format!("colours from 0 to {scale} ")), "{said}");
+    assert!(
+        said.contains("512 x 527 pixels") && said.contains(&format!("colour bar runs from 0 to {scale} ")),
+        "{said}"
+    );
 }
 
 #[test]

@@ -91,10 +91,10 @@ fn a_program_that_fails_is_refused_in_a_sentence_and_the_others_go_on() {
     let folder = TempDir::new().unwrap();
     let program = nothing(&folder);
     let failures = [
-        ("unbuilt", "it ends instead of answering \"scene "),
+        ("unbuilt", "it ended instead of replying to \"scene "),
         ("refuses", "it says: it holds no more than two triangles"),
         ("dies", "(exit status: 3)"),
-        ("hangs", "it does not answer \"pass 0\" within 5 s"),
+        ("hangs", "it does not reply to \"pass 0\" within 5 s"),
         ("nan", "it replies \"passed nan\" to \"pass 0\", not \"passed SECONDS\""),
         ("backwards", "it replies \"passed -1\""),
         ("chatters", "\"that was quick\""),
@@ -130,7 +130,20 @@ fn a_clock_that_disagrees_with_ours_is_told_and_what_it_declines_is_not_asked() 
         let import = ["rays", "import", &text, "-o", &rays, "--scene", "cube"];
         prints(&import.into_iter().chain(any).collect::<Vec<_>>());
         let runner = format!("{program} {how}");
-        let args = ["compare", "--rays", &rays, "-s", "sah-kd", "--epochs", "2", "--runs", "2", "--runner", &runner];
+        let args = [
+            "compare",
+            "--rays",
+            &rays,
+            "-s",
+            "sah-kd",
+            "--epochs",
+            "2",
+            "--runs",
+            "2",
+            "--verbose",
+            "--runner",
+            &runner,
+        ];
         let (status, text, records) = records(&folder, &args);
         assert_eq!((status, records.len()), (Some(RIGHT), 2), "{text}");
         assert!(text.contains(&format!("nothing.sh {how} (own clock)")) && text.contains(part), "{text}");
@@ -142,11 +155,11 @@ fn a_clock_that_disagrees_with_ours_is_told_and_what_it_declines_is_not_asked() 
 fn what_is_no_runner_is_refused_before_anything_is_measured() {
     for (command, parts) in [
         ("./no-such-program -x", &["./no-such-program -x", "cannot be started"][..]),
-        ("true", &["\"true\"", "it ends instead of answering \"sahara 1 1\""]),
+        ("true", &["\"true\"", "it ended instead of replying to \"sahara 1 1\""]),
         ("cat", &["it replies \"sahara 1 1\"", "runner 1 closest any"]),
         ("yes", &["\"yes\"", "\"y\"", "\"sahara 1 1\""]),
-        ("'open", &["in quotes"]),
-        ("", &["in quotes"]),
+        ("'open", &["quote arguments"]),
+        ("", &["quote arguments"]),
     ] {
         refuses_in_a_line(&["compare", "cube", "--runner", command], parts);
     }
@@ -156,7 +169,7 @@ fn what_is_no_runner_is_refused_before_anything_is_measured() {
     let other = path_text(&folder.path().join("b/nothing.sh"));
     fs::copy(Path::new(&one), &other).unwrap();
     let both = ["compare", "cube", "--runner", &one, "--runner", &other];
-    refuses_in_a_line(&both, &["have one name, nothing.sh"]);
+    refuses_in_a_line(&both, &["share the name nothing.sh"]);
 }
 
 #[test]

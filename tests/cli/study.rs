@@ -17,9 +17,12 @@ fn accuracy_prints_exports_and_draws_what_it_finds() {
     let dir = file("runs");
     let files = ["--export-json", &export, "--plot", &svg, "--dir", &dir];
     let printed = prints(&[words(small), words(over), files.into()].concat());
-    for text in
-        ["vertex: 300 rays through vertices", "uniform: 300 rays", "sah-kd:test=moller-trumbore", "dominated by"]
-    {
+    for text in [
+        "vertex: 300 rays through vertices",
+        "uniform: 300 camera rays and random lines",
+        "sah-kd:test=moller-trumbore",
+        "dominated by",
+    ] {
         assert!(printed.contains(text), "{text} is not in {printed}");
     }
     let rows = journal::rows(&export);
@@ -51,7 +54,7 @@ fn real_meshes_that_are_asked_for_are_never_replaced() {
     let empty = tempfile::tempdir().unwrap();
     let args = ["--quiet", "study", "attribution", "cube", "dragon", "--meshes", "real"];
     let output = command(&args).env("SAHARA_DATA", empty.path()).output().unwrap();
-    refused_in_a_line(&output, &["real meshes of Dragon are not there: `sahara fetch`"]);
+    refused_in_a_line(&output, &["real meshes of Dragon are missing: `sahara fetch`"]);
 }
 
 /// A limit of the memory that may be addressed stands for one of the threads.

@@ -14,7 +14,8 @@ fn room(folder: &TempDir) -> String {
     write(folder, "room.obj", &(corners + walls))
 }
 
-const PRIMARY: [&str; 10] = ["-s", "sah-kd", "-w", "primary", "--epochs", "1", "--budget", "1", "--size", "20x10"];
+const PRIMARY: [&str; 11] =
+    ["-s", "sah-kd", "-w", "primary", "--epochs", "1", "--budget", "1", "--size", "20x10", "--verbose"];
 
 #[test]
 fn a_room_is_seen_from_outside_and_says_so_or_from_inside() {
@@ -24,7 +25,7 @@ fn a_room_is_seen_from_outside_and_says_so_or_from_inside() {
         let text = prints(&[&["compare", &room], &PRIMARY[..], &["--export-json", &json], view].concat());
         let row = &super::journal::rows(&json)[0];
         let number = |value: &Value| value.as_u64().unwrap();
-        (text.contains("seen from outside"), number(&row["all"]), number(&row["counts"]["hits"]))
+        (text.contains("from outside"), number(&row["all"]), number(&row["counts"]["hits"]))
     };
     let (says, rays, hits) = compared(&[]);
     assert!(says && rays == 200 && hits < 200, "{hits}");
@@ -40,9 +41,9 @@ fn validate_and_render_look_from_there_as_well() {
     let folder = TempDir::new().unwrap();
     let (room, picture) = (room(&folder), path_text(&folder.path().join("p.png")));
     let inside = [&room, "-s", "sah-kd", "--inside", "--size", "20x10"];
-    let validated = prints(&[&["validate"], &inside[..], &["--rays", "600"]].concat());
-    let outside = prints(&["validate", &room, "-s", "sah-kd", "--size", "20x10", "--rays", "600"]);
-    assert!(!validated.contains("seen from outside") && outside.contains("seen from outside"), "{outside}");
+    let validated = prints(&[&["validate"], &inside[..], &["--rays", "600", "--verbose"]].concat());
+    let outside = prints(&["validate", &room, "-s", "sah-kd", "--size", "20x10", "--rays", "600", "--verbose"]);
+    assert!(!validated.contains("from outside") && outside.contains("from outside"), "{outside}");
     prints(&[&["render"], &inside[..], &["-o", &picture, "--view", "primitive"]].concat());
     assert_eq!(image::image_dimensions(&picture).unwrap(), (20, 10));
     let errors = ["render", "cube", "-o", &picture, "--size", "24x24", "--view", "error", "-s", "sah-kd:test=exact"];
