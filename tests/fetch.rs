@@ -205,7 +205,7 @@ fn the_command_shows_the_licence_before_it_fetches() {
     assert!(printed.find("free for tests").unwrap() < printed.find("SHA-256 verified").unwrap(), "{printed}");
     assert_eq!(fs::read(data.join("mesh.obj")).unwrap(), mesh());
     let (code, printed, _) = run(&[&file]);
-    assert!(code == Some(0) && printed.contains("is there"), "{printed}");
+    assert!(code == Some(0) && printed.contains("present, SHA-256 verified"), "{printed}");
 
     fs::remove_file(data.join("mesh.obj")).unwrap();
     let missing = format!("{}/missing", server.address);

@@ -110,7 +110,7 @@ fn the_ray_inspector_works_by_keyboard_alone_and_shows_what_the_command_prints()
     // The clipboard answers when it likes.
     let said = browser.text(&format!(
         "new Promise((done) => {{ const look = () => {{ const said = document.querySelector('{HEAT} .pixel').textContent; \
-         if (said.startsWith('The command')) done(said); else setTimeout(look, 10); }}; look(); }})"
+         if (said.startsWith('Command ')) done(said); else setTimeout(look, 10); }}; look(); }})"
     ));
     assert!(said.contains("copied") || said.contains("selected"), "{said}");
     assert_eq!(browser.complaints(), Vec::<String>::new());
