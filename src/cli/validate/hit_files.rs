@@ -82,9 +82,10 @@ impl Run<'_> {
             }
         };
         drop(waiting);
-        let notes: Vec<String> =
+        let mut notes: Vec<String> =
             scene.notes.iter().cloned().chain(note).chain(note_on_reference(&name, &found)).collect();
-        let faults = found.worst.iter().map(|worst| format!("{name}: {worst}")).collect();
+        let mut faults: Vec<String> = found.worst.iter().map(|worst| format!("{name}: {worst}")).collect();
+        notes.extend(faults.drain(faults.len().min(1)..));
         let outcome = Outcome {
             scene: scene.name.clone(),
             label: name,

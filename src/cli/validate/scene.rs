@@ -44,7 +44,7 @@ impl Run<'_> {
             });
             let outcome = Outcome::new(&scene.name, choice, found);
             notes.extend(notes_on(choice, &outcome));
-            shown.extend(faults(choice, &outcome));
+            shown.extend(fault(choice, &outcome));
             outcomes.push(outcome);
         }
         let hits: Vec<u64> = outcomes.iter().filter_map(|own| Some(own.found.as_ref().ok()?.hits)).collect();
@@ -93,12 +93,13 @@ impl Run<'_> {
     }
 }
 
-/// Why a structure has no row of numbers, or the rays that show it wrong.
-fn faults(choice: &Choice, outcome: &Outcome) -> Vec<String> {
+/// Why a structure has no row of numbers, or the ray that shows it wrong; known defects need no ray.
+fn fault(choice: &Choice, outcome: &Outcome) -> Option<String> {
     let label = &choice.label;
     match &outcome.found {
-        Ok(found) => found.worst.iter().map(|worst| format!("{label}: {worst}")).collect(),
-        Err(failure) => vec![format!("{label}: {failure}")],
+        Ok(_) if outcome.has_known_defect => None,
+        Ok(found) => found.worst.first().map(|worst| format!("{label}: {worst}")),
+        Err(failure) => Some(format!("{label}: {failure}")),
     }
 }
 
@@ -108,7 +109,9 @@ fn notes_on(choice: &Choice, outcome: &Outcome) -> Vec<String> {
     let label = &choice.label;
     let defect = known_defect(&choice.entry.name).filter(|_| found.errors() > 0);
     let defect = defect.map(|defect| format!("{label}: known defects (they do not change the exit status): {defect}"));
-    [defect, declined(choice, found), note_on_reference(label, found)].into_iter().flatten().collect()
+    let notes = [defect, declined(choice, found), note_on_reference(label, found)].into_iter().flatten();
+    let others = found.worst.iter().skip(usize::from(!outcome.has_known_defect));
+    notes.chain(others.map(|worst| format!("{label}: {worst}"))).collect()
 }
 
 fn declined(choice: &Choice, found: &Validation) -> Option<String> {

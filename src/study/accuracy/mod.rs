@@ -73,6 +73,9 @@ const BUDGET: Seconds = Seconds::whole(40);
 /// Brute force takes part in meshes up to this size, unless structures are named.
 const SMALL: usize = 5000;
 
+/// Of more tables than these the terminal shows no finding each.
+const HEADLINES: usize = 3;
+
 /// A structure that takes more than so many times as long as the median one is timed on fewer rays.
 const SLOWEST: f64 = 30.0;
 
@@ -153,13 +156,9 @@ fn report(dataset: &Dataset, _: &ArgMatches) -> Report {
         blocks.extend([Block::figure(figure::figure(i, of_kind)), Block::Table(table::table(of_kind))]);
     }
     blocks.extend(table::LEGEND.map(|words| Block::Note(words.into())));
-    Report {
-        findings: all.iter().filter_map(findings::finding).collect(),
-        blocks,
-        failures: failures(dataset, &all),
-        data: table::data(&all),
-        ..Report::default()
-    }
+    let of_kinds = all.iter().filter_map(findings::finding);
+    let findings = of_kinds.map(|own| if all.len() > HEADLINES { own.detail() } else { own }).collect();
+    Report { findings, blocks, failures: failures(dataset, &all), data: table::data(&all), ..Report::default() }
 }
 
 /// Structures without times, and those that owe the truth and err: one test alone promises it, and only in a structure

@@ -19,7 +19,9 @@ pub fn findings(results: &[Attribution]) -> Vec<Finding> {
     let hard: Vec<&Attribution> = HARD.iter().filter_map(|name| best(name)).filter(is_claimed).collect();
     let mut findings: Vec<Finding> = parts(&hard).into_iter().collect();
     let scenes = each_once(HARD.into_iter().chain(results.iter().map(|r| r.first().scene.as_str())));
-    findings.extend(scenes.into_iter().filter_map(best).map(split));
+    let has_summary = !findings.is_empty();
+    let splits = scenes.into_iter().filter_map(best).map(split);
+    findings.extend(splits.map(|split| if has_summary { split.detail() } else { split }));
     for r in &hard {
         let key = slug(&r.first().scene);
         findings.push(Finding::number(format!("whole-{key}"), r.whole()));
@@ -57,17 +59,16 @@ fn parts(hard: &[&Attribution]) -> Option<Finding> {
     (!hard.is_empty()).then(|| Finding::new("parts", format!("{most}; {}.", listed(&others))))
 }
 
-/// `Of the 21.1-fold speedup on Dragon, the plane gives 1.60, the stop rule 9.10, the traversal 1.45`, and by the order
-/// in which the three are switched.
+/// `Dragon: speedup 21.1 = plane 1.60 x stop rule 9.10 x traversal 1.45`, and the ranges over the orders in which the
+/// three are switched.
 pub fn split(r: &Attribution) -> Finding {
     let whole = r.whole();
     let [plane, stop, traversal] = Factor::ALL.map(|factor| figures(r.part(factor).estimate));
     let orders = Factor::ALL.map(|factor| r.range(factor).map(figures).join(" to "));
     let sentence = format!(
-        "Of the {}-fold speedup on {}, the plane gives {plane}, the stop rule {stop}, the traversal {traversal}; by the \
-         order of switching {}.",
-        figures(whole.estimate),
+        "{}: speedup {} = plane {plane} x stop rule {stop} x traversal {traversal}; over all orders of switching {}.",
         r.first().scene_title(),
+        figures(whole.estimate),
         listed(&orders)
     );
     Finding::new(format!("split-{}", slug(&r.first().scene)), sentence).of(whole)
