@@ -34,8 +34,8 @@ pub struct Args {
     structure: String,
     #[command(flatten)]
     from: ViewArgs,
-    /// Tests and steps at the bright end of the heat scale [default: the maximum over all trees, so that pictures of all
-    /// structures are comparable; on very large meshes, the maximum of this structure]
+    /// Tests and steps at the bright end of the heat scale [default: the maximum over all trees, which makes pictures of
+    /// all structures comparable; on very large meshes, the maximum of this structure]
     #[arg(long, help_heading = OUTPUT, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     hottest: Option<u64>,
 }

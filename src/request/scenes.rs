@@ -68,7 +68,7 @@ impl SceneRequest {
         let scene = self.view.of(scene(registry, &self.word)?)?;
         anyhow::ensure!(
             scene.hash().starts_with(&self.hash),
-            "the scene {} has changed since it was planned: plan it anew (Snakemake: remove plan.txt)",
+            "the scene {} has changed since it was planned: plan it again (Snakemake: remove plan.txt)",
             self.word.escaped()
         );
         Ok(scene)
@@ -272,7 +272,7 @@ mod tests {
             assert_eq!((&read, read.load(&registry).unwrap().hash()), (&request, planned.hash()));
             let other = SceneRequest { hash: "0".repeat(16), ..request };
             let refused = other.load(&registry).unwrap_err().to_string();
-            assert!(refused.contains(word) && refused.contains("plan it anew"), "{refused}");
+            assert!(refused.contains(word) && refused.contains("plan it again"), "{refused}");
         }
         assert!(scene(&registry, "icosphere:99").is_err() && scene(&registry, "icosphere:").is_err());
         assert_eq!(

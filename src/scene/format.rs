@@ -68,7 +68,7 @@ pub struct LightFile {
 /// A material: see [`Material`]. Textures are accepted and left out; the scene's notes say so.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[allow(non_snake_case, reason = "the keys are those of MTL files")]
+#[allow(non_snake_case, reason = "the keys have the names of MTL")]
 pub struct MaterialFile {
     pub Ka: [f32; 3],
     pub Kd: [f32; 3],

@@ -159,7 +159,7 @@ fn the_scatter_plot_shows_every_case_and_what_is_done_first() {
     assert_eq!(browser.evaluate("document.querySelectorAll('#figure-tradeoff .equal').length"), 1);
     tab_to(&mut browser, "#figure-tradeoff .point");
     let label = browser.text("document.activeElement.getAttribute('aria-label')");
-    assert!(label.contains("million rays a second") && label.contains("built in"), "{label}");
+    assert!(label.contains("million rays per second") && label.contains("built in"), "{label}");
 
     // With hardly any ray the quickest build wins, with very many the fastest structure.
     let data = browser.text("document.querySelector('#figure-tradeoff script').textContent");

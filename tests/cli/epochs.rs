@@ -163,6 +163,6 @@ fn a_process_measures_its_case_alone_and_says_what_it_does() {
     changed["scene"]["hash"] = "0123456789abcdef".into();
     let lines = said(&changed, &folder.path().join("never.json"));
     let sentence = lines[0]["Failed"]["sentence"].as_str().unwrap();
-    assert!(sentence.contains("cube") && sentence.contains("plan it anew"), "{sentence}");
+    assert!(sentence.contains("cube") && sentence.contains("plan it again"), "{sentence}");
     assert!(!folder.path().join("never.json").exists());
 }

@@ -196,8 +196,8 @@ fn a_job_measures_once_and_refuses_what_is_not_its_own() {
     assert_eq!(fs::read(&path).unwrap(), before);
     // Its scene must be what it was when it was planned, and each thread needs a core.
     let hash = lines[1].split("\"hash\":\"").nth(1).unwrap()[..16].to_owned();
-    refused(&lines[1].replace(&hash, "0123456789abcdef"), "plan it anew");
-    refused(&lines[1].replace(&format!("\"word\":\"{mesh}"), "\"word\":\"torus"), "plan it anew");
+    refused(&lines[1].replace(&hash, "0123456789abcdef"), "plan it again");
+    refused(&lines[1].replace(&format!("\"word\":\"{mesh}"), "\"word\":\"torus"), "plan it again");
     let cores = std::thread::available_parallelism().unwrap().get();
     let threads = (cores + 1).to_string();
     let many = plan(folder.path(), &[&SMALL[..], &["--scenes", &mesh, "--threads", &threads]].concat());

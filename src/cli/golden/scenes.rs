@@ -32,8 +32,8 @@ struct Targets {
     view: ViewKind,
     #[command(flatten)]
     from: ViewArgs,
-    /// Folder of golden images, NAME.golden.png or NAME.VIEW.golden.png [default: next to each file; the program contains
-    /// those of built-in scenes]
+    /// Folder of golden images, NAME.golden.png or NAME.VIEW.golden.png [default: next to each file; built-in scenes have
+    /// built-in golden images]
     #[arg(long, help_heading = SCENES, value_name = "DIR")]
     goldens: Option<PathBuf>,
 }

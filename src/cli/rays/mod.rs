@@ -35,7 +35,7 @@ enum Action {
     Import(Import),
     /// Print the contents of a ray file
     Show(Show),
-    /// Write meshes, rays and exact hits, so that other ray tracers can count their errors
+    /// Write meshes, rays and exact hits, for other ray tracers to count their errors
     Corpus(corpus::Args),
 }
 

@@ -69,7 +69,7 @@
         draw(svg, "line", { class: "grid", x1: x(tick * unit), x2: x(tick * unit), y1: frame.top, y2: frame.bottom });
         draw(svg, "text", { x: x(tick * unit), y: frame.bottom + 16, "text-anchor": "middle" }, figures(tick));
       }
-      draw(svg, "text", { x: 2, y: 14 }, "million rays a second");
+      draw(svg, "text", { x: 2, y: 14 }, "million rays per second");
       draw(svg, "text", { x: frame.right, y: height - 6, "text-anchor": "end" }, `${axis.title}, ${unitName}`);
 
       // What nothing beats in both.
@@ -100,7 +100,7 @@
       plot.replaceChildren(svg);
       for (const point of [...points].sort((a, b) => a.ray - b.ray)) {
         const [cx, cy] = [x(point[by]), y(speed(point))];
-        const told = `${point.label}: ${figures(speed(point))} million rays a second${point.ratio ? `, ${point.ratio}` : ""}; ${bytes(point.bytes)}; built in ${duration(point.build)}`;
+        const told = `${point.label}: ${figures(speed(point))} million rays per second${point.ratio ? `, ${point.ratio}` : ""}; ${bytes(point.bytes)}; built in ${duration(point.build)}`;
         const group = draw(svg, "g", { tabindex: 0, role: "img", "aria-label": told, class: by === "build" && point === first ? "point first" : "point" });
         draw(group, "title", {}, told);
         draw(group, "circle", { cx, cy, r: 5, style: `fill: var(${point.colour})` });

@@ -50,7 +50,7 @@ fn answer(document: &Document) -> String {
     text += &format!("**{}** {}.\n\n", prose(&document.title), prose(&answer.verdict));
     text += &answer.sentences.iter().map(|sentence| paragraph(sentence)).collect::<String>();
     if answer.chart.is_some() {
-        text += &format!("![The answer: times as fast as the report's tree]({FIGURES}/{ANSWER})\n");
+        text += &format!("![The answer: speedup over the report's tree]({FIGURES}/{ANSWER})\n");
     }
     text
 }

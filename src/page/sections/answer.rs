@@ -130,7 +130,7 @@ fn chart(runs: &Runs, hard: &[Hard]) -> Bars {
         return bars.clone();
     }
     let bar = |own: &Hard| (own.title.clone(), Bar::Product(vec![own.ratio.estimate], own.ratio));
-    Bars::of_products("times as fast as the report's tree", vec!["SAH tree".into()], hard.iter().map(bar))
+    Bars::of_products("speedup over the report's tree", vec!["SAH tree".into()], hard.iter().map(bar))
 }
 
 /// What runs say that are not of the hard scenes: which structure is the fastest where several were compared.

@@ -45,7 +45,7 @@ impl Tradeoff {
         };
         Scatter {
             x_title: "memory, MiB".into(),
-            y_title: "million rays a second".into(),
+            y_title: "million rays per second".into(),
             points: of_case.iter().map(point).collect(),
         }
     }

@@ -41,7 +41,7 @@ fn figure(results: &[&Attribution]) -> Figure {
             .into(),
         alt: format!("Stacked bar chart. {}", told.join(" ")),
         art: Art::Chart(Chart::Bars(Bars::of_products(
-            "times as fast as the report's tree",
+            "speedup over the report's tree",
             Factor::ALL.map(|factor| factor.name().to_owned()).into(),
             results.iter().map(bar),
         ))),

@@ -92,7 +92,7 @@ impl<'a> Ranking<'a> {
             .speed
             .filter(|value| *value != Estimate::exact(1.0) && is_brought(&row.of.structure, &row.of.triangle_test))?;
         let (label, times, reference) = (row.label, interval(value), self.reference.words());
-        let sentence = format!("{label} traces {times} times as many rays a second as {reference}.");
+        let sentence = format!("{label} traces {times} times the rays per second of {reference}.");
         Some(Finding::new(format!("speed-{}", slug(label)), sentence).of(value))
     }
 

@@ -157,11 +157,6 @@ fn bars(all: &[Measurement]) -> Figure {
         ),
         alt: format!("Bar chart for {name}. Fastest against {unit} by workload: {fastest}."),
         data,
-        art: Art::Chart(Chart::Bars(Bars {
-            x_title: format!("times as fast as {unit}"),
-            labels,
-            parts: vec![],
-            groups,
-        })),
+        art: Art::Chart(Chart::Bars(Bars { x_title: format!("speedup over {unit}"), labels, parts: vec![], groups })),
     }
 }

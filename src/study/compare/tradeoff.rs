@@ -47,7 +47,7 @@ fn cases(all: &[Measurement], reference: Option<&Reference>) -> Vec<TradeoffCase
     let ratio = |own: &Measurement| {
         let reference = reference?;
         let ratio = Reference::ratio(&reference.pairs(all, [own]), &noise)?;
-        Some(format!("{} times as fast as {}", interval(ratio), reference.words()))
+        Some(format!("speedup {} over {}", interval(ratio), reference.words()))
     };
     let case = |workload: &String| {
         let is_drawn =
