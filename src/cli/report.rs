@@ -67,7 +67,8 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
         [] => {}
         [one] => terminal.print(&format!("not measured: {}: {}\n", one.what, one.command)),
         all => terminal.print(&format!(
-            "not measured: {} other studies (the end of the page lists their commands); `sahara study all` measures all\n",
+            "not measured: {} other parts (the end of the page lists their commands); `sahara study all` measures \
+             all\n",
             all.len()
         )),
     }
