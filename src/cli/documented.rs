@@ -20,7 +20,13 @@ fn documents(folder: &Path, into: &mut Vec<PathBuf>) {
     }
 }
 
-/// The commands of a document: its lines that begin with one, with those that go on with it, and those within sentences.
+/// The lines of a document that are code.
+fn code(text: &str) -> impl Iterator<Item = &str> {
+    text.split("```").skip(1).step_by(2).flat_map(str::lines)
+}
+
+/// The commands of a document: its lines of code that begin with one, with those that go on with it, and those within
+/// sentences.
 fn commands(text: &str) -> (Vec<String>, Vec<String>) {
     let text = &text.replace("\\\n", " ");
     let own = |text: &str| {
@@ -31,7 +37,7 @@ fn commands(text: &str) -> (Vec<String>, Vec<String>) {
         let args = cargo.or_else(|| rest.strip_prefix("sahara ").filter(|rest| !rest.starts_with('=')))?;
         Some(format!("sahara {args}"))
     };
-    let lines = text.lines().map(|line| line.split("  #").next().unwrap_or(line)).map(str::trim).filter_map(own);
+    let lines = code(text).map(|line| line.split("  #").next().unwrap_or(line)).map(str::trim).filter_map(own);
     let spans = text.split('`').skip(1).step_by(2).filter(|span| span.starts_with("sahara ")).map(String::from);
     (lines.collect(), spans.collect())
 }
