@@ -8,7 +8,7 @@ use clap::error::ErrorKind;
 use crate::study::Studies;
 
 /// All documents below `folder`, but what was compiled.
-fn documents(folder: &Path, into: &mut Vec<PathBuf>) {
+pub fn documents(folder: &Path, into: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         let name = path.file_name().unwrap().to_string_lossy().into_owned();

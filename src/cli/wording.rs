@@ -8,14 +8,17 @@ use crate::study::Studies;
 const GLOSSARY: &str = include_str!("../../papers/GLOSSARY.md");
 
 /// Phrases of the glossary that have another meaning as well, in which they are used.
-const AMBIGUOUS: [&str; 8] =
-    ["a case", "a ray", "a job", "a triangle", "the others", "the rest", "the same", "stands in for"];
+const AMBIGUOUS: [&str; 9] =
+    ["a case", "a ray", "a job", "a second", "a triangle", "the others", "the rest", "the same", "stands in for"];
 
 /// Words of the glossary that have no other meaning: of most single words only a reader can tell.
 const WORDS: [&str; 7] = ["anew", "caster", "owes", "surely", "whatever", "whoever", "yardstick"];
 
 /// Sentences that README quotes.
 const QUOTED: &str = "src/study/compare/rank.rs";
+
+/// Claims stay as they were written before the measurement.
+const CLAIMS: &str = "src/study/CLAIMS.md";
 
 /// The phrases of the section "Not used", without those that stand for more than themselves.
 fn not_used() -> Vec<String> {
@@ -81,6 +84,12 @@ fn sources(folder: &Path, into: &mut Vec<(String, String)>) {
     }
 }
 
+/// The text of a document without what a run fills in.
+fn written(text: &str) -> String {
+    let parts = text.split("<!-- sahara: ").map(|part| part.split_once("<!-- / -->").map_or(part, |(_, rest)| rest));
+    parts.collect()
+}
+
 /// Those of the `phrases` that are in `text`, in any case and across lines.
 fn found(phrases: &[String], text: &str) -> Vec<String> {
     // A placeholder is a word of its own.
@@ -127,5 +136,21 @@ fn help_and_messages_have_no_phrase_that_the_glossary_replaces() {
         used.extend(shown.iter().flat_map(|own| found(&phrases, own)).map(|phrase| format!("{path}: {phrase}")));
     }
     assert!(count > 2000, "{count} literals");
+    assert!(used.is_empty(), "{used:#?}");
+}
+
+/// But for notes on papers, and results that a run has written.
+#[test]
+fn documents_have_no_phrase_that_the_glossary_replaces() {
+    let (phrases, root) = (not_used(), Path::new(env!("CARGO_MANIFEST_DIR")));
+    let mut paths = vec![];
+    super::documented::documents(root, &mut paths);
+    paths.retain(|path| !path.starts_with(root.join("papers")) && !path.ends_with(CLAIMS));
+    assert!(paths.len() > 10, "{paths:?}");
+    let read = |path: &Path| written(&fs::read_to_string(path).unwrap());
+    let of =
+        |path: &Path| found(&phrases, &read(path)).into_iter().map(|own| own.chars().take(200).collect::<String>());
+    let used: Vec<String> =
+        paths.iter().flat_map(|path| of(path).map(|own| format!("{}: {own}", path.display()))).collect();
     assert!(used.is_empty(), "{used:#?}");
 }
