@@ -15,7 +15,7 @@ pub fn add_columns(table: &mut Table, all: &[Measurement], structures: &[String]
         ("memory", |r| known(r.shape.bytes).map(Cell::bytes).into()),
         ("nodes", |r| known(r.shape.inner_nodes).into()),
         ("leaves", |r| known(r.shape.leaves).into()),
-        ("refs a triangle", |r| known(r.shape.references).map(|_| r.references_per_triangle()).into()),
+        ("refs/triangle", |r| known(r.shape.references).map(|_| r.references_per_triangle()).into()),
         ("depth", |r| known(r.shape.depth).into()),
         ("SAH cost", |r| r.shape.sah_cost.into()),
         ("tests", |r| r.tests_per_ray.into()),
@@ -57,7 +57,7 @@ pub fn pays_off_after(all: &[Measurement], own: &Measurement) -> Option<f64> {
 pub fn legend(first: &str) -> Vec<String> {
     vec![
         format!(
-            "build: wall time, median over epochs. peak: largest memory use during a build. refs a triangle: leaf \
+            "build: wall time, median over epochs. peak: largest memory use during a build. refs/triangle: leaf \
              references per triangle. SAH cost: expected triangle tests of a random line. tests, steps: triangle \
              tests and entered nodes per {first} ray."
         ),

@@ -21,7 +21,7 @@ struct Quantity {
 const TIME: Quantity = Quantity {
     id: "time",
     words: "Time per ray",
-    y_title: "nanoseconds a ray",
+    y_title: "nanoseconds per ray",
     value: |point| point.ns_per_ray,
     power: |growth| growth.time,
 };
@@ -37,7 +37,7 @@ const BUILD: Quantity = Quantity {
 const MEMORY: Quantity = Quantity {
     id: "memory",
     words: "Memory",
-    y_title: "bytes a triangle",
+    y_title: "bytes per triangle",
     value: Point::bytes_per_triangle,
     power: |growth| growth.bytes,
 };
@@ -154,7 +154,7 @@ fn exponents(family: &[Growth]) -> Option<Table> {
         &[
             ("structure", &|growth| growth.label.as_str().into()),
             ("rays", &|growth| growth.workload.as_str().into()),
-            ("time a ray", &|growth| power(growth.time)),
+            ("time per ray", &|growth| power(growth.time)),
             ("+-", &|growth| growth.scatter.map(|half| Cell::number(half, Format::Decimals(2))).into()),
             ("build", &|growth| power(growth.build)),
             ("memory", &|growth| power(growth.bytes)),
@@ -182,11 +182,11 @@ fn points(family: &[Growth]) -> Table {
             ("rays", &|(growth, _)| growth.workload.as_str().into()),
             ("mesh", &|(_, point)| point.measurement.scene_title().into()),
             ("triangles", &|(_, point)| point.triangles().into()),
-            ("time a ray", &|(_, point)| Cell::duration(point.ns_per_ray)),
+            ("time per ray", &|(_, point)| Cell::duration(point.ns_per_ray)),
             ("tests", &|(_, point)| point.measurement.tests_per_ray.into()),
             ("steps", &|(_, point)| point.measurement.steps_per_ray.into()),
             ("build", &|(_, point)| Cell::duration(point.build_ns)),
-            ("memory a triangle", &|(_, point)| Cell::bytes(point.bytes_per_triangle() as usize)),
+            ("memory per triangle", &|(_, point)| Cell::bytes(point.bytes_per_triangle() as usize)),
         ],
     )
 }
