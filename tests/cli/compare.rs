@@ -134,8 +134,7 @@ fn tables_fit_80_columns_and_wide_ones_have_the_rest() {
     assert_eq!(names(&brief), "structure primary shadow* diffuse random x obvhs");
     let rows = brief.lines().skip_while(|line| !line.contains("structure")).take(10);
     assert!(rows.clone().all(|row| row.chars().count() <= 80), "{brief}");
-    for column in
-        ["build", "memory", "nodes", "refs/triangle", "SAH cost", "tests", "checked", "pays off", "x median"]
+    for column in ["build", "memory", "nodes", "refs/triangle", "SAH cost", "tests", "checked", "pays off", "x median"]
     {
         let text = fs::read_to_string(&markdown).unwrap();
         assert!(wide.contains(column) && text.contains(column), "{column}: {wide}");
