@@ -9,15 +9,15 @@ use crate::traversal::leaf::{LeafBlock, search, start};
 use crate::traversal::walk::{Walk, walked_queries};
 use crate::triangle::TriangleTest;
 
-/// Every triangle, tested in order: the reference that all others are held against.
+/// Tests every triangle in order: the reference for all other structures.
 ///
-/// Eight triangles at a time, which gives the bits of the scalar test.
+/// It tests eight triangles at once, with the same bits as the scalar test.
 pub struct BruteForce<T: TriangleTest> {
     blocks: Vec<LeafBlock<T, 8>>,
     references: usize,
 }
 
-/// Nothing to configure.
+/// Has no options.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BruteForceConfig {}

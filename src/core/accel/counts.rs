@@ -1,21 +1,21 @@
-//! Counts that no machine changes (Havran, Purgathofer 2003).
+//! Counts that are the same on every machine (Havran, Purgathofer 2003).
 
 use std::ops::AddAssign;
 
 use super::Observer;
 
-/// Sums over the rays that were observed.
+/// Sums over the observed rays.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// Inner nodes entered.
     pub inner: u64,
-    /// Leaves entered, empty ones included.
+    /// Leaves entered, including empty ones.
     pub leaves: u64,
-    /// Leaves entered that hold nothing.
+    /// Empty leaves entered.
     pub empty_leaves: u64,
     /// Triangles tested.
     pub tests: u64,
-    /// Blocks of triangles tested at once; as many as tests where triangles are tested one by one.
+    /// Blocks of triangles tested at once; equal to `tests` if triangles are tested one by one.
     pub blocks: u64,
 }
 

@@ -1,11 +1,11 @@
-//! How much memory a finished structure takes.
+//! The memory of a finished structure.
 
-/// Bytes of a structure, without the mesh it was built from.
+/// Bytes of a structure, without the mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Footprint {
     /// Inner nodes and leaf headers.
     pub nodes: usize,
-    /// Triangle numbers kept in leaves, or the permutation.
+    /// Triangle numbers in leaves, or the permutation.
     pub references: usize,
     /// Triangle data copied for the triangle test.
     pub triangles: usize,
@@ -14,7 +14,7 @@ pub struct Footprint {
 }
 
 impl Footprint {
-    /// All bytes together.
+    /// The sum of all parts.
     pub fn total(&self) -> usize {
         self.nodes + self.references + self.triangles + self.other
     }

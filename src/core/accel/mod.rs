@@ -1,4 +1,4 @@
-//! What an acceleration structure is, and the kinds of numbers it gives: answers, counts per ray, bytes, tree shape.
+//! The interface of acceleration structures, and the numbers that they report: hits, counts per ray, bytes, tree shape.
 
 mod capabilities;
 mod counts;

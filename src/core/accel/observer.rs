@@ -1,25 +1,25 @@
-//! Observing a traversal, at no cost without an observer.
+//! Observers of a traversal; without an observer they cost nothing.
 
-/// Receives the events of a traversal. Every method does nothing by default, so that `()` compiles to nothing.
+/// Receives the events of a traversal. Every method does nothing by default, so `()` compiles to nothing.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` cannot watch a traversal",
     label = "this is no `Observer`",
     note = "pass `&mut ()` to watch nothing, or `&mut Counts::default()` to count steps and tests"
 )]
 pub trait Observer {
-    /// Whether the observer uses events. A structure that cannot report events on its fast path takes another path when
-    /// this is true.
+    /// Whether the observer uses events. If so, a structure that cannot report events on its fast path takes another
+    /// path.
     const ACTIVE: bool = true;
 
-    /// An inner node is entered.
+    /// The traversal enters an inner node.
     #[inline(always)]
     fn inner(&mut self) {}
 
-    /// A leaf that holds `references` triangles is entered.
+    /// The traversal enters a leaf with `references` triangles.
     #[inline(always)]
     fn leaf(&mut self, _references: u32) {}
 
-    /// `n` triangles are tested at once: a block of several or one alone.
+    /// The traversal tests `n` triangles at once: a block, or a single triangle.
     #[inline(always)]
     fn test(&mut self, _n: u32) {}
 }
@@ -28,7 +28,7 @@ impl Observer for () {
     const ACTIVE: bool = false;
 }
 
-/// Which events a structure reports. What is not observed is unknown, not zero.
+/// The events that a structure reports. Unreported counts are unknown, not zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Observed {
     /// Inner nodes and leaves.
@@ -40,7 +40,7 @@ pub struct Observed {
 impl Observed {
     /// Steps and tests.
     pub const ALL: Self = Self { steps: true, tests: true };
-    /// Triangle tests alone.
+    /// Triangle tests only.
     pub const TESTS: Self = Self { steps: false, tests: true };
     /// Nothing.
     pub const NONE: Self = Self { steps: false, tests: false };

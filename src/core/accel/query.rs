@@ -1,8 +1,8 @@
-//! The two questions.
+//! The two queries.
 
 use serde::{Deserialize, Serialize};
 
-/// Which of the two questions is asked of a batch.
+/// The query of a batch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Query {
@@ -14,7 +14,7 @@ pub enum Query {
 }
 
 impl Query {
-    /// As written in exports.
+    /// The name in exports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Closest => "closest",

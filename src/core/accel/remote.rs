@@ -1,15 +1,15 @@
-/// A structure in a process of its own, which may end at any time and times itself: what
-/// [`Loaded::own_ns`](super::Loaded::own_ns) of its batches says is taken for the time of an answer.
+/// A structure in another process, which may end at any time. It times itself: the time of a query is
+/// [`Loaded::own_ns`](super::Loaded::own_ns) of the batch.
 ///
-/// Once it has failed, its queries return no hit.
+/// After a failure its queries return no hits.
 pub trait Remote {
     /// Nanoseconds of the build, by its own clock.
     fn build_ns(&self) -> u64;
 
-    /// Why it has failed, as a clause, once it has: its hits mean nothing then.
+    /// The reason of its failure, as a clause; `None` before a failure. After a failure its hits have no meaning.
     fn failure(&self) -> Option<String>;
 
-    /// The median ratio of the time of its queries as seen from outside to the time that it reported. Nothing where all
-    /// were too short to compare.
+    /// The median ratio of the elapsed time of its queries to the time that it reported. `None` if all times were too
+    /// short to compare.
     fn outside(&self) -> Option<f64>;
 }

@@ -1,4 +1,4 @@
-//! What a tree looks like.
+//! The shape of a tree.
 
 use crate::geometry::Aabb;
 
@@ -7,40 +7,40 @@ use crate::geometry::Aabb;
 pub struct TreeShape {
     /// Nodes with children.
     pub inner: usize,
-    /// Leaves, empty ones included.
+    /// Leaves, including empty ones.
     pub leaves: usize,
-    /// Leaves that hold nothing.
+    /// Empty leaves.
     pub empty: usize,
     /// (leaf, primitive) pairs; at least the number of primitives that are not degenerate.
     pub references: usize,
     /// Edges from the root to the deepest leaf.
     pub depth: usize,
-    /// References in the fullest leaf.
+    /// References in the largest leaf.
     pub largest_leaf: usize,
     /// Expected cost of a random line through the root box, in triangle tests (MacDonald, Booth 1990), with the same
-    /// constants for every structure: [`TreeShape::INNER_COST`] and [`TreeShape::leaf_cost`]. `None` where it is not
-    /// defined.
+    /// constants for every structure: [`TreeShape::INNER_COST`] and [`TreeShape::leaf_cost`]. `None` if undefined.
     pub sah_cost: Option<f64>,
 }
 
-/// What is at a place of a tree.
+/// A part of a tree.
 pub enum Part<N> {
-    /// A leaf with so many references.
+    /// A leaf, with its number of references.
     Leaf(usize),
-    /// An inner node: its children, each with its bounds.
+    /// An inner node, with the children and their bounds.
     Inner(Vec<(N, Aabb)>),
 }
 
 impl TreeShape {
-    /// Cost of an inner node in triangle tests: the value of Aila, Karras, Laine (2013).
+    /// Cost of an inner node in triangle tests (Aila, Karras, Laine 2013).
     pub const INNER_COST: f64 = 1.2;
 
-    /// Cost of a leaf: one for each triangle.
+    /// Cost of a leaf: 1 per triangle.
     pub fn leaf_cost(references: usize) -> f64 {
         references as f64
     }
 
-    /// Walks a tree from `root`, if there is one, in depth-first order, and counts. `open` returns what is at a place.
+    /// Counts the parts of the tree below `root`, if there is a root, in depth-first order. `open` returns the part at
+    /// a node.
     pub fn of<N>(root: Option<(N, Aabb)>, mut open: impl FnMut(N, &Aabb) -> Part<N>) -> Self {
         let root_area = root.as_ref().map_or(0.0, |(_, bounds)| bounds.half_area());
         let mut shape = Self::default();

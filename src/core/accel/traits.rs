@@ -1,4 +1,4 @@
-//! The one interface of all structures.
+//! The interface of all structures.
 
 use std::borrow::Cow;
 use std::fmt::Debug;
@@ -11,22 +11,22 @@ use serde::de::DeserializeOwned;
 use super::{Capabilities, Counts, Footprint, Loaded, Observed, Observer, Remote, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
 
-/// Why a structure could not be built.
+/// Why a build failed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BuildError {
-    /// A value of the configuration is out of range; the sentence says which, and what is allowed.
+    /// A configuration value is out of range; the sentence states the value and the allowed range.
     #[error("{0}")]
     Config(String),
-    /// The structure's limits do not admit the mesh; the sentence says why.
+    /// The mesh exceeds a limit of the structure; the sentence states the reason.
     #[error("{0}")]
     Mesh(String),
-    /// What the structure needs of the system is not there; the sentence says what, and how to get it.
+    /// The system lacks a requirement of the structure; the sentence states the requirement and how to install it.
     #[error("{0}")]
     Unavailable(String),
-    /// The program that it runs in failed; the clause says how.
+    /// The external program of the structure failed; the clause states how.
     #[error("{0}")]
     Remote(String),
-    /// The rays need what the structure declines.
+    /// The rays need a feature that the structure declines.
     #[error("declined: it has no {0}, which these rays need")]
     Declined(&'static str),
     /// The structure's own code panicked.
@@ -34,18 +34,19 @@ pub enum BuildError {
     Panic,
 }
 
-/// An acceleration structure, with two queries: closest hit and any hit.
+/// An acceleration structure with two queries: closest hit and any hit.
 ///
-/// The contract, held by the conformance suite:
-/// 1. `closest_hit` gives the least `t` in [`t_min`, `t_max`) as the structure's triangle test computes it, over all
-///    triangles of the mesh that are not degenerate; a `t` that rounds to no finite `f32` is no hit, also where
-///    `t_max` is infinite; the exact `t` of a test may be rounded to `t_max` when it is returned;
-/// 2. among equal `t` any primitive (the structures of this crate give the lowest number);
-/// 3. `any_hit(ray) == closest_hit(ray).is_some()`;
-/// 4. answers depend on nothing but the mesh, the configuration and the ray;
-/// 5. every mesh that [`Mesh`] admits builds, the empty one included.
+/// The conformance suite tests this contract:
 ///
-/// A ray for which [`Ray::is_valid`] is false hits nothing. What a structure cannot do it declines, by
+/// 1. `closest_hit` returns the smallest `t` in [`t_min`, `t_max`) by the structure's triangle test, over all triangles
+///    of the mesh that are not degenerate. A `t` that rounds to no finite `f32` is not a hit, even if `t_max` is
+///    infinite. The returned `t` may be the exact `t` rounded up to `t_max`.
+/// 2. Among equal `t`, `closest_hit` may return any primitive (the structures of this crate return the lowest number).
+/// 3. `any_hit(ray) == closest_hit(ray).is_some()`.
+/// 4. Results depend only on the mesh, the configuration and the ray.
+/// 5. Every [`Mesh`] builds, including the empty mesh.
+///
+/// A ray hits nothing if [`Ray::is_valid`] is false. A structure declares unsupported features with
 /// [`CAPABILITIES`](Accel::CAPABILITIES), [`OBSERVED`](Accel::OBSERVED) and [`TRIANGLE_TEST`](Accel::TRIANGLE_TEST).
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not an acceleration structure",
@@ -53,26 +54,28 @@ pub enum BuildError {
     note = "implement `sahara::accel::Accel` for `{Self}`: the front page of sahara's documentation walks through an example"
 )]
 pub trait Accel: Sized + Send + Sync + 'static {
-    /// Build parameters. Serialisation gives them names: the command line sets them as `key=value`, and exports show
-    /// them.
+    /// Build parameters. Serialisation names them: the command line sets `key=value`, and exports contain the names.
     type Config: Clone + Debug + Default + Serialize + DeserializeOwned + Send + Sync + 'static;
 
-    /// Name of the triangle test whose results the structure returns: those with the same test must agree bit for bit
-    /// in `t`. A structure with a test that nobody shares keeps `"own"`.
+    /// Name of the triangle test that determines the results. Structures with the same test must return the same bits
+    /// of `t`. A structure with a private test keeps `"own"`.
     const TRIANGLE_TEST: &'static str = "own";
 
-    /// What it does otherwise by design, one clause each, for people to read. What of it changes answers belongs into
-    /// [`CAPABILITIES`](Accel::CAPABILITIES): that is not counted as errors; what is a defect belongs into neither.
+    /// Deliberate deviations from the contract, one clause each, for readers. If a deviation changes hits, also declare
+    /// it in [`CAPABILITIES`](Accel::CAPABILITIES); then it does not count as an error. A defect belongs in neither
+    /// constant.
     const CONVENTIONS: &'static [&'static str] = &[];
 
-    /// The events that the observer receives.
+    /// The events that the structure reports to the observer.
     const OBSERVED: Observed = Observed::ALL;
 
-    /// What queries the structure supports. By default all.
+    /// The supported queries; by default all.
     const CAPABILITIES: Capabilities = Capabilities::ALL;
 
+    /// Builds the structure over a mesh.
+    ///
     /// # Errors
-    /// If a value of `config` is out of range.
+    /// If a value of `config` is out of range, or for another reason in [`BuildError`].
     fn build(mesh: &Arc<Mesh>, config: &Self::Config) -> Result<Self, BuildError>;
 
     /// The nearest hit of `ray`.
@@ -80,9 +83,9 @@ pub trait Accel: Sized + Send + Sync + 'static {
 
     /// Whether `ray` hits anything.
     ///
-    /// By default whether there is a closest hit; of a structure that declines [`Capabilities::t_max`], whether that
-    /// lies before `t_max`, as far as its rounded `t` tells. A structure that leaves it so should decline
-    /// [`Capabilities::any_hit`], so that nobody takes its time for that of an any-hit query.
+    /// The default uses the closest hit. If the structure declines [`Capabilities::t_max`], the default also checks
+    /// that the rounded `t` of this hit lies before `t_max`. A structure that keeps the default should decline
+    /// [`Capabilities::any_hit`], so that its time is not reported as the time of an any-hit query.
     #[inline]
     fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
         let may_be_beyond = !Self::CAPABILITIES.t_max;
@@ -113,28 +116,28 @@ pub trait Accel: Sized + Send + Sync + 'static {
         }
     }
 
-    /// Takes a batch of rays that is traced many times. This is done before the clock starts, so it is not timed.
+    /// Loads a batch of rays for many queries. Loading happens before the clock starts, so it is not timed.
     ///
-    /// By default the rays stay as they are, and whatever a query prepares of a ray counts as its time: right for every
-    /// structure that is asked with a [`Ray`], as all of this crate are; there is nothing to do then. An adapter to a
-    /// library with a ray of its own converts the rays here, once, so that the library is timed and not the conversion.
-    /// Only what follows from the rays alone may be done here: no walk, no answers.
+    /// The default keeps the rays unchanged, and every query prepares them in its timed region. This is right for every
+    /// structure that traces a [`Ray`] directly, such as all structures of this crate. An adapter to a library with its
+    /// own ray type converts the rays here, once, so that the conversion is not timed. Only data that depends on the
+    /// rays alone may be prepared here: no traversal, no hits.
     fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
         Box::new(RayBatch { accel: self, rays })
     }
 
-    /// Bytes that the finished structure takes.
+    /// The memory of the finished structure.
     fn footprint(&self) -> Footprint;
 
-    /// What its tree looks like.
+    /// The shape of the tree.
     fn shape(&self) -> TreeShape;
 }
 
-/// [`Accel`] without its type: one virtual call hands over a batch, inside everything is monomorphised.
+/// [`Accel`] without its type: one virtual call per batch; everything inside is monomorphised.
 pub trait DynAccel: Send + Sync {
-    /// As [`Accel::closest_hits`], unobserved.
+    /// As [`Accel::closest_hits`], without an observer.
     fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]);
-    /// As [`Accel::any_hits`], unobserved.
+    /// As [`Accel::any_hits`], without an observer.
     fn any_hits(&self, rays: &[Ray], hits: &mut [bool]);
     /// The closest hit of each ray.
     fn closest(&self, rays: &[Ray]) -> Vec<Option<Hit>> {
@@ -142,15 +145,15 @@ pub trait DynAccel: Send + Sync {
         self.closest_hits(rays, &mut hits);
         hits
     }
-    /// Of each ray, whether it hits anything.
+    /// For each ray, whether it hits anything.
     fn any(&self, rays: &[Ray]) -> Vec<bool> {
         let mut hits = vec![false; rays.len()];
         self.any_hits(rays, &mut hits);
         hits
     }
-    /// As `closest_hits`, adding to `counts` what was done.
+    /// As `closest_hits`; adds the work to `counts`.
     fn closest_hits_counted(&self, rays: &[Ray], hits: &mut [Option<Hit>], counts: &mut Counts);
-    /// As `any_hits`, adding to `counts` what was done.
+    /// As `any_hits`; adds the work to `counts`.
     fn any_hits_counted(&self, rays: &[Ray], hits: &mut [bool], counts: &mut Counts);
     /// As [`Accel::load`].
     fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
@@ -166,7 +169,7 @@ pub trait DynAccel: Send + Sync {
     fn footprint(&self) -> Footprint;
     /// As [`Accel::shape`].
     fn shape(&self) -> TreeShape;
-    /// What is known of it besides, where it answers in a process of its own.
+    /// Additional information, if the structure runs in another process.
     fn remote(&self) -> Option<&dyn Remote> {
         None
     }
@@ -174,7 +177,7 @@ pub trait DynAccel: Send + Sync {
 
 // Compiled once, not once for each structure and triangle test.
 impl dyn DynAccel + '_ {
-    /// The closest hit of each ray, found on all threads of the pool, each of which takes `chunk` rays at a time.
+    /// The closest hit of each ray. All threads of the pool trace chunks of `chunk` rays.
     pub fn closest_by_chunks(&self, rays: &[Ray], chunk: usize) -> Vec<Option<Hit>> {
         let mut hits = vec![None; rays.len()];
         let chunks = rays.par_chunks(chunk).zip(hits.par_chunks_mut(chunk));

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-/// The closed box of points between `min` and `max`; empty when a component of `min` exceeds that of `max`.
+/// The closed box of the points between `min` and `max`; empty if a component of `min` exceeds the component of `max`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {
     /// The least coordinates.
@@ -27,42 +27,42 @@ impl Aabb {
         Self { min: self.min.min(point), max: self.max.max(point) }
     }
 
-    /// The smallest box that contains both.
+    /// The smallest box that contains both boxes.
     #[inline]
     pub fn union(self, other: Self) -> Self {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
-    /// What both contain; empty where they are apart.
+    /// The common part of both boxes; empty if they are disjoint.
     #[inline]
     pub fn intersection(self, other: Self) -> Self {
         Self { min: self.min.max(other.min), max: self.max.min(other.max) }
     }
 
-    /// Whether it contains no point.
+    /// Whether the box contains no point.
     pub fn is_empty(&self) -> bool {
         !self.min.cmple(self.max).all()
     }
 
-    /// Its edges; negative components where it is empty.
+    /// The lengths of the edges; negative components if the box is empty.
     #[inline]
     pub fn extent(&self) -> Vec3 {
         self.max - self.min
     }
 
-    /// Its middle; overflows for no finite box.
+    /// The centre; no finite box overflows.
     pub fn centre(&self) -> Vec3 {
         self.min * 0.5 + self.max * 0.5
     }
 
-    /// Half of the surface area: the measure of the surface area heuristic (Goldsmith, Salmon 1987). 0 when empty.
-    /// In `f64`, so that it overflows for no mesh.
+    /// Half of the surface area, the measure of the surface area heuristic (Goldsmith, Salmon 1987); 0 if empty. The
+    /// result is an `f64`, so no mesh overflows.
     #[inline]
     pub fn half_area(&self) -> f64 {
         half_area(self.min.as_dvec3(), self.max.as_dvec3())
     }
 
-    /// The number of the axis of its longest edge, the first of equal ones.
+    /// The axis of the longest edge; the first one of equal edges.
     #[inline]
     pub fn longest_axis(&self) -> usize {
         let e = self.extent();
@@ -75,8 +75,8 @@ impl Aabb {
         }
     }
 
-    /// The parts of the box on both sides of the plane `axis = split`, which both contain the plane. Where the plane
-    /// misses the box, one part is the box and the other is empty.
+    /// The parts of the box below and above the plane `axis = split`; both contain the plane. If the plane misses the
+    /// box, one part is the box and the other one is empty.
     #[inline]
     pub fn cut(&self, axis: usize, split: f32) -> (Self, Self) {
         let (mut below, mut above) = (*self, *self);
@@ -85,7 +85,7 @@ impl Aabb {
         (below, above)
     }
 
-    /// Whether all of `other` lies in it.
+    /// Whether the box contains all of `other`.
     pub fn contains(&self, other: &Self) -> bool {
         other.is_empty() || (self.min.cmple(other.min).all() && self.max.cmpge(other.max).all())
     }

@@ -1,4 +1,4 @@
-//! The mesh every structure is built over.
+//! The mesh that structures are built over.
 
 use glam::Vec3;
 
@@ -6,8 +6,8 @@ use super::Aabb;
 
 /// A validated set of triangles: every coordinate is finite, every index exists.
 ///
-/// Degenerate triangles (see [`Mesh::is_degenerate`]) stay in it, so that numbers do not shift, but nothing can hit
-/// them.
+/// Degenerate triangles (see [`Mesh::is_degenerate`]) remain in the mesh, so triangle numbers do not shift, but no ray
+/// hits them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     positions: Vec<Vec3>,
@@ -16,18 +16,18 @@ pub struct Mesh {
     bounds: Aabb,
 }
 
-/// Why [`Mesh::new`] refuses its input. Numbers count from 0.
+/// Why [`Mesh::new`] rejects its input. Numbers start at 0.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum MeshError {
-    /// A coordinate is infinite or no number.
+    /// A coordinate is infinite or NaN.
     #[allow(missing_docs)]
     #[error("vertex {vertex} has the coordinates ({x}, {y}, {z}): every coordinate must be a finite number")]
     NotFinite { vertex: usize, x: f32, y: f32, z: f32 },
-    /// A triangle names a vertex that is not there.
+    /// A triangle refers to a vertex that does not exist.
     #[allow(missing_docs)]
     #[error("triangle {triangle} names vertex {index}, but there are only {vertices} vertices")]
     OutOfRange { triangle: usize, index: u32, vertices: usize },
-    /// There are more than numbers can tell apart.
+    /// There are more elements than numbers can distinguish.
     #[allow(missing_docs)]
     #[error("{count} {what} exceed the limit of {limit} per mesh: split the scene")]
     TooMany { what: &'static str, count: usize, limit: usize },
@@ -37,7 +37,7 @@ pub enum MeshError {
 const LIMIT: usize = 1 << 30;
 
 impl Mesh {
-    /// The door: what passes needs no further check.
+    /// Validates the arrays; a mesh needs no further checks.
     ///
     /// # Errors
     /// As [`Mesh::check`].
@@ -58,7 +58,7 @@ impl Mesh {
         Self::new(triangles.as_flattened().to_vec(), numbers.collect())
     }
 
-    /// Whether [`Mesh::new`] would take these arrays.
+    /// Whether [`Mesh::new`] accepts these arrays.
     ///
     /// # Errors
     /// The first vertex that is not finite, the first index out of range, or more than 2^30 elements.
@@ -85,17 +85,17 @@ impl Mesh {
         &self.positions
     }
 
-    /// Three vertex numbers a triangle.
+    /// Three vertex numbers per triangle.
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
     }
 
-    /// Number of triangles, degenerate ones included.
+    /// Number of triangles, including degenerate ones.
     pub fn len(&self) -> usize {
         self.triangles.len()
     }
 
-    /// Whether it has no triangle.
+    /// Whether the mesh has no triangles.
     pub fn is_empty(&self) -> bool {
         self.triangles.is_empty()
     }
@@ -117,7 +117,7 @@ impl Mesh {
         self.degenerate.binary_search(&index).is_ok()
     }
 
-    /// Numbers of the triangles that have an area, ascending: all that a structure needs to hold.
+    /// Numbers of the triangles with an area, ascending: the triangles that a structure must contain.
     pub fn solid(&self) -> impl Iterator<Item = u32> + '_ {
         let mut flat = self.degenerate.iter().copied().peekable();
         (0..self.len() as u32).filter(move |&i| flat.next_if_eq(&i).is_none())
@@ -129,7 +129,7 @@ impl Mesh {
         Aabb::of_points(self.corners(index))
     }
 
-    /// The box of all triangles; empty when there are none.
+    /// The box of all triangles; empty if there are no triangles.
     pub fn bounds(&self) -> Aabb {
         self.bounds
     }

@@ -1,4 +1,4 @@
-//! Rays, boxes, meshes: what everything else is about.
+//! Rays, boxes and meshes.
 
 mod aabb;
 mod mesh;

@@ -1,4 +1,4 @@
-//! Rays and what they hit.
+//! Rays and hits.
 
 use std::num::NonZeroU32;
 
@@ -6,19 +6,19 @@ use glam::{Vec3, Vec3A};
 
 /// The points `origin + t * direction` with `t_min <= t < t_max`.
 ///
-/// `direction` need not be of unit length; `t` is measured in its lengths. A negative `t_min` counts as 0. A ray whose
-/// origin or direction is not finite, whose direction is zero or whose interval is empty (or NaN) hits nothing. A `t`
-/// that rounds to no finite number is beyond the end of every ray.
+/// `direction` may have any length; `t` is measured in lengths of `direction`. A negative `t_min` counts as 0. A ray
+/// hits nothing if its origin or direction is not finite, its direction is zero, or its interval is empty or NaN. A `t`
+/// that rounds to no finite number lies beyond the end of every ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(16))]
 pub struct Ray {
-    /// Where `t` is 0.
+    /// The point at `t` = 0.
     pub origin: Vec3,
-    /// The interval begins here, inclusive.
+    /// Start of the interval, inclusive.
     pub t_min: f32,
-    /// Of any length but 0.
+    /// Any length except 0.
     pub direction: Vec3,
-    /// The interval ends here, exclusive.
+    /// End of the interval, exclusive.
     pub t_max: f32,
 }
 
@@ -44,14 +44,14 @@ impl Ray {
         (if self.t_min > 0.0 { self.t_min } else { 0.0 }, self.t_max)
     }
 
-    /// Where an exact `t` is beyond the interval: at `t_max`, or, on a ray without end, half an ulp beyond the largest
-    /// finite `f32`, from where on no finite number is the nearest.
+    /// The smallest exact `t` beyond the interval: `t_max`, or for a ray without end half an ulp beyond the largest
+    /// finite `f32`, because larger numbers round to infinity.
     #[inline(always)]
     pub fn end(&self) -> f64 {
         f64::from(self.t_max).min(UNREPRESENTABLE)
     }
 
-    /// Whether the ray can hit anything at all; every structure answers "no hit" for the others without a traversal.
+    /// Whether the ray can hit anything. Every structure returns a miss for an invalid ray without a traversal.
     #[inline(always)]
     pub fn is_valid(&self) -> bool {
         let (t_min, t_max) = self.interval();
@@ -60,7 +60,7 @@ impl Ray {
         finite && direction != Vec3A::ZERO && !self.t_min.is_nan() && t_min < t_max
     }
 
-    /// The point at `t`, rounded.
+    /// The rounded point at `t`.
     #[inline(always)]
     pub fn at(&self, t: f32) -> Vec3 {
         self.origin + self.direction * t
@@ -92,7 +92,7 @@ impl std::fmt::Debug for PrimId {
     }
 }
 
-/// A primitive hit by a ray, and where.
+/// The primitive that a ray hits, and the ray parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// Ray parameter, in lengths of the direction.
@@ -107,13 +107,13 @@ impl Hit {
     /// A hit of triangle `index` at `t`.
     ///
     /// # Panics
-    /// If the number is `u32::MAX`.
+    /// If `index` is `u32::MAX`.
     #[inline(always)]
     pub fn new(t: f32, index: u32) -> Self {
         Self { t, prim: PrimId::new(index) }
     }
 
-    /// Whether both hits name the same primitive at the same `t`, bit for bit.
+    /// Whether both hits have the same primitive and the same `t`, bit for bit.
     pub fn same_bits(self, other: Hit) -> bool {
         self.t.to_bits() == other.t.to_bits() && self.prim == other.prim
     }

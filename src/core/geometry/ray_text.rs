@@ -1,4 +1,4 @@
-//! Rays as text, so that a ray that a report names can be asked again.
+//! Rays as text: a ray from a report can be traced again.
 
 use std::fmt::{Display, Formatter};
 use std::str::FromStr;
@@ -9,8 +9,8 @@ use super::Ray;
 
 /// `ox,oy,oz dx,dy,dz`, followed by ` [t_min,t_max]` unless the ray is the whole half-line.
 ///
-/// Every number is the shortest decimal that reads back to the same float, so that the text gives back the same bits
-/// (of a NaN, only that it is one).
+/// Every number is the shortest decimal that reads back to the same float, so the text gives back the same bits (except
+/// the payload of a NaN).
 impl Display for Ray {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
         let [o, d] = [self.origin, self.direction];
@@ -35,18 +35,18 @@ pub enum RayTextError {
     #[allow(missing_docs)]
     #[error("the interval of the ray {text:?} must be two numbers in brackets behind the others: [t_min,t_max]")]
     Interval { text: String },
-    /// What should be a number is none.
+    /// A part that is not a number.
     #[allow(missing_docs)]
     #[error("{number:?} in the ray {text:?} is not a number")]
     Number { text: String, number: String },
-    /// A ray that no structure can answer otherwise than with "no hit": that would say nothing about a mesh.
+    /// A ray that can hit nothing in any mesh.
     #[allow(missing_docs)]
     #[error("the ray {text:?} hits nothing anywhere: {fault}")]
     Invalid { text: String, fault: &'static str },
 }
 
-/// Reads what [`Display`] writes. Blanks, commas or both may stand between all numbers; the interval may end with `]` or `)`,
-/// which both mean the open end.
+/// Reads the format that [`Display`] writes. Blanks, commas or both separate the numbers. The interval ends with `]` or
+/// `)`; both mean the open end.
 impl FromStr for Ray {
     type Err = RayTextError;
 
@@ -76,7 +76,7 @@ impl Ray {
     /// Reads a ray that can hit something.
     ///
     /// # Errors
-    /// If the text is no ray, or its ray is not [valid](Self::is_valid).
+    /// If the text is not a ray, or the ray is not [valid](Self::is_valid).
     pub fn parse_valid(text: &str) -> Result<Self, RayTextError> {
         let ray: Self = text.parse()?;
         let fault = if ray.is_valid() {
@@ -94,10 +94,10 @@ impl Ray {
     }
 }
 
-/// The numbers of a text, with blanks, a comma or both between them.
+/// The numbers of a text, separated by blanks, a comma or both.
 ///
 /// # Errors
-/// The first part that is no number; it is empty between two commas.
+/// The first part that is not a number; it is empty between two commas.
 pub fn numbers(text: &str) -> Result<Vec<f32>, &str> {
     if text.trim().is_empty() {
         return Ok(vec![]);

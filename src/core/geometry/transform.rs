@@ -1,14 +1,15 @@
-//! How a scene places a model: scale, rotate, shift.
+//! The placement of a model in a scene: scale, rotate, translate.
 
 use glam::{DMat3, DVec3, Vec3};
 
 /// `world = R * S * p + t`, the placement rule of the report's course.
 ///
-/// `R = Rz * Ry * Rx` with `Rx = [1 0 0; 0 c s; 0 -s c]`, `Ry = [c 0 -s; 0 1 0; s 0 c]` and `Rz = [c s 0; -s c 0; 0 0
-/// 1]` (rows): each turns in the opposite sense to the usual right-handed rotation. Sines come from `libm`, everything
-/// is computed in `f64` and rounded once, so that a placed vertex has the same bits on every machine.
+/// `R = Rz * Ry * Rx` with `Rx = [1 0 0; 0 c s; 0 -s c]`, `Ry = [c 0 -s; 0 1 0; s 0 c]` and
+/// `Rz = [c s 0; -s c 0; 0 0 1]` (rows). Each matrix rotates in the opposite sense to the usual right-handed rotation.
+/// Sines come from `libm`; everything is computed in `f64` and rounded once, so a placed vertex has the same bits on
+/// every machine.
 ///
-/// A placement that [mirrors](Self::is_mirror) turns the order of corners round: whoever places triangles turns it back.
+/// A placement that [mirrors](Self::is_mirror) reverses the order of corners; the caller must reverse it back.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transform {
     linear: DMat3,
@@ -16,10 +17,10 @@ pub struct Transform {
 }
 
 impl Transform {
-    /// Leaves every point where it is.
+    /// The identity.
     pub const IDENTITY: Self = Self { linear: DMat3::IDENTITY, translation: DVec3::ZERO };
 
-    /// Scales by `scale`, turns by `rotation` (degrees about x, then y, then z), then shifts by `translation`.
+    /// Scales by `scale`, rotates by `rotation` (degrees about x, then y, then z), then translates by `translation`.
     pub fn new(rotation: Vec3, scale: Vec3, translation: Vec3) -> Self {
         let [x, y, z] = rotation.to_array().map(sin_cos_degrees);
         let about_x = rows([[1.0, 0.0, 0.0], [0.0, x.1, x.0], [0.0, -x.0, x.1]]);
@@ -29,20 +30,21 @@ impl Transform {
         Self { linear, translation: translation.as_dvec3() }
     }
 
-    /// Whether it turns left hands into right ones, as a scale does that is negative along one axis or all three.
+    /// Whether the transform changes handedness, as a scale that is negative along one axis or all three axes does.
     pub fn is_mirror(&self) -> bool {
         self.linear.determinant() < 0.0
     }
 
-    /// Where `point` comes to lie.
+    /// The transformed `point`.
     pub fn point(&self, point: Vec3) -> Vec3 {
         (self.linear * point.as_dvec3() + self.translation).as_vec3()
     }
 
-    /// `R * S * normal` at unit length, or zero where that has none.
+    /// `R * S * normal` at unit length, or zero if it has no length.
     ///
-    /// The course turns normals with the matrix of the points, not with its inverse transpose: under a scale that is
-    /// not uniform they tilt the wrong way. Its scenes scale only flat squares so, whose normals stay right.
+    /// The course transforms normals with the matrix of the points, not with its inverse transpose, so normals tilt the
+    /// wrong way under a non-uniform scale. Its scenes scale only flat squares non-uniformly, and the normals of these
+    /// squares remain correct.
     pub fn normal(&self, normal: Vec3) -> Vec3 {
         (self.linear * normal.as_dvec3()).normalize_or_zero().as_vec3()
     }
