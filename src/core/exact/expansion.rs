@@ -116,7 +116,8 @@ impl From<f64> for Expansion {
 }
 
 /// The rounded sum and what rounding took from it (Knuth).
-fn exact_sum(a: f64, b: f64) -> (f64, f64) {
+#[inline(always)]
+pub(super) fn exact_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let of_b = sum - a;
     let of_a = sum - of_b;

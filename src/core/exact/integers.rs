@@ -1,4 +1,4 @@
-//! Where a line meets a triangle, in integers, where all bits in use lie within forty places: several times as fast as
+//! Where a line meets a triangle, in integers, where all bits in use lie close together: several times as fast as
 //! sums of floats.
 
 use std::cmp::Ordering;
@@ -10,16 +10,29 @@ use super::expansion::Expansion;
 use crate::geometry::Ray;
 use crate::simd::each;
 
-/// Places from the lowest bit in use to the highest among the numbers of one kind. Then numbers are below 2^40,
-/// differences below 2^41, components of cross products below 2^83, and three products of these with a third number
-/// together below 2^126.
-const BITS: i32 = 40;
+/// Places from the lowest bit in use to the highest among points, p, and in a direction, d. Numbers of points are below
+/// 2^p, their differences below 2^(p + 1), components of cross products below 2^(2 p + 3), and three products of these
+/// with a direction together below 2^(2 p + d + 5), with a third difference below 2^(3 p + 6).
+type Places = i32;
+
+/// Whether the products of two differences and a direction are below 2^126.
+fn sides_fit(points: Places, direction: Places) -> bool {
+    2 * points + direction <= 121
+}
+
+/// Whether those of three differences are.
+fn heights_fit(points: Places) -> bool {
+    points <= 40
+}
 
 /// As [`hit`](super::hit), for finite numbers; nothing where they do not fit.
 pub(super) fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<Option<ExactT>> {
     let [a, b, c] = corners;
-    let (points, unit) = integers([ray.origin, a, b, c])?;
-    let ([direction], direction_unit) = integers([ray.direction])?;
+    let (points, unit, places) = integers([ray.origin, a, b, c])?;
+    let ([direction], direction_unit, direction_places) = integers([ray.direction])?;
+    if !sides_fit(places, direction_places) || !heights_fit(places) {
+        return None;
+    }
     let [origin, corners @ ..] = points;
     let [a, b, c] = each(&corners, |&corner| minus(corner, origin));
 
@@ -47,20 +60,24 @@ pub(super) fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<Option<ExactT>> {
 
 /// As [`side`](super::side), where the numbers fit.
 pub(super) fn side(ray: &Ray, [p, q]: [Vec3; 2]) -> Option<Ordering> {
-    let ([origin, p, q], _) = integers([ray.origin, p, q])?;
-    let ([direction], _) = integers([ray.direction])?;
-    Some(dot(direction, cross(minus(p, origin), minus(q, origin))).cmp(&0))
+    let ([origin, p, q], _, places) = integers([ray.origin, p, q])?;
+    let ([direction], _, direction_places) = integers([ray.direction])?;
+    sides_fit(places, direction_places).then(|| dot(direction, cross(minus(p, origin), minus(q, origin))).cmp(&0))
 }
 
 /// As [`height`](super::height), where the numbers fit.
 pub(super) fn height(origin: Vec3, [a, b, c]: [Vec3; 3]) -> Option<f64> {
-    let ([origin, a, b, c], unit) = integers([origin, a, b, c])?;
+    let ([origin, a, b, c], unit, places) = integers([origin, a, b, c])?;
+    if !heights_fit(places) {
+        return None;
+    }
     let height = dot(minus(a, origin), cross(minus(b, a), minus(c, a)));
     Some(Expansion::of_integer(height, 3 * unit).approximate())
 }
 
-/// Vectors as multiples of 2 to the power of one number, and that number.
-fn integers<const N: usize>(vectors: [Vec3; N]) -> Option<([[i64; 3]; N], i32)> {
+/// Vectors as multiples of 2 to the power of one number, that number, and the places in use; nothing if these are more
+/// than an integer has.
+fn integers<const N: usize>(vectors: [Vec3; N]) -> Option<([[i64; 3]; N], i32, Places)> {
     let (mut lowest, mut highest) = (i32::MAX, i32::MIN);
     for x in vectors.iter().flat_map(|vector| vector.to_array()).filter(|&x| x != 0.0) {
         let (bits, exponent) = (x.to_bits() & 0x7f_ffff, (x.to_bits() >> 23 & 0xff) as i32);
@@ -69,11 +86,12 @@ fn integers<const N: usize>(vectors: [Vec3; N]) -> Option<([[i64; 3]; N], i32)> 
         highest = highest.max(last + 24);
     }
     if lowest == i32::MAX {
-        return Some(([[0; 3]; N], 0));
+        return Some(([[0; 3]; N], 0, 0));
     }
     let times = f64::from_bits(((1023 - lowest) as u64) << 52);
-    (highest - lowest <= BITS)
-        .then(|| (each(&vectors, |v| each(&v.to_array(), |&x| (f64::from(x) * times) as i64)), lowest))
+    let places = highest - lowest;
+    (places <= 60)
+        .then(|| (each(&vectors, |v| each(&v.to_array(), |&x| (f64::from(x) * times) as i64)), lowest, places))
 }
 
 fn minus(p: [i64; 3], q: [i64; 3]) -> [i64; 3] {
@@ -160,7 +178,7 @@ mod tests {
         assert!(
             hit(&Ray::new(Vec3::splat(most), Vec3::splat(-most)), [Vec3::ZERO; 3]).is_some_and(|hit| hit.is_none())
         );
-        assert_eq!(integers([Vec3::splat(1e-45)]), Some(([[1; 3]], -149)));
-        assert_eq!(integers([Vec3::new(-0.0, 0.0, 0.0)]), Some(([[0; 3]], 0)));
+        assert_eq!(integers([Vec3::splat(1e-45)]), Some(([[1; 3]], -149, 24)));
+        assert_eq!(integers([Vec3::new(-0.0, 0.0, 0.0)]), Some(([[0; 3]], 0, 0)));
     }
 }

@@ -4,13 +4,15 @@ mod expansion;
 mod integers;
 #[cfg(any(test, feature = "suite"))]
 pub mod rational;
+mod tracked;
 
 use std::cmp::Ordering;
 
 use glam::Vec3;
 
 use crate::geometry::Ray;
-use expansion::Expansion;
+use crate::simd::indexed;
+use expansion::{Expansion, exact_sum};
 
 /// An exact ray parameter: a fraction. Those of one ray are ordered exactly.
 #[derive(Clone, Debug)]
@@ -55,12 +57,47 @@ pub fn height(origin: Vec3, corners: [Vec3; 3]) -> f64 {
 /// origin)). Equal where the two lines meet, or are parallel. For finite numbers.
 ///
 /// Costs a sixth of [`hit`].
+#[inline(always)]
 pub fn side(ray: &Ray, edge: [Vec3; 2]) -> Ordering {
+    tracked::side(ray, edge).unwrap_or_else(|| side_of_any_size(ray, edge))
+}
+
+#[cold]
+fn side_of_any_size(ray: &Ray, edge: [Vec3; 2]) -> Ordering {
     let of_sums = || {
         let [p, q] = edge.map(|corner| difference(corner, ray.origin));
         side_by_sums(&direction(ray), &p, &q)
     };
     integers::side(ray, edge).unwrap_or_else(of_sums)
+}
+
+/// Whether the line of `ray` passes exactly through a point. For finite numbers.
+///
+/// Costs a few nanoseconds unless the line passes the point within rounding, and the origin and the point differ so much in
+/// size that `f64` does not hold their difference.
+#[inline(always)]
+pub fn passes_through(ray: &Ray, point: Vec3) -> bool {
+    let (direction, offset) = (ray.direction.as_dvec3(), point.as_dvec3() - ray.origin.as_dvec3());
+    // Each product is off by three units of 2^-53: what is further apart differs.
+    let may_be_equal = |x: f64, y: f64| (x - y).abs() <= 4.0 * f64::EPSILON * x.abs();
+    may_be_equal(direction.x * offset.y, direction.y * offset.x)
+        && may_be_equal(direction.y * offset.z, direction.z * offset.y)
+        && may_be_equal(direction.z * offset.x, direction.x * offset.z)
+        && surely_passes_through(ray, point)
+}
+
+/// The same without rounding: direction x (point - origin) is zero.
+fn surely_passes_through(ray: &Ray, point: Vec3) -> bool {
+    let offset: [_; 3] = indexed(|axis| exact_sum(point[axis].into(), -f64::from(ray.origin[axis])));
+    if offset.iter().any(|&(_, error)| error != 0.0) {
+        return cross(&direction(ray), &difference(point, ray.origin)).iter().all(|minor| minor.sign().is_eq());
+    }
+    // Products are equal if they are rounded to the same, and by the same.
+    let product = |i: usize, j: usize| {
+        let (x, y) = (f64::from(ray.direction[i]), offset[j].0);
+        (x * y, if x * y == 0.0 { 0.0 } else { x.mul_add(y, -(x * y)) })
+    };
+    [(0, 1), (1, 2), (2, 0)].iter().all(|&(i, j)| product(i, j) == product(j, i))
 }
 
 /// The same for points that are given from the origin.

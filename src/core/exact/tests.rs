@@ -133,3 +133,35 @@ fn order_is_exact_where_floats_are_not() {
     assert_eq!(third.compare(f32::INFINITY), Some(Ordering::Less));
     assert_eq!(third.compare(f32::NEG_INFINITY), Some(Ordering::Greater));
 }
+
+#[test]
+fn a_line_passes_through_a_point_if_and_only_if_all_minors_are_zero() {
+    let zero_by_sums = |ray: &Ray, point: Vec3| {
+        cross(&direction(ray), &difference(point, ray.origin)).iter().all(|minor| minor.sign().is_eq())
+    };
+    let mut passed = 0;
+    for i in 0..3_000_u32 {
+        let number = |k: u32| {
+            let bits = (5 * i + k).wrapping_mul(2_654_435_761).rotate_left(11).wrapping_mul(0x9e37_79b1);
+            ((bits >> 8) as f32 - 8_388_608.0) * 2.0_f32.powi(-20 - (bits % 7) as i32)
+        };
+        let few = |x: f32| (x * 8.0).round();
+        let origin = Vec3::new(number(0), few(number(1)), number(2));
+        let directions = [Vec3::new(few(number(3)), few(number(4)), 3.0), Vec3::Z, Vec3::new(1e-20, -0.0, 0.0)];
+        for direction in directions {
+            // Steps that are exact, all but; from far away the difference takes more digits than f64 has.
+            for origin in [origin, Vec3::new(few(origin.x), origin.y, few(origin.z)), Vec3::new(1e-30, 0.0, 0.0)] {
+                let ray = Ray::new(origin, direction);
+                for step in [0.0, 1.0, -2.0, 1024.0, 3e10] {
+                    let point = origin + direction * step;
+                    for point in [point, Vec3 { y: point.y.next_up(), ..point }, Vec3 { z: 1e-38, ..point }] {
+                        let is_on = zero_by_sums(&ray, point);
+                        assert_eq!(passes_through(&ray, point), is_on, "{ray} {point}");
+                        passed += usize::from(is_on);
+                    }
+                }
+            }
+        }
+    }
+    assert!(passed > 10_000, "{passed}");
+}

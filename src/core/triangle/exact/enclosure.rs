@@ -65,17 +65,46 @@ pub(super) fn look(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     Bounds::Hit { low: low.store()[0], high: high.store()[0] }
 }
 
+/// As [`look`] of a line that passes exactly through a corner, and surely not along the plane: it meets the triangle there.
+/// Nothing of others.
+#[inline(always)]
+pub(super) fn look_at_corners(ray: &Ray, corners: [Vec3; 3]) -> Option<Bounds> {
+    let corner = corners.into_iter().find(|&corner| exact::passes_through(ray, corner))?;
+    let (det, error) = determinant(ray, corners);
+    (det.abs() > error).then(|| at_height(corner, ray, ray.direction.abs().max_position()))
+}
+
+/// The determinant of a line and a triangle, and a bound of its error, in the notation of [`place`].
+#[inline(always)]
+fn determinant(ray: &Ray, corners: [Vec3; 3]) -> (f64, f64) {
+    let direction = ray.direction.as_dvec3();
+    let [a, b, c] = each(&corners, |corner| corner.as_dvec3());
+    let (edge1, edge2) = (b - a, c - a);
+    let extent = edge1.abs().max(edge2.abs()).max_element();
+    (direction.dot(edge1.cross(edge2)), 48.0 * UNIT * extent * extent * direction.abs().max_element())
+}
+
+/// Bounds of the `t` at which the line, which is not across the axis, has the same coordinate as a point. The difference of
+/// two floats has the right sign, and is zero if and only if they are equal; it and the division are off by a unit of
+/// 2^-53 each.
+#[inline(always)]
+fn at_height(point: Vec3, ray: &Ray, axis: usize) -> Bounds {
+    let t = (f64::from(point[axis]) - f64::from(ray.origin[axis])) / f64::from(ray.direction[axis]);
+    let error = t.abs() * (4.0 * UNIT);
+    Bounds::Hit { low: t - error, high: t + error }
+}
+
 /// Whether the line passes the triangle by, from det, the sign of which is certain, and u, v and w with their errors,
 /// in the notation of [`look`]: whether one of these has not the sign of det, which is their sum. A ray through an edge
 /// is not certain of that edge alone.
-#[cold]
-fn passes_by(ray: &Ray, [a, b, c]: [Vec3; 3], det: f64, sides: [(f64, f64); 3]) -> bool {
+#[inline(always)]
+fn passes_by(ray: &Ray, [a, b, c]: [Vec3; 3], det: f64, [u, v, w]: [(f64, f64); 3]) -> bool {
     let sign = det.total_cmp(&0.0);
-    let mut edges = sides.into_iter().zip([[a, c], [b, a], [c, b]]);
-    edges.any(|((x, error), edge)| {
-        let side = if x.abs() > error { x.total_cmp(&0.0) } else { exact::side(ray, edge) };
+    let is_opposite = |(x, error): (f64, f64), from: Vec3, to: Vec3| {
+        let side = if x.abs() > error { x.total_cmp(&0.0) } else { exact::side(ray, [from, to]) };
         side == sign.reverse()
-    })
+    };
+    is_opposite(u, a, c) || is_opposite(v, b, a) || is_opposite(w, c, b)
 }
 
 /// As [`look`], where lines are known to meet their triangles, one in each lane: the lanes where there are bounds of
@@ -104,15 +133,12 @@ pub(super) fn place<const N: usize, L: Lanes<N>>(
 }
 
 /// As [`place`] of a line and a triangle in an axis-aligned plane, as floors and walls are; nothing of others, or of a line
-/// along the plane. The difference of two floats has the right sign, and is zero if and only if they are equal; it and
-/// the division are off by a unit of 2^-53 each.
+/// along the plane.
 #[inline(always)]
 pub(super) fn place_in_axis_plane(ray: &Ray, [a, b, c]: &[Vec3; 3]) -> Option<Bounds> {
     let across = a.cmpeq(*b) & a.cmpeq(*c) & ray.direction.cmpne(Vec3::ZERO);
     let axis = (across.bitmask() != 0).then(|| across.bitmask().trailing_zeros() as usize)?;
-    let t = (f64::from(a[axis]) - f64::from(ray.origin[axis])) / f64::from(ray.direction[axis]);
-    let error = t.abs() * (4.0 * UNIT);
-    Some(Bounds::Hit { low: t - error, high: t + error })
+    Some(at_height(*a, ray, axis))
 }
 
 /// Bounds of the exact `t` where lines pass the planes of triangles that they are known to meet, from how far apart the
@@ -141,12 +167,7 @@ pub(super) fn pass_plane<const N: usize, L: Lanes<N>>(
 /// As [`place`] of one line and triangle, with the exact height in place of a rounded one: however near to the plane
 /// the origin lies, the bounds are off only as the determinant is, relatively, and in the plane they are zero.
 pub(super) fn place_closely(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
-    let direction = ray.direction.as_dvec3();
-    let [a, b, c] = each(&corners, |corner| corner.as_dvec3());
-    let (edge1, edge2) = (b - a, c - a);
-    let extent = edge1.abs().max(edge2.abs()).max_element();
-    let det = direction.dot(edge1.cross(edge2));
-    let det_error = 48.0 * UNIT * extent * extent * direction.abs().max_element();
+    let (det, det_error) = determinant(ray, corners);
     if det.abs() < 1024.0 * det_error || det == 0.0 {
         return Bounds::Unclear;
     }

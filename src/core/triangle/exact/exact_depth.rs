@@ -57,7 +57,7 @@ impl<'a> ExactDepth<'a> {
     #[inline(never)]
     pub(super) fn order_closely(&self, other: &ExactDepth, ray: &Ray) -> Ordering {
         let (own, others) = (self.triangle.corners(), other.triangle.corners());
-        if surely_coplanar(&own, &others) {
+        if surely_coplanar(&own, &others) || meet_at_a_corner(ray, &own, &others) {
             return Ordering::Equal;
         }
         let order = |look: fn(&Ray, [Vec3; 3]) -> Bounds| match (look(ray, own), look(ray, others)) {
@@ -85,7 +85,13 @@ fn surely_coplanar(a: &[Vec3; 3], b: &[Vec3; 3]) -> bool {
     a.iter().all(|p| b.contains(p)) && b.iter().all(|p| a.contains(p)) || (0..3).any(level)
 }
 
-/// Whether a line that is known to meet two triangles meets both in an edge that they share, at the same `t`.
+/// Whether a line that is known to meet two triangles meets both in a corner that they share, at the same `t`.
+#[inline(always)]
+fn meet_at_a_corner(ray: &Ray, a: &[Vec3; 3], b: &[Vec3; 3]) -> bool {
+    a.iter().any(|corner| b.contains(corner) && exact::passes_through(ray, *corner))
+}
+
+/// The same for an edge.
 fn meet_at_an_edge(ray: &Ray, a: &[Vec3; 3], b: &[Vec3; 3]) -> bool {
     let shared = |edge: &[Vec3; 2]| b.contains(&edge[0]) && b.contains(&edge[1]);
     [[a[0], a[1]], [a[1], a[2]], [a[2], a[0]]]

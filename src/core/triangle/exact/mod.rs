@@ -15,7 +15,7 @@ use super::{EightHits, EightRays, TriangleTest};
 use crate::exact;
 use crate::geometry::{Ray, round_down, round_up};
 use crate::simd::{Arithmetic, EightLanes, LaneVec3, Lanes, Portable, each};
-use enclosure::{Bounds, look, place, place_closely, place_in_axis_plane};
+use enclosure::{Bounds, look, look_at_corners, place, place_closely, place_in_axis_plane};
 
 /// Exact answers at the price of a filter: what the `f32` stage cannot decide is decided in `f64` with a bound on its
 /// error, and what that cannot decide in integers or exact sums of floats. Each decision is made when it is needed:
@@ -108,7 +108,7 @@ impl TriangleTest for Exact {
         bounds: &CandidateBounds<N>,
     ) -> Option<Option<ExactDepth<'a>>> {
         if bounds.sure >> lane & 1 == 0 {
-            return None;
+            return runs_along(&ray.ray, &block.place(lane).corners()).then_some(None);
         }
         let (low, high, (start, end)) = (bounds.low[lane], bounds.high[lane], ray.ray.interval());
         if start <= low && high < end {
@@ -186,7 +186,10 @@ fn in_f64(ray: &Ray, triangle: Place, met: bool) -> Option<(f32, f32)> {
         Bounds::Hit { low, high } if high < start || end <= low => Some(None),
         Bounds::Hit { .. } | Bounds::Unclear => None,
     };
-    let bounds = if met { bounds_of_hit(ray, corners) } else { look(ray, corners) };
+    let bounds = match met {
+        true => bounds_of_hit(ray, corners),
+        false => look_at_corners(ray, corners).unwrap_or_else(|| look(ray, corners)),
+    };
     let met = matches!(bounds, Bounds::Hit { .. });
     within(bounds)
         .or_else(|| met.then(|| within(place_closely(ray, corners)))?)

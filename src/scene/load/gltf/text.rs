@@ -26,6 +26,9 @@ const MOST_OBJECTS: usize = 1 << 16;
 /// So many bytes of the file allow for one more object.
 const BYTES_AN_OBJECT: usize = 48;
 
+/// The most entries of lists and objects, per object.
+const ENTRIES_AN_OBJECT: usize = 12;
+
 /// The keys that are read, apart from those of joints and weights.
 static KEYS: LazyLock<HashSet<&str>> = LazyLock::new(|| {
     "attributes baseColorFactor buffer bufferView byteLength byteOffset byteStride children componentType count indices \
@@ -275,11 +278,14 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<Range<usize>>), Fault> {
 
 /// Checks the number of objects in a document against the size of its file; those in strings count as well.
 fn check_size(text: &[u8], bytes: usize) -> Result<(), Fault> {
-    let objects = text.iter().filter(|byte| **byte == b'{').count();
+    let count = |bytes: &[u8]| text.iter().filter(|byte| bytes.contains(byte)).count();
+    let (objects, entries) = (count(b"{"), count(b",["));
     let most = MOST_OBJECTS + bytes / BYTES_AN_OBJECT;
-    if objects > most {
-        let problem = format!("its text describes {objects} objects, but the limit is {most}: split the file");
-        return Err(Fault::file(problem));
+    for (count, most, what) in [(objects, most, "objects"), (entries, ENTRIES_AN_OBJECT * most, "entries")] {
+        if count > most {
+            let problem = format!("its text describes {count} {what}, but the limit is {most}: split the file");
+            return Err(Fault::file(problem));
+        }
     }
     Ok(())
 }
