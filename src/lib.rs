@@ -1,11 +1,11 @@
 //! **sahara** (SAH And Ray Acceleration): benchmark, validate and image-test ray-tracing acceleration structures.
 //!
-//! The command is described in the README. This page is for those who use the trees in a renderer, or bring a structure of
-//! their own.
+//! The README describes the command. This page is for users of the trees in a renderer, and for authors of a structure.
 //!
 //! # The trees in a renderer
 //!
-//! They are a crate of their own, [`sahara_core`], on five small libraries. Its modules are found here under the same names.
+//! The trees are a separate crate, [`sahara_core`], with five small dependencies. This crate re-exports its modules under
+//! the same names.
 //!
 #![doc = include_str!("WALK_THROUGH_1_STRUCTURE.md")]
 #![doc = "```"]

@@ -1,6 +1,7 @@
-//! The trees of **sahara**, for renderers: meshes, triangle tests and acceleration structures, on five small libraries.
+//! The trees of **sahara**, for renderers: meshes, triangle tests and acceleration structures, with five small
+//! dependencies.
 //!
-//! A structure is built over a mesh and answers slices of rays:
+//! A structure is built over a mesh and traces slices of rays:
 //!
 //! ```
 //! use std::sync::Arc;
@@ -24,13 +25,13 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A program compiles the structures that it names, with its own settings: `codegen-units = 1` in its
-//! `[profile.release]` is what they are measured with.
+//! A program compiles the structures that it uses, with its own settings. `codegen-units = 1` in its
+//! `[profile.release]` is the setting that we measure with.
 
 #![warn(missing_docs)]
 
 pub mod accel;
-/// Every triangle, tested in order.
+/// Tests every triangle in order.
 pub mod brute_force;
 pub mod build;
 pub mod bvh8;

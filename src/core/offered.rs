@@ -1,6 +1,6 @@
-//! The structures that are offered by name, each over each triangle test that it is offered with. Their builds and
-//! searches are compiled here, once and with the settings of this crate: a type parameter alone would have them
-//! compiled anew in each crate that names one.
+//! The structures that the registry offers by name, each over each of its triangle tests. This crate compiles their
+//! builds and traversals once, with its own settings; otherwise every crate that uses a generic structure would compile
+//! it again.
 
 use std::sync::Arc;
 

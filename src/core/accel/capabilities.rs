@@ -4,35 +4,35 @@ use std::borrow::Cow;
 
 use crate::geometry::{Hit, Ray};
 
-/// What a structure can be asked. What it declines it is not asked: tables show it as declined, neither right nor
-/// wrong.
+/// The features that a structure supports. It receives no rays that need other features; tables print them as declined,
+/// neither right nor wrong.
 ///
-/// That counts are declined is said by [`Accel::OBSERVED`](super::Accel::OBSERVED), that no triangle test is shared by
-/// [`Accel::TRIANGLE_TEST`](super::Accel::TRIANGLE_TEST).
+/// [`Accel::OBSERVED`](super::Accel::OBSERVED) declares missing counts,
+/// [`Accel::TRIANGLE_TEST`](super::Accel::TRIANGLE_TEST) a private triangle test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Capabilities {
-    /// Whether it has an any-hit query of its own. Without one, any hit is answered by the closest hit, so that
-    /// pictures are drawn; it is neither checked nor timed.
+    /// Whether it has its own any-hit query. If not, any hit uses the closest hit so that pictures can be drawn; it is
+    /// neither checked nor timed.
     pub any_hit: bool,
-    /// Whether it leaves out hits before a `t_min` above 0.
+    /// Whether it ignores hits before a `t_min` above 0.
     pub t_min: bool,
-    /// Whether its intervals hold their start: without that, a ray whose nearest hit lies at its `t_min` exactly is not
+    /// Whether its intervals include their start. If not, rays whose nearest hit lies exactly at `t_min` are not
     /// counted.
     pub closed_start: bool,
-    /// Whether it leaves out hits at or beyond a finite `t_max`.
+    /// Whether it ignores hits at or beyond a finite `t_max`.
     pub t_max: bool,
 }
 
 impl Capabilities {
-    /// All that the contract of [`Accel`](super::Accel) asks for.
+    /// All features of the contract of [`Accel`](super::Accel).
     pub const ALL: Self = Self { any_hit: true, t_min: true, closed_start: true, t_max: true };
 
-    /// Whether the answer to `ray`, of which `nearest` is the nearest hit, is a matter of convention.
+    /// Whether the result for `ray` is a matter of convention; `nearest` is its nearest hit.
     pub fn excuses(self, ray: &Ray, nearest: Option<Hit>) -> bool {
         !self.closed_start && nearest.is_some_and(|hit| hit.t == ray.interval().0)
     }
 
-    /// What of `ray` is declined, if anything is.
+    /// The feature of `ray` that the structure declines, if any.
     pub fn declines(self, ray: &Ray) -> Option<&'static str> {
         // What is not a number is no end that could be left out.
         let (from_start, endless) = (ray.t_min <= 0.0, ray.t_max == f32::INFINITY);
@@ -43,7 +43,7 @@ impl Capabilities {
         }
     }
 
-    /// Those of `rays` that can be asked, in order.
+    /// The `rays` that the structure accepts, in order.
     pub fn admitted(self, rays: &[Ray]) -> Cow<'_, [Ray]> {
         if rays.iter().all(|ray| self.declines(ray).is_none()) {
             return Cow::Borrowed(rays);
@@ -51,7 +51,7 @@ impl Capabilities {
         rays.iter().filter(|ray| self.declines(ray).is_none()).copied().collect()
     }
 
-    /// What is declined, as printed.
+    /// The declined features, as printed.
     pub fn declined(self) -> Vec<&'static str> {
         let all = [
             (self.any_hit, "any hit"),

@@ -220,7 +220,7 @@ fn alike(rays: &[Ray; RAYS]) -> bool {
     (differ(5) | differ(10) | differ(15)) >> 31 == 0
 }
 
-/// Traces `rays` on the level in use; hits are in the order of the rays.
+/// Traces `rays` on the current level; hits are in the order of the rays.
 ///
 /// # Panics
 /// If the slices differ in length.

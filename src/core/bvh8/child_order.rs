@@ -1,6 +1,6 @@
-//! In which order rays visit the children of a node: for the closest hit one order for each octant of directions,
-//! decided when the tree is built. The walk (`stack.rs`) follows it; for any hit it takes the lanes as they are, from
-//! the last to the first.
+//! The order in which rays visit the children of a node. For the closest hit, the build stores one order per octant of
+//! directions, and the traversal (`stack.rs`) follows it. For any hit, the traversal visits the lanes from the last to
+//! the first.
 
 use super::collapse::Collapse;
 

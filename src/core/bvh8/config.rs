@@ -9,52 +9,53 @@ use crate::build::sbvh::{self, SbvhConfig, Splits};
 use crate::geometry::Mesh;
 use crate::triangle::TriangleTest;
 
-/// How a [`Bvh8`](super::Bvh8) is built. What differs between `sah-kd-wide`, `sah-kd-tight`, `sah-hybrid` and `sah-bvh`
-/// is the partition alone.
+/// The build options of a [`Bvh8`](super::Bvh8). `sah-kd-wide`, `sah-kd-tight`, `sah-hybrid` and `sah-bvh` differ only
+/// in the partition.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bvh8Config {
-    /// How the triangles are divided.
+    /// The partitioning strategy.
     pub partition: Partition,
-    /// How much time a build may take for a better tree.
+    /// Build time in exchange for a better tree.
     pub quality: Quality,
-    /// Cost of testing a block of eight triangles, where visiting a node costs 1. Positive; more gives smaller leaves.
+    /// SAH cost of a block of eight triangles, relative to the cost of a node. Positive; a higher cost gives smaller
+    /// leaves.
     pub block_cost: f32,
-    /// References a build may make, as a multiple of the triangles, with [`Quality::Fast`] at most 1.75: the guard
-    /// against inputs that explode. At least 1.
+    /// Maximum number of references, as a multiple of the triangles: a guard against inputs that explode. At least 1;
+    /// [`Quality::Fast`] uses at most 1.75.
     pub duplication: f32,
-    /// How the rays of a slice are answered; [`Batch::Single`] over tests that are not
+    /// How a slice of rays is traced; only [`Batch::Single`] over tests that are not
     /// [`BATCHED`](TriangleTest::BATCHED).
     pub batch: Batch,
 }
 
-/// How the triangles of a scene are divided, by the surface area heuristic.
+/// Partitioning strategies, by the surface area heuristic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Partition {
-    /// The cells of `sah-kd`, of which the tight boxes are kept.
+    /// The cells of `sah-kd`; the tree stores their tight boxes.
     Cells,
-    /// By planes, the heuristic computed on tight boxes.
+    /// Planes, with the heuristic computed on tight boxes.
     Tight,
-    /// By planes or by groups of triangles, whichever is cheaper (Stich, Friedrich, Dietrich 2009).
+    /// Planes or groups of triangles, whichever is cheaper (Stich, Friedrich, Dietrich 2009).
     Hybrid,
-    /// By groups of triangles: a bounding volume hierarchy.
+    /// Groups of triangles: a bounding volume hierarchy.
     Objects,
 }
 
-/// How the rays of a slice are answered, always with the same answers.
+/// How a slice of rays is traced; the hits are always the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Batch {
-    /// One after the other.
+    /// One ray after the other.
     Single,
-    /// Sixteen in a row travel together where they share an octant. Of the others eight are under way at a time or one
-    /// follows the other, whichever was faster on the last ones of which both were tried.
+    /// Sixteen consecutive rays that share an octant form a packet. Other rays are interleaved, eight at a time, or
+    /// traced one after the other, whichever was faster in the last trial.
     Packets,
 }
 
 impl Bvh8Config {
-    /// The values measured for a partition.
+    /// The tuned values for a partition.
     pub const fn new(partition: Partition) -> Self {
         Self { partition, quality: Quality::Balanced, block_cost: 1.0, duplication: 2.4, batch: Batch::Single }
     }

@@ -1,4 +1,4 @@
-//! Eight-wide trees of tight boxes: one node, one walk, four partitions.
+//! Eight-wide trees of tight boxes: one node layout, one traversal, four partitioning strategies.
 
 mod accel;
 mod batch;

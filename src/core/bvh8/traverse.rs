@@ -1,13 +1,13 @@
-//! One walk for both queries.
+//! One traversal for both queries.
 //!
-//! **No hit is lost.** A triangle that is hit at the exact t* in the interval has a reference in a leaf whose box, and
-//! those of all nodes above it, contain the point hit, because partitions round the boxes of what they cut outward. No
-//! such box is lost (see [`PreparedRay`]) unless a hit with a computed t before t* has been found: then what
-//! [`kdtree`](crate::kdtree) says of that case holds here.
+//! **No hit is lost.** A triangle that the ray hits at the exact t* in its interval has a reference in a leaf. The box
+//! of this leaf and the boxes of all nodes above it contain the hit point, because partitions round the boxes of
+//! clipped parts outward. The traversal loses no such box (see [`PreparedRay`]) unless a hit with a computed t before
+//! t* has been found; then the argument in [`kdtree`](crate::kdtree) about this case applies.
 //!
-//! The closest hit is searched from front to back, in an order stored for the octant of the direction. For any hit the
-//! order is that of the lanes, the highest first: leaves before nodes and large boxes before small ones, because what
-//! is large is what occludes (Nah, Manocha: SATO: Surface area traversal order for shadow ray tracing, 2014).
+//! The closest-hit query visits children from front to back, in an order stored for the octant of the direction. The
+//! any-hit query visits lanes from the highest to the lowest: leaves before nodes and large boxes before small ones,
+//! because large boxes occlude most (Nah, Manocha: SATO: Surface area traversal order for shadow ray tracing, 2014).
 
 use super::node::{Child, WIDTH};
 use super::prepared_ray::PreparedRay;

@@ -9,14 +9,14 @@ use crate::geometry::{Aabb, Mesh};
 use crate::traversal::leaf::LeafBlock;
 use crate::triangle::TriangleTest;
 
-/// A tree of nodes of eight tight boxes and leaves of blocks of eight triangles.
+/// A tree of nodes with eight tight boxes, and leaves of blocks of eight triangles.
 ///
-/// Its configuration says how the triangles are divided: by planes, so that leaves are the tight boxes of disjoint
-/// cells; by groups; or by both. All are collapsed, laid out and searched in the same way. Takes O(n log n) time and
-/// memory to build, for a bounded duplication of references; the tree is the same for every number of threads. Costs
-/// 256 bytes a node and, over Möller-Trumbore, 320 a block. Not for moving geometry: nothing can be updated.
+/// The configuration selects the partition: by planes (leaves are the tight boxes of disjoint cells), by groups, or by
+/// both. Collapse, layout and traversal are the same for all partitions. A build takes O(n log n) time and memory for a
+/// bounded duplication of references; the tree is the same for every number of threads. A node takes 256 bytes; a block
+/// over Möller-Trumbore takes 320 bytes. A tree cannot be updated, so it does not suit moving geometry.
 ///
-/// How constants were chosen, and what was tried and did not pay: `papers/TUNING.md`.
+/// `papers/TUNING.md` lists how constants were chosen, and rejected experiments.
 ///
 /// # References
 /// Wald, Benthin, Boulos: Getting rid of packets, 2008 (wide nodes for single rays). Ylitie, Karras, Laine: Efficient
@@ -32,8 +32,8 @@ pub struct Bvh8<T: TriangleTest> {
     pub(super) blocks: Vec<LeafBlock<T, WIDTH>>,
     pub(super) bounds: Aabb,
     pub(super) batch: Batch,
-    /// How rays that form no packet are traced, for closest-hit and any-hit queries. Boxed, so that writes to it do not
-    /// share a cache line with what all threads read.
+    /// The strategy for rays that form no packet, for closest-hit and any-hit queries. Boxed, so that writes to it do
+    /// not share a cache line with data that all threads read.
     pub(super) apart: Box<[Trial; 2]>,
 }
 

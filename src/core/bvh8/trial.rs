@@ -1,16 +1,16 @@
-//! Which of two ways to answer rays that cannot travel together is faster on this machine, tried now and then on the
-//! rays that are asked.
+//! Selects the faster of two strategies for rays that do not form a packet. It occasionally tries both on the current
+//! rays.
 
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::{Mutex, MutexGuard};
 use std::time::{Duration, Instant};
 
-/// How rays that cannot travel together are answered.
+/// The strategy for rays that do not form a packet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Way {
-    /// Several under way at once.
+    /// Several rays are interleaved.
     Interleaved,
-    /// One after the other.
+    /// One ray after the other.
     InOrder,
 }
 
@@ -23,11 +23,10 @@ const RAREST: usize = 64;
 /// How many trials in a row the winner of many has to lose before the other way is chosen.
 const LEAD: i32 = 2;
 
-/// How two ways, which give the same answers, have done on the same kind of rays lately.
+/// The recent speed of both strategies on one kind of rays. Both return the same hits.
 ///
-/// Processors differ in how much of what a ray waits for they hide themselves: several rays under way at once are 1.1
-/// to 1.5 times as fast as one after the other on one, 0.8 to 1.2 times on another (`papers/TUNING.md`); and so do
-/// rays.
+/// Processors differ in how much memory latency they hide themselves: interleaving is 1.1 to 1.5 times as fast as one
+/// ray after the other on one processor, 0.8 to 1.2 times on another (`papers/TUNING.md`). Rays differ as well.
 #[derive(Debug, Default)]
 pub(super) struct Trial {
     in_order: AtomicBool,

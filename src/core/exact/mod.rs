@@ -1,4 +1,5 @@
-//! One ray against one triangle, without rounding: what a ray of `f32` numbers meets, and in which order, is decidable.
+//! One ray and one triangle, without rounding: whether and where a ray of `f32` numbers hits, and the order of hits,
+//! are decidable.
 
 mod expansion;
 mod integers;
@@ -14,7 +15,7 @@ use crate::geometry::Ray;
 use crate::simd::indexed;
 use expansion::{Expansion, exact_sum};
 
-/// An exact ray parameter: a fraction. Those of one ray are ordered exactly.
+/// An exact ray parameter, as a fraction. Parameters of one ray are ordered exactly.
 #[derive(Clone, Debug)]
 pub struct ExactT {
     numerator: Expansion,
@@ -22,13 +23,13 @@ pub struct ExactT {
     denominator: Expansion,
 }
 
-/// Where the whole line of `ray` meets the closed triangle, or nothing if it misses or lies in the plane of the
-/// triangle.
+/// The parameter at which the whole line of `ray` meets the closed triangle; `None` if it misses the triangle or lies
+/// in its plane.
 ///
-/// The interval of the ray is not looked at: see [`ExactT::is_within`]. Numbers that are not finite hit nothing.
-/// Costs 50 nanoseconds where all bits in use lie within forty places, else about a microsecond.
+/// The function ignores the interval of the ray: see [`ExactT::is_within`]. Numbers that are not finite hit nothing.
+/// Costs 50 nanoseconds if all bits in use lie within forty places, otherwise about a microsecond.
 ///
-/// The line passes through the triangle when it passes all three edges on the same side, or meets them: three volumes
+/// The line passes through the triangle if it passes all three edges on the same side, or meets them: three volumes
 /// have no opposite signs.
 ///
 /// # References
@@ -41,8 +42,8 @@ pub fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactT> {
 }
 
 /// Six times the volume of the tetrahedron of `origin` and a triangle, (a - origin) . (e x f), with a relative error
-/// below 2^-49: the numerator of the `t` at which lines from there meet its plane. Zero if and only if `origin` lies in
-/// that plane. For finite numbers.
+/// below 2^-49: the numerator of the `t` at which lines from `origin` meet the plane. Zero if and only if `origin` lies
+/// in the plane. For finite numbers.
 ///
 /// Costs a quarter of [`hit`].
 pub fn height(origin: Vec3, corners: [Vec3; 3]) -> f64 {
@@ -53,8 +54,8 @@ pub fn height(origin: Vec3, corners: [Vec3; 3]) -> f64 {
     integers::height(origin, corners).unwrap_or_else(of_sums)
 }
 
-/// On which side the line of `ray` passes the line through two points: the sign of direction . ((p - origin) x (q -
-/// origin)). Equal where the two lines meet, or are parallel. For finite numbers.
+/// The side on which the line of `ray` passes the line through two points: the sign of direction . ((p - origin) x (q -
+/// origin)). Equal if the two lines meet or are parallel. For finite numbers.
 ///
 /// Costs a sixth of [`hit`].
 #[inline(always)]
@@ -157,7 +158,7 @@ impl ExactT {
         begun && !ray.t_max.is_nan() && self.order(ray.end()).is_lt()
     }
 
-    /// The order of this `t` and a float, which may be infinite; nothing for NaN.
+    /// The order of this `t` and a float, which may be infinite; `None` for NaN.
     pub fn compare(&self, t: f32) -> Option<Ordering> {
         (!t.is_nan()).then(|| self.order(t.into()))
     }
@@ -180,7 +181,7 @@ impl ExactT {
         self.numerator.approximate() / self.denominator.approximate()
     }
 
-    /// The nearest `f32`, ties to even: infinite from half an ulp beyond the largest finite number on.
+    /// The nearest `f32`, ties to even; infinity from half an ulp beyond the largest finite number.
     pub fn round(&self) -> f32 {
         if self.numerator.sign().is_eq() {
             return 0.0;

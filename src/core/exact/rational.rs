@@ -1,17 +1,16 @@
-//! A second judge: the question of [`hit`](super::hit()) by another formula, in rationals.
+//! A second implementation of [`hit`](super::hit()): another formula, in rationals.
 //!
-//! It shares nothing with the first: no line of this crate and no library.
-//! For tests; a hundred times slower.
+//! It shares no code and no library with the first. For tests; a hundred times slower.
 
 use dashu_ratio::RBig;
 use glam::Vec3;
 
 use crate::geometry::Ray;
 
-/// Where the line of a ray meets the plane of a triangle.
+/// The intersection of the line of a ray and the plane of a triangle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
-    /// The determinant that the other three were divided by; not zero.
+    /// The determinant, the divisor of the other three; not zero.
     pub determinant: RBig,
     /// Barycentric of the second corner.
     pub u: RBig,
@@ -21,7 +20,7 @@ pub struct Solution {
     pub t: RBig,
 }
 
-/// Cramer's rule for `o + t d = a + u e1 + v e2`; nothing where the line is parallel to the plane.
+/// Cramer's rule for `o + t d = a + u e1 + v e2`; `None` if the line is parallel to the plane.
 ///
 /// # Panics
 /// If a number is not finite.
@@ -49,7 +48,7 @@ pub fn solve(ray: &Ray, corners: [Vec3; 3]) -> Option<Solution> {
     Some(Solution { determinant, u, v, t })
 }
 
-/// Where the whole line of `ray` meets the closed triangle.
+/// The parameter at which the whole line of `ray` meets the closed triangle.
 ///
 /// # Panics
 /// If a number is not finite.
@@ -71,7 +70,7 @@ fn nearest_float(t: &RBig) -> f32 {
     t.to_f32().value()
 }
 
-/// The nearest `f32` of the hit of `ray` within its interval: half-open, a `t` that rounds to infinity being beyond its
+/// The nearest `f32` of the hit of `ray` within its half-open interval; a `t` that rounds to infinity lies beyond the
 /// end.
 ///
 /// # Panics
@@ -80,7 +79,7 @@ pub fn hit_within(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
     Some(nearest_float(&within(ray, corners)?))
 }
 
-/// The same of the nearest of some triangles, with the lowest number of those that are hit there; nothing for a ray
+/// The same for the nearest of some triangles, with the lowest number among the triangles hit there; `None` for a ray
 /// that is not valid.
 ///
 /// # Panics

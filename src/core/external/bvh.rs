@@ -1,9 +1,9 @@
-//! [bvh](https://github.com/svenstaro/bvh) 0.13 (crate `bvh`): a binary BVH, one triangle a leaf, split by a binned
-//! surface area heuristic.
+//! [bvh](https://github.com/svenstaro/bvh) 0.13 (crate `bvh`): a binary BVH with one triangle per leaf, split by a
+//! binned surface area heuristic.
 //!
-//! The crate has no nearest hit: it yields candidates, and its caller tests triangles. Two of its walks are offered
-//! ([`Traversal`]), both with early termination. Its ray (unit direction and inverse, by its own constructor) is made
-//! before the clock starts. Its builder gets the threads of the caller.
+//! The crate has no closest-hit query: it returns candidates, and its caller tests triangles. The adapter offers two of
+//! its traversals ([`Traversal`]), both with early termination. The crate's ray (unit direction and inverse, by its own
+//! constructor) is prepared before the clock starts. The builder runs on the threads of the caller.
 
 use std::cell::Cell;
 use std::sync::Arc;
@@ -33,23 +33,23 @@ pub struct SvenstaroBvh<T: TriangleTest> {
     traversal: Traversal,
 }
 
-/// How the crate is used.
+/// The options of the adapter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SvenstaroBvhConfig {
-    /// Which of its walks finds the nearest hit. Any hit always takes its plain iterator, and stops at the first.
+    /// The traversal of the closest-hit query. Any hit always uses the plain iterator and stops at the first hit.
     pub traversal: Traversal,
 }
 
-/// The walks that can stop early.
+/// The traversals that can stop early.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Traversal {
-    /// Its plain iterator over a query of ours, which is the crate's ray with a box test that also refuses what begins
-    /// behind the nearest hit so far. Left before right; its stack holds 32 nodes, and it panics on deeper trees.
+    /// The plain iterator over a custom query: the crate's ray with a box test that also rejects boxes behind the
+    /// nearest hit so far. Left before right; its stack holds 32 nodes, and it panics on deeper trees.
     #[default]
     Pruned,
-    /// Its iterator from near to far, over a heap, up to the first box behind the nearest hit.
+    /// The iterator from near to far, with a heap, up to the first box behind the nearest hit.
     Nearest,
 }
 
@@ -231,10 +231,10 @@ impl<T: TriangleTest> Accel for SvenstaroBvh<T> {
     }
 }
 
-/// The triangle test of the crate: Möller-Trumbore over a unit direction, which culls back faces.
+/// The triangle test of the crate: Möller-Trumbore over a unit direction; it culls back faces.
 ///
-/// Wrapped as a test of ours: asked for both windings, `t` divided by the direction's length. It refuses determinants
-/// and distances below the float's epsilon, whatever the scale of the scene.
+/// Wrapped as one of our tests: it runs for both windings, and `t` is divided by the length of the direction. It
+/// rejects determinants and distances below the float's epsilon, whatever the scale of the scene.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SvenstaroTest;
 

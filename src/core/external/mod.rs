@@ -1,17 +1,18 @@
-//! Structures of other projects: the baseline `obvhs`, and the peers, each behind a feature of its own (`peer-*`, or
-//! `peers` for all), adapted without handicap.
+//! Structures of other projects: the baseline `obvhs`, and the peers, each behind its own feature (`peer-*`, or `peers`
+//! for all). The adapters do not handicap them.
 //!
-//! - **Rays** are brought into the peer's form once, before the clock starts
-//!   ([`Accel::load`](crate::accel::Accel::load)), its own ray with unit or inverse direction where it has one, and
-//!   what the triangle test wants. Inside of the timed region remain what a library computes in its own walk, and a
-//!   copy to the stack where it writes into the ray. Of rays that mostly miss, this saves a fifth of the time and more.
-//!   The structures of this crate take a ray as it comes and prepare it inside: the handicap is ours.
-//! - **Triangle tests**: the peer's own, wrapped as a test of ours where its API hands it out alone, so that brute
-//!   force over it can be the reference; and ours where the peer takes a closure.
-//! - **Triangles without area** are left out, as for all structures; an empty scene is answered without asking the
-//!   peer.
+//! - **Rays** are converted to the peer's format once, before the clock starts
+//!   ([`Accel::load`](crate::accel::Accel::load)): its own ray with unit or inverse direction if it has one, and the
+//!   input of the triangle test. The timed region still contains the computations of the library's own traversal, and a
+//!   copy to the stack if the library writes into the ray. For rays that mostly miss, this saves a fifth of the time
+//!   and more. The structures of this crate prepare rays inside the timed region: the handicap is ours.
+//! - **Triangle tests**: the peer's own test, wrapped as one of our tests if its API exposes it, so that brute force
+//!   over it can be the reference; and our tests if the peer takes a closure.
+//! - **Triangles without area** are left out, as for all structures. An empty scene returns misses without a call to
+//!   the peer.
 //! - **Conventions** that differ from the contract are declared
-//!   ([`Accel::CONVENTIONS`](crate::accel::Accel::CONVENTIONS)), shown by `sahara list` and told apart from errors.
+//!   ([`Accel::CONVENTIONS`](crate::accel::Accel::CONVENTIONS)); `sahara list` prints them, and they do not count as
+//!   errors.
 //!
 //! # Peers
 #![doc = include_str!("PEERS.md")]

@@ -1,10 +1,10 @@
-//! [parry](https://github.com/dimforge/parry) 0.31 (crate `parry3d`): a binary BVH, one triangle a leaf, two children a
-//! node.
+//! [parry](https://github.com/dimforge/parry) 0.31 (crate `parry3d`): a binary BVH, one triangle per leaf, two children
+//! per node.
 //!
-//! Its tree takes the test of a leaf as a closure, and walks from near to far with early termination. The closure
-//! honours `t_min`, which parry's own mesh shape does not know; nothing is culled. The ray is two vectors; its inverse
-//! direction the crate computes itself, inside of the timed region: it takes none. It has no query that stops at the
-//! first hit: any hit reports its first hit at minus infinity, so that no box remains in front of it.
+//! The tree takes the leaf test as a closure, and traverses from near to far with early termination. The closure
+//! respects `t_min`, which parry's own mesh shape does not support; nothing is culled. The ray is two vectors; the
+//! crate computes its inverse direction itself, in the timed region, and accepts no precomputed one. It has no query
+//! that stops at the first hit: any hit returns its first hit at minus infinity, so no box remains in front of it.
 
 use std::cell::Cell;
 use std::sync::Arc;
@@ -32,11 +32,11 @@ pub struct ParryBvh<T: TriangleTest> {
     leaves: Leaves<T>,
 }
 
-/// How parry builds.
+/// The build options of parry.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ParryConfig {
-    /// One of its two builders. Both run on one thread.
+    /// One of its two builders; both run on one thread.
     pub builder: Builder,
 }
 
@@ -44,7 +44,7 @@ pub struct ParryConfig {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Builder {
-    /// Top down, binned: what its mesh shape uses.
+    /// Top down, binned: the builder of its mesh shape.
     #[default]
     Binned,
     /// Bottom up, locally ordered clustering.
@@ -151,7 +151,7 @@ impl<T: TriangleTest> Accel for ParryBvh<T> {
 
 /// The triangle test of parry: Möller-Trumbore by the triangle's normal, two-sided, without an epsilon.
 ///
-/// Wrapped as a test of ours.
+/// Wrapped as one of our tests.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ParryTest;
 

@@ -4,8 +4,8 @@ use crate::accel::BuildError;
 use crate::build::cells::{CellConfig, Rules};
 use crate::build::sah_cost::CostModel;
 
-/// How a [`KdTree`](super::KdTree) is built and traversed: `median-kd` and `sah-kd` are two values of it. A value that
-/// the others leave unread is refused.
+/// The build and traversal options of a [`KdTree`](super::KdTree); `median-kd` and `sah-kd` are two values. If the
+/// other options leave an option unread, it must keep the value of [`REPORT`](Self::REPORT) or [`SAH`](Self::SAH).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KdConfig {
@@ -17,38 +17,37 @@ pub struct KdConfig {
     pub stop: Stop,
     /// How rays walk the tree.
     pub traversal: Traversal,
-    /// `L` of [`Stop::Report`] and [`Stop::Leaf`]: a node with fewer triangles is a leaf. At least 1; the report's main
-    /// table has 100.
+    /// `L` of [`Stop::Report`] and [`Stop::Leaf`]: a node with fewer triangles becomes a leaf. At least 1; 100 in the
+    /// report's main table.
     pub leaf: u32,
-    /// Whether a node of exactly `leaf` triangles may still be split; the report leaves it open.
+    /// Whether a node of exactly `leaf` triangles may be split; the report does not specify it.
     pub limit: Limit,
-    /// `T` of [`Stop::Report`]: the share of triangles on both sides at which a split is discarded. In (0, 1]; the
-    /// report's main table has 0.7.
+    /// `T` of [`Stop::Report`]: the share of triangles on both sides that discards a split. In (0, 1]; 0.7 in the
+    /// report's main table.
     pub threshold: f32,
-    /// Whose triangles the threshold is a share of.
+    /// The triangles that the threshold is a share of.
     pub count: CountOf,
-    /// Which value stands for the middle of the vertex coordinates.
+    /// The value that represents the middle of the vertex coordinates.
     pub median: Median,
     /// Where a triangle goes that has a vertex in the plane.
     pub equal: Equal,
     /// When a ray stops.
     pub exit: Exit,
-    /// A small hashed mailbox that keeps a ray from testing a triangle twice.
+    /// A small hashed mailbox: a ray tests a triangle only once while it is in the mailbox.
     pub mailbox: bool,
-    /// Cost of an inner node in the surface area heuristic. Positive; more gives bigger leaves.
+    /// SAH cost of an inner node. Positive; a higher cost gives larger leaves.
     pub traversal_cost: f32,
-    /// Cost of testing a block of eight triangles. Positive; more gives smaller leaves.
+    /// SAH cost of a block of eight triangles. Positive; a higher cost gives smaller leaves.
     pub intersection_cost: f32,
-    /// With [`Plane::SahBinned`], nodes of at most this many references try every plane of the surface area heuristic
-    /// all the same.
+    /// With [`Plane::SahBinned`], nodes of at most this many references try every SAH plane.
     pub exact: u32,
-    /// Planes that [`Plane::SahBinned`] tries on an axis, in 2..=62.
+    /// Candidate planes of [`Plane::SahBinned`] per axis, in 2..=62.
     pub candidates: u32,
-    /// Of larger nodes, only about so many references tell [`Plane::SahBinned`] where to split. At least 16.
+    /// In larger nodes, [`Plane::SahBinned`] selects the plane from about this many references. At least 16.
     pub sample: u32,
-    /// Share of the cost that a split saves when it cuts off empty space, in [0, 1); Wald and Havran use 0.2.
+    /// Share of the cost that a split saves if it cuts off empty space, in [0, 1); Wald and Havran use 0.2.
     pub empty_bonus: f32,
-    /// References a build may make, as a multiple of the triangles: the guard against inputs that explode. At least 1.
+    /// Maximum number of references, as a multiple of the triangles: a guard against inputs that explode. At least 1.
     pub duplication: f32,
 }
 
@@ -56,38 +55,38 @@ pub struct KdConfig {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Plane {
-    /// The median of the coordinates of all vertices of the node's triangles.
+    /// The median of the vertex coordinates of the node's triangles.
     VertexMedian,
     /// The middle of the cell.
     SpatialMedian,
     /// The median of the centroids of the node's triangles.
     CentroidMedian,
-    /// The plane of least cost by the surface area heuristic among a few on each axis (Hunt, Mark, Stoll 2006).
+    /// The plane of least SAH cost among a few planes per axis (Hunt, Mark, Stoll 2006).
     SahBinned,
-    /// The plane of least cost by the surface area heuristic among all edges of clipped triangles.
+    /// The plane of least SAH cost among all edges of clipped triangles.
     SahSweep,
 }
 
-/// Which axis a median split takes.
+/// The axis of a median split.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum AxisRule {
     /// Depth modulo 3.
     Cyclic,
-    /// The longest of the cell.
+    /// The longest axis of the cell.
     Longest,
 }
 
-/// When a node stays a leaf. The depth cap 8 + 1.3 log2 n and the duplication guard hold for every rule.
+/// The rule that makes a node a leaf. The depth limit 8 + 1.3 log2 n and the duplication guard apply to every rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stop {
-    /// Fewer than `leaf` triangles, or a share of `threshold` on both sides, or no progress on three axes in a row.
+    /// Fewer than `leaf` triangles, a share of `threshold` on both sides, or no progress on three axes in a row.
     Report,
-    /// Fewer than `leaf` triangles, and no other reason.
+    /// Fewer than `leaf` triangles; no other reason.
     Leaf,
-    /// The plane is not cheaper than testing all triangles, one step ahead. Of the surface area heuristic: no plane is
-    /// cheaper than testing all triangles.
+    /// The split is not cheaper than testing all triangles, one step ahead. With SAH planes: no plane is cheaper than
+    /// testing all triangles.
     Sah,
 }
 
@@ -95,7 +94,7 @@ pub enum Stop {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Traversal {
-    /// Test both child boxes, as the report does.
+    /// Test the boxes of both children, as the report does.
     ChildBoxes,
     /// Cut the ray's interval at the plane.
     PlaneIntervals,
@@ -111,25 +110,25 @@ pub enum Limit {
     AtMost,
 }
 
-/// Whose triangles the match threshold is a share of.
+/// The triangles that the match threshold is a share of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CountOf {
-    /// The node's: a split that fails is discarded.
+    /// The triangles of the node: a split that fails is discarded.
     Parent,
-    /// Each child's: a child that fails is not split further.
+    /// The triangles of each child: a child that fails is not split further.
     Child,
 }
 
-/// Which value is the median of an even number of coordinates, and of which coordinates.
+/// The median of an even number of coordinates, and the coordinates that count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Median {
-    /// The lower of the two middle ones, every triangle counting its three corners.
+    /// The lower of the two middle values; every triangle counts its three corners.
     Lower,
-    /// The mean of the two middle ones.
+    /// The mean of the two middle values.
     Mean,
-    /// The lower one, a corner shared by several triangles counting once.
+    /// The lower of the two middle values; a corner that triangles share counts once.
     Welded,
 }
 
@@ -137,9 +136,9 @@ pub enum Median {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Equal {
-    /// To both sides: below and above are strict.
+    /// On both sides: below and above are strict.
     Both,
-    /// Below, when no vertex is above.
+    /// Below, if no vertex is above.
     Below,
 }
 
@@ -147,9 +146,9 @@ pub enum Equal {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Exit {
-    /// When nothing nearer can follow: no hit is lost.
+    /// When no nearer hit can follow: no hit is lost.
     Nearest,
-    /// At the first leaf with any hit, wherever the hit lies: the literal reading of the report, which shows wrong
+    /// At the first leaf with any hit, wherever the hit lies: the literal reading of the report. It produces wrong
     /// pixels.
     FirstLeaf,
 }
@@ -240,8 +239,8 @@ impl KdConfig {
         self.check_unread()
     }
 
-    /// Refuses a key that this combination does not read, unless it is as [`REPORT`](Self::REPORT) or
-    /// [`SAH`](Self::SAH) has it: another value would change nothing.
+    /// Rejects an option that this combination does not read, unless its value is the value of [`REPORT`](Self::REPORT)
+    /// or [`SAH`](Self::SAH): any other value has no effect.
     fn check_unread(&self) -> Result<(), BuildError> {
         let is_median = !matches!(self.plane, Plane::SahBinned | Plane::SahSweep);
         let is_binned = self.plane == Plane::SahBinned;

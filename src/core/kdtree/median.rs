@@ -1,5 +1,5 @@
-//! Planes chosen without a cost: the median of vertex coordinates, as in the report, or of centroids, or the middle of
-//! the cell. Sides are decided by whole triangles.
+//! Planes selected without a cost: the median of vertex coordinates, as in the report, the median of centroids, or the
+//! middle of the cell. Whole triangles decide the sides.
 
 use super::config::{AxisRule, CountOf, Equal, Median, MedianConfig, Plane};
 use crate::build::cells::{Content, Context, Place};

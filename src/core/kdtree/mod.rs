@@ -1,4 +1,4 @@
-//! KD-trees: the report's median tree and the SAH tree are two configurations of one type.
+//! KD-trees. The report's median tree and the SAH tree are two configurations of one type.
 
 mod config;
 mod median;

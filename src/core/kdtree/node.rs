@@ -1,6 +1,7 @@
 use crate::accel::BuildError;
 
-/// A node of the tree in 8 bytes. The child below the plane follows its parent, the child above is named by number.
+/// A node of the tree in 8 bytes. The child below the plane follows its parent; the node stores the number of the child
+/// above.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub(super) struct Node {

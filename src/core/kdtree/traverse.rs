@@ -1,15 +1,15 @@
 //! One traversal for both queries, in two variants: plane intervals and child boxes.
 //!
-//! **No hit is lost.** Let a triangle be hit at the exact parameter t* in the interval, at the point p. Its references
-//! were clipped outward, so some leaf whose closed cell contains p holds it. Both walks visit every leaf whose closed
-//! cell contains a point of the ray in [t_min, nearest t]: a child is skipped only when its interval, moved outward by
-//! more than the rounding of plane crossings (see [`Line`]), is empty or begins after the nearest hit so far. Where a
-//! crossing overflows, plane intervals begin at a finite parameter before it, and child boxes are clipped to an
-//! interval without end. So the leaf of p is visited, unless a hit with a computed t before t* has been found. Where t*
-//! exceeds a computed t of another triangle, that triangle is the answer up to the error of the triangle test, which is
-//! not the traversal's. With the exact test nothing is computed: nearest t is a float that is not before the nearest
-//! exact hit so far, so that the walk comes to every hit that is nearer or as near, and the answer is the exact one
-//! with the lowest number.
+//! **No hit is lost.** Let a ray hit a triangle at the exact parameter t* in its interval, at the point p. The
+//! references of the triangle were clipped outward, so some leaf whose closed cell contains p contains the triangle.
+//! Both variants visit every leaf whose closed cell contains a point of the ray in [t_min, nearest t]: they skip a
+//! child only if its interval, moved outward by more than the rounding of plane crossings (see [`Line`]), is empty or
+//! begins after the nearest hit so far. If a crossing overflows, plane intervals begin at a finite parameter before it,
+//! and child boxes are clipped to an interval without end. So they visit the leaf of p, unless a hit with a computed t
+//! before t* has been found. If t* exceeds the computed t of another triangle, that triangle is the result up to the
+//! error of the triangle test, which is not an error of the traversal. The exact test has no such error: nearest t is a
+//! float that is not before the nearest exact hit so far. So the traversal reaches every hit that is nearer or equally
+//! near, and the result is the exact hit with the lowest number.
 
 use std::mem::MaybeUninit;
 
@@ -26,7 +26,7 @@ use crate::traversal::line::{Line, after, before, finite_entry, open_end};
 use crate::traversal::walk::Walk;
 use crate::triangle::TriangleTest;
 
-/// A traversal leaves at most one node a level behind.
+/// A traversal pushes at most one node per level.
 const STACK: usize = 64;
 const _: () = assert!(STACK > DEEPEST as usize);
 
@@ -50,16 +50,16 @@ impl<T: TriangleTest> Walk for KdTree<T> {
     }
 }
 
-/// The leaves that a ray has still to search, in the order in which it meets them.
+/// The leaves that a ray still has to search, in traversal order.
 ///
-/// Both variants share one search of leaves, which is most of the code of a traversal.
+/// Both variants share the search of leaves, which is most of the code of a traversal.
 #[expect(clippy::large_enum_variant, reason = "one for each walk, on the stack, and neither is initialised")]
 enum Leaves {
     Intervals(Stack<(u32, f32, f32)>),
     Boxes(Stack<(u32, Aabb, f32)>),
 }
 
-/// Nodes left behind. Not initialised, because that would cost as much as a short traversal.
+/// Nodes to visit later. Not initialised, because initialisation would cost as much as a short traversal.
 struct Stack<E> {
     entries: [MaybeUninit<E>; STACK],
     len: usize,
@@ -88,7 +88,7 @@ impl<E: Copy> Stack<E> {
 }
 
 impl Leaves {
-    /// Those in [`t_min`, `t_max`]; nothing if the ray misses the tree.
+    /// The leaves in [`t_min`, `t_max`]; `None` if the ray misses the tree.
     #[inline(always)]
     fn enter<T: TriangleTest>(tree: &KdTree<T>, line: &Line, t_min: f32, t_max: f32) -> Option<Self> {
         Some(match tree.config.traversal {

@@ -13,12 +13,13 @@ use crate::triangle::TriangleTest;
 
 /// A binary space partition by axis-aligned planes: 8-byte nodes in depth-first order, leaves of blocks of triangles.
 ///
-/// Its configuration says where planes go, when nodes stay leaves and how rays walk. Building takes O(n log n) time and
-/// memory for a bounded duplication of references; the tree is the same for every number of threads.
+/// The configuration selects the planes, the leaves and the traversal. A build takes O(n log n) time and memory for a
+/// bounded duplication of references; the tree is the same for every number of threads. A tree cannot be updated, so it
+/// does not suit moving geometry.
 ///
 /// # References
 /// Wald, Havran: On building fast kd-trees for ray tracing, and on doing that in O(N log N), 2006. Havran: Heuristic
-/// Ray Shooting Algorithms, 2000. Not for moving geometry: nothing can be updated.
+/// Ray Shooting Algorithms, 2000.
 pub struct KdTree<T: TriangleTest> {
     pub(super) nodes: Vec<Node>,
     pub(super) blocks: Vec<LeafBlock<T, BLOCK>>,

@@ -1,4 +1,4 @@
-//! Which instructions a batch runs on, chosen while the program runs.
+//! The instruction set of a batch, selected at run time.
 
 use std::fmt::{self, Display};
 use std::str::FromStr;
@@ -8,10 +8,10 @@ use std::sync::atomic::{AtomicU8, Ordering};
 use super::avx::Avx;
 use super::{EightLanes, Portable};
 
-/// A set of instructions that lanes are compiled for. All give the same hits, bit for bit.
+/// An instruction set that lanes are compiled for. All sets return the same hits, bit for bit.
 ///
-/// A level is proof that the machine has its instructions, so that [`dispatch`] needs no check: other crates cannot
-/// name a level that a machine may lack, they get it from [`Level::available`], [`Level::current`] or its name.
+/// A level is proof that the machine has its instructions, so [`dispatch`] needs no check. Other crates cannot
+/// construct a level that a machine may lack; they get levels from [`Level::available`], [`Level::current`] or a name.
 ///
 /// ```compile_fail,E0603
 /// let level = sahara_core::simd::Level::Avx512;
@@ -19,9 +19,9 @@ use super::{EightLanes, Portable};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u8)]
 pub enum Level {
-    /// Arrays and loops; what the compiler makes of them.
+    /// Arrays and loops, as the compiler translates them.
     Portable,
-    /// AVX2, FMA and the instructions for bits that came with them (x86-64-v3).
+    /// AVX2, FMA and the bit instructions of the same generation (x86-64-v3).
     #[non_exhaustive]
     Avx2,
     /// Also AVX-512 F and VL: packs lanes in one step.
@@ -29,7 +29,7 @@ pub enum Level {
     Avx512,
 }
 
-/// A name that is no level, or one that this machine or build does not have.
+/// An unknown level, or a level that this machine or build lacks.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("there is no level {name:?} here; the levels are: {known}")]
 pub struct UnknownLevel {
@@ -37,9 +37,9 @@ pub struct UnknownLevel {
     known: String,
 }
 
-/// What is written once over eight lanes and runs on any level.
+/// A computation that is written once over eight lanes and runs on any level.
 pub trait Kernel {
-    /// What it gives.
+    /// The result.
     type Output;
 
     /// Mark it, and all that it calls with lanes, `#[inline(always)]`: only what is inlined is compiled for the level.
@@ -62,7 +62,7 @@ const WITH_AVX512: bool = cfg!(all(
 impl Level {
     const ALL: [Self; 3] = [Self::Portable, Self::Avx2, Self::Avx512];
 
-    /// As written on the command line and in exports.
+    /// The name on the command line and in exports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Portable => "portable",
@@ -97,7 +97,7 @@ impl Level {
         self == Self::Portable
     }
 
-    /// The level that structures use: the highest available, unless another was chosen.
+    /// The level that structures use: the highest available one, unless the program selected another.
     #[inline(always)]
     pub fn current() -> Self {
         match CURRENT.load(Ordering::Relaxed) {

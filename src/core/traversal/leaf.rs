@@ -1,4 +1,4 @@
-//! Triangles as leaves hold them, and the search through them.
+//! Triangles in leaves, and their search.
 
 use std::cmp::Ordering;
 
@@ -42,7 +42,7 @@ impl<D: Depth> Nearest<D> {
         self.hit.is_some()
     }
 
-    /// The nearest hit of `ray`; with `ANY` some hit, whose `t` is only a bound.
+    /// The nearest hit of `ray`; with `ANY` any hit, whose `t` is only a bound.
     #[inline(always)]
     pub fn answer<const ANY: bool>(&self, ray: &Ray) -> Option<Hit> {
         let (depth, id) = self.hit.as_ref()?;
@@ -89,8 +89,8 @@ impl<T: TriangleTest, const N: usize> LeafBlock<T, N> {
     }
 }
 
-/// Remembers triangles that a ray was tested against: a direct-mapped cache of the last triangle for each of eight
-/// hash values (Havran 2000).
+/// A mailbox: a direct-mapped cache of the last triangle that the ray was tested against, for each of eight hash values
+/// (Havran 2000).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mailbox([u32; 8]);
 
@@ -104,8 +104,8 @@ impl Mailbox {
     }
 }
 
-/// Searches the `count` triangles in the blocks of one leaf; the observer counts each block that is tested. With
-/// `ANY`, returns at the first block with a hit in the interval.
+/// Searches the `count` triangles in the blocks of one leaf; the observer counts each tested block. With `ANY`, returns
+/// at the first block with a hit in the interval.
 #[inline(always)]
 pub(crate) fn search<'a, const ANY: bool, const N: usize, L: Lanes<N>, T: TriangleTest, O: Observer>(
     blocks: &'a [LeafBlock<T, N>],
@@ -207,9 +207,9 @@ fn settle_closely<'a, const N: usize, T: TriangleTest>(
     }
 }
 
-/// The start of every query: `t_min`, and a search up to the end of the interval; nothing if the ray can hit nothing.
+/// The start of every query: `t_min`, and a search up to the end of the interval; `None` if the ray can hit nothing.
 ///
-/// The prepared ray is not returned: it would be copied right after it was written, which stalls the processor.
+/// The prepared ray is not returned: the caller would copy it right after it was written, which stalls the processor.
 #[inline(always)]
 pub(crate) fn start<'a, T: TriangleTest>(ray: &Ray) -> Option<(f32, Nearest<T::Depth<'a>>)> {
     let (t_min, t_max) = ray.interval();

@@ -1,5 +1,5 @@
-//! A ray as traversals see it: where it crosses axis-aligned planes, with the slack that keeps rounding from losing a
-//! hit.
+//! The line of a ray for traversals: its crossings of axis-aligned planes, with the slack that prevents rounding from
+//! losing a hit.
 
 use glam::Vec3A;
 
@@ -75,8 +75,8 @@ pub(crate) fn lanes_after<L: Lanes<8>>(t: L) -> L {
     t.mul(L::splat(AFTER)).add(L::splat(TINY))
 }
 
-/// 1 / d for each component of the direction, for planes that cut the box `bounds` or are its faces; NaN where a
-/// crossing computed with it has no answer.
+/// 1 / d for each component of the direction, for planes that cut the box `bounds` or are its faces; NaN if a crossing
+/// computed with it is undefined.
 #[inline(always)]
 pub(crate) fn inverses(ray: &Ray, bounds: &Aabb) -> [f32; 3] {
     // All three axes at once: what is done for each ray is much of what a ray costs.
@@ -101,7 +101,7 @@ impl Line {
         Self { origin: ray.origin.to_array(), inverse: inverses(ray, bounds), backward }
     }
 
-    /// Where the line crosses the plane; NaN where that has no answer.
+    /// The parameter at which the line crosses the plane; NaN if it is undefined.
     #[inline(always)]
     pub fn crossing(&self, axis: usize, split: f32) -> f32 {
         (split - self.origin[axis]) * self.inverse[axis]
@@ -113,11 +113,11 @@ impl Line {
         self.backward[axis]
     }
 
-    /// The part of [`t0`, `t1`] in the closed box, with slack; nothing if the line surely misses the box. It may begin
-    /// at infinity where a crossing overflows, so `t1` must be an [`open_end`] or moved [`after`].
+    /// The part of [`t0`, `t1`] in the closed box, with slack; `None` if the line certainly misses the box. It may
+    /// begin at infinity if a crossing overflows, so `t1` must be an [`open_end`] or moved [`after`].
     ///
     /// A parallel line inside the slab crosses at -inf and +inf in the order of travel; a parallel line in a face
-    /// crosses that face at NaN, which leaves the interval as it is.
+    /// crosses this face at NaN, which leaves the interval unchanged.
     #[inline(always)]
     pub fn clip(&self, cell: &Aabb, mut t0: f32, mut t1: f32) -> Option<(f32, f32)> {
         for axis in 0..3 {

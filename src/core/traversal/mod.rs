@@ -1,5 +1,5 @@
-//! What the traversals of the structures share: leaves of blocks of triangles, crossings of planes and their slack,
-//! walks that are compiled for several levels, memory on large pages.
+//! Shared code of the traversals: leaves of blocks of triangles, plane crossings with slack, traversals compiled for
+//! several levels, memory on large pages.
 
 pub(crate) mod leaf;
 pub(crate) mod line;

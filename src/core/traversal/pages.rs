@@ -1,4 +1,4 @@
-//! Memory: large arrays on large pages, and lines fetched ahead.
+//! Memory: large arrays on large pages, and prefetching.
 
 /// Memory for `len` values that are read at random places, in huge pages if possible: a traversal of a few megabytes in
 /// pages of four kilobytes misses the translation cache at nearly every node.

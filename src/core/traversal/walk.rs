@@ -1,12 +1,12 @@
-//! Searches that are written once over lanes and run on the level in use.
+//! Traversals that are written once over lanes and run on the current level.
 
 use crate::accel::{Counts, Observer};
 use crate::geometry::{Hit, Ray};
 use crate::simd::{EightLanes, Kernel, Level, Portable, dispatch};
 
-/// A structure whose search is written over lanes.
+/// A structure whose traversal is written over lanes.
 pub(crate) trait Walk {
-    /// The nearest hit, or with `ANY` some hit.
+    /// The nearest hit; with `ANY` any hit.
     fn walk<const ANY: bool, L: EightLanes, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit>;
 }
 
@@ -24,7 +24,7 @@ impl<const ANY: bool, W: Walk> Kernel for Single<'_, ANY, W> {
     }
 }
 
-/// A walk without an observer.
+/// A traversal without an observer.
 #[inline(always)]
 pub(crate) fn silent<const ANY: bool, L: EightLanes, W: Walk>(structure: &W, ray: &Ray) -> Option<Hit> {
     if L::FAST {
@@ -35,14 +35,14 @@ pub(crate) fn silent<const ANY: bool, L: EightLanes, W: Walk>(structure: &W, ray
     }
 }
 
-/// A walk with an observer: on portable lanes, so that counts are the same on every machine; counting need not be fast.
-/// Out of line, so that there is one copy of it.
+/// A traversal with an observer. It runs on portable lanes, so counts are the same on every machine; counting need not
+/// be fast. Out of line, so there is only one copy.
 #[inline(never)]
 fn watched<const ANY: bool, W: Walk, O: Observer>(structure: &W, ray: &Ray, observer: &mut O) -> Option<Hit> {
     structure.walk::<ANY, Portable<8>, O>(ray, observer)
 }
 
-/// One ray, on the level in use.
+/// Traces one ray on the current level.
 #[inline(always)]
 pub(crate) fn single<const ANY: bool, W: Walk, O: Observer>(structure: &W, ray: &Ray, observer: &mut O) -> Option<Hit> {
     if O::ACTIVE {

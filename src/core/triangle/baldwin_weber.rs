@@ -4,14 +4,14 @@ use super::TriangleTest;
 use crate::geometry::Ray;
 use crate::simd::{LaneVec3, Lanes, indexed};
 
-/// Baldwin-Weber, in `f32`: the ray is taken into the space in which the triangle is the unit one.
+/// Baldwin-Weber, in `f32`: the test transforms the ray into the space of the unit triangle.
 ///
-/// Promises: the least arithmetic of all tests. Does not promise much: the transformation is relative to the world's
-/// origin, so that errors grow with the distance from there (1e3 extents away every other hit is lost); closed meshes
-/// may leak at edges. 48 bytes a triangle.
+/// Guarantees: the least arithmetic of all tests. Not guaranteed: accuracy, because the transformation is relative to
+/// the world's origin and errors grow with the distance from it (1e3 extents away every other hit is lost); closed
+/// meshes may leak at edges. 48 bytes per triangle.
 ///
-/// Of the paper's nine numbers and an axis we store all twelve of the matrix, so that lanes need not agree on the axis;
-/// they are computed in `f64` and rounded once.
+/// Instead of the paper's nine numbers and an axis we store all twelve numbers of the matrix, so lanes may have
+/// different axes. They are computed in `f64` and rounded once.
 ///
 /// # References
 /// Baldwin, Weber: Fast ray-triangle intersections by coordinate transformation. Journal of Computer Graphics
@@ -19,7 +19,7 @@ use crate::simd::{LaneVec3, Lanes, indexed};
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BaldwinWeber;
 
-/// The rows of the matrix that takes a point to its barycentrics and its height above the plane.
+/// The rows of the matrix that transforms a point to its barycentrics and its height above the plane.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct ToUnit<const N: usize> {

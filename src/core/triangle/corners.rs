@@ -2,7 +2,7 @@ use glam::Vec3;
 
 use crate::simd::{LaneVec3, Lanes, indexed};
 
-/// `N` triangles as their corners, coordinate by coordinate: 36 bytes each, nothing rounded.
+/// The corners of `N` triangles, coordinate by coordinate: 36 bytes per triangle, without rounding.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Corners<const N: usize>([[[f32; N]; 3]; 3]);
@@ -10,7 +10,7 @@ pub struct Corners<const N: usize>([[[f32; N]; 3]; 3]);
 const _: () = assert!(size_of::<Corners<1>>() == 36);
 
 impl<const N: usize> Corners<N> {
-    /// Unused lanes hold triangles without extent.
+    /// Unused lanes contain triangles without extent.
     ///
     /// # Panics
     /// If there are more than `N` triangles.
@@ -55,7 +55,7 @@ impl<const N: usize> Corners<N> {
     }
 }
 
-/// One triangle of a block, whose corners are only read on demand.
+/// One triangle of a block; its corners are read only on demand.
 #[derive(Clone, Copy, Debug)]
 pub struct Place<'a> {
     coordinates: &'a [f32],

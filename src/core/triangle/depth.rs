@@ -4,7 +4,7 @@ use std::marker::PhantomData;
 use crate::geometry::Ray;
 use crate::simd::{EightLanes, Kernel, Level, dispatch};
 
-/// The number of [`Depth::inputs`]: the coordinates of three corners, and what the constants below name.
+/// The number of [`Depth::inputs`]: the coordinates of three corners, and the values of the constants below.
 pub const INPUTS: usize = 16;
 /// The index of the origin's first coordinate.
 pub const ORIGIN: usize = 9;
@@ -13,20 +13,20 @@ pub const DIRECTION: usize = 12;
 /// The index of the distance between the bounds of `t`.
 pub const BETWEEN_BOUNDS: usize = 15;
 
-/// The place of a hit along its ray, as exactly as the triangle test knows it.
+/// The position of a hit along its ray, as exactly as the triangle test knows it.
 pub trait Depth: Copy {
-    /// The order along the ray; nothing where deciding it takes the ray, see
+    /// The order along the ray; `None` if the decision needs the ray, see
     /// [`TriangleTest::order`](super::TriangleTest::order).
     fn order(&self, other: &Self) -> Option<Ordering>;
 
-    /// The depth of a hit at `t`, if `t` alone makes a depth.
+    /// The depth of a hit at `t`, if `t` alone determines a depth.
     fn of(t: f32) -> Option<Self>;
 
-    /// The `t` to report for a hit of `ray`: the nearest float.
+    /// The `t` to return for a hit of `ray`: the nearest float.
     fn t(&self, ray: &Ray) -> f32;
 
-    /// Whether `t` takes further computation, so that it pays to compute that of eight hits together. Such a depth
-    /// implements [`inputs`](Self::inputs) and [`ts`](Self::ts).
+    /// Whether `t` needs further computation, so that computing eight hits together pays. Such a depth implements
+    /// [`inputs`](Self::inputs) and [`ts`](Self::ts).
     const LATE: bool = false;
 
     /// The inputs of `ts` for a hit of `ray`: the corners of the triangle, the origin, the direction and the distance
@@ -36,17 +36,17 @@ pub trait Depth: Copy {
         unreachable!("a depth whose `t` is late has inputs")
     }
 
-    /// The same bits as [`t`](Self::t) for up to eight hits, from their inputs; `which` says as bits which lanes hold a
-    /// hit.
+    /// The same bits as [`t`](Self::t) for up to eight hits, from their inputs; the bits of `which` mark the lanes with
+    /// a hit.
     #[inline(always)]
     fn ts<L: EightLanes>(_inputs: &[[f32; 8]; INPUTS], _which: u32) -> [f32; 8] {
         unreachable!("a depth whose `t` is late computes those of eight hits")
     }
 
-    /// A float that is not before the hit. What lies beyond it along the ray need not be looked at.
+    /// A float that is not before the hit. Anything beyond it along the ray can be skipped.
     fn bound(&self) -> f32;
 
-    /// A float that is not behind it.
+    /// A float that is not behind the hit.
     fn least(&self) -> f32;
 }
 

@@ -1,17 +1,20 @@
 use super::{Corners, TriangleTest};
 use crate::simd::{Arithmetic, LaneVec3, Lanes, each};
 
-/// The edge test of [`Plucker`](super::Plucker) in `f64` over corners in `f32`, widened by its own rounding: scalar
-/// triple products for the sides, `t` from the plane equation relative to the origin, rounded to `f32` at the end.
+/// The edge test of [`Plucker`](super::Plucker) in `f64` over corners in `f32`, widened by its own rounding error:
+/// scalar triple products for the sides, `t` from the plane equation relative to the origin, with a final rounding to
+/// `f32`.
 ///
-/// Proved, with the size of a vector the sum of the magnitudes of its components, D that of the direction, and det = d
-/// . (e1 x e2): a triangle that is hit is found if |det| >= 2^-48 D |e1| |e2|; of one that is said to be hit the volume
-/// of the direction and an edge e from a corner p, which is the barycentric of the third corner times |det|, is not
-/// below -2^-47 D |p - o| |e|, and `t` is off by at most 2^-49 |e1| |e2| (|a - o| + |t| D) / |det|, and half an ulp for
-/// rounding it.
+/// Proved, with the size of a vector the sum of the magnitudes of its components, D the size of the direction, and det
+/// = d . (e1 x e2):
 ///
-/// As with [`MollerTrumboreF64`](super::MollerTrumboreF64) these are small but for needles and slivers. Costs more than
-/// that test.
+/// - The test finds a triangle that the ray hits if |det| >= 2^-48 D |e1| |e2|.
+/// - If it reports a hit, the volume of the direction and an edge e from a corner p, which is the barycentric of the
+///   third corner times |det|, is not below -2^-47 D |p - o| |e|, and `t` is off by at most 2^-49 |e1| |e2| (|a - o| +
+///   |t| D) / |det|, plus half an ulp of the final rounding.
+///
+/// As with [`MollerTrumboreF64`](super::MollerTrumboreF64), these errors are small except for needles and slivers.
+/// Costs more than that test.
 ///
 /// # References
 /// As [`Plucker`](super::Plucker).

@@ -7,26 +7,26 @@ pub struct EightRays<L> {
     pub origin: LaneVec3<8, L>,
     /// Their directions.
     pub direction: LaneVec3<8, L>,
-    /// The beginnings of their intervals, which are not negative.
+    /// The starts of their intervals, which are not negative.
     pub t_min: L,
     /// The ends of their intervals.
     pub t_max: L,
-    /// No component of a direction is larger in magnitude.
+    /// An upper bound of the magnitudes of all direction components.
     pub longest: f32,
-    /// No component of an origin is larger in magnitude.
+    /// An upper bound of the magnitudes of all origin components.
     pub farthest: f32,
 }
 
 /// The hits of eight rays with one triangle.
 pub struct EightHits<L: EightLanes> {
-    /// The rays that meet the triangle within their intervals.
+    /// The rays that hit the triangle within their intervals.
     pub met: L::Mask,
-    /// The rays that miss it, or meet it beyond their current end. Rays in neither mask are undecided, and must be
-    /// tested alone. A test of [one stage](super::TriangleTest::ONE_STAGE) decides all rays, and leaves this mask
-    /// empty.
+    /// The rays that miss the triangle, or hit it beyond their current end. Rays in neither mask are undecided and must
+    /// be tested individually. A test of [one stage](super::TriangleTest::ONE_STAGE) decides all rays and leaves this
+    /// mask empty.
     pub missed: L::Mask,
-    /// Lower bounds of the `t` of those that meet it.
+    /// Lower bounds of `t` of the rays that hit.
     pub low: L,
-    /// Upper bounds of it.
+    /// Upper bounds of `t` of the rays that hit.
     pub high: L,
 }

@@ -1,5 +1,5 @@
-//! The first stage of the exact test, in `f32`: it rejects nearly all triangles that are missed, never one that is hit,
-//! and decides most hits.
+//! The first stage of the exact test, in `f32`. It rejects nearly all triangles that the ray misses and none that it
+//! hits, and it decides most hits.
 
 use glam::{Vec3, Vec3Swizzles as _};
 

@@ -1,8 +1,8 @@
-//! Triangle tests: common property of all structures, so that hits with the same test are bit-identical.
+//! Triangle tests. All structures share them, so hits with the same test are bit-identical.
 //!
 //! To add one: a file here that implements [`TriangleTest`], a word in the list of `offered.rs`, a line in
-//! `Registry::builtin` (which does not compile before the test is in the list of references, `validate/reference.rs`),
-//! and one in `triangle/tests/every.rs`.
+//! `Registry::builtin` (it compiles only if the test is in the list of references, `validate/reference.rs`), and a line
+//! in `triangle/tests/every.rs`.
 
 #[macro_use]
 pub(crate) mod decided_at_once;
@@ -40,56 +40,56 @@ pub use watertight::Watertight;
 use crate::geometry::Ray;
 use crate::simd::{EightLanes, Lanes, Portable};
 
-/// A way to decide whether and where a ray meets a triangle.
+/// Decides whether and where a ray intersects a triangle.
 ///
-/// A test works in two stages: all lanes of a block at once, then lane by lane what is left. Most tests decide
-/// everything in the first stage. A test is written once, over lanes; one lane is the scalar form. All widths give the
-/// same bits.
+/// A test works in two stages: the first stage tests all lanes of a block at once, the second stage tests the remaining
+/// candidates lane by lane. Most tests decide everything in the first stage. A test is written once, over lanes; one
+/// lane is the scalar form. All widths return the same bits.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a triangle test",
     label = "does not implement `sahara::triangle::TriangleTest`",
     note = "use one of the tests in `sahara::triangle`, for example `Exact`; a structure with a test of its own needs none: it leaves `Accel::TRIANGLE_TEST` as it is"
 )]
 pub trait TriangleTest: Send + Sync + 'static {
-    /// The name used by the command line and exports.
+    /// The name on the command line and in exports.
     const NAME: &'static str;
 
     /// The prepared form of a ray.
     type Ray: Copy + Send + Sync;
 
-    /// `N` triangles in the form of the test.
+    /// `N` triangles in the format of the test.
     type Block<const N: usize>: Copy + Send + Sync;
 
     /// The intermediate results of the first stage, in lanes.
     type First<const N: usize, L: Lanes<N>>: Copy;
 
-    /// The values that the first stage hands to the second one.
+    /// The values that the first stage passes to the second stage.
     type Values<const N: usize>: Copy;
 
-    /// The place of a hit along the ray, by which the test orders hits: `f32` for tests that compute `t` as a float. It
+    /// The position of a hit along the ray; the test orders hits by it. `f32` for tests that compute `t` as a float. It
     /// may refer to the block.
     type Depth<'a>: Depth;
 
     /// Prepares a valid ray.
     fn prepare(ray: &Ray) -> Self::Ray;
 
-    /// The block of at most `N` triangles, given by their corners. Unused lanes hit nothing.
+    /// The block of at most `N` triangles, given by their corners. Rays never hit unused lanes.
     ///
     /// # Panics
     /// If there are more than `N` triangles.
     fn block<const N: usize>(triangles: &[[Vec3; 3]]) -> Self::Block<N>;
 
-    /// The last `t` of a hit for a ray that ends before `t_max`: the float before it where hits are ordered as floats.
+    /// The last `t` of a hit for a ray that ends before `t_max`: the preceding float, if hits are ordered as floats.
     #[inline(always)]
     fn last(t_max: f32) -> f32 {
         t_max.next_down()
     }
 
-    /// The first stage: the lanes that may be hit at a `t` in [`from`, `to`], as bits, and the input of
-    /// [`values`](Self::values) if there are any.
+    /// The first stage: the lanes that the ray may hit at a `t` in [`from`, `to`], as bits, and the input of
+    /// [`values`](Self::values) if there are any lanes.
     ///
-    /// The results are not a closure: the compiler might not inline it, and then it would not be compiled for the
-    /// level.
+    /// The results are not a closure, because the compiler may not inline a closure, and then does not compile it for
+    /// the level.
     fn candidates<const N: usize, L: Lanes<N>>(
         ray: &Self::Ray,
         block: &Self::Block<N>,
@@ -100,8 +100,8 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// The values for the second stage.
     fn values<const N: usize, L: Lanes<N>>(first: Self::First<N, L>) -> Self::Values<N>;
 
-    /// The second stage: whether a candidate is hit, and where. A `t` outside the interval of the ray is no hit; a `t`
-    /// beyond the `to` of the first stage may be one.
+    /// The second stage: whether and where the ray hits a candidate. A `t` outside the interval of the ray is not a
+    /// hit; a `t` beyond the `to` of the first stage may be one.
     fn decide<'a, const N: usize>(
         ray: &Self::Ray,
         block: &'a Self::Block<N>,
@@ -109,8 +109,8 @@ pub trait TriangleTest: Send + Sync + 'static {
         values: &Self::Values<N>,
     ) -> Option<Self::Depth<'a>>;
 
-    /// As [`decide`](Self::decide), where the first stage alone decides, and so without a call; nothing elsewhere. The
-    /// values are those of [`values`](Self::values), not of [`look_closer`](Self::look_closer).
+    /// As [`decide`](Self::decide), without a call, if the first stage decides; otherwise `None`. The values come from
+    /// [`values`](Self::values), not from [`look_closer`](Self::look_closer).
     #[inline(always)]
     fn decide_at_once<'a, const N: usize>(
         ray: &Self::Ray,
@@ -121,8 +121,8 @@ pub trait TriangleTest: Send + Sync + 'static {
         Self::ONE_STAGE.then(|| Self::decide(ray, block, lane, values))
     }
 
-    /// Refines many candidates at once, where that pays: the candidates left, and their values for
-    /// [`decide`](Self::decide). Candidates beyond `nearest` may be dropped.
+    /// Refines many candidates at once, if that pays: the remaining candidates, and their values for
+    /// [`decide`](Self::decide). It may drop candidates beyond `nearest`.
     #[inline(always)]
     fn look_closer<const N: usize>(
         _ray: &Self::Ray,
@@ -134,30 +134,30 @@ pub trait TriangleTest: Send + Sync + 'static {
         None
     }
 
-    /// The order of two hits along `ray`, which must be the ray of both. It is total.
+    /// The order of two hits along `ray`, which must be the ray of both hits. The order is total.
     #[inline(always)]
     fn order<'a>(ray: &Self::Ray, one: &Self::Depth<'a>, other: &Self::Depth<'a>) -> Ordering {
         one.order(other).unwrap_or_else(|| Self::order_closely(ray, one, other))
     }
 
-    /// The same where [`Depth::order`] returns nothing; a test with such depths must implement it.
+    /// The order if [`Depth::order`] returns `None`; a test with such depths must implement it.
     fn order_closely(_ray: &Self::Ray, _one: &Self::Depth<'_>, _other: &Self::Depth<'_>) -> Ordering {
         unreachable!("depths that need the ray to be ordered have an order of their own")
     }
 
-    /// Whether the first stage decides everything: then [`decide`](Self::decide) accepts every candidate, and
-    /// [`Depth::of`] makes each depth.
+    /// Whether the first stage decides everything. Then [`decide`](Self::decide) accepts every candidate, and
+    /// [`Depth::of`] makes every depth.
     const ONE_STAGE: bool = false;
 
-    /// Whether structures offer to trace several rays of a slice at once over this test. Each way to do so is compiled
-    /// for each such test, which takes longer than compiling all else.
+    /// Whether structures can trace several rays of a slice at once over this test. Each batch strategy is compiled for
+    /// each such test, which takes most of the compile time.
     const BATCHED: bool = false;
 
-    /// Whether the test has the form [`meet_eight`](Self::meet_eight).
+    /// Whether the test implements [`meet_eight`](Self::meet_eight).
     const EIGHT: bool = false;
 
-    /// Tests eight rays against the triangle in `lane` of a block: the hits of those of `active` at a `t` up to `to`,
-    /// as far as the first stage decides. Nothing if all of them miss it.
+    /// Tests eight rays against the triangle in `lane` of a block: the hits of the `active` rays at a `t` up to `to`,
+    /// as far as the first stage decides. `None` if all of these rays miss the triangle.
     #[inline(always)]
     fn meet_eight<const N: usize, L: EightLanes>(
         _rays: &EightRays<L>,
@@ -169,8 +169,8 @@ pub trait TriangleTest: Send + Sync + 'static {
         unreachable!("a test that has this form writes it")
     }
 
-    /// The depth of a hit of [`meet_eight`](Self::meet_eight) from the bounds of its `t`, where [`Depth::of`] makes
-    /// none.
+    /// The depth of a hit of [`meet_eight`](Self::meet_eight) from the bounds of its `t`, if [`Depth::of`] does not
+    /// make one.
     #[inline(always)]
     fn depth_between<const N: usize>(_block: &Self::Block<N>, _lane: usize, _low: f32, _high: f32) -> Self::Depth<'_> {
         unreachable!("a depth that takes more than a float is made by its test")
@@ -184,7 +184,7 @@ pub trait TriangleTest: Send + Sync + 'static {
     }
 }
 
-/// `t` where `ray`, if it is valid, meets the triangle within its interval.
+/// The `t` at which `ray`, if valid, hits the triangle within its interval.
 pub fn scalar_hit<T: TriangleTest>(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
     let (t_min, t_max) = ray.interval();
     let triangle = T::block(&[corners]);

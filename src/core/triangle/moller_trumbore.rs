@@ -6,9 +6,9 @@ use crate::simd::{EightLanes, LaneVec3, Lanes};
 
 /// Möller-Trumbore in `f32`: no precomputation, two-sided, division only for `t`.
 ///
-/// Promises: every comparison is closed, there is no epsilon, NaN never hits. Does not promise: closed meshes may leak
-/// at edges, because both neighbours round their barycentrics on their own; `t` of a grazing ray may be off by
-/// thousands of ulps. Costs one division for eight tests: per triangle 2.4 ns scalar and 1.0 ns in blocks of eight, on
+/// Guarantees: every comparison is closed; there is no epsilon; NaN never hits. Not guaranteed: closed meshes may leak
+/// at edges, because the two neighbours round their barycentrics independently; `t` of a grazing ray may be off by
+/// thousands of ulps. Cost: one division per eight tests; per triangle 2.4 ns scalar and 1.0 ns in blocks of eight, on
 /// the machine of the README's table (`cargo bench --bench kernels`).
 ///
 /// # References
@@ -27,7 +27,7 @@ pub struct Edges<const N: usize> {
 
 const _: () = assert!(size_of::<Edges<1>>() == 36);
 
-/// What tells whether and where a line meets a triangle.
+/// The intersection of a line and a triangle.
 struct Solution<L> {
     /// Barycentrics, times the magnitude of the determinant.
     u: L,

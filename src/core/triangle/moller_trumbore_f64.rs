@@ -1,21 +1,25 @@
 use super::{Corners, TriangleTest};
 use crate::simd::{Arithmetic, LaneVec3, Lanes, each};
 
-/// [`MollerTrumbore`](super::MollerTrumbore) in `f64` over corners in `f32`, widened by its own rounding; `t` is
-/// rounded to `f32` at the end.
+/// [`MollerTrumbore`](super::MollerTrumbore) in `f64` over corners in `f32`, widened by its own rounding error; the
+/// final `t` is rounded to `f32`.
 ///
-/// Proved, with D, E and |s| the sums of the magnitudes of the components of the direction, of both edges that leave
-/// the first corner, and of the way from there to the origin, and det = e1 . (d x e2): a triangle that is hit is found
-/// if |det| >= 2^-46 D E E; of one that is said to be hit no barycentric is below -2^-46 D E (|s| + 2 E) / |det|, and
-/// `t` is off by at most 2^-51 E E (|s| + |t| D) / |det|, and half an ulp for rounding it. So a ray through an edge or
-/// a vertex of a closed mesh is lost only where its triangles are needles that it grazes.
+/// Proved, with D, E and |s| the sums of the magnitudes of the components of the direction, of both edges at the first
+/// corner, and of the vector from this corner to the origin, and det = e1 . (d x e2):
 ///
-/// These are small for triangles of ordinary shape, and not for needles and slivers: |det| is twice the area times the
-/// sine of the angle to the plane times the length of the direction. Measured on single triangles: a hit 4.5e-11 beside
-/// a sliver of 1 to 10,000; a needle of 1 to 10,000,000, met along its length, lost; `t` of another one 115 ulps off.
-/// [`Exact`](super::Exact) is right there.
+/// - The test finds a triangle that the ray hits if |det| >= 2^-46 D E E.
+/// - If it reports a hit, no barycentric is below -2^-46 D E (|s| + 2 E) / |det|, and `t` is off by at most 2^-51 E E
+///   (|s| + |t| D) / |det|, plus half an ulp of the final rounding.
 ///
-/// Costs two to three times the `f32` test in blocks.
+/// So it loses a ray through an edge or a vertex of a closed mesh only if the triangles are needles that the ray
+/// grazes.
+///
+/// The errors are small for triangles of ordinary shape, but not for needles and slivers: |det| is twice the area times
+/// the sine of the angle to the plane times the length of the direction. Measured on single triangles: a hit 4.5e-11
+/// beside a sliver of 1 to 10,000; a lost needle of 1 to 10,000,000, hit along its length; `t` of another needle off by
+/// 115 ulps. [`Exact`](super::Exact) is right in these cases.
+///
+/// Cost: two to three times the `f32` test in blocks.
 ///
 /// # References
 /// As [`MollerTrumbore`](super::MollerTrumbore).

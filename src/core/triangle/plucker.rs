@@ -1,13 +1,13 @@
 use super::{Corners, TriangleTest};
 use crate::simd::{LaneVec3, Lanes, each};
 
-/// Edge test in `f32`: the ray passes the three edges on the same side, by triple products of the corners as seen from
+/// Edge test in `f32`: the ray passes the three edges on the same side, by triple products of the corners relative to
 /// the origin; `t` from the plane through the first corner.
 ///
-/// Promises: the two triangles at an edge compute the same number for it with opposite signs, so that no ray slips
-/// between them; `t` is as good as the normal. Does not promise: rays through vertices may be lost; products of four
-/// coordinates leave the range of `f32` at scales from 1e9 on and below 1e-10. Costs a cross and a dot product more
-/// than Möller-Trumbore.
+/// Guarantees: the two triangles at an edge compute the same number for it with opposite signs, so no ray slips between
+/// them; `t` is as accurate as the normal. Not guaranteed: rays through vertices may be lost; products of four
+/// coordinates leave the range of `f32` at scales of 1e9 and above, and below 1e-10. Cost: one cross and one dot
+/// product more than Möller-Trumbore.
 ///
 /// # References
 /// Shoemake: Plücker coordinate tutorial. Ray Tracing News 11(1), 1998. Segura, Feito: Algorithms to test ray-triangle

@@ -4,25 +4,25 @@ use super::{Corners, TriangleTest};
 use crate::geometry::Ray;
 use crate::simd::{Lanes, each, indexed};
 
-/// Watertight, in `f32`: the triangle is sheared so that the ray becomes the third axis, and edges are tested in 2D;
-/// edge values that are exactly zero, very small or very large are computed again in `f64`.
+/// Watertight, in `f32`: the test shears the triangle so that the ray becomes the third axis, and tests edges in 2D; it
+/// recomputes edge values that are exactly zero, very small or very large in `f64`.
 ///
-/// Promises: a corner is sheared to the same point for every triangle that has it, and the sign of an edge is exact for
-/// the sheared corners, so that no ray passes between the triangles of a closed mesh, edges and vertices included. Does
-/// not promise: the sheared corners are rounded, so that what lies within an ulp beside an edge may go to either side
-/// (a lone triangle may be missed at its rim), and `t` of slivers may be off by thousands of ulps. Costs about as much
+/// Guarantees: a corner is sheared to the same point for every triangle that contains it, and the sign of an edge is
+/// exact for the sheared corners, so no ray passes between the triangles of a closed mesh, including edges and
+/// vertices. Not guaranteed: the sheared corners are rounded, so a ray within an ulp of an edge may go to either side
+/// (it may miss a single triangle at its rim), and `t` of slivers may be off by thousands of ulps. Cost: about the same
 /// as Möller-Trumbore.
 ///
 /// Range: any size of scene in which differences of coordinates do not overflow; below 1e-15 and above 1e6 units the
-/// test is slower. Directions whose largest component is below 3e-39 or above 8e37 and hits beyond t = 3e26 may be
-/// lost.
+/// test is slower. It may lose rays whose largest direction component is below 3e-39 or above 8e37, and hits beyond t =
+/// 3e26.
 ///
 /// # References
 /// Woop, Benthin, Wald: Watertight ray/triangle intersection. Journal of Computer Graphics Techniques 2(1), 2013.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Watertight;
 
-/// A ray with its axes named so that it runs along the third.
+/// A ray with permuted axes; it runs along the third axis.
 #[derive(Clone, Copy, Debug)]
 pub struct ShearedRay {
     /// The axes in the order x, y, z of the sheared space.

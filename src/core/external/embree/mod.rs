@@ -1,13 +1,13 @@
 //! [Embree](https://github.com/RenderKit/embree) 4: the library that renderers use, loaded at run time from the path in
-//! `SAHARA_EMBREE` or from the system's.
+//! `SAHARA_EMBREE` or from the system's search path.
 //!
-//! Its flag ROBUST changes the triangle test with the boxes, and so makes a structure of its own here: `embree` and
-//! `embree-robust`. Its own triangle test is the only one; brute force over it is a scene of one triangle for every
-//! triangle that is asked for ([`alone`]). Rays and packets of eight or sixteen are brought into its form before the
-//! clock starts: 48, 384 and 768 bytes, all that it reads. It writes into them the end of the hit, so that they are
-//! copied to the stack to be asked, followed by an empty hit: the cheapest way to ask the same rays again, and what a
-//! renderer does that makes rays where it needs them. It builds on the threads of the caller. What its tree looks like
-//! is not known: its shape is that of one leaf.
+//! Its flag ROBUST changes both the triangle test and the box test, so there are two structures: `embree` and
+//! `embree-robust`. Only its own triangle test is available; brute force over it uses a scene of one triangle for each
+//! tested triangle ([`alone`]). Rays and packets of eight or sixteen are converted to its format before the clock
+//! starts: 48, 384 and 768 bytes, all that it reads. It writes the end of the hit into them, so each query copies them
+//! to the stack, followed by an empty hit. This is the cheapest way to repeat the same rays, and what a renderer does
+//! that generates rays where it needs them. Builds run on the threads of the caller. The shape of its tree is unknown,
+//! so the adapter reports one leaf.
 //!
 //! # References
 //! Wald, Woop, Benthin, Johnson, Ernst: Embree: a kernel framework for efficient CPU ray tracing. SIGGRAPH 2014.
@@ -41,15 +41,15 @@ pub struct Embree<M: Mode> {
     mode: PhantomData<M>,
 }
 
-/// What the flag ROBUST decides.
+/// The effect of the flag ROBUST.
 pub trait Mode: Send + Sync + 'static {
     /// Scene flags, as Embree's headers number them.
     const FLAGS: c_int;
     /// The name of its triangle test.
     const TEST: &'static str;
-    /// Whether intervals hold their start.
+    /// Whether intervals include their start.
     const CLOSED_START: bool;
-    /// What else it does otherwise.
+    /// Other deviations from the contract.
     const CONVENTIONS: &'static [&'static str];
 }
 
@@ -75,19 +75,19 @@ impl Mode for Robust {
     const CONVENTIONS: &'static [&'static str] = &["counts edges within rounding errors as hit"];
 }
 
-/// How Embree builds and is queried.
+/// The options of Embree.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EmbreeConfig {
     /// Its build quality.
     pub quality: Quality,
-    /// Rays at a time: 1, 8 or 16. Packets as wide as the registers are the fastest: 8 with AVX2, 16 with AVX-512.
+    /// Rays per query: 1, 8 or 16. Packets of the register width are the fastest: 8 with AVX2, 16 with AVX-512.
     pub packet: Lanes,
-    /// Whether its queries are told that the rays of a packet are coherent.
+    /// Whether queries declare the rays of a packet as coherent.
     pub rays: Rays,
 }
 
-/// The build qualities of Embree for scenes that stay.
+/// The build qualities of Embree for static scenes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Quality {
@@ -98,27 +98,27 @@ pub enum Quality {
     High,
 }
 
-/// Rays at a time.
+/// Rays per query.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "u32", into = "u32")]
 pub enum Lanes {
     /// `rtcIntersect1`.
     #[default]
     One,
-    /// `rtcIntersect8`, for rays of a batch that follow each other.
+    /// `rtcIntersect8`, for consecutive rays of a batch.
     Eight,
-    /// `rtcIntersect16`, for rays of a batch that follow each other.
+    /// `rtcIntersect16`, for consecutive rays of a batch.
     Sixteen,
 }
 
-/// What Embree may expect of the rays of a packet.
+/// The coherence of the rays of a packet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Rays {
-    /// Nothing.
+    /// No coherence.
     #[default]
     Incoherent,
-    /// That they go the same way.
+    /// Similar directions.
     Coherent,
 }
 
@@ -305,7 +305,7 @@ impl<M: Mode> Accel for Embree<M> {
     }
 }
 
-/// One triangle in a scene of its own: what Embree's triangle test says without a walk. Takes a fraction of a
+/// The result of Embree's triangle test without a traversal: a scene of one triangle. Takes a fraction of a
 /// millisecond.
 pub fn alone<M: Mode>(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
     let mesh = Arc::new(Mesh::new(corners.into(), vec![[0, 1, 2]]).ok()?);

@@ -16,7 +16,7 @@ use crate::traversal::pages;
 
 const _: () = assert!(size_of::<Bvh2Node>() == 32);
 
-/// Binary: PLOC with reinsertion, nodes of 32 bytes (its feature `small_bvh2_node`; of its two sizes the faster one).
+/// Binary: PLOC with reinsertion, nodes of 32 bytes (its feature `small_bvh2_node`, the faster of its two node sizes).
 ///
 /// # References
 /// Meister, Bittner: Parallel locally-ordered clustering for bounding volume hierarchy construction, 2018; Parallel

@@ -1,21 +1,21 @@
 use obvhs::BvhBuildParams;
 use serde::{Deserialize, Serialize};
 
-/// How obvhs builds.
+/// The build options of obvhs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ObvhsConfig {
     /// One of the crate's presets.
     pub preset: Preset,
-    /// When its rays are made.
+    /// When its rays are prepared.
     pub rays: Rays,
 }
 
-/// When the ray of obvhs, with its inverse direction, is made of ours.
+/// When our ray is converted to the ray of obvhs, with its inverse direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Rays {
-    /// When it is asked, inside of the timed region, as our own structures do.
+    /// In the query, inside the timed region, as in our own structures.
     #[default]
     Asked,
     /// When a batch is loaded, before the clock starts.
@@ -23,7 +23,7 @@ pub enum Rays {
 }
 
 /// The presets of obvhs, from the fastest build to the best tree. Only `slow` and `very-slow` split large triangles, so
-/// that these are the fair partners of a KD-tree.
+/// only these two compare fairly with a KD-tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[allow(missing_docs)]

@@ -8,14 +8,14 @@ use super::RtTest;
 use crate::geometry::Ray;
 use crate::triangle::{Depth, TriangleTest};
 
-/// A triangle test in the form in which obvhs calls it: infinity for a miss, and the beginning of the interval
-/// enforced, which obvhs' own traversals leave to the test.
+/// A triangle test in the format of obvhs: infinity for a miss. The test also enforces the start of the interval, which
+/// obvhs' own traversals do not check.
 pub trait LeafTest: Send + Sync + 'static {
     /// The name of the triangle test.
     const NAME: &'static str;
-    /// A triangle as the test wants it.
+    /// A triangle in the format of the test.
     type Triangle: Copy + Send + Sync;
-    /// What the test prepares once a ray.
+    /// The data that the test prepares once per ray.
     type Ray: Copy + Send + Sync;
 
     /// Prepares a triangle.
@@ -64,7 +64,7 @@ impl<T: TriangleTest> LeafTest for Over<T> {
     }
 }
 
-/// obvhs' own test on its precomputed triangle, called as its documentation does: its fastest form.
+/// obvhs' own test on its precomputed triangle, called as in its documentation: its fastest configuration.
 pub struct Native;
 
 impl LeafTest for Native {

@@ -1,17 +1,18 @@
-//! The baseline: the BVHs of the crate `obvhs`, adapted without handicap. Nothing else in this crate imports it.
+//! The baseline: the BVHs of the crate `obvhs`. The adapter does not handicap them. No other module of this crate
+//! imports it.
 //!
-//! Each is offered over our triangle tests and over obvhs' own [`RtTest`], which is its fastest form. Triangles are
-//! laid out in the order of the tree once, so that no traversal follows an index; the number of the final hit is mapped
-//! back once. The ray is prepared once with obvhs' own inverse direction, inside of the timed region, as our own
-//! structures do; `rays=loaded` prepares it before the clock starts.
+//! Each BVH is offered over our triangle tests and over obvhs' own [`RtTest`], which is its fastest configuration.
+//! Triangles are stored in the order of the tree, so no traversal follows an index; the number of the final hit is
+//! mapped back once. The ray is prepared once with obvhs' own inverse direction, in the timed region like the rays of
+//! our own structures; `rays=loaded` prepares it before the clock starts.
 //!
-//! What our own trees get, these get: arrays on large pages, triangles converted on all threads, no check of bounds.
-//! The walks are those of obvhs without its checks: the links that they follow are checked once, when the tree is
-//! built. The conversion of the binary tree to the 8-wide one is obvhs' own, which runs on one thread.
+//! The adapter gives these trees everything that our own trees have: arrays on large pages, triangles converted on all
+//! threads, no bounds checks. The traversals are those of obvhs without its checks: the links that they follow are
+//! checked once, when the tree is built. obvhs itself converts the binary tree to the 8-wide tree, on one thread.
 //!
-//! Known defects of obvhs 0.4.0, which the validation shows and does not hide: `CwBvh` misses every ray with a
-//! direction component of -0.0 and loses hits with t < 1e-4; both lose axis-parallel rays close to a box face, and rays
-//! with short directions; the build takes quadratic time on coincident triangles.
+//! Known defects of obvhs 0.4.0, which validation shows: `CwBvh` misses every ray with a direction component of -0.0
+//! and loses hits with t < 1e-4; both BVHs lose axis-parallel rays close to a box face, and rays with short directions;
+//! the build takes quadratic time on coincident triangles.
 
 mod bvh2;
 mod config;

@@ -8,10 +8,10 @@ use crate::simd::Lanes;
 use crate::triangle::TriangleTest;
 use crate::triangle::decided_at_once::decided_at_once;
 
-/// The triangle test of obvhs: Möller-Trumbore on precomputed edges and normal, 64 bytes a triangle.
+/// The triangle test of obvhs: Möller-Trumbore on precomputed edges and normal, 64 bytes per triangle.
 ///
-/// Wrapped as a test of ours, so that brute force over it can be the reference of the BVHs that use it. It tells signs
-/// by the sign bit of rounded quotients, and so misses hits exactly on an edge where a coordinate comes out as -0.0,
+/// Wrapped as one of our tests, so that brute force over it can be the reference of the BVHs that use it. It reads
+/// signs from the sign bit of rounded quotients. Therefore it misses hits exactly on an edge if a coordinate is -0.0,
 /// from the back and on the third edge also from the front.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RtTest;

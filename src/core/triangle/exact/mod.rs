@@ -17,23 +17,21 @@ use crate::geometry::{Ray, round_down, round_up};
 use crate::simd::{Arithmetic, EightLanes, LaneVec3, Lanes, Portable, each};
 use enclosure::{Bounds, look, look_at_corners, place, place_closely, place_in_axis_plane};
 
-/// Exact answers at the price of a filter: what the `f32` stage cannot decide is decided in `f64` with a bound on its
-/// error, and what that cannot decide in integers or exact sums of floats. Each decision is made when it is needed:
-/// hits are ordered by bounds of their `t`, which are narrowed where they overlap, and one `t` a ray is computed to the
-/// last bit.
+/// Exact results at the cost of a filter: an `f32` stage, then `f64` with an error bound for undecided cases, then
+/// integers or exact sums of floats for the remaining ones. Each decision is made only when needed: bounds of `t` order
+/// the hits, the bounds are narrowed if they overlap, and one `t` per ray is computed to the last bit.
 ///
-/// Promises: a triangle is hit if and only if the ray as given meets the closed triangle as given; hits are ordered by
-/// their exact `t`, at equal `t` by number; the `t` returned is the exact one, correctly rounded (so that one just
-/// before an open end `t_max` may be returned as `t_max`). In a structure that loses nothing the answer to every ray is
-/// the mathematical one. Does not promise: speed where many rays pass exactly through edges or begin in planes of
-/// triangles: each such triangle costs 50 nanoseconds, or a microsecond where the bits of the coordinates lie more than
-/// forty places apart. Where the processor has been told to take denormal numbers for zero, answers may be wrong.
+/// Guarantees: a ray hits a triangle if and only if the given ray meets the given closed triangle; hits are ordered by
+/// their exact `t`, at equal `t` by number; the returned `t` is the exact `t`, correctly rounded (so a `t` just before
+/// an open end `t_max` may be returned as `t_max`). In a structure that loses nothing, the result for every ray is the
+/// mathematical one. Not guaranteed: speed, if many rays pass exactly through edges or start in planes of triangles.
+/// Each such triangle costs 50 nanoseconds, or a microsecond if the bits of the coordinates lie more than forty places
+/// apart. Results may be wrong if the processor is set to treat denormal numbers as zero.
 ///
 /// # References
 /// Filters before exact arithmetic: Fortune, Van Wyk: Efficient exact arithmetic for computational geometry. SoCG 1993.
 /// Shewchuk: Adaptive precision floating-point arithmetic and fast robust geometric predicates. Discrete &
-/// Computational Geometry 18,
-/// 1997. The edge test: Segura, Feito, WSCG 2001.
+/// Computational Geometry 18, 1997. The edge test: Segura, Feito, WSCG 2001.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Exact;
 
