@@ -10,6 +10,7 @@ use crate::accel::{Counts, DynAccel, Observed, Query};
 use crate::geometry::Ray;
 use crate::measure::{EventCounter, checksum, spread};
 use crate::scene::Workload;
+use crate::study::epoch::RayCounts;
 
 /// Of one pass of a structure over a batch of rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -135,6 +136,27 @@ impl Counted {
     /// leaf, if leaves are counted.
     pub fn sees_leaves(&self) -> bool {
         self.observed.steps && (self.counts.leaves > 0 || self.counts.tests == 0)
+    }
+
+    /// What an export says of the pass, with what the processor counts.
+    pub fn in_export(&self, accel: &dyn DynAccel, workload: &Workload, events: Option<&mut Events>) -> RayCounts {
+        let rays = spread(&workload.rays, self.rays);
+        let events = events.filter(|_| accel.remote().is_none());
+        let events = events.map(|events| events.per_ray(accel, &rays, workload.query)).unwrap_or_default();
+        let Self { observed, counts, .. } = self;
+        RayCounts {
+            rays: self.rays,
+            hits: self.hits,
+            distances: self.distances,
+            tests: observed.tests.then_some(counts.tests),
+            blocks: observed.tests.then_some(counts.blocks),
+            steps: observed.steps.then_some(counts.steps()),
+            leaves: self.sees_leaves().then_some(counts.leaves),
+            empty_leaves: self.sees_leaves().then_some(counts.empty_leaves),
+            whole_tests: None,
+            instructions_per_ray: events.instructions,
+            branch_misses_per_ray: events.branch_misses,
+        }
     }
 }
 

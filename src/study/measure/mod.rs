@@ -10,19 +10,17 @@ mod judge;
 mod pair;
 mod placed;
 mod ray_cost;
+mod rays;
 mod room;
 mod sample_failure;
 mod slowest;
 mod timed_check;
 mod timing;
 
-use std::ffi::OsStr;
-
 use super::case::{Case, Check};
-use super::epoch::{Checked, Epoch, RayCounts, Rays, Shape, Structure};
+use super::epoch::{Epoch, Rays, Shape, Structure};
 use super::{Stage, StudyError};
-use crate::accel::{BuildError, DynAccel, Remote};
-use crate::escaped::Escaped as _;
+use crate::accel::{BuildError, Remote};
 use crate::measure::{Clock, SamplePlan, Threads, spread};
 use crate::oracle::Oracle;
 use crate::registry::{Choice, Registry};
@@ -33,6 +31,7 @@ use counted::{Counted, Events, count_all};
 use judge::Judge;
 use pair::Pair;
 use placed::Placed;
+use rays::{settle, untimed};
 use sample_failure::SampleFailure;
 use slowest::slowest;
 use timed_check::TimedCheck;
@@ -337,7 +336,7 @@ impl<'a> Bench<'a> {
             let accel = built.accel.as_ref();
             match counted {
                 Some(counted) => {
-                    let mut counts = counts(&counted, accel, workload, events.as_mut());
+                    let mut counts = counted.in_export(accel, workload, events.as_mut());
                     if settings.whole_counts.contains(&self.case.structures[pair.structure].spec) {
                         let whole = Counted::new(accel, &workload.rays, workload.query);
                         counts.whole_tests = counted.observed.tests.then_some(whole.counts.tests);
@@ -349,59 +348,6 @@ impl<'a> Bench<'a> {
             let failure = accel.remote().and_then(Remote::failure);
             structure.refused = structure.refused.take().or(failure);
         }
-    }
-}
-
-/// Records what was checked; wrong answers have no time, and the ray that shows it is named.
-fn settle(rays: &mut Rays, check: Checked, scene: &OsStr, built: &Built) {
-    rays.wrong = check.errors > 0 && (rays.untimed.is_none() || rays.wrong);
-    if rays.wrong {
-        let structure = match built.choice.command() {
-            Some(command) => format!("--runner {command:?}"),
-            None => format!("-s {}", built.choice.label),
-        };
-        let go_on = check.example.as_ref().map_or(String::new(), |(ray, sentence)| {
-            format!("; {sentence}; see: sahara validate {} {structure} --ray \"{ray}\"", scene.escaped())
-        });
-        let counts = format!("{} wrong hits on {} rays", check.errors, check.rays);
-        *rays =
-            Rays { untimed: Some(counts + &go_on), ns: vec![], parts: vec![], rays: 0, checksum: 0, ..rays.clone() };
-    }
-    rays.checked = Some(check);
-}
-
-/// A structure on a workload before it is checked and timed.
-fn untimed(built: &Built, workload: &Workload, hash: &str) -> Rays {
-    let declined = declined(built.accel.as_ref(), workload);
-    Rays {
-        workload: workload.name.clone(),
-        hash: hash.into(),
-        query: workload.query,
-        all: workload.rays.len(),
-        untimed: declined.map(|what| format!("declined: it has no {what}")),
-        declined: declined.map(String::from),
-        ..Rays::default()
-    }
-}
-
-/// What was counted in a pass that is not timed, and what the processor counts.
-fn counts(counted: &Counted, accel: &dyn DynAccel, workload: &Workload, events: Option<&mut Events>) -> RayCounts {
-    let rays = spread(&workload.rays, counted.rays);
-    let events = events.filter(|_| accel.remote().is_none());
-    let events = events.map(|events| events.per_ray(accel, &rays, workload.query)).unwrap_or_default();
-    let observed = counted.observed;
-    RayCounts {
-        rays: counted.rays,
-        hits: counted.hits,
-        distances: counted.distances,
-        tests: observed.tests.then_some(counted.counts.tests),
-        blocks: observed.tests.then_some(counted.counts.blocks),
-        steps: observed.steps.then_some(counted.counts.steps()),
-        leaves: counted.sees_leaves().then_some(counted.counts.leaves),
-        empty_leaves: counted.sees_leaves().then_some(counted.counts.empty_leaves),
-        whole_tests: None,
-        instructions_per_ray: events.instructions,
-        branch_misses_per_ray: events.branch_misses,
     }
 }
 
