@@ -73,7 +73,9 @@ fn fault(kind: Kind) -> (&'static str, &'static str) {
         Kind::Invented => ("returns hits that no rounding could make", EITHER),
         Kind::WrongT => ("returns depths that no rounding could give", EITHER),
         Kind::WrongPrimitive => ("names triangles that are not hit there", TREE),
-        Kind::AnyHitDisagrees => ("contradicts itself: any hit and closest hit disagree", TREE),
+        Kind::AnyHitDisagrees => {
+            ("contradicts itself: any hit and closest hit disagree", "one of the two queries is wrong")
+        }
         Kind::Unrepeatable => ("returns other hits in a batch than alone", TREE),
         _ => ("is wrong", EITHER),
     }

@@ -78,7 +78,7 @@ impl Run<'_> {
             Query::Closest => validate_answers(&reference, &expected, &scene.mesh, &rays, &hits),
             Query::Any => {
                 let any: Vec<bool> = hits.iter().map(Option::is_some).collect();
-                validate_any_answers(&reference, &expected, &scene.mesh, &rays, &any)
+                validate_any_answers(&reference, &expected, &scene.mesh, &rays, &any, None)
             }
         };
         drop(waiting);

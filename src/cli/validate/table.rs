@@ -69,7 +69,8 @@ pub fn note_on_reference(name: &str, found: &Validation) -> Option<String> {
     (found.reference_errors > 0).then(|| format!("On {rays} the reference is wrong, not {name}."))
 }
 
-pub const RETRACE: &str = "Trace a ray again: sahara validate SCENE --structure NAME --ray \"ox,oy,oz dx,dy,dz\"";
+pub const RETRACE: &str = "Trace a ray again, with its interval if it has one: sahara validate SCENE --structure NAME --ray \"ox,oy,oz dx,dy,dz [t_min,t_max]\" \
+     (a program: --runner COMMAND instead of --structure NAME)";
 
 /// What the columns mean.
 pub const LEGEND: [&str; 3] = [

@@ -166,6 +166,8 @@ fn speed(own: &Measurement, best: f64) -> Cell {
             Cell::from(speed).sampled(own.sampled).with(if speed >= best { Tone::Best } else { Tone::Plain })
         }
         None if errors == 0 && own.declined.is_some() => "declined".into(),
+        // Wrong on another workload.
+        None if errors == 0 => Cell::from("wrong").with(Tone::Wrong),
         None => {
             let (wrong, of) = (errors as u64, own.checked_rays as u64);
             Cell::from(Value::Errors { wrong, of }).with(Tone::Wrong)

@@ -130,7 +130,7 @@ fn validate_remote(
     match query {
         Query::Closest => validate_answers(reference, expected, &scene.mesh, rays, &accel.closest(rays)),
         Query::Any if !accel.capabilities().any_hit => Validation::default(),
-        Query::Any => validate_any_answers(reference, expected, &scene.mesh, rays, &accel.any(rays)),
+        Query::Any => validate_any_answers(reference, expected, &scene.mesh, rays, &accel.any(rays), Some(accel)),
     }
 }
 

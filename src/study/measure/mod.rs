@@ -31,7 +31,7 @@ use counted::{Counted, Events, count_all};
 use judge::Judge;
 use pair::Pair;
 use placed::Placed;
-use rays::{settle, untimed};
+use rays::{drop_times_of_wrong_tree, settle, untimed};
 use sample_failure::SampleFailure;
 use slowest::slowest;
 use timed_check::TimedCheck;
@@ -97,6 +97,7 @@ pub fn measure(
         }
         progress(Stage::Count);
         bench.count();
+        bench.structures.iter_mut().for_each(drop_times_of_wrong_tree);
     }
     // A refused structure has no times: drop its rays.
     bench.structures.iter_mut().filter(|one| one.refused.is_some()).for_each(|one| one.rays.clear());

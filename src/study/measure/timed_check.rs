@@ -61,7 +61,7 @@ impl<'a> TimedCheck<'a> {
 
         let place = self.reference(built)?;
         let expected = self.references[place].hits_of(pair.workload, workload, &timed);
-        Ok(Some(self.judged(&self.references[place], &chosen, &expected, &found)))
+        Ok(guarded(|| self.judged(built, &self.references[place], &chosen, &expected, &found)))
     }
 
     /// The rays of a workload that any epoch times, by their positions.
@@ -95,7 +95,14 @@ impl<'a> TimedCheck<'a> {
 
     /// What the structure gets wrong. The tree may be wrong itself, so brute force judges the rays on which they differ, or
     /// as many of them as it can afford.
-    fn judged(&self, known: &TreeHits, rays: &[Ray], expected: &[Option<Hit>], found: &QueryResults) -> Checked {
+    fn judged(
+        &self,
+        built: &Built,
+        known: &TreeHits,
+        rays: &[Ray],
+        expected: &[Option<Hit>],
+        found: &QueryResults,
+    ) -> Checked {
         let TreeHits { tree, judge, .. } = known;
         let mesh = &self.scene.mesh;
         let mut checked = Checked { rays: rays.len(), ..Checked::default() };
@@ -122,7 +129,7 @@ impl<'a> TimedCheck<'a> {
             }
             QueryResults::Any(found) => {
                 let found: Vec<bool> = some.iter().map(|&index| found[index]).collect();
-                validate_any_answers(judge, &truth, mesh, &disputed, &found)
+                validate_any_answers(judge, &truth, mesh, &disputed, &found, Some(built.accel.as_ref()))
             }
         });
         Checked { rays: rays.len(), rounded: checked.rounded + judged.rounded, ..judged }
