@@ -168,3 +168,23 @@ fn the_number_of_threads_changes_nothing() {
     };
     assert_eq!(run(1), run(3));
 }
+
+#[test]
+fn any_hit_that_rounding_may_excuse_is_wrong_if_the_closest_hit_contradicts_it() -> Result<(), BuildError> {
+    use glam::Vec3;
+    let corners = vec![Vec3::new(1.0, 1.0, 1.0), Vec3::new(2.0, 1.0, 1.25), Vec3::new(1.0, 2.0, 1.5)];
+    let mesh = Arc::new(Mesh::new(corners, vec![[0, 1, 2]]).unwrap());
+    // From just above the triangle away from it: rounding may find a hit at 0.
+    let ray = Ray::new(Vec3::new(1.25, 1.25, 1.187_500_1), Vec3::new(0.1, 0.1, 1.0));
+    let reference = Reference::of_test("own", &mesh)?;
+    let expected = reference.closest_hits(&[ray]);
+    assert_eq!(expected, [None]);
+    let subject: Box<dyn DynAccel> = Box::new(BruteForce::<MollerTrumbore>::build(&mesh, &Default::default())?);
+    let judged = |subject| validate_any_answers(&reference, &expected, &mesh, &[ray], &[true], subject);
+    let alone = judged(None);
+    assert_eq!((alone.errors(), alone.test_errors), (0, 1), "{alone:?}");
+    let beside = judged(Some(subject.as_ref()));
+    assert_eq!((beside.errors(), beside.test_errors, beside.any_hit_errors), (1, 0, 1), "{beside:?}");
+    assert_eq!(beside.worst[0].kind, Kind::AnyHitDisagrees);
+    Ok(())
+}
