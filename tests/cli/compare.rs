@@ -90,7 +90,7 @@ fn compare_says_who_won_and_relates_to_what_is_asked_for() {
     assert!(text.contains("Wrong hits: 0 in ") && text.contains("is the fastest over 2 cells"), "{text}");
     let text = said(&[&args[..], &["--reference", "median-kd:leaf=8", "--verbose"]].concat());
     assert!(text.contains("x median-kd:leaf=8: speed against median-kd:leaf=8"), "{text}");
-    let last = text.rsplit("structures with right answers").next().unwrap();
+    let last = text.rsplit("structures with correct hits").next().unwrap();
     assert!(last.contains("median-kd:leaf=8"), "that sentence is about the reference: {last}");
 }
 

@@ -67,20 +67,20 @@ impl<'a> Ranking<'a> {
         Some(Self { all, noise, reference, cells, ranked })
     }
 
-    /// The fastest with right answers and in single precision, and what right answers cost.
+    /// The fastest with correct hits and in single precision, and the cost of correct hits.
     pub fn findings(&self) -> Vec<Finding> {
         let is_precise = |row: &&Ranked| PRECISE.contains(&row.of.triangle_test.as_str());
         let (precise, single): (Vec<&Ranked>, Vec<&Ranked>) = self.ranked.iter().partition(is_precise);
         // In single precision some give wrong answers by their nature, and stay.
         let errs = |row: &&Ranked| self.all.iter().any(|own| own.label == row.label && own.is_disqualified());
         let right: Vec<&Ranked> = precise.iter().copied().filter(|row| !errs(row)).collect();
-        let ranks = [("right", "with right answers", &right), ("single", "in single precision", &single)];
+        let ranks = [("right", "with correct hits", &right), ("single", "in single precision", &single)];
         let firsts = ranks.into_iter().filter_map(|(key, words, rows)| self.first(key, words, rows));
         let (firsts, fastest): (Vec<Finding>, Vec<Finding>) = firsts.unzip();
         let mut found: Vec<Finding> =
             firsts.into_iter().enumerate().map(|(i, own)| if i > 0 { own.detail() } else { own }).collect();
         found.extend(self.cost(&precise, &single).map(Finding::detail));
-        found.extend(self.ranked.iter().filter_map(|row| self.brought(row)));
+        found.extend(self.ranked.iter().filter(|row| !errs(row)).filter_map(|row| self.brought(row)));
         // What is right is the fastest, if anything is.
         found.extend(fastest.into_iter().next());
         found
@@ -116,20 +116,23 @@ impl<'a> Ranking<'a> {
         let (names, level) = match level[..] {
             _ if is_undecided => (format!("{label} (one epoch)"), "; one epoch decides nothing".into()),
             [] => (label.to_owned(), String::new()),
-            [other] => (format!("{label} or {other}"), format!("; {other} is level with it")),
-            [..] if n < 4 => (format!("{label} or {n} others"), format!("; {} are level with it", listed(&level))),
-            [..] => (format!("{label} or {n} others"), format!("; {n} others are level with it")),
+            [other] => (format!("{label} or {other}"), format!("; not distinguishable from it: {other}")),
+            [..] if n < 4 => {
+                (format!("{label} or {n} others"), format!("; not distinguishable from it: {}", listed(&level)))
+            }
+            [..] => (format!("{label} or {n} others"), format!("; not distinguishable from it: {n} others")),
         };
         let (reference, times) = (self.reference.words(), interval(value));
         let told = match () {
-            () if value == Estimate::exact(1.0) => "it is that which the others are related to".to_owned(),
-            () if value.holds(1.0) => format!("it is level with {reference}, {times} times as many rays a second"),
-            () => format!("it answers {times} times as many rays a second as {reference}"),
+            () if value == Estimate::exact(1.0) => "the others are compared with it".to_owned(),
+            () if value.holds(1.0) => {
+                format!("not distinguishable from {reference}, {times} times the rays per second")
+            }
+            () => format!("it traces {times} times as many rays per second as {reference}"),
         };
         let (ranked, over) = (plural(rows.len(), "structure"), plural(self.cells.len(), "cell"));
-        let sentence = format!(
-            "Of {ranked} {words}, {label} is the fastest over {over} of scene and kind of rays: {told}{level}."
-        );
+        let sentence =
+            format!("Of {ranked} {words}, {label} is the fastest over {over} of scene and workload: {told}{level}.");
         Some((Finding::new(key, sentence).of(value), Finding::named(FASTEST, names)))
     }
 
@@ -198,11 +201,8 @@ mod tests {
 
         let findings = ranking.findings();
         let told: Vec<&str> = findings.iter().map(|finding| finding.sentence.as_str()).collect();
-        assert!(
-            told[0].starts_with("Of 2 structures with right answers, fast is the fastest over 2 cells"),
-            "{told:?}"
-        );
-        assert!(told[0].contains("answers 2.00") && !told[0].contains("level"), "{told:?}");
+        assert!(told[0].starts_with("Of 2 structures with correct hits, fast is the fastest over 2 cells"), "{told:?}");
+        assert!(told[0].contains("traces 2.00") && !told[0].contains("distinguishable"), "{told:?}");
         assert!(told[1].starts_with(&format!("Of 3 structures in single precision, {} is", single[0])), "{told:?}");
         // Of the same keys: packets of the one are not held against single rays of the other.
         assert!(told[2].contains("exact") && told[2].contains("1.25"), "{told:?}");
