@@ -1,5 +1,6 @@
 //! The progress bar: on stderr, drawn only when a study says what it does, which is never inside a timed region.
 
+use std::fmt::Display;
 use std::io::{self, IsTerminal};
 use std::time::{Duration, Instant};
 
@@ -39,8 +40,26 @@ pub fn spinner(what: impl Into<String>, terminal: &Terminal) -> ProgressBar {
     bar
 }
 
-/// How often a log, which shows no bar, is told how far a run has come.
-const LINE: Duration = Duration::from_secs(5);
+/// Lines in a log, which shows no bar: how far a run has come, at most one every five seconds.
+pub struct LogLines {
+    /// When the last line was written; nothing where there is a bar, or nothing is to be shown.
+    last: Option<Instant>,
+}
+
+impl LogLines {
+    const PAUSE: Duration = Duration::from_secs(5);
+
+    pub fn new(terminal: &Terminal) -> Self {
+        Self { last: (!terminal.quiet && !io::stderr().is_terminal()).then(Instant::now) }
+    }
+
+    pub fn tell(&mut self, line: impl Display) {
+        if self.last.is_some_and(|last| last.elapsed() >= Self::PAUSE) {
+            crate::output::tell(line);
+            self.last = Some(Instant::now());
+        }
+    }
+}
 
 const STEPS: u64 = 100;
 
@@ -51,8 +70,7 @@ pub struct OnTerminal<'a> {
     case: String,
     work: u64,
     done: u64,
-    /// When the last line was written where there is no bar; nothing where there is one, or nothing is to be shown.
-    logged: Option<Instant>,
+    log: LogLines,
     /// Warnings that were shown.
     warned: Vec<String>,
     /// Whether it shows a job: one case, of which there is nothing to show or keep before it is measured.
@@ -62,9 +80,8 @@ pub struct OnTerminal<'a> {
 impl<'a> OnTerminal<'a> {
     pub fn new(terminal: &'a Terminal) -> Self {
         let bar = spinner("loading scenes", terminal);
-        let logged = (!terminal.quiet && !io::stderr().is_terminal()).then(Instant::now);
-        let case = String::new();
-        Self { terminal, bar, case, work: 0, done: 0, logged, warned: vec![], is_job: false }
+        let (case, log) = (String::new(), LogLines::new(terminal));
+        Self { terminal, bar, case, work: 0, done: 0, log, warned: vec![], is_job: false }
     }
 
     /// That of a job, which says what it measures in a line that is there in a log as well.
@@ -75,11 +92,8 @@ impl<'a> OnTerminal<'a> {
     }
 
     fn log(&mut self, text: &str) {
-        if self.logged.is_some_and(|last| last.elapsed() >= LINE) {
-            let percent = 100 * self.bar.position() / self.bar.length().unwrap_or(0).max(1);
-            crate::output::tell(format_args!("{percent} %: {text}"));
-            self.logged = Some(Instant::now());
-        }
+        let percent = 100 * self.bar.position() / self.bar.length().unwrap_or(0).max(1);
+        self.log.tell(format_args!("{percent} %: {text}"));
     }
 }
 

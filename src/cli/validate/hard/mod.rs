@@ -15,7 +15,7 @@ use anyhow::Context;
 use super::Args;
 use super::export::Export;
 use super::outcome::{Verdicts, sentences};
-use crate::cli::progress::spinner;
+use crate::cli::progress::{LogLines, spinner};
 use crate::cli::terminal::Terminal;
 use crate::output::OutputFile;
 use crate::registry::{Choice, Registry, plain_name};
@@ -50,10 +50,12 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
     let json = args.export_json.as_deref().map(OutputFile::check).transpose()?;
 
     let mut columns: Vec<Column> = choices.iter().map(|choice| Column { choice, scores: vec![] }).collect();
-    let waiting = spinner(String::new(), terminal);
+    let (waiting, mut log) = (spinner(String::new(), terminal), LogLines::new(terminal));
     let mut records = vec![];
     for (i, case) in cases.iter().enumerate() {
-        waiting.set_message(format!("{} of {}: {}", i + 1, cases.len(), case.name));
+        let message = format!("{} of {}: {}", i + 1, cases.len(), case.name);
+        log.tell(&message);
+        waiting.set_message(message);
         let scores = scores(case, &choices, rays, args.limit.duration())?;
         for (column, score) in columns.iter_mut().zip(scores) {
             records.push(record(case, column.choice, &score));
