@@ -57,6 +57,8 @@ pub struct Samples {
     pub asked: Option<usize>,
     /// The checksum of the results; it is the same in all epochs.
     pub checksum: u64,
+    /// The checksum of the results on the rays of the samples, which differ between epochs unless they are all rays.
+    pub timed_checksum: u64,
     /// Nanoseconds of each sample, in the order of the rounds: those of two cases with the same index are a pair.
     pub ns: Vec<u64>,
     /// The same samples for a part of their rays, to compare with slower cases that are timed on that part only.
@@ -80,7 +82,15 @@ impl Samples {
     /// results cannot be compared between epochs: a sixteenth of the tiles of the first epoch is traced for that.
     pub fn none(all: usize, level: usize) -> Self {
         let asked = (level > 0).then(|| (level + 2).min(last_level(all)));
-        Self { rays: rays_at(all, level), asked, checksum: 0, ns: vec![], parts: vec![], is_steady: true }
+        Self {
+            rays: rays_at(all, level),
+            asked,
+            checksum: 0,
+            timed_checksum: 0,
+            ns: vec![],
+            parts: vec![],
+            is_steady: true,
+        }
     }
 }
 
@@ -128,6 +138,7 @@ pub fn take(
                 let ns = case.run(&watch);
                 let checksum = case.checksum();
                 samples.is_steady = *checksums[i].get_or_insert(checksum) == checksum && !case.contradicts_itself();
+                samples.timed_checksum = checksum;
                 if samples.asked.is_none() {
                     samples.checksum = checksum;
                 }

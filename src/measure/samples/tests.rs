@@ -97,7 +97,7 @@ fn only_the_pass_is_timed_in_rounds_of_changing_order() {
     let bench = Bench::default();
     let mut cases = [('a', 10), ('b', 20), ('c', 30)].map(|(name, ns)| bench.case(name, ns, 1000));
     let samples = bench.take(&mut cases, &SamplePlan { runs: 12, ..PLAN });
-    let taken = |ns| Samples { checksum: 7, ns: vec![ns; 12], ..Samples::none(1000, 0) };
+    let taken = |ns| Samples { checksum: 7, timed_checksum: 7, ns: vec![ns; 12], ..Samples::none(1000, 0) };
     assert_eq!(samples, [10_000, 20_000, 30_000].map(taken));
     let log = bench.log.borrow();
     let rounds: Vec<&[char]> = log.chunks(3).collect();

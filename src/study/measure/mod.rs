@@ -123,6 +123,8 @@ struct Bench<'a> {
     structures: Vec<Structure>,
     /// Each of them, if it could be built.
     built: Vec<Option<Built>>,
+    /// Of the hits on the rays that were timed in this epoch.
+    checksums: Vec<(Pair, u64)>,
     /// Keeps the memory placement of the structures alive.
     _placed: Placed,
 }
@@ -183,7 +185,7 @@ impl<'a> Bench<'a> {
             let rays = |(workload, hash): (&Workload, &String)| untimed(built, workload, hash);
             structure.rays = workloads.iter().zip(&hashes).map(rays).collect();
         }
-        Ok(Self { case, prepared, workloads, structures, built, _placed: placed })
+        Ok(Self { case, prepared, workloads, structures, built, checksums: vec![], _placed: placed })
     }
 
     /// Checks all structures against brute force; those with wrong hits are not timed.
@@ -218,12 +220,11 @@ impl<'a> Bench<'a> {
         for pair in Pair::all(self.structures.len(), self.workloads.len()) {
             let (structure, built) = (&mut self.structures[pair.structure], &self.built[pair.structure]);
             let Some(built) = built.as_ref().filter(|_| structure.refused.is_none()) else { continue };
+            let Some(&(_, checksum)) = self.checksums.iter().find(|(own, _)| *own == pair) else { continue };
             let timed = structure.rays[pair.workload].rays;
-            if timed == 0 {
-                continue;
-            }
             progress(Stage::Check((&structure.label).into()));
-            let check = checks.check(built, &pair, timed).map_err(StudyError::of_build("sah-bvh", &scene.name))?;
+            let check =
+                checks.check(built, &pair, timed, checksum).map_err(StudyError::of_build("sah-bvh", &scene.name))?;
             let failure = built.accel.remote().and_then(Remote::failure);
             match check.filter(|_| failure.is_none()) {
                 Some(check) => settle(&mut structure.rays[pair.workload], check, &self.case.scene.word, built),
@@ -313,6 +314,7 @@ impl<'a> Bench<'a> {
                 let alone = spread(&self.workloads[pair.workload].rays, samples.rays);
                 rays.slowest_ns = Some(slowest(built.accel.as_ref(), &alone, clock));
             }
+            self.checksums.push((*pair, samples.timed_checksum));
             (rays.rays, rays.checksum) = (samples.rays, samples.checksum);
             (rays.ns, rays.parts) = (samples.ns, samples.parts);
         }
