@@ -277,10 +277,8 @@ impl Epoch {
             let failure =
                 |sentence, refused, wrong| Failure { structure: structure.name.clone(), sentence, refused, wrong };
             let on = format!("{} on {}", structure.label, self.title());
-            let refused = structure
-                .refused
-                .iter()
-                .map(|why| failure(format!("{on} has no result: {why}."), true, structure.wrong));
+            let refusal = |why: &String| failure(format!("{on} has no result: {why}."), true, structure.wrong);
+            let refused = structure.refused.iter().map(refusal);
             let untimed = structure.rays.iter().filter_map(|rays| {
                 let why = rays.untimed.as_ref()?;
                 Some(failure(format!("{on}, {} rays, has no time: {why}.", rays.workload), false, rays.wrong))
