@@ -20,7 +20,7 @@ pub use truth::Truth;
 /// It has three stages: a tree of boxes that loses no hit, `f64` arithmetic with a proven error bound, and exact sums
 /// of floats ([`exact`](crate::exact)) where that bound does not decide. It shares these sums with the triangle test
 /// [`Exact`](crate::triangle::Exact), and no other code with the structures and tests that it checks. The tests compare
-/// both with [`rational`](crate::exact::rational).
+/// both with `exact::rational`.
 pub struct Oracle {
     mesh: Arc<Mesh>,
     tree: tree::Tree,

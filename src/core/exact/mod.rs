@@ -3,7 +3,7 @@
 
 mod expansion;
 mod integers;
-#[cfg(any(test, feature = "suite"))]
+#[cfg(any(test, feature = "rationals"))]
 pub mod rational;
 mod tracked;
 
