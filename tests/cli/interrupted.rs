@@ -48,7 +48,7 @@ fn signalled(folder: &Path, more: &[&str], way: SigHandler) -> (ExitStatus, Stri
     while !text.ends_with("\n\n") {
         assert!(reader.read_line(&mut text).unwrap() > 0, "it ended without a table: {text}");
     }
-    assert!(text.starts_with("Cube: 12 triangles\n"), "{text}");
+    assert!(text.starts_with("Cube: 12 triangles; million rays per second\n"), "{text}");
     kill(Pid::from_raw(child.id() as i32), Signal::SIGINT).unwrap();
     reader.read_to_string(&mut text).unwrap();
     (child.wait().unwrap(), text)

@@ -65,7 +65,8 @@ pub fn scene_table(all: &[Measurement], references: &[Reference], refused: &[&St
         n => format!(" ({} degenerate)", count(n as u64)),
     };
     let stand_in = if first.stand_in { ", stand-in" } else { "" };
-    let title = format!("{}: {}{degenerate}{stand_in}", first.scene, plural(first.triangles, "triangle"));
+    let triangles = plural(first.triangles, "triangle");
+    let title = format!("{}: {triangles}{degenerate}{stand_in}; million rays per second", first.scene);
     let structures = distinct(all.iter().map(|r| &r.label));
     let mut table = Table::of(title, &structures, &[("structure", &|label| (*label).into())]);
     for workload in distinct(all.iter().map(|r| &r.workload)) {
