@@ -20,7 +20,6 @@ pub fn degenerate_meshes() -> Vec<(String, Arc<Mesh>)> {
         ("crossing needles".into(), needles(300)),
         ("nested shells".into(), shells()),
         ("exponential sequence".into(), exponential(300)),
-        ("8192 stacked sheets".into(), stacked_sheets(8192)),
         ("box of a grid".into(), box_grid(4)),
         ("same centroid".into(), same_centroid(300)),
         ("a huge triangle and small ones".into(), huge_and_small()),
@@ -38,10 +37,11 @@ pub fn degenerate_meshes() -> Vec<(String, Arc<Mesh>)> {
 
 const FAR: Vec3 = Vec3::new(148_376.0, 1234.0, -223_423.0);
 
-/// A ray may meet all sheets, and so all nodes of a tree, whose stack must be as deep as the tree.
-fn stacked_sheets(count: usize) -> Arc<Mesh> {
-    let height = |i: usize| Vec3::Z * (2.0 * i as f32 / count as f32);
-    mesh((0..count).map(|i| TRIANGLE.map(|p| p + height(i))))
+/// A mesh that a ray may cross in 8192 sheets, and so in all nodes of a tree, whose stack must be as deep as the tree.
+pub fn stacked_sheets() -> Vec<(String, Arc<Mesh>)> {
+    const SHEETS: u16 = 8192;
+    let sheets = (0..SHEETS).map(|i| TRIANGLE.map(|p| p + Vec3::Z * (2.0 * f32::from(i) / f32::from(SHEETS))));
+    vec![(format!("{SHEETS} stacked sheets"), mesh(sheets))]
 }
 
 pub(crate) const TRIANGLE: [Vec3; 3] =

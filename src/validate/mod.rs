@@ -24,7 +24,7 @@ mod watchdog;
 
 pub use adversarial::Stratum;
 pub use compare::{differences, validate, validate_answers, validate_any_answers, validate_known};
-pub use degenerate::degenerate_meshes;
+pub use degenerate::{degenerate_meshes, stacked_sheets};
 pub use error_counts::{DepthRule, ErrorCounts, Outcome, Ulps, count_errors, outcome};
 pub use rate::Rate;
 pub(crate) use reference::HasReference;

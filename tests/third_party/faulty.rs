@@ -64,7 +64,7 @@ pub struct Faulty {
 
 const LEAF: usize = 4;
 const DEEP: usize = 6;
-const STACK: usize = 3;
+const STACK: usize = 10;
 
 impl Faulty {
     fn node(&mut self, mut triangles: Vec<u32>, depth: usize) -> usize {

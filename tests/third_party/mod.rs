@@ -26,12 +26,12 @@ use sahara::study::measurement::measurements;
 use sahara::study::{Dataset, Measured, Plan, PlannedScene, Settings, Studies};
 use sahara::triangle::{Exact, MollerTrumbore};
 use sahara::validate::conformance::{Named, Subject, answers, counting, shapes};
-use sahara::validate::degenerate_meshes;
 use sahara::validate::hard_cases::{CaseTruth, find, run};
+use sahara::validate::{degenerate_meshes, stacked_sheets};
 
-// Few cells: each of two thousand triangles that coincide is in all that it meets.
-sahara::conformance!(my_grid, Grid<MollerTrumbore>, GridConfig { resolution: 4 }, lowest_id);
-sahara::conformance!(my_grid_of_one_cell, Grid<Exact>, GridConfig { resolution: 1 });
+// Few cells: two thousand triangles that coincide are in each that they meet.
+sahara::conformance!(my_grid, Grid<MollerTrumbore>, GridConfig { resolution: 2 }, lowest_id);
+sahara::conformance!(my_bvh, Faulty, FaultyConfig::default());
 
 fn registry() -> Registry {
     Registry::builtin()
@@ -107,6 +107,14 @@ fn a_structure_that_hangs_is_given_up_and_the_ray_is_named() {
     assert!(ray.is_some_and(|ray| picks(&ray, 500)), "{report}");
     let counted = counting(&subject(Fault::Hangs), &meshes()[..1], 2000).unwrap_err();
     assert!(counted.contains("it hangs") && counted.contains("for ray \""), "{counted}");
+}
+
+/// Ten places are enough for the small meshes.
+#[test]
+fn a_short_stack_is_found_by_stacked_sheets() {
+    let of = |fault| answers(&Subject::of::<Faulty>("mybvh", FaultyConfig { fault }), &stacked_sheets(), 10);
+    of(faulty::Fault::None).unwrap();
+    assert!(of(faulty::Fault::OverflowedStack).unwrap_err().contains("8192 stacked sheets"));
 }
 
 #[test]

@@ -158,7 +158,7 @@ macro_rules! conformance {
     ($module:ident, $accel:ty, $config:expr $(, $lowest_id:ident)?) => {
         mod $module {
             use super::*;
-            use $crate::validate::{conformance, degenerate_meshes};
+            use $crate::validate::{conformance, degenerate_meshes, stacked_sheets};
 
             fn subject() -> conformance::Subject {
                 let subject = conformance::Subject::of::<$accel>(stringify!($module), $config);
@@ -174,6 +174,11 @@ macro_rules! conformance {
             #[test]
             fn answers_are_right() {
                 passes(conformance::answers(&subject(), &degenerate_meshes(), 200));
+            }
+
+            #[test]
+            fn stacks_are_deep_enough() {
+                passes(conformance::answers(&subject(), &stacked_sheets(), 10));
             }
 
             #[test]
