@@ -72,7 +72,7 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
             all.len()
         )),
     }
-    let written = folder.iter().map(|folder| folder.path().join("index.html"));
+    let written = folder.iter().map(|folder| folder.path.join("index.html"));
     for path in written.chain(results.iter().flat_map(ResultsFolder::paths)) {
         terminal.print(&format!("{}\n", path.escaped()));
     }
@@ -120,6 +120,6 @@ impl ResultsFolder {
 
     fn paths(&self) -> Vec<PathBuf> {
         let files = [&self.paper, &self.data].into_iter().chain(self.readme.iter().map(|(file, _)| file));
-        files.map(|file| file.path().to_path_buf()).collect()
+        files.map(|file| file.path.clone()).collect()
     }
 }

@@ -1,15 +1,16 @@
+use std::collections::HashSet;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
 
-use super::standard::{STDOUT, print, take_stdout, unless_gone};
-use super::{OutputError, folder_of, resolved, temporary_file};
+use super::{OutputError, STDOUT, TO_STDOUT, folder_of, print, resolved, temporary_file, unless_gone};
 
 /// A file that results will go to, or standard output where it is called [`STDOUT`]. What is not a regular file (a
 /// pipe, `/dev/stdout`) is written to directly.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OutputFile {
-    path: PathBuf,
+    pub path: PathBuf,
     /// The regular file. Standard output, pipes and terminals have none: they can be read from and written to more than
     /// once.
     regular: Option<PathBuf>,
@@ -18,20 +19,19 @@ pub struct OutputFile {
 impl OutputFile {
     /// Checks that `path` can be written now, before the long run whose results it is for; leaves nothing behind.
     pub fn check(path: &Path) -> Result<Self, OutputError> {
-        let place = || {
-            let regular = resolved(path)?;
-            temporary_file(&regular).map(|_| regular)
-        };
         let regular = match fs::metadata(path) {
             _ if path == Path::new(STDOUT) => {
-                take_stdout();
+                TO_STDOUT.store(true, Ordering::Relaxed);
                 None
             }
             Ok(there) if there.is_dir() => {
                 return Err(OutputError::place(path, "it is a directory: name a file in it"));
             }
             Ok(there) if !there.is_file() => None,
-            _ => Some(place().map_err(|cause| OutputError::write(path, cause))?),
+            _ => {
+                let regular = resolved(path).and_then(|regular| temporary_file(&regular).map(|_| regular));
+                Some(regular.map_err(|cause| OutputError::write(path, cause))?)
+            }
         };
         Ok(Self { path: path.into(), regular })
     }
@@ -47,20 +47,11 @@ impl OutputFile {
 
     /// Rejects two results for one place, by whatever paths.
     pub fn are_apart<'a>(files: impl IntoIterator<Item = &'a Self>) -> Result<(), OutputError> {
-        let files: Vec<&Self> = files.into_iter().collect();
-        let is_same = |one: &Self, other: &Self| {
-            one.regular == other.regular && (one.regular.is_some() || one.is_stdout() && other.is_stdout())
-        };
-        match files.iter().enumerate().find(|(i, file)| files[..*i].iter().any(|other| is_same(file, other))) {
-            Some((_, file)) => {
-                Err(OutputError::place(&file.path, "two results would go there: name another file for one of them"))
-            }
-            None => Ok(()),
-        }
-    }
-
-    pub fn path(&self) -> &Path {
-        &self.path
+        let mut places = HashSet::new();
+        let mut files = files.into_iter().filter(|file| file.regular.is_some() || file.path == Path::new(STDOUT));
+        files.find(|file| !places.insert(&file.regular)).map_or(Ok(()), |file| {
+            Err(OutputError::place(&file.path, "two results would go there: name another file for one of them"))
+        })
     }
 
     /// Standard output never fails here: what it has not got is told when the command ends, and a reader that has gone
@@ -69,7 +60,7 @@ impl OutputFile {
         let write = || {
             match &self.regular {
                 Some(regular) => drop(written(regular, bytes)?.persist(regular)?),
-                None if self.is_stdout() => print(bytes),
+                None if self.path == Path::new(STDOUT) => print(bytes),
                 None => unless_gone(fs::OpenOptions::new().write(true).open(&self.path)?.write_all(bytes))?,
             }
             Ok(())
@@ -82,19 +73,13 @@ impl OutputFile {
     /// is none.
     pub fn write_new(&self, bytes: &[u8]) -> Result<bool, OutputError> {
         let Some(regular) = &self.regular else { return Ok(false) };
-        let written = written(regular, bytes).and_then(|file| Ok(file.persist_noclobber(regular)?));
-        match written {
+        match written(regular, bytes).and_then(|file| Ok(file.persist_noclobber(regular)?)) {
             Err(cause) if cause.kind() == io::ErrorKind::AlreadyExists => return Ok(false),
-            Err(cause) => return Err(OutputError::write(&self.path, cause)),
-            Ok(_) => {}
+            written => drop(written.map_err(|cause| OutputError::write(&self.path, cause))?),
         }
         // Puts the name on the disk as well as the contents, on systems that can.
         let _ = fs::File::open(folder_of(regular)).and_then(|folder| folder.sync_all());
         Ok(true)
-    }
-
-    fn is_stdout(&self) -> bool {
-        self.path == Path::new(STDOUT)
     }
 }
 
@@ -119,9 +104,9 @@ mod tests {
         assert_eq!(files(), 0);
         file.write(b"one").unwrap();
         file.write(b"two").unwrap();
-        assert_eq!((fs::read(file.path()).unwrap(), files()), (b"two".to_vec(), 1));
+        assert_eq!((fs::read(file.path).unwrap(), files()), (b"two".to_vec(), 1));
         assert!(new.write_new(b"one").unwrap() && !new.write_new(b"two").unwrap());
-        assert_eq!((fs::read(new.path()).unwrap(), files()), (b"one".to_vec(), 2));
+        assert_eq!((fs::read(new.path).unwrap(), files()), (b"one".to_vec(), 2));
         for (place, part) in [(".", "directory"), ("a.json/b.json", "choose"), ("no/such.json", "no/such.json")] {
             let error = check(place).unwrap_err().to_string();
             assert!(error.contains(part) && !error.contains(".sahara-"), "{error}");

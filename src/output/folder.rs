@@ -13,7 +13,7 @@ const MARK: &str = "sahara-files.json";
 /// A folder that results will go to; all its contents are sahara's.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OutputFolder {
-    path: PathBuf,
+    pub path: PathBuf,
     resolved: PathBuf,
 }
 
@@ -26,7 +26,10 @@ impl OutputFolder {
         }
         let failed = |cause| OutputError::write(path, cause);
         let folder = Self { path: path.into(), resolved: resolved(path).map_err(failed)? };
-        if let Some(other) = folder.foreign().map_err(failed)? {
+        let mark = fs::read(path.join(MARK)).unwrap_or_default();
+        let listed: Vec<String> = serde_json::from_slice(&mark).unwrap_or_default();
+        let names = if path.exists() { names_below(path, "").map_err(failed)? } else { vec![] };
+        if let Some(other) = names.iter().filter(|name| !listed.contains(name)).min() {
             let problem = format!("it contains {other}, which sahara did not write: name another folder, or empty it");
             return Err(OutputError::place(path, problem));
         }
@@ -46,10 +49,6 @@ impl OutputFolder {
         }
     }
 
-    pub fn path(&self) -> &Path {
-        &self.path
-    }
-
     /// Writes files, given by their paths in the folder with `/`, in place of what was there, which stays as it was if
     /// that fails.
     pub fn write(&self, files: &[(String, Vec<u8>)]) -> Result<(), OutputError> {
@@ -65,36 +64,25 @@ impl OutputFolder {
     /// As [`write`](Self::write), of files that `fill` writes one by one into the folder that it is given: they may be more
     /// than memory takes.
     pub fn write_in<T>(&self, fill: impl FnOnce(&Path) -> io::Result<T>) -> Result<T, OutputError> {
-        self.replace(fill).map_err(|cause| OutputError::write(&self.path, cause))
-    }
+        let replace = || {
+            let new = self.temporary()?;
+            let filled = fill(new.path())?;
+            let mut names = names_below(new.path(), "")?;
+            names.push(MARK.into());
+            fs::write(new.path().join(MARK), serde_json::to_vec_pretty(&names).expect("names are text"))?;
 
-    fn replace<T>(&self, fill: impl FnOnce(&Path) -> io::Result<T>) -> io::Result<T> {
-        let new = self.temporary()?;
-        let filled = fill(new.path())?;
-        let mut names = names_below(new.path(), "")?;
-        names.push(MARK.into());
-        fs::write(new.path().join(MARK), serde_json::to_vec_pretty(&names).expect("names are text"))?;
-
-        // Move the old folder aside, and back if the new one cannot take its place.
-        let aside = self.temporary()?;
-        let old = aside.path().join("old");
-        if self.resolved.exists() {
-            fs::rename(&self.resolved, &old)?;
-        }
-        fs::rename(new.path(), &self.resolved).inspect_err(|_| drop(fs::rename(&old, &self.resolved)))?;
-        // It has moved: nothing is left to remove.
-        let _ = new.keep();
-        Ok(filled)
-    }
-
-    /// The first name in the folder that is not on its list.
-    fn foreign(&self) -> io::Result<Option<String>> {
-        if !self.resolved.exists() {
-            return Ok(None);
-        }
-        let mark = fs::read(self.resolved.join(MARK)).unwrap_or_default();
-        let listed: Vec<String> = serde_json::from_slice(&mark).unwrap_or_default();
-        Ok(names_below(&self.resolved, "")?.into_iter().filter(|name| !listed.contains(name)).min())
+            // Move the old folder aside, and back if the new one cannot take its place.
+            let aside = self.temporary()?;
+            let old = aside.path().join("old");
+            if self.resolved.exists() {
+                fs::rename(&self.resolved, &old)?;
+            }
+            fs::rename(new.path(), &self.resolved).inspect_err(|_| drop(fs::rename(&old, &self.resolved)))?;
+            // It has moved: nothing is left to remove.
+            let _ = new.keep();
+            Ok(filled)
+        };
+        replace().map_err(|cause| OutputError::write(&self.path, cause))
     }
 
     /// A new folder beside this one; it is removed when it is dropped.

@@ -100,7 +100,7 @@ impl CheckedOutputs {
             json.write(&serde_json::to_vec_pretty(&Export { schema: "sahara-golden-1", comparisons })?)?;
         }
         if let Some(folder) = &self.page {
-            terminal.print(&format!("{}\n", page::index(folder.path()).escaped()));
+            terminal.print(&format!("{}\n", page::index(&folder.path).escaped()));
         }
         Ok(())
     }

@@ -87,7 +87,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         files.extend(part.files);
     }
 
-    waiting.set_message(format!("writing {}", folder.path().escaped()));
+    waiting.set_message(format!("writing {}", folder.path.escaped()));
     let sums = sums(&files);
     let digest_of_sums = digest(sums.as_bytes());
     files.insert(SUMS.into(), sums.into_bytes());

@@ -54,7 +54,7 @@ impl Run<'_> {
         }
         HitFile::new(workload, hits).write(&output)?;
         drop(waiting);
-        let (path, results, hash) = (output.path().escaped(), plural(rays, "result"), workload.hash());
+        let (path, results, hash) = (output.path.escaped(), plural(rays, "result"), workload.hash());
         self.terminal.print(&format!("{path}: {results} of {label} for the rays {hash}\n"));
         Ok(Status::Right)
     }

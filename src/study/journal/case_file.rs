@@ -85,7 +85,7 @@ impl CaseFile {
         // Numbers that are infinite or none become null, and would make the case unreadable.
         let read: Result<Fields, _> = Fields::deserialize(&value);
         assert!(read.is_ok(), "the case does not read back ({:?}): {value}", read.err());
-        file.write_new(format!("{value}\n").as_bytes()).map_err(|error| unwritable(file.path(), error))
+        file.write_new(format!("{value}\n").as_bytes()).map_err(|error| unwritable(&file.path, error))
     }
 }
 
