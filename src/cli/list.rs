@@ -64,7 +64,7 @@ fn names(suite: &Suite) -> Table {
     // Notes are wrapped.
     let notes = lines.into_iter().map(|(what, names): (&str, Vec<&str>)| format!("{what}: {}.", names.join(", ")));
     let more = format!("More: `sahara list STRUCTURE` (its options), or: {}.", KINDS.join(", "));
-    Table { title: "Names".into(), ..Table::default() }.noted(notes.chain([more]).collect())
+    Table { title: "Names".into(), ..Table::default() }.noted(notes.chain([more]))
 }
 
 fn scenes() -> anyhow::Result<Table> {

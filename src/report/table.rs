@@ -70,8 +70,8 @@ impl Table {
         self.without_columns(&details.iter().map(String::as_str).collect::<Vec<_>>())
     }
 
-    pub fn noted(self, notes: Vec<String>) -> Self {
-        Self { notes, ..self }
+    pub fn noted(self, notes: impl IntoIterator<Item = impl Into<String>>) -> Self {
+        Self { notes: notes.into_iter().map(Into::into).collect(), ..self }
     }
 
     /// The same table, which depends on one scene alone.

@@ -118,5 +118,5 @@ pub fn answer_table(scene: &str, of_structures: &[Vec<Vec<Cell>>]) -> Table {
     let rows = (0..rays).flat_map(|ray| of_structures.iter().map(move |rows| rows[ray].clone()));
     let note = "u, v: barycentric weights of the second and third corner where the ray meets the triangle's plane, in f64. \
                 Triangle numbers start at 0.";
-    Table::new(format!("{scene}: hits"), ANSWERS, rows).noted(vec![note.into()])
+    Table::new(format!("{scene}: hits"), ANSWERS, rows).noted([note])
 }

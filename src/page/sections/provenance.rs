@@ -10,12 +10,9 @@ use crate::study::Dataset;
 
 /// Every machine; `missing` is what no run has measured.
 pub fn section(runs: &Runs, missing: Vec<Block>) -> Section {
-    let machines = machines(runs).noted(vec![
-        "The newest cases of each scene and study count, if they share settings, build and machine. The page shows \
-         the settings, build and machine with the most cases of a study."
-            .into(),
-    ]);
-    let mut blocks = vec![Block::Table(machines)];
+    let note = "The newest cases of each scene and study count, if they share settings, build and machine. The page shows \
+                the settings, build and machine with the most cases of a study.";
+    let mut blocks = vec![Block::Table(machines(runs).noted([note]))];
     blocks.extend(warnings(&runs.provenances()).map(Block::Table));
     blocks.extend(runs.notes.iter().map(|note| Block::Note(note.clone())));
     if !missing.is_empty() {

@@ -147,11 +147,9 @@ fn structures(registry: &Registry, named: &[String], tests: &[String]) -> anyhow
 
 fn report(dataset: &Dataset, _: &ArgMatches) -> Report {
     let all = judged(dataset);
-    let mut blocks = vec![Block::Text(
-        "Exact arithmetic gives the true hit of every ray. Workloads are never pooled: each fails in its own way. The \
-         front holds the structures that no other one beats in both speed and error."
-            .into(),
-    )];
+    let text = "Exact arithmetic gives the true hit of every ray. Workloads are never pooled: each fails in its own way. \
+                The front holds the structures that no other one beats in both speed and error.";
+    let mut blocks = vec![Block::Text(text.into())];
     for (i, of_kind) in all.iter().enumerate() {
         blocks.extend([Block::figure(figure::figure(i, of_kind)), Block::Table(table::table(of_kind))]);
     }

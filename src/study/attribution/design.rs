@@ -16,7 +16,7 @@ named_enum! {
     }
 }
 
-/// One value of a factor: its name, as tables and journals print it, and the keys of the structure.
+/// The name of a value of a factor, and the keys of the structure.
 pub type Level = (&'static str, &'static str);
 
 /// Where a node is split: the report's rule first, the surface area heuristic over all planes last.

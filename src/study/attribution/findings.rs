@@ -79,9 +79,8 @@ pub fn split(r: &Attribution) -> Finding {
 fn gains(results: &[Attribution]) -> Vec<Finding> {
     let of = |stand_in: bool| -> Vec<Finding> {
         let whole = |name: &str| Some(form(results, name, stand_in)?.whole());
-        let gain =
-            |name: &&str| Some(Finding::number(format!("gain-{}", slug(name)), whole("Sponza")?.over(whole(name)?)));
-        ["Dragon", "Lucy"].iter().filter_map(gain).collect()
+        let gain = |name| Some(Finding::number(format!("gain-{}", slug(name)), whole("Sponza")?.over(whole(name)?)));
+        ["Dragon", "Lucy"].into_iter().filter_map(gain).collect()
     };
     [false, true].map(of).into_iter().find(|found| !found.is_empty()).unwrap_or_default()
 }

@@ -6,7 +6,6 @@ use crate::study::epoch_medians::{epoch_medians, ratio, values};
 use crate::study::measurement::{Measurement, of_scene};
 use crate::study::{Dataset, Epoch, SceneEpochs};
 
-/// One scene.
 pub struct Attribution<'a> {
     /// Each has the [`trees`] of the design.
     pub epochs: Vec<&'a Epoch>,
@@ -49,12 +48,12 @@ impl<'a> Attribution<'a> {
         [0, 1].map(|i| log(i).into_iter().map(|log| vec![log]).collect())
     }
 
-    /// That of the report's tree, for what all trees of the scene share.
+    /// That of the report's tree: what all trees of the scene share.
     pub fn first(&self) -> &Measurement {
         &self.trees[0]
     }
 
-    /// Nanoseconds a ray, the median over all samples.
+    /// The median over all samples.
     pub fn ns_per_ray(&self, cell: Treatment) -> f64 {
         let paces = self.epochs.iter().flat_map(|epoch| paces(epoch, cell.number()));
         median(&paces.collect::<Vec<_>>()).expect("every tree is timed")

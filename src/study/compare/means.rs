@@ -64,11 +64,9 @@ pub fn mean_table(all: &[Measurement], references: &[Reference]) -> Table {
         }
     }
     if table.rows.iter().flatten().any(|cell| !cell.note.is_empty()) {
-        notes.push(
-            "(n of m): mean over n of the m cases in which the reference has a time; not comparable with the other \
-             rows."
-                .into(),
-        );
+        let note = "(n of m): mean over n of the m cases in which the reference has a time; not comparable with the other \
+                    rows.";
+        notes.push(note.into());
     }
     notes.extend(uneven(all));
     notes.extend(control(all));

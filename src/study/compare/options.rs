@@ -171,16 +171,15 @@ impl CompareArgs {
         structures: &[StructureRequest],
         workloads: usize,
     ) -> anyhow::Result<Settings> {
-        let budget_ns = if self.quick { Some(QUICK_SAMPLES_NS) } else { self.measuring.budget.ns() };
-        let check = if self.quick {
-            let tests = structures.iter().map(|own| Ok(own.choose(registry)?.triangle_test()));
-            let tests: BTreeSet<&str> = tests.collect::<anyhow::Result<_>>()?;
-            let tests = QUICK_CHECKS / (tests.len() * workloads).max(1);
-            Check::BruteForce { tests, limit_ns: Some(QUICK_CHECKS_NS) }
-        } else {
-            Check::default()
-        };
-        Ok(Settings { budget_ns, slowest: Some(SLOWEST), check, ..Settings::new(&self.measuring, registry)? })
+        let settings = Settings { slowest: Some(SLOWEST), ..Settings::new(&self.measuring, registry)? };
+        if !self.quick {
+            return Ok(settings);
+        }
+        let tests = structures.iter().map(|own| Ok(own.choose(registry)?.triangle_test()));
+        let tests: BTreeSet<&str> = tests.collect::<anyhow::Result<_>>()?;
+        let tests = QUICK_CHECKS / (tests.len() * workloads).max(1);
+        let check = Check::BruteForce { tests, limit_ns: Some(QUICK_CHECKS_NS) };
+        Ok(Settings { budget_ns: Some(QUICK_SAMPLES_NS), check, ..settings })
     }
 
     /// Scene by scene, small ones first.
@@ -208,13 +207,11 @@ impl CompareArgs {
         let planned = |own: &(OsString, Scene)| {
             let (word, scene) = own;
             let triangles = scene.mesh.len();
-            let fits = |own: &&StructureRequest| !named.leaves_out(own.name(), triangles);
-            PlannedScene {
-                request: SceneRequest::new(word, &self.from, scene),
-                structures: structures.iter().filter(fits).cloned().collect(),
-                settings: Settings { build_limit_s: self.build_limit_s(triangles), ..settings.clone() },
-                ..PlannedScene::new(own, &[], &workloads, &settings, epochs.into())
-            }
+            let mut fitting = structures.clone();
+            fitting.retain(|own| !named.leaves_out(own.name(), triangles));
+            let settings = Settings { build_limit_s: self.build_limit_s(triangles), ..settings.clone() };
+            let request = SceneRequest::new(word, &self.from, scene);
+            PlannedScene { request, ..PlannedScene::new(own, &fitting, &workloads, &settings, epochs.into()) }
         };
         let is_large = |scene: &&Scene| structures.iter().any(|own| named.leaves_out(own.name(), scene.mesh.len()));
         notes.extend(scenes.iter().map(|(_, scene)| scene).filter(is_large).map(left_out));

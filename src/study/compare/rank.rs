@@ -154,12 +154,8 @@ impl<'a> Ranking<'a> {
             [least, .., most] => format!("{} to {}", told(least), told(most)),
         };
         let test = &costs[0].0.triangle_test;
-        Some(Finding::new(
-            "cost",
-            format!(
-                "Over the triangle test {test} the same structures take {told} times as long as in single precision."
-            ),
-        ))
+        let over = format!("Over the triangle test {test} the same structures take {told} times as long");
+        Some(Finding::new("cost", format!("{over} as in single precision.")))
     }
 }
 

@@ -92,10 +92,7 @@ impl Reference {
     /// The geometric mean of how many times faster the first of each pair is; a structure against itself has no
     /// interval. `noise` as in `speed`.
     pub fn ratio(pairs: &[(&Measurement, &Measurement)], noise: &AaNoise) -> Option<Estimate> {
-        let own = !pairs.is_empty() && pairs.iter().all(|(own, other)| own.label == other.label);
-        if own {
-            return Some(Estimate::exact(1.0));
-        }
-        speed(pairs.iter().copied(), noise)
+        let is_itself = !pairs.is_empty() && pairs.iter().all(|(own, other)| own.label == other.label);
+        if is_itself { Some(Estimate::exact(1.0)) } else { speed(pairs.iter().copied(), noise) }
     }
 }

@@ -134,7 +134,7 @@ fn cells(comparison: &Comparison) -> Table {
             share(unchanged)
         )
     });
-    Table::new("Change of time, cell by cell", columns, rows).noted(reproduced.into_iter().collect())
+    Table::new("Change of time, cell by cell", columns, rows).noted(reproduced)
 }
 
 fn place(cell: &Change) -> String {

@@ -16,7 +16,8 @@ pub fn findings(main: &[Replicated], hard: &[Replicated]) -> Vec<Finding> {
         |key: &str, own: &Replicated, value| Finding::number(format!("{key}-{}", slug(own.report.scene)), value);
     findings.extend(hard.iter().map(|own| number("hard", own, own.faster())));
     let difference = |own: &Replicated| Estimate::exact(own.total() as f64 - own.report.rays as f64);
-    let theirs = main.iter().filter(|own| own.report.scene != OWN);
+    // The creatures of Starters must not be copied: its rays are our own.
+    let theirs = main.iter().filter(|own| own.report.scene != "Starters");
     findings.extend(theirs.map(|own| number("rays", own, difference(own))));
     findings.extend(t_prime(main).map(|factor| Finding::number("t-prime", factor)));
     findings.extend(order(main));
@@ -37,17 +38,13 @@ fn faster(hard: &[Replicated]) -> Option<Finding> {
         () if mean.holds(1.0) => "cannot be told to be faster or slower with the SAH tree than with",
         () => "are slower with the SAH tree than with",
     };
-    let (scenes, mean_text) = (listed(&scenes), interval(mean));
-    let sentence =
-        format!("Primary rays {told} the report's tree, by this much: {scenes}; geometric mean {mean_text}.");
+    let (scenes, times) = (listed(&scenes), interval(mean));
+    let sentence = format!("Primary rays {told} the report's tree, by this much: {scenes}; geometric mean {times}.");
     Some(Finding::new("hard", sentence).of(mean))
 }
 
 /// So many rays may be decided otherwise at edges.
 const CLOSE: u64 = 2;
-
-/// Its creatures must not be copied: its rays are our own.
-const OWN: &str = "Starters";
 
 fn rays(main: &[Replicated]) -> Option<Finding> {
     let off = |own: &Replicated| own.total().abs_diff(own.report.rays);

@@ -48,9 +48,8 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     let planned = |(own, row): (&(OsString, Scene), &&Row)| {
         let (workloads, table) =
             if row.is_hard() { (WorkloadRequest::PrimaryPicture, "hard") } else { (WorkloadRequest::Picture, "main") };
-        let counted = [DEFAULT, CROWDED.1].iter().filter(|_| row.scene == CROWDED.0);
-        let whole_counts = counted.map(SweepRow::spec).collect();
-        let settings = Settings { whole_counts, ..settings.clone() };
+        let counted = if row.scene == CROWDED.0 { &[DEFAULT, CROWDED.1][..] } else { &[] };
+        let settings = Settings { whole_counts: counted.iter().map(SweepRow::spec).collect(), ..settings.clone() };
         let structures = structures(registry, row)?;
         let planned = PlannedScene::new(own, &structures, &workloads, &settings, measuring.epochs.into());
         anyhow::Ok(planned.labelled("table", table))
@@ -59,7 +58,6 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     Ok(Plan::by_epoch(STUDY.name, &planned).noting(scenes.iter().map(|(_, scene)| scene)))
 }
 
-/// The structures of a scene, in their roles.
 fn structures(registry: &Registry, row: &Row) -> anyhow::Result<Vec<StructureRequest>> {
     let first = if row.is_hard() { (REPORT_TREE, TREE) } else { (BRUTE_FORCE, BRUTE) };
     let mut roles = [first, (SAH_TREE, SAH)].map(|(spec, role)| (spec.to_owned(), role.to_owned())).to_vec();

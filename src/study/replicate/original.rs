@@ -2,7 +2,6 @@
 
 use crate::request::REPORT_TREE;
 
-/// A scene of the report's tables.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
     pub scene: &'static str,
@@ -28,7 +27,6 @@ const fn hard(scene: &'static str, triangles: usize, tree_s: f64, build_s: f64) 
     Row { scene, triangles, rays: 512 * 512, tree_s, brute_s: None, improvement: None, build_s: Some(build_s) }
 }
 
-/// The easy and normal scenes.
 pub const MAIN: [Row; 9] = [
     main("Cube", 12, 282_793, [0.522, 0.467], 0.894),
     main("Sphere", 1280, 287_756, [1.171, 33.078], 28.247),
@@ -41,7 +39,6 @@ pub const MAIN: [Row; 9] = [
     main("Starters", 4480, 776_648, [47.746, 440.416], 9.224),
 ];
 
-/// The hard scenes.
 pub const HARD: [Row; 3] = [
     hard("Dragon", 130_862, 221.1635, 2.863),
     hard("Lucy", 275_694, 372.482, 4.488),

@@ -13,7 +13,6 @@ pub const SAH: &str = "sah";
 /// The report's tree. On an easy scene it is one of the sweep, by whose role it goes there.
 pub const TREE: &str = "tree";
 
-/// A scene of the report, ours beside its own.
 pub struct Replicated<'a> {
     pub report: &'static Row,
     epochs: Vec<&'a Epoch>,
@@ -39,9 +38,6 @@ pub fn mean(hard: &[Replicated]) -> Option<Estimate> {
     Some(Rerun::of(&epoch_values(&ratios)?, noise)?.ratio())
 }
 
-/// Pixels of the report's pictures, each with one primary ray.
-const PIXELS: u64 = 512 * 512;
-
 impl Replicated<'_> {
     pub fn first(&self) -> &Epoch {
         self.epochs[0]
@@ -54,7 +50,8 @@ impl Replicated<'_> {
             asked.map(|rays| rays.all as u64).sum::<u64>()
         };
         let closest = all(Query::Closest);
-        let primary = closest.min(PIXELS);
+        // Each pixel has one primary ray.
+        let primary = closest.min(512 * 512);
         [primary, closest - primary, all(Query::Any)]
     }
 
@@ -93,8 +90,7 @@ impl Replicated<'_> {
 
     /// Whether a part of the rays was timed and stands for all.
     pub fn is_sampled(&self, role: &str) -> Option<bool> {
-        let structure = self.first().in_role(&self.role(role))?;
-        Some(structure.rays.iter().any(|rays| rays.rays < rays.all))
+        Some(self.first().in_role(&self.role(role))?.rays.iter().any(|rays| rays.rays < rays.all))
     }
 
     /// Seconds of the build, median over the epochs.

@@ -8,7 +8,7 @@ use crate::report::{Cell, Table, Value};
 pub fn tables(all: &[Replicated], main: &[Replicated], hard: &[Replicated]) -> Vec<Table> {
     let note = "~: extrapolated from a subset of the rays. improvement: brute-force / median-kd; times faster: \
                 median-kd / sah-kd; both from times of one round.";
-    let easy = table("Seconds for all rays, without construction", main, &SECONDS).noted(vec![note.into()]);
+    let easy = table("Seconds for all rays, without construction", main, &SECONDS).noted([note]);
     let hard = table("Hard scenes: seconds for the primary rays, without construction", hard, &SECONDS);
     let t_primes = table("t' = seconds / (rays x triangles)", all, &T_PRIMES);
     let all = [rays(all), easy, t_primes, settings(main), hard];
@@ -30,9 +30,9 @@ fn rays(all: &[Replicated]) -> Table {
             ("difference", &|own| difference(own).into()),
         ],
     )
-    .noted(vec![
-        "Hard scenes: primary rays only, as in the report. Starters uses our own creatures, so its rays differ.".into(),
-        "Secondary rays start at the hits of a single-precision triangle test, as in the report's program.".into(),
+    .noted([
+        "Hard scenes: primary rays only, as in the report. Starters uses our own creatures, so its rays differ.",
+        "Secondary rays start at the hits of a single-precision triangle test, as in the report's program.",
     ])
 }
 
@@ -81,18 +81,14 @@ fn settings(main: &[Replicated]) -> Table {
         table.push_column(setting.role(), main.iter().map(|own| seconds(own, &setting.role())));
         table.push_column("report", main.iter().map(|own| setting.of(own.report.scene).into()));
     }
-    table.noted(vec![
-        "Leaf limit / match threshold. The report's figures of Teapot and Torus are swapped in print and corrected \
-         here."
-            .into(),
-    ])
+    let note = "Leaf limit / match threshold. The report's figures of Teapot and Torus are swapped in print and corrected \
+                here.";
+    table.noted([note])
 }
 
-/// One row for each scene.
 pub fn data(all: &[Replicated]) -> Table {
     let mut table = rays(all).without_columns(&["difference"]);
-    let columns = SECONDS.iter().chain(&T_PRIMES);
-    columns.for_each(|(_, name, cell)| table.push_column(*name, all.iter().map(cell)));
+    SECONDS.iter().chain(&T_PRIMES).for_each(|(_, name, cell)| table.push_column(*name, all.iter().map(cell)));
     table.push_column("brute_force_build_s", all.iter().map(|own| own.build_s(BRUTE).into()));
     for (name, role) in [("tree", TREE), ("brute_force", BRUTE), ("sah", SAH)] {
         table.push_column(format!("{name}_sampled"), all.iter().map(|own| own.is_sampled(role).into()));

@@ -81,12 +81,10 @@ fn ends(growth: &Growth) -> Option<(usize, usize)> {
 pub fn blocks(growths: &[Growth]) -> Vec<Block> {
     let groups: Vec<&[Growth]> = growths.chunk_by(|a, b| a.family == b.family && a.workload == b.workload).collect();
     let Some(first) = groups.first() else { return vec![] };
-    let mut blocks = vec![Block::Text(
-        "A query that is logarithmic in the number of triangles n has a power of n near 0; a power of 1 means that \
-         twice the triangles take twice the time. Icospheres of one sphere, subdivided more finely and seen by the \
-         same camera, change only n; different meshes differ in more than their size."
-            .into(),
-    )];
+    let text = "A query that is logarithmic in the number of triangles n has a power of n near 0; a power of 1 means that \
+                twice the triangles take twice the time. Icospheres of one sphere, subdivided more finely and seen by \
+                the same camera, change only n; different meshes differ in more than their size.";
+    let mut blocks = vec![Block::Text(text.into())];
     let spheres = groups.iter().filter(|group| group[0].family == SPHERES);
     blocks.extend(spheres.clone().map(|group| Block::figure(figure(group, &TIME))));
     // Builds and memory do not know of rays.
@@ -166,7 +164,7 @@ fn exponents(family: &[Growth]) -> Option<Table> {
     let note = "Least squares on logarithms over the meshes on which the structure has more than one leaf, with 95 % \
                 intervals for a rerun on these meshes; counts and memory do not vary. +-: half of the 95 % interval \
                 of the power of time from the scatter of the meshes.";
-    family.iter().any(|growth| growth.time.is_some()).then(|| table.noted(vec![note.into()]).explained())
+    family.iter().any(|growth| growth.time.is_some()).then(|| table.noted([note]).explained())
 }
 
 fn points(family: &[Growth]) -> Table {
