@@ -73,25 +73,3 @@ impl Display for Layout {
         write!(f, "{width} x {height} pixels of {channels} with {} bits per channel", self.bits)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use image::RgbImage;
-
-    use super::*;
-
-    #[test]
-    fn layouts_tell_channels_and_depth_apart() {
-        let picture = DynamicImage::from(RgbImage::new(4, 2));
-        let said = [picture.clone(), picture.to_rgba8().into(), picture.to_luma16().into(), picture.to_rgb32f().into()];
-        assert_eq!(
-            said.map(|picture| Layout::of(&picture).to_string()),
-            [
-                "4 x 2 pixels of RGB with 8 bits per channel",
-                "4 x 2 pixels of RGBA with 8 bits per channel",
-                "4 x 2 pixels of grey with 16 bits per channel",
-                "4 x 2 pixels of RGB with 32 bits per channel",
-            ]
-        );
-    }
-}

@@ -245,8 +245,6 @@ fn draw(scene: &Scene, accel: &dyn DynAccel, view: ViewKind, size: [u32; 2], ray
 mod tests {
     use std::fs;
 
-    use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-
     use super::*;
     use crate::accel::Accel;
     use crate::brute_force::BruteForce;
@@ -288,41 +286,6 @@ mod tests {
         assert_eq!(picture("difference"), crate::golden::difference_picture(&expected, &actual).into());
         assert!(error.to_string().contains("Cube with sah-kd:leaf=1"), "{error}");
         assert_eq!(golden.update(&scene, &tree, Overwrite::Own).unwrap(), Update::Changed(**difference));
-    }
-
-    #[test]
-    fn another_size_or_camera_is_named_and_what_others_made_stays() {
-        let directory = tempfile::tempdir().unwrap();
-        let mut scene = crate::scene::Builtin::find("cube").unwrap().scene(None).unwrap();
-        scene.size = [8, 6];
-        let tree = KdTree::<Exact>::build(&scene.mesh, &KdConfig::SAH).unwrap();
-        let golden = |scene: &Scene| SceneGolden::file(directory.path(), "cube", ViewKind::Depth, scene);
-        golden(&scene).update(&scene, &tree, Overwrite::Own).unwrap();
-        let refusal = |scene: &Scene| golden(scene).expected().unwrap_err().to_string();
-
-        scene.size = [16, 6];
-        let size = refusal(&scene);
-        assert!(size.contains("8 x 6 pixels, but 16 x 6") && size.contains("--size 8x6"), "{size}");
-        scene.size = [8, 6];
-        let old = camera_note(&scene.camera);
-        scene.camera = Camera::new(glam::Vec3::new(1.0, 2.0, 5.5), glam::Vec3::ZERO, glam::Vec3::Y, 30.0).unwrap();
-        let camera = refusal(&scene);
-        assert!(camera.contains(&old) && camera.contains("--camera '1,2,5.5 0,0,0 30'"), "{camera}");
-        assert!(matches!(golden(&scene).update(&scene, &tree, Overwrite::Own).unwrap(), Update::Changed(_)));
-        golden(&scene).expected().unwrap();
-
-        // The same picture, compressed by somebody else.
-        let own = golden(&scene);
-        let picture = file::read(own.path()).unwrap();
-        let file = fs::File::create(own.path()).unwrap();
-        let theirs = PngEncoder::new_with_quality(file, CompressionType::Uncompressed, FilterType::NoFilter);
-        picture.write_with_encoder(theirs).unwrap();
-        let theirs = fs::read(own.path()).unwrap();
-        let refused = own.update(&scene, &tree, Overwrite::Own).unwrap_err().to_string();
-        assert!(refused.contains("cube.depth.golden.png") && refused.contains("--force"), "{refused}");
-        assert!(fs::read(own.path()).unwrap() == theirs);
-        own.update(&scene, &tree, Overwrite::Any).unwrap();
-        assert!(fs::read(own.path()).unwrap() != theirs);
     }
 
     #[test]

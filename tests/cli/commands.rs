@@ -45,6 +45,9 @@ fn what_is_not_known_is_refused_with_what_is() {
     refuses(&["frobnicate"], &["frobnicate"]);
     refuses_in_a_line(&["study", "foo"], &["foo", "compare", "attribution", "plan"]);
     refuses_in_a_line(&["study", "atribution", "cube"], &["did you mean attribution?"]);
+    refuses(&["study", "scaling", "--finest", "11"], &["11", "10"]);
+    refuses(&["study", "attribution", "cube", "--epochs", "0"], &["0"]);
+    refuses_in_a_line(&["compare", "icosphere:99"], &["icosphere:99", "0 to 10"]);
     refuses_in_a_line(&["diff", "no/a.json", "no/b.json"], &["no/a.json", "--export-json"]);
     refuses(&["render", "cube"], &["--output"]);
     refuses(&["render", "cube", "-o", "x.png", "--view", "pretty"], &["pretty", "shaded", "heat"]);

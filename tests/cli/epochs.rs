@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use serde_json::Value;
 use tempfile::TempDir;
 
-use super::command::{RIGHT, command, json, prints, refuses, stderr, words};
+use super::command::{RIGHT, command, json, prints, stderr, words};
 use super::journal::{answers, cases};
 
 /// A study that takes no time, in a folder.
@@ -50,18 +50,6 @@ fn a_study_goes_on_where_it_stopped_and_repeats_what_it_said() {
         prints(&[&one[..], &["--fresh"]].concat());
         assert_eq!(cases().len(), 4 * measured, "{study:?}");
     }
-}
-
-#[test]
-fn what_is_wrong_is_said_before_anything_is_measured() {
-    let folder = TempDir::new().unwrap();
-    let dir = folder.path().to_str().unwrap();
-    refuses(&["study", "scaling", "no-such-scene", "--dir", dir], &["no-such-scene"]);
-    refuses(&["study", "scaling", "--finest", "11", "--dir", dir], &["11", "10"]);
-    refuses(&["compare", "cube", "-s", "sah-kd:leef=3", "--dir", dir], &["leef"]);
-    refuses(&["study", "attribution", "cube", "--epochs", "0", "--dir", dir], &["0"]);
-    refuses(&["compare", "icosphere:99", "--dir", dir], &["icosphere:99", "0 to 10"]);
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "nothing was begun");
 }
 
 /// A study of seconds, of twelve epochs, into the folder `dir`.
