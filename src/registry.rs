@@ -197,38 +197,12 @@ fn parse<A: Accel>(config: &Value) -> Result<A::Config, String> {
 mod tests {
     use super::entry::empty;
     use super::*;
-
-    /// Panics on the empty mesh.
-    struct NeedsTriangles;
-
-    impl Accel for NeedsTriangles {
-        type Config = ();
-
-        fn build(mesh: &Arc<Mesh>, (): &()) -> Result<Self, BuildError> {
-            assert!(!mesh.is_empty(), "a tree has a root");
-            Ok(Self)
-        }
-
-        fn closest_hit<O: crate::accel::Observer>(
-            &self,
-            _: &crate::geometry::Ray,
-            _: &mut O,
-        ) -> Option<crate::geometry::Hit> {
-            None
-        }
-
-        fn footprint(&self) -> crate::accel::Footprint {
-            Default::default()
-        }
-
-        fn shape(&self) -> crate::accel::TreeShape {
-            Default::default()
-        }
-    }
+    use crate::study::measure::tests::{Flaw, Flawed, FlawedConfig};
 
     #[test]
     fn structures_that_reject_the_empty_mesh_can_be_chosen() {
-        let registry = Registry::builtin().with::<NeedsTriangles>("a", ());
+        let config = FlawedConfig { flaw: Flaw::Rootless };
+        let registry = Registry::builtin().with::<Flawed>("a", config);
         assert_eq!(registry.all().len(), registry.entries().len());
         let choice = registry.choose("a").unwrap();
         assert!(choice.build(&Arc::new(empty())).is_err() && choice.entry.absence().is_none());

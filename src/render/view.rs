@@ -151,14 +151,13 @@ pub fn identity(index: u32) -> [u8; 3] {
 #[cfg(test)]
 mod tests {
     use std::collections::HashSet;
-    use std::sync::Arc;
 
     use super::*;
-    use crate::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
-    use crate::brute_force::{BruteForce, BruteForceConfig};
-    use crate::geometry::Mesh;
+    use crate::accel::Accel;
+    use crate::brute_force::BruteForce;
     use crate::kdtree::{KdConfig, KdTree};
     use crate::scene::Builtin;
+    use crate::study::measure::tests::{Flawed, FlawedConfig};
     use crate::triangle::MollerTrumbore;
 
     #[test]
@@ -185,35 +184,12 @@ mod tests {
         assert_eq!(colours(ViewKind::Heat, &all).1, HashSet::from([colour_map::heat(13, 14)]));
     }
 
-    /// A structure that does not report its steps.
-    struct Unobserved;
-
-    impl Accel for Unobserved {
-        type Config = BruteForceConfig;
-        const OBSERVED: Observed = Observed::TESTS;
-
-        fn build(_: &Arc<Mesh>, _: &BruteForceConfig) -> Result<Self, BuildError> {
-            Ok(Self)
-        }
-
-        fn closest_hit<O: Observer>(&self, _: &Ray, _: &mut O) -> Option<Hit> {
-            None
-        }
-
-        fn footprint(&self) -> Footprint {
-            Footprint::default()
-        }
-
-        fn shape(&self) -> TreeShape {
-            TreeShape::default()
-        }
-    }
-
     #[test]
     fn heat_is_refused_where_steps_are_unknown() {
         let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
-        assert_eq!(draw(&scene, &Unobserved, ViewKind::Heat, [4, 4], 1), Err(ViewError));
-        assert!(draw(&scene, &Unobserved, ViewKind::Depth, [4, 4], 1).is_ok());
+        let unobserved = Flawed::build(&scene.mesh, &FlawedConfig::default()).unwrap();
+        assert_eq!(draw(&scene, &unobserved, ViewKind::Heat, [4, 4], 1), Err(ViewError));
+        assert!(draw(&scene, &unobserved, ViewKind::Depth, [4, 4], 1).is_ok());
     }
 
     #[test]

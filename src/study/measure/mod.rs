@@ -355,4 +355,4 @@ impl<'a> Bench<'a> {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
