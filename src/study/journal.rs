@@ -8,17 +8,15 @@
 
 mod case_file;
 mod error;
-mod lock;
 mod newest;
 
-use std::fs;
+use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
 
 use super::case::Case;
 use crate::measure::Provenance;
 pub use case_file::CaseFile;
 pub use error::JournalError;
-use lock::Lock;
 pub use newest::{datasets, newest, of_all};
 
 /// A folder of cases, and those of them that one build has measured on one machine.
@@ -30,8 +28,8 @@ pub struct Journal {
     files: Vec<CaseFile>,
     /// Number of leading `files` to ignore: with `fresh`, those present when the journal was opened; otherwise 0.
     ignored: usize,
-    /// Held while a run measures into the folder.
-    _lock: Option<Lock>,
+    /// The folder, locked while a run measures into it. The system lets go of it when the process ends, however that happens.
+    _lock: Option<File>,
 }
 
 impl Journal {
@@ -60,12 +58,14 @@ impl Journal {
     ) -> Result<Self, JournalError> {
         fs::create_dir_all(folder).map_err(|cause| JournalError::Write { path: folder.into(), cause })?;
         // Take the lock before reading the cases, so that they include everything an earlier run wrote.
-        let lock = Lock::take(folder);
+        let lock = File::open(folder).ok();
+        // Where folders cannot be locked, as on Windows and on many network file systems, nobody is kept out.
+        let is_taken = lock.as_ref().is_some_and(|own| matches!(own.try_lock(), Err(TryLockError::WouldBlock)));
         let journal = Self::open(folder, provenance, fresh)?;
         if cases.iter().all(|case| journal.get(case).is_some()) {
             return Ok(journal);
         }
-        Ok(Self { _lock: Some(lock.ok_or_else(|| JournalError::Busy(folder.into()))?), ..journal })
+        if is_taken { Err(JournalError::Busy(folder.into())) } else { Ok(Self { _lock: lock, ..journal }) }
     }
 
     /// The newest file of the case, as this build would measure it on this machine.

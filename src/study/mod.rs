@@ -17,7 +17,6 @@ mod error;
 mod join;
 pub mod journal;
 mod kendall;
-mod least_squares;
 pub mod measure;
 pub mod measurement;
 mod plan;

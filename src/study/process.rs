@@ -189,7 +189,7 @@ pub fn measure_into(
     let file = CaseFile::place(out)?;
     let prepared = Prepared::new(case, registry, None)?;
     let command = case.command.clone();
-    let provenance = Provenance { process_per_epoch: true, command, ..Provenance::of(prepared.threads()) };
+    let provenance = Provenance { process_per_epoch: true, command, ..Provenance::of(&prepared.threads) };
     // A run warns of it. Nobody reads the logs of all jobs, and a file that is there is not measured again.
     if let Some(cause) = provenance.too_many_threads().filter(|_| !screen.is_watched()) {
         return Err(StudyError::Case { key: case.key(), cause }.into());

@@ -1,13 +1,13 @@
 //! The report as one page that needs nothing else.
 
 mod scatter;
-mod style;
 mod view;
 
 use minijinja::{AutoEscape, Environment, UndefinedBehavior};
 use serde::Serialize;
 
 use crate::page::document::Document;
+use crate::report::plot::palette::{Role, hex, roles};
 
 /// The page.
 ///
@@ -18,7 +18,7 @@ pub fn page(document: &Document) -> String {
     environment.set_undefined_behavior(UndefinedBehavior::Strict);
     environment.add_template("page.html", include_str!("page.html")).expect(RENDERED);
     let template = environment.get_template("page.html").expect(RENDERED);
-    template.render(view::page(document, style::sheet())).expect(RENDERED)
+    template.render(view::page(document, sheet())).expect(RENDERED)
 }
 
 /// JSON as it may stand in a script element, which no text in it can end.
@@ -27,3 +27,26 @@ fn in_script(data: &impl Serialize) -> String {
 }
 
 const RENDERED: &str = "a test renders the template with all kinds of blocks";
+
+/// The style sheet: what the page looks like, and the colours of drawings in light and dark.
+fn sheet() -> String {
+    let light = properties(|role| hex(role.light));
+    let dark = properties(|role| hex(role.dark));
+    let mut sheet = format!(
+        ":root {{ color-scheme: light; {light} }}\n\
+         @media (prefers-color-scheme: dark) {{ :root:not([data-theme=\"light\"]) {{ color-scheme: dark; {dark} }} }}\n\
+         :root[data-theme=\"dark\"] {{ color-scheme: dark; {dark} }}\n"
+    );
+    sheet += include_str!("page.css");
+    // Drawings name the colour on white paper.
+    for role in roles() {
+        let (name, light) = (role.name, hex(role.light));
+        sheet += &format!(".chart [fill=\"{light}\"] {{ fill: var(--{name}); }}\n");
+        sheet += &format!(".chart [stroke=\"{light}\"] {{ stroke: var(--{name}); }}\n");
+    }
+    sheet + &format!("@media print {{ :root:root:root {{ color-scheme: light; {light} }} }}\n")
+}
+
+fn properties(colour: impl Fn(&Role) -> String) -> String {
+    roles().map(|role| format!("--{}: {};", role.name, colour(&role))).collect::<Vec<_>>().join(" ")
+}

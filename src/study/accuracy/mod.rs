@@ -3,7 +3,6 @@
 
 mod figure;
 mod findings;
-mod front;
 mod judged;
 mod table;
 #[cfg(test)]

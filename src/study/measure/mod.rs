@@ -8,11 +8,10 @@ mod environment;
 mod guarded;
 mod judge;
 mod pair;
-mod placed;
+mod prepared;
 mod ray_cost;
 mod rays;
 mod room;
-mod sample_failure;
 mod slowest;
 mod timed_check;
 mod timing;
@@ -21,52 +20,25 @@ use super::case::{Case, Check};
 use super::epoch::{Epoch, Rays, Shape, Structure};
 use super::{Stage, StudyError};
 use crate::accel::{BuildError, Remote};
-use crate::measure::{Clock, SamplePlan, Threads, spread};
+use crate::measure::{Clock, SamplePlan, spread};
 use crate::oracle::Oracle;
-use crate::registry::{Choice, Registry};
-use crate::scene::{Scene, Workload};
+use crate::scene::Workload;
 use built::Built;
 use check::{Checks, declined};
 use counted::{Counted, Events, count_all};
 use judge::Judge;
 use pair::Pair;
-use placed::Placed;
+use prepared::Placed;
 use rays::{drop_times_of_wrong_tree, settle, untimed};
-use sample_failure::SampleFailure;
 use slowest::slowest;
 use timed_check::TimedCheck;
-use timing::Timing;
+use timing::{SampleFailure, Timing};
 
 pub use build_watch::BuildWatch;
 pub use environment::Environment;
 pub use guarded::{PANICKED, guarded};
+pub use prepared::Prepared;
 pub use room::may_fit;
-
-/// A case with everything that it names: what a process has before it measures.
-pub struct Prepared {
-    pub scene: Scene,
-    /// In the order of the case.
-    choices: Vec<Choice>,
-    guide: Choice,
-    threads: Threads,
-}
-
-impl Prepared {
-    /// Resolves what the case names. `scene` is the scene, where it is loaded already.
-    ///
-    /// # Errors
-    /// If something is not there, or the scene is another one than was planned.
-    pub fn new(case: &Case, registry: &Registry, scene: Option<Scene>) -> anyhow::Result<Self> {
-        let scene = scene.map_or_else(|| case.scene.load(registry), Ok)?;
-        let choices = case.structures.iter().map(|own| own.choose(registry)).collect::<anyhow::Result<_>>()?;
-        let threads = Threads::pinned(case.settings.threads).map_err(StudyError::Threads)?;
-        Ok(Self { scene, choices, guide: registry.choose(&case.settings.guide)?, threads })
-    }
-
-    pub fn threads(&self) -> &Threads {
-        &self.threads
-    }
-}
 
 /// Builds all structures, checks and counts them if this is the first epoch, and takes their samples. No epoch needs
 /// another: what they must have in common is checked when they are [joined](super::join). What cannot be built, panics or
@@ -140,9 +112,7 @@ impl<'a> Bench<'a> {
     ) -> Result<Self, StudyError> {
         let Prepared { scene, choices, threads, .. } = prepared;
         room::fits(choices, scene)?;
-        let seed = case.settings.seed.wrapping_add(case.epoch as u64);
-        let skipped = case.structures.iter().map(|own| own.skipped.clone()).collect();
-        let mut placed = Placed::new(choices, skipped, scene, threads, clock, seed, case.epoch == 0, watch, progress);
+        let mut placed = Placed::new(case, prepared, clock, watch, progress);
         let mut structures: Vec<Structure> = vec![];
         let mut built: Vec<Option<Built>> = vec![];
         for ((choice, request), ready) in choices.iter().zip(&case.structures).zip(placed.built.drain(..)) {

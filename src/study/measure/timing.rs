@@ -4,7 +4,6 @@ use super::built::Built;
 use super::guarded::Guarded;
 use super::pair::Pair;
 use super::ray_cost;
-use super::sample_failure::SampleFailure;
 use crate::measure::tiles::{last_level, rays_at};
 use crate::measure::{
     Allotment, Clock, Cost, CpuClock, Failure, Pass, RemotePass, SamplePlan, Samples, Stopwatch, SubsetSamples,
@@ -15,6 +14,16 @@ use crate::scene::Workload;
 
 /// What a predicted sample may take, as a multiple of its share of the budget, before the clock gives it fewer rays.
 const SLACK: u64 = 8;
+
+/// Why the samples of a case mean nothing.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum SampleFailure {
+    /// The structure panicked, or the program that it runs in failed: a clause.
+    #[error("{0}")]
+    Ended(String),
+    #[error("it returns other hits when it traces the same rays again: the structure is not deterministic")]
+    Unsteady,
+}
 
 pub struct Timing<'a> {
     /// The structures asked for.
