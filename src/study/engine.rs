@@ -226,7 +226,7 @@ impl Engine<'_> {
         // The journal may hold other scenes as well: those asked for are shown.
         let JoinedEpochs { mut measured, unchecked, failures, .. } = self.joined(|_| true);
         self.failures.extend(failures);
-        if !stopped && !measured.is_empty() && measured.iter().all(|own| own.epoch.says_nothing()) {
+        if !stopped && !measured.is_empty() && measured.iter().all(|own| own.epoch.has_no_rays()) {
             self.failures.push(StudyError::Nothing);
             measured.clear();
         }

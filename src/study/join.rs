@@ -39,7 +39,7 @@ pub fn join(mut measured: Vec<Measured>) -> JoinedEpochs {
             out.extend(places);
             continue;
         }
-        let agree = if case.settings.whole { Epoch::is_whole } else { Epoch::is_unanimous };
+        let agree = if case.settings.whole { Epoch::check_complete } else { Epoch::check_agreement };
         let found = one(&mut own).and_then(|()| own.iter().try_for_each(agree));
         if let Err(error) = found {
             joined.failures.push(error);

@@ -45,7 +45,7 @@ impl WholeTimes<'_> {
 fn seconds(structure: &Structure, beside: &[&Structure]) -> Vec<f64> {
     let paces_of_kind = |(kind, rays): (usize, &Rays)| {
         let common = beside.iter().map(|other| other.rays[kind].rays).min().unwrap_or(rays.rays);
-        rays.paces(common).into_iter().map(|pace| pace * rays.all as f64 * 1e-9).collect::<Vec<f64>>()
+        rays.ns_per_ray(common).into_iter().map(|pace| pace * rays.all as f64 * 1e-9).collect::<Vec<f64>>()
     };
     let kinds: Vec<Vec<f64>> = structure.rays.iter().enumerate().map(paces_of_kind).collect();
     let rounds = kinds.iter().map(Vec::len).min().unwrap_or(0);

@@ -37,7 +37,7 @@ pub fn validate_remote(
         if let Some(any) = any.as_ref().map(|any| any[index])
             && any != found[index].is_some()
         {
-            let verdict = format!("any hit says {any}");
+            let verdict = format!("the any-hit query returns {any}");
             sums.worst.push(worst(index, ray, expected[index], found[index], Kind::AnyHitDisagrees, verdict));
             sums.any_hit_errors += 1;
         }

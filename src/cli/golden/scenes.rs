@@ -208,7 +208,7 @@ fn check_scene(
                 status = Status::Wrong;
             }
             let lines = comparison.said.iter().chain(&comparison.command).map(|line| format!("  {line}\n"));
-            terminal.print(&format!("{}: differs from {}\n", comparison.name, golden.named().escaped()));
+            terminal.print(&format!("{}: differs from {}\n", comparison.name, golden.display_path().escaped()));
             terminal.print(&lines.collect::<String>());
         } else {
             right.push(choice.label.as_str());

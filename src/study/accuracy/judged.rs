@@ -73,7 +73,7 @@ impl<'a> Judged<'a> {
         let rays = structure.rays.iter().find(|rays| rays.workload == kind)?;
         let errors = rays.errors.as_ref()?;
         let (error, error_bound) = (errors.error().share()?, errors.error().bound()?);
-        let ns_per_ray = median(&rays.paces(rays.rays))?;
+        let ns_per_ray = median(&rays.ns_per_ray(rays.rays))?;
         Some(Self { structure, rays, errors, ns_per_ray, error, error_bound, dominated_by: None })
     }
 

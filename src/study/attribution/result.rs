@@ -31,7 +31,7 @@ pub fn results(dataset: &Dataset) -> Vec<Attribution<'_>> {
 /// Nanoseconds a ray in every sample of a tree, on the rays that all trees are timed on.
 fn paces(epoch: &Epoch, tree: usize) -> Vec<f64> {
     let rays = &epoch.structures[tree].rays[0];
-    rays.paces(epoch.common_rays(&rays.workload))
+    rays.ns_per_ray(epoch.common_rays(&rays.workload))
 }
 
 impl<'a> Attribution<'a> {

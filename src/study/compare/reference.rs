@@ -3,7 +3,7 @@
 use crate::measure::{AaNoise, Estimate, Rerun, cut_to_shared_epochs, epoch_values, mean};
 use crate::registry::is_named;
 use crate::request::REPORT_TREE;
-use crate::study::measurement::{Measurement, is_reference};
+use crate::study::measurement::{Measurement, is_native_obvhs};
 
 /// The geometric mean of how many times faster the first of each pair is than the second, with its
 /// [interval](mod@crate::measure::interval): the mean of what tables say of each, with a spread over the epochs that all pairs
@@ -41,7 +41,7 @@ impl Reference {
         if all.iter().any(|own| own.label == REPORT_TREE) {
             found.push(Self::Structure(REPORT_TREE.into()));
         }
-        if all.iter().any(is_reference) {
+        if all.iter().any(is_native_obvhs) {
             found.push(Self::Obvhs);
         }
         if found.is_empty() {
@@ -72,7 +72,7 @@ impl Reference {
     pub fn rival<'a>(&self, all: &'a [Measurement], of: &Measurement) -> Option<&'a Measurement> {
         let is = |own: &&Measurement| match self {
             Self::Structure(label) => own.label == *label,
-            Self::Obvhs => is_reference(own),
+            Self::Obvhs => is_native_obvhs(own),
         };
         let same = all.iter().filter(|own| own.scene == of.scene && own.workload == of.workload);
         let timed = same.filter(is).filter(|own| own.mrays_per_s.is_some());

@@ -1,6 +1,6 @@
 //! Times relative to those of obvhs in the same rounds, which runs of different days and machines have in common.
 
-use super::is_reference;
+use super::has_reference_role;
 use crate::measure::{AaNoise, Variance};
 use crate::report::words::distinct;
 use crate::study::measurement::Measurement;
@@ -18,7 +18,7 @@ pub(super) fn references(pairs: &[(&Measurement, &Measurement)]) -> Vec<String> 
     let is_timed =
         |(old, new): &&(&Measurement, &Measurement)| !old.samples_ns.is_empty() && !new.samples_ns.is_empty();
     let timed = pairs.iter().filter(is_timed).map(|(old, _)| old);
-    distinct(timed.filter(|old| is_reference(old)).map(|old| &old.label))
+    distinct(timed.filter(|old| has_reference_role(old)).map(|old| &old.label))
 }
 
 /// ln(time of `own` / geometric mean of the references' times) of each round in each epoch; ln of the time itself where

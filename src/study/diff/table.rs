@@ -127,7 +127,7 @@ fn cells(comparison: &Comparison) -> Table {
     let share = |n: usize| format!("{n} of {ratios} ({}%)", figures(100.0 * n as f64 / ratios as f64));
     let reproduced = (ratios > 0).then(|| {
         format!(
-            "Ratios to the report's tree and to obvhs: {} of the old run lie within the new run's intervals, {} of the new run \
+            "Ratios to the report's tree and to the references: {} of the old run lie within the new run's intervals, {} of the new run \
              within the old run's; {} have not changed, by intervals of the change, which include the spread of both runs.",
             share(old_in_new),
             share(new_in_old),

@@ -78,7 +78,8 @@ fn another_reference_can_be_named() {
 
 #[test]
 fn without_references_times_count_as_they_are() {
-    let without = |slow: f64| run(slow, 1.0).into_iter().filter(|r| !measurement::is_reference(r)).collect::<Vec<_>>();
+    let without =
+        |slow: f64| run(slow, 1.0).into_iter().filter(|r| !measurement::is_native_obvhs(r)).collect::<Vec<_>>();
     let comparison = compare(&without(1.0), &without(1.5), None, 1);
     assert!(comparison.references.is_empty());
     assert!((change_of(&comparison, "sah-kd").time.unwrap().estimate - 1.5).abs() < 1e-9);
@@ -122,14 +123,14 @@ fn answers_that_changed_are_wrong() {
     assert_eq!(wrong.len(), 1);
     assert_eq!(
         (&wrong[0].case[..], &wrong[0].what[..]),
-        ("sah-kd on the primary rays of Cube", "3 of 100 rays have a wrong hit, 0 of 100 had")
+        ("sah-kd on the primary rays of Cube", "3 of 100 rays have a wrong hit, in the old run 0 of 100")
     );
     assert!(with(&|r| r.hits = 19)[0].what.contains("19 of 1000 rays hit, 20 did"));
-    assert!(with(&|r| r.answers = Some(0))[0].what.contains("another t"));
+    assert!(with(&|r| r.hit_checksum = Some(0))[0].what.contains("another t"));
     // Other rays have other answers, be they timed or counted, and an unknown answer is none.
     assert!(with(&|r| (r.counted_rays, r.hits) = (500, 9)).is_empty());
-    assert!(with(&|r| (r.rays, r.answers) = (250, Some(0))).is_empty());
-    assert!(with(&|r| r.answers = None).is_empty());
+    assert!(with(&|r| (r.rays, r.hit_checksum) = (250, Some(0))).is_empty());
+    assert!(with(&|r| r.hit_checksum = None).is_empty());
 }
 
 #[test]
@@ -152,7 +153,7 @@ fn a_structure_is_compared_with_itself_whatever_its_keys_and_its_test() {
     for own in new.iter_mut().filter(|own| own.label == "sah-kd") {
         own.label = "sah-kd:leaf=4,test=moller-trumbore".into();
         own.config = serde_json::json!({ "leaf": 4, "threshold": 0.7 });
-        (own.triangle_test, own.hits, own.answers) = ("other".into(), 19, Some(7));
+        (own.triangle_test, own.hits, own.hit_checksum) = ("other".into(), 19, Some(7));
     }
     let (a, b) = (side(old.clone()), side(new.clone()));
     assert_eq!(unlike(&a, &b, true), Ok(()));

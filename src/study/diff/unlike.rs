@@ -1,7 +1,7 @@
 //! Runs that cannot be compared.
 
 use super::keys::{differences, other_keys};
-use super::{Side, case, is_reference, pairs};
+use super::{Side, cell_title, has_reference_role, pairs};
 use crate::measure::Provenance;
 use crate::report::number::{count, duration};
 use crate::report::words::each_once;
@@ -39,9 +39,10 @@ fn differ(what: &str, old: &str, new: &str, advice: &'static str) -> Result<(), 
 /// case in common; or, of a gate, no structure of obvhs.
 pub fn unlike(old: &Side, new: &Side, gate: bool) -> Result<(), Unlike> {
     let pairs = pairs(&old.all, &new.all);
-    let has_unit = pairs.iter().any(|(old, new)| is_reference(old) && old.trace_ns.is_some() && new.trace_ns.is_some());
+    let has_unit =
+        pairs.iter().any(|(old, new)| has_reference_role(old) && old.trace_ns.is_some() && new.trace_ns.is_some());
     if pairs.is_empty() {
-        let whose = |side: &Side| side.all.first().map_or("nothing".into(), case);
+        let whose = |side: &Side| side.all.first().map_or("nothing".into(), cell_title);
         let (old, new) = (whose(old), whose(new));
         return Err(Unlike { what: "the first case".into(), old, new, advice: SAME_INPUT });
     }
@@ -57,13 +58,15 @@ pub fn unlike(old: &Side, new: &Side, gate: bool) -> Result<(), Unlike> {
         differ("the version of obvhs, the reference,", &a.obvhs, &b.obvhs, SAME_BUILD)?;
     }
     for (before, after) in &pairs {
-        let name = |what: &str| format!("{what} of {}", case(before));
+        let name = |what: &str| format!("{what} of {}", cell_title(before));
         let scene = format!("the hash of the scene {}", before.scene);
         differ(&scene, &before.scene_hash, &after.scene_hash, SAME_INPUT)?;
         let rays = format!("the hash of the {} rays of {}", before.workload, before.scene);
         differ(&rays, &before.workload_hash, &after.workload_hash, SAME_INPUT)?;
         differ(&name("the query"), before.query.name(), after.query.name(), SAME_INPUT)?;
-        if let Some((key, a, b)) = other_keys(&before.config, &after.config).first().filter(|_| is_reference(before)) {
+        if let Some((key, a, b)) =
+            other_keys(&before.config, &after.config).first().filter(|_| has_reference_role(before))
+        {
             differ(&format!("the key {key} of {}", before.label), a, b, SAME_MACHINE)?;
         }
         if gate && before.trace_ns.is_some() && after.trace_ns.is_some() {
@@ -73,7 +76,7 @@ pub fn unlike(old: &Side, new: &Side, gate: bool) -> Result<(), Unlike> {
     }
     if gate && !has_unit {
         let timed = |side: &Side| {
-            let timed = side.all.iter().filter(|own| is_reference(own) && own.trace_ns.is_some());
+            let timed = side.all.iter().filter(|own| has_reference_role(own) && own.trace_ns.is_some());
             let labels = each_once(timed.map(|own| own.label.as_str()));
             if labels.is_empty() { "missing".to_owned() } else { labels.join(" and ") }
         };

@@ -29,7 +29,7 @@ use counted::{Counted, Events, count_all};
 use judge::Judge;
 use pair::Pair;
 use prepared::Placed;
-use rays::{drop_times_of_wrong_tree, settle, untimed};
+use rays::{drop_times_of_wrong_tree, new_record, record_check};
 use slowest::slowest;
 use timed_check::TimedCheck;
 use timing::{SampleFailure, Timing};
@@ -152,7 +152,7 @@ impl<'a> Bench<'a> {
         let hashes: Vec<String> = workloads.iter().map(Workload::hash).collect();
         for (structure, built) in structures.iter_mut().zip(&built) {
             let Some(built) = built else { continue };
-            let rays = |(workload, hash): (&Workload, &String)| untimed(built, workload, hash);
+            let rays = |(workload, hash): (&Workload, &String)| new_record(built, workload, hash);
             structure.rays = workloads.iter().zip(&hashes).map(rays).collect();
         }
         Ok(Self { case, prepared, workloads, structures, built, checksums: vec![], _placed: placed })
@@ -177,7 +177,7 @@ impl<'a> Bench<'a> {
                 continue;
             };
             for (rays, check) in structure.rays.iter_mut().zip(checks) {
-                settle(rays, check, &self.case.scene.word, built);
+                record_check(rays, check, &self.case.scene.word, built);
             }
         }
         Ok(())
@@ -197,7 +197,7 @@ impl<'a> Bench<'a> {
                 checks.check(built, &pair, timed, checksum).map_err(StudyError::of_build("sah-bvh", &scene.name))?;
             let failure = built.accel.remote().and_then(Remote::failure);
             match check.filter(|_| failure.is_none()) {
-                Some(check) => settle(&mut structure.rays[pair.workload], check, &self.case.scene.word, built),
+                Some(check) => record_check(&mut structure.rays[pair.workload], check, &self.case.scene.word, built),
                 None => structure.refused = Some(failure.unwrap_or_else(|| PANICKED.into())),
             }
         }

@@ -20,7 +20,7 @@ fn runs_that_differ_in_more_than_their_code_are_unlike() {
     assert_eq!(with(&|side| side.provenance.threads = 2), Ok(()), "the heading names it");
     let refusals: [(&str, &Edit); 11] = [
         ("the reference is obvhs-bvh2 and obvhs-cwbvh in the old run and missing in the new", &|side| {
-            side.all.iter_mut().filter(|own| is_reference(own)).for_each(|own| own.trace_ns = None);
+            side.all.iter_mut().filter(|own| has_reference_role(own)).for_each(|own| own.trace_ns = None);
         }),
         ("the key threshold of obvhs-bvh2", &|side| {
             side.all[2].config = serde_json::json!({ "leaf": 8, "threshold": 0.8 });
@@ -103,7 +103,7 @@ fn on_two_machines_ratios_to_obvhs_are_compared_and_nothing_else() {
     assert!(refused(&|side| side.all[0].workload_hash = "ff".into()).contains("the primary rays of Cube"));
     assert!(refused(&|side| side.provenance.obvhs = "0.5.0".into()).contains("the version of obvhs"));
     let untimed = refused(&|side| {
-        side.all.iter_mut().filter(|own| is_reference(own)).for_each(|own| own.trace_ns = None);
+        side.all.iter_mut().filter(|own| has_reference_role(own)).for_each(|own| own.trace_ns = None);
     });
     assert!(untimed.contains("the processor is") && untimed.contains("ratios to an obvhs structure"), "{untimed}");
 }
