@@ -1,4 +1,4 @@
-//! What was measured, kind of rays by kind of rays.
+//! The measurements, by workload.
 
 use crate::measure::median;
 use crate::report::words::each_once;
@@ -7,32 +7,31 @@ use crate::study::epoch::{Rays, Structure};
 use crate::study::{Case, Dataset, Epoch};
 use crate::validate::ErrorCounts;
 
-/// All structures with a time on the rays of one kind of one scene.
+/// All structures with a time on one workload of one scene.
 pub struct JudgedRays<'a> {
     pub case: &'a Case,
     pub epoch: &'a Epoch,
-    /// The kind of the rays.
+    /// The name of the workload.
     pub kind: &'a str,
     pub structures: Vec<Judged<'a>>,
 }
 
-/// One structure over one triangle test on the rays of one kind: how wrong, and how fast.
+/// One structure over one triangle test on one workload: its errors and its speed.
 pub struct Judged<'a> {
     pub structure: &'a Structure,
     pub rays: &'a Rays,
     pub errors: &'a ErrorCounts,
-    /// Median of the samples, nanoseconds.
+    /// Median of the samples, ns.
     pub ns_per_ray: f64,
-    /// Share of the rays with a wrong answer: missed, false hit or wrong depth.
+    /// Share of the rays with a wrong hit: missed, false hit or wrong depth.
     pub error: f64,
-    /// What the true share is below, with 95 % confidence.
+    /// Upper bound of the true share, with 95 % confidence.
     pub error_bound: f64,
-    /// The label of a structure on the front that is at most as slow and at most as wrong; nothing for the front
-    /// itself.
+    /// The label of a structure on the front that is at most as slow and at most as wrong; `None` on the front.
     pub dominated_by: Option<&'a str>,
 }
 
-/// Scene by scene and kind by kind.
+/// By scene and workload.
 pub fn judged(dataset: &Dataset) -> Vec<JudgedRays<'_>> {
     let mut all = vec![];
     for scene in dataset.scenes() {
@@ -40,8 +39,7 @@ pub fn judged(dataset: &Dataset) -> Vec<JudgedRays<'_>> {
         let kinds = each_once(epoch.structures.iter().flat_map(|own| &own.rays).map(|rays| rays.workload.as_str()));
         for kind in kinds {
             let mut structures: Vec<Judged> = epoch.structures.iter().filter_map(|own| Judged::of(own, kind)).collect();
-            // What is not proven is not credited: an error that was seen once may be less than one that was not seen in
-            // fewer rays.
+            // Only proven accuracy counts: an error seen once in many rays may be rarer than one not seen in few rays.
             let points: Vec<(f64, f64)> = structures.iter().map(|own| (own.ns_per_ray, own.error_bound)).collect();
             let labels: Vec<&str> = structures.iter().map(|own| own.structure.label.as_str()).collect();
             for (own, dominator) in structures.iter_mut().zip(dominators(&points)) {
@@ -56,19 +54,19 @@ pub fn judged(dataset: &Dataset) -> Vec<JudgedRays<'_>> {
 }
 
 impl JudgedRays<'_> {
-    /// What the rays are, in a few words.
+    /// A short description of the rays.
     pub fn description(&self) -> &'static str {
         self.kind.parse().map_or("rays of a file", RayKind::description)
     }
 
-    /// The most that `of` says of a structure.
+    /// The maximum of `of` over the structures.
     pub fn most(&self, of: fn(&Judged) -> u64) -> u64 {
         self.structures.iter().map(of).max().unwrap_or(0)
     }
 }
 
 impl<'a> Judged<'a> {
-    /// Nothing where the structure has no time.
+    /// `None` if the structure has no time.
     fn of(structure: &'a Structure, kind: &str) -> Option<Self> {
         let rays = structure.rays.iter().find(|rays| rays.workload == kind)?;
         let errors = rays.errors.as_ref()?;
@@ -77,14 +75,14 @@ impl<'a> Judged<'a> {
         Some(Self { structure, rays, errors, ns_per_ray, error, error_bound, dominated_by: None })
     }
 
-    /// Whether a part of the rays is judged.
+    /// Whether only a subset of the rays is judged.
     pub fn is_sampled(&self) -> bool {
         self.errors.rays < self.rays.all as u64
     }
 }
 
 /// For each point (cost, error), the point of the front that dominates it: at most as costly and at most as wrong, and
-/// better in one of the two; of several, the cheapest. Nothing for the points of the front.
+/// better in one of the two; the cheapest, if there are several. `None` for the points of the front.
 ///
 /// # References
 /// Kung, Luccio, Preparata: On finding the maxima of a set of vectors. J. ACM 22, 1975.

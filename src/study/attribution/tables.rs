@@ -46,7 +46,7 @@ fn figure(results: &[&Attribution]) -> Figure {
     }
 }
 
-/// One row for each scene: the answer.
+/// One row per scene: the answer to the question.
 fn headlines(results: &[&Attribution]) -> Table {
     let table = Table::of(
         "Speedup of the SAH tree and its factors",
@@ -68,7 +68,7 @@ fn headlines(results: &[&Attribution]) -> Table {
     table.noted(vec![note.into(), noise]).explained()
 }
 
-/// One row for each tree of each scene.
+/// One row per tree of each scene.
 pub fn trees(results: &[Attribution]) -> Table {
     let is_sampled = |r: &Attribution| r.epochs[0].common_rays(&r.first().workload) < r.first().workload_rays;
     let of_scene = |r| Treatment::all().map(move |cell| (r, cell));

@@ -11,7 +11,7 @@ pub fn tables(comparison: &Comparison) -> Vec<Table> {
     [structures(comparison), cells(comparison)].map(Table::explained).into()
 }
 
-/// What may change the reading of the tables: other hits, machines or settings, and times without a reference.
+/// Conditions that affect the reading of the tables: other hits, machines or settings, and times without a reference.
 pub fn cautions(comparison: &Comparison) -> Vec<String> {
     let mut cautions: Vec<String> =
         comparison.wrong.iter().map(|wrong| format!("Wrong: {}: {}.", wrong.case, wrong.what)).collect();
@@ -21,7 +21,7 @@ pub fn cautions(comparison: &Comparison) -> Vec<String> {
         cautions.push(sentence.into());
     }
     cautions.extend(comparison.machines.as_ref().map(|[old, new]| {
-        // The lanes stand in brackets.
+        // The SIMD level stands in parentheses.
         let cpu = |machine: &String| machine.rsplit_once(" (").map(|(cpu, _)| cpu.to_owned());
         let two = if cpu(old) == cpu(new) { "Two instruction sets" } else { "Two machines" };
         format!("{two}, {old} and {new}: they may cause a change, not the code.")
@@ -32,7 +32,7 @@ pub fn cautions(comparison: &Comparison) -> Vec<String> {
     cautions
 }
 
-/// What a gate says of each structure, in a sentence: whether it is right, and how its time has changed.
+/// One sentence of a gate per structure: whether it is right, and how its time has changed.
 pub fn sentences(comparison: &Comparison) -> Vec<String> {
     let Some(threshold) = comparison.threshold_percent.map(figures) else { return vec![] };
     let sentence = |change: &Change| {

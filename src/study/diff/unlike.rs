@@ -8,7 +8,7 @@ use crate::report::words::each_once;
 use crate::request::is_obvhs;
 use crate::study::{Case, Dataset};
 
-/// Why two runs cannot be compared: what differs, in the old run and in the new.
+/// The reason why two runs cannot be compared: a value that differs.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the runs are not comparable: {what} is {old} in the old run and {new} in the new: {advice}")]
 pub struct Unlike {
@@ -31,12 +31,12 @@ fn differ(what: &str, old: &str, new: &str, advice: &'static str) -> Result<(), 
     if old == new { Ok(()) } else { Err(Unlike { what: what.into(), old: old.into(), new: new.into(), advice }) }
 }
 
-/// Refuses runs that differ in more than their code and moment, their settings, the keys and tests of structures, and
-/// their machine where no `gate` is asked for and both time the same structure of obvhs.
+/// Rejects runs that differ in more than their code and date, their settings, the keys and triangle tests of
+/// structures, and, without `gate` and if both time the same obvhs structure, their machine.
 ///
 /// # Errors
-/// The first difference: of machine, instructions, profile, compiler flags, references, scene or rays; that they have no
-/// case in common; or, of a gate, no structure of obvhs.
+/// The first difference: in machine, instructions, profile, compiler flags, references, scene or rays; no common cell;
+/// or, for a gate, no obvhs structure.
 pub fn unlike(old: &Side, new: &Side, gate: bool) -> Result<(), Unlike> {
     let pairs = pairs(&old.all, &new.all);
     let has_unit =
@@ -80,7 +80,7 @@ pub fn unlike(old: &Side, new: &Side, gate: bool) -> Result<(), Unlike> {
             let labels = each_once(timed.map(|own| own.label.as_str()));
             if labels.is_empty() { "missing".to_owned() } else { labels.join(" and ") }
         };
-        // What both have is timed on other scenes or rays.
+        // The common cells are timed on other scenes or rays.
         let (old, new) = (timed(old), timed(new));
         return Err(Unlike { what: "the reference".into(), old, new, advice: YARDSTICK });
     }
@@ -94,10 +94,10 @@ fn other_machine(old: &Provenance, new: &Provenance, advice: &'static str) -> Re
     differ("the set of target features", &old.target_features, &new.target_features, SAME_BUILD)
 }
 
-/// Refuses cases that are about to be measured on `here` and that a gate could not compare with those of the run `old`.
+/// Rejects cases that are about to be measured on `here` and that a gate could not compare with the run `old`.
 ///
 /// # Errors
-/// The first difference: of machine, instructions or compiler flags; of a scene, its rays or how many of them are timed.
+/// The first difference: in machine, instructions or compiler flags; in a scene, its rays or the number of timed rays.
 pub fn unlike_plan(old: &Dataset, cases: &[Case], here: &Provenance) -> Result<(), Unlike> {
     other_machine(&old.provenance, here, SAME_MACHINE)?;
     differ("the version of obvhs, the reference,", &old.provenance.obvhs, &here.obvhs, SAME_BUILD)?;
@@ -122,7 +122,7 @@ pub fn unlike_plan(old: &Dataset, cases: &[Case], here: &Provenance) -> Result<(
     Ok(())
 }
 
-/// Settings that differ, such as threads, as `threads 1 and 2`.
+/// Settings that differ, such as `threads 1 and 2`.
 pub fn settings(old: &Case, new: &Case) -> Vec<String> {
     let all = differences(&old.group(), &new.group());
     all.into_iter().map(|(name, old, new)| format!("{name} {old} and {new}")).collect()

@@ -40,13 +40,12 @@ pub use guarded::{PANICKED, guarded};
 pub use prepared::Prepared;
 pub use room::may_fit;
 
-/// Builds all structures, checks and counts them if this is the first epoch, and takes their samples. No epoch needs
-/// another: what they must have in common is checked when they are [joined](super::join). What cannot be built, panics or
-/// answers the same rays differently is refused, what answers wrongly gets no time; the others go on. `watch` is told
-/// what is being built.
+/// Builds all structures, checks and counts them if this is epoch 0, and takes their samples. No epoch needs another:
+/// [`join`](super::join) checks what they must have in common. A structure that cannot be built, panics or changes its
+/// hits is refused; a structure with wrong hits gets no time; all others continue. `watch` observes the builds.
 ///
 /// # Errors
-/// If the structures do not fit into memory, or the guide cannot be built.
+/// If the structures do not fit into memory, or the reference structure for secondary rays cannot be built.
 pub fn measure(
     case: &Case,
     prepared: &Prepared,
@@ -86,16 +85,16 @@ pub fn measure(
     })
 }
 
-/// Everything that is timed in an epoch.
+/// Everything that an epoch times.
 struct Bench<'a> {
     case: &'a Case,
     prepared: &'a Prepared,
     workloads: Vec<Workload>,
-    /// All structures of the case, and what is known of them.
+    /// All structures of the case, with their results so far.
     structures: Vec<Structure>,
-    /// Each of them, if it could be built.
+    /// The built structures, in the same order; `None` if a build failed.
     built: Vec<Option<Built>>,
-    /// Of the hits on the rays that were timed in this epoch.
+    /// Checksums of the hits on the timed rays of this epoch.
     checksums: Vec<(Pair, u64)>,
     /// Keeps the memory placement of the structures alive.
     _placed: Placed,
@@ -136,7 +135,7 @@ impl<'a> Bench<'a> {
             built.push(ready.ok());
         }
 
-        // Rays that start on a surface start where the guide finds it.
+        // Secondary rays start at the hits of the guide.
         let own;
         let guide = match built.iter().flatten().find(|built| built.choice.label == prepared.guide.label) {
             Some(built) => built.accel.as_ref(),
@@ -183,7 +182,7 @@ impl<'a> Bench<'a> {
         Ok(())
     }
 
-    /// Checks all answers that were timed; those with wrong hits lose their times.
+    /// Checks the hits on all timed rays; structures with wrong hits lose their times.
     fn check_timed(&mut self, tests: usize, progress: &mut dyn FnMut(Stage)) -> Result<(), StudyError> {
         let Prepared { scene, .. } = self.prepared;
         let mut checks = TimedCheck::new(scene, &self.workloads, self.case.epochs, tests);
@@ -205,7 +204,7 @@ impl<'a> Bench<'a> {
     }
 
     /// Counts the errors of all structures against the exact oracle. A structure that declines some of the rays is
-    /// refused: its rate would be of other rays.
+    /// refused: its error rate would cover other rays.
     fn judge(&mut self, progress: &mut dyn FnMut(Stage)) {
         progress(Stage::Rays("exact results for all".into()));
         let oracle = Oracle::new(&self.prepared.scene.mesh);
@@ -236,8 +235,8 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// Takes all samples. The number of rays and runs depends on all requested pairs, including failed and wrong
-    /// ones, so that an epoch with a failed program, or without checks, uses the same numbers.
+    /// Takes all samples. The number of rays and runs depends on all requested pairs, including failed and wrong ones.
+    /// So an epoch with a failed program, or without checks, uses the same numbers.
     fn sample(&mut self, clock: &dyn Clock, progress: &mut dyn FnMut(Stage)) -> Environment {
         let settings = &self.case.settings;
         let plan = SamplePlan {

@@ -1,4 +1,4 @@
-//! What an epoch needs before it is measured, and its structures.
+//! Prepares an epoch before it is measured, and builds its structures.
 
 use super::BuildWatch;
 use super::built::Built;
@@ -7,7 +7,7 @@ use crate::registry::{Choice, Registry};
 use crate::scene::Scene;
 use crate::study::{Case, Stage, StudyError};
 
-/// A case with everything that it names: what a process has before it measures.
+/// A case with everything that it names, loaded before the measuring.
 pub struct Prepared {
     pub scene: Scene,
     /// In the order of the case.
@@ -17,10 +17,10 @@ pub struct Prepared {
 }
 
 impl Prepared {
-    /// Resolves what the case names. `scene` is the scene, where it is loaded already.
+    /// Resolves the names in the case. `scene` is the scene, if it is already loaded.
     ///
     /// # Errors
-    /// If something is not there, or the scene is another one than was planned.
+    /// If something does not exist, or the scene has changed since the plan.
     pub fn new(case: &Case, registry: &Registry, scene: Option<Scene>) -> anyhow::Result<Self> {
         let scene = scene.map_or_else(|| case.scene.load(registry), Ok)?;
         let choices = case.structures.iter().map(|own| own.choose(registry)).collect::<anyhow::Result<_>>()?;
@@ -29,17 +29,17 @@ impl Prepared {
     }
 }
 
-/// Structures built in an order, and between blocks of memory, that are this epoch's own: where a structure happens to lie can change
-/// its speed by some percent, and only samples from several places say by how much.
+/// Structures built in a random order, and between random blocks of memory, in each epoch. The address of a structure
+/// can change its speed by some percent, and only samples at several addresses show the size of this effect.
 pub struct Placed {
-    /// One for each choice, in their order, or why it is refused.
+    /// One per choice, in the same order, or the reason why it is refused.
     pub built: Vec<Result<Built, String>>,
-    /// Kept as long as the structures.
+    /// Lives as long as the structures.
     _blocks: Vec<Vec<u8>>,
 }
 
 impl Placed {
-    /// Builds every structure of the case that is not skipped; the first epoch counts the bytes that builds hold.
+    /// Builds every structure of the case that is not skipped; epoch 0 also counts the peak memory of builds.
     pub fn new(
         case: &Case,
         prepared: &Prepared,
@@ -53,7 +53,7 @@ impl Placed {
         let mut blocks = vec![];
         for i in random.shuffled(choices.len()) {
             progress(Stage::Build((&choices[i].label).into()));
-            // Small blocks move what follows on the heap, large ones move mapped pages.
+            // Small blocks shift later blocks on the heap, large ones shift mapped pages.
             blocks.push(vec![0; 16 * (1 + random.below(1 << 12))]);
             blocks.push(vec![0; (256 << 10) + 4096 * random.below(64)]);
             let build = if case.epoch == 0 { Built::counted } else { Built::new };

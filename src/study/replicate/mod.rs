@@ -1,7 +1,7 @@
-//! `replicate`: the source report's tables measured again, and the claim it ends with put to the test.
+//! `replicate`: measures the source report's tables again, and tests its conclusion.
 //!
-//! The report times all rays of a picture, construction left out, on a machine of its own: seconds can be compared with
-//! its seconds only in their ratios. `t'` is seconds / (rays x triangles).
+//! The report times all rays of a picture, without construction, on its own machine: only ratios of seconds can be
+//! compared with it. `t'` is seconds / (rays x triangles).
 
 mod findings;
 mod original;
@@ -32,11 +32,11 @@ pub const STUDY: Study = Study {
     report,
 };
 
-// Claims are judged by these numbers, all of them together: few epochs leave what is sure to luck.
+// These numbers decide all claims together: with few epochs a significant result would depend on luck.
 type Options = Measuring<8, 3, 5>;
 
-/// Tells where secondary rays start: over a triangle test in single precision, as the report's program has one. The
-/// exact test decides edges otherwise, and with them a few rays.
+/// The structure whose hits are the origins of secondary rays. Its triangle test is in single precision like that of
+/// the report's program. The exact test decides edges differently, which changes a few rays.
 const GUIDE: &str = "sah-kd:test=moller-trumbore";
 
 fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {

@@ -36,13 +36,13 @@ fn rays(all: &[Replicated]) -> Table {
     ])
 }
 
-/// Seconds with the structure in this role, marked where a part of the rays stands for all.
+/// Seconds with the structure in this role, marked if only a subset of the rays was timed.
 fn seconds(own: &Replicated, role: &str) -> Cell {
     let seconds = own.seconds(role).map(|seconds| seconds.estimate);
     Cell::from(seconds).sampled(own.is_sampled(role) == Some(true))
 }
 
-/// Ours beside the report's: above the column, its name in tables for programs, and what it says of a scene.
+/// A column beside the report's: its heading, its name in CSV tables, and its cell for a scene.
 type ReplicatedColumn = (&'static str, &'static str, fn(&Replicated) -> Cell);
 
 const SECONDS: [ReplicatedColumn; 12] = [
@@ -68,7 +68,7 @@ const T_PRIMES: [ReplicatedColumn; 5] = [
     ("sah-kd", "sah_t_prime", |own| own.t_prime(SAH).into()),
 ];
 
-/// What no scene of these has is left out.
+/// A column that is empty for all of these scenes is left out.
 fn table(title: &str, scenes: &[Replicated], columns: &[ReplicatedColumn]) -> Table {
     let mut table = Table::of(title, scenes, &[("scene", &|own| own.first().title().into())]);
     columns.iter().for_each(|(name, _, cell)| table.push_column(*name, scenes.iter().map(cell)));

@@ -1,47 +1,47 @@
-//! Powers of the number of triangles, fitted to what was measured.
+//! Powers of the number of triangles, fitted to the measurements.
 
 use crate::measure::{self, AaNoise, Estimate, Rerun, Variance, factor};
 use crate::report::words::each_once;
 use crate::study::Dataset;
 use crate::study::measurement::{Measurement, build_noise, measurements, of_scene, trace_noise};
 
-/// Labels of a case: what its mesh belongs to, and the level of an icosphere.
+/// Labels of a case: the family of its mesh, and the level of an icosphere.
 pub const FAMILY: &str = "family";
 pub const LEVEL: &str = "level";
 
-/// One sphere, divided more and more finely.
+/// One sphere at several subdivision levels.
 pub const SPHERES: &str = "icospheres";
 
 /// Different meshes.
 pub const MESHES: &str = "meshes";
 
-/// Triangles of the icosphere of level 8.
+/// The number of triangles of the icosphere of level 8.
 pub const LEVEL_8: usize = 20 << 16;
 
-/// How one structure grows on one family and one workload.
+/// The growth of one structure on one family and one workload.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Growth {
     pub family: &'static str,
-    /// As chosen.
+    /// The name, with the keys that differ from their defaults.
     pub label: String,
     pub workload: String,
-    /// From the fewest triangles to the most.
+    /// By number of triangles.
     pub points: Vec<Point>,
-    /// Time a ray grows like this power of the number of triangles. Nothing with fewer than three meshes of more than
-    /// one leaf.
+    /// The exponent with which time per ray grows with the number of triangles. `None` with fewer than three meshes of
+    /// more than one leaf.
     pub time: Option<Estimate>,
-    /// Likewise over the meshes of at most [`LEVEL_8`] triangles: what a claim about these is judged by.
+    /// The same exponent over the meshes of at most [`LEVEL_8`] triangles, which the claims are about.
     pub time_to_level_8: Option<Estimate>,
-    /// Half of the 95 % interval that this power would have by the scatter of the meshes about it alone, were they
-    /// drawn from a family at random.
+    /// Half the width of the 95 % interval of the exponent if it came only from the scatter of the meshes, as if they
+    /// were drawn from a family at random.
     pub scatter: Option<f64>,
-    /// Likewise the build.
+    /// The exponent of the build time.
     pub build: Option<Estimate>,
-    /// Likewise memory.
+    /// The exponent of the memory.
     pub bytes: Option<Estimate>,
-    /// Likewise triangle tests a ray, which no machine changes.
+    /// The exponent of triangle tests per ray, which are the same on every machine.
     pub tests: Option<Estimate>,
-    /// Likewise nodes and leaves entered.
+    /// The exponent of nodes and leaves entered per ray.
     pub steps: Option<Estimate>,
 }
 
@@ -54,7 +54,7 @@ pub struct Point {
 }
 
 impl Point {
-    /// Nothing where there is no time.
+    /// `None` without a time.
     fn new(measurement: Measurement) -> Option<Self> {
         let mean = |logs: Vec<f64>| libm::exp(logs.iter().sum::<f64>() / logs.len() as f64);
         let (ns_per_ray, build_ns) = (mean(measurement.log_paces()?), mean(measurement.log_builds()));
@@ -65,7 +65,7 @@ impl Point {
         self.measurement.triangles
     }
 
-    /// Whether it takes part in the fit: the structure has more than one leaf.
+    /// Whether it is part of the fit: the structure has more than one leaf.
     pub fn is_fitted(&self) -> bool {
         self.measurement.shape.leaves > 1
     }
@@ -75,8 +75,8 @@ impl Point {
     }
 }
 
-/// The growth of every structure. The intervals hold what another run finds of these meshes; how well a power describes
-/// them is told by their scatter about it.
+/// The growth of every structure. The intervals predict another run on these meshes; the scatter describes how well a
+/// power fits them.
 pub fn growths(dataset: &Dataset) -> Vec<Growth> {
     let all = measurements(dataset);
     let noise = Noise { trace: trace_noise(&all), build: build_noise(&all) };
@@ -105,14 +105,14 @@ struct Noise {
     build: AaNoise,
 }
 
-/// That of the points of one structure and one workload, from the fewest triangles to the most.
+/// The growth over the points of one structure and one workload, ordered by number of triangles.
 fn growth(family: &'static str, points: Vec<Point>, noise: &Noise) -> Growth {
     let fitted: Vec<&Point> = points.iter().filter(|point| point.is_fitted()).collect();
     let coarser: Vec<&Point> = fitted.iter().copied().filter(|point| point.triangles() <= LEVEL_8).collect();
     let measured = |points: &[&Point], logs: fn(&Measurement) -> Option<Vec<f64>>, noise: &AaNoise| {
         power(points, &logs, |weights| noise.weighted(weights)).map(|rerun| rerun.plain())
     };
-    // Counts and bytes do not vary.
+    // Counts and bytes have no variance.
     let counted = |value: fn(&Measurement) -> Option<f64>| {
         let log = |own: &Measurement| value(own).filter(|&x| x > 0.0).map(|x| vec![libm::log(x)]);
         power(&fitted, &log, |_| Variance::NONE).map(|rerun| Estimate::exact(rerun.plain().estimate))
@@ -134,9 +134,9 @@ fn growth(family: &'static str, points: Vec<Point>, noise: &Noise) -> Growth {
     }
 }
 
-/// The slope of `value`, logarithms of each epoch, over the logarithm of the number of triangles; `noise` is what the
-/// A/A noise adds to a sum of them with these weights. Nothing where it is not known of every mesh, or of fewer than
-/// three.
+/// The slope of `value`, which are logarithms by epoch, over the logarithm of the number of triangles. `noise` is the
+/// variance that the A/A noise adds to a sum with these weights. `None` if a value is unknown, or with fewer than three
+/// meshes.
 fn power(
     points: &[&Point],
     value: &dyn Fn(&Measurement) -> Option<Vec<f64>>,
@@ -145,21 +145,21 @@ fn power(
     let values: Vec<Vec<f64>> = points.iter().map(|point| value(&point.measurement)).collect::<Option<_>>()?;
     let places: Vec<f64> = points.iter().map(|point| libm::log(point.triangles() as f64)).collect();
     let weights = slope_weights(&places).filter(|weights| weights.len() > 2)?;
-    // Meshes are measured in the same epochs; of one that has more of them those that all have count.
+    // Meshes share their first epochs; ignore further epochs of some meshes.
     let epochs = values.iter().map(Vec::len).min()?;
     let slope = |e: usize| weights.iter().zip(&values).map(|(weight, logs)| weight * logs[e]).sum();
     Rerun::of(&(0..epochs).map(slope).collect::<Vec<f64>>(), noise(&weights))
 }
 
-/// The weights of which the slope over `x` is the sum with heights. Nothing if the places do not differ.
+/// The weights for which the slope over `x` is the weighted sum of the heights. `None` if all `x` are equal.
 fn slope_weights(x: &[f64]) -> Option<Vec<f64>> {
     let mean = x.iter().sum::<f64>() / x.len() as f64;
     let squares: f64 = x.iter().map(|x| (x - mean) * (x - mean)).sum();
     (squares > 0.0).then(|| x.iter().map(|x| (x - mean) / squares).collect())
 }
 
-/// Half of the 95 % interval of the slope if points scatter about the line independently and alike (Student's t with n
-/// - 2 degrees of freedom). Nothing of fewer than three points.
+/// Half the width of the 95 % interval of the slope if points scatter about the line independently and identically
+/// (Student's t with n - 2 degrees of freedom). `None` with fewer than three points.
 fn scatter(points: &[(f64, f64)]) -> Option<f64> {
     let freedom = points.len().checked_sub(2).filter(|&freedom| freedom > 0)? as f64;
     let (x, y): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();

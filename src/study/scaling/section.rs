@@ -42,7 +42,7 @@ const MEMORY: Quantity = Quantity {
     power: |growth| growth.bytes,
 };
 
-/// How the time of a primary ray grows on the spheres with the report's tree and with the SAH tree.
+/// The growth of the time of a primary ray on the spheres, with the report's tree and with the SAH tree.
 pub fn findings(growths: &[Growth]) -> Vec<Finding> {
     let of = |label: &str| {
         let primary = WorkloadKind::Primary.name();
@@ -62,7 +62,7 @@ pub fn findings(growths: &[Growth]) -> Vec<Finding> {
     let first = both.iter().find_map(|(_, growth)| growth.as_ref()?.time);
     let mut findings: Vec<Finding> =
         first.map(|power| Finding::new("spheres", sentence).of(power)).into_iter().collect();
-    // Claims are about spheres up to level 8: coarser ones alone judge none.
+    // The claims are about spheres up to level 8: coarser spheres cannot decide them.
     let claimed = both.iter().filter_map(|(key, growth)| {
         let growth = growth.filter(|growth| growth.points.iter().any(|point| point.triangles() >= LEVEL_8))?;
         Some(Finding::number(*key, growth.time_to_level_8?))
@@ -71,7 +71,7 @@ pub fn findings(growths: &[Growth]) -> Vec<Finding> {
     findings
 }
 
-/// The fewest and the most triangles of the meshes of the fit.
+/// The smallest and the largest number of triangles in the fit.
 fn ends(growth: &Growth) -> Option<(usize, usize)> {
     let mut fitted = growth.points.iter().filter(|point| point.is_fitted()).map(Point::triangles);
     let first = fitted.next()?;
@@ -87,7 +87,7 @@ pub fn blocks(growths: &[Growth]) -> Vec<Block> {
     let mut blocks = vec![Block::Text(text.into())];
     let spheres = groups.iter().filter(|group| group[0].family == SPHERES);
     blocks.extend(spheres.clone().map(|group| Block::figure(figure(group, &TIME))));
-    // Builds and memory do not know of rays.
+    // Builds and memory do not depend on rays.
     let quantities = if first[0].family == MESHES { &[][..] } else { &[BUILD, MEMORY] };
     blocks.extend(quantities.iter().map(|quantity| Block::figure(figure(first, quantity))));
     let families: Vec<&[Growth]> = growths.chunk_by(|a, b| a.family == b.family).collect();
@@ -138,7 +138,7 @@ fn all_points(growths: &[Growth]) -> impl Iterator<Item = (&Growth, &Point)> {
     growths.iter().flat_map(|growth| growth.points.iter().map(move |point| (growth, point)))
 }
 
-/// Nothing of fewer meshes than a power takes.
+/// `None` with too few meshes for a power.
 fn exponents(family: &[Growth]) -> Option<Table> {
     let power = |x: Option<Estimate>| Cell::from(x.map(|x| Cell::estimate(x, Format::Decimals(2))));
     let over = |growth: &Growth| {
@@ -189,7 +189,7 @@ fn points(family: &[Growth]) -> Table {
     )
 }
 
-/// One row for each structure on each mesh and workload.
+/// One row per structure on each mesh and workload.
 pub fn data(growths: &[Growth]) -> Table {
     let mut table = Table::of(
         "",
