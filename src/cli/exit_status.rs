@@ -47,7 +47,7 @@ pub(super) fn of(found: anyhow::Result<Status>) -> ExitCode {
 
 /// A result that could not be written is told, and is a failure unless there is a verdict that says more.
 fn ended(status: u8) -> ExitCode {
-    let Some(cause) = output::failure() else { return ExitCode::from(status) };
+    let Some(cause) = output::FAILURE.get() else { return ExitCode::from(status) };
     output::tell_error(format_args!("cannot write to standard output: {cause}"));
     ExitCode::from(status.max(1))
 }

@@ -39,9 +39,10 @@ fn not_used() -> Vec<String> {
     phrases.filter(is_plain).collect()
 }
 
-/// The help of a command and of all commands below it.
+/// The helps, long and short, of a command and of all commands below it, on a screen of 80 columns.
 fn helps(command: &mut clap::Command, into: &mut Vec<String>) {
-    into.push(command.render_long_help().to_string());
+    let mut narrow = command.clone().term_width(80);
+    into.extend([narrow.render_long_help(), narrow.render_help()].map(|help| help.to_string()));
     command.get_subcommands_mut().filter(|own| own.get_name() != "help").for_each(|own| helps(own, into));
 }
 
@@ -137,11 +138,14 @@ fn phrases_and_literals_are_found() {
 }
 
 #[test]
-fn help_and_messages_have_no_phrase_that_the_glossary_replaces() {
+fn help_fits_a_screen_and_it_and_messages_have_no_phrase_that_the_glossary_replaces() {
     let phrases = not_used();
     let mut helps_of_all = vec![];
     helps(&mut super::command(&Studies::builtin()), &mut helps_of_all);
-    assert!(helps_of_all.len() > 20, "{} commands", helps_of_all.len());
+    assert!(helps_of_all.len() > 40, "{} helps", helps_of_all.len());
+    let too_long: Vec<&str> =
+        helps_of_all.iter().flat_map(|help| help.lines()).filter(|line| line.chars().count() > 80).collect();
+    assert!(too_long.is_empty(), "{too_long:#?}");
     let mut used: Vec<String> = helps_of_all.iter().flat_map(|help| found(&phrases, help)).collect();
 
     let mut files = vec![];

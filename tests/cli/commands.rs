@@ -163,41 +163,6 @@ fn compare_has_a_short_help_and_a_whole_one_in_groups() {
 }
 
 #[test]
-fn no_line_of_help_is_longer_than_a_screen() {
-    for line in [
-        "compare -h",
-        "compare --help",
-        "validate -h",
-        "validate --help",
-        "replicate --help",
-        "diff --help",
-        "study --help",
-        "study all --help",
-        "study plan --help",
-        "study accuracy --help",
-        "study scaling --help",
-        "study attribution --help",
-        "rays --help",
-        "rays record --help",
-        "rays import --help",
-        "rays show --help",
-        "rays corpus --help",
-        "report --help",
-        "fetch --help",
-        "render --help",
-        "golden --help",
-        "golden check --help",
-        "golden update --help",
-        "golden compare --help",
-        "list --help",
-        "completions --help",
-    ] {
-        let lines = help(line);
-        assert!(lines.iter().all(|line| line.chars().count() <= 80), "{line}: {lines:#?}");
-    }
-}
-
-#[test]
 fn old_names_are_answered_with_the_new_ones() {
     for (old, new) in [
         ("bench", ["bench was removed", "--fail-on-regression"]),

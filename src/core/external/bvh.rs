@@ -17,10 +17,10 @@ use nalgebra::{Point3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::leaves::{Leaves, Start};
-use crate::accel::{Accel, BuildError, Footprint, Observed, Observer, TreeShape};
+use crate::accel::{Accel, BuildError, Footprint, Observed, Observer, Part, TreeShape};
 use crate::external::lanes;
 use crate::external::prepared::{Prepare, prepared_queries};
-use crate::geometry::{Hit, Mesh, Ray};
+use crate::geometry::{self, Hit, Mesh, Ray};
 use crate::simd::Lanes;
 use crate::triangle::TriangleTest;
 use crate::triangle::decided_at_once::decided_at_once;
@@ -195,39 +195,22 @@ impl<T: TriangleTest> Accel for SvenstaroBvh<T> {
     }
 
     fn shape(&self) -> TreeShape {
-        let mut shape = TreeShape { references: self.shapes.len(), ..TreeShape::default() };
-        let half_area = |bounds: &Aabb<f32, 3>| f64::from(bounds.surface_area()) / 2.0;
-        let (mut cost, mut root_area) = (0.0, 0.0);
+        let bounds = |own: &Aabb<f32, 3>| {
+            geometry::Aabb::of_points([own.min, own.max].map(|corner| Vec3::from(<[f32; 3]>::from(corner))))
+        };
         // Nodes hold the boxes of their children; that of the root is the hull of its two.
-        let mut stack = vec![];
-        match self.tree.nodes.first() {
-            None => return TreeShape { leaves: 1, empty: 1, ..shape },
-            Some(BvhNode::Leaf { shape_index, .. }) => stack.push((0, 0, half_area(&self.shapes[*shape_index].bounds))),
-            Some(BvhNode::Node { child_l_aabb, child_r_aabb, .. }) => {
-                stack.push((0, 0, half_area(&child_l_aabb.join(child_r_aabb))));
+        let root = match self.tree.nodes.first() {
+            None => geometry::Aabb::EMPTY,
+            Some(BvhNode::Leaf { shape_index, .. }) => bounds(&self.shapes[*shape_index].bounds),
+            Some(BvhNode::Node { child_l_aabb, child_r_aabb, .. }) => bounds(&child_l_aabb.join(child_r_aabb)),
+        };
+        TreeShape::of(Some((0, root)), |at: usize, _| match self.tree.nodes.get(at) {
+            None => Part::Leaf(0),
+            Some(BvhNode::Leaf { .. }) => Part::Leaf(1),
+            Some(BvhNode::Node { child_l_index, child_l_aabb, child_r_index, child_r_aabb, .. }) => {
+                Part::Inner(vec![(*child_l_index, bounds(child_l_aabb)), (*child_r_index, bounds(child_r_aabb))])
             }
-        }
-        while let Some((at, depth, area)) = stack.pop() {
-            if at == 0 {
-                root_area = area;
-            }
-            match &self.tree.nodes[at] {
-                BvhNode::Leaf { .. } => {
-                    shape.leaves += 1;
-                    shape.largest_leaf = 1;
-                    shape.depth = shape.depth.max(depth);
-                    cost += area * TreeShape::leaf_cost(1);
-                }
-                BvhNode::Node { child_l_index, child_l_aabb, child_r_index, child_r_aabb, .. } => {
-                    shape.inner += 1;
-                    cost += area * TreeShape::INNER_COST;
-                    stack.push((*child_l_index, depth + 1, half_area(child_l_aabb)));
-                    stack.push((*child_r_index, depth + 1, half_area(child_r_aabb)));
-                }
-            }
-        }
-        shape.sah_cost = (root_area > 0.0).then(|| cost / root_area);
-        shape
+        })
     }
 }
 
