@@ -1,10 +1,10 @@
-//! Files and folders written whole or not at all; standard output, whose reader may go away.
+//! Files and folders written whole or not at all, and standard output, whose reader may close it.
 //!
-//! Contents are first written beside their place under a temporary name and then moved there: a reader never sees half
-//! of them, and what was there before stays when something fails.
+//! Contents are first written to a temporary name beside their place and then moved there: a reader never sees half of
+//! them, and the old contents stay after a failure.
 //!
-//! A reader of standard output that has gone away, as `head` does, has what it wanted: a run goes on without it to its
-//! verdict. Anything else that keeps a result from standard output is told at the end, and leaves the verdict as it is.
+//! A closed standard output, as after `head`, is not an error: the run continues to its verdict. Any other failure of
+//! standard output is reported at the end, and does not change the verdict.
 
 use std::collections::HashSet;
 use std::fmt::Display;
@@ -18,13 +18,13 @@ use tempfile::{Builder, NamedTempFile, TempDir};
 
 use crate::escaped::Escaped as _;
 
-/// The file name that stands for standard output.
+/// The file name for standard output.
 pub const STDOUT: &str = "-";
 
 /// The file that marks a folder as written by sahara: it lists the folder's files.
 const MARK: &str = "sahara-files.json";
 
-/// Why a file or a folder cannot be written.
+/// The reason why a file or a folder cannot be written.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
     #[error("cannot write {}: {problem}", path.escaped())]
@@ -38,25 +38,25 @@ impl OutputError {
         Self::Place { path: path.into(), problem: problem.into() }
     }
 
-    /// A failed write of `path`. Of an error of tempfile, which names a temporary path, the kind is kept.
+    /// A failed write of `path`. Only the kind of an error of tempfile is kept, because its text names a temporary
+    /// path.
     fn write(path: &Path, error: io::Error) -> Self {
         let cause = if error.get_ref().is_some() { error.kind().into() } else { error };
         Self::Write { path: path.into(), cause }
     }
 }
 
-/// A file that results will go to, or standard output where it is called [`STDOUT`]. What is not a regular file (a
-/// pipe, `/dev/stdout`) is written to directly.
+/// A file for results, or standard output if its name is [`STDOUT`]. Special files (a pipe, `/dev/stdout`) are written
+/// directly.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OutputFile {
     pub path: PathBuf,
-    /// The regular file. Standard output, pipes and terminals have none: they can be read from and written to more than
-    /// once.
+    /// The regular file. `None` for standard output, pipes and terminals: they can be read and written more than once.
     regular: Option<PathBuf>,
 }
 
 impl OutputFile {
-    /// Checks that `path` can be written now, before the long run whose results it is for; leaves nothing behind.
+    /// Checks that `path` can be written now, before the long run with the results; leaves no file behind.
     pub fn check(path: &Path) -> Result<Self, OutputError> {
         let regular = match fs::metadata(path) {
             _ if path == Path::new(STDOUT) => {
@@ -75,7 +75,7 @@ impl OutputFile {
         Ok(Self { path: path.into(), regular })
     }
 
-    /// The same file, if it is none of `inputs`, the files that its contents are made from, by whatever path.
+    /// The same file, if it is not one of `inputs`, under any path.
     pub fn apart_from<'a>(self, inputs: impl IntoIterator<Item = &'a Path>) -> Result<Self, OutputError> {
         let is_own = |input: &Path| self.regular.is_some() && input.canonicalize().ok() == self.regular;
         match inputs.into_iter().any(is_own) {
@@ -84,7 +84,7 @@ impl OutputFile {
         }
     }
 
-    /// Rejects two results for one place, by whatever paths.
+    /// Rejects two results with the same place, under any paths.
     pub fn are_apart<'a>(files: impl IntoIterator<Item = &'a Self>) -> Result<(), OutputError> {
         let mut places = HashSet::new();
         let mut files = files.into_iter().filter(|file| file.regular.is_some() || file.path == Path::new(STDOUT));
@@ -93,8 +93,8 @@ impl OutputFile {
         })
     }
 
-    /// Standard output never fails here: what it has not got is told when the command ends, and a reader that has gone
-    /// is no error. After any other failed write an older file is as it was.
+    /// Standard output never fails here: missing output is reported when the command ends, and a closed one is not an
+    /// error. After any other failure an older file is unchanged.
     pub fn write(&self, bytes: &[u8]) -> Result<(), OutputError> {
         let write = || {
             match &self.regular {
@@ -107,21 +107,21 @@ impl OutputFile {
         write().map_err(|cause| OutputError::write(&self.path, cause))
     }
 
-    /// Writes a file that does not exist yet; false if it does. Of several writers, also on machines that share a file
-    /// system, one wins for good. When this returns the file is on the disk; a failed write leaves none.
+    /// Writes a file that does not exist yet; returns false if it exists. Of several writers, also on machines that
+    /// share a file system, one wins permanently. On return the file is on the disk; a failed write leaves no file.
     pub fn write_new(&self, bytes: &[u8]) -> Result<bool, OutputError> {
         let Some(regular) = &self.regular else { return Ok(false) };
         match written(regular, bytes).and_then(|file| Ok(file.persist_noclobber(regular)?)) {
             Err(cause) if cause.kind() == io::ErrorKind::AlreadyExists => return Ok(false),
             written => drop(written.map_err(|cause| OutputError::write(&self.path, cause))?),
         }
-        // Puts the name on the disk as well as the contents, on systems that can.
+        // Also put the name on the disk, on systems that can.
         let _ = fs::File::open(folder_of(regular)).and_then(|folder| folder.sync_all());
         Ok(true)
     }
 }
 
-/// A new file beside `path` with contents that are on the disk.
+/// A new file beside `path` whose contents are on the disk.
 fn written(path: &Path, bytes: &[u8]) -> io::Result<NamedTempFile> {
     let mut file = temporary_file(path)?;
     file.write_all(bytes)?;
@@ -129,7 +129,7 @@ fn written(path: &Path, bytes: &[u8]) -> io::Result<NamedTempFile> {
     Ok(file)
 }
 
-/// A folder that results will go to; all its contents are sahara's.
+/// A folder for results; all its contents are written by sahara.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OutputFolder {
     pub path: PathBuf,
@@ -137,8 +137,8 @@ pub struct OutputFolder {
 }
 
 impl OutputFolder {
-    /// Checks that `path` may be written: it does not exist, is empty or holds only what was written there before.
-    /// Leaves nothing behind.
+    /// Checks that `path` may be written: it does not exist, is empty or contains only earlier output. Leaves no file
+    /// behind.
     pub fn check(path: &Path) -> Result<Self, OutputError> {
         if path.exists() && !path.is_dir() {
             return Err(OutputError::place(path, "it is a file: name a folder that does not exist yet"));
@@ -156,7 +156,7 @@ impl OutputFolder {
         Ok(folder)
     }
 
-    /// The same folder, if none of `inputs`, the files that its contents are made from, is in it, by whatever path.
+    /// The same folder, if it contains none of `inputs`, under any path.
     pub fn apart_from<'a>(self, inputs: impl IntoIterator<Item = &'a Path>) -> Result<Self, OutputError> {
         let is_inside = |input: &&Path| input.canonicalize().is_ok_and(|input| input.starts_with(&self.resolved));
         let Some(input) = inputs.into_iter().find(is_inside) else { return Ok(self) };
@@ -164,8 +164,8 @@ impl OutputFolder {
         Err(OutputError::place(&self.path, problem))
     }
 
-    /// Writes files, given by their paths in the folder with `/`, in place of what was there, which stays as it was if
-    /// that fails.
+    /// Writes files, given by their paths in the folder with `/`. They replace the old contents, which stay unchanged
+    /// after a failure.
     pub fn write(&self, files: &[(String, Vec<u8>)]) -> Result<(), OutputError> {
         self.write_in(|folder| {
             files.iter().try_for_each(|(name, bytes)| {
@@ -176,8 +176,8 @@ impl OutputFolder {
         })
     }
 
-    /// As [`write`](Self::write), of files that `fill` writes one by one into the folder that it is given: they may be more
-    /// than memory takes.
+    /// Like [`write`](Self::write), for files that `fill` writes one by one into the given folder: they may be larger
+    /// than memory.
     pub fn write_in<T>(&self, fill: impl FnOnce(&Path) -> io::Result<T>) -> Result<T, OutputError> {
         let replace = || {
             let new = temporary_folder(&self.resolved)?;
@@ -186,14 +186,14 @@ impl OutputFolder {
             names.push(MARK.into());
             fs::write(new.path().join(MARK), serde_json::to_vec_pretty(&names).expect("names are text"))?;
 
-            // Move the old folder aside, and back if the new one cannot take its place.
+            // Move the old folder aside, and back if the new one cannot replace it.
             let aside = temporary_folder(&self.resolved)?;
             let old = aside.path().join("old");
             if self.resolved.exists() {
                 fs::rename(&self.resolved, &old)?;
             }
             fs::rename(new.path(), &self.resolved).inspect_err(|_| drop(fs::rename(&old, &self.resolved)))?;
-            // It has moved: nothing is left to remove.
+            // It has moved: nothing remains to be removed.
             let _ = new.keep();
             Ok(filled)
         };
@@ -201,7 +201,7 @@ impl OutputFolder {
     }
 }
 
-/// All files below `folder` by their paths in it, with `/`, and the folders that are empty.
+/// All files below `folder` by their paths in it, with `/`, and the empty folders.
 fn names_below(folder: &Path, prefix: &str) -> io::Result<Vec<String>> {
     let mut names = vec![];
     for entry in fs::read_dir(folder)? {
@@ -214,7 +214,7 @@ fn names_below(folder: &Path, prefix: &str) -> io::Result<Vec<String>> {
     Ok(names)
 }
 
-/// The one path of what is at `path` or will be there, with links followed.
+/// The unique path of an existing or future file, with links followed.
 fn resolved(path: &Path) -> io::Result<PathBuf> {
     path.canonicalize().or_else(|missing| {
         let (Some(folder), Some(name)) = (path.parent(), path.file_name()) else { return Err(missing) };
@@ -222,7 +222,7 @@ fn resolved(path: &Path) -> io::Result<PathBuf> {
     })
 }
 
-/// The folder of a path that is [`resolved`].
+/// The folder of a [`resolved`] path.
 fn folder_of(path: &Path) -> &Path {
     path.parent().unwrap_or(path)
 }
@@ -232,12 +232,12 @@ pub(crate) fn temporary_file(path: &Path) -> io::Result<NamedTempFile> {
     temporary(0o666).tempfile_in(folder_of(path))
 }
 
-/// As [`temporary_file`], a folder.
+/// Like [`temporary_file`], for a folder.
 fn temporary_folder(path: &Path) -> io::Result<TempDir> {
     temporary(0o777).tempdir_in(folder_of(path))
 }
 
-/// Makes temporary files and folders; on Unix with the permissions `mode`, less what the process's umask takes.
+/// Creates temporary files and folders; on Unix with the permissions `mode`, minus the process's umask.
 fn temporary(#[cfg_attr(not(unix), expect(unused_variables))] mode: u32) -> Builder<'static, 'static> {
     let mut builder = Builder::new();
     builder.prefix(".sahara-");
@@ -246,18 +246,18 @@ fn temporary(#[cfg_attr(not(unix), expect(unused_variables))] mode: u32) -> Buil
     builder
 }
 
-/// Whether a result goes to standard output: then nothing else may.
+/// Whether a result is written to standard output: then messages must not be.
 static TO_STDOUT: AtomicBool = AtomicBool::new(false);
 
-/// Why standard output has not got all that was written: not set if it has, or its reader has gone away.
+/// The reason why standard output is incomplete; unset if it is complete or was closed.
 pub(crate) static FAILURE: OnceLock<io::Error> = OnceLock::new();
 
-/// Whether a result was requested as [`STDOUT`]: messages for people go to standard error then.
+/// Whether a result was requested as [`STDOUT`]: messages for people then go to standard error.
 pub fn stdout_is_taken() -> bool {
     TO_STDOUT.load(Ordering::Relaxed)
 }
 
-/// Writes to standard output; [`FAILURE`] tells whether that failed.
+/// Writes to standard output; [`FAILURE`] records a failure.
 pub(crate) fn print(bytes: &[u8]) {
     let mut out = io::stdout().lock();
     note(out.write_all(bytes).and_then(|()| out.flush()));
@@ -269,7 +269,7 @@ pub(crate) fn note(written: io::Result<()>) {
     }
 }
 
-/// A reader that has gone away is no error.
+/// A closed output is not an error.
 fn unless_gone(written: io::Result<()>) -> io::Result<()> {
     match written {
         Err(cause) if cause.kind() == io::ErrorKind::BrokenPipe => Ok(()),
@@ -277,12 +277,12 @@ fn unless_gone(written: io::Result<()>) -> io::Result<()> {
     }
 }
 
-/// Writes to standard error what went wrong, in one line whatever the files hold that it is about.
+/// Writes an error to standard error, in one line even if names of files contain line breaks.
 pub(crate) fn tell_error(error: impl Display) {
     tell(format_args!("error: {}", error.to_string().escaped()));
 }
 
-/// Writes a line to standard error; a reader that has gone away, or a full disk, ends no run.
+/// Writes a line to standard error; a closed one, or a full disk, does not end a run.
 pub(crate) fn tell(line: impl Display) {
     let _ = writeln!(io::stderr(), "{line}");
 }

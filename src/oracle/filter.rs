@@ -29,10 +29,10 @@ use crate::geometry::Ray;
 /// 16 u.
 const BOUND: f64 = 16.0 / (1u64 << 53) as f64;
 
-/// 8 u, relative: more than four roundings can do.
+/// 8 u, relative: more than the error of four roundings.
 const OUTWARD: f64 = 8.0 / (1u64 << 53) as f64;
 
-/// What the filter proves about a ray and a triangle.
+/// The filter's proof about a ray and a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Proof {
     Missed,
@@ -141,7 +141,7 @@ mod tests {
     use crate::exact;
     use crate::oracle::tests::Numbers;
 
-    /// Checks the proof of the filter against exact sums; returns whether there is a hit, or none if the filter is
+    /// Checks the proof of the filter against exact sums; returns whether there is a hit, or `None` if the filter is
     /// undecided.
     fn is_confirmed(ray: &Ray, corners: [Vec3; 3]) -> Option<bool> {
         let truth = exact::hit(ray, corners);
@@ -198,7 +198,7 @@ mod tests {
     fn a_span_that_is_narrow_is_rounded() {
         assert_eq!(Span::outward(0.1, 0.1).rounded(), Some(0.1));
         assert_eq!(Span::outward(-0.0, 0.0).rounded().map(f32::to_bits), Some(0));
-        // Half way between two floats.
+        // Halfway between two floats.
         let half = 1.0 + f64::from(f32::EPSILON) * 0.5;
         assert_eq!(Span::outward(half, half).rounded(), None);
         assert_eq!(Span::outward(1e39, 1e40).rounded(), Some(f32::INFINITY));

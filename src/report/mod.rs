@@ -1,5 +1,5 @@
-//! What a study says of what was measured: [`Report`], plain data, and its renderers for a terminal, Markdown and CSV.
-//! The page is the fourth.
+//! The result of a study: [`Report`], plain data, and its renderers for a terminal, Markdown and CSV. The page is the
+//! fourth renderer.
 
 mod cell;
 pub mod csv;

@@ -1,4 +1,4 @@
-//! A program of another language, compared with the reference.
+//! Compares a program in any language with the reference.
 
 use std::sync::Arc;
 
@@ -8,11 +8,11 @@ use crate::accel::DynAccel;
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::measure::spread;
 
-/// Rays that are traced once more in another batch.
+/// Rays that are traced again in another batch.
 const AGAIN: usize = 256;
 
-/// As [`validate_known`](super::validate_known), of a structure that takes long to receive a ray: each query runs once for
-/// all rays, and once more for some of them.
+/// Like [`validate_known`](super::validate_known), for a structure that takes long to receive a ray: each query runs
+/// once for all rays, and once more for some of them.
 pub fn validate_remote(
     subject: &dyn DynAccel,
     reference: &Reference,

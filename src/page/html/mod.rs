@@ -1,4 +1,4 @@
-//! The report as one page that needs nothing else.
+//! The report as a single self-contained page.
 
 mod scatter;
 mod view;
@@ -11,7 +11,7 @@ use crate::report::plot::palette::{Role, hex, roles};
 
 /// The page.
 ///
-/// Everything that is text is escaped; drawings, style and script are our own.
+/// All text is escaped; drawings, style and script are from this program.
 pub fn page(document: &Document) -> String {
     let mut environment = Environment::new();
     environment.set_auto_escape_callback(|_| AutoEscape::Html);
@@ -21,14 +21,14 @@ pub fn page(document: &Document) -> String {
     template.render(view::page(document, sheet())).expect(RENDERED)
 }
 
-/// JSON as it may stand in a script element, which no text in it can end.
+/// JSON for a script element: no text in it can end the element.
 fn in_script(data: &impl Serialize) -> String {
     serde_json::to_string(data).expect("data have text keys").replace('<', "\\u003c")
 }
 
 const RENDERED: &str = "a test renders the template with all kinds of blocks";
 
-/// The style sheet: what the page looks like, and the colours of drawings in light and dark.
+/// The style sheet: the layout of the page, and the colours of drawings in light and dark mode.
 fn sheet() -> String {
     let light = properties(|role| hex(role.light));
     let dark = properties(|role| hex(role.dark));
@@ -38,7 +38,7 @@ fn sheet() -> String {
          :root[data-theme=\"dark\"] {{ color-scheme: dark; {dark} }}\n"
     );
     sheet += include_str!("page.css");
-    // Drawings name the colour on white paper.
+    // Drawings contain the colours on white paper.
     for role in roles() {
         let (name, light) = (role.name, hex(role.light));
         sheet += &format!(".chart [fill=\"{light}\"] {{ fill: var(--{name}); }}\n");
