@@ -187,16 +187,23 @@ const PALE: &str = include_str!("pale.js");
 /// What is wider than the window, and columns of ratios that are not seen without scrolling.
 const WIDE: &str = include_str!("wide.js");
 
-#[test]
-fn the_page_is_read_in_light_and_dark_on_a_desk_and_on_a_telephone() {
+/// Opens a page on a desk and on a telephone, in light and dark: it can be read, and is as it ought to be.
+fn is_read_everywhere(page: impl Fn() -> PathBuf, look: impl Fn(&mut Chromium)) {
     let Some(mut browser) = Chromium::launch() else { return };
     for (width, dark) in [(1400, false), (1400, true), (400, false), (400, true)] {
-        browser.open(&report(), width, dark);
+        browser.open(&page(), width, dark);
+        look(&mut browser);
         let paper = browser.text("getComputedStyle(document.documentElement).backgroundColor");
         assert_eq!(paper == "rgb(255, 255, 255)", !dark, "{paper}");
         assert_eq!(browser.evaluate(PALE), json!([]), "{width}, dark: {dark}");
         assert_eq!(browser.evaluate(WIDE), json!([]), "{width}, dark: {dark}");
-        assert!(browser.evaluate("document.querySelectorAll('.table th').length").as_u64() > Some(10));
     }
     assert_eq!(browser.complaints(), Vec::<String>::new());
+}
+
+#[test]
+fn the_page_is_read_in_light_and_dark_on_a_desk_and_on_a_telephone() {
+    is_read_everywhere(report, |browser| {
+        assert!(browser.evaluate("document.querySelectorAll('.table th').length").as_u64() > Some(10));
+    });
 }

@@ -112,14 +112,8 @@ fn pictures_of_another_layout_and_what_cannot_be_compared_are_told() {
     folders.add("deep.png", DynamicImage::from(picture()).to_rgb16());
     folders.add("small.png", RgbImage::new(4, 4));
     for (other, words) in [("rgba", "RGBA with 8"), ("deep", "RGB with 16"), ("small", "4 x 4 pixels")] {
-        let output = sahara(&[
-            "golden",
-            "compare",
-            &folders.path("a.png"),
-            &folders.path(&format!("{other}.png")),
-            "--max-difference",
-            "255",
-        ]);
+        let paths = [folders.path("a.png"), folders.path(&format!("{other}.png"))];
+        let output = sahara(&["golden", "compare", &paths[0], &paths[1], "--max-difference", "255"]);
         assert_eq!(output.status.code(), Some(WRONG));
         assert!(stdout(&output).contains("40 x 30 pixels of RGB with 8 bits") && stdout(&output).contains(words));
     }

@@ -8,7 +8,7 @@ use std::process::Command;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use super::command::{RIGHT, WRONG, path_text, prints, refuses_in_a_line, sahara, stderr, stdout, write};
+use super::command::{RIGHT, WRONG, path_text, prints, refuses_in_a_line, sahara, stderr, stdout, words, write};
 
 const EXAMPLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/runner/brute_force.cpp");
 
@@ -129,21 +129,8 @@ fn a_clock_that_disagrees_with_ours_is_told_and_what_it_declines_is_not_asked() 
     {
         let import = ["rays", "import", &text, "-o", &rays, "--scene", "cube"];
         prints(&import.into_iter().chain(any).collect::<Vec<_>>());
-        let runner = format!("{program} {how}");
-        let args = [
-            "compare",
-            "--rays",
-            &rays,
-            "-s",
-            "sah-kd",
-            "--epochs",
-            "2",
-            "--runs",
-            "2",
-            "--verbose",
-            "--runner",
-            &runner,
-        ];
+        let own = ["--rays", &rays, "--runner", &format!("{program} {how}")];
+        let args = [&words("compare -s sah-kd --epochs 2 --runs 2 --verbose")[..], &own].concat();
         let (status, text, records) = records(&folder, &args);
         assert_eq!((status, records.len()), (Some(RIGHT), 2), "{text}");
         assert!(text.contains(&format!("nothing.sh {how} (own clock)")) && text.contains(part), "{text}");
