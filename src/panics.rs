@@ -14,7 +14,7 @@ thread_local! {
 /// The number of running calls of [`caught`].
 static CATCHING: AtomicUsize = AtomicUsize::new(0);
 
-/// Messages that have neither been printed nor belong to a caught panic so far.
+/// Messages of panics that are neither printed nor caught so far.
 static HELD_BACK: Mutex<Vec<String>> = Mutex::new(vec![]);
 
 fn held_back() -> MutexGuard<'static, Vec<String>> {

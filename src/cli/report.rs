@@ -79,12 +79,12 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
     Ok(Status::Right)
 }
 
-/// Where the paper goes, with what is beside it.
+/// The folder of the paper, with the README beside it.
 struct ResultsFolder {
     figures: OutputFolder,
     paper: OutputFile,
     data: OutputFile,
-    /// With its text.
+    /// README with its text.
     readme: Option<(OutputFile, String)>,
 }
 
@@ -106,7 +106,7 @@ impl ResultsFolder {
         })
     }
 
-    /// Writes README last: its numbers are those of the data.
+    /// Writes README last: its numbers come from the data.
     fn write(&self, mut results: Results, studies: &Studies) -> anyhow::Result<()> {
         let filled = self.readme.as_ref().map(|(_, text)| results.fill(text, studies)).transpose()?;
         self.figures.write(&results.figures)?;

@@ -1,4 +1,4 @@
-//! `rays`: files of rays, so that others replay exactly ours.
+//! `rays`: files of rays, for replaying the same rays elsewhere.
 
 mod corpus;
 

@@ -1,4 +1,5 @@
-//! Hits in files: those of one structure are written for others, those of others are compared with the reference.
+//! Hits in files: writes the hits of a structure for other programs, and compares the hits of other programs with the
+//! reference.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -20,7 +21,7 @@ use crate::scene::files::{HitFile, RayFile};
 use crate::study::Status;
 use crate::validate::{validate_answers, validate_any_answers, watched};
 
-/// Rays that are traced at a time, under one limit.
+/// Rays per batch, which share one time limit.
 const BATCH: usize = 256;
 
 impl Run<'_> {

@@ -131,7 +131,7 @@ fn picture(picture: &Picture) -> Value {
     }
 }
 
-/// A drawing in a page: it adapts to the available width, and its alternative text replaces it for screen readers.
+/// An inline drawing: it adapts to the available width, and screen readers skip it.
 fn inline(svg: &str) -> String {
     let svg = svg.trim_start();
     let end = svg.find('>').map_or(0, |end| end + 1);
