@@ -22,6 +22,6 @@ mod properties;
 mod real_meshes;
 mod third_party;
 
-/// As in the command.
+/// The allocator of the command.
 #[global_allocator]
 static ALLOCATOR: CountingAllocator = CountingAllocator;

@@ -17,6 +17,9 @@ const WORDS: [&str; 7] = ["anew", "caster", "owes", "surely", "whatever", "whoev
 /// First words of a doc comment that hide its subject.
 const OPENINGS: [&str; 6] = ["Likewise", "Nothing", "Of", "That", "Those", "What"];
 
+/// The field's words for what a traversal must not do, with a phrase of the glossary in them.
+const TECHNICAL: [&str; 2] = ["box is lost", "hit is lost"];
+
 /// Claims stay as they were written before the measurement.
 const CLAIMS: &str = "src/study/CLAIMS.md";
 
@@ -117,6 +120,7 @@ fn found(phrases: &[String], text: &str) -> Vec<String> {
     let plain = |c: char| if c.is_alphanumeric() || "'{}".contains(c) { c.to_ascii_lowercase() } else { ' ' };
     let text: String = text.chars().map(plain).collect();
     let text = format!(" {} ", text.split_whitespace().collect::<Vec<_>>().join(" "));
+    let text = TECHNICAL.iter().fold(text, |text, words| text.replace(&format!(" {words} "), " {} "));
     let is_found = |phrase: &&String| text.contains(&format!(" {phrase} "));
     phrases.iter().filter(is_found).map(|phrase| format!("{phrase:?} in {text:?}")).collect()
 }
@@ -129,6 +133,8 @@ fn phrases_and_literals_are_found() {
     }
     assert_eq!(found(&phrases, "(Made  anew,\nthat of").len(), 3);
     assert!(found(&phrases, "what ever, that offers {what} of {}, of {:?} which").is_empty());
+    assert!(found(&phrases, "No hit is lost.").is_empty());
+    assert_eq!(found(&phrases, "Nothing is lost.").len(), 1);
     let source =
         "let a = \"one \\\n    two\"; // \"no\"\nlet b = ('\"', \"a \\\" b\");\n#[cfg(test)]\nmod tests { \"x\" }";
     assert_eq!(literals(source), ["one two", "a \\\" b"]);

@@ -31,8 +31,8 @@ impl Mask {
         self.compared.iter().filter(|compared| !**compared).count()
     }
 
-    /// `actual` with the excluded pixels replaced by those of `expected`, which makes them equal for every window. All
-    /// pictures have one size, and both have one layout.
+    /// `actual` with the excluded pixels of `expected`, which makes these pixels equal for every window. All pictures
+    /// have one size, and both have one layout.
     pub(super) fn applied(&self, expected: &DynamicImage, mut actual: DynamicImage) -> DynamicImage {
         macro_rules! of_one_kind {
             ($($kind:ident)*) => {

@@ -38,8 +38,8 @@ impl AaNoise {
         if squares.is_empty() {
             return Self::default();
         }
-        // Use as many degrees of freedom as there are ratios, but at least those of their epochs: with a single degree
-        // of freedom one ratio would widen intervals tenfold. The tests count the cost of this approximation.
+        // Use as many degrees of freedom as there are ratios, but at least as many as their epochs have: with a single
+        // degree of freedom one ratio would widen intervals tenfold. The tests count the cost of this approximation.
         let epochs = cells.iter().map(Vec::len).max().unwrap_or(0);
         let freedom = squares.len().max(epochs.saturating_sub(1)).max(1) as f64;
         Self { ratios, noise: Variance { square: mean(&squares).max(0.0), freedom } }

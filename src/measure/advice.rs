@@ -124,8 +124,8 @@ fn outliers(samples: &[f64]) -> usize {
 }
 
 /// The slowdown of all cases together from the first round to the last, as a ratio; `None` if it may be chance by the
-/// test of Mann ("Nonparametric tests against trend", 1945) at three standard deviations. The slope is that of Theil
-/// and Sen (1968).
+/// test of Mann ("Nonparametric tests against trend", 1945) at three standard deviations. The slope is the estimate of
+/// Theil and Sen (1968).
 fn trend(cases: &[&[f64]]) -> Option<f64> {
     let rounds = cases.iter().map(|case| case.len()).min()?;
     if rounds < 3 {

@@ -131,7 +131,7 @@ impl Estimate {
     }
 }
 
-/// The factor by which an interval is wider as one of `looks`.
+/// How much wider an interval is as one of `looks`, as a factor.
 fn wider(freedom: f64, looks: usize) -> f64 {
     if looks < 2 { 1.0 } else { factor(freedom, LEVEL / looks as f64) / factor(freedom, LEVEL) }
 }

@@ -31,8 +31,8 @@ impl RandomOrder {
         order
     }
 
-    /// The members' indices, shuffled so that the members of a group follow each other: the groups are in random order,
-    /// and so are the members of each. `groups` contains the group of each member.
+    /// The indices of all members in an order in which the members of a group follow each other: the groups are in
+    /// random order, and so are the members of each. `groups` contains the group of each member.
     pub fn shuffled_by_group(&mut self, groups: &[usize]) -> Vec<usize> {
         let ranks = self.shuffled(groups.iter().max().map_or(0, |last| last + 1));
         let mut order = self.shuffled(groups.len());

@@ -157,7 +157,7 @@ impl Timed for Pass<'_> {
             }
         }
 
-        // Before tiles the first pieces are small, so that a slow structure can stop early.
+        // Before tiles the first pieces are small: a slow structure can then stop early.
         let lead_in = self.all.len() / LEAD_IN_SHARE;
         let mut first = self.all.len() - lead_in;
         let mut size = if levels[0] == 0 { TILE } else { 1 };

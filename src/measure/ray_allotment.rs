@@ -110,8 +110,8 @@ mod tests {
     #[test]
     fn the_slow_do_with_fewer_rays_then_all_with_fewer_samples_and_then_with_fewer_rays() {
         let of = |budget_ns| rays(&cases(&[10, 15, 10_000]), &SamplePlan { budget_ns, ..PLAN });
-        // All rays of the two fast cases take 1.84 ms with their lead-ins, those of the slow case 737 ms, and 2.88 ms
-        // if it takes at most eight times as long as the middle one.
+        // All rays of the two fast cases take 1.84 ms with their lead-ins, all rays of the slow case 737 ms, and 2.88
+        // ms if it takes at most eight times as long as the middle one.
         assert_eq!(of(4_000_000_000), (5, vec![65_536, 65_536, 256]));
         assert_eq!(of(24_000_000), (5, vec![65_536, 65_536, 256]));
         assert_eq!(of(12_000_000), (2, vec![65_536, 65_536, 256]));

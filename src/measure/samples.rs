@@ -3,7 +3,7 @@
 use super::tiles::{last_level, level_of, rays_at};
 use super::{Clock, RandomOrder, Stopwatch};
 
-/// A unit of timing: a workload of which a subset can be timed.
+/// A unit of timing: a workload with subsets that can be timed.
 pub trait Timed {
     /// Rays of the workload, at least 1.
     fn rays(&self) -> usize;

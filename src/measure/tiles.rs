@@ -2,11 +2,11 @@
 //!
 //! A workload lists the rays of its picture block by block ([`crate::scene::WorkloadKind`]): a tile of neighbouring
 //! rays is a block of pixels. A smaller sample consists of whole tiles spread over the workload, not of single rays,
-//! whose caches would be colder than those of a picture. Each epoch draws its own tiles: the difference between tiles
-//! and picture is then part of the spread between epochs, and so of every interval.
+//! whose caches would be colder than in a picture. Each epoch draws its own tiles: the difference between tiles and
+//! picture is then part of the spread between epochs, and so of every interval.
 //!
-//! Levels are nested: the rays of a level are about a quarter of the rays of the level before it. So a structure that
-//! is timed on all rays is also timed on the rays of a structure that is not.
+//! Levels are nested: a level has about a quarter of the rays of the level before it, all from that level. So a
+//! structure that is timed on all rays is also timed on the rays of a structure that is not.
 
 use std::ops::Range;
 

@@ -8,8 +8,7 @@
 //! and 2^129 in magnitude. Every rounded product of two is a multiple of 2^-350 (it is at least 2^-298, and has 53
 //! bits), and so is the difference of two such products, which hence is 0 or at least 2^-350; times a third component,
 //! at least 2^-499. Everything is below 2^(129 + 129 + 129 + 3) = 2^390. All of this is far from the ends of `f64`,
-//! 2^-1022 and 2^1024, so that every operation has a relative error of at most `u`, and a product is 0 only if a factor
-//! is.
+//! 2^-1022 and 2^1024: every operation has a relative error of at most `u`, and a product is 0 only if a factor is.
 //!
 //! *A triple product* `x . (y z)` is the sum of six terms `x_i y_j z_k`. On its way into the sum, a term is multiplied
 //! by at most eight factors (1 + e): one a component for its subtraction (3), the two products (2), the difference of
@@ -109,7 +108,7 @@ pub fn classify(ray: &Ray, corners: [Vec3; 3]) -> Proof {
     }
     let known = sides.iter().all(|s| s.is_known());
 
-    // Compute the edges from the corners themselves, so that each component has one rounding.
+    // Compute the edges from the corners themselves: each component then has one rounding.
     let (e1, e2) = (corners[1] - corners[0], corners[2] - corners[0]);
     let whole = TripleProduct::of(direction, e1, e2);
     if whole.is_zero() {

@@ -42,10 +42,11 @@ const REMOVED: [(&str, &str, &str); 1] =
     [("batch", "interleaved", "batch=packets, which interleaves the rays outside packets")];
 
 impl Choice {
-    /// `entry` with values of some keys. `name_test`: the label includes the triangle test, because the name alone is
-    /// that of another entry.
+    /// `entry` with values of some keys. `name_test`: the label includes the triangle test, because the name alone
+    /// belongs to another entry.
     ///
     /// # Errors
+    /// If a key is unknown, or a value does not fit.
     /// If a key is unknown, or a value does not fit.
     pub(super) fn of(entry: &Entry, overrides: &[(&str, &str)], name_test: bool) -> Result<Self, ChoiceError> {
         let mut config = entry.config.clone();

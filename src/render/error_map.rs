@@ -156,7 +156,7 @@ mod tests {
         let size = [24, 24];
         let hits = ErrorMap::new(&scene, &tree, size).count(Outcome::Right);
 
-        // The hits are those of one mesh, the exact hits those of another.
+        // The hits and the exact hits belong to different meshes.
         let empty = Arc::new(Mesh::new(vec![], vec![]).unwrap());
         let nothing = KdTree::<Exact>::build(&empty, &KdConfig::SAH).unwrap();
         let missed = ErrorMap::new(&scene, &nothing, size);

@@ -100,8 +100,8 @@ pub fn size_of(scene: &Scene, longest: u32) -> [u32; 2] {
     [width, height].map(|side| (u64::from(side) * u64::from(longest) / u64::from(most)).max(1) as u32)
 }
 
-/// Width and height of the pictures of the page. They also determine the scale of the heat view, so that all pictures
-/// share it.
+/// Width and height of the pictures of the page. They also determine the scale of the heat view, which all pictures
+/// share.
 pub fn coarse_size(scene: &Scene) -> [u32; 2] {
     size_of(scene, 320)
 }

@@ -9,7 +9,7 @@ use crate::scene::{Scene, View};
 use crate::validate::Stratum;
 
 named_enum! {
-    /// A kind of rays whose errors are counted together. Kinds are never pooled: each fails in its own way.
+    /// A workload whose errors are counted separately. Workloads are never pooled: each fails in its own way.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
     #[serde(rename_all = "kebab-case")]
     pub enum RayKind {

@@ -246,8 +246,8 @@ pub fn recorded(
     Ok(Some(((name.into(), scene), file)))
 }
 
-/// The inputs of a study from the file that `source` names: its scene with its word, and its rays, of which at most
-/// `rays` are timed. `None` if the rays are to be generated. `workloads` are the other named ones: there must be none.
+/// The inputs of a study from the file that `source` names: its scene with its word, and its rays. At most `rays` of
+/// them are timed. `None` if the rays are to be generated. `workloads` are the other named ones: there must be none.
 ///
 /// # Errors
 /// Like [`recorded`].

@@ -43,7 +43,7 @@ pub enum StudyError {
     Journal(#[from] JournalError),
 }
 
-/// The difference between epochs of which one has wrong [hits](StudyError::Apart).
+/// The difference between two epochs, if one of them has wrong [hits](StudyError::Apart).
 pub const ANSWERS: &str = "the hits";
 
 /// Advice to name at most `most` structures, which fit into memory.

@@ -79,7 +79,7 @@ fn lacks(title: &str, missing: &[usize]) -> String {
     format!("{title}: {epochs} {} {are} not measured", listed(&numbers))
 }
 
-/// Turns the epochs of a scene, of which the first is epoch 0, into one measurement.
+/// Turns the epochs of a scene, epoch 0 first, into one measurement.
 fn one(epochs: &mut [Epoch]) -> Result<(), StudyError> {
     let (title, structures) = (epochs[0].title(), epochs[0].structures.len());
     for place in 0..structures {

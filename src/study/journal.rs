@@ -57,7 +57,7 @@ impl Journal {
         cases: &[Case],
     ) -> Result<Self, JournalError> {
         fs::create_dir_all(folder).map_err(|cause| JournalError::Write { path: folder.into(), cause })?;
-        // Take the lock before reading the cases, so that they include everything an earlier run wrote.
+        // Take the lock before reading the cases: they then include everything an earlier run wrote.
         let lock = File::open(folder).ok();
         // Some systems cannot lock folders, such as Windows and many network file systems: there the run continues.
         let is_taken = lock.as_ref().is_some_and(|own| matches!(own.try_lock(), Err(TryLockError::WouldBlock)));

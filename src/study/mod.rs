@@ -62,7 +62,7 @@ pub struct Study {
     pub options: fn() -> Command,
     /// The cases to measure. It does no measuring, and rejects everything that cannot be measured.
     pub plan: fn(&ArgMatches, &Registry) -> anyhow::Result<Plan>,
-    /// A pure function of the measurements. The options are those of the run, or the defaults for a journal or an
+    /// A pure function of the measurements. The options are the options of the run, or the defaults for a journal or an
     /// export.
     pub report: fn(&Dataset, &ArgMatches) -> Report,
 }

@@ -155,7 +155,7 @@ pub fn end() {
     }
 }
 
-/// What a process has done with its case and file.
+/// The result of a process with a case and a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Written {
     Now,

@@ -133,7 +133,7 @@ fn nearest(mesh: &Mesh, ray: &Ray, expected: Option<Hit>, found: Option<Hit>) ->
     truths.into_iter().flatten().min_by(|(a, _), (b, _)| a.cmp(b))
 }
 
-/// The structure's test differs from that of the reference. Exact arithmetic judges structure and test together;
+/// The structure and the reference have different tests. Exact arithmetic judges structure and test together;
 /// differences that rounding in this precision explains are blamed on the test.
 fn other_test(
     precision: Precision,

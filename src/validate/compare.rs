@@ -257,7 +257,7 @@ fn traced_loaded(subject: &dyn DynAccel, rays: &[Ray]) -> (Vec<Option<Hit>>, Vec
     (found, any)
 }
 
-/// What a query returns, or the message of its panic.
+/// The result of a query, or the message of its panic.
 fn returned<R>(clock: &QueryClock, call: Call, query: impl FnOnce() -> R) -> Result<R, String> {
     clock.begin(call);
     let result = caught(query);

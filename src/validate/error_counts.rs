@@ -22,8 +22,7 @@ impl DepthRule {
     /// More than 4 units in the last place and more than 1e-6, at any primitive.
     pub const STRICT: Self = Self { right: 1e-6, other: 1e-6, ulps: 4.0 };
 
-    /// Whether a hit at `found` counts as one at `t`, which is not negative. `right`: its primitive is the one that is
-    /// hit there.
+    /// Whether a hit at `found` counts as one at `t`, which is not negative. `right`: its primitive is hit there.
     pub(super) fn allows(self, t: f64, found: f32, right: bool) -> bool {
         let allowed = (t * if right { self.right } else { self.other }).max(ulp(t) * self.ulps);
         // This is false for NaN.

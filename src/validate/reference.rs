@@ -120,8 +120,8 @@ impl Reference {
         self.test.is_some() || self.disputed.is_some()
     }
 
-    /// Any other structure as a reference. It may have lost hits, so the exact oracle decides if its hits differ from
-    /// those of a structure over the triangle test named `test`.
+    /// Any other structure as a reference. It may have lost hits, so the exact oracle decides the rays on which a
+    /// structure over the triangle test named `test` has other hits.
     pub fn structure(accel: Box<dyn DynAccel>, test: &str) -> Self {
         let precision = if test == Exact::NAME { Precision::Exact } else { Precision::Single };
         Self { accel, test: None, precision, disputed: None }

@@ -1,4 +1,4 @@
-//! What all commands share: refusals, names, standard output; lists and completions.
+//! Common properties of all commands: refusals, names, standard output; lists and completions.
 
 use std::path::Path;
 
@@ -184,7 +184,7 @@ fn old_names_are_answered_with_the_new_ones() {
 
 #[test]
 fn a_minus_stands_for_standard_output_and_case_does_not_matter() {
-    // The result alone goes there; what is for people goes elsewhere.
+    // Standard output has only the result; messages for people have another place.
     for (line, magic, said) in [
         ("render CUBE -o - --view DEPTH -s Sah-KD:test=Exact --size 4x4", b"\x89PNG", "depth view of Cube"),
         ("rays record cube --workload PRIMARY --rays 4 -o -", b"SAHA", "4 rays"),

@@ -18,7 +18,7 @@ const ERROR: f64 = 128.0 / (1u64 << 53) as f64;
 /// A box that contains the part of the triangle `corners` in `cell`, inside `cell` and inside `known`, a box of the
 /// part in some larger cell.
 ///
-/// Clips in f64 (Sutherland, Hodgman 1974) and rounds outward: no part of the triangle is lost. If rounding leaves no
+/// Clips in f64 (Sutherland, Hodgman 1974) and rounds outward: the box contains the whole part. If rounding leaves no
 /// polygon at all, the result is `known` cut by the cell: a triangle that reaches into the cell is never dropped.
 pub(crate) fn clipped_bounds(corners: [Vec3; 3], cell: &Aabb, known: &Aabb) -> Aabb {
     Polygon::clipped(corners, cell).corner_box().in_cut(known.intersection(*cell))

@@ -21,7 +21,7 @@ pub(crate) struct Reference {
 
 impl Reference {
     pub fn new(id: u32, Aabb { min, max }: Aabb) -> Self {
-        // Meshes have fewer than 2^30 triangles: the bits of a number are never those of a NaN, which a copy might
+        // Meshes have fewer than 2^30 triangles: the bits of a number are never the bits of a NaN, which a copy might
         // change.
         Self { low: min.extend(f32::from_bits(id)).to_array(), high: max.extend(0.0).to_array() }
     }

@@ -233,7 +233,7 @@ pub(super) fn answer<const ANY: bool, T: TriangleTest, A, O: Observer>(
 ) {
     assert_eq!(rays.len(), answers.len(), "one answer a ray");
     if O::ACTIVE {
-        // Counts are those of single rays.
+        // Count the steps of single rays.
         for (answer, ray) in answers.iter_mut().zip(rays) {
             *answer = form(single::<ANY, _, O>(tree, ray, observer));
         }

@@ -159,7 +159,7 @@ impl Node {
         self.children[lane] = child;
     }
 
-    /// The same node after `nodes` nodes and `blocks` blocks have been placed before those of its part of the tree.
+    /// The same node after `nodes` nodes and `blocks` blocks have been placed before its part of the tree.
     pub fn moved(self, nodes: usize, blocks: usize) -> Self {
         Self { children: self.children.map(|child| child.moved(nodes, blocks)), ..self }
     }

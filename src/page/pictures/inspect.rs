@@ -10,7 +10,7 @@ use crate::scene::offset::barycentrics;
 /// The maximum of numbers in a picture: each takes some ten bytes on the page.
 const NUMBERS: usize = 75_000;
 
-/// Numbers per ray, without those of each structure.
+/// Numbers per ray, without the numbers of each structure.
 const OF_RAY: usize = 8;
 
 /// The maximum of rays in a picture with these structures.

@@ -52,8 +52,8 @@ impl<'a> TimedCheck<'a> {
 
     /// Checks the hits on all timed rays, `rays` of them per epoch; `None` if the structure panics.
     ///
-    /// With the triangle test of the tree, all bits must be those of the tree. Then the checksum of the timed hits of
-    /// the first epoch is enough, and later epochs must repeat it.
+    /// With the triangle test of the tree, all bits must equal the tree's. Then the checksum of the timed hits of the
+    /// first epoch is enough, and later epochs must repeat it.
     ///
     /// # Errors
     /// If no tree can be built over the mesh.

@@ -134,7 +134,7 @@ struct Of {
     is_by_clock: bool,
 }
 
-/// The samples of `case` before the first one: on its own rays and on those of each slower case of its workload.
+/// The samples of `case` before the first one: on its own rays and on the rays of each slower case of its workload.
 fn none(case: &Of, cases: &[Of]) -> Samples {
     let own = Samples::none(case.all, case.level);
     let mut fewer = vec![];
@@ -147,7 +147,7 @@ fn none(case: &Of, cases: &[Of]) -> Samples {
     fewer.retain(|&rays| rays < own.rays);
     fewer.sort_unstable_by(|a, b| b.cmp(a));
     fewer.dedup();
-    // Keep its hits on one fixed set of rays, whatever rays it is timed on.
+    // Keep its hits on one fixed set of rays, regardless of the timed ones.
     let asked = if case.is_by_clock { Some(pilot_level(case.all)) } else { own.asked };
     Samples { asked, parts: fewer.into_iter().map(|rays| SubsetSamples { rays, ns: vec![] }).collect(), ..own }
 }

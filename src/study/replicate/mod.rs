@@ -35,8 +35,8 @@ pub const STUDY: Study = Study {
 // These numbers decide all claims together: with few epochs a significant result would depend on luck.
 type Options = Measuring<8, 3, 5>;
 
-/// The structure whose hits are the origins of secondary rays. Its triangle test is in single precision like that of
-/// the report's program. The exact test decides edges differently, which changes a few rays.
+/// The structure whose hits are the origins of secondary rays. Its triangle test is in single precision, as in the
+/// report's program. The exact test decides edges differently, which changes a few rays.
 const GUIDE: &str = "sah-kd:test=moller-trumbore";
 
 fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {

@@ -23,7 +23,7 @@ pub struct Answers {
     pub build_ns: u64,
     /// Rays on which any hit contradicts closest hit.
     pub any_hit_errors: u64,
-    /// Of some rays, those whose hit on their own differs from the hit in a batch.
+    /// The number of rays, among some of them, whose hit on their own differs from the hit in a batch.
     pub unrepeatable: u64,
     /// Time of these rays / time of the ordinary rays of the case, if it has any; median of interleaved passes.
     pub slowness: Option<f64>,
@@ -80,7 +80,7 @@ fn traced(accel: &dyn DynAccel, set: &Set, clock: &dyn Clock) -> Answers {
     Answers { hits, any_hit_errors, unrepeatable, slowness: slowness(accel, set, clock), ..Answers::default() }
 }
 
-/// Passes over each kind of rays.
+/// Passes over these rays and over the ordinary ones.
 const PASSES: usize = 15;
 
 /// Time of the case's rays / time of its ordinary rays.

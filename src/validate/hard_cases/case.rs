@@ -70,7 +70,7 @@ pub enum Expected {
     Miss,
     /// The hits of the exact oracle.
     Oracle,
-    /// Every ray hits exactly where the ray with the same index hits in the case of this name.
+    /// Every ray hits exactly where the ray with the same index hits in the named case.
     SameAs(&'static str),
 }
 

@@ -18,7 +18,7 @@ const INVERSE: &str = "obvhs, safe_inverse: 1.19e-7";
 const INVERSES: &str = "obvhs, safe_inverse; Embree, zero_fix";
 const MISSED: &str = "measured: every f32 system misses all";
 const OVERFLOW: &str = "Embree, FLT_LARGE; measured: every peer of f32 misses or misplaces all";
-const TIME: &str = "Embree, verify.cpp, nan_test and inf_test: time below 2.5 times that of valid rays";
+const TIME: &str = "Embree, verify.cpp, nan_test and inf_test: time below 2.5 times the time of valid rays";
 
 cases! {
     // Closed meshes from inside, near zero and far from it: every ray hits.
@@ -199,7 +199,7 @@ cases! {
         Set::new(largest_numbers(), n, 40, |_, s| ray_to(s.direction() * 3.0, s.cube()))
     },
         "Mesh::new rejects vertices that are NaN or infinite, so no structure receives one; this is the worst that it \
-         accepts: some vertices at the largest float, so that extents and areas are infinite.",
+         accepts: some vertices at the largest float, which makes extents and areas infinite.",
         "obvhs, ploc, and svenstaro/bvh, bvh_node.rs: builders panic";
 
     // Ends of ray intervals, and rays that begin on a surface.
@@ -249,7 +249,7 @@ cases! {
         "Rays that leave a surface at a rounded point: half of the points lie below it, so the ray hits it again.",
         "Wächter, Binder 2019; pbrt-v4, Triangle.Reintersect";
 
-    // Properties of hits, whatever the hits are.
+    // Properties that all hits must have.
     Added 73 "continuation", Property => continuation,
         "Continuing behind each hit must visit every crossing of a ray once.",
         "Embree, verify.cpp, sphere_filter_multi_hit";

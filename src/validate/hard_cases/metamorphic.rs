@@ -97,7 +97,7 @@ pub(super) fn metamorphic(subject: &Subject, rays: usize) -> Result<Property, St
 }
 
 /// Rays straight down through the inner corners of a sheet, each in the plane of many boxes. A structure must hit
-/// everything that it hits with an almost equal direction, whatever its triangle test rounds.
+/// everything that it hits with an almost equal direction, under any rounding of its triangle test.
 pub(super) fn straight_down(subject: &Subject, rays: usize) -> Result<Property, String> {
     let accel = built(subject, &sheet(32))?;
     let (mut sampler, mut property) = (Sampler::new(77), Property::default());

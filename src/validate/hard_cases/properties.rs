@@ -1,4 +1,4 @@
-//! Properties of the hits of a structure, whatever the hits are.
+//! Properties that all hits of a structure must have.
 
 use std::sync::Arc;
 

@@ -133,7 +133,7 @@ pub(super) fn to_surface(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     ray_to(centre + sampler.direction() * reach, on_surface(mesh, sampler))
 }
 
-/// Integer corners, so that eighths of edges are exact.
+/// Integer corners: eighths of edges are then exact.
 pub(super) const SIMPLE: [Vec3; 3] = [Vec3::ZERO, Vec3::new(8.0, 0.0, 4.0), Vec3::new(0.0, 8.0, -4.0)];
 
 /// Towards a corner or an eighth of an edge, from a simple point in front, so the difference is exact: t is 1.

@@ -154,7 +154,7 @@ impl Score {
 }
 
 impl RayScore {
-    /// No hit that the structure lost or invented, whatever its triangle test rounds, and no contradiction.
+    /// No hit that the structure lost or invented, under any rounding of its triangle test, and no contradiction.
     fn is_sound(&self) -> bool {
         self.validation.errors() == 0 && self.contradictions == 0
     }

@@ -3,8 +3,8 @@
 //! Every reference is a triangle and the box of its part at this place of the tree. A *spatial* split cuts references
 //! at a plane: both sides are disjoint. An *object* split divides whole references into two groups, whose boxes may
 //! overlap. The surface area heuristic uses the tight boxes of both sides, and counts leaves by blocks of eight
-//! triangles. With only spatial splits the leaves partition space like those of a KD-tree, except that a leaf too full
-//! to be cut in space (coincident triangles, an exhausted budget) is divided among several.
+//! triangles. With only spatial splits the leaves partition space as in a KD-tree, except that a leaf too full to be
+//! cut in space (coincident triangles, an exhausted budget) is divided among several.
 //!
 //! # References
 //! Stich, Friedrich, Dietrich: Spatial Splits in Bounding Volume Hierarchies, High Performance Graphics 2009. Three

@@ -1,9 +1,9 @@
-//! Which tests let no ray pass between the triangles of a closed mesh.
+//! Checks the tests that let no ray pass between the triangles of a closed mesh.
 
 use super::*;
 
-/// Rays through the edge that two triangles share, or through a vertex that six share, hit one of them, also along an
-/// axis; all but the direction is scaled.
+/// Rays through the edge of two triangles, or through a vertex of six, hit one of them, including rays along an axis;
+/// everything except the direction is scaled.
 fn closed_at<T: TriangleTest>(scale: f32, rounds: usize, vertices: bool) {
     let mut rng = Pcg32::seed_from_u64(8);
     for round in 0..rounds {
