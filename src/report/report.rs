@@ -164,10 +164,10 @@ impl Finding {
     }
 
     pub fn number(key: impl Into<String>, value: Estimate) -> Self {
-        Self::new(key, "").of(value)
+        Self::new(key, "").with_value(value)
     }
 
-    pub fn of(self, value: Estimate) -> Self {
+    pub fn with_value(self, value: Estimate) -> Self {
         Self { value: Some(value), ..self }
     }
 

@@ -71,7 +71,7 @@ pub struct Measurement {
     /// Rays of the check in epoch 0, see [`Checked`](super::epoch::Checked).
     pub checked_rays: usize,
     /// Rays with a wrong hit, which no rounding explains.
-    pub structure_errors: usize,
+    pub wrong_hits: usize,
 }
 
 /// A column: its name, and its cell for a measurement.
@@ -116,7 +116,7 @@ pub const COLUMNS: [MeasurementColumn; 38] = [
     ("counted_rays", |own| own.counted_rays.into()),
     ("declined", |own| own.declined.as_ref().into()),
     ("checked_rays", |own| own.checked_rays.into()),
-    ("structure_errors", |own| own.structure_errors.into()),
+    ("structure_errors", |own| own.wrong_hits.into()),
 ];
 
 /// Appends the columns `names` to `table`, whose rows are the measurements `rows`, in order.
@@ -177,7 +177,7 @@ fn measurement(scene: &SceneEpochs, place: usize, twin: Option<usize>, workload:
     let twin_samples = twin.map(|twin| samples(scene, twin, workload)).filter(|samples| !samples.is_empty());
     let counts = first.counts.unwrap_or_default();
     let per_ray = |n: Option<u64>| Some(n? as f64 / counts.rays.max(1) as f64);
-    let (checked_rays, structure_errors) = first.checked.as_ref().map_or((0, 0), |own| (own.rays, own.errors));
+    let (checked_rays, wrong_hits) = first.checked.as_ref().map_or((0, 0), |own| (own.rays, own.errors));
     Measurement {
         scene: epoch.scene.clone(),
         scene_hash: epoch.scene_hash.clone(),
@@ -218,7 +218,7 @@ fn measurement(scene: &SceneEpochs, place: usize, twin: Option<usize>, workload:
         shape: structure.shape,
         declined: first.declined.clone(),
         checked_rays,
-        structure_errors,
+        wrong_hits,
     }
 }
 
@@ -261,7 +261,7 @@ impl Measurement {
 
     /// Whether the structure has wrong hits and therefore no time.
     pub fn is_disqualified(&self) -> bool {
-        self.structure_errors > 0
+        self.wrong_hits > 0
     }
 
     /// The time of every sample on `rays` rays, ns: the whole sample or a subset of it. `None` if no subset of this

@@ -61,7 +61,7 @@ pub(super) fn admitted(subject: &dyn DynAccel, rays: &[Ray], expected: &[Option<
 ///
 /// # Panics
 /// If there is not one hit per ray.
-pub fn validate_answers(
+pub fn validate_hits(
     reference: &Reference,
     expected: &[Option<Hit>],
     mesh: &Mesh,
@@ -113,7 +113,7 @@ pub fn differences(
 ///
 /// # Panics
 /// If there is not one result per ray.
-pub fn validate_any_answers(
+pub fn validate_any_hits(
     reference: &Reference,
     expected: &[Option<Hit>],
     mesh: &Arc<Mesh>,
@@ -185,10 +185,10 @@ pub(super) fn validate_batch(
     let mut sums = Validation { rays: rays.len() as u64, ..Validation::default() };
 
     // Trace each ray on its own before the batch: a panic or hang then has a known ray.
-    let mut alone = Vec::with_capacity(rays.len());
+    let mut single = Vec::with_capacity(rays.len());
     for (index, ray) in rays.iter().enumerate() {
         match returned(clock, Call::Ray(index), || traced_alone(subject, ray)) {
-            Ok(hits) => alone.push(hits),
+            Ok(hits) => single.push(hits),
             Err(message) => return sums.ended(expected[index], rays, Call::Ray(index), Kind::Panicked, message),
         }
     }
@@ -213,12 +213,12 @@ pub(super) fn validate_batch(
         };
 
         // A hit that is not repeatable gets no further check.
-        let (on_its_own, any_alone) = alone[index];
+        let (on_its_own, any_alone) = single[index];
         if !same(on_its_own, found) || checks_any && any_alone != any {
-            let alone = on_its_own.map_or("none".to_owned(), |hit| format!("t = {:?} at {:?}", hit.t, hit.prim));
+            let closest = on_its_own.map_or("none".to_owned(), |hit| format!("t = {:?} at {:?}", hit.t, hit.prim));
             note(
                 Kind::Unrepeatable,
-                format!("traced on its own, the ray has the closest hit {alone} and the any-hit result {any_alone}"),
+                format!("traced on its own, the ray has the closest hit {closest} and the any-hit result {any_alone}"),
             );
             sums.unrepeatable += 1;
             continue;

@@ -23,7 +23,7 @@ mod validation;
 mod watchdog;
 
 pub use adversarial::Stratum;
-pub use compare::{differences, validate, validate_answers, validate_any_answers, validate_known};
+pub use compare::{differences, validate, validate_any_hits, validate_hits, validate_known};
 pub use degenerate::degenerate_meshes;
 pub use error_counts::{DepthRule, ErrorCounts, Outcome, Ulps, count_errors, outcome};
 pub use rate::Rate;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::compare::same;
-use super::{Kind, Reference, Validation, WorstRay, validate_answers};
+use super::{Kind, Reference, Validation, WorstRay, validate_hits};
 use crate::accel::DynAccel;
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::measure::spread;
@@ -32,7 +32,7 @@ pub fn validate_remote(
         return ended;
     }
 
-    let mut sums = validate_answers(reference, expected, mesh, rays, &found);
+    let mut sums = validate_hits(reference, expected, mesh, rays, &found);
     for (index, ray) in rays.iter().enumerate() {
         if let Some(any) = any.as_ref().map(|any| any[index])
             && any != found[index].is_some()

@@ -19,7 +19,7 @@ use crate::request;
 use crate::scene::Scene;
 use crate::scene::files::{HitFile, RayFile};
 use crate::study::Status;
-use crate::validate::{validate_answers, validate_any_answers, watched};
+use crate::validate::{validate_any_hits, validate_hits, watched};
 
 /// Rays per batch, which share one time limit.
 const BATCH: usize = 256;
@@ -76,10 +76,10 @@ impl Run<'_> {
         let reference_name = choice.name_for_file(&reference, test);
         let expected = closest_hits(&reference, scene, &rays, &reference_name, &waiting);
         let found = match hit_file.query {
-            Query::Closest => validate_answers(&reference, &expected, &scene.mesh, &rays, &hits),
+            Query::Closest => validate_hits(&reference, &expected, &scene.mesh, &rays, &hits),
             Query::Any => {
                 let any: Vec<bool> = hits.iter().map(Option::is_some).collect();
-                validate_any_answers(&reference, &expected, &scene.mesh, &rays, &any, None)
+                validate_any_hits(&reference, &expected, &scene.mesh, &rays, &any, None)
             }
         };
         drop(waiting);

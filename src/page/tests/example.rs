@@ -92,7 +92,7 @@ fn compare(dataset: &Dataset, _: &ArgMatches) -> Report {
     blocks.push(Block::figure(figure("tradeoff", Art::Chart(Chart::Tradeoff(Tradeoff { cases })))));
     blocks.push(Block::Fold("More".into(), vec![Block::Note(titles(dataset).join(" "))]));
     let findings = vec![
-        Finding::new("right", "Of all structures sah-kd is the fastest.").of(ratio()),
+        Finding::new("right", "Of all structures sah-kd is the fastest.").with_value(ratio()),
         Finding::named("fastest", "sah-kd"),
         Finding::new("checked", "None is wrong"),
     ];
@@ -102,7 +102,7 @@ fn compare(dataset: &Dataset, _: &ArgMatches) -> Report {
 fn replicate(dataset: &Dataset, _: &ArgMatches) -> Report {
     let of = |title: String| Finding::number(format!("hard-{}", slug(&title)), ratio());
     let findings = titles(dataset).into_iter().map(of);
-    let hard = Finding::new("hard", "Primary rays are 8.00 times as fast.").of(ratio());
+    let hard = Finding::new("hard", "Primary rays are 8.00 times as fast.").with_value(ratio());
     let verdict = Verdict {
         prediction: 1,
         claim: "Cube: rays".into(),

@@ -71,7 +71,7 @@ pub fn split(r: &Attribution) -> Finding {
         figures(whole.estimate),
         listed(&orders)
     );
-    Finding::new(format!("split-{}", slug(&r.first().scene)), sentence).of(whole)
+    Finding::new(format!("split-{}", slug(&r.first().scene)), sentence).with_value(whole)
 }
 
 /// How much more the SAH tree gains on Sponza than on the scans. Real meshes are compared with real ones, stand-ins

@@ -94,7 +94,7 @@ impl<'a> Ranking<'a> {
         })?;
         let (label, times, reference) = (row.label, interval(value), self.reference.words());
         let sentence = format!("{label} traces {times} times the rays per second of {reference}.");
-        Some(Finding::new(format!("speed-{}", slug(label)), sentence).of(value))
+        Some(Finding::new(format!("speed-{}", slug(label)), sentence).with_value(value))
     }
 
     /// Speed of `one` divided by the speed of `other`, the mean over the cells.
@@ -137,7 +137,7 @@ impl<'a> Ranking<'a> {
         let (ranked, over) = (plural(rows.len(), "structure"), plural(self.cells.len(), "cell"));
         let sentence =
             format!("Of {ranked} {words}, {label} is the fastest over {over} of scene and workload: {told}{level}.");
-        Some((Finding::new(key, sentence).of(value), Finding::named(FASTEST, names)))
+        Some((Finding::new(key, sentence).with_value(value), Finding::named(FASTEST, names)))
     }
 
     /// Time with a precise triangle test divided by the time with a test in single precision, for each structure and
@@ -211,7 +211,7 @@ mod tests {
         // A structure with a wrong hit in any cell is not one with correct hits.
         let mut erring = all.clone();
         erring.iter_mut().filter(|r| r.label == "fast" && r.scene == "c").for_each(|r| {
-            (r.mrays_per_s, r.structure_errors, r.checked_rays) = (None, 2, 9);
+            (r.mrays_per_s, r.wrong_hits, r.checked_rays) = (None, 2, 9);
         });
         erring.push(record("b", "rare", 1.0));
         let told = Ranking::of(&erring, &reference).unwrap().findings().remove(0).sentence;

@@ -18,7 +18,7 @@ use crate::study::measurement::{Measurement, of_scene, trace_noise};
 pub fn checked(all: &[Measurement]) -> Option<Finding> {
     let sum = |is: &dyn Fn(&&Measurement) -> bool| {
         let own = || all.iter().filter(is);
-        (own().map(|r| r.structure_errors).sum::<usize>() as u64, own().map(|r| r.checked_rays).sum::<usize>() as u64)
+        (own().map(|r| r.wrong_hits).sum::<usize>() as u64, own().map(|r| r.checked_rays).sum::<usize>() as u64)
     };
     let of = |label: &String| {
         let (errors, rays) = sum(&|r| r.label == *label);

@@ -130,7 +130,7 @@ fn defects(all: &[Measurement]) -> Vec<String> {
         let wrong = || all.iter().filter(|r| r.label == *label && r.is_disqualified());
         let defect = known_defect(&wrong().next()?.structure)?;
         let share = |r: &Measurement| {
-            format!("{} of {} {}", count(r.structure_errors as u64), count(r.checked_rays as u64), r.workload)
+            format!("{} of {} {}", count(r.wrong_hits as u64), count(r.checked_rays as u64), r.workload)
         };
         let shares: Vec<String> = wrong().map(share).collect();
         Some(format!("{label} returns wrong hits on {} rays; known defects: {defect}.", shares.join(", ")))
@@ -161,7 +161,7 @@ fn unfit_tests(all: &[Measurement]) -> Vec<String> {
 }
 
 fn speed(own: &Measurement, best: f64) -> Cell {
-    let errors = own.structure_errors;
+    let errors = own.wrong_hits;
     match own.mrays_per_s {
         Some(speed) => {
             Cell::from(speed).sampled(own.sampled).with(if speed >= best { Tone::Best } else { Tone::Plain })

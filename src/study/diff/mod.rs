@@ -257,16 +257,16 @@ fn cell_title(record: &Measurement) -> String {
 }
 
 fn wrong(old: &Measurement, new: &Measurement) -> Option<Wrong> {
-    let rate = |r: &Measurement| r.structure_errors as f64 / r.checked_rays.max(1) as f64;
-    let (errors, checked) = (new.structure_errors, new.checked_rays);
+    let rate = |r: &Measurement| r.wrong_hits as f64 / r.checked_rays.max(1) as f64;
+    let (errors, checked) = (new.wrong_hits, new.checked_rays);
     // The number of checked rays depends on time. So errors count as new only if their rate has more than doubled, and
     // errors of a structure with known defects do not count.
     let known = known_defect(&new.structure).is_some();
-    let more = errors > 0 && !known && (old.structure_errors == 0 || rate(new) > 2.0 * rate(old));
+    let more = errors > 0 && !known && (old.wrong_hits == 0 || rate(new) > 2.0 * rate(old));
     let what = if more {
         format!(
             "{errors} of {checked} rays have a wrong hit; in the old run {} of {}",
-            old.structure_errors, old.checked_rays
+            old.wrong_hits, old.checked_rays
         )
     } else if old.triangle_test != new.triangle_test {
         // Another triangle test has other hits; each run checks its hits against its own test.

@@ -119,7 +119,7 @@ fn answers_that_changed_are_wrong() {
         compare(&old, &new, None, 1).wrong
     };
     assert!(with(&|_| {}).is_empty());
-    let wrong = with(&|r| r.structure_errors = 3);
+    let wrong = with(&|r| r.wrong_hits = 3);
     assert_eq!(wrong.len(), 1);
     assert_eq!(
         (&wrong[0].case[..], &wrong[0].what[..]),
@@ -137,7 +137,7 @@ fn answers_that_changed_are_wrong() {
 fn known_errors_are_no_new_ones() {
     let erring = |i: usize, errors, checked| {
         let mut run = run(1.0, 1.0);
-        (run[i].structure_errors, run[i].checked_rays) = (errors, checked);
+        (run[i].wrong_hits, run[i].checked_rays) = (errors, checked);
         run
     };
     let ours = |errors, checked| erring(1, errors, checked);
@@ -180,7 +180,7 @@ fn a_gate_ends_in_a_sentence_a_structure() {
     assert_eq!(said(1.2), "sah-kd: right on 200 checked rays; 20.0 % slower [20.0, 20.0].");
     assert_eq!(said(0.8), "sah-kd: right on 200 checked rays; 20.0 % less time [20.0, 20.0].");
     let mut wrong = run(1.0, 1.0);
-    wrong[1].structure_errors = 3;
+    wrong[1].wrong_hits = 3;
     let found = sentences(&compare(&run(1.0, 1.0), &wrong, Some(10.0), 1))[1].clone();
     assert!(found.starts_with("sah-kd: wrong or other hits in 1 cell;"), "{found}");
     assert!(sentences(&compare(&run(1.0, 1.0), &wrong, None, 1)).is_empty(), "no gate");

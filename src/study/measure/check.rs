@@ -10,7 +10,7 @@ use crate::request::BRUTE_FORCE;
 use crate::scene::{Scene, Workload};
 use crate::study::epoch::Checked;
 use crate::study::{Stage, StudyError};
-use crate::validate::{Reference, Validation, validate_answers, validate_any_answers, validate_known};
+use crate::validate::{Reference, Validation, validate_any_hits, validate_hits, validate_known};
 
 /// The feature of a workload that a structure does not support, if any: then it has no time.
 pub fn declined(accel: &dyn DynAccel, workload: &Workload) -> Option<&'static str> {
@@ -129,9 +129,9 @@ fn validate_remote(
     query: Query,
 ) -> Validation {
     match query {
-        Query::Closest => validate_answers(reference, expected, &scene.mesh, rays, &accel.closest(rays)),
+        Query::Closest => validate_hits(reference, expected, &scene.mesh, rays, &accel.closest(rays)),
         Query::Any if !accel.capabilities().any_hit => Validation::default(),
-        Query::Any => validate_any_answers(reference, expected, &scene.mesh, rays, &accel.any(rays), Some(accel)),
+        Query::Any => validate_any_hits(reference, expected, &scene.mesh, rays, &accel.any(rays), Some(accel)),
     }
 }
 

@@ -142,7 +142,7 @@ fn a_right_structure_has_a_time_and_the_hits_of_all_others() {
     let structures = ["brute-force", "median-kd", "flawed"];
     assert_eq!(pairs, structures.map(|s| [(s, "primary"), (s, "shadow")]).concat());
     for own in &all {
-        assert_eq!((own.structure_errors, own.samples_ns.len(), own.epochs), (0, 4, 2));
+        assert_eq!((own.wrong_hits, own.samples_ns.len(), own.epochs), (0, 4, 2));
         assert!(own.trace_ns > Some(0.0) && own.mrays_per_s > Some(0.0));
         assert!(own.checked_rays > 0 && own.rays <= own.workload_rays);
     }

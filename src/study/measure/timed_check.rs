@@ -16,7 +16,7 @@ use crate::registry::Registry;
 use crate::scene::{Scene, Workload};
 use crate::study::epoch::Checked;
 use crate::triangle::{Exact, TriangleTest};
-use crate::validate::{Kind, Reference, differences, validate_answers, validate_any_answers};
+use crate::validate::{Kind, Reference, differences, validate_any_hits, validate_hits};
 
 /// The minimum number of disputed rays of a workload that brute force judges.
 const FEWEST: usize = 64;
@@ -137,11 +137,11 @@ impl<'a> TimedCheck<'a> {
         let judged = Checked::from(&match found {
             QueryResults::Closest(found) => {
                 let found: Vec<Option<Hit>> = some.iter().map(|&index| found[index]).collect();
-                validate_answers(judge, &truth, mesh, &disputed, &found)
+                validate_hits(judge, &truth, mesh, &disputed, &found)
             }
             QueryResults::Any(found) => {
                 let found: Vec<bool> = some.iter().map(|&index| found[index]).collect();
-                validate_any_answers(judge, &truth, mesh, &disputed, &found, Some(built.accel.as_ref()))
+                validate_any_hits(judge, &truth, mesh, &disputed, &found, Some(built.accel.as_ref()))
             }
         });
         Checked { rays: rays.len(), rounded: checked.rounded + judged.rounded, ..judged }

@@ -40,7 +40,7 @@ fn faster(hard: &[Replicated]) -> Option<Finding> {
     };
     let (scenes, times) = (listed(&scenes), interval(mean));
     let sentence = format!("Primary rays {told} the report's tree, by this much: {scenes}; geometric mean {times}.");
-    Some(Finding::new("hard", sentence).of(mean))
+    Some(Finding::new("hard", sentence).with_value(mean))
 }
 
 /// The number of rays that may be decided differently at edges.
@@ -78,5 +78,5 @@ fn order(main: &[Replicated]) -> Option<Finding> {
     let reversed = order.reversed.iter().map(|&[more, less]| [names[more], names[less]].join(" gains less than "));
     let reversed = listed(&reversed.collect::<Vec<_>>());
     let told = format!("Clearly not in the expected order: {reversed}.");
-    Some(Finding::new("order", if reversed.is_empty() { String::new() } else { told }).of(order.tau))
+    Some(Finding::new("order", if reversed.is_empty() { String::new() } else { told }).with_value(order.tau))
 }

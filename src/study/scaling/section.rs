@@ -61,7 +61,7 @@ pub fn findings(growths: &[Growth]) -> Vec<Finding> {
     let sentence = format!("On one sphere of n triangles the time of a primary ray grows like {}.", listed(&powers));
     let first = both.iter().find_map(|(_, growth)| growth.as_ref()?.time);
     let mut findings: Vec<Finding> =
-        first.map(|power| Finding::new("spheres", sentence).of(power)).into_iter().collect();
+        first.map(|power| Finding::new("spheres", sentence).with_value(power)).into_iter().collect();
     // The claims are about spheres up to level 8: coarser spheres cannot decide them.
     let claimed = both.iter().filter_map(|(key, growth)| {
         let growth = growth.filter(|growth| growth.points.iter().any(|point| point.triangles() >= LEVEL_8))?;

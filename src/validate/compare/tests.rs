@@ -180,7 +180,7 @@ fn any_hit_that_rounding_may_excuse_is_wrong_if_the_closest_hit_contradicts_it()
     let expected = reference.closest_hits(&[ray]);
     assert_eq!(expected, [None]);
     let subject: Box<dyn DynAccel> = Box::new(BruteForce::<MollerTrumbore>::build(&mesh, &Default::default())?);
-    let judged = |subject| validate_any_answers(&reference, &expected, &mesh, &[ray], &[true], subject);
+    let judged = |subject| validate_any_hits(&reference, &expected, &mesh, &[ray], &[true], subject);
     let alone = judged(None);
     assert_eq!((alone.errors(), alone.test_errors), (0, 1), "{alone:?}");
     let beside = judged(Some(subject.as_ref()));

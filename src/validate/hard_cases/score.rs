@@ -9,7 +9,7 @@ use super::case::{HardCase, Property};
 use super::set::Set;
 use crate::accel::BuildError;
 use crate::oracle::{Oracle, Truth};
-use crate::validate::{DepthRule, ErrorCounts, Reference, Validation, count_errors, validate_answers};
+use crate::validate::{DepthRule, ErrorCounts, Reference, Validation, count_errors, validate_hits};
 
 /// The mesh, rays and exact hits of one case, computed once for all structures.
 pub struct CaseTruth {
@@ -104,7 +104,7 @@ impl CaseTruth {
         }
         let reference = &self.references[test];
         let expected = reference.closest_hits(&set.rays);
-        let validation = validate_answers(reference, &expected, &set.mesh, &set.rays, &answers.hits);
+        let validation = validate_hits(reference, &expected, &set.mesh, &set.rays, &answers.hits);
 
         let inexact = truths.iter().zip(&answers.hits).filter(|(truth, hit)| match (truth, hit) {
             (Some(truth), Some(hit)) => {

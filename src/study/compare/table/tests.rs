@@ -9,7 +9,7 @@ fn record(scene: &str, label: &str, workload: &str, mrays_per_s: Option<f64>) ->
         mrays_per_s,
         trace_ns: mrays_per_s.map(|speed| 5e5 / speed),
         samples_ns: mrays_per_s.map_or(vec![], |speed| vec![5e5 / speed; 10]),
-        structure_errors: errors,
+        wrong_hits: errors,
         triangle_test: "moller-trumbore".into(),
         ..example(label, workload, &[], 5)
     }
@@ -66,7 +66,7 @@ fn ratios_are_geometric_means_against_the_tree_and_the_better_bvh() {
 #[test]
 fn what_is_declined_is_neither_right_nor_wrong() {
     let mut all = cube();
-    all[3] = Measurement { mrays_per_s: None, declined: Some("any hit".into()), structure_errors: 0, ..all[3].clone() };
+    all[3] = Measurement { mrays_per_s: None, declined: Some("any hit".into()), wrong_hits: 0, ..all[3].clone() };
     let table = scene_table(&all, &[]);
     assert_eq!(cell(&table, "sah-kd", "random"), "declined");
     assert_eq!(cell(&table, "sah-kd", "x median"), "8.00 (1 of 2)", "of the workloads that it does not decline");
@@ -80,7 +80,7 @@ fn what_is_declined_is_neither_right_nor_wrong() {
 fn a_wrong_structure_shows_its_errors_and_no_time_and_a_known_defect_is_named() {
     let mut all = cube();
     for place in [2, 4] {
-        (all[place].mrays_per_s, all[place].structure_errors) = (None, 3);
+        (all[place].mrays_per_s, all[place].wrong_hits) = (None, 3);
     }
     let table = scene_table(&all, &[]);
     for (structure, right) in [("sah-kd", "~4.00"), ("obvhs-bvh2", "~1.00")] {
