@@ -12,7 +12,7 @@ const AMBIGUOUS: [&str; 9] =
     ["a case", "a ray", "a job", "a second", "a triangle", "the others", "the rest", "the same", "stands in for"];
 
 /// Words of the glossary that have no other meaning. Whether most single words are wrong, only a reader can decide.
-const WORDS: [&str; 7] = ["anew", "caster", "owes", "surely", "whatever", "whoever", "yardstick"];
+const WORDS: [&str; 8] = ["anew", "caster", "likewise", "owes", "surely", "whatever", "whoever", "yardstick"];
 
 /// First words of a doc comment that hide its subject.
 const OPENINGS: [&str; 6] = ["Likewise", "Nothing", "Of", "That", "Those", "What"];

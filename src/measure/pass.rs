@@ -66,7 +66,7 @@ pub struct Pass<'a> {
     lead_in_results: QueryResults,
     /// If a pass traces all rays: how many of the last ones the lead-in traces too, and the checksum of their results.
     lead_in_checksum: Option<(usize, u64)>,
-    /// Picoseconds per ray of the lead-in; 0 without one, and then tiles have no lead-in either.
+    /// Picoseconds per ray of the lead-in; `u128::MAX` without one, and then tiles have no lead-in either.
     lead_in_ps: u128,
     /// `clear` alternates between two fillings: a pass that leaves a result untouched then cannot give the same
     /// checksum twice.

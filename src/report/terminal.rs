@@ -17,7 +17,7 @@ pub struct Screen {
 const INDENT: usize = 2;
 const PADDING: usize = 2;
 
-/// The tables that are printed in addition to the tables of single scenes: the means, then the claims.
+/// The tables except those that belong to one scene, then the claims.
 pub fn summary_tables(report: &Report) -> Vec<Table> {
     let shared = report.tables().filter(|table| !table.of_scene).cloned();
     shared.chain(report.verdict_table()).collect()

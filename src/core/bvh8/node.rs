@@ -66,7 +66,7 @@ pub(super) struct Node {
     pub planes: [[[f32; WIDTH]; 2]; 3],
     pub children: [Child; WIDTH],
     /// For each octant of directions (bit 0 is set for a negative x), the order in which such a ray visits the lanes:
-    /// three bits per lane, the last lane in the lowest bits. Unused lanes come last.
+    /// three bits per lane, the last lane in the lowest bits. Unused lanes have the lowest numbers and come last.
     pub orders: [u32; 8],
 }
 

@@ -91,7 +91,7 @@ impl Reference {
     }
 
     /// The geometric mean of the speed of the first of each pair relative to the second; a structure relative to itself
-    /// has no interval. `noise` as in [`speed`].
+    /// has no interval. `noise` is the A/A noise of the run.
     pub fn ratio(pairs: &[(&Measurement, &Measurement)], noise: &AaNoise) -> Option<Estimate> {
         let is_itself = !pairs.is_empty() && pairs.iter().all(|(own, other)| own.label == other.label);
         if is_itself { Some(Estimate::exact(1.0)) } else { speed(pairs.iter().copied(), noise) }
