@@ -123,7 +123,7 @@ fn answers_that_changed_are_wrong() {
     assert_eq!(wrong.len(), 1);
     assert_eq!(
         (&wrong[0].case[..], &wrong[0].what[..]),
-        ("sah-kd on the primary rays of Cube", "3 of 100 rays have a wrong hit, in the old run 0 of 100")
+        ("sah-kd on the primary rays of Cube", "3 of 100 rays have a wrong hit; in the old run 0 of 100")
     );
     assert!(with(&|r| r.hits = 19)[0].what.contains("19 of 1000 rays hit, 20 did"));
     assert!(with(&|r| r.hit_checksum = Some(0))[0].what.contains("another t"));

@@ -142,7 +142,7 @@ fn reserve(model: &mut Model, sizes: [usize; 4], bytes: usize) -> Result<(), Fau
         return Err(Fault::file(format!("{shown}, which do not fit into memory: split the scene")));
     }
     let shown = format!("{shown}, and need {normals} normals and {others} other elements");
-    Err(Fault::file(format!("{shown}, but the limit of each for files of {bytes} bytes is {most}: split the scene")))
+    Err(Fault::file(format!("{shown}, but the limit for files of {bytes} bytes is {most} of each: split the scene")))
 }
 
 /// Adds the triangles of a mesh in a pose.

@@ -250,10 +250,7 @@ fn many_empty_primitives_shown_often_are_refused() {
     document["nodes"] = (0..20_000).map(|_| json!({"mesh": 0})).collect();
     document["scenes"][0]["nodes"] = (0..20_000).collect();
     let error = loaded(document.to_string().as_bytes()).unwrap_err().to_string();
-    assert!(
-        error.contains("its nodes show 40000 triangles") && error.contains("the limit of each for files of"),
-        "{error}"
-    );
+    assert!(error.contains("its nodes show 40000 triangles") && error.contains("the limit for files of"), "{error}");
 }
 
 #[test]
