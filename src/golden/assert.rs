@@ -40,9 +40,9 @@ const OUT: &str = "out/golden";
 /// # assert!(sahara::golden::check_image(&golden, &drawn.into(), Match::Exact, &folder.path().join("out")).is_err());
 /// ```
 ///
-/// # Panics
-/// If the picture is not accepted, has another size, other channels or another depth, or there is no golden image. Then
-/// `out/golden` holds a folder of the golden image's name, with a page to look at both pictures and their difference; the
+/// If the picture is not accepted, if its size, channels or bits per channel differ, or if there is no golden image.
+/// Then `out/golden` contains a folder with the name of the golden image and a page that shows both pictures and their
+/// difference; the message contains its path.
 /// message says where.
 #[track_caller]
 pub fn assert_image(path: impl AsRef<Path>, actual: impl Into<DynamicImage>, how: Match) {
@@ -56,7 +56,7 @@ pub fn assert_image(path: impl AsRef<Path>, actual: impl Into<DynamicImage>, how
     }
 }
 
-/// As [`assert_image`], without a panic and with the pictures of a failure in `out`.
+/// Like [`assert_image`], without a panic and with the pictures of a failure in `out`.
 ///
 /// # Errors
 /// If the picture is not accepted, or the golden image cannot be read.

@@ -46,7 +46,7 @@ impl Serialize for Answer {
     }
 }
 
-/// A hit as it is printed.
+/// A printed hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InspectedHit {
     pub t: f32,

@@ -14,7 +14,7 @@ pub struct Report {
     /// Tables, figures and texts in order. The terminal prints only the tables and notes that are not folded.
     pub blocks: Vec<Block>,
     /// The verdicts on the claims, which were written before the measurement.
-    pub verdicts: Vec<Verdict>,
+    pub verdicts: Vec<ClaimVerdict>,
     /// Structures without times or with wrong hits. They decide the exit status.
     pub failures: Vec<Failure>,
     /// Conditions that disturbed the run, each with a remedy.
@@ -54,7 +54,7 @@ pub enum Block {
 
 /// The verdict on one claim, which was written before the measurement.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Verdict {
+pub struct ClaimVerdict {
     /// The number of the prediction that contains the claim, from 1.
     pub prediction: u8,
     pub claim: String,

@@ -2,7 +2,7 @@
 
 use crate::measure::{Estimate, Interval};
 use crate::report::number::figures;
-use crate::report::{Finding, Outcome, Verdict};
+use crate::report::{ClaimVerdict, Finding, Outcome};
 
 /// The expected range of a number. An infinite end is no bound.
 pub struct Claim {
@@ -112,7 +112,7 @@ impl Claim {
         }
     }
 
-    fn judge(&self, findings: &[Finding]) -> Verdict {
+    fn judge(&self, findings: &[Finding]) -> ClaimVerdict {
         let value = findings.iter().find(|finding| finding.key == self.key).and_then(|finding| finding.value);
         let value = value.map(|value| match self.scale {
             Scale::Ratio => value.ratio_among(CLAIMS),
@@ -120,20 +120,20 @@ impl Claim {
             Scale::Judged => value,
         });
         let (claim, expected) = (self.what.to_owned(), self.expected());
-        Verdict { prediction: self.prediction, claim, expected, value, outcome: self.outcome(value) }
+        ClaimVerdict { prediction: self.prediction, claim, expected, value, outcome: self.outcome(value) }
     }
 }
 
 /// The verdicts on the claims that `study` measures, from its findings. Empty if none of them is measured.
-pub fn judge(study: &str, findings: &[Finding]) -> Vec<Verdict> {
+pub fn judge(study: &str, findings: &[Finding]) -> Vec<ClaimVerdict> {
     let own = ALL.iter().filter(|claim| claim.study == study);
-    let verdicts: Vec<Verdict> = own.map(|claim| claim.judge(findings)).collect();
+    let verdicts: Vec<ClaimVerdict> = own.map(|claim| claim.judge(findings)).collect();
     let is_measured = verdicts.iter().any(|verdict| verdict.outcome != Outcome::NotMeasured);
     if is_measured { verdicts } else { vec![] }
 }
 
 /// The number of claims by outcome: `10 of 24 claims confirmed, 10 refuted, 4 undecided`.
-pub fn tally<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> String {
+pub fn tally<'a>(verdicts: impl IntoIterator<Item = &'a ClaimVerdict>) -> String {
     let outcomes: Vec<Outcome> = verdicts.into_iter().map(|verdict| verdict.outcome).collect();
     let count = |outcome: Outcome| outcomes.iter().filter(|own| **own == outcome).count();
     let judged = [Outcome::Confirmed, Outcome::Refuted, Outcome::Undecided].map(count);

@@ -1,4 +1,4 @@
-//! One epoch of one scene, as it was measured: plain data.
+//! The measured data of one epoch of one scene.
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;

@@ -12,7 +12,7 @@ use crate::report::inspector::{Answer, InspectedHit, InspectedStructure, Inspect
 use crate::report::plot::{Bar, BarGroup, Bars, Chart, Curves, Line, Tradeoff, TradeoffCase, TradeoffPoint};
 use crate::report::words::slug;
 use crate::report::{
-    Art, Block, Cell, Colours, Figure, Finding, Outcome, Overlay, Picture, Report, Table, Tone, Value, Verdict,
+    Art, Block, Cell, ClaimVerdict, Colours, Figure, Finding, Outcome, Overlay, Picture, Report, Table, Tone, Value,
 };
 use crate::study::case::tests as case;
 use crate::study::epoch::tests as epoch;
@@ -103,7 +103,7 @@ fn replicate(dataset: &Dataset, _: &ArgMatches) -> Report {
     let of = |title: String| Finding::number(format!("hard-{}", slug(&title)), ratio());
     let findings = titles(dataset).into_iter().map(of);
     let hard = Finding::new("hard", "Primary rays are 8.00 times as fast.").with_value(ratio());
-    let verdict = Verdict {
+    let verdict = ClaimVerdict {
         prediction: 1,
         claim: "Cube: rays".into(),
         expected: "at least 20".into(),

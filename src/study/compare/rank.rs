@@ -130,7 +130,7 @@ impl<'a> Ranking<'a> {
         let told = match () {
             () if value == Estimate::exact(1.0) => "the others are compared with it".to_owned(),
             () if value.holds(1.0) => {
-                format!("not distinguishable from {reference}, {times} times the rays per second")
+                format!("it is not distinguishable from {reference}: {times} times as many rays per second")
             }
             () => format!("it traces {times} times as many rays per second as {reference}"),
         };
