@@ -14,7 +14,7 @@ pub const UPDATE: &str = "SAHARA_GOLDEN";
 /// The folder for the pictures of failures, relative to the current directory, which is the crate's folder in tests.
 const OUT: &str = "out/golden";
 
-/// Compares `actual` with the golden image `path`, in its channels (alpha as any other) and with its bits a channel; for
+/// Compares `actual` with the golden image `path`, in all channels, including alpha, and at its bits per channel. For
 /// tests.
 ///
 /// With the environment variable `SAHARA_GOLDEN=update` the file is written instead as PNG, folders included.
@@ -40,10 +40,10 @@ const OUT: &str = "out/golden";
 /// # assert!(sahara::golden::check_image(&golden, &drawn.into(), Match::Exact, &folder.path().join("out")).is_err());
 /// ```
 ///
+/// # Panics
 /// If the picture is not accepted, if its size, channels or bits per channel differ, or if there is no golden image.
 /// Then `out/golden` contains a folder with the name of the golden image and a page that shows both pictures and their
 /// difference; the message contains its path.
-/// message says where.
 #[track_caller]
 pub fn assert_image(path: impl AsRef<Path>, actual: impl Into<DynamicImage>, how: Match) {
     let (path, actual) = (path.as_ref(), actual.into());

@@ -139,7 +139,6 @@ pub(crate) fn search<'a, const ANY: bool, const N: usize, L: Lanes<N>, T: Triang
 ///
 /// Candidates that need another call are left to [`settle_closely`]. Most need none, and without a call this function
 /// saves no registers.
-/// saves no registers.
 #[inline(never)]
 pub(crate) fn settle<'a, const N: usize, T: TriangleTest>(
     block: &'a LeafBlock<T, N>,

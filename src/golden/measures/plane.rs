@@ -16,6 +16,7 @@ const BAND: usize = 64;
 /// A number for each pixel of a picture, computed in bands of rows in parallel. `of` receives the rows of a band and
 /// `reach` more on each side; beyond the edge the outermost row is repeated. It returns the numbers of the pixels in
 /// these rows.
+///
 /// Each thread takes the memory of a band, for any size of the picture. The numbers do not depend on the bands.
 pub fn in_bands(size: [u32; 2], reach: usize, of: impl Fn(&[usize]) -> Vec<f64> + Sync) -> Vec<f32> {
     let [width, height] = size.map(|side| side as usize);

@@ -140,7 +140,6 @@ fn defects(all: &[Measurement]) -> Vec<String> {
 
 /// A footnote for each triangle test whose number of hits differs from the exact one by more than 1 %: no check of a
 /// structure with its own test shows that.
-/// own test tells that.
 fn unfit_tests(all: &[Measurement]) -> Vec<String> {
     let exact = |of: &Measurement| {
         let same = |r: &&Measurement| r.workload_hash == of.workload_hash && r.counted_rays == of.counted_rays;

@@ -15,7 +15,6 @@ use crate::scene::Workload;
 /// structures (papers/TUNING.md), rounded. With them the default run of `compare` times nine in ten cases on as many
 /// rays as a clock would select, and takes as long. A prediction is wrong by a factor of about 1.5; the possible
 /// numbers of rays differ by factors of four.
-/// to choose from lie four times apart.
 const RAY_NS: f64 = 20.0;
 const STEP_NS: f64 = 15.0;
 const BLOCK_NS: f64 = 8.0;

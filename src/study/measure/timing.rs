@@ -69,7 +69,6 @@ impl Timing<'_> {
     /// The cost of a ray for a runner is unknown: its clock may allot it fewer rays, and other ones in another epoch.
     /// So it and all other structures of its workload are also timed on the next level: epochs then have rays in
     /// common.
-    /// with it all others of its workload, on the next level as well: epochs have rays in common then.
     pub fn take(
         &self,
         allotted: &Allotted,

@@ -10,7 +10,6 @@
 //! converted on all threads, no bounds checks. The traversals are obvhs' own without its checks: the links that they
 //! follow are checked once, when the tree is built. obvhs itself converts the binary tree to the 8-wide tree, on one
 //! thread.
-//! one thread.
 //!
 //! Known defects of obvhs 0.4.0, which validation shows: `CwBvh` misses every ray with a direction component of -0.0
 //! and loses hits with t < 1e-4; both BVHs lose axis-parallel rays close to a box face, and rays with short directions;

@@ -32,7 +32,6 @@ const MOST_REPEATED: usize = 1 << 24;
 /// Transforms are multiplied in f64 and rounded once, when they are applied to vertices. Triangles of mirrored nodes
 /// are reversed, which keeps their front side. Points, lines, textures and morph targets are left out. It counts all
 /// visible triangles, vertices, normals, joints and instances before it reads an element.
-/// visible is counted before anything is read.
 pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
     let (text::Document { mut root, instances, textured, mut notes }, chunk) = text::parse(&bytes)?;
     let size = bytes.len();
