@@ -56,6 +56,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     }
 
     /// Passes the hit of each ray to `answer`.
+    #[allow(clippy::needless_range_loop)] // a lane is a column of many
     #[inline(always)]
     pub fn answer<const ANY: bool, L: EightLanes>(
         &self,
