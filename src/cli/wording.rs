@@ -159,7 +159,7 @@ fn help_fits_a_screen_and_it_and_messages_have_no_phrase_that_the_glossary_repla
     files.retain(|(path, _)| !path.ends_with("tests.rs") && !path.iter().any(|part| part == "tests"));
     let mut count = 0;
     for (path, text) in &files {
-        // No user reads a sentence to `expect`.
+        // No user reads the sentence of an `expect`.
         let shown = literals(&text.replace(".expect(\"", ".expect(//"));
         count += shown.len();
         let of_literal = |own: &String| found(&phrases, own);

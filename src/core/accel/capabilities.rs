@@ -34,7 +34,7 @@ impl Capabilities {
 
     /// The feature of `ray` that the structure declines, if any.
     pub fn declines(self, ray: &Ray) -> Option<&'static str> {
-        // NaN is not an omitted end.
+        // A NaN end is not an omitted one.
         let (from_start, endless) = (ray.t_min <= 0.0, ray.t_max == f32::INFINITY);
         match () {
             () if !self.t_min && !from_start => Some("t_min"),

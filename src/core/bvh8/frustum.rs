@@ -14,7 +14,7 @@ use crate::simd::{Lanes, each};
 pub(super) struct Frustum<L> {
     near_origin: [L; 3],
     far_origin: [L; 3],
-    /// The least and the greatest.
+    /// By axis, the least and the greatest inverse.
     inverse: [[L; 2]; 3],
     enlarged: [[L; 2]; 3],
     t_min: L,

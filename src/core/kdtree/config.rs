@@ -25,7 +25,7 @@ pub struct KdConfig {
     /// `T` of [`Stop::Report`]: the share of triangles on both sides that discards a split. In (0, 1]; 0.7 in the
     /// report's main table.
     pub threshold: f32,
-    /// The triangles that the threshold is a share of.
+    /// The triangles to which the share `threshold` refers.
     pub count: CountOf,
     /// The value that represents the middle of the vertex coordinates.
     pub median: Median,

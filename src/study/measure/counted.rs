@@ -32,8 +32,8 @@ const RAYS: usize = 16384;
 /// Approximate maximum of triangle tests per count: structures with more tests per ray are counted on fewer rays.
 const TESTS: u64 = 1 << 24;
 
-/// Rays for estimating the cost of a ray, their number if triangle tests are many, and the maximum of triangle tests
-/// for the former.
+/// The number of rays for estimating the cost of a ray, the smaller number for expensive rays, and the limit of triangle
+/// tests for the larger number.
 const FEW: usize = 512;
 const FEWEST: usize = 32;
 const FEW_TESTS: u64 = 1 << 20;

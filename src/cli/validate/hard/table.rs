@@ -87,7 +87,7 @@ fn notes(cases: &[&HardCase], columns: &[Column], is_shown: impl Fn(&HardCase) -
     let mut notes = vec![];
     for (i, case) in cases.iter().enumerate().filter(|(_, case)| is_shown(case)) {
         for column in columns {
-            // Structures with known defects need no wrong rays.
+            // Skip the wrong rays of structures with known defects.
             let has_defects = known_defect(&column.choice.entry.name).is_some();
             let sentence = match &column.scores[i] {
                 Score::Failed(Failure::Refused(sentence) | Failure::Declined(sentence)) => sentence,
