@@ -1,9 +1,8 @@
-//! The inner loops alone: `cargo bench --bench kernels`.
+//! The inner loops: `cargo bench --bench kernels`.
 //!
 //! The group `observer` traces the same rays through the same tree with `()`, with an observer that does nothing, and
-//! with one that counts. Their times differ by more than the observing: with `()` a walk runs on the level of
-//! instructions in use, with any observer that is [`ACTIVE`](Observer::ACTIVE), as the other two are, on portable
-//! lanes.
+//! with one that counts. Their times differ by more than the observing: with `()` a traversal runs on the current SIMD
+//! level, with an [`ACTIVE`](Observer::ACTIVE) observer, such as the other two, on portable lanes.
 
 use std::hint::black_box;
 use std::sync::Arc;
@@ -20,7 +19,7 @@ use sahara::triangle::{
     BaldwinWeber, EdgeF64, Exact, MollerTrumbore, MollerTrumboreF64, Plucker, TriangleTest, Watertight,
 };
 
-/// Triangles around the origin, most of which a ray misses.
+/// Triangles around the origin; a ray misses most of them.
 fn triangles() -> Vec<[Vec3; 3]> {
     let corner = |i: u32| {
         let turn = |k: u32| (i.wrapping_mul(k) % 1009) as f32 / 504.5 - 1.0;
@@ -29,7 +28,7 @@ fn triangles() -> Vec<[Vec3; 3]> {
     (0..512).map(|i| [corner(3 * i), corner(3 * i + 1), corner(3 * i + 2)]).collect()
 }
 
-/// All candidates of all blocks, decided.
+/// Decides all candidates of all blocks.
 fn test_all<T: TriangleTest, const N: usize, L: Lanes<N>>(ray: &Ray, blocks: &[T::Block<N>]) -> usize {
     let prepared = T::prepare(ray);
     let hits = |block| {
@@ -44,7 +43,7 @@ fn test_all<T: TriangleTest, const N: usize, L: Lanes<N>>(ray: &Ray, blocks: &[T
     blocks.iter().map(hits).sum()
 }
 
-/// The same with eight lanes of a level.
+/// The same with eight lanes of a SIMD level.
 struct Eight<'a, T: TriangleTest>(&'a Ray, &'a [T::Block<8>]);
 
 impl<T: TriangleTest> Kernel for Eight<'_, T> {

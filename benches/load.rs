@@ -1,5 +1,5 @@
-//! Loading alone of a mesh in each format, and of a glTF file of many nodes: `cargo bench --bench load -- obj`. A million
-//! triangles and a hundred thousand nodes, few in a test.
+//! Loads a mesh in each format, and a glTF file of many nodes: `cargo bench --bench load -- obj`. A million triangles
+//! and a hundred thousand nodes, few in a test.
 
 use std::fs;
 use std::path::Path;

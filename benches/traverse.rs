@@ -1,4 +1,4 @@
-//! Trace times, one thread, in rays a second: `cargo bench --bench traverse -- dragon`.
+//! Trace times, one thread, in rays per second: `cargo bench --bench traverse -- dragon`.
 
 mod common;
 
@@ -13,7 +13,7 @@ use sahara::scene::{Sampling, Scene, Workload, WorkloadKind};
 const KINDS: [WorkloadKind; 4] =
     [WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse, WorkloadKind::Random];
 
-/// The rays of the whole picture, as `sahara compare` takes them.
+/// The rays of the whole picture, as in `sahara compare`.
 fn workloads(scene: &Scene) -> Vec<Workload> {
     let caster =
         Registry::builtin().choose("sah-kd").expect("a registered name").build(&scene.mesh).expect("it builds");
@@ -22,7 +22,8 @@ fn workloads(scene: &Scene) -> Vec<Workload> {
     workloads.filter(|workload| !workload.rays.is_empty()).collect()
 }
 
-/// Whole pictures, each after the same lead-in and on the same clock as in `sahara compare`: both say the same.
+/// Whole pictures, each after the same lead-in and with the same clock as in `sahara compare`: both print the same
+/// times.
 fn bench(criterion: &mut Criterion, group: &str, name: &str, accel: &dyn DynAccel, workload: &Workload) {
     let threads = Threads::pinned(1).expect("there is a thread");
     let _pin = threads.pin();
@@ -57,7 +58,7 @@ fn traverse(criterion: &mut Criterion) {
     }
 }
 
-/// The ways to answer a slice: `cargo bench --bench traverse -- slices/lucy`.
+/// The batch strategies: `cargo bench --bench traverse -- slices/lucy`.
 fn slices(criterion: &mut Criterion) {
     for name in ["dragon", "lucy"] {
         let scene = common::scene(name);

@@ -1,4 +1,4 @@
-//! Build script: tells the crate which commit and compiler it was built with. Works without git, and then says "unknown".
+//! Build script: records the commit and the compiler of the build. Without git the commit is "unknown".
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -18,14 +18,14 @@ fn main() {
     set("SAHARA_PROFILE", env::var("PROFILE").ok());
     set("SAHARA_OBVHS", locked(&root, "obvhs"));
 
-    // Whether the sources differ from the commit is part of its name, so look again when they change.
+    // The name of the commit includes whether the sources differ from it: look again when they change.
     for path in ["src", "Cargo.toml", "Cargo.lock", ".cargo/config.toml"] {
         rerun_if_changed(&root.join(path));
     }
 }
 
-/// The commit of the sources, with `+changes` when they differ from it; nothing when the crate is not a git work tree of
-/// its own.
+/// The commit of the sources, with `+changes` if they differ from it; `None` if the crate is not a git work tree
+/// itself.
 fn commit(root: &Path) -> Option<String> {
     let git = |args: &[&str]| output(root, "git", args);
     let top = PathBuf::from(git(&["rev-parse", "--show-toplevel"])?);
@@ -36,7 +36,8 @@ fn commit(root: &Path) -> Option<String> {
         rerun_if_changed(&root.join(git(&["rev-parse", "--git-path", file])?));
     }
     let commit = git(&["rev-parse", "--short=12", "HEAD"])?;
-    // Without the lock git leaves the index as it is: a new one would rerun this script, and rebuild the crate, next time.
+    // Without the lock git leaves the index unchanged: a new index would rerun this script, and rebuild the crate, next
+    // time.
     let sources = [
         "--no-optional-locks",
         "status",
@@ -51,21 +52,21 @@ fn commit(root: &Path) -> Option<String> {
     Some(if changes { commit + "+changes" } else { commit })
 }
 
-/// The version of a package that the lock file names.
+/// The version of a package in the lock file.
 fn locked(root: &Path, package: &str) -> Option<String> {
     let lock = std::fs::read_to_string(root.join("Cargo.lock")).ok()?;
     let (_, entry) = lock.split_once(&format!("name = \"{package}\"\nversion = \""))?;
     Some(entry.split('"').next()?.to_owned())
 }
 
-/// A path that is not there would rerun the script on every build.
+/// A missing path would rerun the script on every build.
 fn rerun_if_changed(path: &Path) {
     if path.exists() {
         println!("cargo::rerun-if-changed={}", path.display());
     }
 }
 
-/// What a program prints, without the white space around it; nothing when it fails or is not there.
+/// The output of a program without surrounding white space; `None` if it fails or is missing.
 fn output(directory: &Path, program: &str, args: &[&str]) -> Option<String> {
     let output = Command::new(program).args(args).current_dir(directory).output().ok()?;
     output.status.success().then(|| String::from_utf8_lossy(&output.stdout).trim().to_owned())

@@ -1,11 +1,11 @@
-//! Names as a terminal may show them.
+//! Escapes names for terminals.
 
 use std::ffi::OsStr;
 use std::fmt::{self, Display, Formatter};
 use std::path::Path;
 
-/// A file may have any name: an escape sequence in it would change the terminal, the end of a line would break a table,
-/// and two names that differ in bytes which are not text would look alike.
+/// A file may have any name: an escape sequence in it would change the terminal, a line break would break a table, and
+/// two names with different bytes that are not text would look equal.
 pub trait Escaped {
     /// The same name in one line: `\n` or `\u{1b}` for a control character, `\xff` for a byte that is not text.
     fn escaped(&self) -> Escape<'_>;
@@ -33,13 +33,13 @@ impl Display for Escape<'_> {
     }
 }
 
-/// Whether a character moves the cursor, ends a line or turns the direction of writing.
+/// Whether a character moves the cursor, ends a line or changes the direction of writing.
 fn is_control(c: char) -> bool {
     c.is_control() || matches!(c, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// A word of a command line as a shell reads it back, in one line: in plain quotes where they suffice, else as `$'a\xff'`,
-/// which bash, zsh and ksh understand.
+/// A word of a command line that a shell reads back, in one line: in plain quotes if these suffice, otherwise as
+/// `$'a\xff'`, which bash, zsh and ksh understand.
 pub fn quoted(word: impl AsRef<OsStr>) -> String {
     let word = word.as_ref();
     let Some(text) = word.to_str().filter(|text| !text.chars().any(is_control)) else {
@@ -51,7 +51,7 @@ pub fn quoted(word: impl AsRef<OsStr>) -> String {
     if !text.is_empty() && text.chars().all(plain) { text.into() } else { format!("'{}'", text.replace('\'', "'\\''")) }
 }
 
-/// The file name of `path` without its ending, escaped.
+/// The file name of `path` without its extension, escaped.
 pub fn stem(path: &Path) -> String {
     path.file_stem().unwrap_or(path.as_os_str()).escaped().to_string()
 }

@@ -37,7 +37,7 @@ pub mod scene;
 pub mod study;
 pub mod validate;
 
-// What a structure or study of another crate needs besides: the versions that this crate uses.
+// Other crates that a structure or study of your crate needs: the versions that this crate uses.
 pub use anyhow;
 pub use clap;
 pub use glam;

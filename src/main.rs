@@ -3,7 +3,7 @@ use std::process::ExitCode;
 use sahara::measure::CountingAllocator;
 use sahara::registry::Registry;
 
-/// Tells the peak memory of builds.
+/// Counts the peak memory of builds.
 #[global_allocator]
 static ALLOCATOR: CountingAllocator = CountingAllocator;
 

@@ -1,6 +1,6 @@
-//! Looks up names that people type, in any case, and suggests one for a misspelled name.
+//! Looks up names that people type, in upper or lower case, and suggests one for a misspelled name.
 
-/// Declares an enum with a name for each value; it has `ALL` of them, in the order in which they stand, and `name`.
+/// Declares an enum with a name for each value; it has `ALL` of them, in the order of declaration, and `name`.
 macro_rules! named_enum {
     ($(#[$doc:meta])* pub enum $type:ident { $($(#[$of:meta])* $value:ident = $name:literal,)* }) => {
         $(#[$doc])*
@@ -12,7 +12,7 @@ macro_rules! named_enum {
             /// In the order of tables.
             pub const ALL: [Self; [$($name),*].len()] = [$(Self::$value),*];
 
-            /// As typed, printed and recorded.
+            /// The name in commands, output and files.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$value => $name),*
@@ -23,7 +23,7 @@ macro_rules! named_enum {
 }
 pub(crate) use named_enum;
 
-/// A name that is none of those known.
+/// An unknown name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("there is no {what} {name:?}{}; the choices are: {}", suggestion(name, known.iter().copied()), known.join(", "))]
 pub struct Unknown {
@@ -32,7 +32,7 @@ pub struct Unknown {
     known: Vec<&'static str>,
 }
 
-/// The one of `all` values, each of them `what`, with the name `wanted`, in any case.
+/// The value in `all` with the name `wanted`, in upper or lower case; `what` is the noun for the error.
 pub fn find<T: Copy, const N: usize>(
     what: &'static str,
     all: [T; N],
@@ -46,14 +46,14 @@ pub fn find<T: Copy, const N: usize>(
     })
 }
 
-/// The first of `known` with the name `wanted`, in any case.
+/// The first of `known` with the name `wanted`, in upper or lower case.
 pub fn named<T>(known: impl IntoIterator<Item = T>, wanted: &str, name: impl Fn(&T) -> &str) -> Option<T> {
     known.into_iter().find(|one| name(one).eq_ignore_ascii_case(wanted))
 }
 
-/// The one of `known` that `wanted` was probably meant to be: at most a third of its letters differ, where two
-/// neighbours that changed places count once (Damerau, "A technique for computer detection and correction of spelling
-/// errors", 1964), or it is the only one that begins with `wanted`. None if there is no such name.
+/// The element of `known` that `wanted` probably means: at most a third of its letters differ, where two swapped
+/// neighbours count once (Damerau, "A technique for computer detection and correction of spelling errors", 1964), or it
+/// is the only one that begins with `wanted`. `None` if there is no such name.
 pub fn nearest<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let wanted: String = wanted.chars().take(60).flat_map(char::to_lowercase).collect();
     let known: Vec<&str> = known.into_iter().collect();
@@ -66,7 +66,7 @@ pub fn nearest<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Op
     begins.next().filter(|_| begins.next().is_none())
 }
 
-/// ` (did you mean NAME?)`, or nothing.
+/// ` (did you mean NAME?)`, or an empty text.
 pub fn suggestion<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     nearest(wanted, known).map_or(String::new(), |name| format!(" (did you mean {name}?)"))
 }

@@ -1,25 +1,30 @@
-//! Files and folders written whole or not at all; standard output, whose reader may go away.
+//! Files and folders written whole or not at all, and standard output, whose reader may close it.
 //!
-//! Contents are first written beside their place under a temporary name and then moved there: a reader never sees half
-//! of them, and what was there before stays when something fails.
+//! Contents are first written to a temporary name beside their place and then moved there: a reader never sees half of
+//! them, and the old contents stay after a failure.
+//!
+//! A closed standard output, as after `head`, is not an error: the run continues to its verdict. Any other failure of
+//! standard output is reported at the end, and does not change the verdict.
 
-mod file;
-mod folder;
-mod standard;
-
-use std::io;
+use std::collections::HashSet;
+use std::fmt::Display;
+use std::fs;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
 
-use tempfile::{Builder, NamedTempFile};
+use tempfile::{Builder, NamedTempFile, TempDir};
 
 use crate::escaped::Escaped as _;
 
-pub use file::OutputFile;
-pub use folder::OutputFolder;
-pub use standard::{STDOUT, stdout_is_taken};
-pub(crate) use standard::{note, print, take_failure, tell, tell_error};
+/// The file name for standard output.
+pub const STDOUT: &str = "-";
 
-/// Why a file or a folder cannot be written.
+/// The file that marks a folder as written by sahara: it lists the folder's files.
+const MARK: &str = "sahara-files.json";
+
+/// The reason why a file or a folder cannot be written.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
     #[error("cannot write {}: {problem}", path.escaped())]
@@ -33,14 +38,183 @@ impl OutputError {
         Self::Place { path: path.into(), problem: problem.into() }
     }
 
-    /// A failed write of `path`. Of an error of tempfile, which names a temporary path, the kind is kept.
+    /// A failed write of `path`. Only the kind of an error of tempfile is kept, because its text names a temporary
+    /// path.
     fn write(path: &Path, error: io::Error) -> Self {
         let cause = if error.get_ref().is_some() { error.kind().into() } else { error };
         Self::Write { path: path.into(), cause }
     }
 }
 
-/// The one path of what is at `path` or will be there, with links followed.
+/// A file for results, or standard output if its name is [`STDOUT`]. Special files (a pipe, `/dev/stdout`) are written
+/// directly.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OutputFile {
+    pub path: PathBuf,
+    /// The regular file. `None` for standard output, pipes and terminals: they can be read and written more than once.
+    regular: Option<PathBuf>,
+}
+
+impl OutputFile {
+    /// Checks that `path` can be written now, before the long run with the results; leaves no file behind.
+    pub fn check(path: &Path) -> Result<Self, OutputError> {
+        let regular = match fs::metadata(path) {
+            _ if path == Path::new(STDOUT) => {
+                TO_STDOUT.store(true, Ordering::Relaxed);
+                None
+            }
+            Ok(there) if there.is_dir() => {
+                return Err(OutputError::place(path, "it is a directory: name a file in it"));
+            }
+            Ok(there) if !there.is_file() => None,
+            _ => {
+                let regular = resolved(path).and_then(|regular| temporary_file(&regular).map(|_| regular));
+                Some(regular.map_err(|cause| OutputError::write(path, cause))?)
+            }
+        };
+        Ok(Self { path: path.into(), regular })
+    }
+
+    /// The same file, if it is not one of `inputs`, under any path.
+    pub fn apart_from<'a>(self, inputs: impl IntoIterator<Item = &'a Path>) -> Result<Self, OutputError> {
+        let is_own = |input: &Path| self.regular.is_some() && input.canonicalize().ok() == self.regular;
+        match inputs.into_iter().any(is_own) {
+            true => Err(OutputError::place(&self.path, "it is an input file: name another file")),
+            false => Ok(self),
+        }
+    }
+
+    /// Rejects two results with the same place, under any paths.
+    pub fn are_apart<'a>(files: impl IntoIterator<Item = &'a Self>) -> Result<(), OutputError> {
+        let mut places = HashSet::new();
+        let mut files = files.into_iter().filter(|file| file.regular.is_some() || file.path == Path::new(STDOUT));
+        files.find(|file| !places.insert(&file.regular)).map_or(Ok(()), |file| {
+            Err(OutputError::place(&file.path, "two results would go there: name another file for one of them"))
+        })
+    }
+
+    /// Standard output never fails here: missing output is reported when the command ends, and a closed one is not an
+    /// error. After any other failure an older file is unchanged.
+    pub fn write(&self, bytes: &[u8]) -> Result<(), OutputError> {
+        let write = || {
+            match &self.regular {
+                Some(regular) => drop(written(regular, bytes)?.persist(regular)?),
+                None if self.path == Path::new(STDOUT) => print(bytes),
+                None => unless_gone(fs::OpenOptions::new().write(true).open(&self.path)?.write_all(bytes))?,
+            }
+            Ok(())
+        };
+        write().map_err(|cause| OutputError::write(&self.path, cause))
+    }
+
+    /// Writes a file that does not exist yet; returns false if it exists. Of several writers, also on machines that
+    /// share a file system, one wins permanently. On return the file is on the disk; a failed write leaves no file.
+    pub fn write_new(&self, bytes: &[u8]) -> Result<bool, OutputError> {
+        let Some(regular) = &self.regular else { return Ok(false) };
+        match written(regular, bytes).and_then(|file| Ok(file.persist_noclobber(regular)?)) {
+            Err(cause) if cause.kind() == io::ErrorKind::AlreadyExists => return Ok(false),
+            written => drop(written.map_err(|cause| OutputError::write(&self.path, cause))?),
+        }
+        // Also put the name on the disk, on systems that can.
+        let _ = fs::File::open(folder_of(regular)).and_then(|folder| folder.sync_all());
+        Ok(true)
+    }
+}
+
+/// A new file beside `path` whose contents are on the disk.
+fn written(path: &Path, bytes: &[u8]) -> io::Result<NamedTempFile> {
+    let mut file = temporary_file(path)?;
+    file.write_all(bytes)?;
+    file.as_file().sync_all()?;
+    Ok(file)
+}
+
+/// A folder for results; all its contents are written by sahara.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OutputFolder {
+    pub path: PathBuf,
+    resolved: PathBuf,
+}
+
+impl OutputFolder {
+    /// Checks that `path` may be written: it does not exist, is empty or contains only earlier output. Leaves no file
+    /// behind.
+    pub fn check(path: &Path) -> Result<Self, OutputError> {
+        if path.exists() && !path.is_dir() {
+            return Err(OutputError::place(path, "it is a file: name a folder that does not exist yet"));
+        }
+        let failed = |cause| OutputError::write(path, cause);
+        let folder = Self { path: path.into(), resolved: resolved(path).map_err(failed)? };
+        let mark = fs::read(path.join(MARK)).unwrap_or_default();
+        let listed: Vec<String> = serde_json::from_slice(&mark).unwrap_or_default();
+        let names = if path.exists() { names_below(path, "").map_err(failed)? } else { vec![] };
+        if let Some(other) = names.iter().filter(|name| !listed.contains(name)).min() {
+            let problem = format!("it contains {other}, which sahara did not write: name another folder, or empty it");
+            return Err(OutputError::place(path, problem));
+        }
+        temporary_folder(&folder.resolved).map_err(failed)?;
+        Ok(folder)
+    }
+
+    /// The same folder, if it contains none of `inputs`, under any path.
+    pub fn apart_from<'a>(self, inputs: impl IntoIterator<Item = &'a Path>) -> Result<Self, OutputError> {
+        let is_inside = |input: &&Path| input.canonicalize().is_ok_and(|input| input.starts_with(&self.resolved));
+        let Some(input) = inputs.into_iter().find(is_inside) else { return Ok(self) };
+        let problem = format!("it contains {}, an input file: name another folder", input.escaped());
+        Err(OutputError::place(&self.path, problem))
+    }
+
+    /// Writes files, given by their paths in the folder with `/`. They replace the old contents, which stay unchanged
+    /// after a failure.
+    pub fn write(&self, files: &[(String, Vec<u8>)]) -> Result<(), OutputError> {
+        self.write_in(|folder| {
+            files.iter().try_for_each(|(name, bytes)| {
+                let path = folder.join(name);
+                fs::create_dir_all(folder_of(&path))?;
+                fs::write(path, bytes)
+            })
+        })
+    }
+
+    /// Like [`write`](Self::write), for files that `fill` writes one by one into the given folder: they may be larger
+    /// than memory.
+    pub fn write_in<T>(&self, fill: impl FnOnce(&Path) -> io::Result<T>) -> Result<T, OutputError> {
+        let replace = || {
+            let new = temporary_folder(&self.resolved)?;
+            let filled = fill(new.path())?;
+            let mut names = names_below(new.path(), "")?;
+            names.push(MARK.into());
+            fs::write(new.path().join(MARK), serde_json::to_vec_pretty(&names).expect("names are text"))?;
+
+            // Move the old folder aside, and back if the new one cannot replace it.
+            let aside = temporary_folder(&self.resolved)?;
+            let old = aside.path().join("old");
+            if self.resolved.exists() {
+                fs::rename(&self.resolved, &old)?;
+            }
+            fs::rename(new.path(), &self.resolved).inspect_err(|_| drop(fs::rename(&old, &self.resolved)))?;
+            // It has moved: nothing remains to be removed.
+            let _ = new.keep();
+            Ok(filled)
+        };
+        replace().map_err(|cause| OutputError::write(&self.path, cause))
+    }
+}
+
+/// All files below `folder` by their paths in it, with `/`, and the empty folders.
+fn names_below(folder: &Path, prefix: &str) -> io::Result<Vec<String>> {
+    let mut names = vec![];
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let name = format!("{prefix}{}", entry.file_name().to_string_lossy());
+        let is_folder = entry.file_type()?.is_dir();
+        let below = if is_folder { names_below(&entry.path(), &format!("{name}/"))? } else { vec![] };
+        if below.is_empty() { names.push(name) } else { names.extend(below) }
+    }
+    Ok(names)
+}
+
+/// The unique path of an existing or future file, with links followed.
 fn resolved(path: &Path) -> io::Result<PathBuf> {
     path.canonicalize().or_else(|missing| {
         let (Some(folder), Some(name)) = (path.parent(), path.file_name()) else { return Err(missing) };
@@ -48,7 +222,7 @@ fn resolved(path: &Path) -> io::Result<PathBuf> {
     })
 }
 
-/// The folder of a path that is [`resolved`].
+/// The folder of a [`resolved`] path.
 fn folder_of(path: &Path) -> &Path {
     path.parent().unwrap_or(path)
 }
@@ -58,11 +232,113 @@ pub(crate) fn temporary_file(path: &Path) -> io::Result<NamedTempFile> {
     temporary(0o666).tempfile_in(folder_of(path))
 }
 
-/// Makes temporary files and folders; on Unix with the permissions `mode`, less what the process's umask takes.
+/// Like [`temporary_file`], for a folder.
+fn temporary_folder(path: &Path) -> io::Result<TempDir> {
+    temporary(0o777).tempdir_in(folder_of(path))
+}
+
+/// Creates temporary files and folders; on Unix with the permissions `mode`, minus the process's umask.
 fn temporary(#[cfg_attr(not(unix), expect(unused_variables))] mode: u32) -> Builder<'static, 'static> {
     let mut builder = Builder::new();
     builder.prefix(".sahara-");
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(mode));
     builder
+}
+
+/// Whether a result is written to standard output: then messages must not be.
+static TO_STDOUT: AtomicBool = AtomicBool::new(false);
+
+/// The reason why standard output is incomplete; unset if it is complete or was closed.
+pub(crate) static FAILURE: OnceLock<io::Error> = OnceLock::new();
+
+/// Whether a result was requested as [`STDOUT`]: messages for people then go to standard error.
+pub fn stdout_is_taken() -> bool {
+    TO_STDOUT.load(Ordering::Relaxed)
+}
+
+/// Writes to standard output; [`FAILURE`] records a failure.
+pub(crate) fn print(bytes: &[u8]) {
+    let mut out = io::stdout().lock();
+    note(out.write_all(bytes).and_then(|()| out.flush()));
+}
+
+pub(crate) fn note(written: io::Result<()>) {
+    if let Err(cause) = unless_gone(written) {
+        FAILURE.get_or_init(|| cause);
+    }
+}
+
+/// A closed output is not an error.
+fn unless_gone(written: io::Result<()>) -> io::Result<()> {
+    match written {
+        Err(cause) if cause.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        written => written,
+    }
+}
+
+/// Writes an error to standard error, in one line even if names of files contain line breaks.
+pub(crate) fn tell_error(error: impl Display) {
+    tell(format_args!("error: {}", error.to_string().escaped()));
+}
+
+/// Writes a line to standard error; a closed one, or a full disk, does not end a run.
+pub(crate) fn tell(line: impl Display) {
+    let _ = writeln!(io::stderr(), "{line}");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_write_leaves_one_whole_file_and_a_check_none() {
+        let directory = tempfile::tempdir().unwrap();
+        let check = |name: &str| OutputFile::check(&directory.path().join(name));
+        let files = || fs::read_dir(directory.path()).unwrap().count();
+        let [file, new] = ["a.json", "new.json"].map(|name| check(name).unwrap());
+        assert_eq!(files(), 0);
+        file.write(b"one").unwrap();
+        file.write(b"two").unwrap();
+        assert_eq!((fs::read(file.path).unwrap(), files()), (b"two".to_vec(), 1));
+        assert!(new.write_new(b"one").unwrap() && !new.write_new(b"two").unwrap());
+        assert_eq!((fs::read(new.path).unwrap(), files()), (b"one".to_vec(), 2));
+        for (place, part) in [(".", "directory"), ("a.json/b.json", "choose"), ("no/such.json", "no/such.json")] {
+            let error = check(place).unwrap_err().to_string();
+            assert!(error.contains(part) && !error.contains(".sahara-"), "{error}");
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_stay_links_and_new_files_are_readable_by_others() {
+        use std::os::unix::fs::{PermissionsExt, symlink};
+        let directory = tempfile::tempdir().unwrap();
+        let [real, link, plain] = ["real", "link", "plain"].map(|name| directory.path().join(name));
+        fs::write(&real, b"old").unwrap();
+        fs::write(&plain, b"").unwrap();
+        symlink(&real, &link).unwrap();
+        OutputFile::check(&link).unwrap().write(b"new").unwrap();
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink() && fs::read(&real).unwrap() == b"new");
+        let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode() & 0o777;
+        assert_eq!(mode(&real), mode(&plain));
+    }
+
+    #[test]
+    fn earlier_results_are_replaced_and_what_others_wrote_stays() {
+        let parent = tempfile::tempdir().unwrap();
+        let path = parent.path().join("out");
+        fs::create_dir(&path).unwrap();
+        for names in [&["index.html", "data/a.csv"][..], &["data/b.csv"]] {
+            let files: Vec<_> = names.iter().map(|name| (name.to_string(), b"text".to_vec())).collect();
+            OutputFolder::check(&path).unwrap().write(&files).unwrap();
+            assert_eq!(fs::read_dir(parent.path()).unwrap().count(), 1);
+            assert_eq!(names_below(&path, "").unwrap().len(), names.len() + 1, "files of before are gone");
+        }
+        for other in ["notes.txt", "data/empty"] {
+            fs::create_dir(path.join(other)).unwrap();
+            assert!(OutputFolder::check(&path).unwrap_err().to_string().contains(&format!("{other}, which")));
+            fs::remove_dir(path.join(other)).unwrap();
+        }
+    }
 }

@@ -7,24 +7,24 @@ use std::sync::{Mutex, MutexGuard, Once, PoisonError};
 use std::thread;
 
 thread_local! {
-    /// Whether what panics on this thread is caught by [`caught`].
+    /// Whether [`caught`] catches panics of this thread.
     static CATCHES: Cell<bool> = const { Cell::new(false) };
 }
 
-/// How many calls of [`caught`] run.
+/// The number of running calls of [`caught`].
 static CATCHING: AtomicUsize = AtomicUsize::new(0);
 
-/// What has not been printed and not been caught yet.
+/// Messages of panics that are neither printed nor caught so far.
 static HELD_BACK: Mutex<Vec<String>> = Mutex::new(vec![]);
 
 fn held_back() -> MutexGuard<'static, Vec<String>> {
     HELD_BACK.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The result of `work`, or what it panicked with; nothing is printed then. Whoever calls this says what has happened.
+/// The result of `work`, or the payload of its panic, which is not printed: the caller must report it.
 ///
-/// Of other threads, those of rayon are quiet as well while this runs: rayon hands their panics on to whoever waits for them. If
-/// nobody catches one, [`uncaught`] has its message. Panics of all other threads are printed as ever.
+/// Threads of rayon are silent as well while this runs: rayon passes their panics to the waiting thread. If no thread
+/// catches one, [`uncaught`] has its message. Panics of all other threads are printed as usual.
 pub fn caught<R>(work: impl FnOnce() -> R) -> thread::Result<R> {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {
@@ -45,7 +45,7 @@ pub fn caught<R>(work: impl FnOnce() -> R) -> thread::Result<R> {
     result
 }
 
-/// The messages that were held back for [`caught`], which did not catch their panics.
+/// The messages of panics that were not printed and that no [`caught`] has caught.
 pub fn uncaught() -> Vec<String> {
     std::mem::take(&mut held_back())
 }

@@ -31,10 +31,10 @@ pub struct Registry {
     generators: Vec<Generator>,
 }
 
-/// Makes a scene of the text behind its name: `7` of `icosphere:7`.
+/// Generates a scene from the text after its name: `7` of `icosphere:7`.
 pub type Generate = fn(&str) -> anyhow::Result<Scene>;
 
-/// A maker of scenes.
+/// A generator of scenes.
 #[derive(Clone, Copy)]
 struct Generator {
     name: &'static str,
@@ -50,7 +50,8 @@ impl Registry {
     /// Adds a generator of scenes, which commands name as `name:parameters`.
     ///
     /// # Panics
-    /// If there is one of that name already, or the name is not made of lower-case letters, digits and hyphens.
+    /// If there is already one of that name, or the name has characters other than lower-case letters, digits and
+    /// hyphens.
     pub fn with_generator(mut self, name: &'static str, generate: Generate) -> Self {
         let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
         assert!(!name.is_empty() && name.chars().all(plain), "the name {name:?}");
@@ -64,7 +65,7 @@ impl Registry {
         self.generators.iter().any(|own| own.name.eq_ignore_ascii_case(name))
     }
 
-    /// The scene of a generator; nothing where there is no generator of this name.
+    /// The scene of a generator; `None` if there is no generator of this name.
     pub fn generated(&self, name: &str, parameters: &str) -> Option<anyhow::Result<Scene>> {
         let generator = self.generators.iter().find(|own| own.name.eq_ignore_ascii_case(name))?;
         Some((generator.generate)(parameters))
@@ -79,7 +80,7 @@ impl Registry {
         self.entered::<A>(name, config, |mesh, config| Ok(Box::new(A::build(mesh, config)?)))
     }
 
-    /// As [`with`](Self::with), for structures that are compiled elsewhere.
+    /// Like [`with`](Self::with), for structures that are compiled elsewhere.
     fn offering<A: Offered>(self, name: &str, config: A::Config) -> Self {
         self.entered::<A>(name, config, A::boxed)
     }
@@ -103,7 +104,7 @@ impl Registry {
         };
         let build: Build = Arc::new(move |mesh, config| {
             let config = parse::<A>(config).map_err(BuildError::Config)?;
-            // Builders of other crates may panic on an unexpected mesh; one structure must not end a run.
+            // Builders of other crates may panic on an unexpected mesh, which must not end a run.
             caught(|| build(mesh, &config)).unwrap_or(Err(BuildError::Panic))
         });
         self.entries.push(Entry {
@@ -134,7 +135,7 @@ impl Registry {
     /// that name is taken.
     ///
     /// # Errors
-    /// If the name, a key or the test is unknown, listing those there are; or if a value does not fit.
+    /// If the name, a key or the test is unknown (the error lists the known ones), or a value does not fit.
     pub fn choose(&self, spec: &str) -> Result<Choice, ChoiceError> {
         let (name, pairs) = spec.split_once(':').unwrap_or((spec, ""));
         let mut overrides = vec![];
@@ -197,38 +198,12 @@ fn parse<A: Accel>(config: &Value) -> Result<A::Config, String> {
 mod tests {
     use super::entry::empty;
     use super::*;
-
-    /// Panics on the empty mesh.
-    struct NeedsTriangles;
-
-    impl Accel for NeedsTriangles {
-        type Config = ();
-
-        fn build(mesh: &Arc<Mesh>, (): &()) -> Result<Self, BuildError> {
-            assert!(!mesh.is_empty(), "a tree has a root");
-            Ok(Self)
-        }
-
-        fn closest_hit<O: crate::accel::Observer>(
-            &self,
-            _: &crate::geometry::Ray,
-            _: &mut O,
-        ) -> Option<crate::geometry::Hit> {
-            None
-        }
-
-        fn footprint(&self) -> crate::accel::Footprint {
-            Default::default()
-        }
-
-        fn shape(&self) -> crate::accel::TreeShape {
-            Default::default()
-        }
-    }
+    use crate::study::measure::tests::{Flaw, Flawed, FlawedConfig};
 
     #[test]
     fn structures_that_reject_the_empty_mesh_can_be_chosen() {
-        let registry = Registry::builtin().with::<NeedsTriangles>("a", ());
+        let config = FlawedConfig { flaw: Flaw::Rootless };
+        let registry = Registry::builtin().with::<Flawed>("a", config);
         assert_eq!(registry.all().len(), registry.entries().len());
         let choice = registry.choose("a").unwrap();
         assert!(choice.build(&Arc::new(empty())).is_err() && choice.entry.absence().is_none());

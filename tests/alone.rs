@@ -1,12 +1,12 @@
-//! Tests that need a process of their own: what they measure or set is the whole process's.
+//! Runs tests in a separate process: their measurements or settings concern the whole process.
 
 use std::process::Command;
 
 /// Set in the process of such a test.
 const ALONE: &str = "SAHARA_TEST_ALONE";
 
-/// Runs the test of that path (`module::function`) again in a process of its own, and fails if it fails there. Whether this
-/// is that process: only then the test goes on.
+/// Runs the test with this path (`module::function`) again in a separate process, and fails if it fails there. Returns
+/// whether this is that process: only then the test continues.
 pub fn alone(path: &str) -> bool {
     if std::env::var_os(ALONE).is_some() {
         return true;

@@ -1,8 +1,9 @@
-//! The jobs of `study plan` on engines that people have: the test of `benches/cluster`, where they are installed.
+//! The jobs of `study plan` on common engines: runs the test of `benches/cluster` if they are installed.
 
 use std::process::Command;
 
-/// The plan on an engine, disturbed, and its result held against an undisturbed one; skipped where something is missing.
+/// Runs the plan on an engine with disturbances, and compares its result with an undisturbed one; skipped if a program
+/// is missing.
 #[track_caller]
 fn disturbed(engine: &str, with_slurm: bool, with_snakemake: bool) {
     if with_slurm && std::env::var_os("SAHARA_SLURM").is_none_or(|wanted| wanted != "1") {

@@ -1,4 +1,4 @@
-//! Every structure that the registry offers, held to the contract on every mesh of the suite and every kind of ray.
+//! Checks every structure of the registry against the contract, on every mesh of the suite and every stratum.
 
 use std::borrow::Cow;
 use std::fs;
@@ -23,7 +23,7 @@ sahara::conformance!(sah_kd_tight, Bvh8<MollerTrumbore>, Bvh8Config::new(Partiti
 sahara::conformance!(sah_hybrid, Bvh8<MollerTrumbore>, Bvh8Config::new(Partition::Hybrid), lowest_id);
 sahara::conformance!(sah_bvh, Bvh8<MollerTrumbore>, Bvh8Config::new(Partition::Objects), lowest_id);
 
-/// Configurations that differ in what they build or how they walk. `exit=first-leaf` is left out: it is wrong by design.
+/// Configurations that differ in their trees or traversals. `exit=first-leaf` is left out: it is wrong by design.
 const OURS: [&str; 36] = [
     "brute-force:test=rt-triangle",
     "median-kd:leaf=1",
@@ -75,7 +75,7 @@ pub fn passes(outcome: Result<(), String>) {
     }
 }
 
-/// The structures of `specs` answer rightly, `count` rays of each kind on each mesh.
+/// Checks that the hits of `specs` are right, with `count` rays of each stratum on each mesh.
 #[track_caller]
 fn are_right(specs: &[&str], meshes: &[Named], count: usize) {
     let registry = Registry::builtin();
@@ -84,7 +84,7 @@ fn are_right(specs: &[&str], meshes: &[Named], count: usize) {
     }
 }
 
-/// The built-in scenes have real-world sizes and materials that split them.
+/// The built-in scenes have realistic sizes, and materials that divide them.
 #[test]
 #[ignore = "a minute and a half; the default configurations are tested above"]
 fn every_configuration_of_ours_is_right() {
@@ -110,8 +110,8 @@ fn our_trees_are_right_where_surfaces_coincide() {
     are_right(&TREES, &meshes, 12);
 }
 
-/// What the baseline answers wrongly is in `tests/findings.rs`; what it counts and how it looks is sound. Structures with
-/// conventions of their own are peers: `tests/peers.rs`.
+/// The wrong hits of the baseline are in `tests/findings.rs`; here its counts and shape are sound. Structures with
+/// their own conventions are peers: `tests/peers.rs`.
 #[test]
 #[ignore = "a minute"]
 fn everything_offered_counts_and_has_a_possible_shape() {
@@ -127,10 +127,10 @@ fn everything_offered_counts_and_has_a_possible_shape() {
     }
 }
 
-/// Answers as bits: closest hits, any hits.
+/// Hits as bits: closest hits, any hits.
 type Said = (Vec<Option<(u32, u32)>>, Vec<bool>);
 
-/// Asks into slots filled with what nobody says.
+/// Queries into slots filled with values that no structure returns.
 fn said(rays: usize, closest: impl Fn(&mut [Option<Hit>]), any: impl Fn(&mut [bool])) -> Said {
     let mut hits = vec![Some(Hit::new(f32::NEG_INFINITY, 0)); rays];
     closest(&mut hits);
@@ -143,7 +143,7 @@ fn of_loaded(loaded: &dyn Loaded, rays: usize) -> Said {
     said(rays, |hits| loaded.closest_hits(hits), |any| loaded.any_hits(any))
 }
 
-/// Peers and packets too; twice, because what is loaded must stay as it is; and rays that are not valid among the others.
+/// Includes peers and packets; twice, because loaded rays must stay unchanged; and invalid rays among valid ones.
 #[test]
 fn loaded_rays_are_answered_as_direct_ones_by_every_structure() {
     let registry = Registry::builtin();

@@ -1,4 +1,4 @@
-//! Faults that a picture may have, planted on purpose, and which measures catch which: the table of src/golden/GOLDEN.md.
+//! Planted faults of a picture, and the measures that detect each: the table of src/golden/GOLDEN.md.
 
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ fn draw(scene: &Scene, offset: Vec2) -> DynamicImage {
     of_colours(SIZE, &shade(scene, &tree, &scene.primary_rays(SIZE, offset, 0..SIZE[0] * SIZE[1]))).into()
 }
 
-/// The picture of a scene, and others with a fault each.
+/// The picture of a scene, and copies with one fault each.
 pub fn pictures() -> (DynamicImage, [(&'static str, DynamicImage); 5]) {
     let scene = Builtin::find("starters").unwrap().scene(None).unwrap();
     let right = draw(&scene, View::CENTRE);
@@ -33,7 +33,7 @@ pub fn pictures() -> (DynamicImage, [(&'static str, DynamicImage); 5]) {
     }
     let mut material = scene.clone();
     material.materials.iter_mut().for_each(|own| own.diffuse *= 0.98);
-    // One that is seen, at the middle of the picture: it becomes a point.
+    // A visible triangle in the middle of the picture becomes a point.
     let tree = KdTree::<Exact>::build(&scene.mesh, &KdConfig::SAH).unwrap();
     let middle = SIZE[0] * SIZE[1] / 2 + SIZE[0] / 2;
     let ray = scene.primary_rays(SIZE, View::CENTRE, middle..middle + 1)[0];
@@ -54,7 +54,7 @@ pub fn pictures() -> (DynamicImage, [(&'static str, DynamicImage); 5]) {
     (right, others)
 }
 
-/// Options of `golden compare`, and what they are as a value.
+/// Options of `golden compare`, and their values.
 const CHECKS: [(&str, Match); 4] = [
     ("none", Match::Exact),
     ("`--max-difference 2`", Match::Tolerance { difference: 2.0, pixels: Allowed::Pixels(0) }),
@@ -62,7 +62,7 @@ const CHECKS: [(&str, Match); 4] = [
     ("`--max-flip 0.01`", Match::Flip { mean: 0.01, pixels_per_degree: sahara::golden::measures::PIXELS_PER_DEGREE }),
 ];
 
-/// A measure as the table says it.
+/// A measure in the form of the table.
 type Say = fn(&Measures) -> String;
 
 fn table() -> String {

@@ -1,4 +1,4 @@
-//! Downloads, against a server of our own on the loopback device that misbehaves on request.
+//! Downloads from a test server on the loopback device that misbehaves on request.
 #![cfg(feature = "fetch")]
 
 use std::fs;
@@ -14,12 +14,12 @@ use tempfile::TempDir;
 
 use crate::cli::command::{command, stderr, stdout};
 
-/// The file that is fetched.
+/// The file to fetch.
 fn mesh() -> Vec<u8> {
     (0..100_000_u32).flat_map(|i| format!("v {i} {} 0\n", i * 7 % 13).into_bytes()).collect()
 }
 
-/// A server that answers each request by its path, and the folder for what is fetched from it.
+/// A server whose response depends on the path, and the folder for fetched files.
 struct Server {
     address: String,
     requests: Arc<Mutex<Vec<String>>>,
@@ -40,7 +40,7 @@ impl Server {
                 let path = first.split(' ').nth(1).unwrap_or("/").to_owned();
                 lines.take_while(|line| !line.is_empty()).for_each(drop);
                 log.lock().unwrap().push(path.clone());
-                // The client may have gone.
+                // The client may have disconnected.
                 let _ = stream.write_all(&answer(&own, &path));
                 if STALLS.contains(&&*path) {
                     let _ = stream.write_all(b"v");
@@ -51,20 +51,20 @@ impl Server {
         Self { address, requests, folder: tempfile::tempdir().unwrap() }
     }
 
-    /// What the server has at `path`, to be fetched into a folder of that name.
+    /// The server's file at `path`, to be fetched into a folder of that name.
     fn file(&self, path: &str) -> DataFile {
         let (folder, bytes) = (self.folder.path().join(&path[1..]), mesh());
         let url = format!("{}{path}", self.address);
         DataFile { url, path: folder.join("mesh.obj"), sha256: hex(&bytes), bytes: Some(bytes.len() as u64) }
     }
 
-    /// The requests since this was asked last.
+    /// The requests since the last call.
     fn requests(&self) -> Vec<String> {
         std::mem::take(&mut self.requests.lock().unwrap())
     }
 }
 
-/// What these send after their head is one byte, and then nothing.
+/// After their head these send one byte, and then nothing.
 const STALLS: [&str; 2] = ["/silent", "/headless"];
 
 fn hex(bytes: &[u8]) -> String {
@@ -82,14 +82,14 @@ fn answer(own: &str, path: &str) -> Vec<u8> {
     let whole = mesh();
     match path {
         "/mesh.obj" => response("200 OK", "", &whole),
-        // Says the whole length and gives half.
+        // Announces the whole length and sends half.
         "/cut" => response("200 OK", "", &whole)[..whole.len() / 2].to_vec(),
         "/wrong" => response("200 OK", "", &vec![b'#'; whole.len()]),
         "/long" => response("200 OK", "", &[&whole[..], b"more"].concat()),
         "/moved" => response("302 Found", &format!("Location: {own}/mesh.obj\r\n"), b""),
         "/circle" => response("302 Found", &format!("Location: {own}/circle\r\n"), b""),
         "/broken" => response("503 Service Unavailable", "", b""),
-        // More than any number counts.
+        // More than any number can count.
         "/endless" => format!("HTTP/1.1 200 OK\r\nContent-Length: {}\r\n\r\nv 0", u64::MAX).into_bytes(),
         "/silent" => format!("HTTP/1.1 200 OK\r\nContent-Length: {}\r\n\r\n", whole.len()).into_bytes(),
         "/headless" => b"HTTP/1.1 200 OK\r\nServer: ".to_vec(),
@@ -98,7 +98,7 @@ fn answer(own: &str, path: &str) -> Vec<u8> {
     }
 }
 
-/// Nothing but what is named is in the folder of a file.
+/// Checks that the folder of a file contains only the named files.
 #[track_caller]
 fn holds(file: &DataFile, names: &[&str]) {
     let entries = fs::read_dir(file.path.parent().unwrap()).into_iter().flatten();
@@ -107,7 +107,7 @@ fn holds(file: &DataFile, names: &[&str]) {
     assert_eq!(found, names, "{}", file.url);
 }
 
-/// The one line that says why a file is not fetched holds all of `parts`.
+/// Checks that the one-line error for a file contains all of `parts`.
 #[track_caller]
 fn refused(file: &DataFile, patience: Option<Duration>, parts: &[&str]) {
     let client = patience.map_or_else(Client::default, Client::with_patience);
@@ -139,7 +139,7 @@ fn what_is_wrong_is_refused_in_a_sentence_and_not_kept() {
         ("/circle", None, ["redirects", "circle"]),
         ("/nonsense", None, ["/nonsense", "check the connection"]),
         ("/cut", Some(mesh().len()), ["the connection ended after", "fetch again"]),
-        // A file of unknown size is too large at some time.
+        // A file of unknown size eventually exceeds the limit.
         ("/endless", None, ["8589934592", "/endless"]),
     ] {
         let file = DataFile { bytes: bytes.map(|bytes| bytes as u64), ..server.file(path) };
@@ -163,7 +163,7 @@ fn what_is_there_with_other_contents_is_not_touched() {
     fs::write(&file.path, b"mine").unwrap();
     refused(&file, None, &["other contents", "mesh.obj"]);
     assert_eq!(fs::read(&file.path).unwrap(), b"mine");
-    // It is no folder, and a folder in its place opens and does not read.
+    // It is not a folder; a folder in its place opens but cannot be read.
     refused(&DataFile { path: file.path.join("x"), ..file.clone() }, None, &["cannot write"]);
     fs::remove_file(&file.path).unwrap();
     fs::create_dir(&file.path).unwrap();
@@ -174,7 +174,7 @@ fn what_is_there_with_other_contents_is_not_touched() {
     refused(&nobody, None, &["check the connection"]);
 }
 
-/// The command, over a scene file of one's own.
+/// The command, with a user's scene file.
 #[test]
 fn the_command_shows_the_licence_before_it_fetches() {
     let server = Server::start();

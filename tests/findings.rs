@@ -1,5 +1,5 @@
-//! The known defects of the baseline obvhs 0.4.0, by name and cause: shown, not hidden. When one is gone, this fails and the
-//! list must shrink; when one is new, this fails too.
+//! The known defects of the baseline obvhs 0.4.0, by name and cause: shown, not hidden. If one disappears, this fails
+//! and the list must shrink; if a new one appears, this fails too.
 
 use std::sync::Arc;
 
@@ -15,9 +15,9 @@ const BVH2: [&str; 2] = ["obvhs-bvh2", "obvhs-bvh2:test=moller-trumbore"];
 const CWBVH: [&str; 2] = ["obvhs-cwbvh", "obvhs-cwbvh:test=moller-trumbore"];
 const BOTH: [&str; 4] = [BVH2[0], BVH2[1], CWBVH[0], CWBVH[1]];
 
-/// One ray that some structures get wrong whatever their triangle test.
+/// One ray that some structures get wrong over every triangle test.
 pub struct Finding {
-    /// What is special about it, and why it is lost, as their sources show.
+    /// The special property of the ray, and the reason in their sources why they miss it.
     pub cause: &'static str,
     pub structures: &'static [&'static str],
     pub mesh: &'static str,
@@ -83,7 +83,7 @@ pub fn compared(choice: &Choice, mesh_name: &str, ray: &str) -> Validation {
 }
 
 impl Finding {
-    /// Fails unless the ray is wrong, in its way, on just the structures that are named.
+    /// Checks that the ray has this fault on exactly the named structures.
     #[track_caller]
     pub fn assert_on(&self, choice: &Choice, spec: &str) {
         let found = compared(choice, self.mesh, self.ray);
@@ -103,9 +103,9 @@ fn each_finding_is_still_there_and_ours_find_the_hit() {
     }
 }
 
-/// Kinds of rays on which obvhs errs by none of the causes above.
+/// Strata on which obvhs errs by none of the causes above.
 const CLEAN: [Stratum; 2] = [Stratum::Random, Stratum::Invalid];
-/// Where only `CwBvh` errs, by "small t".
+/// Strata on which only `CwBvh` errs, by "small t".
 const CLEAN_BVH2: [Stratum; 1] = [Stratum::NearSurface];
 
 #[test]
@@ -119,7 +119,7 @@ fn rays_without_a_named_cause_are_answered_rightly() {
     }
 }
 
-/// The degenerate meshes, but for two that spoil every kind of ray: directions are as short as the one is small, and the
+/// The degenerate meshes, except for two on which every stratum fails: the directions on one are too short, and the
 /// other has boxes of all sizes.
 pub fn meshes() -> Vec<Named> {
     let mut meshes = degenerate_meshes();
@@ -127,7 +127,7 @@ pub fn meshes() -> Vec<Named> {
     meshes
 }
 
-/// What a structure gets wrong of each kind of ray, a line per mesh.
+/// The wrong hits of a structure by stratum, one line per mesh.
 pub fn wrong_by_stratum(choice: &Choice, meshes: &[Named]) -> Vec<(Stratum, Vec<String>)> {
     let all = findings(&choice.subject(), meshes, 200).unwrap();
     let of_stratum = |stratum| {
@@ -137,8 +137,8 @@ pub fn wrong_by_stratum(choice: &Choice, meshes: &[Named]) -> Vec<(Stratum, Vec<
     Stratum::ALL.into_iter().map(of_stratum).collect()
 }
 
-/// An error of the triangle test, which brute force shares and no structure can repair: coordinates are quotients, so that
-/// their sum rounds beyond 1 on an edge, and signs are read from the sign bit, so that -0.0 is outside.
+/// An error of the triangle test, which brute force shares and no structure can repair: coordinates are quotients,
+/// whose sum rounds beyond 1 on an edge, and signs are read from the sign bit, which makes -0.0 outside.
 #[test]
 fn rt_triangle_misses_hits_on_edges() {
     let corners = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]].map(glam::Vec3::from_array);

@@ -1,5 +1,5 @@
-//! Golden images: every structure over the exact triangle test draws every built-in scene byte for byte as committed, and so does
-//! the SAH tree over the default test.
+//! Golden images: every structure over the exact triangle test renders every built-in scene byte for byte as committed,
+//! and so does the SAH tree over the default test.
 
 use std::path::Path;
 
@@ -9,11 +9,12 @@ use sahara::registry::{Choice, Registry};
 use sahara::render::ViewKind;
 use sahara::scene::{BUILTIN, Builtin};
 
-/// Pixels of the baseline that differ: structure, scene, number of pixels and cause. A pixel more, a pixel fewer or another
-/// scene fails the test.
+/// Pixels of the baseline that differ: structure, scene, number of pixels and cause. Any other number of pixels or
+/// another scene fails the test.
 ///
-/// In the Cornell box, rays of the picture's diagonals meet the edges between walls exactly. There two walls of different
-/// colours are hit at one t. Our structures owe the lower primitive number; obvhs gives either, which the contract allows.
+/// In the Cornell box, rays of the picture's diagonals meet the edges between walls exactly, and hit two walls of
+/// different colours at one t. The structures of this crate must return the lower primitive number; obvhs returns
+/// either, which the contract allows.
 const FINDINGS: &[(&str, &str, usize, &str)] = &[
     ("obvhs-bvh2:test=exact", "Cornellbox", 103, "ties at the edges between walls; no ray is lost"),
     (
@@ -42,13 +43,13 @@ fn every_structure_draws_every_scene_as_committed() {
     assert_eq!(draw_as_committed(&common), FINDINGS.len());
 }
 
-/// Draws all built-in scenes and fails where a picture differs, but for the findings; gives the number of those.
+/// Renders all built-in scenes and fails if a picture differs, except for the findings; returns the number of findings.
 fn draw_as_committed(choices: &[Choice]) -> usize {
     let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("golden");
     let mut wrong = vec![];
     let mut found = 0;
     for builtin in BUILTIN {
-        // Real meshes that happen to be there must not change the picture.
+        // A real mesh on this machine must not change the picture.
         let scene = builtin.scene(None).expect("a built-in scene is whole");
         let golden = SceneGolden::builtin(builtin.name).expect("every built-in scene has one");
         for choice in choices {
@@ -115,10 +116,10 @@ mod pictures {
         Rgb32FImage::from_fn(40, 30, |x, y| Rgb([x as f32 / 7.0, -0.1 * y as f32, 1e-9]))
     }
 
-    /// Writes a width and a height that no memory takes into the bytes of a picture.
+    /// Writes a width and a height that exceed any memory into the bytes of a picture.
     type Enlarge = fn(&mut [u8]);
 
-    /// A picture of each format, and how its bytes are made to describe one that is too large.
+    /// A picture of each format, and the function that makes its bytes describe a picture that is too large.
     fn of_each_format() -> [(DynamicImage, ImageFormat, Enlarge); 3] {
         [
             (colours().into(), ImageFormat::Jpeg, |bytes| {
@@ -148,7 +149,7 @@ mod pictures {
     #[test]
     fn golden_images_may_be_jpeg_webp_or_exr() {
         let folder = tempfile::tempdir().unwrap();
-        // The name says nothing.
+        // The name does not determine the format.
         let (golden, out) = (folder.path().join("golden.png"), folder.path().join("out"));
         for (picture, format, _) in of_each_format() {
             picture.save_with_format(&golden, format).unwrap();
@@ -181,7 +182,7 @@ mod pictures {
             let mut huge = bytes.clone();
             enlarge(&mut huge);
             let refused = refusal(&huge);
-            // EXR says how many chunks there are as well, which no longer fits.
+            // EXR also contains the number of chunks, which then does not fit.
             let why = if format == ImageFormat::OpenExr { "chunk count" } else { "512 MiB" };
             assert!(refused.contains(why), "{format:?}: {refused}");
         }

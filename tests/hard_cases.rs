@@ -1,5 +1,5 @@
-//! The hard cases as a gate: our structures lose no hit, whatever the triangle test, the tests in `f64` are right on all ranked cases,
-//! and the exact test gives the truth.
+//! The hard cases as a gate: the structures of this crate lose no hit over any triangle test, the tests in `f64` are
+//! right on all ranked cases, and the exact test returns the exact hits.
 
 use rayon::prelude::*;
 use sahara::measure::SystemClock;
@@ -13,14 +13,14 @@ const RAYS: usize = 200;
 const FEW: usize = 10;
 const LABORIOUS: [&str; 3] = ["duplicates_20000", "fan_apex", "far_1e8"];
 
-/// Tests whose answers are right where rounding to `f32` at the end is all that is lost.
+/// Tests whose hits are right except for the final rounding to `f32`.
 const IN_F64: [&str; 2] = ["moller-trumbore-f64", "edge-f64"];
 
-/// Over these partitions the walk is that of `sah-hybrid`: two tests will do.
+/// These partitions share the traversal of `sah-hybrid`: two tests are enough.
 const SAME_WALK: [&str; 3] = ["sah-kd-wide", "sah-kd-tight", "sah-bvh"];
 const FEW_TESTS: [&str; 2] = ["moller-trumbore", "exact"];
 
-/// Our structures over every test they are offered over.
+/// The structures of this crate over every test that they offer.
 fn ours() -> Vec<Choice> {
     let mut choices = Registry::builtin().all();
     choices.retain(|choice| {
@@ -30,7 +30,7 @@ fn ours() -> Vec<Choice> {
     choices
 }
 
-/// What is wrong with the structures on one case, one line each.
+/// The faults of the structures on one case, one line each.
 fn faults<'a>(case: &HardCase, choices: impl IntoIterator<Item = &'a Choice>) -> Vec<String> {
     let rays = if LABORIOUS.contains(&case.name) { FEW } else { RAYS };
     let ranked = matches!(case.rank, Rank::Moderate | Rank::Extreme);
@@ -56,7 +56,8 @@ fn faults<'a>(case: &HardCase, choices: impl IntoIterator<Item = &'a Choice>) ->
     faults
 }
 
-/// The `index`th of `cases` cases runs on the structures for which `is_run` holds, of `index` and the structure's own.
+/// Runs each of `cases` on the structures for which `is_run` returns true; its arguments are the indices of the case
+/// and of the structure.
 #[track_caller]
 fn none_of(cases: Vec<&HardCase>, is_run: fn(usize, usize) -> bool) {
     let choices = ours();
@@ -72,7 +73,7 @@ fn cases(of_rays: bool) -> Vec<&'static HardCase> {
     catalogue().into_iter().filter(|case| matches!(case.content, Content::Rays { .. }) == of_rays).collect()
 }
 
-/// Diagonals of the table of all: every case with some structures, every structure with some cases.
+/// Diagonals of the whole table: every case with some structures, every structure with some cases.
 const STEP: usize = 9;
 
 #[test]

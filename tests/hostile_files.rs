@@ -1,6 +1,6 @@
-//! Malformed files and files made to harm: each is refused in one sentence that names it and a place in it, and none
-//! takes more memory than twice its size and 64 MiB, an OBJ file sixteen times. What such files name is counted as their
-//! size.
+//! Malformed and malicious files: each is rejected in one sentence that names it and a place in it, and none takes more
+//! memory than twice its size and 64 MiB, an OBJ file sixteen times. The files that such files name count as part of
+//! their size.
 
 use std::fs;
 
@@ -11,13 +11,13 @@ use serde_json::{Value, json};
 
 use crate::alone::alone;
 
-/// Files beside each other, the first of them to be loaded.
+/// Files in one folder; the first one is loaded.
 type Files = Vec<(&'static str, Vec<u8>)>;
 
 const SLACK: usize = 64 << 20;
 
-/// Loads the first file. Gives the triangles, or the message from its name on; an error if that is not one sentence, or
-/// if too much memory was taken.
+/// Loads the first file. Returns the triangles, or the message from its name on; an error if that is not one sentence,
+/// or if it took too much memory.
 fn loaded(files: &Files) -> Result<Result<usize, String>, String> {
     let (name, folder) = (files[0].0, tempfile::tempdir().unwrap());
     for (name, bytes) in files {
@@ -49,7 +49,7 @@ fn measured<E: ToString>(work: impl FnOnce() -> Result<usize, E>) -> (Result<usi
     (result.map_err(|error| error.to_string()), peak.expect("the allocator is installed"))
 }
 
-/// What is wrong if the file is not refused by a message with these words.
+/// A description of the fault if no message with these words rejects the file.
 fn not_refused(files: &Files, words: &[&str]) -> Option<String> {
     match loaded(files) {
         Ok(Err(message)) if words.iter().all(|word| message.contains(word)) => None,
@@ -154,7 +154,7 @@ fn gltf_files() -> Vec<(Files, [&'static str; 2])> {
     let text = |text: Vec<u8>| vec![("a.gltf", text)];
     let with = |pointer: &str, value: Value| {
         let mut document = document(3);
-        // The other accessor reaches beyond its view.
+        // The other accessor extends beyond its view.
         document["accessors"].as_array_mut().unwrap().truncate(1);
         let (parent, key) = pointer.rsplit_once('/').unwrap();
         match document.pointer_mut(parent).unwrap() {
@@ -174,7 +174,7 @@ fn gltf_files() -> Vec<(Files, [&'static str; 2])> {
         )
     };
 
-    // Much is named often, and one thing more is wrong.
+    // Large data is named often, and there is one more fault.
     let megabyte = 87_381;
     let mut buffers = document(megabyte);
     buffers["buffers"] = (0..30_000).map(|_| json!({"uri": "a.bin", "byteLength": 12 * megabyte})).collect();
@@ -239,7 +239,7 @@ fn ray_files() -> Vec<(Files, [&'static str; 2])> {
     ]
 }
 
-/// In a process of its own, so that nobody else allocates while it measures.
+/// In a separate process: no other test allocates while it measures.
 #[test]
 fn each_is_refused_in_a_sentence_and_takes_little_memory() {
     if !alone("hostile_files::each_is_refused_in_a_sentence_and_takes_little_memory") {
@@ -249,7 +249,7 @@ fn each_is_refused_in_a_sentence_and_takes_little_memory() {
     let wrong: Vec<String> = all.filter_map(|(files, words)| not_refused(&files, &words)).collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 
-    // Good files are bounded too, where tobj would take thirty times their size.
+    // Good files have a limit too; tobj would take thirty times their size.
     for (faces, triangles) in
         [("f 1 1 1\n", 1), ("f 1 1 1 1 1\n", 3), ("usemtl a\nf 1//1 1//1 1//1\nusemtl b\nf 1 1 1\n", 2)]
     {
@@ -257,13 +257,13 @@ fn each_is_refused_in_a_sentence_and_takes_little_memory() {
         let text = [b"v 0 0 0\nvn 0 0 1\n", &faces.as_bytes().repeat(times)[..]].concat();
         assert_eq!(loaded(&vec![("a.obj", text)]), Ok(Ok(triangles * times)));
     }
-    // What is named often is read once, in good files too.
+    // Data that is named often is read once, in good files too.
     let mut often = document(1_000_000);
     often["buffers"] = (0..30_000).map(|_| json!({"uri": "a.bin", "byteLength": 12_000_000})).collect();
     often["accessors"][0]["count"] = 300.into();
     often["accessors"].as_array_mut().unwrap().truncate(1);
     assert_eq!(loaded(&gltf(&often, 12_000_000)), Ok(Ok(100)));
-    // Missing libraries are many: each compared with all would take hours.
+    // There are many missing libraries: comparing each with all would take hours.
     let missing: String = (0..1_000_000).map(|i| format!("mtllib {i}\n")).collect();
     assert_eq!(loaded(&vec![("a.obj", format!("{missing}{TRIANGLE}f 1 2 3\n").into_bytes())]), Ok(Ok(1)));
     let libraries = [b"mtllib a.mtl\n".repeat(100_000), format!("{TRIANGLE}usemtl a\nf 1 2 3\n").into_bytes()].concat();

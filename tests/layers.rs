@@ -1,5 +1,5 @@
-//! Imports go downward only, between modules of the crate and between their files: no circles, whatever path an import takes.
-//! Some crates of others are imported in one folder alone.
+//! Checks that imports go downward only, between modules of the crate and between their files, without circles, under
+//! any path of an import. Some other crates may be imported in only one folder.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -22,14 +22,14 @@ const LAYERS: [&[&str]; 9] = [
 /// No structure imports another.
 const STRUCTURES: usize = 3;
 
-/// Crates of others, and the folder that alone may import them: who needs what they do asks that folder for it.
+/// Other crates, and the only folder that may import them; other modules use that folder.
 const ENCLOSED: [(&str, &str); 2] = [("gltf", "scene::load"), ("tobj", "scene::load")];
 
-/// What each imports.
+/// The imports of each module.
 type Graph = BTreeMap<String, BTreeSet<String>>;
 
-/// Source files by module path, `bvh8::node`; a folder's `mod.rs` is the folder. Without comments, and without what is
-/// compiled for tests alone.
+/// Source files by module path, `bvh8::node`; a folder's `mod.rs` is the folder. Without comments, and without items
+/// that are compiled only for tests.
 struct Sources(BTreeMap<String, String>);
 
 impl Sources {
@@ -62,7 +62,7 @@ impl Sources {
             let (segment, after) = rest.split_once("::").unwrap_or((rest, ""));
             let below = join(&module, segment);
             if !self.0.contains_key(&below) {
-                // A name that the module only hands on is at home elsewhere.
+                // A name that the module only re-exports is defined elsewhere.
                 let exports =
                     imports(self.0.get(&module)?).into_iter().filter(|used| used.public == Some(true) && rounds < 8);
                 let mut targets = exports.filter_map(|used| self.absolute(&module, &used.path));
@@ -74,7 +74,7 @@ impl Sources {
         (!module.is_empty()).then_some(module)
     }
 
-    /// The path from the root of the crate that a path written in `module` stands for; none for other crates.
+    /// The path from the root of the crate for a path written in `module`; `None` for other crates.
     fn absolute(&self, module: &str, path: &str) -> Option<String> {
         let base = match top(path) {
             "crate" | "sahara_core" => "",
@@ -93,7 +93,7 @@ impl Sources {
         Some(own.join("::"))
     }
 
-    /// Imports of crates outside of the folders that they are kept to.
+    /// Imports of crates outside their permitted folders.
     fn escaped(&self) -> Vec<String> {
         let mut faults = vec![];
         for (module, text) in &self.0 {
@@ -105,11 +105,11 @@ impl Sources {
         faults
     }
 
-    /// Which files each file imports.
+    /// The files that each file imports.
     fn graph(&self) -> Graph {
         let mut graph = Graph::new();
         for (module, text) in self.0.iter().filter(|(module, _)| !["", "lib", "main"].contains(&module.as_str())) {
-            // What a folder hands on of its files is no import of its own, and what its code calls in them is in a `mod`.
+            // A re-export of a folder's files is not its own import, and calls of its code into them have a `mod`.
             let is_own = |used: &Import| match used.public {
                 Some(public) => !public,
                 None => ["crate", "super"].contains(&top(&used.path)),
@@ -126,12 +126,12 @@ fn join(module: &str, name: &str) -> String {
     [module, name].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("::")
 }
 
-/// The first name of a path: of a file, the module of the crate that it belongs to.
+/// The first name of a path: for a file, its module of the crate.
 fn top(path: &str) -> &str {
     path.split("::").next().unwrap_or(path)
 }
 
-/// Whether a file is that of a folder or lies in it.
+/// Whether a file is the file of a folder or lies in it.
 fn is_in(module: &str, folder: &str) -> bool {
     module.strip_prefix(folder).is_some_and(|rest| rest.is_empty() || rest.starts_with("::"))
 }
@@ -141,7 +141,7 @@ fn collect(folder: &Path, module: &str, found: &mut Vec<(String, String)>) {
         let path = entry.unwrap().path();
         let stem = path.file_stem().unwrap().to_str().unwrap().to_owned();
         if path.is_dir() {
-            // The core is a crate of its own; the suite re-exports its modules under their names.
+            // The core is a separate crate; the suite re-exports its modules under their names.
             let is_core = module.is_empty() && stem == "core";
             collect(&path, &if is_core { String::new() } else { join(module, &stem) }, found);
         } else if path.extension().is_some_and(|extension| extension == "rs") {
@@ -151,7 +151,7 @@ fn collect(folder: &Path, module: &str, found: &mut Vec<(String, String)>) {
     }
 }
 
-/// The text without the items that are compiled for tests alone, and these items.
+/// The text without items that are compiled only for tests, and these items.
 fn without_test_items(text: &str) -> (String, Vec<&str>) {
     let (mut left, mut items, mut rest) = (String::new(), vec![], text);
     while let Some((before, after)) = rest.split_once("#[cfg(test)]") {
@@ -178,7 +178,7 @@ struct Import {
 fn imports(text: &str) -> Vec<Import> {
     let is_of_path = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
     let mut found = vec![];
-    // Whether the `use` that is read is public, what stands before its open lists, and the word before.
+    // Whether the current `use` is public, the prefixes of its open lists, and the previous word.
     let (mut public, mut heads, mut last, mut at) = (None, vec![String::new()], "", 0);
     for piece in text.split_inclusive(|c| !is_of_path(c)) {
         let word = piece.trim_end_matches(|c| !is_of_path(c));
@@ -210,7 +210,7 @@ fn imports(text: &str) -> Vec<Import> {
     found
 }
 
-/// What is wrong between modules of the crate: as their places are in one order, none import each other in circles.
+/// Faults between modules of the crate: because the modules have one order, none may import each other in circles.
 fn upward(graph: &Graph) -> Vec<String> {
     let place = |module: &str| {
         let mut places = LAYERS.iter().enumerate();
@@ -232,8 +232,8 @@ fn upward(graph: &Graph) -> Vec<String> {
     faults.into_iter().collect()
 }
 
-/// The files that import each other in circles, or lie between two: those left when what imports nothing of the rest, and
-/// what nothing of the rest imports, is taken away again and again.
+/// The files that import each other in circles, or lie between two circles: those that remain after repeatedly removing
+/// files that import none of the remaining ones, and files that none of them imports.
 fn circles(graph: &Graph) -> Vec<&str> {
     let mut left: Vec<&str> = graph.keys().map(String::as_str).collect();
     loop {
@@ -249,7 +249,7 @@ fn circles(graph: &Graph) -> Vec<&str> {
     }
 }
 
-/// Everything that is wrong, a line each.
+/// All faults, one line each.
 fn faults(sources: &Sources) -> Vec<String> {
     let graph = sources.graph();
     let circles = circles(&graph).into_iter().map(|file| format!("{file} is in a circle")).collect();
@@ -281,11 +281,11 @@ fn planted_faults_are_found() {
         (&[("accel", "/// See [`crate::registry`].\n// use crate::cli;\nuse my_crate::cli;")], &[]),
         (&[("accel", "#[cfg(test)]\nmod tests {\n    use crate::registry::Registry;\n}\n")], &[]),
         (&[("attic", "")], &["the module \"attic\" has no layer: add it to tests/layers.rs"]),
-        // Structures do not know each other, and modules of one layer import one way.
+        // Structures do not import each other, and modules of one layer import one way.
         (&[("bvh8", "use crate::kdtree::KdTree;")], &["bvh8 imports kdtree"]),
         (&[("scene", "use crate::oracle::Tree;"), ("oracle", "")], &["scene imports oracle"]),
         (&[("build", "use crate::bvh8::node::Node;"), ("bvh8::node", "")], &["build imports bvh8::node"]),
-        // Crates that one folder alone imports.
+        // Crates that only one folder may import.
         (&[("scene::loaded", "use gltf::{Document, json};")], &["scene::loaded imports gltf"]),
         (&[("scene", "use ::gltf as reader;")], &["scene imports gltf"]),
         (&[("cli", "use std::{fs, io};\nfn f() { ::gltf::Gltf::open(path) }")], &["cli imports gltf"]),
@@ -293,7 +293,7 @@ fn planted_faults_are_found() {
         (&[("cli", "use super::gltf;\nfn f(gltf: u32) { g(\"gltf\", gltf) }")], &[]),
         (&[("cli", "#[cfg(test)]\nuse tobj::Model;")], &[]),
         (&[("scene::load", "use gltf::Document;"), ("scene::load::obj", "fn f() { tobj::load_obj(path) }")], &[]),
-        // Files of one folder; what it re-exports is at home in its file, and its own items count.
+        // Files of one folder; its re-exports are defined in their files, and its own items count.
         (&[NODE, ("bvh8::node", "use super::stack::DEPTH;"), ("bvh8::stack", "use super::node::Node;")], OF_TWO),
         (&[NODE, ("bvh8::node", "use super::Stack;"), ("bvh8::stack", "use crate::bvh8::Node;")], OF_TWO),
         (&[NODE, ("bvh8::node", "fn f() { super::stack::g() }"), ("bvh8::stack", "use super::{node::Node};")], OF_TWO),

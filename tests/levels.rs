@@ -1,7 +1,7 @@
-//! All levels of instructions return the same hits, bit for bit, and count the same steps; so do rays that travel in packets,
-//! or several at a time, on every level.
+//! All SIMD levels return the same hits, bit for bit, and count the same steps; so do rays in packets and interleaved
+//! rays, on every level.
 //!
-//! Each test runs in a process of its own, because the level is that of the process.
+//! Each test runs in a separate process, because the level belongs to the process.
 
 use std::io::Write;
 use std::sync::Arc;
@@ -18,7 +18,7 @@ use sahara::validate::{Stratum, degenerate_meshes};
 
 use crate::alone::alone;
 
-/// Of a ray: bits of `t` and number of the primitive of its closest hit, and whether it hits anything.
+/// For a ray: bits of `t` and number of the primitive of its closest hit, and whether it hits anything.
 type Answer = (Option<(u32, u32)>, bool);
 
 fn answers(closest: Vec<Option<Hit>>, any: Vec<bool>) -> Vec<Answer> {
@@ -59,7 +59,7 @@ fn all_levels_return_the_same() {
     let registry = Registry::builtin();
     let levels = Level::available();
     if let [level] = &levels[..] {
-        // A pass would prove nothing: say so where it is read, for the output of a test that passes is not shown.
+        // A pass would prove nothing: print a note where it is visible, because the output of a passing test is hidden.
         let note = format!("\nwarning: this machine or build has only the level {level}: levels are not compared\n");
         std::io::stderr().write_all(note.as_bytes()).expect("a sentence is written");
     }
@@ -81,13 +81,13 @@ fn all_levels_return_the_same() {
     assert_many(hits);
 }
 
-/// Adversarial rays, in such an order that packets of one octant come about, and the same in the order they were made.
+/// Adversarial rays in an order that makes packets of one octant, and the same in their original order.
 fn bundles(mesh: &Mesh) -> Vec<Ray> {
     let mixed: Vec<Ray> = Stratum::ALL.into_iter().flat_map(|stratum| stratum.rays(mesh, 16, 5)).collect();
     let mut sorted = mixed.clone();
     sorted.sort_by_key(|ray| ray.direction.to_array().map(f32::is_sign_negative));
-    // Rays that differ by little, with ends that cut through the scene; and the same with directions of very different
-    // lengths: what is certain of the longest is not of the others.
+    // Similar rays, with ends that cut through the scene; and the same with directions of very different lengths:
+    // certain results for the longest are uncertain for the others.
     let neighbours = |is_equal: bool| {
         let step = move |i: u32, ray: &Ray| {
             let longer = if is_equal { 1.0 } else { (3.0 * i as f32).exp2() };
@@ -100,7 +100,7 @@ fn bundles(mesh: &Mesh) -> Vec<Ray> {
     [mixed.clone(), sorted, neighbours(true), neighbours(false)].concat()
 }
 
-/// Triangles on a coarse grid, so that many are hit at once, at 0 and -0, on edges, and by rays that lie in them.
+/// Triangles on a coarse grid: many are hit at once, at 0 and -0, on edges, and by rays in their planes.
 fn coarse() -> Arc<Mesh> {
     let mut random = Pcg32::seed_from_u64(8);
     let mut corner = || Vec3::from_array(std::array::from_fn(|_| (random.next_u32() % 4) as f32 - 1.0));

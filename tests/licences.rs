@@ -1,11 +1,11 @@
-//! Everything that is compiled in may be passed on: the licences of all dependencies.
+//! Checks that all compiled code may be distributed: the licences of all dependencies.
 
 use std::process::Command;
 
 use serde_json::Value;
 
-/// What manifests say, in each of their spellings. A new one is read by a person: all that an `AND` joins, and one of what
-/// an `OR` joins, must be permissive.
+/// The licences in manifests, in each of their spellings. A person must read a new one: all parts of an `AND`, and one
+/// part of an `OR`, must be permissive.
 const ALLOWED: [&str; 22] = [
     "(MIT OR Apache-2.0) AND Unicode-3.0",
     "0BSD OR MIT OR Apache-2.0",
@@ -31,7 +31,7 @@ const ALLOWED: [&str; 22] = [
     "Zlib OR Apache-2.0 OR MIT",
 ];
 
-/// Of packages with fonts.
+/// The licence of packages with fonts.
 const ALLOWED_FONTS: &str = "(MIT OR Apache-2.0) AND OFL-1.1 AND Ubuntu-font-1.0";
 
 #[test]

@@ -5,7 +5,6 @@ use sahara::measure::CountingAllocator;
 mod alone;
 mod browser;
 mod cli;
-mod closed_meshes;
 mod cluster;
 mod conformance;
 mod controls;
@@ -23,6 +22,6 @@ mod properties;
 mod real_meshes;
 mod third_party;
 
-/// As in the command.
+/// The allocator of the command.
 #[global_allocator]
 static ALLOCATOR: CountingAllocator = CountingAllocator;

@@ -1,4 +1,4 @@
-//! The fast oracle against its slow twin, on every mesh of the suite and every kind of ray.
+//! Compares the fast oracle with its slow twin, on every mesh of the suite and every stratum.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use sahara::oracle::{Oracle, nearest};
 use sahara::scene::Builtin;
 use sahara::validate::{Stratum, degenerate_meshes};
 
-/// Rays that hit, of rays on which both agree: the exact `t`, its rounded value and the set of triangles.
+/// The number of rays with a hit. Checks that both agree: the exact `t`, its rounded value and the set of triangles.
 fn agree(mesh: &Arc<Mesh>, rays: impl IntoIterator<Item = Ray>, name: &str) -> usize {
     let oracle = Oracle::new(mesh);
     let mut hits = 0;
@@ -27,7 +27,7 @@ fn fast_and_slow_agree_on_degenerate_meshes_and_scenes() {
         ["cornellbox", "teapot"].map(|name| (name.into(), Builtin::find(name).unwrap().scene(None).unwrap().mesh));
     let mut hits = [0; Stratum::ALL.len()];
     for (name, mesh) in degenerate_meshes().into_iter().chain(scenes) {
-        // The slow twin takes some microseconds a triangle.
+        // The slow twin takes some microseconds per triangle.
         let count = (4000 / (mesh.len() + 1)).clamp(4, 60);
         for (sum, stratum) in hits.iter_mut().zip(Stratum::ALL) {
             *sum += agree(&mesh, stratum.rays(&mesh, count, 7), &format!("{name}, {}", stratum.name()));

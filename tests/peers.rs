@@ -1,5 +1,5 @@
-//! The structures of other projects, as far as their features are on: what each answers rightly, and the known defects by
-//! name and cause. When a defect is gone, this fails and the list must shrink; when one is new, this fails too.
+//! The peers whose features are on: their correct hits, and their known defects by name and cause. If a defect
+//! disappears, this fails and the list must shrink; if a new one appears, this fails too.
 #![cfg(any(feature = "peer-bvh", feature = "peer-embree", feature = "peer-parry", feature = "peer-tinybvh"))]
 
 use std::panic::{self, AssertUnwindSafe};
@@ -32,7 +32,7 @@ const PEERS: [&str; 15] = [
     "embree-robust:packet=16",
 ];
 
-/// The peer, if it is present; says if it is skipped, and why.
+/// The peer, if it is present; otherwise prints why it is skipped.
 fn present(spec: &str) -> Option<Choice> {
     let registry = Registry::builtin();
     let is_on = registry.names().contains(&spec.split(':').next().unwrap());
@@ -52,8 +52,8 @@ fn meshes(choice: &Choice) -> Vec<Named> {
     meshes
 }
 
-/// Kinds of rays that a peer gets right on every mesh, and whether it is known to err on all others: Embree and tinybvh
-/// compute with what instructions they find, so that their errors differ from machine to machine.
+/// Strata that a peer gets right on every mesh, and whether it is known to err on all others: the instructions of
+/// Embree and tinybvh depend on the machine, and so do their errors.
 const CLEAN: [(&str, &[Stratum], bool); 5] = {
     use Stratum::{Edges, Invalid, Lengths, NearSurface, Random, RoundedEnds, Vertices, Windows};
     [
@@ -102,7 +102,7 @@ const FINDINGS: [Finding; 4] = [
     },
     Finding {
         cause: "in the far face of a box: the same, and elsewhere 1 / 0 is a large number, which makes boxes half-open",
-        // tinybvh too, on the rim of the mesh, where its own triangle test may round as well.
+        // tinybvh too, on the rim of the mesh; its own triangle test may round there as well.
         structures: &["bvh", "parry", "embree", "embree-robust"],
         mesh: BOX,
         ray: "0.375,3.875,1.0 0.0,-1.0,0.0",
@@ -129,7 +129,7 @@ fn each_finding_is_still_there() {
     for (name, ..) in CLEAN {
         let Some(choice) = present(name) else { continue };
         FINDINGS.iter().for_each(|finding| finding.assert_on(&choice, name));
-        // Embree's default and tinybvh are open at the beginning, and declare it: what lies at the origin is not counted.
+        // Embree's default and tinybvh are open at the beginning, and declare it: hits at the origin are not counted.
         let declined = match name {
             "embree" | "tinybvh" => 1,
             "embree-robust" => 0,

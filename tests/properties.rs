@@ -1,4 +1,4 @@
-//! Properties that hold for every mesh and ray, tried on generated ones.
+//! Properties of every mesh and ray, tested on generated ones.
 
 #[path = "fuzz/target.rs"]
 mod target;
@@ -37,7 +37,7 @@ fn rays(number: impl Strategy<Value = f32> + Clone, count: usize) -> impl Strate
     prop::collection::vec(ray, count)
 }
 
-/// Small integers of both signs of zero: on them Möller-Trumbore does not round but in its one division.
+/// Small integers and zeros of both signs: on them Möller-Trumbore rounds only in its one division.
 fn integers() -> impl Strategy<Value = f32> + Clone {
     prop_oneof![9 => (-4_i8..=4).prop_map(f32::from), 1 => Just(-0.0_f32)]
 }
@@ -52,7 +52,7 @@ fn the_fuzzer_leaves_out_no_structure_of_this_crate() {
     assert_eq!(target::left_out(), Vec::<String>::new());
 }
 
-/// Cases that meet nothing would prove nothing.
+/// Cases without hits would prove nothing.
 #[test]
 fn most_drawn_cases_are_meshes_that_rays_hit() {
     let mut runner = TestRunner::new(config());
@@ -70,7 +70,7 @@ fn most_drawn_cases_are_meshes_that_rays_hit() {
     assert!(meshes > 180 && refused > 0 && hits > 600, "{meshes} meshes, {refused} refused, {hits} hits");
 }
 
-/// A number that the environment gives, for longer runs than those of every day: see tests/fuzz/README.md.
+/// A number from the environment, for longer runs than usual: see tests/fuzz/README.md.
 fn from_environment(name: &str, otherwise: u32) -> u32 {
     match std::env::var(name) {
         Ok(text) => text.parse().unwrap_or_else(|_| panic!("{name}={text} is not a whole number")),
@@ -88,7 +88,7 @@ fn config() -> ProptestConfig {
     }
 }
 
-/// Not brute force but the exact oracle judges: nearest `t`, correctly rounded, and the lowest number there.
+/// The exact oracle judges, not brute force: nearest `t`, correctly rounded, and the lowest number there.
 fn all_are_exact(mesh: &Arc<Mesh>, rays: &[Ray]) -> Result<(), TestCaseError> {
     let exact = |ray: &Ray| oracle::nearest(ray, mesh).map(|(t, ids)| (t.round(), ids[0]));
     let exact: Vec<Option<(f32, u32)>> = rays.iter().map(exact).collect();
@@ -104,9 +104,8 @@ fn all_are_exact(mesh: &Arc<Mesh>, rays: &[Ray]) -> Result<(), TestCaseError> {
 proptest! {
     #![proptest_config(config())]
 
-    /// The ends of intervals fall on the hits themselves, and on halves: what the oracle finds is found, and nothing
-    /// where it finds nothing. On this grid a `t` is a fraction of a small denominator, so that only a half is rounded
-    /// to a half.
+    /// The ends of intervals coincide with the hits, and with halves: the structures find the hits of the oracle, and
+    /// no others. On this grid a `t` is a fraction with a small denominator, so only a half rounds to a half.
     #[test]
     fn on_an_integer_grid_every_structure_is_exact_and_intervals_are_half_open(
         mesh in meshes(integers(), 60),
@@ -116,7 +115,7 @@ proptest! {
         let mut windowed = rays.clone();
         for ray in &rays {
             windowed.push(Ray { t_min: f32::from(ends.0) / 2.0, t_max: f32::from(ends.1) / 2.0, ..*ray });
-            // An end at a hit tells only where that is a float: else it is rounded to either side.
+            // An end at a hit is decisive only if that is a float: otherwise it is rounded to either side.
             let Some((t, _)) = oracle::nearest(ray, &mesh) else { continue };
             if t.compare(t.round()) == Some(std::cmp::Ordering::Equal) {
                 let (at, behind) = (t.round(), t.round().next_up());
@@ -127,7 +126,7 @@ proptest! {
         all_are_exact(&mesh, &windowed)?;
     }
 
-    /// Scaling by a power of two scales nothing but the coordinates: the same `t`, the same primitive, to the bit.
+    /// Scaling by a power of two changes only the coordinates: the same `t`, the same primitive, to the bit.
     #[test]
     fn powers_of_two_change_nothing(mesh in meshes(-2.0_f32..2.0, 40), rays in rays(-2.0_f32..2.0, 40), k in -12_i32..12) {
         let scale = libm::scalbnf(1.0, k);
@@ -159,7 +158,7 @@ proptest! {
         ..config()
     })]
 
-    /// What the fuzzer holds true of any numbers at all.
+    /// The properties that the fuzzer checks for arbitrary numbers.
     #[test]
     fn anything_is_answered_right(case in cases()) {
         if let Err(report) = case.check() {

@@ -1,5 +1,5 @@
-//! The loaders, and views, on meshes as they are found in the world, which the suite does not carry. The environment variable
-//! `SAHARA_DATA` names a folder with the files; without it these tests say that they were skipped.
+//! The loaders and views on real meshes, which the suite does not contain. The environment variable `SAHARA_DATA` names
+//! a folder with the files; without it these tests print that they are skipped.
 
 use std::path::{Path, PathBuf};
 
@@ -10,7 +10,7 @@ use sahara::scene::format::SceneFile;
 use sahara::scene::{Model, Scene, SceneError, View, load};
 use sahara::triangle::MollerTrumbore;
 
-/// The folder with the files; where none is named it says so, and how `name` is treated.
+/// The folder with the files; without it, prints so, and the treatment of `name`.
 fn folder(name: &str, treated: &str) -> Option<PathBuf> {
     let folder = std::env::var_os("SAHARA_DATA").map(PathBuf::from);
     if folder.is_none() {
@@ -19,7 +19,7 @@ fn folder(name: &str, treated: &str) -> Option<PathBuf> {
     folder
 }
 
-/// The model and mesh of a file, nothing when there is no such file.
+/// The model and mesh of a file; `None` if there is no such file.
 fn real(name: &str) -> Option<(Model, Mesh)> {
     let path = folder(name, "skipped")?.join(name);
     if !path.is_file() {
@@ -59,7 +59,7 @@ fn the_loaders_find_what_is_in_them() {
     }
 }
 
-/// How much of a picture of 128 x 128 pixels they fill, in percent.
+/// The share of a picture of 128 x 128 pixels that they fill, in percent.
 const VIEWS: [(&str, std::ops::RangeInclusive<usize>); 6] = [
     ("bunny", 20..=30),
     ("dragon-scan", 22..=32),
@@ -83,7 +83,7 @@ fn the_views_look_at_their_meshes() {
             }
             scene => scene.unwrap(),
         };
-        // What starts off the surface by its area would start behind the next wall.
+        // A ray that starts off the surface by its area would start behind the next wall.
         assert!(scene.name == name && !scene.shadow_terminator_fix);
         let tree = Bvh8::<MollerTrumbore>::build(&scene.mesh, &Bvh8Config::default()).unwrap();
         let view = scene.camera.view([128, 128]);

@@ -1,4 +1,4 @@
-//! What the benches share: scenes and structures by name.
+//! Scenes and structures by name, shared by the benches.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ pub fn scene(name: &str) -> Scene {
     Builtin::find(name).and_then(|builtin| builtin.scene(None)).expect("a built-in scene is whole")
 }
 
-/// Every structure over its first triangle test. Brute force only where it ends within seconds.
+/// Every structure over its first triangle test. Brute force only if it finishes within seconds.
 pub fn structures(mesh: &Arc<Mesh>) -> Vec<Choice> {
     let registry = Registry::builtin();
     let names = registry.names().into_iter().filter(|&name| name != "brute-force" || mesh.len() < 10_000);

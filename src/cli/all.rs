@@ -1,4 +1,4 @@
-//! `study all`: everything that the page shows, in one run that can be killed and goes on with the case that it was measuring.
+//! `study all`: all studies of the page in one run. A killed run resumes with the case that it was measuring.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -43,7 +43,7 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
     let common =
         Common { dir: Some(args.dir.clone()), fresh: args.fresh, in_process: args.in_process, ..Common::default() };
     if !args.scenes.is_empty() {
-        // What is not there is refused before the studies that have scenes of their own are measured.
+        // Reject missing scenes before any study is measured.
         let _waiting = spinner("loading scenes", terminal);
         scenes(&suite.registry, &args.scenes)?;
     }
@@ -86,7 +86,7 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
     Ok(outcome)
 }
 
-/// What there is still to be measured; scenes may have failed beside wrong answers, which weigh more.
+/// The remaining work. Scenes may have failed in addition to wrong hits, which take precedence.
 fn left(outcome: Status) -> &'static str {
     match outcome {
         Status::Failed => "The same command retries what failed.",
@@ -95,8 +95,8 @@ fn left(outcome: Status) -> &'static str {
     }
 }
 
-/// Whether the next studies would fare no better: nothing can be written into the folder of journals, or another run
-/// measures there, beside which none is to be measured.
+/// Whether the next studies would fail as well: the folder of journals is not writable, or another run measures in it,
+/// which forbids a second one.
 fn ends_all(error: &anyhow::Error) -> bool {
     let of_journal = error.downcast_ref::<JournalError>();
     matches!(of_journal, Some(JournalError::Write { .. } | JournalError::Place(_) | JournalError::Busy(_)))

@@ -9,7 +9,7 @@ use crate::request::{OUTPUT, STRUCTURES};
 use crate::study::Status;
 use crate::study::diff::{Comparison, Side, cautions, read, sentences, settings, tables, unlike};
 
-/// The group of options that make an exit status of a comparison.
+/// The group of options that turn a comparison into an exit status.
 const GATE: &str = "Gate";
 
 #[derive(Debug, clap::Args)]

@@ -1,4 +1,4 @@
-//! Every command that a document of this repository names is one.
+//! Checks that every command in a document of this repository exists.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,7 +7,7 @@ use clap::error::ErrorKind;
 
 use crate::study::Studies;
 
-/// All documents below `folder`, but what was compiled.
+/// All documents below `folder`, except those in build folders.
 pub fn documents(folder: &Path, into: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
@@ -20,13 +20,13 @@ pub fn documents(folder: &Path, into: &mut Vec<PathBuf>) {
     }
 }
 
-/// The lines of a document that are code.
+/// The lines of code in a document.
 fn code(text: &str) -> impl Iterator<Item = &str> {
     text.split("```").skip(1).step_by(2).flat_map(str::lines)
 }
 
-/// The commands of a document: its lines of code that begin with one, with those that go on with it, and those within
-/// sentences.
+/// The commands of a document: its lines of code that begin with a command, including continuation lines, and the
+/// commands within sentences.
 fn commands(text: &str) -> (Vec<String>, Vec<String>) {
     let text = &text.replace("\\\n", " ");
     let own = |text: &str| {
@@ -57,14 +57,14 @@ fn commands_of_documents_are_understood() {
         for line in &lines {
             parsed(line).unwrap_or_else(|error| panic!("{}: {line}: {error}", path.display()));
         }
-        // Sentences name commands without what they are about.
+        // Sentences name commands without their arguments.
         let whole = |error: &clap::Error| {
             matches!(
                 error.kind(),
                 ErrorKind::MissingRequiredArgument | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand
             )
         };
-        // A place for a name is none, and a line of a protocol is no command.
+        // A placeholder is not a name, and a line of a protocol is not a command.
         let is_command = |span: &&String| !["NAME", "THREADS", "JSON", "\n"].iter().any(|other| span.contains(other));
         let spans: Vec<&String> = spans.iter().filter(is_command).collect();
         for span in &spans {

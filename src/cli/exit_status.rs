@@ -1,4 +1,4 @@
-//! How the command ends: a number for what it found.
+//! The exit status of the command.
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -10,7 +10,7 @@ use crate::escaped::Escaped as _;
 use crate::output;
 use crate::study::{Status, StudyError};
 
-/// One rule for all commands; what a baseline is known to get wrong is no fault of a run.
+/// One rule for all commands. Known defects of a baseline are not a failure of a run.
 pub(crate) const STATUSES: &str = "\
 Exit status:
   0    correct
@@ -25,7 +25,7 @@ Wrong hits of a baseline with known defects do not change the status; tables
 name the defects. `-` as an output file is standard output; tables and messages
 then go to standard error.";
 
-/// Ends with what was found; an error is told first.
+/// Exits with the status of the result; prints an error first.
 pub(super) fn of(found: anyhow::Result<Status>) -> ExitCode {
     ended(match found {
         Ok(Status::Right) => 0,
@@ -45,14 +45,14 @@ pub(super) fn of(found: anyhow::Result<Status>) -> ExitCode {
     })
 }
 
-/// A result that could not be written is told, and is a failure unless there is a verdict that says more.
+/// Reports a result that could not be written; it is a failure unless the verdict is more severe.
 fn ended(status: u8) -> ExitCode {
-    let Some(cause) = output::take_failure() else { return ExitCode::from(status) };
+    let Some(cause) = output::FAILURE.get() else { return ExitCode::from(status) };
     output::tell_error(format_args!("cannot write to standard output: {cause}"));
     ExitCode::from(status.max(1))
 }
 
-/// A wrong answer may be found as an error, where nothing else can be said of a run.
+/// A wrong hit may be an error if it leaves no other result.
 fn of_error(error: &anyhow::Error) -> u8 {
     let is_wrong = error.downcast_ref::<StudyError>().is_some_and(StudyError::is_wrong_answer);
     if is_wrong { 2 } else { 1 }
@@ -67,7 +67,7 @@ fn moved(message: &clap::Error) -> Option<String> {
     }
 }
 
-/// Prints what the command line is told. Help and version are answers, not errors.
+/// Prints a message of the parser. Help and version are not errors.
 pub(super) fn told(message: clap::Error) -> ExitCode {
     if let Some(sentence) = moved(&message) {
         output::tell_error(sentence);
@@ -81,7 +81,7 @@ pub(super) fn told(message: clap::Error) -> ExitCode {
     ended(message.use_stderr().into())
 }
 
-/// Without tips that do not help: no command takes an option behind `--`.
+/// Removes tips that do not help: no command takes an option after `--`.
 fn advised(mut message: clap::Error) -> clap::Error {
     if let Some(ContextValue::StyledStrs(mut tips)) = message.remove(ContextKind::Suggested) {
         tips.retain(|tip| !tip.to_string().contains("as a value, use"));
@@ -90,7 +90,7 @@ fn advised(mut message: clap::Error) -> clap::Error {
     message
 }
 
-/// What was typed stands in the message: it is escaped there.
+/// The message contains the typed text: escape it.
 fn shown(mut message: clap::Error) -> clap::Error {
     let typed: Vec<(ContextKind, String)> = message
         .context()

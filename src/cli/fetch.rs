@@ -35,13 +35,13 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     for scene in scenes(&args.scenes)? {
         files.extend(scene.objects.into_iter().filter_map(|object| object.real).map(|real| (scene.name.clone(), real)));
     }
-    // What is named twice counts once.
+    // A repeated name counts once.
     let files = each_once_by(files, |one, other| (&one.0, &one.1.file) == (&other.0, &other.1.file));
     if files.is_empty() {
         terminal.print("these scenes use no real mesh: nothing to fetch\n");
         return Ok(Status::Right);
     }
-    // The licences of all come before the first download.
+    // Print all licences before the first download.
     let lines = files.iter().flat_map(|(scene, real)| described(scene, real));
     terminal.print(&lines.map(|line| format!("{}\n", line.escaped())).collect::<String>());
     if args.list {

@@ -1,5 +1,5 @@
-//! Ctrl-C: a run that measures stops, shows and keeps what there is; all else ends at once, as does that run at the second one.
-//! So does everything at SIGTERM: `timeout` and schedulers, which send it, do not wait for what would be shown.
+//! Ctrl-C: a measuring run stops, shows its results and keeps them; all other commands end at once, and so does the run
+//! at the second Ctrl-C. SIGTERM ends everything at once, because `timeout` and schedulers, which send it, do not wait.
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -8,12 +8,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 #[cfg(target_os = "linux")]
 use nix::sys::signal::{SigSet, Signal, raise};
 
-/// Whether a run stops by itself when it is asked to.
+/// Whether a run stops by itself on a signal.
 static LISTENS: AtomicBool = AtomicBool::new(false);
 static ASKED: AtomicBool = AtomicBool::new(false);
 
-/// Waits for both signals in a thread of its own. To be called before there are others: they must not be interrupted in
-/// its place.
+/// Waits for both signals in a separate thread. Call it before other threads start: they must not receive the signals
+/// instead.
 pub fn watch() {
     #[cfg(target_os = "linux")]
     {
@@ -36,18 +36,18 @@ pub fn watch() {
     }
 }
 
-/// Ends the process with all that it has started, as if nobody had caught the signal: after a program that has, a shell
-/// goes on with the next line of its script.
+/// Ends the process and its programs as if the signal had not been caught: after a program that catches it, a shell
+/// continues with the next line of its script.
 #[cfg(target_os = "linux")]
 fn end_by(signal: Signal, caught: SigSet) -> ! {
     crate::measure::process_group::end_started_by(std::process::id());
     let _ = caught.thread_unblock().and_then(|()| raise(signal));
-    // The first process of a container is not ended by a signal.
+    // A signal does not end the first process of a container.
     std::process::exit(128 + signal as i32);
 }
 
-/// A bit for each signal that this process was started to ignore, as a shell starts what is to go on in the background:
-/// it would be told of them all the same, for they are blocked.
+/// A bit for each signal that this process was started to ignore, as a shell does for background jobs. The process
+/// would receive them anyway, because they are blocked.
 #[cfg(target_os = "linux")]
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
@@ -55,7 +55,7 @@ fn ignored() -> u64 {
     mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0)
 }
 
-/// Ends a run that has stopped and has shown and kept what there is.
+/// Ends a run that has stopped, after showing and keeping its results.
 pub fn end() -> ExitCode {
     let _ = std::io::stdout().flush();
     #[cfg(target_os = "linux")]
@@ -68,7 +68,7 @@ pub fn is_asked() -> bool {
     ASKED.load(Ordering::SeqCst)
 }
 
-/// From now on a run stops by itself when it is asked to, or no longer does.
+/// Whether a run stops by itself on a signal from now on.
 pub fn listen(listens: bool) {
     LISTENS.store(listens, Ordering::SeqCst);
 }

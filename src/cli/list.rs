@@ -64,7 +64,7 @@ fn names(suite: &Suite) -> Table {
     // Notes are wrapped.
     let notes = lines.into_iter().map(|(what, names): (&str, Vec<&str>)| format!("{what}: {}.", names.join(", ")));
     let more = format!("More: `sahara list STRUCTURE` (its options), or: {}.", KINDS.join(", "));
-    Table { title: "Names".into(), ..Table::default() }.noted(notes.chain([more]).collect())
+    Table { title: "Names".into(), ..Table::default() }.noted(notes.chain([more]))
 }
 
 fn scenes() -> anyhow::Result<Table> {
@@ -81,7 +81,7 @@ fn scenes() -> anyhow::Result<Table> {
     Ok(Table::new("Scenes", ["name", "difficulty", "triangles", "lights", "mirrors", "meshes"], rows))
 }
 
-/// One row for each structure: the triangle tests it is offered over, the default first, and what it declines by design.
+/// One row per structure: its triangle tests, the default first, and the features that it does not support by design.
 fn structures(registry: &Registry) -> Table {
     let (mut rows, mut notes) = (vec![], vec![]);
     for name in registry.names() {
@@ -111,7 +111,7 @@ fn declined(entry: &Entry) -> Vec<&'static str> {
     declined
 }
 
-/// What a structure does otherwise than the others by design, and why it is absent.
+/// How a structure differs from all others by design, and the reason why it is absent.
 fn remarks(entry: &Entry) -> Vec<String> {
     let name = &entry.name;
     let mut remarks = vec![];
@@ -129,7 +129,7 @@ fn keys(registry: &Registry, name: &str) -> Table {
     let test = [String::from("test"), tests[0].into(), "the triangle test".into(), tests.join(", ")];
     let key = |key: crate::registry::Key| [key.name, key.default, key.meaning.into(), key.values];
     let rows = std::iter::once(test).chain(first.keys().into_iter().map(key));
-    // Long lists of values stand below, where lines are broken.
+    // Long lists of values stand below the table, where lines are wrapped.
     let (mut shown, mut notes) = (vec![], vec![]);
     for [key, default, meaning, values] in rows {
         let short = values.chars().count() <= 28;

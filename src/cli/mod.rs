@@ -49,7 +49,7 @@ const ABOUT: &str = "Benchmark, validate and image-test ray-tracing acceleration
 
 const USAGE: &str = "sahara [COMMAND] [OPTIONS]  (no command: compare on the built-in scenes)";
 
-/// One screen of 80 x 24, prompt included: the options that all commands share are in the help of each.
+/// One screen of 80 x 24, including the prompt. The options of all commands are in the help of each command.
 const SCREEN: &str = "\
 {about}
 
@@ -75,7 +75,7 @@ impl From<Registry> for Suite {
     }
 }
 
-/// The position of options of all commands: behind those of each command.
+/// The position of global options: after the options of each command.
 const GLOBAL: usize = 900;
 
 /// Options of all commands.
@@ -97,7 +97,7 @@ struct Global {
     level: Option<Level>,
 }
 
-// Options of the processes that a run starts. No doc comment: clap would take it for what the whole command does.
+// Options for processes that a run starts. No doc comment: clap would use it as the description of the command.
 #[derive(Debug, clap::Args)]
 struct Process {
     /// Measure this case (used by runs and schedulers)
@@ -121,11 +121,11 @@ fn read_case(text: &str) -> Result<Case, String> {
 struct Session<'a> {
     suite: &'a Suite,
     terminal: &'a Terminal,
-    /// What starts a process for each case, unless all are to be measured in this one.
+    /// The settings for a process per case; `None` measures all cases in this process.
     processes: Option<&'a Processes>,
 }
 
-// The commands that are no study. No doc comment: clap would take it for what the whole command does.
+// The commands that are not studies. No doc comment: clap would use it as the description of the command.
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Compare two runs, or fail on a regression
@@ -149,7 +149,7 @@ enum Command {
     Completions(completions::Args),
 }
 
-/// The studies that are commands of their own.
+/// The studies that are top-level commands.
 const COMPARE: &str = "compare";
 const REPLICATE: &str = "replicate";
 
@@ -157,13 +157,13 @@ const STUDY: &str = "study";
 
 const REPORT: &str = "report";
 
-/// What is said of HTML and figures where they are left out.
+/// The message without HTML and figures.
 pub(crate) const NO_PAGE: &str = "this sahara was built without the feature `page`: rebuild it with `--features page`";
 
-/// The commands that people are shown.
+/// The commands that the help lists.
 fn shown(studies: &Studies) -> clap::Command {
     let whole = clap::Command::new("sahara").version(env!("CARGO_PKG_VERSION")).max_term_width(100);
-    // The options come with what they themselves are about.
+    // The options bring their own description: set it again.
     let whole = Global::augment_args(whole).about(ABOUT).long_about(None);
     let mut command = whole.override_usage(USAGE).help_template(SCREEN).after_help(EXAMPLES);
     command = command.subcommands(studies.find(COMPARE).map(study::command));
@@ -173,7 +173,7 @@ fn shown(studies: &Studies) -> clap::Command {
         .about("Run an experiment, or plan one for a cluster")
         .subcommand_required(true)
         .arg_required_else_help(true)
-        // A name that is no study gets the list of those there are.
+        // An unknown study gets an error with the known ones.
         .allow_external_subcommands(true)
         .subcommand(all::Args::augment_args(all))
         .subcommand(plan::Args::augment_args(clap::Command::new(plan::NAME)))
@@ -181,7 +181,7 @@ fn shown(studies: &Studies) -> clap::Command {
     Command::augment_subcommands(command.subcommand(listed))
 }
 
-/// All commands and options: those that a run starts processes with, and names that went, are hidden.
+/// All commands and options. Options for started processes, and removed names, are hidden.
 fn command(studies: &Studies) -> clap::Command {
     let child = clap::Command::new(validate::CHILD).hide(true);
     let command = Process::augment_args(shown(studies)).subcommand(validate::ChildArgs::augment_args(child));
@@ -190,19 +190,20 @@ fn command(studies: &Studies) -> clap::Command {
     let command = command.subcommands(moved::COMMANDS.iter().map(old));
     let command = if cfg!(feature = "page") { command } else { command.subcommand(old(&(REPORT, NO_PAGE))) };
     let mut command = command.mut_subcommands(with_statuses);
-    // `sahara help` exists once it is built; its line would not leave room for a prompt.
+    // `sahara help` exists only after building; its line would leave no space for a prompt.
     command.build();
     command.mut_subcommand("help", |help| help.hide(true))
 }
 
-/// The command with the exit statuses at the end of its long help, and so below it.
+/// The command with the exit statuses at the end of its long help, and of all subcommands.
 fn with_statuses(command: clap::Command) -> clap::Command {
     let own = command.get_after_help().is_none();
     let command = command.mut_subcommands(with_statuses);
     if own { command.after_long_help(exit_status::STATUSES) } else { command }
 }
 
-/// Runs the command line of this process over structures, with the studies of this crate, or over a whole [`Suite`].
+/// Runs the command line of this process with these structures and the studies of this crate, or with a whole
+/// [`Suite`].
 pub fn main(suite: impl Into<Suite>) -> ExitCode {
     interrupt::watch();
     run_with(&suite.into(), std::env::args_os(), true)
@@ -211,13 +212,14 @@ pub fn main(suite: impl Into<Suite>) -> ExitCode {
 const PANIC: &str = "the panic above ended the command: if a structure caused it, omit the structure or find the mesh or ray with \
                      `sahara validate`; otherwise it is a bug in sahara";
 
-/// Runs `args`, the name of the program first. They need not be those of this program, so all is measured in this process.
+/// Runs `args`, whose first element is the name of the program. They may not be this process's arguments, so all cases
+/// are measured in this process.
 pub fn run(suite: &Suite, args: impl IntoIterator<Item = OsString>) -> ExitCode {
     run_with(suite, args, false)
 }
 
 fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, starts_processes: bool) -> ExitCode {
-    // The date of what is measured is that of its beginning.
+    // The date of a measurement is the start of the run.
     program::started();
     let args: Vec<OsString> = args.into_iter().collect();
     let parsed = command(&suite.studies).try_get_matches_from(&args);
@@ -232,7 +234,7 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, starts_proc
         level.choose();
     }
     let terminal = Terminal::new(global.color, global.quiet).verbose(global.verbose);
-    // What `validate --hard` runs in a process of its own tells it of a panic by ending with one.
+    // A child of `validate --hard` reports a panic to its parent by ending with one.
     let may_panic = matches.subcommand_name() == Some(validate::CHILD);
     let level = global.level.iter().flat_map(|level| ["--level", level.name()]).map(OsString::from);
     let processes = starts_processes.then(|| Processes { options: level.collect() });
@@ -241,7 +243,7 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, starts_proc
         (Some(case), Some(out)) => measure_case(&session, &process, case, out, args.clone()),
         _ => dispatch(&session, &matches, &global).inspect(|_| terminal.print_note_count()),
     };
-    // A structure of another crate may panic where its command has nothing else to go on with.
+    // A structure of another crate may panic in a command that cannot continue without it.
     let found = if may_panic { Ok(run()) } else { catch_unwind(AssertUnwindSafe(run)) };
     exit_status::of(found.unwrap_or_else(|_| {
         panics::uncaught().iter().for_each(crate::output::tell);

@@ -1,4 +1,4 @@
-//! Removed commands, studies and options, and what replaces them.
+//! Removed commands, studies and options, and their replacements.
 
 pub const COMMANDS: [(&str, &str); 5] = [
     ("bench", "`sahara compare --export-json A.json` and `sahara diff A.json B.json --fail-on-regression PERCENT`"),

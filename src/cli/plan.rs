@@ -1,4 +1,4 @@
-//! `study plan`: studies as jobs that need each other in nothing, for the machines of a cluster.
+//! `study plan`: studies as independent jobs for the machines of a cluster.
 
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
@@ -19,7 +19,7 @@ use crate::study::{Case, Effort, Status, Study};
 
 pub const NAME: &str = "plan";
 
-/// Options that write what came of a whole study.
+/// Options that write the results of a whole study.
 const OUTPUTS: [&str; 4] = ["--export-json", "--export-csv", "--export-markdown", "--plot"];
 
 const NO_SCENE: &str = "--scenes needs a scene: --scenes SCENE..";
@@ -45,11 +45,11 @@ pub struct Args {
 }
 
 impl Args {
-    /// What is asked for: the names of studies, and the options that are theirs. An option that is given twice is refused as clap refuses
-    /// one before `rest`.
+    /// The requested studies and the options of the studies. A repeated option is rejected, as clap rejects one before
+    /// `rest`.
     fn split(&self) -> anyhow::Result<(Self, Vec<OsString>, Vec<OsString>)> {
         let (mut own, mut names, mut options) = (self.clone(), vec![], vec![]);
-        // To clap options of the studies behind scenes are scenes, and the first one is a name where there is none.
+        // To clap the studies' options after scenes are scenes, and without a name the first one is the name.
         let scenes = own.scenes.iter().take_while(|word| !word.starts_with("-")).count();
         let behind = own.scenes.split_off(scenes);
         anyhow::ensure!(scenes > 0 || behind.is_empty(), NO_SCENE);
@@ -115,12 +115,12 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
     let studies = if whole { suite.studies.iter().collect() } else { named };
     let dir = args.dir.as_deref().unwrap_or(Path::new(RUNS));
     let mut commands = vec![];
-    // Two jobs of one case would write one file.
+    // Two jobs of one case would write the same file.
     for study in each_once_by(studies, |one, other| one.name == other.name) {
         if !args.scenes.is_empty() && !study.names_scenes() {
             terminal.tell(&format!("{}: has its own scenes and ignores --scenes", study.name));
         }
-        // What one study does not take is refused before scenes are loaded for another one.
+        // Reject options that a study does not accept before loading scenes for another study.
         let words = words(study, &args, whole, &options);
         let parsed = command::command(study).no_binary_name(true).try_get_matches_from(&words);
         commands.push((study, words, parsed?));
@@ -141,7 +141,7 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
             lines += &(line(level, &Case { command: own.clone(), ..case }, &file) + "\n");
         }
     }
-    // Several studies may measure one scene.
+    // Several studies may measure the same scene.
     each_once(warnings).iter().for_each(|warning| terminal.tell(&format!("warning: {warning}")));
     terminal.print(&lines);
     Ok(Status::Right)
@@ -158,7 +158,7 @@ fn words(study: &Study, args: &Args, whole: bool, options: &[OsString]) -> Vec<O
     words
 }
 
-/// A line that a shell reads as the command with a case and a file.
+/// A shell line with the command, a case and a file.
 fn line(level: Option<Level>, case: &Case, file: &Path) -> String {
     let text = serde_json::to_string(case).expect("a case has text keys");
     let (case, out) = (format!("--{CASE}={text}"), format!("--{OUT}"));

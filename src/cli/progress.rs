@@ -1,4 +1,4 @@
-//! The progress bar: on stderr, drawn only when a study says what it does, which is never inside a timed region.
+//! The progress bar: on stderr, drawn only when a study reports a stage, which is never inside a timed region.
 
 use std::fmt::Display;
 use std::io::{self, IsTerminal};
@@ -18,31 +18,31 @@ fn style(template: &str) -> ProgressStyle {
     ProgressStyle::with_template(template).expect("the template is valid")
 }
 
-/// A bar that is gone when it is dropped.
+/// A bar that disappears when it is dropped.
 fn bar(steps: Option<u64>, template: &str, terminal: &Terminal) -> ProgressBar {
     let target = if terminal.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
     ProgressBar::with_draw_target(steps, target).with_style(style(template)).with_finish(ProgressFinish::AndClear)
 }
 
-/// The bar of a download of `bytes`, if that is known; told how many there are.
+/// The bar of a download of `bytes`, if the size is known; its position is in bytes.
 #[cfg(feature = "fetch")]
 pub fn download(name: &str, bytes: Option<u64>, terminal: &Terminal) -> ProgressBar {
     bar(bytes, "{bar:24} {bytes} of {total_bytes} {wide_msg}", terminal).with_message(name.to_owned())
 }
 
-/// How often what takes long is seen to go on.
+/// Time between updates of a long step.
 const TICK: Duration = Duration::from_secs(1);
 
-/// Says what is done and for how long already, until it is dropped; for work that nobody times.
+/// Shows a step and its duration until it is dropped; only for work that is not timed.
 pub fn spinner(what: impl Into<String>, terminal: &Terminal) -> ProgressBar {
     let bar = bar(None, SPINNER, terminal).with_message(what.into());
     bar.enable_steady_tick(TICK);
     bar
 }
 
-/// Lines in a log, which shows no bar: how far a run has come, at most one every five seconds.
+/// Lines in a log, which has no bar: the progress of a run, at most one line every five seconds.
 pub struct LogLines {
-    /// When the last line was written; nothing where there is a bar, or nothing is to be shown.
+    /// The time of the last line; `None` if there is a bar, or progress is hidden.
     last: Option<Instant>,
 }
 
@@ -66,14 +66,14 @@ const STEPS: u64 = 100;
 pub struct OnTerminal<'a> {
     terminal: &'a Terminal,
     bar: ProgressBar,
-    /// The case, what it is of all work, and what was done before it.
+    /// The case, its work, and the work before it.
     case: String,
     work: u64,
     done: u64,
     log: LogLines,
     /// Warnings that were shown.
     warned: Vec<String>,
-    /// Whether it shows a job: one case, of which there is nothing to show or keep before it is measured.
+    /// Whether it shows a job: a single case, without results before it is measured.
     is_job: bool,
 }
 
@@ -84,7 +84,7 @@ impl<'a> OnTerminal<'a> {
         Self { terminal, bar, case, work: 0, done: 0, log, warned: vec![], is_job: false }
     }
 
-    /// That of a job, which says what it measures in a line that is there in a log as well.
+    /// The screen of a job, which prints its case in a line, also in a log.
     pub fn of_job(terminal: &'a Terminal) -> Self {
         let mut own = Self::new(terminal);
         own.is_job = true;
@@ -103,7 +103,7 @@ impl Screen for OnTerminal<'_> {
         self.bar.set_length(work * STEPS);
         self.bar.set_style(style(BAR));
         if !self.is_job {
-            // All else than a run that measures is ended by Ctrl-C at once.
+            // Ctrl-C ends all commands at once, except a measuring run.
             interrupt::listen(true);
         }
     }
@@ -115,7 +115,7 @@ impl Screen for OnTerminal<'_> {
         self.log(title);
         (self.case, self.work) = (title.into(), work);
         self.bar.set_message(title.to_owned());
-        // A process of its own loads it now.
+        // Its process loads it now.
         self.bar.enable_steady_tick(TICK);
     }
 
@@ -128,12 +128,12 @@ impl Screen for OnTerminal<'_> {
             Stage::Count => ("counting".into(), STEPS),
         };
         let text = format!("{}: {text}", self.case);
-        // Nothing is drawn while samples are taken.
+        // Draw nothing while samples are taken.
         match stage {
             Stage::Trace(..) => self.bar.disable_steady_tick(),
             _ => self.bar.enable_steady_tick(TICK),
         }
-        // Structures are built again between samples.
+        // Structures are rebuilt between samples.
         self.bar.set_position(self.bar.position().max(self.done * STEPS + self.work * step));
         self.log(&text);
         self.bar.set_message(text);

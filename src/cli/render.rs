@@ -102,7 +102,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     Ok(Status::Right)
 }
 
-/// Refuses a name that promises another form than the one that is written.
+/// Rejects a file name of another format than PNG.
 fn is_png(path: &Path) -> anyhow::Result<()> {
     let ending = path.extension().unwrap_or("png".as_ref());
     anyhow::ensure!(
@@ -120,7 +120,7 @@ fn own_scale(choice: &Choice, scene: &Scene, accel: &dyn DynAccel) -> anyhow::Re
     Ok(hottest(&costs?).max(1))
 }
 
-/// One scale for the heat of all structures: the hottest of the trees. Brute force would darken all of them.
+/// One scale for the heat of all structures: the maximum over the trees. Brute force would darken all of them.
 fn common_scale(registry: &Registry, scene: &Scene, waiting: &ProgressBar) -> anyhow::Result<u64> {
     let size = coarse_size(scene);
     let mut scale = 1;

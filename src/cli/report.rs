@@ -72,19 +72,19 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
             all.len()
         )),
     }
-    let written = folder.iter().map(|folder| folder.path().join("index.html"));
+    let written = folder.iter().map(|folder| folder.path.join("index.html"));
     for path in written.chain(results.iter().flat_map(ResultsFolder::paths)) {
         terminal.print(&format!("{}\n", path.escaped()));
     }
     Ok(Status::Right)
 }
 
-/// Where the paper goes, with what is beside it.
+/// The folder of the paper, with the README beside it.
 struct ResultsFolder {
     figures: OutputFolder,
     paper: OutputFile,
     data: OutputFile,
-    /// With its text.
+    /// README with its text.
     readme: Option<(OutputFile, String)>,
 }
 
@@ -106,7 +106,7 @@ impl ResultsFolder {
         })
     }
 
-    /// Writes README last: its numbers are those of the data.
+    /// Writes README last: its numbers come from the data.
     fn write(&self, mut results: Results, studies: &Studies) -> anyhow::Result<()> {
         let filled = self.readme.as_ref().map(|(_, text)| results.fill(text, studies)).transpose()?;
         self.figures.write(&results.figures)?;
@@ -120,6 +120,6 @@ impl ResultsFolder {
 
     fn paths(&self) -> Vec<PathBuf> {
         let files = [&self.paper, &self.data].into_iter().chain(self.readme.iter().map(|(file, _)| file));
-        files.map(|file| file.path().to_path_buf()).collect()
+        files.map(|file| file.path.clone()).collect()
     }
 }

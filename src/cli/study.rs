@@ -1,4 +1,4 @@
-//! Running a study: `study NAME`, and those that have a command of their own.
+//! Runs a study: `study NAME`, and the studies that are top-level commands.
 
 use std::path::PathBuf;
 
@@ -16,7 +16,7 @@ use crate::study::{self, Run, RunOutcome, Status, Study};
 
 pub const RUNS: &str = "runs";
 
-/// Options of every study beside its own.
+/// Options of every study, in addition to its own.
 #[derive(Clone, Debug, Default, clap::Args)]
 #[command(next_help_heading = OUTPUT)]
 pub struct Common {
@@ -54,7 +54,8 @@ struct Files {
 }
 
 impl Common {
-    /// Refuses files that cannot be written. Scenes take seconds to load, and only then it is known what the files must not be.
+    /// Rejects files that cannot be written, before scenes are loaded, which takes seconds. Only afterwards the input
+    /// files are known.
     fn check_places(&self) -> anyhow::Result<()> {
         let exports = [&self.export_json, &self.export_csv, &self.export_markdown].into_iter().flatten();
         for path in exports.chain(&self.plot) {
@@ -67,7 +68,7 @@ impl Common {
         Ok(())
     }
 
-    /// Checks all files before the long run; none of them is one of `inputs`.
+    /// Checks all files before the long run; none of them may be one of `inputs`.
     fn check(&self, inputs: &[PathBuf]) -> anyhow::Result<Files> {
         anyhow::ensure!(self.plot.is_empty() || cfg!(feature = "page"), "--plot: {NO_PAGE}");
         let file = |path: &PathBuf| -> anyhow::Result<OutputFile> {
@@ -108,7 +109,7 @@ const RARE: [&str; 18] = [
 
 pub fn command(study: &Study) -> clap::Command {
     let command = Common::augment_args((study.options)().name(study.name));
-    // The options come with what they themselves are about.
+    // The options bring their own description: set it again.
     let command = command.about(study.question).long_about(None);
     command.mut_args(|option| {
         let is_rare = RARE.contains(&option.get_id().as_str());
@@ -120,7 +121,7 @@ pub fn run(session: &Session, study: &Study, matches: &ArgMatches) -> anyhow::Re
     run_as(session, study, matches, &Common::from_arg_matches(matches)?)
 }
 
-/// Runs a study, prints what it says and writes the files.
+/// Runs a study, prints its report and writes the files.
 pub fn run_as(session: &Session, study: &Study, matches: &ArgMatches, common: &Common) -> anyhow::Result<Status> {
     let &Session { suite, terminal, .. } = session;
     let folder = common.dir.clone().unwrap_or_else(|| RUNS.into());
@@ -144,7 +145,7 @@ pub fn run_as(session: &Session, study: &Study, matches: &ArgMatches, common: &C
     terminal.print_notes(notes.clone());
     terminal.print_lines(&foot);
     failures.iter().for_each(crate::output::tell_error);
-    // Files are written whole, when all is measured.
+    // Files are written whole, after all cases are measured.
     if let Some(dataset) = dataset {
         if let Some(file) = files.json {
             file.write(&dataset.to_json())?;

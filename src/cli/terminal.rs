@@ -1,4 +1,4 @@
-//! Where output goes, and what it may look like.
+//! The place and the appearance of output.
 
 use std::cell::RefCell;
 use std::io::{self, IsTerminal, Write};
@@ -25,13 +25,13 @@ pub enum Colour {
 
 pub struct Terminal {
     screen: Screen,
-    /// Whether somebody looks at standard output.
+    /// Whether standard output is a terminal.
     shown: bool,
     /// Whether progress is hidden.
     pub quiet: bool,
     /// Whether tables are printed with all their columns and notes.
     pub verbose: bool,
-    /// Notes that were not printed, each once.
+    /// Notes that were not printed, without duplicates.
     hidden: RefCell<Vec<String>>,
 }
 
@@ -44,46 +44,46 @@ impl Terminal {
             Colour::Always => true,
             Colour::Never => false,
         };
-        // Some terminals do not know their width, and say zero.
+        // Some terminals do not know their width, and report zero.
         let width = if shown { Probe::new().width().filter(|&width| width > 0) } else { None };
         Self { screen: Screen { width, colour }, shown, quiet, verbose: false, hidden: RefCell::default() }
     }
 
-    /// The same, which prints tables with all their columns and notes if `verbose`.
+    /// The same terminal; if `verbose`, it prints tables with all their columns and notes.
     pub fn verbose(self, verbose: bool) -> Self {
         Self { verbose, ..self }
     }
 
-    /// Whether somebody looks who may want to see what is not final.
+    /// Whether a person may want to see intermediate results.
     pub fn is_watched(&self) -> bool {
         self.shown && !self.quiet && !stdout_is_taken()
     }
 
-    /// Prints text as it is; to standard error where a result goes to standard output.
+    /// Prints text unchanged; to standard error if a result is written to standard output.
     pub fn print(&self, text: &str) {
         if stdout_is_taken() {
-            // As with all that goes there, nothing depends on its reader.
+            // A closed standard error is not an error.
             let _ = io::stderr().lock().write_all(text.as_bytes());
         } else {
             output::print(text.as_bytes());
         }
     }
 
-    /// Says on standard error what is no result, unless progress is left out.
+    /// Prints a message to standard error, unless progress is hidden.
     pub fn tell(&self, sentence: &str) {
         if !self.quiet {
             tell(sentence);
         }
     }
 
-    /// Prints a table with its notes, but for columns in which no row says anything, and a blank line after it.
+    /// Prints a table with its notes, without empty columns, and a blank line after it.
     pub fn print_table(&self, table: &Table) {
         let table = if self.verbose { table.clone() } else { table.clone().without_details() };
         let table = terminal::with_short_names(table);
         self.print(&(terminal::table(&table, self.screen) + "\n"));
     }
 
-    /// Prints a table of measurements: its notes are shown as [`print_notes`](Self::print_notes) shows them.
+    /// Prints a table of measurements; [`print_notes`](Self::print_notes) handles its notes.
     pub fn print_results(&self, table: &Table) {
         if self.verbose {
             return self.print_table(table);
@@ -93,7 +93,8 @@ impl Terminal {
         self.print(&(terminal::table(&table, self.screen) + "\n"));
     }
 
-    /// Prints what explains results if `verbose`; else [`print_note_count`](Self::print_note_count) says that it is there.
+    /// Prints explanations of results if `verbose`; otherwise [`print_note_count`](Self::print_note_count) mentions
+    /// them.
     pub fn print_notes(&self, notes: impl IntoIterator<Item = String>) {
         let notes: Vec<String> = notes.into_iter().collect();
         if self.verbose { self.print_lines(&notes) } else { self.hide(notes) }
@@ -108,7 +109,7 @@ impl Terminal {
         }
     }
 
-    /// Says how many notes were not printed, if any.
+    /// Prints how many notes were hidden, if any.
     pub fn print_note_count(&self) {
         match self.hidden.borrow().len() {
             0 => {}
@@ -118,7 +119,7 @@ impl Terminal {
         }
     }
 
-    /// Prints lines of text, broken where the screen ends.
+    /// Prints lines of text, wrapped at the width of the screen.
     pub fn print_lines(&self, lines: &[String]) {
         let width = usize::from(self.screen.width.unwrap_or(120));
         let lines = lines.iter().flat_map(|line| wrapped(&line.escaped().to_string(), width));

@@ -17,7 +17,7 @@ pub struct BruteForce<T: TriangleTest> {
     references: usize,
 }
 
-/// Has no options.
+/// No options.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BruteForceConfig {}
@@ -58,7 +58,7 @@ impl<T: TriangleTest> Accel for BruteForce<T> {
             empty: usize::from(self.references == 0),
             references: self.references,
             largest_leaf: self.references,
-            // Every ray enters it, whatever its box.
+            // Every ray enters it, regardless of its box.
             sah_cost: Some(TreeShape::leaf_cost(self.references)),
             ..TreeShape::default()
         }
@@ -73,7 +73,7 @@ mod tests {
     use crate::accel::Capabilities;
     use crate::triangle::Exact;
 
-    /// Leaves any hit as it is by default; declines `t_max`, or nothing.
+    /// Keeps the default any-hit query; declines `t_max` if `ENDS` is false.
     struct Plain<const ENDS: bool>(BruteForce<Exact>);
 
     impl<const ENDS: bool> Accel for Plain<ENDS> {
@@ -99,7 +99,7 @@ mod tests {
         }
     }
 
-    /// The exact `t` is one third, just before the float that it is rounded to.
+    /// The exact `t` is one third, just before the float to which it rounds.
     #[test]
     fn any_hit_is_by_default_whether_there_is_a_closest_hit() {
         let mesh = Arc::new(Mesh::new(vec![Vec3::X, Vec3::Y, Vec3::Z], vec![[0, 1, 2]]).unwrap());

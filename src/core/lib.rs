@@ -25,8 +25,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A program compiles the structures that it uses, with its own settings. `codegen-units = 1` in its
-//! `[profile.release]` is the setting that we measure with.
+//! A program compiles the structures that it uses, with its own settings. This project measures with `codegen-units =
+//! 1` in `[profile.release]`.
 
 #![warn(missing_docs)]
 

@@ -14,17 +14,17 @@ use crate::triangle::{BaldwinWeber, EdgeF64, Exact, MollerTrumbore, MollerTrumbo
 
 /// A structure that is compiled in this crate.
 pub trait Offered: Accel {
-    /// As [`Accel::build`], without its type.
+    /// Like [`Accel::build`], without its type.
     ///
     /// # Errors
-    /// If the mesh or the configuration is refused.
+    /// If the mesh or the configuration is rejected.
     fn boxed(mesh: &Arc<Mesh>, config: &Self::Config) -> Result<Box<dyn DynAccel>, BuildError>;
 }
 
 macro_rules! offered {
     ($($structure:ty),* $(,)?) => {$(
         impl Offered for $structure {
-            // A function without type parameters, and never copied into another crate.
+            // A function without type parameters, which is never copied into another crate.
             #[inline(never)]
             fn boxed(mesh: &Arc<Mesh>, config: &Self::Config) -> Result<Box<dyn DynAccel>, BuildError> {
                 Ok(Box::new(Self::build(mesh, config)?))

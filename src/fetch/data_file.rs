@@ -7,7 +7,7 @@ use crate::scene::format::RealMesh;
 /// A file of the folder of real meshes: its path and its expected contents.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DataFile {
-    /// Where it can be downloaded.
+    /// Its address.
     pub url: String,
     /// The finished file.
     pub path: PathBuf,
@@ -19,7 +19,7 @@ pub struct DataFile {
 
 impl DataFile {
     /// # Errors
-    /// If there is no hash to verify it by, or its URL is not HTTP.
+    /// If there is no hash to verify it, or its URL is not HTTP.
     pub fn new(real: &RealMesh, folder: &Path) -> Result<Self, FetchError> {
         let (url, path) = (real.url.clone(), folder.join(&real.file));
         if real.unpack.is_none() && !["https://", "http://"].iter().any(|scheme| url.starts_with(scheme)) {
@@ -56,7 +56,7 @@ impl DataFile {
     /// Checks that the download at `part` has the expected contents.
     ///
     /// # Errors
-    /// If the hash does not fit.
+    /// If the hash differs.
     pub fn verify(&self, part: &Path) -> Result<(), FetchError> {
         let found = hash(part)?;
         if found == self.sha256 {

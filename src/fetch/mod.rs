@@ -25,7 +25,7 @@ pub enum FetchOutcome {
     },
 }
 
-/// Why a file was not fetched.
+/// The reason why a file was not fetched.
 #[derive(Debug, thiserror::Error)]
 pub enum FetchError {
     #[error("{file} cannot be fetched: its scene file has no sha256 to verify it{}", unpack.as_ref().map_or(String::new(), |how| format!("; download {url} yourself, then {how}, into {}", folder.escaped())))]

@@ -1,4 +1,4 @@
-//! One comparison as tables, JSON and the page say it.
+//! One comparison, in the form of tables, JSON and the page.
 
 use image::{DynamicImage, RgbImage};
 use serde::Serialize;
@@ -7,47 +7,47 @@ use super::judgement::{Judgement, Match, Verdict};
 use super::measures::{FlipMap, Measures};
 use super::{Difference, Layout, Mask, difference_picture};
 
-/// Two pictures of one name, or one of which the other is not there.
+/// Two pictures of one name, or one picture without a partner.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
     pub name: String,
     pub verdict: Verdict,
-    /// What was found, in sentences.
+    /// The findings, in sentences.
     pub said: Vec<String>,
-    /// A command that looks into it.
+    /// A command that investigates the difference.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub command: Option<String>,
-    /// Of two pictures of one layout that differ.
+    /// Measures of two pictures of one layout that differ.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measures: Option<Measures>,
 }
 
-/// Where two pictures differ: what a page shows beside them.
+/// Maps of the difference of two pictures, which a page shows beside them.
 pub struct Maps {
     pub difference: RgbImage,
     pub flip: Option<FlipMap>,
 }
 
 impl Comparison {
-    /// One without measures.
+    /// A comparison without measures.
     pub fn said(name: impl Into<String>, verdict: Verdict, sentence: impl Into<String>) -> Self {
         Self { name: name.into(), verdict, said: vec![sentence.into()], command: None, measures: None }
     }
 
-    /// As [`Measures::of_names`].
+    /// See [`Measures::of_names`].
     #[must_use]
     pub fn of_names(self, size: [u32; 2]) -> Self {
         let Some(measures) = self.measures.map(Measures::of_names) else { return self };
         Self { said: vec![measures.difference.sentence(size)], measures: Some(measures), ..self }
     }
 
-    /// Whether the pictures are not accepted, or there are no two.
+    /// Whether the pictures are not accepted, or one is missing.
     pub fn fails(&self) -> bool {
         self.verdict < Verdict::Accepted
     }
 }
 
-/// Compares two pictures; what the mask leaves out is not compared. Also tells where they differ.
+/// Compares two pictures, except the masked pixels. Also returns maps of the difference.
 pub fn compare(
     name: &str,
     [expected, actual]: [&DynamicImage; 2],
@@ -86,7 +86,7 @@ pub fn compare(
 }
 
 impl Difference {
-    /// How many pixels of a picture of this size differ, where and by how much.
+    /// The number of differing pixels of a picture of this size, with the largest difference and its place.
     pub fn sentence(&self, [width, height]: [u32; 2]) -> String {
         let Self { pixels, first, worst, largest, full_scale } = *self;
         let all = u64::from(width) * u64::from(height);

@@ -15,14 +15,14 @@ pub struct Difference {
     pub first: [u32; 2],
     /// The place of the largest difference, the first of several.
     pub worst: [u32; 2],
-    /// The largest difference of a channel, alpha as any other; infinite against a value that is no number.
+    /// The largest difference of a channel, including alpha; infinite if only one value is NaN.
     pub largest: f64,
-    /// What `largest` is a part of: 255 or 65535; 1 for floats, which can be more.
+    /// The unit of `largest`: 255 or 65535; 1 for floats, which can be larger.
     pub full_scale: f64,
 }
 
 impl Difference {
-    /// The difference of the pictures, or none if all their values are equal.
+    /// The difference of the pictures; `None` if all their values are equal.
     ///
     /// # Panics
     /// If they differ in layout.
@@ -43,19 +43,20 @@ impl Difference {
     }
 }
 
-/// How many pixels have a channel that differs by more than `difference`: in 1/255 of full scale, of floats as they are.
+/// The number of pixels with a channel that differs by more than `difference`: in 1/255 of full scale, for floats in
+/// their own unit.
 ///
 /// # Panics
 /// If the pictures differ in layout.
 pub fn pixels_over(one: &DynamicImage, other: &DynamicImage, difference: f64) -> usize {
     let layout = Layout::of(one);
-    // Whole numbers are compared: a quotient could be rounded up or down at the limit.
+    // Compare whole numbers: a quotient could be rounded up or down at the limit.
     let (own, limit) = if layout.is_float() { (1.0, difference) } else { (255.0, difference * layout.full_scale()) };
     gaps(one, other).filter(|gap| gap * own > limit).count()
 }
 
-/// A picture of the difference: black where equal, from dark red for a step of 255 to yellow for 255. Less than a step
-/// is shown as one.
+/// A picture of the difference: black for equal pixels, from dark red for a step of 255 to yellow for 255. A difference
+/// below one step is shown as one step.
 ///
 /// # Panics
 /// If the pictures differ in layout.
@@ -68,7 +69,7 @@ pub fn difference_picture(one: &DynamicImage, other: &DynamicImage) -> RgbImage 
     from_pixels(layout.size, gaps(one, other).map(colour).collect())
 }
 
-/// The largest difference of a channel, for each pixel.
+/// The largest difference of a channel for each pixel.
 fn gaps<'a>(one: &'a DynamicImage, other: &'a DynamicImage) -> impl Iterator<Item = f64> + 'a {
     let layout = Layout::of(one);
     assert_eq!(layout, Layout::of(other), "pictures of one layout");
@@ -82,7 +83,7 @@ fn gaps<'a>(one: &'a DynamicImage, other: &'a DynamicImage) -> impl Iterator<Ite
     pixels(one).zip(pixels(other)).map(gap)
 }
 
-/// Values that are no numbers are equal to each other, and infinitely far from all others.
+/// NaNs are equal to each other, and infinitely far from all other values.
 pub(super) fn apart(one: f64, other: f64) -> f64 {
     let gap = (one - other).abs();
     if one == other || one.is_nan() && other.is_nan() {

@@ -1,4 +1,4 @@
-//! What is left of a picture that is not accepted.
+//! Writes the pictures of a failed comparison.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,8 +11,8 @@ use super::page::{self, Sides, Values};
 use super::{GoldenError, Layout, PictureError};
 use crate::output::OutputFolder;
 
-/// Whether `actual` is accepted in the place of `expected`, which is the golden image `path`. If not, a page with pictures
-/// is written to the folder `shown`.
+/// Checks whether `actual` is accepted as a replacement of `expected`, which is the golden image `path`. If not, writes
+/// a page with pictures to the folder `shown`.
 pub fn check(
     path: &Path,
     label: &str,
@@ -43,14 +43,14 @@ pub fn check(
             page.add(0, &comparison, Sides { expected: Some(expected), actual: Some(actual), values }, maps.as_ref())
         })?)
     };
-    // The difference stays the reason if its pictures cannot be written.
+    // The difference stays the error if its pictures cannot be written.
     Err(match leave() {
         Ok(()) => refusal,
         Err(cause) => GoldenError::NotShown { refusal: Box::new(refusal), cause: Box::new(cause.into()) },
     })
 }
 
-/// The folder in `out` for what is called `name`, with everything but letters, digits and `.`, `-`, `_` replaced.
+/// The folder in `out` for `name`, with everything except letters, digits and `.`, `-`, `_` replaced.
 pub fn folder(out: &Path, name: &str) -> PathBuf {
     out.join(name.chars().map(|c| if c.is_alphanumeric() || ".-_".contains(c) { c } else { '_' }).collect::<String>())
 }

@@ -11,10 +11,10 @@ use crate::escaped::Escaped as _;
 use crate::output::{OutputError, OutputFile};
 use crate::render::png_encoder;
 
-/// MiB that a file and its pixels take at most, and besides them what the decoder needs.
+/// The maximum size of a file with its pixels, MiB, without the memory of the decoder.
 const LARGEST: u64 = 512;
 
-/// Why a picture cannot be read or written.
+/// The reason why a picture cannot be read or written.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
     #[error("cannot read the picture {}: {cause}", path.escaped())]
@@ -38,16 +38,16 @@ fn reason(cause: &ImageError) -> String {
     }
 }
 
-/// Some causes of the decoders end lines.
+/// Some messages of the decoders contain line breaks.
 fn in_a_line(cause: &ImageError) -> String {
     cause.to_string().lines().collect::<Vec<_>>().join(" ")
 }
 
-/// Reads a picture of the channels and the bits a channel that the file has: grey of less than 8 bits has 8, a palette
-/// is RGB, or RGBA if it has transparency. The file's content tells its format, not its name.
+/// Reads a picture with the file's channels and bits per channel: grey of less than 8 bits becomes 8 bits, a palette
+/// becomes RGB, or RGBA if it has transparency. The content of the file determines its format, not the name.
 ///
 /// # Errors
-/// If there is no such file, or it is no picture, or one of more than 512 MiB.
+/// If there is no such file, or it is not a picture, or it has more than 512 MiB.
 pub fn read(path: &Path) -> Result<DynamicImage, PictureError> {
     decode(path, &read_bytes(path)?)
 }
@@ -55,13 +55,13 @@ pub fn read(path: &Path) -> Result<DynamicImage, PictureError> {
 /// The bytes of a file that is no larger than a picture may be.
 pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, PictureError> {
     let mut bytes = vec![];
-    // One byte more shows that there are more.
+    // One byte more shows that the file is too large.
     let file = File::open(path).and_then(|file| file.take((LARGEST << 20) + 1).read_to_end(&mut bytes));
     file.map_err(|cause| PictureError::Read { path: path.into(), cause })?;
     Ok(bytes)
 }
 
-/// The picture of a file with these bytes, as [`read`] gives it.
+/// The picture of a file with these bytes, like [`read`].
 pub(super) fn decode(path: &Path, bytes: &[u8]) -> Result<DynamicImage, PictureError> {
     decoded(bytes).map_err(|cause| PictureError::Decode { path: path.into(), cause })
 }
@@ -80,23 +80,23 @@ fn decoded(bytes: &[u8]) -> ImageResult<DynamicImage> {
     Ok(picture)
 }
 
-/// Whether the last scan of a JPEG file is followed by the mark of the picture's end. The decoder takes pixels that are
-/// missing as grey.
+/// Whether the mark of the picture's end follows the last scan of a JPEG file. The decoder replaces missing pixels by
+/// grey.
 fn is_whole_jpeg(bytes: &[u8]) -> bool {
     let last = |mark: [u8; 2]| bytes.windows(2).rposition(|pair| pair == mark);
     let (scan, end) = (last([0xFF, 0xDA]), last([0xFF, 0xD9]));
     end > scan
 }
 
-/// Writes a PNG file, whole or not at all, and the folders that it is in.
+/// Writes a PNG file, whole or not at all, and creates its folders.
 ///
 /// # Errors
-/// If there is no room, the folder takes no file, or PNG has no such pixels.
+/// If the disk is full, the folder is not writable, or PNG has no such pixels.
 pub fn write(path: &Path, picture: &DynamicImage) -> Result<(), PictureError> {
     write_noted(path, picture, None)
 }
 
-/// As [`write`], with a note in the file: ASCII that [`note`] reads.
+/// Like [`write`], with a note in the file: ASCII that [`note`] reads.
 pub(super) fn write_noted(path: &Path, picture: &DynamicImage, note: Option<&str>) -> Result<(), PictureError> {
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder).map_err(|cause| PictureError::Directory { path: folder.into(), cause })?;
@@ -108,7 +108,7 @@ pub(super) fn write_noted(path: &Path, picture: &DynamicImage, note: Option<&str
 /// The bytes of a PNG file, always the same for the same picture and note.
 pub(super) fn encode(picture: &DynamicImage, note: Option<&str>) -> ImageResult<Vec<u8>> {
     let mut bytes = vec![];
-    // Other ways to write would convert what PNG does not take.
+    // Other functions would convert layouts that PNG does not support.
     let [width, height] = [picture.width(), picture.height()];
     png_encoder(&mut bytes).write_image(picture.as_bytes(), width, height, picture.color().into())?;
     if let Some(note) = note {
@@ -120,23 +120,23 @@ pub(super) fn encode(picture: &DynamicImage, note: Option<&str>) -> ImageResult<
     Ok(bytes)
 }
 
-/// Whether these are the bytes that [`encode`] gives for the picture in them.
+/// Whether these are the bytes that [`encode`] writes for the picture in them.
 pub(super) fn is_own(bytes: &[u8]) -> bool {
     let encoded = |picture: DynamicImage| encode(&picture, note(bytes)).ok();
     decoded(bytes).ok().and_then(encoded).is_some_and(|own| own == bytes)
 }
 
-/// The note in a PNG file that [`encode`] has made.
+/// The note in a PNG file that [`encode`] has written.
 pub(super) fn note(bytes: &[u8]) -> Option<&str> {
     let (length, rest) = bytes.get(HEADER..)?.split_first_chunk()?;
     let chunk = rest.get(..TEXT.len() + u32::from_be_bytes(*length) as usize)?;
     str::from_utf8(chunk.strip_prefix(TEXT)?.strip_prefix(KEY)?).ok()
 }
 
-/// Bytes of the signature and the first chunk, after which others may stand.
+/// Bytes of the signature and the first chunk; other chunks may follow.
 const HEADER: usize = 8 + 25;
 
-/// A chunk of text, and the keyword of ours.
+/// A chunk of text, and the keyword of this program.
 const TEXT: &[u8] = b"tEXt";
 const KEY: &[u8] = b"sahara\0";
 
@@ -164,7 +164,7 @@ mod tests {
         // Written by Pillow 12.
         for (text, color, values) in [
             (GREY_1, ColorType::L8, &[0, 255][..]),
-            // A palette, the same with its second colour transparent, and RGB with a colour that is.
+            // A palette, the same palette with a transparent second colour, and RGB with a transparent colour.
             (
                 "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABAQMAAADO7O3JAAAABlBMVEUHCAkBAgNf59QzAAAACklEQVR4nGNwAAAAQgBBKTf07wAAAABJ\
                  RU5ErkJggg==",
@@ -243,7 +243,7 @@ mod tests {
         let good = base64::decode(GREY_1).unwrap();
         for length in 0..good.len() {
             fs::write(&path, &good[..length]).unwrap();
-            // Eight bytes tell the format, and all pixels are there before the last chunk, which says nothing.
+            // Eight bytes determine the format, and all pixels precede the last chunk, which is empty.
             if (8..good.len() - 12).contains(&length) {
                 refusal("damaged or truncated");
             }
@@ -261,7 +261,7 @@ mod tests {
     fn a_picture_of_more_than_memory_is_refused_before_it_is_decoded() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.png");
-        // Of RGB with 16 bits: 16,384 x 16,384 pixels, a line of 2^31 - 1, and as many lines.
+        // RGB with 16 bits: 16,384 x 16,384 pixels, a line of 2^31 - 1, and as many lines.
         for text in [
             "iVBORw0KGgoAAAANSUhEUgAAQAAAAEAAEAIAAAB2OluQAAAADElEQVR4nGNgoD0AAABkAAGGZDw1",
             "iVBORw0KGgoAAAANSUhEUn////8AAAABEAIAAAB/xHjJAAAADElEQVR4nGNgoD0AAABkAAGGZDw1",
@@ -287,7 +287,7 @@ mod tests {
             assert!(!is_own(&bytes[..bytes.len() - 1]));
         }
         assert_eq!(crc(b"123456789"), 0xCBF4_3926);
-        // Of Pillow, and what no PNG is.
+        // A file of Pillow, and bytes that are not PNG.
         assert!(!is_own(&base64::decode(GREY_1).unwrap()) && !is_own(b""));
         assert_eq!([note(b""), note(&[0xFF; 50]), note(&base64::decode(GREY_1).unwrap())], [None; 3]);
     }

@@ -5,7 +5,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Endings of the names of pictures. Some are only read with the feature `pictures`; without it that is said of each.
+/// Extensions of pictures. Some are read only with the feature `pictures`; without it each such picture has an error.
 const ENDINGS: [&str; 5] = ["png", "jpg", "jpeg", "webp", "exr"];
 
 /// A picture that one folder or both have.

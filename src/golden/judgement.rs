@@ -1,4 +1,4 @@
-//! Whether a picture is accepted in the place of another one.
+//! Whether a picture is accepted as a replacement of another one.
 
 use image::DynamicImage;
 use serde::Serialize;
@@ -8,23 +8,24 @@ use super::layout::Layout;
 use super::mask::Mask;
 use super::measures::{FlipMap, Measures, PIXELS_PER_DEGREE};
 
-/// When a picture is accepted. Size, channels and bits a channel are the same in any case.
+/// The condition for accepting a picture. Size, channels and bits per channel must always be equal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Match {
     /// All values are equal, as with a deterministic renderer.
     Exact,
-    /// Few pixels have a channel that differs by more than `difference`: in 1/255 of full scale at any depth, of floats
-    /// in their own unit. Noise passes, and a lost triangle does not.
+    /// Few pixels have a channel that differs by more than `difference`: in 1/255 of full scale at any depth, for
+    /// floats in their own unit. Noise passes, a lost triangle does not.
     Tolerance { difference: f64, pixels: Allowed },
-    /// The mean of FLIP is at most `mean`: a person who flips between the pictures sees no more. Not for floats.
+    /// The mean of FLIP is at most `mean`: the visible difference for a person who flips between the pictures. Not for
+    /// floats.
     Flip { mean: f64, pixels_per_degree: f64 },
 }
 
-/// How many pixels may differ by more than the tolerance.
+/// The number of pixels that may differ by more than the tolerance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Allowed {
     Pixels(usize),
-    /// Of those that are compared.
+    /// A percentage of the compared pixels.
     Percent(f64),
 }
 
@@ -34,7 +35,7 @@ impl Match {
         Self::Tolerance { difference, pixels: Allowed::Pixels(0) }
     }
 
-    /// By FLIP as seen on the screen that its authors assume.
+    /// FLIP on the screen that its authors assume.
     pub fn flip(mean: f64) -> Self {
         Self::Flip { mean, pixels_per_degree: PIXELS_PER_DEGREE }
     }
@@ -57,16 +58,16 @@ impl Allowed {
     }
 }
 
-/// What comparing two pictures comes to.
+/// The result of comparing two pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
     Differs,
-    /// It could not be read, or the pictures cannot be compared in this way.
+    /// It could not be read, or this measure does not support the pictures.
     Failed,
     Missing,
     Additional,
-    /// It differs by no more than is allowed.
+    /// It differs, but within the tolerance.
     Accepted,
     Identical,
 }
@@ -82,17 +83,17 @@ pub struct Judgement<'a> {
     mask: Option<&'a Mask>,
 }
 
-/// FLIP is not for floats.
+/// FLIP does not support floats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("FLIP needs pictures of 8 or 16 bits per channel, and these are floats: use --max-difference instead")]
 pub struct NoFlip;
 
 impl<'a> Judgement<'a> {
-    /// None if all values that are compared are equal. Only what decides is computed. Where `mask` compares nothing, the
-    /// pictures must be the same already: [`Mask::applied`].
+    /// Judges a picture; `None` if all compared values are equal. Computes only the measures that decide. Masked pixels
+    /// must already be equal: [`Mask::applied`].
     ///
     /// # Errors
-    /// If FLIP shall judge floats.
+    /// If FLIP is requested for floats.
     pub fn new(
         [expected, actual]: [&'a DynamicImage; 2],
         how: Match,
@@ -115,7 +116,7 @@ impl<'a> Judgement<'a> {
         Ok(Some(judged))
     }
 
-    /// FLIP of all pixels; none of floats.
+    /// FLIP of all pixels; `None` for floats.
     pub fn flip(&mut self) -> Option<&FlipMap> {
         if self.flip.is_none() {
             self.flip = FlipMap::new(self.expected, self.actual, self.how.pixels_per_degree());

@@ -1,4 +1,4 @@
-//! What pictures must have in common to be compared, and their values as numbers.
+//! The layout that pictures must share to be compared, and their values as numbers.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -11,7 +11,7 @@ pub struct Layout {
     pub size: [u32; 2],
     /// 1 is grey, 2 is grey and alpha, 3 is RGB, 4 is RGB and alpha.
     pub channels: u8,
-    /// Bits a channel: 8 or 16, or 32 for floats.
+    /// Bits per channel: 8 or 16, or 32 for floats.
     pub bits: u8,
 }
 
@@ -36,12 +36,12 @@ impl Layout {
         self.bits == 32
     }
 
-    /// How many pixels there are.
+    /// The number of pixels.
     pub fn pixels(&self) -> usize {
         self.size.map(|side| side as usize).iter().product()
     }
 
-    /// The channel that says how opaque a pixel is, if there is one.
+    /// The channel with the opacity of a pixel, if there is one.
     pub(super) fn alpha(&self) -> Option<usize> {
         self.channels.is_multiple_of(2).then(|| usize::from(self.channels) - 1)
     }
@@ -56,7 +56,7 @@ impl Layout {
     }
 }
 
-/// The value of a channel, of one of three depths.
+/// The value of a channel of any of the three depths.
 fn value(sample: &[u8]) -> f64 {
     match *sample {
         [byte] => byte.into(),
@@ -71,27 +71,5 @@ impl Display for Layout {
         let [width, height] = self.size;
         let channels = ["grey", "grey and alpha", "RGB", "RGBA"][usize::from(self.channels) - 1];
         write!(f, "{width} x {height} pixels of {channels} with {} bits per channel", self.bits)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use image::RgbImage;
-
-    use super::*;
-
-    #[test]
-    fn layouts_tell_channels_and_depth_apart() {
-        let picture = DynamicImage::from(RgbImage::new(4, 2));
-        let said = [picture.clone(), picture.to_rgba8().into(), picture.to_luma16().into(), picture.to_rgb32f().into()];
-        assert_eq!(
-            said.map(|picture| Layout::of(&picture).to_string()),
-            [
-                "4 x 2 pixels of RGB with 8 bits per channel",
-                "4 x 2 pixels of RGBA with 8 bits per channel",
-                "4 x 2 pixels of grey with 16 bits per channel",
-                "4 x 2 pixels of RGB with 32 bits per channel",
-            ]
-        );
     }
 }

@@ -1,4 +1,4 @@
-//! Pixels that are not compared.
+//! Pixels that are excluded from a comparison.
 
 use image::{DynamicImage, ImageBuffer, Pixel};
 
@@ -12,7 +12,7 @@ pub struct Mask {
 }
 
 impl Mask {
-    /// What is black in a picture is not compared. Its alpha is not looked at.
+    /// Excludes the black pixels of `picture`; its alpha is ignored.
     pub fn new(picture: &DynamicImage) -> Self {
         let layout = Layout::of(picture);
         let colours = usize::from(layout.channels) - usize::from(layout.alpha().is_some());
@@ -21,18 +21,18 @@ impl Mask {
         Self { size: layout.size, compared }
     }
 
-    /// Whether a pixel, counted in reading order, is compared; all are without a mask.
+    /// Whether a pixel, counted in reading order, is compared; without a mask all are.
     pub fn compares(mask: Option<&Self>, pixel: usize) -> bool {
         mask.is_none_or(|mask| mask.compared[pixel])
     }
 
-    /// How many pixels are not compared.
+    /// The number of excluded pixels.
     pub fn masked(&self) -> usize {
         self.compared.iter().filter(|compared| !**compared).count()
     }
 
-    /// `actual` with the pixels of `expected` where nothing is compared, so that no window sees a difference there. All have
-    /// one size, and the pictures one layout.
+    /// `actual` with the excluded pixels of `expected`, which makes these pixels equal for every window. All pictures
+    /// have one size, and both have one layout.
     pub(super) fn applied(&self, expected: &DynamicImage, mut actual: DynamicImage) -> DynamicImage {
         macro_rules! of_one_kind {
             ($($kind:ident)*) => {

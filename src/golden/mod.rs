@@ -31,7 +31,7 @@ pub use layout::Layout;
 pub use mask::Mask;
 pub use scene::{Overwrite, SIZE, SceneGolden, TRIANGLE_TEST, Update, VIEWS};
 
-/// Why a picture is not accepted. `remedy` says how golden images are made.
+/// The reason why a picture is not accepted. `remedy` explains how to create golden images.
 #[derive(Debug, thiserror::Error)]
 pub enum GoldenError {
     #[error("{cause}: {remedy}")]

@@ -1,4 +1,4 @@
-//! Golden images of scenes: where they are, and how they are drawn, checked and made.
+//! Golden images of scenes: their files, and how they are rendered, checked and updated.
 
 use std::path::{Path, PathBuf};
 
@@ -12,28 +12,28 @@ use crate::render::{ViewKind, from_pixels, normal_colour, of_colours, shade};
 use crate::scene::{Camera, Scene, View};
 use crate::triangle::{Exact, TriangleTest};
 
-/// The triangle test that golden images are rendered with: an exact one, so that they show no rounding errors.
+/// The triangle test that renders golden images: the exact one, so they contain no rounding errors.
 pub const TRIANGLE_TEST: &str = Exact::NAME;
 
 /// Width and height of a golden image of a built-in scene.
 pub const SIZE: [u32; 2] = [160, 160];
 
-/// The views that golden images are made of: those that depend on nothing but the hits.
+/// The views of golden images: those that depend only on the hits.
 pub const VIEWS: [ViewKind; 4] = [ViewKind::Shaded, ViewKind::Depth, ViewKind::Normal, ViewKind::Primitive];
 
 const REMEDY: &str = "create the golden images with `sahara golden update`";
 
-/// Files of built-in scenes.
-struct Builtin {
+/// The golden image of a built-in scene.
+struct BuiltinGolden {
     name: &'static str,
     bytes: &'static [u8],
-    /// In the sources, which need not be there.
+    /// The file in the source tree, which may be missing at run time.
     path: &'static str,
 }
 
 macro_rules! builtin {
     ($($folder:literal)*) => {
-        [$(Builtin {
+        [$(BuiltinGolden {
             name: $folder,
             bytes: include_bytes!(concat!("../../scenes/", $folder, "/golden.png")),
             path: concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/", $folder, "/golden.png"),
@@ -41,7 +41,7 @@ macro_rules! builtin {
     };
 }
 
-static BUILTIN: [Builtin; 12] = builtin! {
+static BUILTIN: [BuiltinGolden; 12] = builtin! {
     "cube" "sphere" "torus" "teapot" "billards" "cornellbox" "infinitycandy" "metallic" "starters" "dragon" "lucy" "sponza"
 };
 
@@ -51,58 +51,60 @@ pub struct SceneGolden {
     pub view: ViewKind,
     pub size: [u32; 2],
     path: PathBuf,
-    /// Of a built-in scene.
+    /// The file's content for a built-in scene; `None` for a golden image in a folder.
     bytes: Option<&'static [u8]>,
-    /// Of a file the camera.
+    /// The camera that the file records; `None` for a built-in scene.
     note: Option<String>,
 }
 
-/// What making a golden image comes to.
+/// The result of [`SceneGolden::update`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum Update {
     Same,
     New,
     Changed(Difference),
-    /// In size, channels or depth.
+    /// Size, channels or bits per channel changed; contains the old layout.
     Layout(Layout),
 }
 
 impl SceneGolden {
-    /// That of a built-in scene in this program: shaded, of [`SIZE`]. It is made in the sources.
+    /// The golden image of a built-in scene, which this program contains: shaded, of [`SIZE`]. [`update`](Self::update)
+    /// writes it to the source tree. `None` if there is no such scene.
     pub fn builtin(name: &str) -> Option<Self> {
         let own = BUILTIN.iter().find(|own| own.name.eq_ignore_ascii_case(name))?;
         let (path, bytes) = (own.path.into(), Some(own.bytes));
         Some(Self { view: ViewKind::Shaded, size: SIZE, path, bytes, note: None })
     }
 
-    /// That of `view` in the file `NAME.golden.png`, or `NAME.VIEW.golden.png` where the view is not shaded, in a folder; it
-    /// has the size and the camera of the scene.
+    /// The golden image of a view in a folder, with the size and camera of `scene`. The file is `NAME.golden.png` for
+    /// the shaded view, `NAME.VIEW.golden.png` for others.
     pub fn file(folder: &Path, name: &str, view: ViewKind, scene: &Scene) -> Self {
         let view_name = if view == ViewKind::Shaded { String::new() } else { format!(".{}", view.name()) };
         let path = folder.join(format!("{name}{view_name}.golden.png"));
         Self { view, size: scene.size, path, bytes: None, note: Some(camera_note(&scene.camera)) }
     }
 
-    /// Whether it is that of a built-in scene in this program.
+    /// Whether this program contains the golden image.
     pub fn is_in_program(&self) -> bool {
         self.bytes.is_some()
     }
 
-    /// The file. Of a built-in scene it is only written.
+    /// The file. For a built-in scene only [`update`](Self::update) uses it.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// The file as messages name it: the sources of this program may be anywhere.
-    pub fn named(&self) -> PathBuf {
+    /// The path for messages: relative to the source tree for a built-in scene, because the absolute path differs
+    /// between machines.
+    pub fn display_path(&self) -> PathBuf {
         let sources = Path::new(env!("CARGO_MANIFEST_DIR"));
         self.path.strip_prefix(sources).ok().filter(|_| self.bytes.is_some()).unwrap_or(&self.path).into()
     }
 
-    /// The picture as it is compared.
+    /// The golden image in the form in which pictures are compared: depths as floats.
     ///
     /// # Errors
-    /// If there is none, or it is of another size, camera or view.
+    /// If there is none, it cannot be decoded, or its size or camera differs.
     pub fn expected(&self) -> Result<DynamicImage, GoldenError> {
         let read;
         let bytes = match self.bytes {
@@ -127,12 +129,12 @@ impl SceneGolden {
         }
     }
 
-    /// What `accel` draws, as it is compared.
+    /// The picture that `accel` renders, in the form in which pictures are compared.
     pub fn drawn(&self, scene: &Scene, accel: &dyn DynAccel) -> DynamicImage {
         self.comparable(self.picture(scene, accel))
     }
 
-    /// As [`drawn`](Self::drawn), of one pixel.
+    /// Like [`drawn`](Self::drawn), for one pixel.
     pub fn drawn_pixel(&self, scene: &Scene, accel: &dyn DynAccel, ray: &Ray) -> DynamicImage {
         self.comparable(draw(scene, accel, self.view, [1, 1], &[*ray]))
     }
@@ -143,35 +145,38 @@ impl SceneGolden {
         scene.primary_rays(self.size, View::CENTRE, pixel..pixel + 1)[0]
     }
 
-    /// Compares what `accel` draws of `scene`. `structure` names the folder in `out` with the page of a failure.
+    /// Renders `scene` with `accel` and compares the picture with the golden image. After a difference, the folder
+    /// `SCENE-STRUCTURE` in `out` contains a page.
     ///
-    /// A built-in scene must have its generated meshes, not the real ones that a machine may have.
+    /// A built-in scene must be loaded with its generated meshes, even if the real meshes are present.
     ///
     /// # Errors
-    /// If the golden image is missing or broken, or a pixel differs. Then a page with pictures is written.
+    /// If the golden image is missing or damaged, or the pictures differ. In the last case a page with both pictures is
+    /// written.
     pub fn check(&self, scene: &Scene, structure: &str, accel: &dyn DynAccel, out: &Path) -> Result<(), GoldenError> {
         let pictures = [&self.expected()?, &self.drawn(scene, accel)];
         let shown = failure::folder(out, &format!("{}-{structure}", scene.name.to_lowercase()));
         let label = format!("{} with {structure}", scene.name);
-        failure::check(&self.named(), &label, pictures, Match::Exact, self.view.into(), &shown, REMEDY)
+        failure::check(&self.display_path(), &label, pictures, Match::Exact, self.view.into(), &shown, REMEDY)
     }
 
-    /// Makes the golden image if it would not be the same.
+    /// Renders the golden image and writes it if it differs from the existing file.
     ///
     /// # Errors
-    /// If it cannot be written; or without [`Overwrite::Any`] if the file there is not what this function has written.
+    /// If it cannot be written; without [`Overwrite::Any`], if another program wrote the existing file; for a built-in
+    /// scene, if the source tree is missing.
     pub fn update(&self, scene: &Scene, accel: &dyn DynAccel, overwrite: Overwrite) -> Result<Update, GoldenError> {
         if self.bytes.is_some() && !self.path.parent().is_some_and(Path::is_dir) {
             return Err(GoldenError::NoSources);
         }
         let picture = self.picture(scene, accel);
-        let there = file::read_bytes(&self.path).ok();
-        let old = there.as_ref().and_then(|bytes| file::decode(&self.path, bytes).ok());
-        let is_noted = there.as_ref().is_some_and(|bytes| file::note(bytes) == self.note.as_deref());
+        let existing = file::read_bytes(&self.path).ok();
+        let old = existing.as_ref().and_then(|bytes| file::decode(&self.path, bytes).ok());
+        let is_noted = existing.as_ref().is_some_and(|bytes| file::note(bytes) == self.note.as_deref());
         if is_noted && old.as_ref() == Some(&picture) {
             return Ok(Update::Same);
         }
-        if overwrite == Overwrite::Own && there.is_some_and(|bytes| !file::is_own(&bytes)) {
+        if overwrite == Overwrite::Own && existing.is_some_and(|bytes| !file::is_own(&bytes)) {
             return Err(GoldenError::Foreign(self.path.clone()));
         }
         file::write_noted(&self.path, &picture, self.note.as_deref())?;
@@ -184,7 +189,8 @@ impl SceneGolden {
         Ok(judged.map_or(Update::New, |judged| Update::Changed(judged.difference)))
     }
 
-    /// The values of a picture of one pixel; infinity where nothing is hit.
+    /// The values of a picture of one pixel. For a miss: infinity in the views depth and primitive, the background in
+    /// the view shaded, black in the view normal.
     pub fn pixel_values(&self, pixel: &DynamicImage) -> Vec<f64> {
         match (self.view, numbers::unpacked(pixel).as_deref()) {
             (ViewKind::Primitive, Some(&[numbers::MISS])) => vec![f64::INFINITY],
@@ -198,22 +204,23 @@ impl SceneGolden {
         draw(scene, accel, self.view, self.size, &rays)
     }
 
-    /// A picture of the file as it is compared: depths as numbers.
+    /// Converts a picture to the form in which pictures are compared: packed depths become floats, all other views
+    /// stay.
     fn comparable(&self, picture: DynamicImage) -> DynamicImage {
         let numbers = if self.view == ViewKind::Depth { numbers::unpacked(&picture) } else { None };
         numbers.map_or(picture.clone(), |numbers| numbers::as_floats([picture.width(), picture.height()], &numbers))
     }
 }
 
-/// Which files a golden image may take the place of.
+/// Which existing files [`SceneGolden::update`] may replace.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Overwrite {
-    /// Those that [`SceneGolden::update`] has written.
+    /// Files that [`SceneGolden::update`] has written.
     Own,
     Any,
 }
 
-/// A camera as `--camera` takes it.
+/// A camera in the format of `--camera`.
 fn camera_note(camera: &Camera) -> String {
     let point = |point: glam::Vec3| point.to_array().map(|x| x.to_string()).join(",");
     format!("--camera '{} {} {}'", point(camera.eye()), point(camera.target()), camera.vertical_fov())
@@ -244,8 +251,6 @@ fn draw(scene: &Scene, accel: &dyn DynAccel, view: ViewKind, size: [u32; 2], ray
 #[cfg(test)]
 mod tests {
     use std::fs;
-
-    use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 
     use super::*;
     use crate::accel::Accel;
@@ -291,41 +296,6 @@ mod tests {
     }
 
     #[test]
-    fn another_size_or_camera_is_named_and_what_others_made_stays() {
-        let directory = tempfile::tempdir().unwrap();
-        let mut scene = crate::scene::Builtin::find("cube").unwrap().scene(None).unwrap();
-        scene.size = [8, 6];
-        let tree = KdTree::<Exact>::build(&scene.mesh, &KdConfig::SAH).unwrap();
-        let golden = |scene: &Scene| SceneGolden::file(directory.path(), "cube", ViewKind::Depth, scene);
-        golden(&scene).update(&scene, &tree, Overwrite::Own).unwrap();
-        let refusal = |scene: &Scene| golden(scene).expected().unwrap_err().to_string();
-
-        scene.size = [16, 6];
-        let size = refusal(&scene);
-        assert!(size.contains("8 x 6 pixels, but 16 x 6") && size.contains("--size 8x6"), "{size}");
-        scene.size = [8, 6];
-        let old = camera_note(&scene.camera);
-        scene.camera = Camera::new(glam::Vec3::new(1.0, 2.0, 5.5), glam::Vec3::ZERO, glam::Vec3::Y, 30.0).unwrap();
-        let camera = refusal(&scene);
-        assert!(camera.contains(&old) && camera.contains("--camera '1,2,5.5 0,0,0 30'"), "{camera}");
-        assert!(matches!(golden(&scene).update(&scene, &tree, Overwrite::Own).unwrap(), Update::Changed(_)));
-        golden(&scene).expected().unwrap();
-
-        // The same picture, compressed by somebody else.
-        let own = golden(&scene);
-        let picture = file::read(own.path()).unwrap();
-        let file = fs::File::create(own.path()).unwrap();
-        let theirs = PngEncoder::new_with_quality(file, CompressionType::Uncompressed, FilterType::NoFilter);
-        picture.write_with_encoder(theirs).unwrap();
-        let theirs = fs::read(own.path()).unwrap();
-        let refused = own.update(&scene, &tree, Overwrite::Own).unwrap_err().to_string();
-        assert!(refused.contains("cube.depth.golden.png") && refused.contains("--force"), "{refused}");
-        assert!(fs::read(own.path()).unwrap() == theirs);
-        own.update(&scene, &tree, Overwrite::Any).unwrap();
-        assert!(fs::read(own.path()).unwrap() != theirs);
-    }
-
-    #[test]
     fn a_pixel_is_drawn_as_in_the_whole_picture_and_all_builtin_scenes_are_in_the_program() {
         let scene = crate::scene::Builtin::find("cube").unwrap().scene(None).unwrap();
         let tree = KdTree::<Exact>::build(&scene.mesh, &KdConfig::SAH).unwrap();
@@ -341,7 +311,7 @@ mod tests {
             let golden = SceneGolden::builtin(builtin.name).unwrap_or_else(|| panic!("{}", builtin.name));
             assert_eq!(golden.expected().unwrap(), file::read(golden.path()).unwrap());
         }
-        // Where the sources are not, nothing else is needed to check, and nothing is made.
+        // Without the source tree, `check` works and `update` fails.
         let installed =
             SceneGolden { path: "/no/such/cube/golden.png".into(), ..SceneGolden::builtin("Cube").unwrap() };
         installed.check(&scene, "sah-kd", &tree, Path::new("/no/such/out")).unwrap();

@@ -1,10 +1,10 @@
-//! How much two builds of the same structure differ.
+//! The difference between two builds of the same structure.
 
 use super::estimate::Estimate;
 use super::interval::{Rerun, epoch_values};
 use super::variance::{Variance, mean};
 
-/// The A/A ratios of a run: the same structure built twice and timed as two. They are 1 but for noise (Georges,
+/// The A/A ratios of a run: the same structure built twice and timed as two. Without noise they are 1 (Georges,
 /// Buytaert, Eeckhout, "Statistically rigorous Java performance evaluation", 2007, on comparing alternatives; the twin
 /// is a control).
 ///
@@ -13,10 +13,10 @@ use super::variance::{Variance, mean};
 /// minus the sampling variance. More cells estimate it better; they do not make it larger.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AaNoise {
-    /// One for each cell, with its interval without A/A noise.
+    /// One per cell, with its interval without A/A noise.
     pub ratios: Vec<Estimate>,
-    /// Variance of the logarithm of an A/A ratio from run to run beyond that from epoch to epoch, and how well it is
-    /// known.
+    /// Variance of the logarithm of an A/A ratio between runs, beyond the variance between epochs, and its degrees of
+    /// freedom.
     noise: Variance,
 }
 
@@ -27,7 +27,7 @@ impl Default for AaNoise {
 }
 
 impl AaNoise {
-    /// Of the cells of a run, each the [log ratios](super::log_ratios) of one twin to the other.
+    /// The noise of the cells of a run; a cell contains the [log ratios](super::log_ratios) of one twin to the other.
     pub fn new(cells: &[Vec<Vec<f64>>]) -> Self {
         let (mut ratios, mut squares) = (vec![], vec![]);
         for values in cells.iter().filter_map(|cell| epoch_values(std::slice::from_ref(cell))) {
@@ -38,37 +38,37 @@ impl AaNoise {
         if squares.is_empty() {
             return Self::default();
         }
-        // As many degrees of freedom as there are ratios, but no fewer than their epochs have: with a single degree of
-        // freedom one ratio would widen intervals tenfold. The tests count what this approximation costs.
+        // Use as many degrees of freedom as there are ratios, but at least as many as their epochs have: with a single
+        // degree of freedom one ratio would widen intervals tenfold. The tests count the cost of this approximation.
         let epochs = cells.iter().map(Vec::len).max().unwrap_or(0);
         let freedom = squares.len().max(epochs.saturating_sub(1)).max(1) as f64;
         Self { ratios, noise: Variance { square: mean(&squares).max(0.0), freedom } }
     }
 
-    /// The A/A noise, a logarithm; nothing where there is no ratio.
+    /// The A/A noise, a logarithm; `None` without a ratio.
     pub fn log(&self) -> Option<f64> {
         (!self.ratios.is_empty()).then(|| libm::sqrt(self.noise.square))
     }
 
-    /// What it adds to the variance of the logarithm of one ratio of two structures; nothing where there is no A/A
-    /// ratio.
+    /// The variance that it adds to the logarithm of one ratio of two structures; none without an A/A ratio.
     pub fn of_ratio(&self) -> Variance {
         self.weighted(&[1.0, -1.0])
     }
 
-    /// What it adds to the mean of the logarithms of `cells` ratios: the cells vary independently.
+    /// The variance that it adds to the mean of the logarithms of `cells` ratios: the cells vary independently.
     pub fn of_mean(&self, cells: usize) -> Variance {
         self.of_ratio().times(1.0 / libm::sqrt(cells.max(1) as f64))
     }
 
-    /// What it adds to a sum of logarithms of times of one build each, with these weights: a ratio has the weights 1
+    /// The variance that it adds to a weighted sum of logarithms of times, each of one build: a ratio has the weights 1
     /// and -1.
     pub fn weighted(&self, weights: &[f64]) -> Variance {
         let squares: f64 = weights.iter().map(|weight| weight * weight).sum();
         self.noise.times(libm::sqrt(squares / 2.0))
     }
 
-    /// How many of the ratios' intervals hold 1, and how many have one; nothing where none has.
+    /// The number of ratios whose interval contains 1, and the number of ratios with an interval; `None` if none has
+    /// one.
     pub fn holding_one(&self) -> Option<(usize, usize)> {
         let known = self.ratios.iter().filter(|ratio| ratio.interval.is_some());
         let holding = known.clone().filter(|ratio| ratio.holds(1.0)).count();
@@ -99,7 +99,7 @@ mod tests {
 
     #[test]
     fn what_epochs_explain_is_left_out() {
-        // The mean is 0.01, its standard error 0.01: all of it may be the epochs'.
+        // The mean is 0.01 and its standard error 0.01: all of it may come from the epochs.
         let epochs = [-0.02, 0.01, 0.04, 0.01].map(|log| vec![log]);
         let error = Variance::of_mean(&epochs.concat()).unwrap().square;
         let noise = AaNoise::new(&[epochs.to_vec()]);
@@ -111,7 +111,7 @@ mod tests {
         let noise = AaNoise::new(&[vec![vec![0.01, 0.03]]]);
         assert!((noise.log().unwrap() - 0.02).abs() < 1e-12);
         assert_eq!(noise.holding_one(), None);
-        // A cell of one epoch beside another has no interval that could hold anything.
+        // A cell of one epoch beside another cell has no interval.
         let both = AaNoise::new(&[vec![vec![0.01, 0.03]], vec![vec![0.0; 3]; 5]]);
         assert_eq!((both.ratios.len(), both.holding_one()), (2, Some((1, 1))));
     }

@@ -1,9 +1,9 @@
-//! Warnings about a run, with what to do. Pure functions: nothing is measured here.
+//! Warnings about a run, with remedies. Pure functions: this module measures nothing.
 
 use super::summary::median;
 use super::variance::mean;
 
-/// The state of the machine before, during and after the timed part of a run. What the system does not tell is nothing.
+/// The state of the machine before, during and after the timed part of a run. `None` if the system does not report it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Conditions {
     /// Load average before the run.
@@ -14,7 +14,7 @@ pub struct Conditions {
     pub clock_rates: Option<(f64, f64)>,
     /// How often the system took the core from the measuring thread.
     pub interruptions: Option<u64>,
-    /// Of the timed part.
+    /// Duration of the timed part.
     pub seconds: f64,
     /// [`denormals`](super::machine::denormals).
     pub denormals: &'static str,
@@ -22,14 +22,14 @@ pub struct Conditions {
     pub debug: bool,
 }
 
-/// More interruptions a second than this: another program wants the core.
+/// With more interruptions per second than this, another program wants the core.
 const INTERRUPTIONS: f64 = 20.0;
 
-/// A clock rate that falls below this share of what it was has been throttled.
+/// A core whose clock rate falls below this share of its first value is throttled.
 const CLOCK_FALL: f64 = 0.9;
 
 impl Conditions {
-    /// One sentence for each condition that spoils measurements.
+    /// One sentence for each condition that disturbs measurements.
     pub fn warnings(&self) -> Vec<String> {
         let &Self { cores, seconds, denormals, .. } = self;
         let debug = self
@@ -67,11 +67,11 @@ impl Conditions {
     }
 }
 
-/// The elapsed time that is plausible, as a multiple of the time that a program reports itself.
+/// The plausible range of the elapsed time, as a multiple of the time that a runner reports.
 const OWN_CLOCK: std::ops::RangeInclusive<f64> = 0.95..=1.25;
 
-/// A sentence about the own clock of the structure `label`, where it and ours disagree: `outside` is the ratio of ours
-/// to its own.
+/// A sentence about the clock of the runner `label` if it disagrees with the elapsed time; `outside` is the ratio of
+/// the elapsed time to the reported one.
 pub fn of_own_clock(label: &str, outside: f64) -> Option<String> {
     let why = if outside < 1.0 {
         "its times are not seconds, or are sums over threads: report the elapsed time"
@@ -85,13 +85,14 @@ pub fn of_own_clock(label: &str, outside: f64) -> Option<String> {
 /// Modified z-scores beyond this are outliers (Iglewicz, Hoaglin, "How to detect and handle outliers", 1993).
 const OUTLIER: f64 = 3.5;
 
-/// More outliers than this share of the samples: something interrupts the run.
+/// With more outliers than this share of the samples, something interrupts the run.
 const OUTLIERS: f64 = 0.1;
 
-/// A run that ends slower than it began by more than this ratio is not steady.
+/// A run that becomes slower by more than this ratio is not steady.
 const TREND: f64 = 1.05;
 
-/// One sentence for each fault of the samples of a run: those of each case, in the order of the rounds.
+/// One sentence for each fault of the samples of a run. `cases` contains the samples of each case, in the order of the
+/// rounds.
 pub fn of_samples(cases: &[&[f64]]) -> Vec<String> {
     let all: usize = cases.iter().map(|case| case.len()).sum();
     let outliers: usize = cases.iter().map(|case| outliers(case)).sum();
@@ -117,20 +118,20 @@ fn outliers(samples: &[f64]) -> usize {
     let Some(middle) = median(&logs) else { return 0 };
     let distances: Vec<f64> = logs.iter().map(|log| libm::fabs(log - middle)).collect();
     let spread = median(&distances).expect("as many as samples");
-    // The factor makes the median distance of normal noise its standard deviation. Clocks have steps: half a percent is
-    // none.
+    // The factor turns the median distance of normal noise into its standard deviation. Clocks have steps: half a
+    // percent is not a distance.
     distances.iter().filter(|&&d| 0.6745 * d > OUTLIER * spread.max(0.005)).count()
 }
 
-/// By how much the cases together grew slower from the first round to the last, as a ratio, where that is no accident:
-/// by the test of Mann ("Nonparametric tests against trend", 1945) at three standard deviations, and the slope of Theil
-/// and Sen (1968).
+/// The slowdown of all cases together from the first round to the last, as a ratio; `None` if it may be chance by the
+/// test of Mann ("Nonparametric tests against trend", 1945) at three standard deviations. The slope is the estimate of
+/// Theil and Sen (1968).
 fn trend(cases: &[&[f64]]) -> Option<f64> {
     let rounds = cases.iter().map(|case| case.len()).min()?;
     if rounds < 3 {
         return None;
     }
-    // What a round took, relative to the median round of each case.
+    // The time of a round relative to the median round of each case.
     let relative = |case: &&[f64]| {
         let logs: Vec<f64> = case.iter().map(|&ns| libm::log(ns)).collect();
         let middle = median(&logs).expect("there are rounds");
@@ -177,7 +178,7 @@ mod tests {
         }
     }
 
-    /// Twenty samples that grow by a share in all.
+    /// Twenty samples that grow by the share `by` in total.
     fn growing(by: f64) -> Vec<f64> {
         (0..20).map(|i| 1000.0 * (1.0 + by * f64::from(i) / 19.0)).collect()
     }

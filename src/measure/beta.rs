@@ -1,16 +1,16 @@
-//! The beta distribution, from which the binomial distribution follows.
+//! The beta distribution, which gives the bounds of the binomial distribution.
 
 use statrs::function::beta::beta_reg;
 
-/// What a beta variable with the parameters `a` and `b`, both positive, is at most with this probability: the `x` at which
-/// the regularised incomplete beta function I_x(a, b) is `probability`.
+/// The quantile of the beta distribution with the positive parameters `a` and `b`: the `x` for which the regularised
+/// incomplete beta function I_x(a, b) is `probability`.
 ///
-/// At 0.95 its relative error is below 1e-5 for parameters up to a thousand million; near the median and below only up to
-/// a hundred thousand, because the fraction of `statrs` ends after 140 terms. By bisection: the quantile of `statrs`
-/// does not end where it is small, as for (2, 10^7), and is wrong before that.
+/// At 0.95 its relative error is below 1e-5 for parameters up to a thousand million; near the median and below only up
+/// to a hundred thousand, because the continued fraction of `statrs` ends after 140 terms. It bisects: the quantile of
+/// `statrs` never returns if it is small, as for (2, 10^7), and is wrong before that.
 pub fn beta_quantile(probability: f64, a: f64, b: f64) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
-    // Bisect, first in the exponent, so that quantiles near 0 have the same relative precision.
+    // Bisect first in the exponent: quantiles near 0 then have the same relative precision.
     while high > 1e-300 && beta_reg(a, b, high * 0.5) > probability {
         high *= 0.5;
     }
@@ -46,11 +46,11 @@ mod tests {
             let sine = libm::sin(std::f64::consts::FRAC_PI_2 * p);
             close(beta_quantile(p, 0.5, 0.5), sine * sine, 1e-12);
         }
-        // Without an event among so many: about three in n.
+        // No event in n trials: about three in n.
         for n in [1e7, 1e9] {
             close(beta_quantile(0.95, 1.0, n), -libm::expm1(libm::log(0.05) / n), 1e-5);
         }
-        // Near to normal: 1.645 deviations from the half.
+        // Nearly normal: 1.645 deviations from one half.
         for n in [1e3, 1e5, 1e7, 1e9] {
             let deviation = 0.5 / libm::sqrt(2.0 * n + 1.0);
             close(beta_quantile(0.95, n, n), 0.5 + 1.644_853_627 * deviation, deviation / n + 1e-9);

@@ -1,23 +1,23 @@
-//! Where time comes from.
+//! Clocks.
 
 use std::time::Instant;
 
 use super::Threads;
 
-/// A clock that never goes back. Behind a trait, so that everything that depends on time is tested without it.
+/// A monotonic clock. A trait, so everything that depends on time is tested without it.
 pub trait Clock {
     /// Nanoseconds since some fixed moment.
     fn now_ns(&self) -> u64;
 }
 
-/// Times pieces of work, without what reading the clock takes.
+/// Times pieces of work, without the cost of reading the clock.
 pub struct Stopwatch<'a> {
     clock: &'a dyn Clock,
     /// The cost of a reading.
     reading_ns: u64,
 }
 
-/// Readings that find the cost of one reading, their minimum.
+/// Readings for measuring the cost of one reading, their minimum.
 const READINGS: usize = 256;
 
 impl<'a> Stopwatch<'a> {
@@ -30,7 +30,7 @@ impl<'a> Stopwatch<'a> {
         Self { clock, reading_ns: (0..READINGS).map(reading).min().unwrap_or(0) }
     }
 
-    /// Nanoseconds that `work` takes.
+    /// The time of `work`, ns.
     #[inline]
     pub fn time(&self, work: impl FnOnce()) -> u64 {
         let start = self.clock.now_ns();
@@ -43,7 +43,7 @@ impl<'a> Stopwatch<'a> {
 pub struct SystemClock(Instant);
 
 impl SystemClock {
-    /// Counts from now.
+    /// A clock that counts from now.
     pub fn start() -> Self {
         Self(Instant::now())
     }
@@ -66,7 +66,7 @@ type Id = nix::time::ClockId;
 type Id = std::convert::Infallible;
 
 impl CpuClock {
-    /// The clock of the calling thread, for passes. None for several threads, or where the system has no such clock:
+    /// The clock of the calling thread, for passes. `None` for several threads, or if the system has no such clock:
     /// then use the elapsed time.
     pub fn of_thread(threads: &Threads) -> Option<Self> {
         #[cfg(target_os = "linux")]
@@ -76,8 +76,8 @@ impl CpuClock {
         Self::of(threads, id)
     }
 
-    /// The clock of the whole process, for builds: some builders start threads of their own, whose work counts. None
-    /// where [`CpuClock::of_thread`] is none.
+    /// The clock of the whole process, for builds: some builders start threads, whose work counts. `None` if
+    /// [`CpuClock::of_thread`] is `None`.
     pub fn of_process(threads: &Threads) -> Option<Self> {
         #[cfg(target_os = "linux")]
         let id = Some(Id::CLOCK_PROCESS_CPUTIME_ID);

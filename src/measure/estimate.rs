@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::student::{LEVEL, factor};
 use super::variance::Variance;
 
-/// An estimate with its 95 % [interval](mod@super::interval); none for a single epoch.
+/// An estimate with its 95 % [interval](mod@super::interval); a single epoch gives no interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(from = "Flat", into = "Flat")]
 pub struct Estimate {
@@ -18,8 +18,8 @@ pub struct Estimate {
 pub struct Interval {
     pub low: f64,
     pub high: f64,
-    /// Degrees of freedom of Student's t; infinite where nothing varies. They determine how much wider the interval is
-    /// where many are judged together.
+    /// Degrees of freedom of Student's t; infinite if nothing varies. They determine how much wider the interval
+    /// becomes if many are judged together.
     pub freedom: f64,
 }
 
@@ -67,12 +67,12 @@ impl Estimate {
         Self { estimate, interval: Some(Interval { low, high, freedom: f64::INFINITY }) }
     }
 
-    /// The lower end, where it is known.
+    /// The lower end, if known.
     pub fn low(&self) -> Option<f64> {
         self.interval.map(|interval| interval.low)
     }
 
-    /// The upper end, where it is known.
+    /// The upper end, if known.
     pub fn high(&self) -> Option<f64> {
         self.interval.map(|interval| interval.high)
     }
@@ -98,8 +98,8 @@ impl Estimate {
         Self { estimate: of(self.estimate), interval: self.interval.map(ends) }
     }
 
-    /// The estimate as one of `looks` that are judged together: with 95 % probability all of their intervals hold
-    /// (Bonferroni). Both sides of the interval grow by the same factor.
+    /// The estimate as one of `looks` that are judged together: with 95 % probability all of their intervals contain
+    /// the true value (Bonferroni). Both sides of the interval grow by the same factor.
     pub fn among(self, looks: usize) -> Self {
         let grown = |Interval { low, high, freedom }: Interval| {
             let by = wider(freedom, looks);
@@ -109,7 +109,7 @@ impl Estimate {
         Self { interval: self.interval.map(grown), ..self }
     }
 
-    /// As [`among`](Self::among) for a positive ratio, whose interval grows in logarithms.
+    /// Like [`among`](Self::among) for a positive ratio, whose interval grows in logarithms.
     pub fn ratio_among(self, looks: usize) -> Self {
         self.map(libm::log).among(looks).map(libm::exp)
     }
@@ -131,7 +131,7 @@ impl Estimate {
     }
 }
 
-/// How much wider an interval is as one of `looks`.
+/// How much wider an interval is as one of `looks`, as a factor.
 fn wider(freedom: f64, looks: usize) -> f64 {
     if looks < 2 { 1.0 } else { factor(freedom, LEVEL / looks as f64) / factor(freedom, LEVEL) }
 }
@@ -180,7 +180,7 @@ mod tests {
 
     #[test]
     fn among_many_an_interval_is_wider() {
-        // Four degrees of freedom: 2.776 alone, 4.604 of five (1 %).
+        // With four degrees of freedom: 2.776 for one interval, 4.604 for one of five (1 %).
         let one = Estimate { estimate: 1.2, interval: Some(Interval { low: 1.1, high: 1.3, freedom: 4.0 }) };
         let five = one.among(5);
         assert!((five.high().unwrap() - (1.2 + 0.1 * 4.604 / 2.776)).abs() < 1e-4, "{five:?}");

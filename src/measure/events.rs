@@ -9,12 +9,13 @@ pub struct EventCounter {
 
 #[cfg(target_os = "linux")]
 impl EventCounter {
-    /// None where processor or kernel provide no counter: virtual machines often have none, and kernels may forbid it.
+    /// Counts instructions. `None` if processor or kernel provide no counter: virtual machines often have none, and
+    /// kernels may forbid it.
     pub fn instructions() -> Option<Self> {
         Self::of(perf_event::events::Hardware::INSTRUCTIONS)
     }
 
-    /// Branches that the processor predicted wrongly. None as above.
+    /// Counts mispredicted branches. `None` as above.
     pub fn branch_misses() -> Option<Self> {
         Self::of(perf_event::events::Hardware::BRANCH_MISSES)
     }
@@ -25,7 +26,7 @@ impl EventCounter {
         Some(Self { counter: counter.build().ok()? })
     }
 
-    /// Events of `work` on this thread; none if the counter did not run all the time.
+    /// The number of events in `work` on this thread; `None` if the counter did not run all the time.
     pub fn count(&mut self, work: impl FnOnce()) -> Option<u64> {
         self.counter.reset().ok()?;
         self.counter.enable().ok()?;
@@ -57,8 +58,8 @@ mod tests {
 
     use super::*;
 
-    /// The kernel's own clock, nanoseconds of this thread, counts everywhere that counters are allowed; those of the
-    /// processor may not be there, or never be scheduled.
+    /// The kernel's clock, nanoseconds of this thread, counts on every machine that allows counters; the processor's
+    /// counters may not exist, or never be scheduled.
     #[test]
     fn what_is_counted_grows_with_the_work() {
         let work = |n: u64| move || (0..n).for_each(|i| _ = black_box(i));

@@ -1,17 +1,17 @@
-//! Prediction intervals: how far the same figure of another run may lie. All tables, studies and pages use these.
+//! Prediction intervals: the range of the same figure in another run. All tables, studies and pages use these.
 //!
-//! **The question.** A plain 95 % interval of a mean holds the true mean in 95 % of runs, but the *estimate of a second
-//! run* only in about 83 %, because that estimate varies as well (Cumming, Williams, Fidler, "Replication and
+//! **The question.** A plain 95 % interval of a mean contains the true mean in 95 % of runs, but the *estimate of a
+//! second run* only in about 83 %, because that estimate varies as well (Cumming, Williams, Fidler, "Replication and
 //! researchers' understanding of confidence intervals and standard error bars", 2004). The intervals here are
 //! prediction intervals for the estimate of another run of the same plan: they contain that estimate in 95 % of cases.
 //!
-//! **The model.** Each epoch e is a process of its own that builds all structures anew. In each round r of an epoch
-//! every case is timed once: workloads in random order, and the structures of a workload in random order. For two cases
-//! let y = ln(time of one / time of the other) in the same round: a slow phase of the machine slows both and cancels.
-//! Then y = theta + p(e) + n(e, r). The placement effect p is the same for a whole epoch, because a process has one
-//! layout of address space, stack and heap (Kalibera, Jones, "Rigorous benchmarking in reasonable time", 2013;
-//! Mytkowicz, Diwan, Hauswirth, Sweeney, "Producing wrong data without doing anything obviously wrong", 2009). The
-//! noise n of a sample has heavy tails.
+//! **The model.** Each epoch e is a separate process that rebuilds all structures. In each round r of an epoch every
+//! case is timed once: workloads in random order, and the structures of a workload in random order. For two cases let y
+//! = ln(time of one / time of the other) in the same round: a slow phase of the machine slows both and cancels. Then y
+//! = theta + p(e) + n(e, r). The placement effect p is the same for a whole epoch, because a process has one layout of
+//! address space, stack and heap (Kalibera, Jones, "Rigorous benchmarking in reasonable time", 2013; Mytkowicz, Diwan,
+//! Hauswirth, Sweeney, "Producing wrong data without doing anything obviously wrong", 2009). The noise n of a sample
+//! has heavy tails.
 //!
 //! **The estimate.** z(e) is the median of y over the rounds of an epoch, because heavy tails hardly move a median; the
 //! estimate is exp(mean of z). Over several cells (scenes, workloads) z(e) is the mean of their medians: cells of the
@@ -25,25 +25,25 @@
 //!
 //! **The A/A noise.** Effects that differ between two runs, but not between the epochs of one run, do not show in the
 //! spread of z. The A/A ratios show a part of them, the [A/A noise](super::AaNoise): its variance is added once for
-//! each run, and the degrees of freedom are those of the sum (Satterthwaite, 1946).
+//! each run, and the sum has the degrees of freedom of Satterthwaite (1946).
 //!
-//! **One epoch** says nothing about placement: it gives an estimate and no interval.
+//! **One epoch** does not show placement effects: it gives an estimate and no interval.
 //!
-//! **Multiple comparisons.** Where m findings are judged together, each has the interval of the level 1 - 0.05 / m
-//! ([`Estimate::among`], Bonferroni): in 95 % of cases all of them hold.
+//! **Multiple comparisons.** If m findings are judged together, each has the interval of the level 1 - 0.05 / m
+//! ([`Estimate::among`], Bonferroni): in 95 % of cases all of them are correct.
 //!
 //! The tests simulate thousands of pairs of runs with placement effects, heavy tails, drift and A/A noise, and count
 //! how often the second estimate lies within the first interval: in 93 to 97 % of pairs, for one cell and many cells.
-//! Known limits: if one sample in eight is interrupted for a third of its time, five epochs of one
-//! round contain only 86 %; and a single A/A ratio is not enough where the effects of whole runs dominate.
+//! Known limits: if one sample in eight is interrupted for a third of its time, five epochs of one round contain only
+//! 86 %; and a single A/A ratio is not enough if the effects of whole runs dominate.
 
 use super::estimate::{Estimate, Interval};
 use super::student::{LEVEL, factor};
 use super::summary::median;
 use super::variance::{Variance, mean};
 
-/// ln(numerator / denominator) of every round, epoch by epoch, for samples in the order taken, `epochs` times as many
-/// rounds.
+/// ln(numerator / denominator) of every round, by epoch. The samples are in the order taken; each epoch has the same
+/// number of rounds.
 ///
 /// # Panics
 /// If the numbers of samples differ or are no multiple of `epochs`, or a sample is not positive.
@@ -56,14 +56,14 @@ pub fn log_ratios(numerator: &[f64], denominator: &[f64], epochs: usize) -> Vec<
 }
 
 /// Cuts all cells to the number of epochs that each of them has, because a mean over cells needs the same epochs of
-/// all. The first epochs stay, whatever was measured in them, so the mean is not biased.
+/// all. The first epochs stay, regardless of their results, so the mean is not biased.
 pub fn cut_to_shared_epochs(cells: &mut [Vec<Vec<f64>>]) {
     let fewest = cells.iter().map(Vec::len).min().unwrap_or(0);
     cells.iter_mut().for_each(|cell| cell.truncate(fewest));
 }
 
-/// z(e) of every epoch: the mean over the cells of the median of its rounds, a logarithm. A cell is what [`log_ratios`]
-/// gives. Nothing when there is no cell or one is empty.
+/// z(e) of every epoch: the mean over the cells of the median of its rounds, a logarithm. A cell is a result of
+/// [`log_ratios`]. `None` if there is no cell or one is empty.
 ///
 /// # Panics
 /// If the cells differ in their epochs.
@@ -81,18 +81,18 @@ pub fn epoch_values(cells: &[Vec<Vec<f64>>]) -> Option<Vec<f64>> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rerun {
     centre: f64,
-    /// The variance of the difference; none with a single epoch.
+    /// The variance of the difference; `None` with a single epoch.
     variance: Option<Variance>,
 }
 
 impl Rerun {
-    /// The mean of `values`, one of each epoch, in another run of as many; `noise` is what the [A/A
-    /// noise](super::AaNoise) adds to the variance of one run. Nothing where there is no epoch.
+    /// The mean of `values`, one per epoch, in another run with as many epochs. `noise` is the variance that the [A/A
+    /// noise](super::AaNoise) adds to one run. `None` without epochs.
     pub fn of(values: &[f64], noise: Variance) -> Option<Self> {
         Self::in_epochs(values, values.len(), noise)
     }
 
-    /// As [`of`](Self::of), in another run of `epochs` epochs, at least 1.
+    /// Like [`of`](Self::of), in another run of `epochs` epochs, at least 1.
     pub fn in_epochs(values: &[f64], epochs: usize, noise: Variance) -> Option<Self> {
         if values.is_empty() {
             return None;
@@ -103,8 +103,8 @@ impl Rerun {
         Some(Self { centre: mean(values), variance })
     }
 
-    /// The difference of two runs that have both been measured, `new` minus `old`. `noises` are what the A/A noise adds
-    /// to each. Without a variance where one of them has a single epoch.
+    /// The difference of two measured runs, `new` minus `old`. `noises` are the variances that the A/A noise adds to
+    /// each. No variance if one of them has a single epoch.
     pub fn change(old: &[f64], new: &[f64], noises: [Variance; 2]) -> Option<Self> {
         if old.is_empty() || new.is_empty() {
             return None;
@@ -114,7 +114,7 @@ impl Rerun {
         Some(Self { centre: mean(new) - mean(old), variance })
     }
 
-    /// The same spread around a figure that more epochs have found.
+    /// The same spread around `centre`, an estimate from more epochs.
     #[must_use]
     pub fn around(self, centre: f64) -> Self {
         Self { centre, ..self }
@@ -129,7 +129,7 @@ impl Rerun {
         Estimate { estimate: self.centre, interval }
     }
 
-    /// e to the power of the figure, with its interval.
+    /// exp(figure), with its interval.
     pub fn ratio(&self) -> Estimate {
         self.plain().map(libm::exp)
     }

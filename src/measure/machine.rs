@@ -1,4 +1,4 @@
-//! What the system reports about the machine: load, clock rates, rounding of floats. What it does not report is `None`.
+//! The system's report on the machine: load, clock rates, rounding of floats. `None` for unreported values.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -12,7 +12,7 @@ pub fn load_at_start() -> Option<f64> {
     *LOAD.get_or_init(|| first_number(&fs::read_to_string("/proc/loadavg").ok()?))
 }
 
-/// The name of the policy by which the system chooses clock rates.
+/// The name of the policy with which the system chooses clock rates.
 pub fn governor(core: usize) -> Option<String> {
     let path = format!("/sys/devices/system/cpu/cpu{core}/cpufreq/scaling_governor");
     Some(fs::read_to_string(path).ok()?.trim().to_owned())
@@ -23,8 +23,8 @@ pub fn clock_rate(core: usize) -> Option<f64> {
     first_number(&fs::read_to_string(format!("/sys/devices/system/cpu/cpu{core}/cpufreq/scaling_cur_freq")).ok()?)
 }
 
-/// Bytes of memory that this process may use: those of the machine, or fewer where its control groups (containers, jobs
-/// of a cluster) limit it.
+/// Bytes of memory that this process may use: the machine's memory, or less if its control groups (containers, jobs of
+/// a cluster) limit it.
 pub fn memory() -> Option<u64> {
     let machine = || {
         let text = fs::read_to_string("/proc/meminfo").ok()?;
@@ -32,7 +32,7 @@ pub fn memory() -> Option<u64> {
         Some(kib as u64 * 1024)
     };
     let groups = limits(&fs::read_to_string("/proc/self/cgroup").unwrap_or_default());
-    // Without a limit the file holds a word instead of a number.
+    // Without a limit the file contains a word instead of a number.
     let limit = |file: &PathBuf| fs::read_to_string(file).ok()?.trim().parse().ok();
     machine().into_iter().chain(groups.iter().filter_map(limit)).min()
 }
@@ -67,7 +67,7 @@ pub fn interruptions() -> Option<u64> {
     None
 }
 
-/// Clock ticks of each core in which it had nothing to do, during the next `time`.
+/// Idle clock ticks of each core during the next `time`.
 pub(super) fn idle_ticks(time: Duration) -> BTreeMap<usize, u64> {
     let read = || fs::read_to_string("/proc/stat").map(|text| idle(&text)).unwrap_or_default();
     let before = read();
@@ -89,7 +89,7 @@ fn first_number(text: &str) -> Option<f64> {
     text.split_whitespace().next()?.parse().ok()
 }
 
-/// The control word of floating-point arithmetic (MXCSR), where there is one, without its sticky exception flags.
+/// The control word of floating-point arithmetic (MXCSR), if the processor has one, without its sticky exception flags.
 #[cfg(target_arch = "x86_64")]
 pub fn mxcsr() -> Option<u32> {
     let mut word = 0_u32;
@@ -103,7 +103,7 @@ pub fn mxcsr() -> Option<u32> {
     None
 }
 
-/// What the control word does with denormal numbers.
+/// The effect of the control word on denormal numbers.
 pub fn denormals(mxcsr: Option<u32>) -> &'static str {
     let Some(word) = mxcsr else { return "unknown" };
     match (word & 1 << 15 != 0, word & 1 << 6 != 0) {

@@ -51,9 +51,9 @@ unsafe impl GlobalAlloc for CountingAllocator {
     }
 }
 
-/// Runs `work`; returns its result and the most bytes that were allocated at once on all threads, beyond those
-/// allocated before. The bytes are unknown where the [`CountingAllocator`] is not installed. One call runs at a time;
-/// others wait. Each allocation costs two more atomic operations.
+/// Runs `work`; returns its result and the peak of allocated bytes on all threads beyond the bytes allocated before.
+/// The bytes are unknown if the [`CountingAllocator`] is not installed. One call runs at a time; other calls wait. Each
+/// allocation costs two more atomic operations.
 pub fn peak_bytes<R>(work: impl FnOnce() -> R) -> (R, Option<usize>) {
     static ONE: Mutex<()> = Mutex::new(());
     /// Stops the counter when it is dropped, also after a panic.

@@ -1,9 +1,9 @@
-//! The order in which samples are taken.
+//! The order of the samples.
 
 use rand_core::{RngCore, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-/// Gives the numbers from 0 to `n` in a new random order each time.
+/// Returns the numbers from 0 to `n` in a new random order each time.
 pub struct RandomOrder {
     generator: Pcg64Mcg,
 }
@@ -31,8 +31,8 @@ impl RandomOrder {
         order
     }
 
-    /// Numbers of the `groups`, one for each member, shuffled so that the members of a group follow each other: the
-    /// groups are in random order, and so are the members of each.
+    /// The indices of all members in an order in which the members of a group follow each other: the groups are in
+    /// random order, and so are the members of each. `groups` contains the group of each member.
     pub fn shuffled_by_group(&mut self, groups: &[usize]) -> Vec<usize> {
         let ranks = self.shuffled(groups.iter().max().map_or(0, |last| last + 1));
         let mut order = self.shuffled(groups.len());
@@ -44,7 +44,7 @@ impl RandomOrder {
 /// Noise for tests.
 #[cfg(test)]
 impl RandomOrder {
-    /// A number between 0 and 1, neither of the two.
+    /// A number strictly between 0 and 1.
     pub fn uniform(&mut self) -> f64 {
         (self.below(1 << 30) as f64 + 0.5) / f64::from(1 << 30)
     }

@@ -16,7 +16,7 @@ use crate::geometry::Ray;
 struct Piece<'a> {
     rays: Box<dyn Loaded + 'a>,
     count: usize,
-    /// The levels that the time of this piece counts for, one bit for each chosen level. None for a lead-in.
+    /// The levels whose time includes this piece, one bit for each chosen level. 0 for a lead-in.
     levels: u32,
 }
 
@@ -38,8 +38,8 @@ fn share(slots: ResultSlots, pieces: &[&Piece], threads: &Threads) {
     threads.install(|| work.into_par_iter().for_each(|(piece, slots)| slots.query(piece.rays.as_ref())));
 }
 
-/// `count` of `all`, in order: one from each of `count` parts of equal length, at a seeded random position, so that no
-/// rows and columns of an image are preferred. All if there are not more. For checks and counts; [`tiles`] are timed.
+/// `count` of `all`, in order: one from each of `count` parts of equal length, at a seeded random position, to avoid a
+/// preference for rows and columns of an image. All if there are not more. For checks and counts; [`tiles`] are timed.
 pub fn spread<T: Copy>(all: &[T], count: usize) -> Vec<T> {
     if count >= all.len() {
         return all.to_vec();
@@ -49,11 +49,11 @@ pub fn spread<T: Copy>(all: &[T], count: usize) -> Vec<T> {
     (0..count).map(|i| all[part(i) + random.below(part(i + 1) - part(i))]).collect()
 }
 
-/// A structure, a workload and a query: what is timed.
+/// A structure, a workload and a query: the unit of timing.
 ///
 /// One thread traces the rays piece by piece in the order of the workload. Every pass begins with a lead-in that is not
 /// timed, over other rays of the workload if there are any. It leaves caches and branch predictors in the state of this
-/// structure, not in that of the structure timed before. Where tiles do not adjoin, each tile has a short lead-in as
+/// structure, not in the state of the structure timed before. If tiles do not adjoin, each tile has a short lead-in as
 /// well.
 pub struct Pass<'a> {
     accel: &'a dyn DynAccel,
@@ -66,17 +66,17 @@ pub struct Pass<'a> {
     lead_in_results: QueryResults,
     /// If a pass traces all rays: how many of the last ones the lead-in traces too, and the checksum of their results.
     lead_in_checksum: Option<(usize, u64)>,
-    /// Picoseconds per ray of the lead-in; if there was none, tiles have no lead-in either.
+    /// Picoseconds per ray of the lead-in; `u128::MAX` without one, and then tiles have no lead-in either.
     lead_in_ps: u128,
-    /// `clear` alternates between two fillings, so that a pass that leaves a result untouched cannot give the same
+    /// `clear` alternates between two fillings: a pass that leaves a result untouched then cannot give the same
     /// checksum twice.
     filled: bool,
 }
 
-/// The lead-in of a pass has one in so many rays of the workload.
+/// The lead-in of a pass has this fraction, 1 / 8, of the rays of the workload.
 const LEAD_IN_SHARE: usize = 8;
 
-/// A lead-in before tiles ends after this time: slow structures need fewer rays to fill the caches.
+/// Time limit of a lead-in before tiles: slow structures need fewer rays to fill the caches.
 const LEAD_IN: Duration = Duration::from_millis(10);
 
 /// The time for the lead-in before a tile, which has at most the rays of a tile. It is longer than the caches take to
@@ -113,8 +113,8 @@ impl<'a> Pass<'a> {
         Piece { rays: self.accel.load(Cow::Borrowed(&self.all[first..first + count])), count, levels }
     }
 
-    /// The neighbours before `end`, or the last rays of the workload if there are too few; in pieces that shrink
-    /// towards the end, so that some can be left out.
+    /// The neighbours before `end`, or the last rays of the workload if there are too few. The pieces shrink towards
+    /// the end, so some can be left out.
     fn before(&self, end: usize) -> impl Iterator<Item = Piece<'a>> {
         let count = TILE.min(self.all.len());
         let mut rest = if end < count { self.all.len() - count..self.all.len() } else { end - count..end };
@@ -157,7 +157,7 @@ impl Timed for Pass<'_> {
             }
         }
 
-        // Before tiles the first pieces are small, so that a slow structure can stop early.
+        // Before tiles the first pieces are small: a slow structure can then stop early.
         let lead_in = self.all.len() / LEAD_IN_SHARE;
         let mut first = self.all.len() - lead_in;
         let mut size = if levels[0] == 0 { TILE } else { 1 };
@@ -200,8 +200,8 @@ impl Timed for Pass<'_> {
     fn run(&mut self, watch: &Stopwatch) -> Vec<u64> {
         let mut ns = vec![0; self.levels];
         if self.threads.count() > 1 {
-            // Threads share the rays of a level, so each level is timed separately. The first level goes last, so that
-            // its results stay.
+            // Threads share the rays of a level, so each level is timed separately. The first level is last because its
+            // results must stay.
             for level in (0..self.levels).rev() {
                 let of_level = |piece: &&Piece| piece.levels >> level & 1 == 1;
                 let pieces: Vec<&Piece> = self.pieces.iter().filter(of_level).collect();

@@ -1,4 +1,4 @@
-//! Binds threads to cores, so that they keep their caches.
+//! Binds threads to cores, which keeps their caches warm.
 
 use std::sync::OnceLock;
 
@@ -10,18 +10,17 @@ use nix::{
 
 use super::machine;
 
-/// The number that stands for the calling thread in system calls. The first thread of a process has the number of the
-/// process.
+/// The number of the calling thread in system calls. The first thread of a process has the number of the process.
 const THIS_THREAD: u32 = 0;
 
-/// Binds the calling thread to a core until it is dropped; then the thread may run on the cores that it had before.
+/// Binds the calling thread to a core until it is dropped; then the thread may run on its previous cores.
 #[derive(Debug)]
 pub struct Pin {
     before: Vec<usize>,
 }
 
 impl Pin {
-    /// Binds the calling thread to `core`; none where the system does not allow it.
+    /// Binds the calling thread to `core`; `None` if the system does not allow it.
     pub fn to(core: usize) -> Option<Self> {
         let before = allowed(THIS_THREAD)?;
         bind(&[core]).then_some(Self { before })
@@ -30,7 +29,7 @@ impl Pin {
 
 impl Drop for Pin {
     fn drop(&mut self) {
-        // If the system no longer allows these cores, the thread stays where it is.
+        // If the system no longer allows these cores, the thread stays on its core.
         bind(&self.before);
     }
 }
@@ -38,14 +37,14 @@ impl Drop for Pin {
 /// The cores that the run has chosen for all of its processes.
 static CORES: OnceLock<Vec<usize>> = OnceLock::new();
 
-/// From now on `cores.len()` threads get these cores, instead of the cores that are idle at the moment.
+/// Gives these cores to all later groups of `cores.len()` threads, instead of the currently idle cores.
 pub fn keep_to(cores: &[usize]) {
     CORES.get_or_init(|| cores.into());
 }
 
-/// The cores for `threads` threads: those given to [`keep_to`], or those that were the most idle during a tenth of a
-/// second; among equals the highest, since interrupts go to the lowest. None where threads cannot be bound, or there
-/// are fewer cores than threads.
+/// The cores for `threads` threads: the cores of [`keep_to`], or the cores that were the most idle during a tenth of a
+/// second; among equals the highest, because interrupts use the lowest. `None` if threads cannot be bound, or there are
+/// fewer cores than threads.
 pub fn choose(threads: usize) -> Option<Vec<usize>> {
     let mut cores = allowed(THIS_THREAD)?;
     if let Some(chosen) = CORES.get().filter(|chosen| chosen.len() == threads) {
@@ -62,7 +61,7 @@ pub fn choose(threads: usize) -> Option<Vec<usize>> {
     Some(cores)
 }
 
-/// Runs `work`, which starts a program, so that the program may use all cores of this process's first thread: a program
+/// Runs `work`, which starts a program. The program may use all cores of this process's first thread, because a program
 /// inherits the cores of the thread that starts it.
 pub fn on_all_cores<R>(work: impl FnOnce() -> R) -> R {
     let _pin = allowed(std::process::id()).zip(allowed(THIS_THREAD)).map(|(all, before)| {
@@ -79,7 +78,7 @@ fn allowed(thread: u32) -> Option<Vec<usize>> {
     Some((0..CpuSet::count()).filter(|&core| set.is_set(core).unwrap_or(false)).collect())
 }
 
-/// Lets the calling thread run on `cores` only. Whether it worked.
+/// Restricts the calling thread to `cores`. Returns whether it worked.
 #[cfg(target_os = "linux")]
 pub(super) fn bind(cores: &[usize]) -> bool {
     let (thread, mut set) = (Pid::from_raw(THIS_THREAD as i32), CpuSet::new());

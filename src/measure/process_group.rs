@@ -1,7 +1,7 @@
 //! Ends programs together with all programs that they have started.
 //!
 //! On Linux each program leads its own process group, and the whole group is killed. Only this process receives Ctrl-C;
-//! it ends its programs. On other systems a program is killed alone, and receives Ctrl-C as well.
+//! it ends its programs. On other systems only the program itself is killed, and it receives Ctrl-C as well.
 
 #[cfg(target_os = "linux")]
 use std::os::unix::process::CommandExt;
@@ -41,10 +41,10 @@ fn has_ended(child: &mut Child) -> bool {
     !matches!(child.try_wait(), Ok(None))
 }
 
-/// How often a program is looked at.
+/// Pause between two looks at a program.
 const PAUSE: Duration = Duration::from_millis(1);
 
-/// Whether a program ends within `limit`. It is still to be waited for.
+/// Whether a program ends within `limit`. The caller must still wait for it.
 pub fn ends_within(child: &mut Child, limit: Duration) -> bool {
     let start = Instant::now();
     while !has_ended(child) {
@@ -56,15 +56,15 @@ pub fn ends_within(child: &mut Child, limit: Duration) -> bool {
     true
 }
 
-/// Has this process end with the thread that started it: a run that is killed leaves nothing behind that disturbs the next.
+/// Makes this process end with the thread that started it: a killed run leaves no process that disturbs the next run.
 pub fn end_with_parent() {
     #[cfg(target_os = "linux")]
     let _ = nix::sys::prctl::set_pdeathsig(Signal::SIGKILL);
 }
 
-/// Ends a program that was [set apart](set_apart), and with it all that it has started, unless it has been waited for.
+/// Ends a program that was [set apart](set_apart), and all programs that it has started, unless it has been waited for.
 pub fn end(child: &mut Child) {
-    // Until it has been waited for, its number cannot be given to another group.
+    // Until it has been waited for, no other group can receive its number.
     #[cfg(target_os = "linux")]
     if state(child) != Err(Errno::ECHILD) {
         end_group(child.id());

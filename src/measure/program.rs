@@ -1,4 +1,4 @@
-//! The running program: its identity, and when it began.
+//! The running program: its identity and its start.
 
 use std::fs::File;
 use std::io;
@@ -8,20 +8,20 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use sha2::{Digest, Sha256};
 
-/// The first 16 digits of the SHA-256 of the file that was started; `unknown` where it cannot be read. Another source,
+/// The first 16 digits of the SHA-256 of the running program; `unknown` if its file cannot be read. Another source,
 /// compiler or flag gives another program, committed or not.
 pub fn build() -> &'static str {
     static BUILD: OnceLock<String> = OnceLock::new();
     BUILD.get_or_init(|| file_id(&executable()).unwrap_or_else(|_| "unknown".into()))
 }
 
-/// The file that was started. Linux keeps it at this path even if another file has taken its name since.
+/// The file of the running program. Linux keeps it at this path even after another file has taken its name.
 pub fn executable() -> PathBuf {
     let kept = Path::new("/proc/self/exe");
     if kept.exists() { kept.into() } else { std::env::current_exe().unwrap_or_default() }
 }
 
-/// The SHA-256 of the bytes of a file, by which data files and corpora know it.
+/// The SHA-256 of bytes: the identity of data files and corpora.
 pub fn digest(bytes: &[u8]) -> String {
     format!("{:x}", Sha256::digest(bytes))
 }
@@ -51,11 +51,11 @@ pub fn started() -> &'static str {
     STARTED.get_or_init(|| utc(now()))
 }
 
-/// The date that lies so many seconds after the beginning of 1970.
+/// The date `seconds` after the beginning of 1970.
 fn utc(seconds: u64) -> String {
     let (days, second) = (seconds / 86400, seconds % 86400);
-    // Count years from March, so that a leap day is the last day of a year, in eras of 400 years of equal length
-    // (Howard Hinnant: chrono-compatible low-level date algorithms, 2021).
+    // Count years from March: a leap day is then the last day of a year. Eras of 400 years have equal length (Howard
+    // Hinnant: chrono-compatible low-level date algorithms, 2021).
     let shifted = days + 719_468;
     let (era, day_of_era) = (shifted / 146_097, shifted % 146_097);
     let year_of_era = (day_of_era - day_of_era / 1460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;

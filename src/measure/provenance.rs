@@ -1,4 +1,4 @@
-//! Where a measurement comes from.
+//! The provenance of a measurement.
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -7,19 +7,19 @@ use super::{CpuClock, Threads, machine, program};
 use crate::escaped::quoted;
 use crate::simd::Level;
 
-/// The facts that one needs to judge a measurement, and to repeat it.
+/// The facts for judging and repeating a measurement.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Provenance {
     /// The command line.
     pub command: String,
     /// Version of this crate.
     pub version: String,
-    /// Commit that was built, `+changes` when the sources differed from it; `unknown` outside git.
+    /// Commit of the build, with `+changes` if the sources differed; `unknown` outside git.
     pub commit: String,
-    /// The first digits of the SHA-256 of the program that ran; equal digits mean the same program. `unknown` where the
-    /// system does not let the program read itself.
+    /// The first digits of the SHA-256 of the program; equal digits mean the same program. `unknown` if the program
+    /// cannot read its file.
     pub build: String,
-    /// When the run began, in UTC: `2026-03-01T12:30:59Z`.
+    /// Start of the run, in UTC: `2026-03-01T12:30:59Z`.
     pub date: String,
     /// Compiler.
     pub rustc: String,
@@ -27,15 +27,15 @@ pub struct Provenance {
     pub profile: String,
     /// Target triple.
     pub target: String,
-    /// Instruction set extensions that the compiler was allowed to use; the same for all structures.
+    /// Instruction set extensions that the compiler could use; the same for all structures.
     pub target_features: String,
-    /// Instruction set of our own lanes.
+    /// Instruction set of this suite's SIMD lanes.
     pub simd: String,
-    /// Name of the computer; `unknown` where the system does not report it.
+    /// Name of the computer; `unknown` if the system does not report it.
     pub host: String,
-    /// Name of the processor; `unknown` where the system does not report it.
+    /// Name of the processor; `unknown` if the system does not report it.
     pub cpu: String,
-    /// Processors that the system offers to this process.
+    /// Processors available to this process.
     pub cores: usize,
     /// Threads that built and traced; 1 is the unit of all comparisons.
     pub threads: usize,
@@ -45,15 +45,15 @@ pub struct Provenance {
     pub obvhs: String,
     /// The clock of samples: `cpu` for processor time of the thread, or `elapsed`.
     pub clock: String,
-    /// The core of each thread; none where threads were not bound.
+    /// The core of each thread; `None` if threads were not bound.
     pub pinned: Option<Vec<usize>>,
-    /// Whether each timed epoch of a scene was measured in a process of its own.
+    /// Whether each timed epoch of a scene was measured in a separate process.
     pub process_per_epoch: bool,
-    /// Control word of floating-point arithmetic, where the processor has one.
+    /// Control word of floating-point arithmetic, if the processor has one.
     pub mxcsr: Option<u32>,
-    /// What it does with denormal numbers; `kept` is right.
+    /// Its effect on denormal numbers; `kept` is right.
     pub denormals: String,
-    /// The name of the policy by which the system chooses clock rates.
+    /// The name of the policy with which the system chooses clock rates.
     pub governor: Option<String>,
     /// Load average of the last minute before the run.
     pub load: Option<f64>,
@@ -70,7 +70,7 @@ fn unknown() -> String {
 }
 
 impl Provenance {
-    /// Of this process, which builds and traces on `threads` threads.
+    /// The provenance of this process, which builds and traces on `threads` threads.
     pub fn capture(threads: usize) -> Self {
         let command: Vec<String> = std::env::args_os().map(quoted).collect();
         Self {
@@ -101,7 +101,7 @@ impl Provenance {
         }
     }
 
-    /// Of this process, which builds and traces on `threads`.
+    /// The provenance of this process, which builds and traces on `threads`.
     pub fn of(threads: &Threads) -> Self {
         let pinned = threads.cores().map(<[usize]>::to_vec);
         let core = pinned.as_ref().map_or(0, |cores| cores[0]);
@@ -109,8 +109,8 @@ impl Provenance {
         Self { pinned, clock, governor: machine::governor(core), ..Self::capture(threads.count()) }
     }
 
-    /// What makes a program faster or slower, of all that is known of it. Hosts of one processor are one machine: their
-    /// cases are epochs of one measurement, and samples are paired within one case only.
+    /// The known facts that affect the speed of a program. Hosts with the same processor are one machine: their cases
+    /// are epochs of one measurement, and samples are paired only within one case.
     pub fn machine(&self) -> Map<String, Value> {
         let parts: [(&str, Value); 10] = [
             ("version", self.version.as_str().into()),
@@ -139,7 +139,7 @@ impl Provenance {
         })
     }
 
-    /// The instruction set that this suite's own lanes found in the machine, and that the program was not compiled for:
+    /// The instruction set that the lanes of this suite use on this machine although the compiler was not allowed to:
     /// libraries without run-time dispatch do not use it.
     fn lacking(&self) -> Option<&'static str> {
         let needed = match self.simd.as_str() {
@@ -160,7 +160,7 @@ impl Provenance {
         };
         let Self { cpu, simd, rustc, version, commit, profile, date, .. } = self;
         let day = date.split('T').next().unwrap_or(date);
-        // The digest of the compiler is in the data.
+        // The data contain the digest of the compiler.
         let rustc = rustc.split(" (").next().unwrap_or(rustc);
         let lacking = self.lacking().map_or(String::new(), |feature| {
             format!(" (baselines are built without {feature}: set target-cpu=native)")

@@ -30,7 +30,7 @@ impl QueryResults {
         }
     }
 
-    /// Overwrites all results: with hits that no structure returns if `otherwise`, else with misses.
+    /// Overwrites all results: with hits that no structure returns if `otherwise`, and with misses if not.
     pub fn fill(&mut self, otherwise: bool) {
         let nowhere = Hit { t: f32::NAN, prim: PrimId::new(0) };
         match self {

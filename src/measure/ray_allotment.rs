@@ -1,4 +1,4 @@
-//! How many rays of each case are timed, and how often. It is decided before any sample, from the cost per ray.
+//! The number of rays and samples of each case. It is decided before any sample, from the cost per ray.
 
 use super::tiles::{last_level, level_within, rays_at};
 use super::{SamplePlan, Stopwatch, Timed, median};
@@ -8,7 +8,7 @@ use super::{SamplePlan, Stopwatch, Timed, median};
 pub struct Cost {
     /// Rays of its workload, at least 1.
     pub rays: usize,
-    /// Picoseconds per ray, about.
+    /// Approximate picoseconds per ray.
     pub ps: u64,
     /// Cases with the same number are timed on the same number of rays.
     pub group: usize,
@@ -25,7 +25,7 @@ pub struct Allotment {
     pub share_ns: u64,
 }
 
-/// Finds how many rays of each case and how many samples fit the budget. It depends on its arguments only, so all
+/// Determines how many rays of each case and how many samples fit the budget. It depends only on its arguments, so all
 /// epochs agree, on any machine.
 pub fn allot(cases: &[Cost], plan: &SamplePlan) -> Allotment {
     let mut levels: Vec<usize> = cases.iter().map(|case| level_within(case.rays, plan.most_rays)).collect();
@@ -58,7 +58,7 @@ pub fn allot(cases: &[Cost], plan: &SamplePlan) -> Allotment {
     Allotment { runs, levels, share_ns }
 }
 
-/// The least rays of the first pass of a case, which finds out how slow it is.
+/// The minimum number of rays of the first pass of a case, which measures how slow it is.
 const PILOT: usize = 64;
 
 /// A pass of this length measures the speed well enough.
@@ -69,7 +69,7 @@ pub fn pilot_level(rays: usize) -> usize {
     (0..=last_level(rays)).rev().find(|&level| rays_at(rays, level) >= PILOT).unwrap_or(0)
 }
 
-/// The first level from `from` on at which a sample of `case`, whose cost is unknown, takes at most `most_ns`; it is
+/// The first level from `from` on at which a sample of `case`, whose cost is unknown, takes at most `most_ns`. It is
 /// measured.
 pub fn level_by_clock(watch: &Stopwatch, case: &mut dyn Timed, from: usize, most_ns: u64) -> usize {
     let all = case.rays();
@@ -79,7 +79,7 @@ pub fn level_by_clock(watch: &Stopwatch, case: &mut dyn Timed, from: usize, most
         let ns = case.run(watch)[0].max(1);
         (u128::from(ns) * 1000 / rays_at(all, level) as u128).max(1)
     };
-    // Time a pass over few rays, and one that is long enough for a good estimate.
+    // Time a pass over few rays, and a pass that is long enough for a good estimate.
     let few = pilot_level(all).max(from);
     let first = pace(few);
     let rays = u128::from(LONG_PILOT_NS) * 1000 / first;
@@ -110,17 +110,17 @@ mod tests {
     #[test]
     fn the_slow_do_with_fewer_rays_then_all_with_fewer_samples_and_then_with_fewer_rays() {
         let of = |budget_ns| rays(&cases(&[10, 15, 10_000]), &SamplePlan { budget_ns, ..PLAN });
-        // All rays of the two fast ones take 1.84 ms with their lead-ins, those of the slow one 737 ms, and 2.88 ms
-        // where it takes no more than eight times as long as the middle one.
+        // All rays of the two fast cases take 1.84 ms with their lead-ins, all rays of the slow case 737 ms, and 2.88
+        // ms if it takes at most eight times as long as the middle one.
         assert_eq!(of(4_000_000_000), (5, vec![65_536, 65_536, 256]));
         assert_eq!(of(24_000_000), (5, vec![65_536, 65_536, 256]));
         assert_eq!(of(12_000_000), (2, vec![65_536, 65_536, 256]));
         assert_eq!(of(2_700_000), (1, vec![65_536, 65_536, 64]));
         assert_eq!(of(1_000_000), (1, vec![16_384, 4096, 64]));
-        // Without a limit for slow cases, samples are left out first and all rays stay.
+        // Without a limit for slow cases, samples are reduced first and all rays stay.
         let patient = SamplePlan { slowest: f64::INFINITY, budget_ns: 1_000_000_000, ..PLAN };
         assert_eq!(rays(&cases(&[10, 15, 10_000]), &patient), (1, vec![65_536; 3]));
-        // At least one ray is always left.
+        // At least one ray always remains.
         assert_eq!(of(1), (1, vec![rays_at(65_536, last_level(65_536)); 3]));
         assert!(allot(&[], &PLAN).levels.is_empty());
     }

@@ -1,4 +1,4 @@
-//! One structure in a process of its own that traces one workload.
+//! One structure in a separate process that traces one workload.
 
 use std::borrow::Cow;
 use std::cell::RefCell;
@@ -10,18 +10,18 @@ use super::{Stopwatch, Timed};
 use crate::accel::{DynAccel, Loaded, Query, Remote};
 use crate::geometry::Ray;
 
-/// Why a pass failed, once it has.
+/// The reason why a pass failed, once it has failed.
 pub type Failure = Rc<RefCell<Option<String>>>;
 
-/// As [`Pass`](super::Pass), for a structure that is [`Remote`]: it receives all rays of a level at once, since each
-/// request takes time, and reports its own time. A failure is kept and does not end the run.
+/// Like [`Pass`](super::Pass), for a [`Remote`] structure: it receives all rays of a level at once, because each
+/// request takes time, and reports its own time. A failure is stored and does not end the run.
 pub struct RemotePass<'a> {
     accel: &'a dyn DynAccel,
     remote: &'a dyn Remote,
     all: &'a [Ray],
-    /// One for each level.
+    /// One per level.
     batches: Vec<RayBatch<'a>>,
-    /// The last rays of the workload, an eighth of those that are timed.
+    /// The last rays of the workload, an eighth of the timed rays.
     lead_in: Option<RayBatch<'a>>,
     results: QueryResults,
     lead_in_results: QueryResults,
@@ -37,11 +37,11 @@ struct RayBatch<'a> {
     count: usize,
 }
 
-/// The lead-in has one in so many of the timed rays.
+/// The lead-in has this fraction, 1 / 8, of the timed rays.
 const LEAD_IN_SHARE: usize = 8;
 
 impl<'a> RemotePass<'a> {
-    /// A pass over all rays, and a place for the reason if it fails.
+    /// A pass over all rays, and the place of its failure.
     ///
     /// # Panics
     /// If there are no rays.
@@ -98,7 +98,7 @@ impl Timed for RemotePass<'_> {
     }
 
     fn lead_in(&mut self) {
-        // Where only a part of the rays is timed, their tiles lie far from the rays of the lead-in: trace them once
+        // If only a subset of the rays is timed, its tiles lie far from the rays of the lead-in: trace them once
         // instead.
         if !self.is_warm && !self.has_failed() {
             let batch = &self.batches[0];
@@ -113,7 +113,7 @@ impl Timed for RemotePass<'_> {
 
     fn run(&mut self, _: &Stopwatch) -> Vec<u64> {
         let mut ns = vec![0; self.batches.len()];
-        // The first level goes last, so that its results stay.
+        // The first level is last because its results must stay.
         for (batch, ns) in self.batches.iter().zip(&mut ns).rev() {
             if self.has_failed() {
                 break;

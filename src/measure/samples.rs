@@ -3,16 +3,16 @@
 use super::tiles::{last_level, level_of, rays_at};
 use super::{Clock, RandomOrder, Stopwatch};
 
-/// Something to time: a workload of which a part can be timed.
+/// A unit of timing: a workload with subsets that can be timed.
 pub trait Timed {
     /// Rays of the workload, at least 1.
     fn rays(&self) -> usize;
 
-    /// Sets the rays of later passes: those of the first of `levels`. The rays of the other levels are a part of them
-    /// and are timed in the same pass. [`tiles`](super::tiles::tiles) says which rays these are. Not timed.
+    /// Selects the rays of later passes: the rays of the first of `levels`. The rays of the other levels are subsets of
+    /// them and are timed in the same pass. [`tiles`](super::tiles::tiles) selects the rays of a level. Not timed.
     fn choose(&mut self, levels: &[usize], epoch: usize);
 
-    /// Overwrites all results, so that a pass that does nothing is detected. Called before every pass. Not timed.
+    /// Overwrites all results: a pass that does nothing is then detected. Called before every pass. Not timed.
     fn clear(&mut self);
 
     /// Warms caches and branch predictors for this case. Called before a pass whose time is kept. Not timed.
@@ -28,18 +28,18 @@ pub trait Timed {
     fn contradicts_itself(&self) -> bool;
 }
 
-/// How samples are taken.
+/// The plan of an epoch's samples.
 #[derive(Clone, Copy, Debug)]
 pub struct SamplePlan {
     /// Samples per case and epoch, at least 1; fewer if the budget runs out.
     pub runs: usize,
-    /// Time for the samples of all cases in an epoch, nanoseconds. If it is too short, fewer samples are taken; if it
-    /// is too short for one sample of each case, cases are timed on a part of their rays, the slowest first.
+    /// Time for the samples of all cases in an epoch, ns. If it is too short, fewer samples are taken; if it is too
+    /// short for one sample of each case, cases are timed on a subset of their rays, the slowest first.
     pub budget_ns: u64,
-    /// A case that takes more than this multiple of the median case is timed on fewer rays, whatever the budget;
-    /// infinite to set no limit.
+    /// A case that takes more than this multiple of the median case is timed on fewer rays, for any budget; infinite
+    /// for no limit.
     pub slowest: f64,
-    /// The most rays of a sample.
+    /// The maximum number of rays of a sample.
     pub most_rays: usize,
     /// Seed of the order.
     pub seed: u64,
@@ -50,36 +50,37 @@ pub struct SamplePlan {
 /// The samples of one case.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Samples {
-    /// Rays of a sample: fewer than the case has if it is slow.
+    /// Rays of a sample; fewer than the case has if it is slow.
     pub rays: usize,
-    /// The level of the rays that [`checksum`](Self::checksum) covers, where they are not the rays of the samples. They
-    /// are those of the first epoch.
+    /// The level of the rays of [`checksum`](Self::checksum), if they are not the rays of the samples. They are rays of
+    /// epoch 0.
     pub asked: Option<usize>,
     /// The checksum of the results; it is the same in all epochs.
     pub checksum: u64,
-    /// The checksum of the results on the rays of the samples, which differ between epochs unless they are all rays.
+    /// The checksum of the results on the rays of the samples; these rays differ between epochs unless all rays are
+    /// timed.
     pub timed_checksum: u64,
-    /// Nanoseconds of each sample, in the order of the rounds: those of two cases with the same index are a pair.
+    /// Time of each sample, ns, in the order of the rounds: samples of two cases with the same index are a pair.
     pub ns: Vec<u64>,
-    /// The same samples for a part of their rays, to compare with slower cases that are timed on that part only.
+    /// The same samples, restricted to a subset of their rays, for comparison with slower cases.
     pub parts: Vec<SubsetSamples>,
     /// Whether the same rays had the same results every time.
     pub is_steady: bool,
 }
 
-/// A part of the samples of a case.
+/// The samples of a case on a subset of its rays.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SubsetSamples {
-    /// Rays of the part.
+    /// Rays of the subset.
     pub rays: usize,
-    /// Nanoseconds of the part in each sample.
+    /// Time of the subset in each sample, ns.
     pub ns: Vec<u64>,
 }
 
 impl Samples {
     /// No samples yet of a case with `all` rays that is timed at `level`. Each epoch draws its own tiles, so their
-    /// results cannot be compared between epochs: a sixteenth of the tiles of the first epoch is traced for that.
+    /// results cannot be compared between epochs: a sixteenth of the tiles of epoch 0 is traced for that purpose.
     pub fn none(all: usize, level: usize) -> Self {
         let asked = (level > 0).then(|| (level + 2).min(last_level(all)));
         Self {
@@ -96,12 +97,12 @@ impl Samples {
 
 /// Takes the samples of one epoch: `plan.runs` of every case, each case once per round, in random order.
 ///
-/// Cases with the same number in `compared` are compared with each other and follow one another within a round, so that
-/// a disturbance of some length hits all of them. `samples` say how many rays each case is timed on. A case that is not
-/// steady is not run again. `progress` receives the number of samples so far, including those left out.
+/// Cases with the same number in `compared` are compared with each other and follow one another within a round: a long
+/// disturbance then affects all of them. `samples` contains the number of rays of each case. A case that is not steady
+/// is not run again. `progress` receives the number of samples so far, including those left out.
 ///
 /// # Panics
-/// If `samples` or `compared` differ in length from `cases`, or a number of rays is that of no level.
+/// If `samples` or `compared` differ in length from `cases`, or no level has the number of rays.
 pub fn take(
     clock: &dyn Clock,
     cases: &mut [Box<dyn Timed + '_>],
@@ -151,7 +152,7 @@ pub fn take(
     }
 }
 
-/// The checksum of the rays that `case` is timed on in the first epoch at `level`.
+/// The checksum of the results on the rays that `case` has at `level` in epoch 0.
 fn checksum_at(watch: &Stopwatch, case: &mut dyn Timed, level: usize) -> u64 {
     case.choose(&[level], 0);
     case.clear();

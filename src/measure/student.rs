@@ -1,11 +1,10 @@
-//! Student's t distribution: the width of intervals and the significance of one difference or of many.
+//! Student's t distribution: the width of intervals and the significance of one or many differences.
 
 use std::cell::Cell;
 
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
-/// The probability that an interval does not contain the value, for one interval or for all that are judged together: 5
-/// %.
+/// The probability that an interval, or any of the intervals judged together, does not contain the value: 5 %.
 pub const LEVEL: f64 = 0.05;
 
 /// The half-width of an interval that misses with probability `level`, in standard errors with `freedom` degrees of
@@ -29,9 +28,9 @@ pub fn factor(freedom: f64, level: f64) -> f64 {
     factor
 }
 
-/// The t that is exceeded in magnitude with probability `level`; of many degrees of freedom by the series of Cornish and
-/// Fisher (Abramowitz, Stegun, "Handbook of mathematical functions", 1964, 26.7.5), because `statrs` is off by 3e-6 at
-/// 10^5 and does not end at 10^8. Its relative error is below 1e-10.
+/// The t that is exceeded in magnitude with probability `level`. For many degrees of freedom it uses the series of
+/// Cornish and Fisher (Abramowitz, Stegun, "Handbook of mathematical functions", 1964, 26.7.5), because `statrs` is
+/// wrong by 3e-6 at 10^5 and does not return at 10^8. Its relative error is below 1e-10.
 fn quantile(freedom: f64, level: f64) -> f64 {
     const MANY: f64 = 1000.0;
     if freedom <= MANY {
@@ -54,7 +53,7 @@ mod tests {
 
     #[test]
     fn the_factors_are_students() {
-        // By bisection of the incomplete beta function in 30 digits.
+        // Computed by bisection of the incomplete beta function in 30 digits.
         let computed = [
             (1.0, 0.05, 12.7062047361747),
             (1.0, 1e-6, 636619.7723670577),

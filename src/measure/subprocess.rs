@@ -1,4 +1,4 @@
-//! This program, run again in a process of its own, for a limited time.
+//! Runs this program again in a separate process, for a limited time.
 
 use std::ffi::OsStr;
 use std::io::{self, Read};
@@ -15,8 +15,8 @@ pub fn same_program(args: impl IntoIterator<Item: AsRef<OsStr>>) -> Command {
     command
 }
 
-/// What a program wrote and how it ended; nothing if it took longer than `limit`: then it was killed, with all that it had
-/// started.
+/// The output and exit status of a program; `None` if it took longer than `limit`: then it was killed, together with
+/// all programs that it had started.
 ///
 /// # Errors
 /// If it cannot be started or waited for.

@@ -1,6 +1,6 @@
 //! Summaries of many samples. Pure functions.
 
-/// The median of `values`, the mean of the middle two if their number is even; none if there are no values.
+/// The median of `values`, the mean of the middle two if their number is even; `None` without values.
 ///
 /// # Panics
 /// If a value is NaN.

@@ -19,12 +19,12 @@ impl Threads {
     /// Threads that run on any core.
     ///
     /// # Errors
-    /// If the system does not give that many threads.
+    /// If the system does not provide that many threads.
     pub fn new(count: usize) -> Result<Self, String> {
         Self::on(count, None).started()
     }
 
-    /// Threads for measurements: each is bound to its own core where the system allows it and has enough cores.
+    /// Threads for measurements: each is bound to its own core if the system allows it and has enough cores.
     ///
     /// # Errors
     /// As [`Threads::new`].
@@ -32,8 +32,8 @@ impl Threads {
         Self::unstarted(count).started()
     }
 
-    /// As [`Threads::pinned`], but the threads start with their first work. Where they may have none, their start would
-    /// only disturb the thread that is timed.
+    /// Like [`Threads::pinned`], but the threads start with their first work: if they have none, starting them would
+    /// only disturb the timed thread.
     pub fn unstarted(count: usize) -> Self {
         Self::on(count, pin::choose(count))
     }
@@ -62,8 +62,8 @@ impl Threads {
         })
     }
 
-    /// Checks before a long run whether the system gives this many threads: starts and ends them, unless they run
-    /// already.
+    /// Checks before a long run whether the system provides this many threads: starts and ends them, unless they
+    /// already run.
     ///
     /// # Errors
     /// As [`Threads::new`].
@@ -71,12 +71,12 @@ impl Threads {
         if self.pool.get().is_some() { Ok(()) } else { self.start().map(drop) }
     }
 
-    /// The core of each thread; none if they are not bound.
+    /// The core of each thread; `None` if they are not bound.
     pub fn cores(&self) -> Option<&[usize]> {
         self.cores.as_deref()
     }
 
-    /// Binds the calling thread until the guard is dropped; with one thread it is the caller that traces. None if these
+    /// Binds the calling thread until the guard is dropped; with one thread the caller itself traces. `None` if these
     /// threads are not bound.
     pub fn pin(&self) -> Option<Pin> {
         if self.count == 1 { Pin::to(*self.cores.as_ref()?.first()?) } else { None }
@@ -86,10 +86,10 @@ impl Threads {
         self.count
     }
 
-    /// Runs `work` on these threads, with all parallel iterators in it.
+    /// Runs `work` on these threads, including all parallel iterators in it.
     ///
     /// # Panics
-    /// If they are [unstarted](Self::unstarted) and the system does not give that many.
+    /// If they are [unstarted](Self::unstarted) and the system does not provide that many.
     pub fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
         let start = || self.start().unwrap_or_else(|cause| panic!("{cause}"));
         self.pool.get_or_init(start).install(work)

@@ -1,12 +1,12 @@
-//! Which rays of a workload are timed if there is no time for all of them.
+//! Selects the rays of a workload that are timed if there is no time for all of them.
 //!
-//! A workload goes through its picture block by block ([`crate::scene::WorkloadKind`]), so that a tile of neighbouring
-//! rays is a block of pixels. A smaller sample consists of whole tiles that are spread over the workload, not of single
-//! rays, whose caches would be colder than those of a picture. Each epoch draws its own tiles: how much the tiles
-//! differ from the picture is then part of the spread between epochs, and so of every interval.
+//! A workload lists the rays of its picture block by block ([`crate::scene::WorkloadKind`]): a tile of neighbouring
+//! rays is a block of pixels. A smaller sample consists of whole tiles spread over the workload, not of single rays,
+//! whose caches would be colder than in a picture. Each epoch draws its own tiles: the difference between tiles and
+//! picture is then part of the spread between epochs, and so of every interval.
 //!
-//! Levels are nested: the rays of a level are about a quarter of the rays of the level before it. So a structure that
-//! is timed on all rays is also timed on the rays of a structure that is not.
+//! Levels are nested: a level has about a quarter of the rays of the level before it, all from that level. So a
+//! structure that is timed on all rays is also timed on the rays of a structure that is not.
 
 use std::ops::Range;
 
@@ -15,16 +15,17 @@ use super::RandomOrder;
 /// Rays of a tile at the first levels: a block of 32 by 32 pixels.
 pub const TILE: usize = 1024;
 
-/// A level has at least so many tiles if the one before it has; smaller levels have smaller tiles instead.
+/// The minimum number of tiles of a level if the level before it has as many; smaller levels have smaller tiles
+/// instead.
 const FEWEST: usize = 64;
 
-/// The parts of `rays` rays that are timed at `level` in `epoch`, in order, none of them empty. At level 0 they are all
-/// rays.
+/// The index ranges of the rays that are timed at `level` in `epoch`, of `rays` rays: in order, none of them empty.
+/// Level 0 contains all rays.
 pub fn tiles(rays: usize, level: usize, epoch: usize) -> Vec<Range<usize>> {
     if level == 0 {
         return (0..rays).step_by(TILE).map(|first| first..(first + TILE).min(rays)).collect();
     }
-    // Only whole tiles, so that a level has the same number of rays in every epoch.
+    // Use only whole tiles: a level then has the same number of rays in every epoch.
     let mut tiles: Vec<Range<usize>> = match rays / TILE {
         0 => std::iter::once(0..rays).collect(),
         whole => (0..whole).map(|i| i * TILE..(i + 1) * TILE).collect(),
@@ -51,17 +52,17 @@ fn shrunk(tiles: &[Range<usize>], random: &mut RandomOrder) -> Vec<Range<usize>>
     tiles.iter().map(quarter).collect()
 }
 
-/// Rays that are timed at `level` of `rays`.
+/// The number of rays that are timed at `level`, of `rays` rays.
 pub fn rays_at(rays: usize, level: usize) -> usize {
     tiles(rays, level, 0).iter().map(Range::len).sum()
 }
 
-/// The first level of `rays` that has no more than `most` rays; the last one where all have more.
+/// The first level of `rays` with at most `most` rays; the last one if all have more.
 pub fn level_within(rays: usize, most: usize) -> usize {
     (0..last_level(rays)).find(|&level| rays_at(rays, level) <= most).unwrap_or(last_level(rays))
 }
 
-/// The level at which `part` of `rays` rays are timed; none if there is no such level.
+/// The level at which `part` of `rays` rays are timed; `None` if there is no such level.
 pub fn level_of(rays: usize, part: usize) -> Option<usize> {
     let level = level_within(rays, part);
     (rays_at(rays, level) == part).then_some(level)

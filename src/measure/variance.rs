@@ -1,6 +1,6 @@
-//! Variances, and how they add up.
+//! Variances and their sums.
 
-/// A variance, and how well it is known.
+/// A variance with its degrees of freedom.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Variance {
     /// At least 0.
@@ -13,7 +13,7 @@ impl Variance {
     /// The variance of a constant.
     pub const NONE: Self = Self { square: 0.0, freedom: f64::INFINITY };
 
-    /// The variance of the mean of `values`; none of fewer than two.
+    /// The variance of the mean of `values`; `None` with fewer than two values.
     pub fn of_mean(values: &[f64]) -> Option<Self> {
         let (n, centre) = (values.len() as f64, mean(values));
         let squares: f64 = values.iter().map(|v| (v - centre) * (v - centre)).sum();

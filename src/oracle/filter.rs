@@ -8,8 +8,7 @@
 //! and 2^129 in magnitude. Every rounded product of two is a multiple of 2^-350 (it is at least 2^-298, and has 53
 //! bits), and so is the difference of two such products, which hence is 0 or at least 2^-350; times a third component,
 //! at least 2^-499. Everything is below 2^(129 + 129 + 129 + 3) = 2^390. All of this is far from the ends of `f64`,
-//! 2^-1022 and 2^1024, so that every operation has a relative error of at most `u`, and a product is 0 only if a factor
-//! is.
+//! 2^-1022 and 2^1024: every operation has a relative error of at most `u`, and a product is 0 only if a factor is.
 //!
 //! *A triple product* `x . (y z)` is the sum of six terms `x_i y_j z_k`. On its way into the sum, a term is multiplied
 //! by at most eight factors (1 + e): one a component for its subtraction (3), the two products (2), the difference of
@@ -29,10 +28,10 @@ use crate::geometry::Ray;
 /// 16 u.
 const BOUND: f64 = 16.0 / (1u64 << 53) as f64;
 
-/// 8 u, relative: more than four roundings can do.
+/// 8 u, relative: more than the error of four roundings.
 const OUTWARD: f64 = 8.0 / (1u64 << 53) as f64;
 
-/// What the filter proves about a ray and a triangle.
+/// The filter's proof about a ray and a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Proof {
     Missed,
@@ -109,7 +108,7 @@ pub fn classify(ray: &Ray, corners: [Vec3; 3]) -> Proof {
     }
     let known = sides.iter().all(|s| s.is_known());
 
-    // Compute the edges from the corners themselves, so that each component has one rounding.
+    // Compute the edges from the corners themselves: each component then has one rounding.
     let (e1, e2) = (corners[1] - corners[0], corners[2] - corners[0]);
     let whole = TripleProduct::of(direction, e1, e2);
     if whole.is_zero() {
@@ -141,7 +140,7 @@ mod tests {
     use crate::exact;
     use crate::oracle::tests::Numbers;
 
-    /// Checks the proof of the filter against exact sums; returns whether there is a hit, or none if the filter is
+    /// Checks the proof of the filter against exact sums; returns whether there is a hit, or `None` if the filter is
     /// undecided.
     fn is_confirmed(ray: &Ray, corners: [Vec3; 3]) -> Option<bool> {
         let truth = exact::hit(ray, corners);
@@ -198,7 +197,7 @@ mod tests {
     fn a_span_that_is_narrow_is_rounded() {
         assert_eq!(Span::outward(0.1, 0.1).rounded(), Some(0.1));
         assert_eq!(Span::outward(-0.0, 0.0).rounded().map(f32::to_bits), Some(0));
-        // Half way between two floats.
+        // Halfway between two floats.
         let half = 1.0 + f64::from(f32::EPSILON) * 0.5;
         assert_eq!(Span::outward(half, half).rounded(), None);
         assert_eq!(Span::outward(1e39, 1e40).rounded(), Some(f32::INFINITY));

@@ -18,7 +18,7 @@ pub use truth::Truth;
 /// Finds the exact hits of rays in one mesh, in some microseconds per ray.
 ///
 /// It has three stages: a tree of boxes that loses no hit, `f64` arithmetic with a proven error bound, and exact sums
-/// of floats ([`exact`](crate::exact)) where that bound does not decide. It shares these sums with the triangle test
+/// of floats ([`exact`](crate::exact)) if that bound does not decide. It shares these sums with the triangle test
 /// [`Exact`](crate::triangle::Exact), and no other code with the structures and tests that it checks. The tests compare
 /// both with `exact::rational`.
 pub struct Oracle {
@@ -35,7 +35,7 @@ impl Oracle {
     /// The exact nearest hit of `ray` in its half-open interval, on closed triangles, with all triangles that are hit
     /// there.
     ///
-    /// None for a ray that is not valid. A ray in the plane of a triangle misses it.
+    /// `None` for a ray that is not valid. A ray in the plane of a triangle misses it.
     pub fn nearest(&self, ray: &Ray) -> Option<Truth> {
         if !ray.is_valid() {
             return None;

@@ -21,7 +21,7 @@ pub struct NearestSearch<'a> {
 struct NearestHit {
     corners: [Vec3; 3],
     span: Span,
-    /// The exact `t`; computed when it is needed.
+    /// The exact `t`; computed on demand.
     t: Option<ExactT>,
     ids: Vec<u32>,
 }
@@ -88,7 +88,7 @@ impl Visitor for NearestSearch<'_> {
 }
 
 impl NearestHit {
-    /// Computes `t` exactly, if that has not been done.
+    /// Computes `t` exactly, unless that is already done.
     fn compute_t(&mut self, ray: &Ray) {
         if self.t.is_none() {
             self.t = exact::hit(ray, self.corners);
@@ -96,7 +96,7 @@ impl NearestHit {
         }
     }
 
-    /// The exact order of two hits of one ray: by their spans where these are disjoint, otherwise by exact `t`.
+    /// The exact order of two hits of one ray: by their spans if these are disjoint, otherwise by exact `t`.
     fn compare(&mut self, other: &mut Self, ray: &Ray) -> Ordering {
         if self.span.high < other.span.low {
             return Ordering::Less;

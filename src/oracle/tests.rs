@@ -16,7 +16,7 @@ pub struct Numbers {
 enum Kind {
     /// Even in [-1, 1], times a power of two; denormals are coarse.
     Scaled(f32),
-    /// Integers from -2 to 2: much is equal, nothing is rounded.
+    /// Integers from -2 to 2: many are equal, nothing is rounded.
     Grid,
     /// Any finite float, both zeros included.
     Bits,
@@ -87,8 +87,8 @@ fn rational_arithmetic_agrees() {
     assert!(hits > 40, "{hits}");
 }
 
-/// In a closed mesh whose corners are on a grid, along the axes: `t` is known, through faces, edges, vertices, and in
-/// the planes of sides.
+/// In a closed mesh with corners on a grid, along the axes: `t` is known, through faces, edges, vertices, and in the
+/// planes of sides.
 #[test]
 fn rays_in_a_cube_hit_the_far_side_where_they_must() {
     let mesh = box_grid(4);
@@ -98,7 +98,7 @@ fn rays_in_a_cube_hit_the_far_side_where_they_must() {
         for zero in [0.0, -0.0] {
             let truth = oracle.nearest(&Ray::new(Vec3::new(x, y, 0.25), Vec3::new(zero, zero, -0.5))).expect("closed");
             assert_eq!(truth.rounded(), 2.5);
-            // Vertices of the grid within a side have six triangles, or four or eight fewer at the rim.
+            // Vertices of the grid within a side have four, six or eight triangles, and fewer at the rim.
             let through = |c: f32| (c * 2.0).fract() == 0.0;
             let inside = x.abs() < 1.0 && y.abs() < 1.0;
             match (through(x), through(y)) {

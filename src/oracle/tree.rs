@@ -6,13 +6,13 @@
 //! convex.
 //!
 //! Let a ray hit a triangle at the exact `t`. For each axis, the coordinate `o + t d` is in the slab `[low, high]` of
-//! each of those boxes. If `d` is 0, of either sign, then `o` is in it, and the comparison of the two floats says so
-//! exactly. If not, `t` is between `(low - o) / d` and `(high - o) / d`. Each is computed in `f64` with one rounding
-//! for the difference and one for the quotient: both are exactly 0 or in magnitude between 2^-149 / 2^128 and 2^129 /
-//! 2^-149, where nothing overflows or underflows. They are moved outward by four times what these two roundings can do.
-//! So the interval of a node, the intersection of the three slabs and of `[t_min, bound]`, contains `t` whenever `bound
-//! >= t`. A node is passed over only if its interval is empty: if nothing in it is hit in the interval of the ray, or
-//! only behind the bound, which is never less than the exact `t` of a hit that has been found.
+//! each of those boxes. If `d` is 0, of either sign, then `o` is in it, and the comparison of the two floats decides
+//! this exactly. If not, `t` is between `(low - o) / d` and `(high - o) / d`. Each is computed in `f64` with one
+//! rounding for the difference and one for the quotient: both are exactly 0 or in magnitude between 2^-149 / 2^128 and
+//! 2^129 / 2^-149, where nothing overflows or underflows. They are moved outward by four times the error of these two
+//! roundings. So the interval of a node, the intersection of the three slabs and of `[t_min, bound]`, contains `t`
+//! whenever `bound >= t`. A node is skipped only if its interval is empty: if the ray hits nothing in it within the
+//! ray's interval, or only behind the bound, which is never less than the exact `t` of a hit that has been found.
 
 use super::filter::Span;
 use crate::geometry::{Aabb, Mesh, Ray};
@@ -43,7 +43,7 @@ enum NodeKind {
 
 const LEAF: usize = 4;
 
-/// The most nodes on the stack: one for each level, and 2^30 triangles halved 28 times fit in a leaf.
+/// The maximum number of nodes on the stack: one per level, and 2^30 triangles halved 28 times fit in a leaf.
 const STACK: usize = 32;
 
 /// Tests the triangles that the ray may hit.
@@ -124,7 +124,7 @@ impl Tree {
     }
 }
 
-/// A lower bound of the `t` in [`t_min`, `bound`] at which `ray` is in the box; none if it provably never is.
+/// A lower bound of the `t` in [`t_min`, `bound`] at which `ray` is in the box; `None` if it provably never is.
 fn near(ray: &Ray, bounds: &Aabb, bound: f64) -> Option<f64> {
     let (mut near, mut far) = (f64::from(ray.interval().0), bound);
     let Ray { origin, direction, .. } = ray;

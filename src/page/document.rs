@@ -1,4 +1,4 @@
-//! What a page says, before it has a form: the answer, and sections of text, tables and figures.
+//! The content of a page, independent of its format: the answer, and sections of text, tables and figures.
 
 use crate::report::plot::Chart;
 use crate::report::{Block, Figure, Missing};
@@ -10,37 +10,37 @@ pub struct Document {
     pub sections: Vec<Section>,
 }
 
-/// What a reader must know who reads nothing else.
+/// The summary for readers of nothing else.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Answer {
-    /// What a reader must know before the verdict; empty where there is nothing.
+    /// A warning above the verdict; may be empty.
     pub banner: String,
     /// One or two words.
     pub verdict: String,
-    /// The sentences that say why, the most important first.
+    /// The sentences that support the verdict, most important first.
     pub sentences: Vec<String>,
     pub numbers: Vec<Headline>,
-    /// The same as a picture, with intervals; nothing where there are none.
+    /// The same as a chart, with intervals; `None` without intervals.
     pub chart: Option<Chart>,
 }
 
-/// A number that stands for itself.
+/// A single number of the summary.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Headline {
-    /// As large as it is important: `20.6 ×`.
+    /// Printed in large type: `20.6 ×`.
     pub number: String,
-    /// Its interval, or nothing.
+    /// Its interval; may be empty.
     pub interval: String,
     pub label: String,
 }
 
-/// A part of a report with a heading of its own.
+/// A part of a report with its heading.
 #[derive(Clone, Debug, Default)]
 pub struct Section {
-    /// Letters, digits and hyphens; no two sections share one.
+    /// Letters, digits and hyphens; unique among the sections.
     pub id: &'static str,
     pub title: &'static str,
-    /// The commands that made it, a line each; empty where there is none.
+    /// The commands that made it, one per line; may be empty.
     pub command: String,
     pub blocks: Vec<Block>,
 }

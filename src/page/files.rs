@@ -7,7 +7,7 @@ use super::runs::Runs;
 use crate::report::plot::WIDTH;
 use crate::report::{Art, Figure, csv};
 
-/// Paths in the folder of a report, and what is there.
+/// The paths in the folder of a report, and the contents of the files.
 pub fn files(document: &Document, runs: &Runs) -> Vec<(String, Vec<u8>)> {
     let mut files = vec![
         ("index.html".to_owned(), page(document).into_bytes()),

@@ -1,7 +1,7 @@
-//! `report`: what runs have measured as a page, Markdown and tidy data.
+//! `report`: the measurements of runs as a page, Markdown and tidy data.
 //!
-//! Each study makes its [`Report`](crate::report::Report) of what was measured; a [`Document`] frames the reports, and
-//! every form is written from that. What no run has measured is named with its command.
+//! Each study makes its [`Report`](crate::report::Report) from its measurements; a [`Document`] frames the reports, and
+//! all formats are written from it. Missing measurements are listed with their commands.
 
 mod document;
 mod files;

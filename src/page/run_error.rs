@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use crate::escaped::Escaped as _;
 use crate::study::journal::JournalError;
 
-/// Why runs cannot be read.
+/// The reason why runs cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
     #[error("{} is JSON, but not a run of sahara: name files of `--export-json` or of a study", path.escaped())]

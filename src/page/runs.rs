@@ -1,4 +1,4 @@
-//! Reads measured cases from journals and exports. The content of a file, not its name, decides which it is.
+//! Reads measured cases from journals and exports. The content of a file determines its kind, not the name.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -17,16 +17,16 @@ use crate::study::{Dataset, Studies, Study};
 /// The study that compares all structures.
 pub const COMPARE: &str = "compare";
 
-/// Everything that a page is made of.
+/// The measurements of a page.
 #[derive(Default)]
 pub struct Runs<'a> {
-    /// What was measured of each study, in the order of the studies; those that were not measured are not there.
+    /// The measured studies, in the order of the studies.
     pub studies: Vec<StudyRun<'a>>,
-    /// What is missing, or left out, a sentence each.
+    /// Missing or omitted measurements, one sentence each.
     pub notes: Vec<String>,
 }
 
-/// What was measured of a study, and what it says of that.
+/// The measurements of a study and its report on them.
 pub struct StudyRun<'a> {
     pub study: &'a Study,
     /// The dataset shown: the one with the most cases if there are several settings, builds or machines.
@@ -36,8 +36,8 @@ pub struct StudyRun<'a> {
 }
 
 impl<'a> Runs<'a> {
-    /// Reads files and folders: of a folder, all `.json` files in it and in its journals. An export counts as the cases
-    /// it holds; if a case was measured several times, the last one counts.
+    /// Reads files and folders: from a folder, all `.json` files in it and in its journals. An export counts as its
+    /// cases; if a case was measured several times, the newest one counts.
     pub fn read(paths: &[PathBuf], studies: &'a Studies) -> Result<Self, RunError> {
         let mut runs = Self::default();
         let mut cases = vec![];
@@ -53,7 +53,7 @@ impl<'a> Runs<'a> {
                         runs.notes.extend(notes);
                         cases.extend(own);
                     }
-                    // A folder may hold what others have written.
+                    // A folder may contain files of other programs.
                     Err(RunError::Foreign { .. } | RunError::Unknown { .. }) if is_folder => {
                         runs.notes.push(format!("{} is not a run: ignored.", file.escaped()));
                     }
@@ -74,7 +74,7 @@ impl<'a> Runs<'a> {
         Ok(runs)
     }
 
-    /// Adds what was measured of a study, and has it report.
+    /// Adds the measurements of a study, with its report.
     fn add(&mut self, study: &'a Study, datasets: Vec<Dataset>) {
         let notes = datasets.iter().flat_map(|dataset| &dataset.notes);
         self.notes.extend(notes.map(|note| format!("{}: {note}", study.name)));
@@ -89,7 +89,7 @@ impl<'a> Runs<'a> {
         self.studies.iter().find(|run| run.study.name == study)
     }
 
-    /// Where the numbers that are shown come from.
+    /// The provenances of the shown numbers.
     pub fn provenances(&self) -> Vec<&Provenance> {
         self.studies.iter().map(|run| &run.dataset.provenance).collect()
     }
@@ -98,7 +98,7 @@ impl<'a> Runs<'a> {
         each_once(self.studies.iter().flat_map(StudyRun::commands))
     }
 
-    /// Each scene of what is shown.
+    /// All shown scenes.
     pub fn scenes(&self) -> Vec<SceneRequest> {
         let measured = self.studies.iter().flat_map(|run| &run.dataset.measured);
         each_once(measured.map(|measured| measured.case.scene.clone()))
@@ -111,12 +111,12 @@ impl StudyRun<'_> {
     }
 }
 
-/// The scenes of a dataset as tables name them.
+/// The names of the scenes of a dataset in tables.
 pub fn scene_titles(dataset: &Dataset) -> Vec<String> {
     each_once(dataset.measured.iter().map(|measured| measured.case.scene_title()))
 }
 
-/// In one line what was measured and is not shown.
+/// The measurements that are not shown, in one line.
 pub fn also_measured(dataset: &Dataset) -> String {
     let Provenance { cpu, commit, date, .. } = &dataset.provenance;
     let commands: Vec<String> =
@@ -125,7 +125,7 @@ pub fn also_measured(dataset: &Dataset) -> String {
     format!("Measured but not shown: {scenes} on {cpu}, commit {commit}, {day} ({}).", listed(&commands))
 }
 
-/// The cases that the file `path` holds, and what is to be said of them.
+/// The cases in the file `path`, and notes on them.
 fn read(path: &Path, studies: &Studies) -> Result<(Vec<CaseFile>, Vec<String>), RunError> {
     let text = fs::read_to_string(path).map_err(|cause| JournalError::Read { path: path.into(), cause })?;
     let value: Value = serde_json::from_str(&text).map_err(|cause| JournalError::damaged(path, &cause))?;
@@ -154,7 +154,7 @@ fn read(path: &Path, studies: &Studies) -> Result<(Vec<CaseFile>, Vec<String>), 
     Ok((cases.collect(), notes))
 }
 
-/// The files of a folder that may be runs, by name: its own, and those of the journals in it.
+/// The files of a folder that may be runs, by name: the files in it and in its journals.
 fn folder(path: &Path, studies: &Studies) -> Result<Vec<PathBuf>, RunError> {
     let journals = studies.iter().map(|study| path.join(study.name)).filter(|journal| journal.is_dir());
     let files = std::iter::once(path.to_path_buf()).chain(journals).map(|folder| journal::files(&folder));

@@ -1,4 +1,4 @@
-//! What a page says must be true of the runs that it is made from, and it has the form that it ought to have.
+//! Checks that a page is true of its runs, and has the right format.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -24,7 +24,7 @@ fn forms(document: &Document) -> [String; 2] {
     [page(document), super::markdown::markdown(document)]
 }
 
-/// What a user may call a scene.
+/// A possible name of a scene.
 const EVIL: &str = "<script>alert(\"&'1'\")</script>";
 
 #[test]
@@ -36,10 +36,10 @@ fn what_users_name_is_text_in_every_form() {
     let files = files(&document, &runs);
     let (_, markdown) = files.iter().find(|(path, _)| path == "report.md").unwrap();
     assert!(!String::from_utf8(markdown.clone()).unwrap().replace("\\<", "").contains("<script>"));
-    // What a figure is called in the file system is no path.
+    // The name of a figure in the file system is not a path.
     assert!(files.iter().all(|(path, _)| !path.contains("..") && !path.contains(['<', '"', '&'])), "{files:?}");
 
-    // An inspector is data that no name can end.
+    // The data of an inspector cannot end its element.
     let json = page.split("<script type=\"application/json\">").nth(1).unwrap().split("</script>").next().unwrap();
     let data: serde_json::Value = serde_json::from_str(json).unwrap();
     assert_eq!(data["command"], format!("sahara validate {EVIL} --ray"));
@@ -77,7 +77,7 @@ fn every_figure_has_a_name_of_its_own_a_caption_and_words_for_those_who_do_not_s
     assert!(pictures > 0 && pictures == page.matches("<img src=\"data:image/png;base64,").count());
     let charts = figures.iter().filter(|figure| matches!(figure.art, Art::Chart(_)));
     assert_eq!(page.matches("aria-label=\"A picture\"").count(), charts.count());
-    // The command of a section stands there once, without the folder of the program; of what is folded both forms tell.
+    // A section has its command once, without the folder of the program; a fold has both forms.
     assert_eq!(page.matches("<code>sahara study compare --dir runs</code>").count(), 1);
     assert!(markdown.contains("```console\nsahara study compare --dir runs\n```"));
     assert!(page.contains("<summary>More</summary>") && markdown.contains("**More**"));
@@ -133,7 +133,7 @@ fn the_answer_goes_by_what_is_measured() {
             _ => panic!("the answer has no bars"),
         });
         assert_eq!(found, parts, "{studies:?}");
-        // What is asked ends with its own sign; what is missing is named with its command.
+        // A question ends with a question mark; missing measurements have a command.
         let missing: Vec<&str> = document.missing().iter().map(|missing| missing.command.as_str()).collect();
         assert_eq!(missing.len(), 3 - studies.len());
         for form in forms(&document) {
@@ -179,7 +179,7 @@ fn of_two_runs_the_newest_cases_count_and_what_is_not_shown_is_said() {
     let again: Files = journal("compare", &["Cube"], &new);
     let again = again.into_iter().map(|(name, text)| (name, String::from_utf8(text).unwrap().replace("8000", "8001")));
     let again: Files = again.map(|(name, text)| (name, text.into_bytes())).collect();
-    // What else lies beside three scenes; which scenes are shown and which are not, and what is noted.
+    // Other files beside three scenes; the shown and the hidden scenes, and the notes.
     type Case<'a> = (Files, &'a [&'a str], &'a [&'a str], &'a str);
     let cases: [Case; 6] = [
         (export("compare", &three, &old), &three, &[], ""),
@@ -191,7 +191,7 @@ fn of_two_runs_the_newest_cases_count_and_what_is_not_shown_is_said() {
     ];
     for (beside, shown, others, note) in cases {
         let [one, other] = [&journal("compare", &three, &old), &beside].map(|files| folder(files));
-        // In whatever order they are named.
+        // In any order of the arguments.
         for order in [[&one, &other], [&other, &one]] {
             let runs = Runs::read(&order.map(|folder| folder.path().to_path_buf()), &STUDIES).unwrap();
             let run = runs.of("compare").unwrap();

@@ -1,4 +1,4 @@
-//! The structures of this crate, and those of obvhs.
+//! The structures of this crate and of obvhs.
 
 use super::Registry;
 use crate::brute_force::{BruteForce, BruteForceConfig};

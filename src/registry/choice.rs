@@ -12,13 +12,13 @@ use crate::validate::conformance::Subject;
 #[derive(Clone)]
 pub struct Choice {
     pub entry: Entry,
-    /// The whole configuration, defaults included.
+    /// The whole configuration, including defaults.
     pub config: Value,
     /// `name`, or `name:key=value,..` with the values that differ from the default.
     pub label: String,
 }
 
-/// Why a choice of structure is rejected.
+/// The reason why a choice of structure is rejected.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ChoiceError {
     #[error("there is no structure {name:?}{suggestion}; the structures are: {known}")]
@@ -37,15 +37,17 @@ pub enum ChoiceError {
     Config { name: String, reason: String },
 }
 
-/// Values that keys took in earlier versions, and what to use now.
+/// Values of keys in earlier versions, and their replacements.
 const REMOVED: [(&str, &str, &str); 1] =
     [("batch", "interleaved", "batch=packets, which interleaves the rays outside packets")];
 
 impl Choice {
-    /// `entry` with values of some keys; `name_test` where its name alone would be that of another entry.
+    /// `entry` with values of some keys. `name_test`: the label includes the triangle test, because the name alone
+    /// belongs to another entry.
     ///
     /// # Errors
-    /// If a key is not known, or a value does not fit.
+    /// If a key is unknown, or a value does not fit.
+    /// If a key is unknown, or a value does not fit.
     pub(super) fn of(entry: &Entry, overrides: &[(&str, &str)], name_test: bool) -> Result<Self, ChoiceError> {
         let mut config = entry.config.clone();
         let keys = config.as_object_mut().expect("checked when it was registered");

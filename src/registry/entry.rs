@@ -18,7 +18,8 @@ pub struct Entry {
     pub conventions: &'static [&'static str],
     /// [`Accel::CAPABILITIES`](crate::accel::Accel::CAPABILITIES).
     pub capabilities: Capabilities,
-    /// Whether it comes with this crate, as obvhs and the peers do: what a crate of its own registers does not.
+    /// Whether it comes with this crate, such as obvhs and the peers; false for structures that another crate
+    /// registers.
     pub is_builtin: bool,
     pub(super) config: Value,
     /// Checks whether a configuration can be parsed; its values may still contradict each other.
@@ -36,7 +37,7 @@ impl Entry {
         &self.config
     }
 
-    /// Why the structure cannot run on this system; none if it can.
+    /// The reason why the structure cannot run on this system; `None` if it can.
     pub fn absence(&self) -> Option<String> {
         match (self.build)(&Arc::new(empty()), &self.config) {
             Err(BuildError::Unavailable(sentence)) => Some(sentence),
@@ -44,7 +45,7 @@ impl Entry {
         }
     }
 
-    /// Whether a key accepts a value, whatever the other values are; the error is the parser's.
+    /// Whether a key accepts a value, for any other values; the error is the parser's.
     pub(super) fn takes(&self, key: &str, value: &Value) -> Result<(), String> {
         let mut config = self.config.clone();
         config[key] = value.clone();
@@ -52,7 +53,7 @@ impl Entry {
     }
 }
 
-/// The mesh on which a configuration is tried.
+/// The mesh for trying a configuration.
 pub(super) fn empty() -> Mesh {
     Mesh::new(vec![], vec![]).expect("the empty mesh is valid")
 }

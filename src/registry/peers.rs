@@ -3,7 +3,7 @@
 use super::Registry;
 
 impl Registry {
-    /// Each over its own triangle test first, then over ours that it supports.
+    /// Each over its own triangle test first, then over the tests of this crate that it supports.
     // Without any feature nothing is added.
     #[allow(clippy::let_and_return)]
     pub(super) fn with_peers(self) -> Self {

@@ -1,4 +1,4 @@
-//! Programs of other languages as structures.
+//! Runners as structures.
 
 use std::sync::Arc;
 
@@ -13,18 +13,19 @@ pub const RUNNER: &str = "runner";
 
 const OWN_CLOCK: &str = " (own clock)";
 
-/// The name of a structure, a program without the words about its clock.
+/// The name of a structure; for a runner, without the words about its clock.
 pub fn plain_name(label: &str) -> &str {
     label.strip_suffix(OWN_CLOCK).unwrap_or(label)
 }
 
-/// Whether a user who types `name` means the structure of this label: of a program it is the name alone.
+/// Whether `name`, as a user types it, names the structure of this label; a runner's label also has words about its
+/// clock.
 pub fn is_named(label: &str, name: &str) -> bool {
     plain_name(label).eq_ignore_ascii_case(plain_name(name))
 }
 
 impl Choice {
-    /// The structure that `program` implements. Its label says whose clock times it.
+    /// The structure that `program` implements. Its label names the clock of its times.
     pub fn of_program(program: Program) -> Self {
         let label = program.name() + OWN_CLOCK;
         let config = json!({ "command": program.command(), "build": program.build_id(), "clock": "own" });

@@ -51,7 +51,7 @@ pub fn with_bar(picture: RgbImage, hottest: u64) -> RgbImage {
     RgbImage::from_raw(width, height, rows).expect("both have one width")
 }
 
-/// The bar of so many pixels, below it a mark at 1 and each power of ten.
+/// The bar of `width` pixels; below it a mark at 1 and at each power of ten.
 fn bar(width: u32, hottest: u64) -> RgbImage {
     let black = vec![[0; 3]; width as usize];
     let (last, whole) = (f64::from(width.max(2) - 1), libm::log1p(hottest as f64));

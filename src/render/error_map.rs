@@ -1,4 +1,4 @@
-//! Where a structure or its triangle test is wrong, pixel by pixel.
+//! A map of the errors of a structure and its triangle test, pixel by pixel.
 
 use image::RgbImage;
 use rayon::prelude::*;
@@ -38,8 +38,8 @@ pub struct ErrorMap {
     pixels: Vec<(Outcome, Option<Hit>)>,
 }
 
-/// The outcomes with a colour of their own, which colour-blind people can distinguish (Okabe, Ito: Color universal
-/// design, 2008). All others are grey.
+/// The outcomes with a colour. Colour-blind people can distinguish these colours (Okabe, Ito: Color universal design,
+/// 2008). All other outcomes are grey.
 const PAINTED: [(Outcome, &str, &str, [u8; 3]); 4] = [
     (Outcome::Missed, "missed", "vermilion", [213, 94, 0]),
     (Outcome::FalseHit, "false hit", "yellow", [240, 228, 66]),
@@ -47,7 +47,7 @@ const PAINTED: [(Outcome, &str, &str, [u8; 3]); 4] = [
     (Outcome::WrongPrimitive, "wrong primitive at the right depth", "pink", [204, 121, 167]),
 ];
 
-/// The name of an outcome that is painted as an error; none for the others.
+/// The name of an outcome that is painted as an error; `None` for all other outcomes.
 pub fn error_name(outcome: Outcome) -> Option<&'static str> {
     PAINTED.iter().find(|(painted, ..)| *painted == outcome).map(|(_, name, ..)| *name)
 }
@@ -62,7 +62,7 @@ impl ErrorMap {
         Self::of(&exact, accel.closest_by_chunks(&exact.rays, 1024))
     }
 
-    /// Checks hits, one for each pixel.
+    /// Checks hits, one per pixel.
     ///
     /// # Panics
     /// If there are more or fewer hits than pixels.
@@ -103,13 +103,13 @@ impl ErrorMap {
             if let Some((_, _, _, colour)) = PAINTED.iter().find(|(outcome, ..)| *outcome == pixel.0) {
                 return *colour;
             }
-            // Far hits keep a third of the light, so that they differ from misses.
+            // Far hits keep a third of the light, which distinguishes them from misses.
             let light = |hit: Hit| 1.0 / 3.0 + 2.0 / 3.0 * if hit.t > nearest { nearest / hit.t } else { 1.0 };
             [pixel.1.map_or(0, |hit| (BRIGHTEST * light(hit)) as u8); 3]
         };
         let mut colours: Vec<[u8; 3]> = self.pixels.iter().map(colour).collect();
-        // A single pixel is too small to see in a large picture: draw errors three pixels wide and high, but hide no
-        // other error.
+        // A single pixel is too small to see in a large picture: draw errors three pixels wide and high, without hiding
+        // another error.
         let [width, height] = self.size.map(i64::from);
         for error in self.errors() {
             let (x, y) = (error as i64 % width, error as i64 / width);
@@ -156,7 +156,7 @@ mod tests {
         let size = [24, 24];
         let hits = ErrorMap::new(&scene, &tree, size).count(Outcome::Right);
 
-        // The hits are those of one mesh, the exact hits those of another.
+        // The hits and the exact hits belong to different meshes.
         let empty = Arc::new(Mesh::new(vec![], vec![]).unwrap());
         let nothing = KdTree::<Exact>::build(&empty, &KdConfig::SAH).unwrap();
         let missed = ErrorMap::new(&scene, &nothing, size);

@@ -1,4 +1,4 @@
-//! The course's renderer: Phong materials, hard shadows, mirrors.
+//! The renderer of the source report's course: Phong materials, hard shadows, mirrors.
 
 use glam::Vec3;
 use rayon::prelude::*;
@@ -54,7 +54,7 @@ pub fn render(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> (Vec<Vec3>
     (colours, counts)
 }
 
-/// The colours that `render` gives the pixels of these primary rays.
+/// The colours of `render` for the pixels of these primary rays.
 pub fn shade(scene: &Scene, accel: &dyn DynAccel, rays: &[Ray]) -> Vec<Vec3> {
     rays.par_chunks(CHUNK as usize).flat_map_iter(|chunk| trace(scene, accel, chunk.to_vec()).0).collect()
 }
@@ -81,7 +81,7 @@ fn trace(scene: &Scene, accel: &dyn DynAccel, rays: Vec<Ray>) -> (Vec<Vec3>, Ray
         rays = mirrored;
     }
 
-    // Backward: every ray's colour is clamped before a share of it is added to that of its parent.
+    // Backward: clamp every ray's colour before adding a share of it to the colour of its parent.
     let mut seen: Vec<Vec3> = vec![];
     for mut level in levels.into_iter().rev() {
         for ((parent, weight), colour) in level.mirrors.into_iter().zip(seen) {
@@ -93,7 +93,7 @@ fn trace(scene: &Scene, accel: &dyn DynAccel, rays: Vec<Ray>) -> (Vec<Vec3>, Ray
     (seen, counts)
 }
 
-/// Shades the hits of one level and, if `follow`, gives the mirror rays that leave them.
+/// Shades the hits of one level and, if `follow`, returns the mirror rays that leave them.
 fn shade_level(
     scene: &Scene,
     accel: &dyn DynAccel,
@@ -129,9 +129,9 @@ fn shade_level(
     (level, mirrored)
 }
 
-/// Light that a surface sends to the eye: Lambert (`Kd`) and Blinn-Phong (`Ks`, `Ns`).
+/// Light that a surface reflects to the eye: Lambert (`Kd`) and Blinn-Phong (`Ks`, `Ns`).
 ///
-/// The view vector goes to the eye even where a mirror shows the surface, as in the course.
+/// The view vector goes to the eye even if a mirror shows the surface, as in the course.
 fn reflected(material: &Material, surface: &Surface, light: &Light, eye: Vec3) -> Vec3 {
     let normal = surface.shading_normal;
     let to_light = light.position - surface.point.position;

@@ -1,4 +1,4 @@
-//! Pictures: the shading of the report's course, and views of a structure's work.
+//! Pictures: the shading of the source report's course, and views of a structure's work.
 
 mod colour_map;
 mod error_map;

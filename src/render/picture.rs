@@ -9,7 +9,7 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 /// A picture of RGB pixels, row by row, the top row first.
 ///
 /// # Panics
-/// If there are not as many `pixels` as `size`, width and height, says.
+/// If the number of `pixels` is not width times height of `size`.
 pub fn from_pixels(size: [u32; 2], pixels: Vec<[u8; 3]>) -> RgbImage {
     let [width, height] = size;
     assert_eq!(pixels.len() as u64, u64::from(width) * u64::from(height), "one colour a pixel");
@@ -20,7 +20,7 @@ pub fn from_pixels(size: [u32; 2], pixels: Vec<[u8; 3]>) -> RgbImage {
 /// clamped, NaN becomes 0. There is no gamma curve, as in the course.
 ///
 /// # Panics
-/// As [`from_pixels`].
+/// Like [`from_pixels`].
 pub fn of_colours(size: [u32; 2], colours: &[Vec3]) -> RgbImage {
     from_pixels(size, colours.iter().map(|colour| colour.to_array().map(quantised)).collect())
 }

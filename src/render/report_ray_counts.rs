@@ -19,10 +19,10 @@ struct Known {
 }
 
 /// Two scenes are not reproduced exactly. Whether a ray hits at an edge depends on the rounding of the triangle test,
-/// and so do its mirror and shadow rays. It is not known which test the report used; here the test is exact. In
-/// Infinitycandy mirrors multiply the few rays at edges. In the Cornell box walls meet at edges, and the report does
-/// not say that the back wall is a mirror: with a mirror our total is 8 off the report's, and the recount's is 29 off;
-/// without one 38,495 mirror rays and their shadow rays would be missing. The bounds below are observed, not derived.
+/// and so do its mirror and shadow rays. The report's test is unknown; here the test is exact. In Infinitycandy mirrors
+/// multiply the few rays at edges. In the Cornell box walls meet at edges, and the report does not mention that the
+/// back wall is a mirror: with a mirror the total here differs by 8 from the report's, and the recount's by 29; without
+/// one 38,495 mirror rays and their shadow rays would be missing. The bounds below are observed, not derived.
 #[rustfmt::skip]
 const KNOWN: &[Known] = &[
     Known { scene: "Cube", mirror: 0, shadow: 20_648, report: 282_793, within: 1, recount: 0 },
@@ -35,7 +35,7 @@ const KNOWN: &[Known] = &[
     Known { scene: "Metallic", mirror: 60_264, shadow: 495_048, report: 817_456, within: 0, recount: 0 },
 ];
 
-/// Uses the exact triangle test, so that no rounding influences the counts.
+/// Uses the exact triangle test: no rounding influences the counts.
 #[test]
 fn rays_are_as_many_as_in_the_report() {
     let mut wrong = vec![];

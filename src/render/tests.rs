@@ -1,4 +1,4 @@
-//! What the renderer casts and draws.
+//! Checks the rays and pictures of the renderer.
 
 use super::{RayCounts, render};
 use crate::accel::Accel;

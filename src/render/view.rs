@@ -12,17 +12,17 @@ use crate::names::{Unknown, find, named_enum};
 use crate::scene::{Scene, View};
 
 named_enum! {
-    /// What a picture shows.
+    /// The content of a picture.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum ViewKind {
-        /// The course's shading.
+        /// The shading of the source report's course.
         Shaded = "shaded",
         /// Reciprocal distance of the hit, from white for the nearest in the picture to dark for the farthest; misses
         /// are black.
         Depth = "depth",
         /// Shading normal, its x, y, z from -1..1 to red, green, blue; misses are black.
         Normal = "normal",
-        /// A colour of its own for each primitive, the same in every picture; misses are black.
+        /// A unique colour for each primitive, the same in every picture; misses are black.
         Primitive = "primitive",
         /// Tests and steps of the closest-hit query, from black to pale yellow, see [`costs`].
         Heat = "heat",
@@ -100,8 +100,8 @@ pub fn size_of(scene: &Scene, longest: u32) -> [u32; 2] {
     [width, height].map(|side| (u64::from(side) * u64::from(longest) / u64::from(most)).max(1) as u32)
 }
 
-/// Width and height of the pictures of the page. They also determine the scale of the heat view, so that all pictures
-/// share it.
+/// Width and height of the pictures of the page. They also determine the scale of the heat view, which all pictures
+/// share.
 pub fn coarse_size(scene: &Scene) -> [u32; 2] {
     size_of(scene, 320)
 }
@@ -120,18 +120,18 @@ fn from_hits(size: [u32; 2], hits: &[(Ray, Option<Hit>)], colour: impl Fn(&Ray, 
     from_pixels(size, hits.iter().map(|(ray, hit)| hit.map_or([0; 3], |hit| colour(ray, hit))).collect())
 }
 
-/// The colour of the normal view where `ray` hits.
+/// The colour of a hit of `ray` in the normal view.
 pub fn normal_colour(scene: &Scene, ray: &Ray, hit: Hit) -> [u8; 3] {
     (scene.surface(ray, hit).shading_normal * 0.5 + 0.5).to_array().map(quantised)
 }
 
-/// The depth view of distances, one for each pixel, infinite where nothing is hit.
+/// The depth view of distances, one per pixel; infinite for a miss.
 pub fn depth_picture(size: [u32; 2], depths: &[f32]) -> RgbImage {
     let seen = depths.iter().copied().filter(|t| t.is_finite());
     let (near, far) = seen.fold((f32::INFINITY, 0.0f32), |(near, far), t| (near.min(t), far.max(t)));
 
-    // Reciprocals keep the contrast of near surfaces where a floor extends to the horizon. The farthest hit stays
-    // brighter than a miss.
+    // Reciprocals keep the contrast of near surfaces if a floor extends to the horizon. The farthest hit stays brighter
+    // than a miss.
     let near = near.max(far * 1e-3);
     let brightness = |t: f32| {
         let share = (near / t.max(near) - near / far) / (1.0 - near / far);
@@ -151,14 +151,13 @@ pub fn identity(index: u32) -> [u8; 3] {
 #[cfg(test)]
 mod tests {
     use std::collections::HashSet;
-    use std::sync::Arc;
 
     use super::*;
-    use crate::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
-    use crate::brute_force::{BruteForce, BruteForceConfig};
-    use crate::geometry::Mesh;
+    use crate::accel::Accel;
+    use crate::brute_force::BruteForce;
     use crate::kdtree::{KdConfig, KdTree};
     use crate::scene::Builtin;
+    use crate::study::measure::tests::{Flawed, FlawedConfig};
     use crate::triangle::MollerTrumbore;
 
     #[test]
@@ -175,45 +174,22 @@ mod tests {
             let miss = if view == ViewKind::Shaded { [51, 64, 77] } else { [0; 3] };
             assert_eq!(colours(view, &tree).0, miss, "{view:?}");
         }
-        // The eye sees three sides, so six triangles.
+        // The eye sees three sides with six triangles.
         assert_eq!(colours(ViewKind::Normal, &tree).1.len(), 3 + 1);
         assert_eq!(colours(ViewKind::Primitive, &tree).1.len(), 6 + 1);
         assert!(colours(ViewKind::Depth, &tree).1.contains(&[255; 3]));
 
-        // Brute force tests twelve triangles in one leaf, everywhere.
+        // Brute force tests twelve triangles in one leaf for every ray.
         assert_eq!(costs(&scene, &all, [4, 4]).unwrap(), [13; 16]);
         assert_eq!(colours(ViewKind::Heat, &all).1, HashSet::from([colour_map::heat(13, 14)]));
-    }
-
-    /// A structure that does not report its steps.
-    struct Unobserved;
-
-    impl Accel for Unobserved {
-        type Config = BruteForceConfig;
-        const OBSERVED: Observed = Observed::TESTS;
-
-        fn build(_: &Arc<Mesh>, _: &BruteForceConfig) -> Result<Self, BuildError> {
-            Ok(Self)
-        }
-
-        fn closest_hit<O: Observer>(&self, _: &Ray, _: &mut O) -> Option<Hit> {
-            None
-        }
-
-        fn footprint(&self) -> Footprint {
-            Footprint::default()
-        }
-
-        fn shape(&self) -> TreeShape {
-            TreeShape::default()
-        }
     }
 
     #[test]
     fn heat_is_refused_where_steps_are_unknown() {
         let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
-        assert_eq!(draw(&scene, &Unobserved, ViewKind::Heat, [4, 4], 1), Err(ViewError));
-        assert!(draw(&scene, &Unobserved, ViewKind::Depth, [4, 4], 1).is_ok());
+        let unobserved = Flawed::build(&scene.mesh, &FlawedConfig::default()).unwrap();
+        assert_eq!(draw(&scene, &unobserved, ViewKind::Heat, [4, 4], 1), Err(ViewError));
+        assert!(draw(&scene, &unobserved, ViewKind::Depth, [4, 4], 1).is_ok());
     }
 
     #[test]

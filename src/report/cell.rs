@@ -1,10 +1,10 @@
-//! One cell of a table: a value, and how it stands out. Renderers make words of it.
+//! One cell of a table: a value and its emphasis. Renderers write it as text.
 
 use super::number::{bytes, count, duration, figures};
 use super::words::written;
 use crate::measure::Estimate;
 
-/// What a cell holds. Unknown is [`Value::Empty`], never 0.
+/// The value of a cell. An unknown value is [`Value::Empty`], never 0.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Value {
     #[default]
@@ -16,7 +16,7 @@ pub enum Value {
     Difference(i64),
     Number(f64, Format),
     Estimate(Estimate, Format),
-    /// Rays with a wrong answer, of those that were checked.
+    /// Rays with a wrong hit, out of the checked rays.
     Errors {
         wrong: u64,
         of: u64,
@@ -27,11 +27,11 @@ pub enum Value {
 pub enum Format {
     /// Three significant digits.
     Figures,
-    /// So many decimals.
+    /// This number of decimals.
     Decimals(u8),
-    /// Of a share: times 100, three significant digits, and ` %`.
+    /// For a share: times 100, three significant digits, and ` %`.
     Percent,
-    /// Of a change: times 100, one decimal, with its sign: `+1.5%`.
+    /// For a change: times 100, one decimal, with its sign: `+1.5%`.
     Change,
     /// Nanoseconds as `ns`, `us`, `ms` or `s`.
     Duration,
@@ -39,7 +39,7 @@ pub enum Format {
     Bytes,
 }
 
-/// How a cell stands out. Colour repeats what the text says: without it nothing is lost.
+/// The emphasis of a cell. Colour only repeats the text.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tone {
     #[default]
@@ -48,16 +48,16 @@ pub enum Tone {
     Wrong,
 }
 
-/// A value, how it stands out, and what is said beside it.
+/// A value, its emphasis, and a note beside it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cell {
     pub value: Value,
     pub tone: Tone,
-    /// Measured on a part of the rays: `~` stands before the number.
+    /// Measured on a subset of the rays: `~` stands before the number.
     pub sampled: bool,
     /// Not distinguishable from 1: `=` stands behind the number.
     pub equal: bool,
-    /// Said behind the value, in parentheses; empty where there is nothing to say.
+    /// Printed after the value, in parentheses; may be empty.
     pub note: String,
 }
 
@@ -81,7 +81,7 @@ impl From<Value> for Cell {
     }
 }
 
-/// Empty text is what is not known; other numbers than whole ones have three significant digits.
+/// Empty text is an unknown value; numbers that are not whole have three significant digits.
 macro_rules! cell_from {
     ($($value:ident: $type:ty => $of:expr;)*) => {
         $(impl From<$type> for Cell {
@@ -103,7 +103,7 @@ cell_from! {
     yes: bool => if yes { "true" } else { "false" };
 }
 
-/// What is not known is empty.
+/// An unknown value is empty.
 impl<T: Into<Cell>> From<Option<T>> for Cell {
     fn from(value: Option<T>) -> Self {
         value.map_or(Self::default(), Into::into)
@@ -131,7 +131,7 @@ impl Cell {
         Self::number(bytes as f64, Format::Bytes)
     }
 
-    /// How many times as fast as something else: marked where it is not distinguishable from 1.
+    /// A ratio of speeds: marked if it is not distinguishable from 1.
     pub fn ratio(x: Estimate) -> Self {
         Self { equal: x != Estimate::exact(1.0) && x.holds(1.0), ..x.into() }
     }
@@ -140,7 +140,7 @@ impl Cell {
         Self { tone, ..self }
     }
 
-    /// The same cell, of a part of the rays where `sampled`.
+    /// The same cell, marked as measured on a subset of the rays if `sampled`.
     pub fn sampled(self, sampled: bool) -> Self {
         Self { sampled, ..self }
     }
@@ -153,7 +153,7 @@ impl Cell {
         self.value == Value::Empty
     }
 
-    /// Whether the cell holds words, which stand to the left.
+    /// Whether the cell contains words, which are aligned to the left.
     pub fn is_text(&self) -> bool {
         matches!(self.value, Value::Text(_))
     }
@@ -174,7 +174,7 @@ impl Cell {
         format!("{before}{value}{equal}{note}")
     }
 
-    /// What rows are sorted by; nothing of words.
+    /// The sort key of a row; `None` for words.
     pub fn sort_key(&self) -> Option<f64> {
         match self.value {
             Value::Empty | Value::Text(_) => None,

@@ -1,9 +1,9 @@
-//! Tables as CSV: a number a field, without units; an interval has columns of its own.
+//! Tables as CSV: one number per field, without units; the ends of an interval have separate columns.
 
 use super::{Cell, Table, Value};
 
-/// The table under a row of names. A column `x` with intervals becomes `x`, `x_low` and `x_high`, one with errors `x`
-/// and `x_of`. What is not known is empty.
+/// The table under a row of names. A column `x` with intervals becomes `x`, `x_low` and `x_high`, a column with errors
+/// `x` and `x_of`. An unknown value is empty.
 pub fn table(table: &Table) -> Vec<u8> {
     let column = |i: usize| table.rows.iter().map(move |row| &row[i].value);
     let has = |is: fn(&Value) -> bool| (0..table.columns.len()).map(|i| column(i).any(is)).collect::<Vec<bool>>();
@@ -32,7 +32,7 @@ pub fn table(table: &Table) -> Vec<u8> {
     writer.into_inner().expect("memory takes every write")
 }
 
-/// The value, the ends of its interval, and of how many the errors are.
+/// The value, the ends of its interval, and the number of checked rays.
 fn parts(cell: &Cell) -> [String; 4] {
     let mut parts = <[String; 4]>::default();
     parts[0] = match &cell.value {

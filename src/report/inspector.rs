@@ -1,39 +1,39 @@
-//! Single rays of a picture, and what every structure does for them: data of a part of the page that is looked into.
+//! Single rays of a picture and the work of every structure on them: data for the pixel inspector of the page.
 
 use serde::{Serialize, Serializer};
 
-/// Some rays of a picture, each with all answers: columns, so that a few thousand rays stay small on a page.
+/// Some rays of a picture, each with all hits. It is stored by columns, so a few thousand rays stay small on a page.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Inspector {
     pub size: [u32; 2],
-    /// Which pixels can be asked for, in a sentence.
+    /// The pixels that it covers, in a sentence.
     pub which: String,
-    /// The command that asks all structures again, up to the text of the ray.
+    /// The command that traces a ray again with all structures, up to the text of the ray.
     pub command: String,
-    /// Numbers of the pixels, row by row from the top left.
+    /// Indices of the pixels, row by row from the top left.
     pub pixels: Vec<u32>,
-    /// The rays through the centres of the pixels, as `--ray` reads them.
+    /// The rays through the centres of the pixels, in the format of `--ray`.
     pub rays: Vec<String>,
-    /// What exact arithmetic answers.
+    /// The exact hits.
     pub truths: Vec<Answer>,
     pub answers: Vec<Vec<Answer>>,
-    /// Labels, and what each structure does for each ray.
+    /// For each structure, its label and its work on each ray.
     pub structures: Vec<InspectedStructure>,
 }
 
-/// A closest hit, or that there is none.
+/// A closest hit or a miss.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
     pub hit: Option<InspectedHit>,
-    /// What is wrong with it, in a few words; empty where nothing is.
+    /// The fault, in a few words; empty if the hit is right.
     pub wrong: &'static str,
 }
 
-/// `[t, triangle, u, v]`, or `[]` of a miss; what is wrong with it stands behind.
+/// `[t, triangle, u, v]`, or `[]` for a miss; the fault follows.
 impl Serialize for Answer {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let hit = self.hit.map(|InspectedHit { t, triangle, weights }| {
-            // As many digits as are printed.
+            // Keep only the printed digits.
             let [u, v] = weights.map(|weight| libm::round(weight * 1e9) / 1e9);
             (t, triangle, u, v)
         });
@@ -46,16 +46,16 @@ impl Serialize for Answer {
     }
 }
 
-/// A hit as it is printed.
+/// A printed hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InspectedHit {
     pub t: f32,
     pub triangle: u32,
-    /// Weights of the second and third corner where the ray meets the plane of the triangle.
+    /// Weights of the second and third corner at the point in which the ray meets the plane of the triangle.
     pub weights: [f64; 2],
 }
 
-/// What one structure does, ray by ray. What it does not tell is empty.
+/// The work of one structure, by ray. Columns that it does not report are empty.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct InspectedStructure {
     pub label: String,
@@ -63,6 +63,6 @@ pub struct InspectedStructure {
     pub nodes: Vec<u64>,
     pub leaves: Vec<u64>,
     pub tests: Vec<u64>,
-    /// Which of the answers of the ray is its own.
+    /// The index of its hit among the hits of the ray.
     pub answers: Vec<usize>,
 }

@@ -1,9 +1,9 @@
-//! Tables and reports as GitHub's Markdown, which pandoc turns into what a paper wants.
+//! Tables and reports as GitHub's Markdown, which pandoc can convert for a paper.
 
 use super::words::ended;
 use super::{Art, Block, Figure, Report, Table, Tone, wrapped};
 
-/// A report, then the lines below it: `--export-markdown` writes this.
+/// A report, then the lines below it: the output of `--export-markdown`.
 pub fn report(report: &Report, foot: &[String]) -> String {
     let mut text = String::new();
     blocks(&report.blocks, &mut text);
@@ -64,13 +64,13 @@ pub fn table(table: &Table) -> String {
     text + &notes
 }
 
-/// Text with what Markdown would read as a table or as markup marked as text.
+/// Escapes characters that Markdown would read as a table or as markup.
 pub fn escaped(text: &str) -> String {
     let marked = |c: char| "|*_`<>\\~".contains(c).then_some('\\').into_iter().chain([c]);
     text.chars().flat_map(marked).collect()
 }
 
-/// A sentence as Markdown: what stands between backticks is code, `**` is strong, and all else is text.
+/// A sentence as Markdown: text between backticks is code, `**` is strong, and everything else is plain.
 pub fn prose(text: &str) -> String {
     let pieces = text.split('`').collect::<Vec<_>>();
     if pieces.len().is_multiple_of(2) {

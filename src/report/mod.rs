@@ -1,5 +1,5 @@
-//! What a study says of what was measured: [`Report`], plain data, and its renderers for a terminal, Markdown and CSV.
-//! The page is the fourth.
+//! The result of a study: [`Report`], plain data, and its renderers for a terminal, Markdown and CSV. The page is the
+//! fourth renderer.
 
 mod cell;
 pub mod csv;
@@ -14,7 +14,9 @@ pub mod terminal;
 pub mod words;
 
 pub use cell::{Cell, Format, Tone, Value};
-pub use report::{Art, Block, Colours, Failure, Figure, Finding, Missing, Outcome, Overlay, Picture, Report, Verdict};
+pub use report::{
+    Art, Block, ClaimVerdict, Colours, Failure, Figure, Finding, Missing, Outcome, Overlay, Picture, Report,
+};
 pub use table::{Column, Table};
 pub use terminal::Screen;
 pub use words::wrapped;

@@ -1,6 +1,6 @@
-//! Numbers as people read them: three significant digits and a unit.
+//! Numbers for people: three significant digits and a unit.
 
-/// Three significant digits without an exponent where that stays short: `0.00123`, `1.23`, `12.3`, `1230`, `4.96e-9`.
+/// Three significant digits, without an exponent if that stays short: `0.00123`, `1.23`, `12.3`, `1230`, `4.96e-9`.
 pub fn figures(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 {
@@ -8,7 +8,7 @@ pub fn figures(x: f64) -> String {
     } else if !x.is_finite() || !(1e-3..1e7).contains(&size) {
         format!("{x:.2e}")
     } else {
-        // The number of decimals follows from the rounded value: 9.996 has one digit more than it seems.
+        // The number of decimals follows from the rounded value: 9.996 becomes 10.0.
         let rounded: f64 = format!("{size:.2e}").parse().expect("a formatted number");
         let decimals = 2 - libm::floor(libm::log10(rounded)) as i32;
         format!("{x:.*}", decimals.max(0) as usize)

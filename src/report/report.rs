@@ -6,59 +6,59 @@ use super::{Cell, Table, Tone};
 use crate::measure::Estimate;
 use crate::names::named_enum;
 
-/// What a study says of a dataset. The renderers make a terminal's text, a page, Markdown and CSV of it.
+/// The result of a study on a dataset. Renderers write it as text, as a page, as Markdown and as CSV.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
-    /// What was found, the most important first.
+    /// The findings, most important first.
     pub findings: Vec<Finding>,
-    /// Tables, figures and texts in their order. The terminal prints what is not folded.
+    /// Tables, figures and texts in order. The terminal prints only the tables and notes that are not folded.
     pub blocks: Vec<Block>,
-    /// Claims that were written before the data, judged.
-    pub verdicts: Vec<Verdict>,
-    /// Structures without times or with wrong answers: they decide the exit status.
+    /// The verdicts on the claims, which were written before the measurement.
+    pub verdicts: Vec<ClaimVerdict>,
+    /// Structures without times or with wrong hits. They decide the exit status.
     pub failures: Vec<Failure>,
-    /// What spoilt the run, and what to do.
+    /// Conditions that disturbed the run, each with a remedy.
     pub warnings: Vec<String>,
-    /// One row for each measured thing, for programs. Empty where nothing was measured.
+    /// The table of `--export-csv`: one row per measurement; empty without measurements.
     pub data: Table,
 }
 
-/// A number, and the sentence that the data choose and fill in. The page, `papers/RESULTS.md` and README print the
-/// same one; claims and README's marks go by the key.
+/// A sentence about the data and the number in it. The page, `papers/RESULTS.md` and README print the same sentence;
+/// claims and the marks in README refer to its key.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
-    /// Letters, digits and hyphens; no two findings of a study share one.
+    /// Letters, digits and hyphens; unique among the findings of a study.
     pub key: String,
     /// Ends with a full stop; empty if the finding is only a number that a claim refers to.
     pub sentence: String,
-    /// The number that the sentence is about, where it is about one.
+    /// The number in the sentence; `None` if it has none.
     pub value: Option<Estimate>,
-    /// Name that a page shows as its answer: the label of the fastest structure.
+    /// A name that the page shows as its answer: the label of the fastest structure.
     pub name: Option<String>,
-    /// Whether the terminal shows the sentence with `--verbose` alone.
+    /// Whether the terminal shows the sentence only with `--verbose`.
     pub is_detail: bool,
 }
 
 #[derive(Clone, Debug)]
 pub enum Block {
     Text(String),
-    /// What columns mean, small.
+    /// A text in small print, such as the meaning of columns.
     Note(String),
     Table(Table),
     Figure(Box<Figure>),
-    /// What is not there, and how to make it.
+    /// A part that no run has measured, and the command that measures it.
     Missing(Missing),
-    /// Blocks that are opened on demand, below their name.
+    /// A heading, and blocks that the reader unfolds.
     Fold(String, Vec<Block>),
 }
 
-/// One claim that was written before the data, and what the data say.
+/// The verdict on one claim, which was written before the measurement.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Verdict {
-    /// Of the prediction that the claim is a part of, from 1.
+pub struct ClaimVerdict {
+    /// The number of the prediction that contains the claim, from 1.
     pub prediction: u8,
     pub claim: String,
-    /// What was expected of it: `at least 20`.
+    /// The expected range, such as `at least 20`.
     pub expected: String,
     /// The measured value, with its interval corrected for the number of claims (Bonferroni); `None` if not measured.
     pub value: Option<Estimate>,
@@ -68,37 +68,39 @@ pub struct Verdict {
 named_enum! {
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Outcome {
-        /// The whole interval is as expected.
+        /// The whole interval lies inside the expected range.
         Confirmed = "confirmed",
-        /// The whole interval is not.
+        /// The whole interval lies outside the expected range.
         Refuted = "refuted",
-        /// The interval reaches across a bound, or is not known.
+        /// The interval contains a bound of the expected range, or there is no interval.
         Undecided = "undecided",
         NotMeasured = "not measured",
     }
 }
 
-/// A structure without times, or with wrong answers, and why.
+/// A structure without times or with wrong hits, and the reason.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Failure {
     pub structure: String,
-    /// What to print below the tables; empty where a table says it.
+    /// The sentence to print below the tables; empty if a table already shows the failure.
     pub sentence: String,
+    /// Whether the structure has no times on any workload.
     pub refused: bool,
+    /// Whether wrong hits are the reason.
     pub wrong: bool,
 }
 
 /// A figure with its caption, alternative text and the numbers behind it.
 #[derive(Clone, Debug)]
 pub struct Figure {
-    /// Letters, digits and hyphens; no two figures share one. The name of its files.
+    /// The id, also the stem of its file names: letters, digits and hyphens, unique among the figures.
     pub id: String,
-    /// What it shows, and how to read it.
+    /// The content of the figure, and how to read it.
     pub caption: String,
     /// Alternative text for readers who cannot see the figure.
     pub alt: String,
     pub art: Art,
-    /// The numbers in it; a table without columns where it has none.
+    /// The numbers in the figure; a table without columns if it has none.
     pub data: Table,
 }
 
@@ -109,13 +111,13 @@ pub enum Art {
     Overlay(Overlay),
 }
 
-/// Pictures of one size on one scale, side by side, and two of them one upon the other.
+/// Pictures of the same size and scale. The page shows them side by side and overlays any two.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Overlay {
     pub heading: String,
     pub pictures: Vec<Picture>,
     pub colours: Colours,
-    /// What can be asked of single pixels.
+    /// Data for inspecting single pixels; `None` if there is none.
     pub inspector: Option<Box<Inspector>>,
 }
 
@@ -125,17 +127,17 @@ pub enum Colours {
         title: String,
         /// Colours at equal distances, `#RRGGBB`.
         colours: Vec<String>,
-        /// Places on the scale, 0 to 1, and what is there.
+        /// The ticks: position on the scale, 0 to 1, and label.
         ticks: Vec<(f64, String)>,
     },
-    /// Colours, `#RRGGBB`, with a meaning each.
+    /// Colours, `#RRGGBB`, each with its meaning.
     Key(Vec<(String, String)>),
 }
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
     pub name: String,
-    /// One line below it.
+    /// One line below the picture.
     pub note: String,
     pub alt: String,
     pub png: Vec<u8>,
@@ -151,25 +153,25 @@ pub struct Missing {
 }
 
 impl Finding {
-    /// A finding without a number of its own.
+    /// A finding without a number.
     pub fn new(key: impl Into<String>, sentence: impl Into<String>) -> Self {
         Self { key: key.into(), sentence: sentence.into(), value: None, name: None, is_detail: false }
     }
 
-    /// A name that a page's answer goes by, and no sentence.
+    /// A finding without a sentence: a name that the page shows as its answer.
     pub fn named(key: impl Into<String>, name: impl Into<String>) -> Self {
         Self { name: Some(name.into()), ..Self::new(key, "") }
     }
 
     pub fn number(key: impl Into<String>, value: Estimate) -> Self {
-        Self::new(key, "").of(value)
+        Self::new(key, "").with_value(value)
     }
 
-    pub fn of(self, value: Estimate) -> Self {
+    pub fn with_value(self, value: Estimate) -> Self {
         Self { value: Some(value), ..self }
     }
 
-    /// The same finding, which the terminal shows with `--verbose` alone.
+    /// The same finding; the terminal shows it only with `--verbose`.
     pub fn detail(self) -> Self {
         Self { is_detail: true, ..self }
     }
@@ -190,7 +192,7 @@ impl Report {
         shown.map(|finding| finding.sentence.as_str())
     }
 
-    /// The claims as a table; nothing without a claim.
+    /// The verdicts as a table; `None` without verdicts.
     pub fn verdict_table(&self) -> Option<Table> {
         let table = Table::of(
             "Claims written before the measurement",
@@ -231,7 +233,7 @@ impl Figure {
         if let Art::Chart(chart) = &self.art { Some(chart) } else { None }
     }
 
-    /// The pictures of pixels that it consists of; none in a chart.
+    /// The pictures of the figure; empty for a chart.
     pub fn pictures(&self) -> &[Picture] {
         match &self.art {
             Art::Chart(_) => &[],

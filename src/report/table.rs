@@ -14,17 +14,17 @@ pub struct Table {
     pub rows: Vec<Vec<Cell>>,
     /// One sentence each.
     pub notes: Vec<String>,
-    /// Names of columns that the terminal shows with `--verbose` alone; exports have them all.
+    /// Names of columns that the terminal shows only with `--verbose`; exports have all columns.
     pub details: Vec<String>,
-    /// Whether it depends on one scene alone: a run prints it as soon as that scene is measured.
+    /// Whether it depends on only one scene: a run prints it as soon as that scene is measured.
     pub of_scene: bool,
 }
 
-/// What stands above a column, and what its cells say of an item.
+/// The heading of a column, and its cell for an item.
 pub type Column<'a, T> = (&'a str, &'a dyn Fn(&T) -> Cell);
 
 impl Table {
-    /// With a note on estimates without an interval, where it has some.
+    /// Adds a note on estimates without an interval, if it has some.
     #[must_use]
     pub fn explained(mut self) -> Self {
         let has_no_interval = |cell: &Cell| matches!(cell.value, Value::Estimate(x, _) if x.interval.is_none());
@@ -43,7 +43,7 @@ impl Table {
         Self { title: title.into(), columns, rows: rows.into_iter().collect(), ..Self::default() }
     }
 
-    /// A table with a row for each of `items`, column by column, without notes.
+    /// A table with one row per item of `items`, column by column, without notes.
     pub fn of<T>(title: impl Into<String>, items: impl IntoIterator<Item = T>, columns: &[Column<T>]) -> Self {
         let row = |item: T| columns.iter().map(|(_, of)| of(&item)).collect();
         Self::new(title, columns.iter().map(|(name, _)| *name), items.into_iter().map(row))
@@ -53,7 +53,7 @@ impl Table {
         Self::new(title, columns, rows.into_iter().map(|row| row.map(Cell::from).into()))
     }
 
-    /// Adds a column with one cell for each row.
+    /// Adds a column with one cell per row.
     pub fn push_column(&mut self, name: impl Into<String>, cells: impl IntoIterator<Item = Cell>) {
         self.columns.push(name.into());
         self.rows.iter_mut().zip(cells).for_each(|(row, cell)| row.push(cell));
@@ -70,29 +70,29 @@ impl Table {
         self.without_columns(&details.iter().map(String::as_str).collect::<Vec<_>>())
     }
 
-    pub fn noted(self, notes: Vec<String>) -> Self {
-        Self { notes, ..self }
+    pub fn noted(self, notes: impl IntoIterator<Item = impl Into<String>>) -> Self {
+        Self { notes: notes.into_iter().map(Into::into).collect(), ..self }
     }
 
-    /// The same table, which depends on one scene alone.
+    /// The same table, which depends on only one scene.
     pub fn of_one_scene(self) -> Self {
         Self { of_scene: true, ..self }
     }
 
-    /// The same table without the columns in which no row says anything; the first one stays.
+    /// The same table without empty columns; the first one stays.
     pub fn without_empty_columns(self) -> Self {
         let says = |i: usize| self.rows.is_empty() || self.rows.iter().any(|row| !row[i].is_empty());
         let kept = (0..self.columns.len()).map(says).collect();
         self.with_columns(kept)
     }
 
-    /// The same table without the columns of these names; the first one stays.
+    /// The same table without the columns of these names; the first column stays.
     pub fn without_columns(self, names: &[&str]) -> Self {
         let kept = self.columns.iter().map(|column| !names.contains(&column.as_str())).collect();
         self.with_columns(kept)
     }
 
-    /// The columns that are `kept`, and the first one.
+    /// The columns that are `kept`, and the first column.
     fn with_columns(self, mut kept: Vec<bool>) -> Self {
         kept.iter_mut().take(1).for_each(|first| *first = true);
         let columns = only(self.columns, &kept);
@@ -100,13 +100,13 @@ impl Table {
         Self { columns, rows, ..self }
     }
 
-    /// Whether the column holds words, which stand to the left; numbers stand to the right.
+    /// Whether the column contains words, which are aligned to the left; numbers are aligned to the right.
     pub fn is_words(&self, column: usize) -> bool {
         let mut cells = self.rows.iter().map(|row| &row[column]).filter(|cell| !cell.is_empty()).peekable();
         column == 0 || cells.peek().is_some() && cells.all(Cell::is_text)
     }
 
-    /// Whether it has rows that say something beside their names.
+    /// Whether it has rows with more than their names.
     pub fn says_something(&self) -> bool {
         self.rows.iter().flat_map(|row| row.iter().skip(1)).any(|cell| !cell.is_empty())
     }

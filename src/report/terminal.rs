@@ -5,31 +5,31 @@ use comfy_table::{Attribute, Cell as GridCell, CellAlignment, Color, ContentArra
 use super::{Block, Cell, Report, Table, Tone, wrapped};
 use crate::escaped::Escaped as _;
 
-/// Where a table is printed.
+/// The width of the output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Screen {
-    /// Columns; no limit where nobody looks.
+    /// Columns; `None` for no limit, if the output is not a terminal.
     pub width: Option<u16>,
     pub colour: bool,
 }
 
-/// Blanks before the first column, and after every one.
+/// Spaces before the first column, and after every column.
 const INDENT: usize = 2;
 const PADDING: usize = 2;
 
-/// What is printed of a report beside the tables of single scenes: the other tables, then the claims.
+/// The tables except those that belong to one scene, then the claims.
 pub fn summary_tables(report: &Report) -> Vec<Table> {
     let shared = report.tables().filter(|table| !table.of_scene).cloned();
     shared.chain(report.verdict_table()).collect()
 }
 
-/// What columns mean: a sentence below the tables.
+/// The note of a block: the meaning of columns, printed below the tables.
 pub fn note(block: &Block) -> Option<String> {
     if let Block::Note(words) = block { Some(words.clone()) } else { None }
 }
 
-/// The table in lines of at most the screen's width: columns for which there is no room follow below, after the first
-/// column once more.
+/// The table in lines of at most the screen's width: columns that do not fit follow below, after a copy of the first
+/// column.
 pub fn table(table: &Table, screen: Screen) -> String {
     let table = table.clone().without_empty_columns();
     let title = table.title.escaped();
@@ -51,10 +51,11 @@ pub fn table(table: &Table, screen: Screen) -> String {
     text
 }
 
-/// Stands for the name in the row above.
+/// Replaces the name in the row above.
 const ABOVE: char = '…';
 
-/// Below a structure, the same with more keys is named by these keys alone: its whole label leaves no room for figures.
+/// A structure with more keys than the one above is named only by these keys: its whole label leaves no space for
+/// numbers.
 pub fn with_short_names(mut table: Table) -> Table {
     let names: Vec<String> = table.rows.iter().map(|row| row.first().map_or(String::new(), Cell::text)).collect();
     let mut has_short = false;
@@ -70,12 +71,12 @@ pub fn with_short_names(mut table: Table) -> Table {
     table
 }
 
-/// The text of a cell: names of files are in it.
+/// The text of a cell: it may contain names of files.
 fn printed(cell: &Cell) -> String {
     cell.text().escaped().to_string()
 }
 
-/// The columns in groups that fit side by side, the first column in each.
+/// The columns in groups that fit side by side, each with the first column.
 fn blocks(table: &Table, width: Option<usize>) -> Vec<Vec<usize>> {
     let widest = |i: usize| {
         let cells = table.rows.iter().map(|row| printed(&row[i]).chars().count());
@@ -143,7 +144,7 @@ mod tests {
         assert_eq!(lines[0], "Cube");
         assert_eq!(lines[1].split_whitespace().collect::<Vec<_>>(), ["structure", "Mrays/s"]);
         assert_eq!(lines[4], "  a note of some words");
-        // Numbers stand to the right.
+        // Numbers are aligned to the right.
         assert_eq!(lines[1].len(), lines[2].len());
     }
 
@@ -164,7 +165,7 @@ mod tests {
         for width in [26, 40, 80] {
             let text = table(&wide, Screen { width: Some(width), colour: false });
             assert!(text.lines().all(|line| line.chars().count() <= width.into()), "{text}");
-            // Nothing is lost, and no cell is torn apart.
+            // All cells are printed, and none is split.
             let cells = ["structure", "3/9 wrong", "123,456", "three", "1,234"];
             assert!(cells.iter().all(|cell| text.contains(cell)), "{text}");
         }

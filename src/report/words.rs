@@ -3,17 +3,17 @@
 use super::number::figures;
 use crate::measure::{Estimate, Interval};
 
-/// A scene as keys, tables and figures name it: they say where a mesh of our own stands in for a real one.
+/// The name of a scene in keys, tables and figures: it marks a generated mesh that replaces a real one.
 pub fn scene_name(scene: &str, stand_in: bool) -> String {
     if stand_in { format!("{scene} (stand-in)") } else { scene.into() }
 }
 
-/// `20.6 [19.2, 21.4]`; `20.6` of what does not vary; `20.6 (one epoch)` without an interval.
+/// `20.6 [19.2, 21.4]`; `20.6` for an exact number; `20.6 (one epoch)` without an interval.
 pub fn interval(x: Estimate) -> String {
     written(x, figures)
 }
 
-/// As [`interval`], of numbers written as `number` says.
+/// Like [`interval`], with the number format `number`.
 pub fn written(x: Estimate, number: impl Fn(f64) -> String) -> String {
     match x.interval {
         Some(interval) if interval.low == interval.high => number(x.estimate),
@@ -21,7 +21,7 @@ pub fn written(x: Estimate, number: impl Fn(f64) -> String) -> String {
     }
 }
 
-/// With a full stop, unless it ends already: a question is one as well.
+/// Adds a full stop, unless the text ends with a full stop or a question mark.
 pub fn ended(words: &str) -> String {
     if words.ends_with(['.', '?', '!']) { words.into() } else { format!("{words}.") }
 }
@@ -65,7 +65,7 @@ pub fn listed<S: AsRef<str>>(words: &[S]) -> String {
     }
 }
 
-/// Letters, digits and hyphens, from any text; what is left of different texts may be the same.
+/// Letters, digits and hyphens, from any text; different texts may give the same result.
 pub fn slug(text: &str) -> String {
     let mut slug = String::new();
     for c in text.chars() {
@@ -88,12 +88,12 @@ pub fn distinct<'a>(names: impl Iterator<Item = &'a String>) -> Vec<String> {
     each_once(names).into_iter().cloned().collect()
 }
 
-/// Each of `items` once, in the order of their first appearance.
+/// The distinct `items`, in the order of their first appearance.
 pub fn each_once<T: PartialEq>(items: impl IntoIterator<Item = T>) -> Vec<T> {
     each_once_by(items, T::eq)
 }
 
-/// As [`each_once`], where `same` tells whether two of them are one.
+/// Like [`each_once`], with `same` as the equality.
 pub fn each_once_by<T>(items: impl IntoIterator<Item = T>, same: impl Fn(&T, &T) -> bool) -> Vec<T> {
     let mut found: Vec<T> = vec![];
     for item in items {
@@ -104,7 +104,7 @@ pub fn each_once_by<T>(items: impl IntoIterator<Item = T>, same: impl Fn(&T, &T)
     found
 }
 
-/// A command line as another machine would type it: without the folder of the program.
+/// A command line for another machine: without the folder of the program.
 pub fn command_line(command: &str) -> String {
     let (program, rest) = command.split_once(' ').unwrap_or((command, ""));
     let program = program.trim_matches('\'').rsplit(['/', '\\']).next().unwrap_or(program);

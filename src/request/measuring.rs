@@ -1,9 +1,9 @@
-//! How much is timed, as options.
+//! The options of the timing.
 
 use super::{MEASURING, Seconds};
 
-/// How much is timed. The numbers are the defaults of a study, as texts: clap keeps one default value of another type
-/// for all parameters.
+/// The extent of the timing. The parameters are the defaults of a study, rendered as texts: for other types clap keeps
+/// one default for all instances.
 #[derive(Clone, Debug, clap::Args)]
 #[command(next_help_heading = MEASURING)]
 pub struct Measuring<const EPOCHS: u16 = 5, const RUNS: u16 = 3, const BUDGET: u32 = 8> {

@@ -1,4 +1,5 @@
-//! What several commands ask for: scenes, structures, rays and views, as options and as data that another process reads.
+//! The inputs that commands share: scenes, structures, rays and views, as options and as data that another process
+//! reads.
 
 mod headings;
 mod measuring;

@@ -1,4 +1,4 @@
-//! Words that name files, in JSON: text, or an array of bytes where a name is not text.
+//! File names in JSON: text, or an array of bytes if a name is not text.
 
 use std::ffi::{OsStr, OsString};
 
@@ -31,7 +31,7 @@ fn of_bytes(bytes: Vec<u8>) -> Option<OsString> {
     Some(std::os::unix::ffi::OsStringExt::from_vec(bytes))
 }
 
-/// Elsewhere bytes that are not text stand for no name.
+/// On other systems bytes that are not text are not a name.
 #[cfg(not(unix))]
 fn of_bytes(bytes: Vec<u8>) -> Option<OsString> {
     String::from_utf8(bytes).ok().map(OsString::from)

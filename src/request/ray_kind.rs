@@ -9,11 +9,11 @@ use crate::scene::{Scene, View};
 use crate::validate::Stratum;
 
 named_enum! {
-    /// A kind of rays whose errors are counted together. Kinds are never pooled: each fails in its own way.
+    /// A workload whose errors are counted separately. Workloads are never pooled: each fails in its own way.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
     #[serde(rename_all = "kebab-case")]
     pub enum RayKind {
-        /// Half from the camera, half random lines through the box ([`Stratum::Random`]): what pictures are made of.
+        /// Half from the camera, half random lines through the box ([`Stratum::Random`]): the rays of pictures.
         Uniform = "uniform",
         /// Through points of edges ([`Stratum::Edges`]).
         Edge = "edge",
@@ -25,17 +25,17 @@ named_enum! {
         Grazing = "grazing",
         /// With directions 1e-30 to 1e30 long ([`Stratum::Lengths`]).
         Scale = "scale",
-        /// From 1e3 to 1e6 box sizes away: those of [`Stratum::FarOrigins`] that are not farther. Farther away, one step of
-        /// an `f32` is as large as what there is to be hit, and a traversal that must not lose anything visits nearly
-        /// everything.
+        /// From 1e3 to 1e6 box sizes away: the nearer rays of [`Stratum::FarOrigins`]. Farther away, one step of an
+        /// `f32` is as large as the mesh, and a traversal that loses no hit visits nearly everything.
         Offset = "offset",
-        /// From points of triangles ([`Stratum::FromSurface`]), where a test must tell the surface itself from what lies in it.
+        /// From points of triangles ([`Stratum::FromSurface`]): a test must distinguish the surface of the origin from
+        /// other triangles in its plane.
         Surface = "surface",
     }
 }
 
 impl RayKind {
-    /// What the rays are, in a few words.
+    /// A short description of the rays.
     pub fn description(self) -> &'static str {
         match self {
             Self::Uniform => "camera rays and random lines, half of each",
@@ -74,7 +74,7 @@ impl RayKind {
     }
 }
 
-/// The first `count` rays of [`Stratum::FarOrigins`] that start less than 2e6 box sizes away: about two of three do.
+/// The first `count` rays of [`Stratum::FarOrigins`] that start less than 2e6 box sizes away: about two of three.
 fn near_enough(mesh: &Mesh, count: usize, seed: u64) -> Vec<Ray> {
     let (centre, reach) = (mesh.bounds().centre(), mesh.bounds().extent().max_element() * 2e6);
     let mut tried = 2 * count + 64;

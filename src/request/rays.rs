@@ -1,4 +1,4 @@
-//! The rays of a case: made anew, or recorded in a file.
+//! The rays of a case: generated, or read from a file.
 
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
@@ -14,14 +14,14 @@ use crate::report::words::each_once;
 use crate::scene::files::RayFile;
 use crate::scene::{Builtin, Sampling, Scene, Workload, WorkloadKind};
 
-/// The workloads of studies that have no others.
+/// The default workloads of studies.
 pub const WORKLOADS: [WorkloadKind; 4] =
     [WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse, WorkloadKind::Random];
 
-/// Pixels of the report's pictures, to each side.
+/// Width and height of the report's pictures.
 const PICTURE: [u32; 2] = [512, 512];
 
-/// The workloads of a case. `rays` is how many rays of each are timed at most; nothing where all may be.
+/// The workloads of a case. `rays` is the maximum number of timed rays per workload; `None` for no maximum.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "from", rename_all = "kebab-case")]
 pub enum WorkloadRequest {
@@ -33,32 +33,32 @@ pub enum WorkloadRequest {
     },
     /// All rays of the picture that the source report draws, 512 x 512 pixels.
     Picture,
-    /// The primary rays of that picture alone.
+    /// The primary rays of that picture.
     PrimaryPicture,
     /// A file of rays.
     File {
         #[serde(with = "super::os_text")]
         path: PathBuf,
-        /// Of its rays, as [`Workload::hash`].
+        /// The hash of its rays, see [`Workload::hash`].
         hash: String,
         #[serde(default, skip_serializing_if = "Option::is_none")]
         rays: Option<usize>,
     },
-    /// So many rays of each kind that is known to be hard.
+    /// `count` rays of each kind that is known to be hard.
     Hard { kinds: Vec<RayKind>, count: usize },
 }
 
 impl WorkloadRequest {
-    /// At most `rays` rays of each of the kinds; all of them where that is the largest number.
+    /// At most `rays` rays of each workload; all of them for the largest number.
     pub fn of_scene(kinds: Vec<WorkloadKind>, rays: usize) -> Self {
         Self::Scene { kinds, rays: Some(rays).filter(|&rays| rays < usize::MAX) }
     }
 
-    /// The same rays for all structures; those that start on a surface start where `guide` finds it. What a scene has no
-    /// rays of is left out. `progress` is told what is made.
+    /// Generates or reads the rays, the same for all structures. Rays that start on a surface start at the hits of
+    /// `guide`. Workloads without rays in the scene are left out. `progress` receives the name of each workload.
     ///
     /// # Errors
-    /// If a file cannot be read, or holds other rays than it did.
+    /// If a file cannot be read, or its rays have changed.
     pub fn workloads(
         &self,
         scene: &Scene,
@@ -94,7 +94,7 @@ impl WorkloadRequest {
         Ok(workloads)
     }
 
-    /// Rays of a workload that are timed, at most.
+    /// The maximum number of timed rays per workload.
     pub fn most_rays(&self) -> usize {
         match self {
             Self::Scene { rays, .. } | Self::File { rays, .. } => rays.unwrap_or(usize::MAX),
@@ -102,7 +102,7 @@ impl WorkloadRequest {
         }
     }
 
-    /// How many workloads there are, at most.
+    /// The maximum number of workloads.
     pub fn kinds(&self) -> usize {
         match self {
             Self::Scene { kinds, .. } => kinds.len(),
@@ -113,7 +113,7 @@ impl WorkloadRequest {
     }
 }
 
-/// The workloads that are named, each once, else `own`: the same one twice would count twice in every mean.
+/// The distinct workloads of `named`; `own` if it is empty. A repeated workload would count twice in every mean.
 pub fn each_kind<K: Copy + PartialEq>(named: &[K], own: &[K]) -> Vec<K> {
     each_once(if named.is_empty() { own } else { named }.iter().copied())
 }
@@ -131,21 +131,22 @@ pub struct Rays {
 }
 
 impl Rays {
-    /// The workloads named, else `own`.
+    /// The named workloads; without any, `own`.
     pub fn request(&self, own: &[WorkloadKind]) -> WorkloadRequest {
         WorkloadRequest::of_scene(each_kind(&self.workload, own), self.rays)
     }
 }
 
-/// What `--rays` takes: how many rays, or a file of rays. A file whose name is a number or `all` is written `./NAME`.
+/// A value of `--rays`: a number of rays, or a file of rays. A file whose name is a number or `all` is written
+/// `./NAME`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RaySource {
-    /// At most so many; all of them where the number is the largest there is.
+    /// A maximum; all rays for the largest number.
     Count(usize),
     File(PathBuf),
 }
 
-/// More rays than anybody wants in memory.
+/// More rays than fit into memory.
 const MOST: usize = 1 << 26;
 
 /// Reads a number of rays, or `all`: the largest number.
@@ -160,7 +161,7 @@ pub fn rays_or_all(text: &str) -> Result<usize, String> {
     }
 }
 
-/// Reads what a command line names.
+/// Parses the value on the command line.
 impl ValueParserFactory for RaySource {
     type Parser = TryMapValueParser<OsStringValueParser, fn(OsString) -> Result<Self, String>>;
 
@@ -170,13 +171,13 @@ impl ValueParserFactory for RaySource {
 }
 
 impl RaySource {
-    /// What `named` names.
+    /// Parses `named`.
     ///
     /// # Errors
-    /// A sentence, if it is a number that is no number of rays.
+    /// A sentence, if it is a number but not a number of rays.
     pub fn of(named: &OsStr) -> Result<Self, String> {
         let Some(text) = named.to_str() else { return Ok(Self::File(named.into())) };
-        // A number that is wrong is not taken for a file.
+        // A wrong number is not a file name.
         let is_number = text.trim_start_matches(['-', '+']).bytes().all(|byte| byte.is_ascii_digit());
         match rays_or_all(text) {
             Ok(count) => Ok(Self::Count(count)),
@@ -185,7 +186,7 @@ impl RaySource {
         }
     }
 
-    /// The file that they are replayed from, if they are.
+    /// The file, if the rays are read from one.
     pub fn file(&self) -> Option<&Path> {
         match self {
             Self::Count(_) => None,
@@ -193,7 +194,7 @@ impl RaySource {
         }
     }
 
-    /// How many rays at most; all where they are replayed.
+    /// The maximum number of rays; all rays of a file.
     pub fn count(&self) -> usize {
         match self {
             Self::Count(count) => *count,
@@ -201,10 +202,10 @@ impl RaySource {
         }
     }
 
-    /// As [`count`](Self::count), of rays of which there is no end.
+    /// Like [`count`](Self::count), for rays without a natural number.
     ///
     /// # Errors
-    /// If all are asked for.
+    /// If all rays are requested.
     pub fn number(&self) -> anyhow::Result<usize> {
         match self {
             Self::Count(usize::MAX) => anyhow::bail!("the number of such rays is unlimited: give a number, not `all`"),
@@ -214,8 +215,8 @@ impl RaySource {
     }
 }
 
-/// The scene and the rays of the file that `source` names; nothing where rays are to be made. The scene is the one
-/// named, which must be the file's, or the file's own if none is; with its word.
+/// The scene and the rays of the file that `source` names; `None` if the rays are to be generated. The scene is the
+/// named one, which must be the file's, or by default the file's scene; with its word.
 ///
 /// # Errors
 /// If the file cannot be used, or its rays are not for that scene.
@@ -230,7 +231,7 @@ pub fn recorded(
         [] if file.scene.is_empty() => {
             anyhow::bail!("{} names no scene: name one on the command line", path.escaped())
         }
-        // Names of built-in scenes are names; what else a file says is no path to follow.
+        // Follow only names of built-in scenes: any other text in a file must not become a path.
         [] if Builtin::find(&file.scene).is_err() => anyhow::bail!(
             "{} has rays of {:?}, which is not a built-in scene: name the mesh or scene file that they were recorded for",
             path.escaped(),
@@ -245,11 +246,11 @@ pub fn recorded(
     Ok(Some(((name.into(), scene), file)))
 }
 
-/// What a study measures of the file that `source` names: its scene with its word, and its rays, of which at most `rays`
-/// are timed. Nothing where rays are to be made. `workloads` are those named beside it: there must be none.
+/// The inputs of a study from the file that `source` names: its scene with its word, and its rays. At most `rays` of
+/// them are timed. `None` if the rays are to be generated. `workloads` are the other named ones: there must be none.
 ///
 /// # Errors
-/// As [`recorded`].
+/// Like [`recorded`].
 pub fn replayed<K>(
     registry: &Registry,
     source: &RaySource,

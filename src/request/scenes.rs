@@ -15,20 +15,20 @@ use crate::registry::Registry;
 use crate::report::words::listed;
 use crate::scene::{BUILTIN, Builtin, Scene, load, real_mesh_folder};
 
-/// A scene as a case names it.
+/// A scene in a case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SceneRequest {
-    /// A built-in name, `NAME:stand-in`, a generator as `icosphere:7`, or a file.
+    /// A built-in name, `NAME:stand-in`, a generated scene such as `icosphere:7`, or a file.
     #[serde(with = "super::os_text")]
     pub word: OsString,
-    /// Where it is looked at from.
+    /// The camera.
     #[serde(default, skip_serializing_if = "ViewArgs::is_default")]
     pub view: ViewArgs,
-    /// Name of the scene that was loaded.
+    /// Name of the loaded scene.
     pub name: String,
-    /// First 16 digits of [`Scene::hash`]: what a process loads must have it.
+    /// First 16 digits of [`Scene::hash`]: the loaded scene must have this hash.
     pub hash: String,
-    /// Whether a mesh of our own stands in for a real one.
+    /// Whether a generated mesh replaces a real one.
     pub stand_in: bool,
     pub triangles: usize,
 }
@@ -39,7 +39,7 @@ const DIGITS: usize = 16;
 /// Suffix after `NAME:` that selects the stand-in mesh of a built-in scene instead of the real one.
 const STAND_IN: &str = "stand-in";
 
-/// The word for a built-in scene with the mesh that stands in for a real one.
+/// The word for a built-in scene with its stand-in.
 pub fn stand_in(name: impl AsRef<OsStr>) -> OsString {
     let mut word = name.as_ref().to_owned();
     word.push(":");
@@ -48,7 +48,7 @@ pub fn stand_in(name: impl AsRef<OsStr>) -> OsString {
 }
 
 impl SceneRequest {
-    /// A request for `scene`, which is what `word` names, seen by `view`.
+    /// A request for `scene`, which `word` names, with the camera of `view`.
     pub fn new(word: impl Into<OsString>, view: &ViewArgs, scene: &Scene) -> Self {
         Self {
             word: word.into(),
@@ -75,22 +75,22 @@ impl SceneRequest {
     }
 }
 
-/// The scenes named, or all built-in ones.
+/// The named scenes; without names, all built-in ones.
 ///
 /// # Errors
-/// If a name is not known, a file cannot be loaded, or two different scenes have one name.
+/// If a name is unknown, a file cannot be loaded, or two different scenes have one name.
 pub fn scenes(registry: &Registry, named: &[OsString]) -> anyhow::Result<Vec<Scene>> {
     Ok(loaded(registry, &words(named))?.into_iter().map(|(_, scene)| scene).collect())
 }
 
-/// The words named, or all built-in ones.
+/// The named words; without any, all built-in scenes.
 fn words(named: &[OsString]) -> Vec<OsString> {
     if named.is_empty() { BUILTIN.iter().map(|builtin| builtin.name.into()).collect() } else { named.to_vec() }
 }
 
-/// Each of the scenes once, with its word.
+/// The distinct scenes, each with its word.
 fn loaded(registry: &Registry, words: &[OsString]) -> anyhow::Result<Vec<(OsString, Scene)>> {
-    // Load in parallel, as large meshes take seconds; report the first failure in the order of `words`.
+    // Load in parallel, because large meshes take seconds; report the first failure in the order of `words`.
     let load = |word: &OsString| Ok((word.clone(), scene(registry, word)?));
     let scenes: Vec<anyhow::Result<(OsString, Scene)>> = words.par_iter().map(load).collect();
     distinct(scenes.into_iter().collect::<anyhow::Result<_>>()?)
@@ -104,7 +104,7 @@ fn same_name(one: &Scene, other: &Scene) -> bool {
     one.name.eq_ignore_ascii_case(&other.name) && one.stand_ins.is_empty() == other.stand_ins.is_empty()
 }
 
-/// Each of the scenes once, however often it is named. Two different ones of one name are refused.
+/// The distinct scenes. Two different scenes with one name are rejected.
 fn distinct(scenes: Vec<(OsString, Scene)>) -> anyhow::Result<Vec<(OsString, Scene)>> {
     let mut each: Vec<(OsString, Scene)> = vec![];
     for (word, scene) in scenes {
@@ -117,8 +117,8 @@ fn distinct(scenes: Vec<(OsString, Scene)>) -> anyhow::Result<Vec<(OsString, Sce
     Ok(each)
 }
 
-/// A built-in scene by its name in any case, one of a generator, a scene file, or a scene around a mesh file. What is
-/// neither a known name nor looks like a path is taken for a name.
+/// A built-in scene by its name in upper or lower case, a generated scene, a scene file, or a scene around a mesh file.
+/// A word that is not a known name and does not look like a path counts as a name.
 ///
 /// # Errors
 /// If there is no such scene, or a file cannot be loaded.
@@ -144,7 +144,7 @@ pub fn scene(registry: &Registry, word: impl AsRef<OsStr>) -> anyhow::Result<Sce
     }
 }
 
-/// Those of the words that name files.
+/// The words that name files.
 pub fn scene_files(registry: &Registry, words: &[OsString]) -> Vec<PathBuf> {
     let is_name = |word: &str| {
         let name = word.split(':').next().unwrap_or(word);
@@ -153,10 +153,10 @@ pub fn scene_files(registry: &Registry, words: &[OsString]) -> Vec<PathBuf> {
     words.iter().filter(|word| !word.to_str().is_some_and(is_name)).map(PathBuf::from).collect()
 }
 
-/// The file `path` for results, which is none of those read: scenes that are files, and `others`.
+/// The file `path` for results. It must not be one of the inputs: scenes that are files, and `others`.
 ///
 /// # Errors
-/// If it cannot be written, or is one of them.
+/// If it cannot be written, or is an input.
 pub fn output<'a>(
     registry: &Registry,
     path: &Path,
@@ -182,10 +182,10 @@ pub struct Scenes {
 }
 
 impl Scenes {
-    /// Those named, else `own`, else all built-in ones, each with its word.
+    /// The named scenes, each with its word; without names, `own`; if that is empty, all built-in ones.
     ///
     /// # Errors
-    /// As [`scenes`].
+    /// Like [`scenes`].
     pub fn read(&self, registry: &Registry, own: &[&str]) -> anyhow::Result<Vec<(OsString, Scene)>> {
         let own: Vec<OsString> = own.iter().map(|&name| name.into()).collect();
         loaded(registry, &words(if self.scenes.is_empty() { &own } else { &self.scenes }))
@@ -216,10 +216,10 @@ pub struct ScenesAndMeshes {
 
 impl ScenesAndMeshes {
     /// The named scenes, or all built-in ones; with [`Meshes::Both`], a scene that has a stand-in is returned in both
-    /// forms. Each comes with its word.
+    /// forms. Each has its word.
     ///
     /// # Errors
-    /// As [`scenes`], and if real meshes are asked for and one is not there.
+    /// Like [`scenes`], and if real meshes are required and one is missing.
     pub fn read(&self, registry: &Registry) -> anyhow::Result<Vec<(OsString, Scene)>> {
         let mut forms: Vec<OsString> = vec![];
         for word in words(&self.named.scenes) {
@@ -227,7 +227,7 @@ impl ScenesAndMeshes {
             forms.extend((builtin && self.meshes != Meshes::Real).then(|| stand_in(&word)));
             forms.extend((!builtin || self.meshes != Meshes::StandIns).then_some(word));
         }
-        // Both forms of a scene without a real mesh are one.
+        // Without a real mesh both forms of a scene are equal.
         let mut scenes = loaded(registry, &forms)?;
         for (word, scene) in &mut scenes {
             let plain = word.to_str().and_then(|word| word.strip_suffix(STAND_IN)?.strip_suffix(':'));
@@ -241,7 +241,7 @@ impl ScenesAndMeshes {
         Ok(scenes)
     }
 
-    /// A note where a real mesh could have been measured and is not there.
+    /// A note if a real mesh could have been measured but is missing.
     pub fn note<'a>(&self, read: impl Iterator<Item = &'a Scene> + Clone) -> Option<String> {
         let alone = |scene: &&Scene| {
             let is_real = |other: &Scene| other.name == scene.name && other.stand_ins.is_empty();

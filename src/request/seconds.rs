@@ -1,4 +1,4 @@
-//! Seconds, as options give them.
+//! Seconds as values of options.
 
 use std::fmt::{self, Display, Formatter};
 use std::ops::RangeInclusive;

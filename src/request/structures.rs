@@ -1,4 +1,4 @@
-//! Structures by what the command line names, and as a case names them.
+//! Structures, as the command line and cases name them.
 
 use std::time::Duration;
 
@@ -11,58 +11,58 @@ use crate::report::words::{bare, each_once_by};
 use crate::runner::Program;
 use crate::scene::Scene;
 
-/// Every ray against every triangle.
+/// Tests every ray against every triangle.
 pub const BRUTE_FORCE: &str = "brute-force";
 
 /// The report's tree.
 pub const REPORT_TREE: &str = "median-kd";
 
-/// The tree of which the report claims that it would be faster.
+/// The tree that is faster according to the report's claim.
 pub const SAH_TREE: &str = "sah-kd";
 
-/// Stands for one structure of every name.
+/// Selects one structure of every name.
 pub const ALL: &str = "all";
 
-/// The role of a structure that is built a second time, for the A/A noise.
+/// The role of the second build of a structure, for the A/A check.
 pub const TWIN: &str = "twin";
 
-/// The qualities that `--quality` takes.
+/// The values of `--quality`.
 pub const QUALITIES: [&str; 3] = ["fast", "balanced", "high"];
 
-/// A structure as a case names it.
+/// A structure in a case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StructureRequest {
     /// `NAME` or `NAME:key=value,..`; the label of a runner.
     pub spec: String,
-    /// What the structure stands for in a study: [`TWIN`], or a cell of a design; empty where the spec says it all.
+    /// The role of the structure in a study: [`TWIN`], or a cell of a design; may be empty.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub role: String,
-    /// A program that takes the structure's place.
+    /// A program that replaces the structure.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub runner: Option<RunnerRequest>,
-    /// Why the structure is not built: a clause. It has no time then.
+    /// The reason why the structure is not built, as a clause. It then has no time.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub skipped: Option<String>,
 }
 
-/// A program of another language.
+/// A runner in a case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RunnerRequest {
     /// The command line.
     pub command: String,
-    /// Seconds that it may take for an answer.
+    /// Timeout of a reply, seconds.
     pub limit_s: f64,
-    /// What is known of it, the digest of its file among it: another program is another structure.
+    /// Its configuration, including the digest of its file: another program is another structure.
     pub config: serde_json::Value,
 }
 
 impl StructureRequest {
-    /// The structure of this spec, in a role of its own.
+    /// A structure with this spec and role.
     pub fn new(spec: impl Into<String>, role: impl Into<String>) -> Self {
         Self { spec: spec.into(), role: role.into(), runner: None, skipped: None }
     }
 
-    /// The program, with its label.
+    /// A runner, with its label.
     ///
     /// # Errors
     /// If there is no such program.
@@ -72,10 +72,10 @@ impl StructureRequest {
         Ok(Self { runner: Some(runner), ..Self::new(choice.label, "") })
     }
 
-    /// What is built.
+    /// The structure to build.
     ///
     /// # Errors
-    /// If the name, a key or the program is not known here.
+    /// If the name, a key or the program is unknown here.
     pub fn choose(&self, registry: &Registry) -> anyhow::Result<Choice> {
         match &self.runner {
             Some(own) => runner(&own.command, own.limit_s),
@@ -95,7 +95,7 @@ impl From<&Choice> for StructureRequest {
     }
 }
 
-/// The structure of a program, `[NAME=]COMMAND`, that has so many seconds for an answer.
+/// The structure of a runner, `[NAME=]COMMAND`, with the timeout `limit_s` of a reply.
 ///
 /// # Errors
 /// If there is no such program, or it does not follow the protocol.
@@ -105,12 +105,12 @@ pub fn runner(command: &str, limit_s: f64) -> anyhow::Result<Choice> {
     Ok(Choice::of_program(program))
 }
 
-/// Whether a structure is none of this suite's: another crate's, or a program.
+/// Whether a structure is not from this suite: it comes from another crate or is a runner.
 pub fn is_brought(name: &str, triangle_test: &str) -> bool {
     Registry::builtin().find(name, triangle_test).is_none()
 }
 
-/// What is named, with [`ALL`] spelt out; every name if there is nothing.
+/// The named structures, with [`ALL`] expanded; without names, every name.
 pub fn specs(registry: &Registry, named: &[String]) -> Vec<String> {
     let names = || registry.names().into_iter().map(String::from);
     if named.is_empty() {
@@ -122,18 +122,18 @@ pub fn specs(registry: &Registry, named: &[String]) -> Vec<String> {
         .collect()
 }
 
-/// The structures named, or the first of every name; the same one twice would only take time.
+/// The distinct named structures; without names, the first of every name.
 ///
 /// # Errors
-/// If a name, key or value is not known.
+/// If a name, key or value is unknown.
 pub fn structures(registry: &Registry, named: &[String]) -> anyhow::Result<Vec<Choice>> {
     structures_at(registry, named, None)
 }
 
-/// As [`structures`]; those that have the quality and are named without one get it, as if it had been named.
+/// Like [`structures`]. Structures with a key `quality` that are named without one get this quality.
 ///
 /// # Errors
-/// As [`structures`].
+/// Like [`structures`].
 pub fn structures_at(registry: &Registry, named: &[String], quality: Option<&str>) -> anyhow::Result<Vec<Choice>> {
     let at = |spec: String| {
         let Some(quality) = quality else { return spec };
@@ -148,15 +148,15 @@ pub fn structures_at(registry: &Registry, named: &[String], quality: Option<&str
 /// One structure.
 ///
 /// # Errors
-/// As [`structures`].
+/// Like [`structures`].
 pub fn structure(registry: &Registry, spec: &str) -> anyhow::Result<Choice> {
     Ok(registry.choose(spec)?)
 }
 
-/// Refuses names that are no triangle test of any structure.
+/// Rejects names that are not triangle tests of any structure.
 ///
 /// # Errors
-/// If there is one, listing those there are.
+/// If there is such a name; the error lists the known tests.
 pub fn known_tests(registry: &Registry, tests: &[String]) -> anyhow::Result<()> {
     let mut known: Vec<&str> = registry.entries().iter().map(|entry| entry.triangle_test).collect();
     known.sort_unstable();
@@ -172,7 +172,7 @@ pub fn known_tests(registry: &Registry, tests: &[String]) -> anyhow::Result<()> 
     Ok(())
 }
 
-/// The structure that tells where secondary rays start: the SAH tree, or the first of a registry without it.
+/// The structure whose hits are the origins of secondary rays: the SAH tree, or the first of a registry without it.
 ///
 /// # Errors
 /// If the registry is empty.
@@ -194,30 +194,30 @@ pub struct Structures {
 }
 
 impl Structures {
-    /// Those named, else `own`, else one of each name.
+    /// The named structures; without names, `own`; if that is empty, one of each name.
     ///
     /// # Errors
-    /// If a structure is not known.
+    /// If a structure is unknown.
     pub fn chosen(&self, registry: &Registry, own: &[&str]) -> anyhow::Result<Vec<StructureRequest>> {
         let own: Vec<String> = own.iter().map(|&name| name.into()).collect();
         let named = if self.structure.is_empty() { &own } else { &self.structure };
         Ok(structures_at(registry, named, self.quality.as_deref())?.iter().map(Into::into).collect())
     }
 
-    /// Whether the structure of this name is left out among so many triangles: it would take minutes, and was not
+    /// Whether the structure of this name is left out for this number of triangles: it would take minutes, and was not
     /// named.
     pub fn leaves_out(&self, name: &str, triangles: usize) -> bool {
         name == BRUTE_FORCE && is_large(triangles) && !self.names_brute_force()
     }
 
-    /// Whether brute force is named: `all` does not.
+    /// Whether brute force is named; `all` does not count.
     pub fn names_brute_force(&self) -> bool {
         self.structure.iter().any(|spec| bare(spec).eq_ignore_ascii_case(BRUTE_FORCE))
     }
 }
 
-/// The structures and, for the A/A noise, the twin of one of them: of the SAH tree, or else of the first that is
-/// neither brute force nor the report's tree, which take long, or else of the first.
+/// The structures and, for the A/A check, the twin of one of them: of the SAH tree; without it, of the first that is
+/// neither brute force nor the report's tree, which are slow; without such a one, of the first.
 pub fn with_twin(mut structures: Vec<StructureRequest>) -> Vec<StructureRequest> {
     let slow = |structure: &&StructureRequest| [BRUTE_FORCE, REPORT_TREE].contains(&structure.name());
     let sah = structures.iter().find(|structure| structure.name() == SAH_TREE);
@@ -226,15 +226,15 @@ pub fn with_twin(mut structures: Vec<StructureRequest>) -> Vec<StructureRequest>
     structures
 }
 
-/// Among more triangles brute force takes ten milliseconds and more for a ray: it is run only where it is named.
+/// With more triangles brute force takes at least ten milliseconds per ray: it runs only if it is named.
 const MANY: usize = 1 << 22;
 
-/// Whether so many triangles are so many that what grows with each of them is sampled or left out.
+/// Whether there are so many triangles that work proportional to their number is sampled or left out.
 pub fn is_large(triangles: usize) -> bool {
     triangles > MANY
 }
 
-/// Said of a scene with so many.
+/// The note for a scene with so many triangles.
 pub fn left_out(scene: &Scene) -> String {
     format!(
         "{}: {BRUTE_FORCE} is skipped (minutes on so many triangles); pass --structure {BRUTE_FORCE} to run it",
@@ -242,8 +242,8 @@ pub fn left_out(scene: &Scene) -> String {
     )
 }
 
-/// Why a baseline may give wrong answers: a defect of its own that is known and described, so that wrong answers are
-/// shown and do not end a run with the status of ours. Nothing for all other structures.
+/// The known defect of a baseline: it explains its wrong hits, which are shown but do not affect the exit status.
+/// `None` for all other structures.
 pub fn known_defect(structure: &str) -> Option<&'static str> {
     match structure {
         "obvhs-bvh2" | "obvhs-cwbvh" => Some(
@@ -270,7 +270,7 @@ pub fn known_defect(structure: &str) -> Option<&'static str> {
     }
 }
 
-/// Whether a structure is one of the BVHs from outside.
+/// Whether a structure is an obvhs BVH.
 pub fn is_obvhs(structure: &str) -> bool {
     structure.starts_with("obvhs-")
 }
@@ -312,7 +312,7 @@ mod tests {
         let labels = |specs: &[&str], quality| -> Vec<String> {
             let specs: Vec<String> = specs.iter().map(|&spec| spec.into()).collect();
             let chosen = structures_at(&registry, &specs, quality).unwrap();
-            // What a case keeps of a choice is its label.
+            // A case stores only the label of a choice.
             assert!(chosen.iter().all(|choice| registry.choose(&choice.label).unwrap().config == choice.config));
             chosen.into_iter().map(|choice| choice.label).collect()
         };

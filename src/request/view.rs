@@ -1,4 +1,4 @@
-//! Where a scene is looked at from: the same options wherever rays start at a camera.
+//! The options of the camera, shared by all commands with camera rays.
 
 use std::fmt;
 use std::str::FromStr;
@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::numbers;
 use crate::scene::{Camera, Scene};
 
-/// Options that take the place of a scene's own camera and picture.
+/// Options that replace a scene's camera and picture size.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, clap::Args)]
 #[command(next_help_heading = super::SCENES)]
 pub struct ViewArgs {
@@ -88,10 +88,10 @@ impl FromStr for Look {
 }
 
 impl ViewArgs {
-    /// The scene as it is looked at.
+    /// The scene with this view.
     ///
     /// # Errors
-    /// If there is no such view of the scene.
+    /// If the scene has no such view.
     pub fn seen(&self, scene: Scene) -> anyhow::Result<Scene> {
         let mut scene = if self.inside { scene.from_inside().context("--inside")? } else { scene };
         if let Some(Look { eye, target, vertical_fov }) = self.camera {
@@ -102,10 +102,10 @@ impl ViewArgs {
         Ok(scene)
     }
 
-    /// As [`seen`](Self::seen), with a note on a bare mesh that is seen from outside.
+    /// Like [`seen`](Self::seen), with a note on a bare mesh that is seen from outside.
     ///
     /// # Errors
-    /// As [`seen`](Self::seen).
+    /// Like [`seen`](Self::seen).
     pub fn of(&self, scene: Scene) -> anyhow::Result<Scene> {
         let mut scene = self.seen(scene)?;
         if scene.is_framed && self.looks_from().is_none() {
@@ -120,7 +120,7 @@ impl ViewArgs {
         *self == Self::default()
     }
 
-    /// The option that says from where the scene is seen, if it was given.
+    /// The option of the viewpoint, if it was given.
     pub fn looks_from(&self) -> Option<&'static str> {
         match (self.inside, self.camera) {
             (true, _) => Some("--inside"),
@@ -129,7 +129,7 @@ impl ViewArgs {
         }
     }
 
-    /// The options as a shell reads them; empty without one.
+    /// The options as arguments for a shell; empty without one.
     pub fn words(&self) -> String {
         let camera = self.camera.filter(|_| !self.inside).map(|look| format!("--camera '{look}'"));
         let inside = self.inside.then(|| "--inside".to_owned());
@@ -137,7 +137,7 @@ impl ViewArgs {
         [camera, inside, size].into_iter().flatten().collect::<Vec<String>>().join(" ")
     }
 
-    /// Refuses options that rays of a file do not heed.
+    /// Rejects camera options together with rays of a file, which ignore them.
     ///
     /// # Errors
     /// If there is one.

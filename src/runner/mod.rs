@@ -24,7 +24,7 @@ pub use program::Program;
 /// A structure that a [`Program`] has built.
 pub struct Runner {
     state: Mutex<State>,
-    /// The folder of the files for the exchange.
+    /// The folder of the exchanged files.
     folder: TempDir,
     capabilities: Capabilities,
     build_ns: u64,
@@ -107,7 +107,7 @@ impl DynAccel for Runner {
         Footprint { other: self.bytes, ..Footprint::default() }
     }
 
-    /// The shape is unknown: one leaf stands for it.
+    /// The shape is unknown and reported as one leaf.
     fn shape(&self) -> TreeShape {
         TreeShape { leaves: 1, references: self.triangles, largest_leaf: self.triangles, ..TreeShape::default() }
     }

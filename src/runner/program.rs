@@ -38,7 +38,7 @@ impl Program {
         &self.command
     }
 
-    /// The name that it was given; else that of the program without its folder, and the arguments.
+    /// The given name; by default the name of the program without its folder, and the arguments.
     pub fn name(&self) -> String {
         if let Some(name) = &self.name {
             return name.clone();
@@ -47,8 +47,8 @@ impl Program {
         [&[file], &self.words[1..]].concat().join(" ")
     }
 
-    /// Identifies the build: the first digits of the SHA-256 of its file and of each file among its arguments, such as the
-    /// script that an interpreter runs. None if it is found on the search path and has no such argument.
+    /// Identifies the build: the first digits of the SHA-256 of its file and of each file among its arguments, such as
+    /// the script of an interpreter. `None` if it is found on the search path and has no such argument.
     pub fn build_id(&self) -> Option<String> {
         let ids: Vec<String> = self.words.iter().filter_map(|word| file_id(Path::new(word)).ok()).collect();
         (!ids.is_empty()).then(|| ids.join(" "))

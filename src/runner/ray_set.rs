@@ -12,18 +12,18 @@ use crate::output::OutputFile;
 use crate::scene::Workload;
 use crate::scene::files::{HitFile, RayFile, RaysId};
 
-/// The running program and what it has reported so far.
+/// The running program and its reports so far.
 pub(super) struct State {
     session: Session,
-    /// Why the runner has failed, once it has; it receives no more requests then.
+    /// The reason why the runner has failed, once it has; it then receives no more requests.
     pub failure: Option<String>,
-    /// The numbers of sets that are in use.
+    /// The numbers of sets in use.
     taken: Vec<bool>,
     /// For each pass, the elapsed time as a multiple of the time that the runner reported.
     pub outside: Vec<f64>,
 }
 
-/// In a shorter pass the request and the reply take a notable part of the elapsed time, so clocks cannot be compared.
+/// In a shorter pass the request and the reply take a notable part of the elapsed time: clocks cannot be compared.
 const LONG_NS: u64 = 1_000_000;
 
 impl State {
@@ -39,11 +39,11 @@ pub(super) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 /// A numbered set of rays.
 pub(super) struct RaySet<'a> {
     state: &'a Mutex<State>,
-    /// The folder of the files for the exchange.
+    /// The folder of the exchanged files.
     folder: &'a Path,
     number: usize,
     rays: Cow<'a, [Ray]>,
-    /// The rays that the runner has loaded; none before the first query.
+    /// The rays that the runner has loaded; `None` before the first query.
     loaded: Mutex<Option<RaysId>>,
     own_ns: AtomicU64,
 }
@@ -57,7 +57,7 @@ impl<'a> RaySet<'a> {
         Self { state, folder, number, rays, loaded: Mutex::new(None), own_ns: AtomicU64::new(0) }
     }
 
-    /// The hits of all rays; none once the runner has failed.
+    /// The hits of all rays; `None` once the runner has failed.
     fn hits(&self, query: Query) -> Option<Vec<Option<Hit>>> {
         let state = &mut *locked(self.state);
         if state.failure.is_some() || self.rays.is_empty() {
@@ -97,7 +97,7 @@ impl<'a> RaySet<'a> {
         Ok(hits.to_vec())
     }
 
-    /// Has the runner load the rays for a query.
+    /// Makes the runner load the rays for a query.
     fn send(&self, state: &mut State, query: Query) -> Result<RaysId, String> {
         let workload = Workload { name: query.name().into(), query, rays: self.rays.to_vec() };
         let id = RaysId::of(&workload);

@@ -1,4 +1,4 @@
-//! A program that answers each line of input with a line of output.
+//! A program that replies to each line of input with a line of output.
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
@@ -11,22 +11,22 @@ use crate::measure::{on_all_cores, process_group};
 /// A running program, with a time limit for each reply.
 pub(super) struct Session {
     child: Child,
-    /// None once it has been closed.
+    /// `None` once it has been closed.
     input: Option<ChildStdin>,
     lines: Receiver<Vec<u8>>,
     limit: Duration,
 }
 
-/// A line, and the elapsed time until it came.
+/// A line, and the elapsed time until it arrived.
 pub(super) struct Reply {
     pub text: String,
     pub ns: u64,
 }
 
-/// The bytes of the longest reply; a longer one is cut.
+/// The maximum length of a reply in bytes; a longer one is cut.
 const LONGEST: u64 = 4096;
 
-/// What a program may take to end.
+/// Time limit for the end of a program.
 const GRACE_PERIOD: Duration = Duration::from_millis(500);
 
 impl Session {
@@ -94,8 +94,8 @@ impl Session {
         }
     }
 
-    /// Closes its input, waits up to `patience`, and kills it with all that it has started. Its exit status, if it
-    /// ended by itself.
+    /// Closes its input, waits up to `patience`, and kills it with all programs that it has started. Returns its exit
+    /// status if it ended by itself.
     fn end(&mut self, patience: Duration) -> Option<ExitStatus> {
         self.input = None;
         let has_ended = process_group::ends_within(&mut self.child, patience);
@@ -116,12 +116,12 @@ fn text(line: &[u8]) -> String {
     text.trim_end_matches(['\r', '\n']).chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }
 
-/// The error for a reply of another form than `form`.
+/// The error for a reply that is not of the form `form`.
 pub(super) fn unexpected(request: &str, reply: &str, form: &str) -> String {
     format!("it replies {reply:?} to {request:?}, not {form:?}: write messages to standard error")
 }
 
-/// Nanoseconds from the seconds that a runner reports, a number that is finite and not negative.
+/// Nanoseconds from the seconds that a runner reports, which must be finite and not negative.
 pub(super) fn nanoseconds(seconds: &str) -> Option<u64> {
     let seconds: f64 = seconds.parse().ok()?;
     (0.0..1e9).contains(&seconds).then_some((seconds * 1e9) as u64)

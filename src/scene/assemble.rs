@@ -9,13 +9,13 @@ use crate::escaped::Escaped as _;
 use crate::geometry::{Mesh, Transform};
 use crate::names::suggestion;
 
-/// The origin of a scene file, and where to look for other files.
+/// The origin of a scene file, and the folders of other files.
 pub(super) struct Origin<'a> {
     /// The name for messages.
     pub file: &'a str,
-    /// The folder that paths in the file are relative to; none for a built-in scene.
+    /// The folder that paths in the file are relative to; `None` for a built-in scene.
     pub folder: Option<&'a Path>,
-    /// The folder of real meshes; none to use stand-ins always.
+    /// The folder of real meshes; `None` for stand-ins only.
     pub real_meshes: Option<&'a Path>,
 }
 

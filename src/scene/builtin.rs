@@ -36,7 +36,7 @@ macro_rules! builtin {
     };
 }
 
-/// All of them, in the order of the report.
+/// All built-in scenes, in the order of the report.
 pub const BUILTIN: &[Builtin] = builtin! {
     Easy "Cube" "cube";
     Easy "Sphere" "sphere";
@@ -53,7 +53,7 @@ pub const BUILTIN: &[Builtin] = builtin! {
 };
 
 impl Builtin {
-    /// The scene called `name`, in any case.
+    /// The scene called `name`, in upper or lower case.
     ///
     /// # Errors
     /// [`SceneError::Unknown`], which suggests a name and lists all.
@@ -74,7 +74,7 @@ impl Builtin {
         SceneFile::parse(self.text, self.name).expect("a test reads all built-in scenes")
     }
 
-    /// Makes the scene with the real meshes in the folder `real_meshes`; without a folder, with generated ones.
+    /// Makes the scene with the real meshes in the folder `real_meshes`; `None` for generated meshes only.
     ///
     /// # Errors
     /// A file of `real_meshes` that cannot be loaded.

@@ -13,7 +13,7 @@ pub struct Camera {
     vertical_fov: f32,
 }
 
-/// Why [`Camera::new`] rejects its input.
+/// The reason why [`Camera::new`] rejects its input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum CameraError {
     #[error("the camera's eye, target and up must be finite numbers")]
@@ -77,7 +77,7 @@ impl Camera {
 
 /// A camera with an image: makes the rays through its pixels.
 ///
-/// Computed in `f64` and rounded once, so that the rays have the same bits on every machine.
+/// Computed in `f64` and rounded once: the rays have the same bits on every machine.
 #[derive(Clone, Copy, Debug)]
 pub struct View {
     eye: Vec3,

@@ -1,4 +1,4 @@
-//! Why a scene cannot be made.
+//! Errors of scenes.
 
 use std::path::PathBuf;
 

@@ -29,9 +29,9 @@ pub struct SceneFile {
     /// See [`super::Scene::shadow_terminator_fix`].
     #[serde(default = "yes")]
     pub shadow_terminator_fix: bool,
-    /// How far each ray origin is moved along its direction, those at the eye included: the course's guard against
-    /// hitting the surface that a ray leaves, which the report's ray counts depend on. Without it rays leave surfaces
-    /// error-bounded, which is right at every scale: see [`super::Offset`].
+    /// How far each ray origin is moved along its direction, including those at the eye. The source report's course
+    /// avoids self-intersection in this way, and the report's ray counts depend on it. Without this key rays leave
+    /// surfaces error-bounded, which is right at every scale: see [`super::Offset`].
     pub ray_offset: Option<f32>,
     pub camera: CameraFile,
     #[serde(default)]
@@ -65,7 +65,7 @@ pub struct LightFile {
     pub qat: f32,
 }
 
-/// A material: see [`Material`]. Textures are accepted and left out; the scene's notes say so.
+/// A material: see [`Material`]. Textures are accepted and ignored, with a note in the scene.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case, reason = "the keys have the names of MTL")]
@@ -98,52 +98,52 @@ impl MaterialFile {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ObjectFile {
-    /// The name of a generator ([`super::meshes::GENERATORS`]), or a path relative to the scene file; none if there is
-    /// only `real`, or a `terrain`.
+    /// The name of a generator ([`super::meshes::GENERATORS`]), or a path relative to the scene file; `None` if there
+    /// is only `real`, or a `terrain`.
     pub mesh: Option<String>,
     /// Generated ground instead of a mesh.
     pub terrain: Option<Terrain>,
-    /// The material of the whole mesh. Without `material` and `materials` the mesh keeps its own, or is grey.
+    /// The material of the whole mesh. Without `material` and `materials` the mesh keeps its own materials, or is grey.
     pub material: Option<String>,
-    /// Materials by part, where parts are the materials that the mesh itself names.
+    /// Materials by part; a part is a material that the mesh itself names.
     pub materials: Option<BTreeMap<String, String>>,
-    /// With `sca` and `tra` the numbers of a [`crate::geometry::Transform`]; degrees.
+    /// Together with `sca` and `tra`, the numbers of a [`crate::geometry::Transform`]; degrees.
     #[serde(default)]
     pub rot: [f32; 3],
     #[serde(default = "ones")]
     pub sca: [f32; 3],
     #[serde(default)]
     pub tra: [f32; 3],
-    /// The mesh that this one stands in for, if any.
+    /// The mesh that this one replaces, if any.
     pub stands_in_for: Option<String>,
     /// The mesh file to use instead if it exists, or the only mesh.
     pub real: Option<RealMesh>,
 }
 
-/// A mesh file that is not part of the project, how to get it and its placement.
+/// A mesh file that is not part of the project: its source and its placement.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RealMesh {
     /// Name in the folder of real meshes.
     pub file: String,
-    /// Where to download the file, or an archive that `unpack` explains how to unpack.
+    /// The address of the file, or of an archive that `unpack` explains how to unpack.
     pub url: String,
     pub unpack: Option<String>,
     pub licence: String,
     pub origin: String,
-    /// Of the file, in hexadecimal; absent where the file has to be unpacked.
+    /// SHA-256 of the file, in hexadecimal; absent if the file has to be unpacked.
     pub sha256: Option<String>,
     pub bytes: Option<u64>,
     /// The number of triangles of the source report's mesh, if it replaces one.
     pub reported_triangles: Option<usize>,
-    /// With `sca` and `tra` the placement, in place of that of a stand-in.
+    /// Together with `sca` and `tra`, the placement of the real mesh; it replaces the placement of the stand-in.
     #[serde(default)]
     pub rot: [f32; 3],
     #[serde(default = "ones")]
     pub sca: [f32; 3],
     #[serde(default)]
     pub tra: [f32; 3],
-    /// Triangles of these materials of the file are left out.
+    /// Triangles with these materials of the file are left out.
     #[serde(default)]
     pub exclude_materials: Vec<String>,
 }
@@ -169,7 +169,7 @@ fn yes() -> bool {
 }
 
 impl SceneFile {
-    /// Reads `text`, which came from `file`.
+    /// Parses `text`, the content of `file`.
     ///
     /// # Errors
     /// Text that is not TOML, a key that is unknown, missing or of the wrong type, a number out of range.

@@ -86,7 +86,7 @@ impl Scene {
     }
 }
 
-/// A camera that sees all eight corners of `bounds`, and a light beside and above it; none if `f32` has no place for
+/// A camera that sees all eight corners of `bounds`, and a light beside and above it; `None` if `f32` has no place for
 /// them.
 fn place(bounds: Aabb) -> Option<(Camera, Light)> {
     let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());

@@ -9,10 +9,10 @@ use super::{Offset, Scene};
 
 impl Scene {
     /// SHA-256, in hexadecimal, of everything that rays, hits or pictures depend on: vertices, triangles, corner
-    /// normals, materials, lights, camera, background, depth of recursion, how rays leave surfaces, size of the image.
-    /// Names, notes and the list of stand-ins are left out.
+    /// normals, materials, lights, camera, background, depth of recursion, ray offsets, size of the image. Names, notes
+    /// and the list of stand-ins are left out.
     pub fn hash(&self) -> String {
-        // Name every field of the scene, so that the compiler reports a new one here.
+        // Name every field of the scene: the compiler then reports a new one here.
         let Self { mesh, normals, materials, material_of, lights, camera, background, .. } = self;
         let Self { recursion_limit, shadow_terminator_fix, offset, size, .. } = self;
         let Self { name: _, is_framed: _, stand_ins: _, notes: _, warnings: _, .. } = self;
@@ -50,7 +50,7 @@ impl Scene {
     }
 }
 
-/// Buffered, because single words take longer to pass on than to hash.
+/// Buffered, because passing on single words takes longer than hashing them.
 struct Hash(BufWriter<Sha256>);
 
 const SUMMED: &str = "a sum takes all bytes";
@@ -64,7 +64,7 @@ impl Hash {
         self.words(floats.iter().map(|float| float.to_bits()));
     }
 
-    /// The length of a list, so that two lists differ from one concatenated list.
+    /// The length of a list: two lists then differ from one concatenated list.
     fn count(&mut self, n: usize) {
         self.0.write_all(&(n as u64).to_le_bytes()).expect(SUMMED);
     }

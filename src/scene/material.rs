@@ -1,4 +1,4 @@
-//! Surface materials of the course's renderer.
+//! Surface materials of the source report's course.
 
 use glam::Vec3;
 

@@ -11,10 +11,10 @@ pub struct Model {
     pub triangles: Vec<[u32; 3]>,
     /// Corner normals, of any length; empty when the model is flat-shaded.
     pub normals: Vec<Vec3>,
-    /// Three normal indices per triangle, or empty if there are no normals. A triangle of a partly smooth model that
-    /// has no normals of its own holds [`Model::FLAT`] three times.
+    /// Three normal indices per triangle, or empty if there are no normals. In a partly smooth model, a triangle
+    /// without normals has [`Model::FLAT`] three times.
     pub normal_indices: Vec<[u32; 3]>,
-    /// Materials that the model itself names; a scene may replace them by name.
+    /// The model's materials; a scene may replace them by name.
     pub materials: Vec<Material>,
     /// One index into `materials` per triangle, or empty if all triangles have the first.
     pub material_of: Vec<u32>,
@@ -26,8 +26,7 @@ impl Model {
     /// The normal index of a triangle without normals.
     pub const FLAT: u32 = u32::MAX;
 
-    /// The corners of a triangle, or their normals, where it is placed: a mirror turns them round, so that the front stays in
-    /// front.
+    /// The corners of a placed triangle, or their normals: a mirror reverses them, which keeps the front in front.
     pub fn placed([a, b, c]: [u32; 3], is_mirrored: bool) -> [u32; 3] {
         if is_mirrored { [a, c, b] } else { [a, b, c] }
     }

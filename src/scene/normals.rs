@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::Model;
 
-/// Unit normals in world space, three per triangle, or none for a flat triangle.
+/// Unit normals in world space, three per triangle, or `None` for a flat triangle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CornerNormals {
     normals: Vec<Vec3>,
@@ -29,7 +29,7 @@ impl CornerNormals {
         Self { normals, indices }
     }
 
-    /// The three normals of triangle `index`, or none if it is flat.
+    /// The three normals of triangle `index`; `None` if it is flat.
     #[inline]
     pub fn corners(&self, index: u32) -> Option<[Vec3; 3]> {
         let corners = self.indices[index as usize];

@@ -10,12 +10,12 @@ use crate::geometry::{Hit, Mesh, PrimId, Ray};
 
 /// A mesh in world space with normals, materials, lights and a camera.
 ///
-/// Vertices and triangles of the objects follow each other in the order of the scene file.
+/// Vertices and triangles of the objects are in the order of the scene file.
 #[derive(Clone, Debug)]
 pub struct Scene {
     pub name: String,
     pub mesh: Arc<Mesh>,
-    /// None if all triangles are flat.
+    /// `None` if all triangles are flat.
     pub normals: Option<CornerNormals>,
     pub materials: Vec<Material>,
     /// One index into `materials` per triangle.
@@ -26,10 +26,10 @@ pub struct Scene {
     pub background: Vec3,
     /// Mirror rays are followed up to this level; the primary ray is level 0. Default 8.
     pub recursion_limit: u32,
-    /// Whether shadow rays of smooth triangles start off the surface, at `point + normal * area^0.05`, as the course
-    /// does against dark facets near the shadow boundary. Default true.
+    /// Whether shadow rays of smooth triangles start off the surface, at `point + normal * area^0.05`. The course uses
+    /// this against dark facets near the shadow boundary. Default true.
     pub shadow_terminator_fix: bool,
-    /// How rays leave surfaces: error-bounded, unless the scene file sets a `ray_offset`.
+    /// The ray offset at surfaces: error-bounded, unless the scene file sets a `ray_offset`.
     pub offset: Offset,
     /// Width and height of the image.
     pub size: [u32; 2],
@@ -39,7 +39,7 @@ pub struct Scene {
     pub stand_ins: Vec<String>,
     /// Notes for readers of results, one sentence each.
     pub notes: Vec<String>,
-    /// The notes that are printed before anything is measured.
+    /// The notes to print before the measuring.
     pub warnings: Vec<String>,
 }
 
@@ -57,7 +57,7 @@ pub struct Surface {
 
 impl Scene {
     /// The rays through the point `offset` of the pixels `range`, counted row by row from the top left, on an image of
-    /// `size`. `offset` is that of [`View::ray`](super::View::ray).
+    /// `size`. `offset` is as in [`View::ray`](super::View::ray).
     pub fn primary_rays(&self, size: [u32; 2], offset: Vec2, range: std::ops::Range<u32>) -> Vec<Ray> {
         let view = self.camera.view(size);
         let ray = |pixel| view.ray(pixel % size[0], pixel / size[0], offset);
@@ -76,7 +76,7 @@ impl Scene {
         ((b - a).cross(c - a).length() * 0.5) as f32
     }
 
-    /// Point and normals where `ray` hits, computed in `f64` from the ray and the corners.
+    /// Point and normals at the hit of `ray`, computed in `f64` from the ray and the corners.
     pub fn surface(&self, ray: &Ray, hit: Hit) -> Surface {
         let corners = self.mesh.corners(hit.prim.index());
         let weights = barycentrics(ray, corners);

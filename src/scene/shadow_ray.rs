@@ -4,11 +4,11 @@ use super::{Light, Scene, Surface};
 use crate::geometry::{PrimId, Ray};
 
 impl Scene {
-    /// The any-hit ray that finds out whether `light` is hidden from the surface of `prim`.
+    /// The any-hit ray that tests whether `light` is hidden from the surface of `prim`.
     ///
-    /// It starts on the surface, or off it by [`Scene::shadow_terminator_fix`], and is offset by [`Scene::offset`]. Its
-    /// length is the distance of the light from the surface point, so that an occluder a little beyond the light
-    /// counts, as in the course. Lights behind the surface have shadow rays too.
+    /// It starts on the surface, or off it by [`Scene::shadow_terminator_fix`], with the offset [`Scene::offset`]. Its
+    /// length is the distance of the light from the surface point: as in the course, an occluder slightly beyond the
+    /// light counts. Lights behind the surface have shadow rays too.
     pub fn shadow_ray(&self, prim: PrimId, surface: &Surface, light: &Light) -> Ray {
         let mut start = surface.point;
         if surface.smooth && self.shadow_terminator_fix {

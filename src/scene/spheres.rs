@@ -1,35 +1,35 @@
-//! One sphere, divided more and more finely: the scenes `icosphere:LEVEL`.
+//! One sphere at several subdivision levels: the scenes `icosphere:LEVEL`.
 
 use glam::Vec3;
 
 use super::{Camera, Light, Scene, SceneError, meshes};
 
-/// Steps along an edge of the icosahedron, by level: 20 triangles and four times as many from each level to the next, but for the last
-/// one. That has 16 million, since all structures over 21 million would not fit the memory of many machines.
+/// Steps along an edge of the icosahedron, by level: 20 triangles and four times as many from each level to the next,
+/// except for the last one. It has 16 million: all structures over 21 million would exceed the memory of many machines.
 const STEPS: [u32; 11] = [1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 895];
 
 /// The finest level.
 pub const FINEST: u32 = STEPS.len() as u32 - 1;
 
-/// How many triangles the icosphere of a level has.
+/// The number of triangles of the icosphere of a level.
 pub fn triangles(level: u32) -> usize {
     20 * (STEPS[level as usize] as usize).pow(2)
 }
 
-/// The scene of the level that `parameters` name.
+/// The scene of the level `parameters`.
 ///
 /// # Errors
-/// If they are no level.
+/// If it is not a level.
 pub fn generate(parameters: &str) -> anyhow::Result<Scene> {
     let level = parameters.parse().ok().filter(|level| *level <= FINEST);
     let level = level.ok_or_else(|| anyhow::anyhow!("give a level from 0 to {FINEST}, such as icosphere:5"))?;
     Ok(sphere(level)?)
 }
 
-/// The icosphere of a level before the camera and the light of the report's sphere: of all levels the same view.
+/// The icosphere of a level with the camera and the light of the report's sphere: all levels have the same view.
 ///
 /// # Errors
-/// None for the levels there are.
+/// None for an existing level.
 ///
 /// # Panics
 /// If there is no such level.

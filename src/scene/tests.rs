@@ -223,7 +223,7 @@ fn a_mirror_leaves_fronts_in_front() {
                 let front = (b - a).cross(c - a);
                 let corners = placed.normals.as_ref().and_then(|normals| normals.corners(t));
                 let is_in_front = |n: &Vec3| n.dot(front) >= 0.0;
-                // A corner's normal may lean, but all three of a triangle do not lean back.
+                // A corner's normal may lean back, but not all three of a triangle.
                 assert!(corners.is_none_or(|corners| corners.iter().any(is_in_front)), "{mesh} {sca:?} {t}");
             }
         }
@@ -241,7 +241,7 @@ fn a_surface_has_the_point_and_both_normals() {
     assert_eq!((surface.point.normal, surface.shading_normal, surface.smooth), (Vec3::Z, Vec3::Z, false));
     assert_eq!(flat.area(Hit::new(4.0, front).prim), 2.0);
 
-    // At a corner of the sphere the normal is the corner's own; on an edge it lies between.
+    // At a corner of the sphere the normal is the corner's; on an edge it lies between.
     let round = scene(&PLAIN.replace("cube", "icosphere")).unwrap();
     let [a, b, c] = round.mesh.corners(7);
     let [at_a, at_b, at_c] = round.normals.as_ref().unwrap().corners(7).unwrap();

@@ -1,5 +1,5 @@
-//! What one process measures: one epoch of one scene. Plain data, which any process reads back: no process needs to
-//! know which study it works for.
+//! The unit that one process measures: one epoch of one scene. Plain data, which any process can read: no process needs
+//! to know its study.
 
 use std::collections::BTreeMap;
 
@@ -24,9 +24,9 @@ pub struct Case {
     pub structures: Vec<StructureRequest>,
     pub workloads: WorkloadRequest,
     pub settings: Settings,
-    /// Counted from 0. Only epoch 0 checks answers and counts.
+    /// Counted from 0. Only epoch 0 checks hits and counts work.
     pub epoch: usize,
-    /// Epochs that were planned. A run of more of them adds to those that are there.
+    /// Planned epochs. A run with more epochs adds to the existing ones.
     pub epochs: usize,
     /// The command line that planned it.
     pub command: String,
@@ -37,58 +37,57 @@ pub struct Case {
 pub struct Settings {
     /// Samples per structure and workload, at least 1; fewer if the budget runs out.
     pub runs: usize,
-    /// Nanoseconds for all samples of one scene and epoch. Slow pairs are timed on fewer rays to
-    /// stay within it. `None`: all rays are timed.
+    /// Time for all samples of one scene and epoch, ns. Slow pairs are timed on fewer rays to stay within it. `None`:
+    /// all rays are timed.
     pub budget_ns: Option<u64>,
     /// A structure slower than the median by more than this factor is timed on fewer rays. `None`: the factor is
     /// unlimited.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slowest: Option<f64>,
     pub check: Check,
-    /// What a build may take, seconds; a structure that takes longer has no times.
+    /// Time limit of a build, seconds; a structure that takes longer has no times.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub build_limit_s: Option<f64>,
-    /// Specs of structures whose triangle tests are counted over all rays, not over a sample of them.
+    /// Specs of structures whose triangle tests are counted over all rays, not over a sample.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub whole_counts: Vec<String>,
-    /// Whether the scene counts only with a time of each structure.
+    /// Whether the scene counts only if each structure has a time.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub whole: bool,
-    /// The structure that tells where secondary rays start.
+    /// Spec of the structure whose hits are the origins of secondary rays.
     pub guide: String,
-    /// Of the workloads and of the order of samples.
+    /// Seed of the workloads and of the order of samples.
     pub seed: u64,
     /// Threads that build and trace.
     pub threads: usize,
 }
 
-/// What answers are checked against, in epoch 0.
+/// The reference for hits, in epoch 0.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "against", rename_all = "kebab-case")]
 pub enum Check {
-    /// Brute force over the same triangle test, which makes about so many triangle tests for a workload. Wrong answers
-    /// get no time.
+    /// Brute force over the same triangle test, with about `tests` triangle tests per workload. Wrong hits get no time.
     BruteForce {
         tests: usize,
-        /// Nanoseconds that the checks of a scene may take; nothing where they are not bounded by a clock.
+        /// Time limit of all checks of a scene, ns; `None` if no clock limits them.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         limit_ns: Option<u64>,
     },
-    /// The exact oracle: error rates are measured beside times.
+    /// The exact oracle: error counts are measured beside times.
     Oracle,
 }
 
-/// Triangle tests that brute force may make for a workload: two tenths of a second, about.
+/// Triangle tests of brute force per workload: about two tenths of a second.
 pub const TESTS: usize = 1 << 27;
 
 impl Settings {
-    /// Whether a clock bounds what is checked, and so everything else that could take long.
+    /// Whether a clock limits the checks, and so everything else that could take long.
     pub fn is_quick(&self) -> bool {
         matches!(self.check, Check::BruteForce { limit_ns: Some(_), .. })
     }
 
-    /// One sample of all rays on one thread, checked against brute force, with secondary rays that start where the
-    /// structure of this spec finds surfaces.
+    /// One sample of all rays on one thread, checked against brute force. The hits of the structure `guide` are the
+    /// origins of secondary rays.
     pub fn for_guide(guide: impl Into<String>) -> Self {
         Self {
             runs: 1,
@@ -111,12 +110,12 @@ impl Default for Check {
     }
 }
 
-/// Usual [`Settings::slowest`]: a structure slower than the median by more than this factor is timed on fewer
-/// rays: more rays hardly improve its ratios, and it would take up most of the run.
+/// The usual [`Settings::slowest`]. More rays hardly improve the ratios of a slow structure, and it would take up most
+/// of the run.
 pub const SLOWEST: f64 = 4.0;
 
 impl Settings {
-    /// Those of the options, with answers checked against brute force.
+    /// The settings of the options, with hits checked against brute force.
     ///
     /// # Errors
     /// If the registry is empty.
@@ -134,30 +133,30 @@ impl Settings {
     }
 }
 
-/// Building this many triangles takes about a quarter of the time of the rest of the epoch.
+/// An epoch spends about a quarter of its other time on building this many triangles.
 const TRIANGLES: u64 = 12_000;
 
 impl Case {
-    /// The scene as keys and tables name it.
+    /// The name of the scene in keys and tables.
     pub fn scene_title(&self) -> String {
         scene_name(&self.scene.name, self.scene.stand_in)
     }
 
-    /// As progress names it.
+    /// The name in progress messages.
     pub fn title(&self) -> String {
         format!("epoch {} of {}: {}", self.epoch + 1, self.epochs, self.scene_title())
     }
 
-    /// The scene, its labels and the epoch: the readable part of the name of its file.
+    /// The scene, its labels and the epoch: the readable part of the file name.
     pub fn key(&self) -> String {
         let labels: Vec<String> = self.labels.iter().map(|(name, value)| format!("{name}={value}")).collect();
         let words = [self.scene_title(), labels.join(" "), format!("epoch {}", self.epoch)];
         words.into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
     }
 
-    /// How long it takes, about, as a multiple of any unit.
+    /// Approximate duration, as a multiple of any unit.
     pub fn work(&self) -> u64 {
-        // The first epoch checks and counts as well.
+        // Epoch 0 also checks and counts.
         (4 + self.scene.triangles as u64 / TRIANGLES) * if self.epoch == 0 { 2 } else { 1 }
     }
 
@@ -176,7 +175,7 @@ impl Case {
         (&self.scene.hash, self.scene_title(), &self.labels) == (&other.scene.hash, other.scene_title(), &other.labels)
     }
 
-    /// Everything that its result depends on but the number of the epoch.
+    /// Everything that the result depends on, except the number of the epoch.
     fn identity(&self) -> Value {
         let structures: Vec<Value> = self
             .structures
@@ -193,24 +192,24 @@ impl Case {
         })
     }
 
-    /// What all scenes of a comparison share: the settings and the kind of rays.
+    /// The settings and workloads that all scenes of a comparison share.
     pub fn group(&self) -> Map<String, Value> {
         let mut map = match serde_json::to_value(&self.settings).expect("settings have text keys") {
             Value::Object(map) => map,
             _ => unreachable!("settings are a struct"),
         };
         map.remove("whole_counts");
-        // Larger meshes have more time, unless the limit is named.
+        // Larger meshes have more time, unless the user sets the limit.
         map.remove("build_limit_s");
         let workloads = serde_json::to_value(&self.workloads).expect("a request has text keys");
-        // Scenes of one study may have pictures of their own kind.
+        // Scenes of one study may have different pictures.
         if !matches!(self.workloads, WorkloadRequest::Picture | WorkloadRequest::PrimaryPicture) {
             map.insert("workloads".into(), workloads);
         }
         map
     }
 
-    /// Tells cases of other settings apart: with the key it is the name of a file.
+    /// A hash that differs between settings and machines; together with the key it names the file.
     pub fn digest(&self, machine: &impl Serialize) -> String {
         let text = serde_json::to_string(&(self.identity(), machine)).expect("a case has text keys");
         format!("{:08x}", checksum(text.bytes().map(u64::from)) as u32)
@@ -221,7 +220,7 @@ impl Case {
 pub(crate) mod tests {
     use super::*;
 
-    /// One epoch of a scene that is not there.
+    /// One epoch of a scene that does not exist.
     pub fn example(scene: &str, epoch: usize, structures: &[&str]) -> Case {
         Case {
             study: "compare".into(),

@@ -2,9 +2,9 @@
 
 use crate::measure::{Estimate, Interval};
 use crate::report::number::figures;
-use crate::report::{Finding, Outcome, Verdict};
+use crate::report::{ClaimVerdict, Finding, Outcome};
 
-/// One number against what was expected of it. An end that is infinite has no bound.
+/// The expected range of a number. An infinite end is no bound.
 pub struct Claim {
     pub prediction: u8,
     /// The study that measures the figure, and the key of its finding.
@@ -16,22 +16,22 @@ pub struct Claim {
     pub scale: Scale,
 }
 
-/// How the interval of a figure is widened, for all claims are judged together.
+/// How the interval of a number is widened, because all claims are judged together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
-    /// A ratio: its logarithm is.
+    /// A ratio: widens the interval of its logarithm.
     Ratio,
     /// A plain number.
     Number,
-    /// Its interval allows for all claims already.
+    /// Its interval is already corrected for all claims.
     Judged,
 }
 
-/// How many claims there are: each interval allows for all of them.
+/// The number of claims: each interval is corrected for all of them.
 pub const CLAIMS: usize = 24;
 
-/// An order is found well from this tau on, and a family is ranked badly up to the other. The words say "well" and "badly"
-/// without a number; these are ours.
+/// "Well" means a tau of at least this, and "badly" at most the other constant. The predictions use these words without
+/// numbers; this project chose the numbers.
 const WELL: f64 = 0.7;
 const BADLY: f64 = 0.5;
 
@@ -49,13 +49,13 @@ const fn claim(
     Claim { prediction, study, key, what, low, high, scale }
 }
 
-/// All of them, in the order of the predictions.
+/// All claims, in the order of the predictions.
 pub const ALL: [Claim; CLAIMS] = {
     use Scale::{Judged, Number, Ratio};
     const RAYS: [f64; 2] = [-2.0, 2.0];
     const WHOLE: [f64; 2] = [20.0, NONE];
     const PLANE: [f64; 2] = [1.2, 5.0];
-    // As many tests as brute force are not more.
+    // A number of tests equal to brute force is not "more".
     const MORE: [f64; 2] = [1.0_f64.next_up(), NONE];
     [
         claim(1, "replicate", "rays-cube", "Cube: rays more than the report's", RAYS, Number),
@@ -112,7 +112,7 @@ impl Claim {
         }
     }
 
-    fn judge(&self, findings: &[Finding]) -> Verdict {
+    fn judge(&self, findings: &[Finding]) -> ClaimVerdict {
         let value = findings.iter().find(|finding| finding.key == self.key).and_then(|finding| finding.value);
         let value = value.map(|value| match self.scale {
             Scale::Ratio => value.ratio_among(CLAIMS),
@@ -120,20 +120,20 @@ impl Claim {
             Scale::Judged => value,
         });
         let (claim, expected) = (self.what.to_owned(), self.expected());
-        Verdict { prediction: self.prediction, claim, expected, value, outcome: self.outcome(value) }
+        ClaimVerdict { prediction: self.prediction, claim, expected, value, outcome: self.outcome(value) }
     }
 }
 
-/// The claims that `study` measures, judged by its findings. None where none of them is measured.
-pub fn judge(study: &str, findings: &[Finding]) -> Vec<Verdict> {
+/// The verdicts on the claims that `study` measures, from its findings. Empty if none of them is measured.
+pub fn judge(study: &str, findings: &[Finding]) -> Vec<ClaimVerdict> {
     let own = ALL.iter().filter(|claim| claim.study == study);
-    let verdicts: Vec<Verdict> = own.map(|claim| claim.judge(findings)).collect();
+    let verdicts: Vec<ClaimVerdict> = own.map(|claim| claim.judge(findings)).collect();
     let is_measured = verdicts.iter().any(|verdict| verdict.outcome != Outcome::NotMeasured);
     if is_measured { verdicts } else { vec![] }
 }
 
-/// How many of all claims came to what: `10 of 24 claims confirmed, 10 refuted, 4 undecided`.
-pub fn tally<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> String {
+/// The number of claims by outcome: `10 of 24 claims confirmed, 10 refuted, 4 undecided`.
+pub fn tally<'a>(verdicts: impl IntoIterator<Item = &'a ClaimVerdict>) -> String {
     let outcomes: Vec<Outcome> = verdicts.into_iter().map(|verdict| verdict.outcome).collect();
     let count = |outcome: Outcome| outcomes.iter().filter(|own| **own == outcome).count();
     let judged = [Outcome::Confirmed, Outcome::Refuted, Outcome::Undecided].map(count);

@@ -1,4 +1,4 @@
-//! What one report is made of: the epochs of cases of one group, measured by one build on one machine.
+//! The input of one report: the epochs of cases of one group, measured by one build on one machine.
 #![doc = include_str!("SCHEMA.md")]
 
 use serde::{Deserialize, Serialize};
@@ -13,7 +13,7 @@ use crate::report::Failure;
 use crate::report::words::{distinct, each_once};
 use crate::request::is_brought;
 
-/// A case with what was measured for it.
+/// A case with its results.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
     pub case: Case,
@@ -23,11 +23,11 @@ pub struct Measured {
 /// Cases and epochs of one group, with provenance. `--export-json` writes it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Dataset {
-    /// Version of this form.
+    /// Version of this format.
     pub schema: u32,
     pub provenance: Provenance,
     pub measured: Vec<Measured>,
-    /// What is missing or left out, a sentence each.
+    /// Missing or omitted measurements, one sentence each.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
 }
@@ -35,26 +35,26 @@ pub struct Dataset {
 /// All epochs of one scene.
 #[derive(Clone, Debug)]
 pub struct SceneEpochs<'a> {
-    /// That of the first epoch.
+    /// The case of the first epoch.
     pub case: &'a Case,
-    /// In their order; at least one.
+    /// In order of their numbers; at least one.
     pub epochs: Vec<&'a Epoch>,
 }
 
 impl Dataset {
-    /// Version of the form of datasets and of the files of cases.
+    /// Version of the format of datasets and case files.
     pub const SCHEMA: u32 = 4;
 
     pub fn new(provenance: Provenance, measured: Vec<Measured>) -> Self {
         Self { schema: Self::SCHEMA, provenance, measured, notes: vec![] }
     }
 
-    /// The name of the study that planned it; nothing of an empty one.
+    /// The name of the study that planned it; `None` for an empty dataset.
     pub fn study(&self) -> Option<&str> {
         Some(self.measured.first()?.case.study.as_str())
     }
 
-    /// The epochs scene by scene, in the order in which the scenes come first.
+    /// The epochs by scene, in the order in which the scenes first occur.
     pub fn scenes(&self) -> Vec<SceneEpochs<'_>> {
         let mut scenes: Vec<SceneEpochs> = vec![];
         for Measured { case, epoch } in &self.measured {
@@ -67,18 +67,18 @@ impl Dataset {
         scenes
     }
 
-    /// The part of it that is of the scene of `case`.
+    /// The part that belongs to the scene of `case`.
     pub fn of_scene(&self, case: &Case) -> Self {
         let own = self.measured.iter().filter(|measured| measured.case.is_of_scene(case));
         Self { measured: own.cloned().collect(), notes: vec![], ..self.clone() }
     }
 
-    /// Structures without times, each once.
+    /// Structures without times; no duplicates.
     pub fn failures(&self) -> Vec<Failure> {
         each_once(self.measured.iter().flat_map(|measured| measured.epoch.failures()))
     }
 
-    /// One sentence about each structure that a user brings: another crate's, or a program.
+    /// One sentence about each structure that a user brings: a structure of another crate, or a runner.
     pub fn verdicts(&self) -> Vec<String> {
         let is_own = |own: &&Structure| !own.is_twin() && is_brought(&own.name, &own.triangle_test);
         let all = || self.measured.iter().flat_map(|own| &own.epoch.structures).filter(is_own);
@@ -102,7 +102,7 @@ impl Dataset {
         bytes
     }
 
-    /// Whether this is a dataset, of whatever version.
+    /// Whether this is a dataset, of any version.
     pub fn is_dataset(value: &serde_json::Value) -> bool {
         ["schema", "provenance", "measured"].iter().all(|field| value.get(field).is_some())
     }
@@ -110,7 +110,7 @@ impl Dataset {
     /// Reads what [`to_json`](Self::to_json) has written.
     ///
     /// # Errors
-    /// If it is none, or of another version.
+    /// If it is not a dataset, or has another version.
     pub fn read(path: &std::path::Path, value: serde_json::Value) -> Result<Self, JournalError> {
         let there = value.get("schema").and_then(serde_json::Value::as_u64).unwrap_or(0) as u32;
         if there != Self::SCHEMA {

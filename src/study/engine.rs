@@ -17,37 +17,37 @@ use crate::registry::Registry;
 use crate::report::{Report, Table, terminal};
 use crate::scene::Scene;
 
-/// What a study is run with.
+/// The inputs of a run.
 pub struct Run<'a> {
     pub registry: &'a Registry,
-    /// Where journals are kept.
+    /// The folder of all journals.
     pub folder: &'a Path,
-    /// Whether the journal stays there when all is measured; nothing leaves that to the plan.
+    /// Whether the journal stays after a complete run; `None`: the plan decides.
     pub keep_journal: Option<bool>,
     /// Whether the cases are measured again.
     pub fresh: bool,
-    /// Starts a process for each case; without it they are measured in this one.
+    /// Starts a process for each case; if `None`, this process measures them.
     pub processes: Option<&'a Processes>,
     pub screen: &'a mut dyn Screen,
 }
 
-/// What came of a run.
+/// The result of a run.
 pub struct RunOutcome {
-    /// What was measured. Nothing where it was interrupted, or no scene could be measured: then no file is written.
+    /// The measurements. `None` if the run was interrupted, or no scene could be measured: then no file is written.
     pub dataset: Option<Dataset>,
     pub report: Report,
-    /// Tables that were not printed while the run went on.
+    /// Tables that were not printed during the run.
     pub tables: Vec<Table>,
-    /// What explains the tables.
+    /// Notes that explain the tables.
     pub notes: Vec<String>,
     /// The findings below the tables.
     pub foot: Vec<String>,
     pub status: Status,
-    /// What ended the measuring of scenes; the others are measured.
+    /// The errors that ended scenes; all other scenes are measured.
     pub failures: Vec<StudyError>,
 }
 
-/// Measures what `plan` asks for and the journal lacks, and reports.
+/// Measures the cases of `plan` that the journal lacks, and reports.
 ///
 /// # Errors
 /// If the journal or the threads cannot be used, or a case fails for a reason that is not specific to its scene.
@@ -93,26 +93,26 @@ struct Engine<'a> {
     journal: Journal,
     provenance: Provenance,
     threads: Threads,
-    /// The last scene that was measured in this process, with its word: loading a large one takes seconds.
+    /// The last scene that this process measured, with its word: loading a large scene takes seconds.
     loaded: Option<(OsString, Scene)>,
-    /// What ended the measuring of scenes.
+    /// The errors that ended scenes.
     failures: Vec<StudyError>,
-    /// Scenes of which no further epoch is measured: they failed, or there is no time for one.
+    /// Scenes without further epochs: they failed, or their time is up.
     ended: Vec<Case>,
 }
 
 impl Engine<'_> {
-    /// How many cases are not measured.
+    /// The number of cases that are not measured.
     fn left(&self) -> usize {
         self.plan.cases.iter().filter(|case| self.journal.get(case).is_none()).count()
     }
 
-    /// Whether no further epoch of the scene of `case` is measured.
+    /// Whether the scene of `case` gets no further epoch.
     fn has_ended(&self, case: &Case) -> bool {
         self.ended.iter().any(|ended| ended.is_of_scene(case))
     }
 
-    /// Measures all cases that are not there; whether it was stopped.
+    /// Measures all missing cases. Returns whether the user stopped it.
     fn measure(&mut self, run: &mut Run) -> anyhow::Result<bool> {
         let clock = SystemClock::start();
         let mut began = 0;
@@ -142,7 +142,7 @@ impl Engine<'_> {
                 run.screen.done();
             }
             let took = clock.now_ns() - start;
-            // The next epoch takes as long as this one, about.
+            // The next epoch takes about as long as this one.
             let limit = self.plan.limit.map_or(u64::MAX, |limit| limit.as_nanos() as u64);
             let is_late = (clock.now_ns() - began).saturating_add(took) > limit;
             let next = self.plan.cases[number + 1..].iter().any(|other| other.is_of_scene(case));
@@ -161,7 +161,7 @@ impl Engine<'_> {
         Ok(false)
     }
 
-    /// The case, with the structures that epoch 0 could not build in time marked as skipped.
+    /// The case; structures that epoch 0 could not build in time are marked as skipped.
     fn with_skipped(&self, case: &Case) -> Case {
         let first = Case { epoch: 0, ..case.clone() };
         match self.journal.get(&first) {
@@ -170,7 +170,7 @@ impl Engine<'_> {
         }
     }
 
-    /// Measures a case, in a process of its own where there are any, and writes the file `out`.
+    /// Measures a case, in its own process if `processes` allows, and writes the file `out`.
     fn measure_case(&mut self, case: &Case, out: &Path, run: &mut Run, clock: &dyn Clock) -> Result<(), StudyError> {
         if let Some(processes) = run.processes {
             let mut progress = |stage: Stage| run.screen.stage(&stage);
@@ -189,7 +189,7 @@ impl Engine<'_> {
         Ok(())
     }
 
-    /// The measured cases of the plan that `is` picks.
+    /// The measured cases of the plan for which `is` returns true.
     fn joined(&self, is: impl Fn(&Case) -> bool) -> JoinedEpochs {
         let files = self.plan.cases.iter().filter(|case| is(case)).filter_map(|case| self.journal.get(case));
         join(files.map(|file| Measured { case: file.case.clone(), epoch: file.epoch.clone() }).collect())
@@ -221,12 +221,12 @@ impl Engine<'_> {
         Ok(())
     }
 
-    /// What all of it comes to.
+    /// The outcome of the whole run.
     fn outcome(&mut self, stopped: bool, screen: &mut dyn Screen) -> Result<RunOutcome, JournalError> {
-        // The journal may hold other scenes as well: those asked for are shown.
+        // The journal may contain other scenes: show only the requested ones.
         let JoinedEpochs { mut measured, unchecked, failures, .. } = self.joined(|_| true);
         self.failures.extend(failures);
-        if !stopped && !measured.is_empty() && measured.iter().all(|own| own.epoch.says_nothing()) {
+        if !stopped && !measured.is_empty() && measured.iter().all(|own| own.epoch.has_no_rays()) {
             self.failures.push(StudyError::Nothing);
             measured.clear();
         }

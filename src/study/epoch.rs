@@ -1,4 +1,4 @@
-//! One epoch of one scene, as it was measured: plain data.
+//! The measured data of one epoch of one scene.
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -14,17 +14,18 @@ use crate::request::{TWIN, known_defect};
 use crate::triangle::{Exact, TriangleTest};
 use crate::validate::{ErrorCounts, Kind, Validation};
 
-/// One epoch of one scene: all structures are built anew and timed on all workloads in rounds, each round every pair
-/// once, in random order, one workload after the other.
+/// One epoch of one scene. It rebuilds all structures and times them on all workloads in rounds. A round times every
+/// pair of structure and workload once: the workloads in random order, and the structures of a workload in random
+/// order.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Epoch {
     pub scene: String,
     /// [`Scene::hash`](crate::scene::Scene::hash).
     pub scene_hash: String,
-    /// Whether a mesh of our own stands in for a real one.
+    /// Whether a generated mesh replaces a real one.
     pub stand_in: bool,
     pub triangles: usize,
-    /// Those of them without area.
+    /// Triangles without area.
     pub degenerate: usize,
     /// Counted from 0.
     pub epoch: usize,
@@ -36,9 +37,9 @@ pub struct Epoch {
 /// One structure in one epoch.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Structure {
-    /// As chosen.
+    /// The name, with the keys that differ from their defaults.
     pub label: String,
-    /// What it stands for in the study.
+    /// The role in the study, such as [`TWIN`]; empty if it has none.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub role: String,
     /// Name in the registry.
@@ -46,23 +47,23 @@ pub struct Structure {
     /// The whole configuration.
     pub config: Value,
     pub triangle_test: String,
-    /// Why it has no times at all: a sentence. What follows is then empty.
+    /// The reason why it has no times, as a clause; `rays` is then empty.
     pub refused: Option<String>,
-    /// Whether that is for wrong answers.
+    /// Whether wrong hits are the reason for `refused`.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub wrong: bool,
-    /// Nanoseconds of the build, seen from outside unless it times itself.
+    /// Build time, ns; for a runner, the time that it reports. A short build is repeated: the median of three.
     pub build_ns: u64,
-    /// Most bytes held during a build beyond those held before, counted in epoch 0; nothing where they are not counted.
+    /// Peak memory of the build beyond the memory in use before it, bytes; only in epoch 0. `None` if not counted.
     pub build_peak_bytes: Option<usize>,
-    /// How long its passes took as seen from outside, as a multiple of what it says itself, where it times itself.
+    /// Elapsed time of a runner's passes, as a multiple of the time that it reports; `None` for all other structures.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub outside: Option<f64>,
     pub shape: Shape,
     pub rays: Vec<Rays>,
 }
 
-/// What a structure is once it is built, the same in every epoch.
+/// The shape of a finished structure. It is the same in every epoch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Shape {
     /// Memory of the finished structure, without the mesh.
@@ -76,7 +77,7 @@ pub struct Shape {
     pub largest_leaf: usize,
     /// Edges from the root to the deepest leaf.
     pub depth: usize,
-    /// As [`TreeShape::sah_cost`].
+    /// See [`TreeShape::sah_cost`].
     pub sah_cost: Option<f64>,
 }
 
@@ -84,55 +85,58 @@ pub struct Shape {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rays {
     pub workload: String,
-    /// Of its rays, as [`Workload::hash`](crate::scene::Workload::hash).
+    /// [`Workload::hash`](crate::scene::Workload::hash) of the whole workload.
     pub hash: String,
     pub query: Query,
     /// Rays of the workload.
     pub all: usize,
-    /// Rays of a sample, fewer where the structure is slow.
+    /// Rays of a sample; fewer if the structure is slow.
     pub rays: usize,
-    /// Of the answers to these rays, or to a few that another epoch is asked as well.
+    /// Checksum of the hits on a set of rays that all epochs trace: the whole workload if it is timed in full,
+    /// otherwise some tiles of epoch 0.
     pub checksum: u64,
-    /// Nanoseconds of each sample; those of two structures with the same index are a pair. None where there is no time.
+    /// Time of each sample, ns, in the order of the rounds: samples of two structures with the same index are a pair.
+    /// Empty without a time.
     pub ns: Vec<u64>,
-    /// The same samples, for as many of their rays as slower structures are timed on.
+    /// The same samples, restricted to the subsets of rays on which slower structures are timed.
     pub parts: Vec<SubsetSamples>,
-    /// Why there is no time: a clause.
+    /// The reason why there is no time, as a clause.
     pub untimed: Option<String>,
-    /// Whether that is for wrong answers.
+    /// Whether wrong hits are the reason for `untimed`.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub wrong: bool,
-    /// What of the rays the structure declines.
+    /// The feature of these rays that the structure does not support: `any hit`, `t_min` or `t_max`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub declined: Option<String>,
-    /// Of epoch 0 alone; they do not change.
+    /// The check of the hits; only in epoch 0, because hits do not change between epochs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub checked: Option<Checked>,
-    /// Of epoch 0 alone.
+    /// Only in epoch 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub counts: Option<RayCounts>,
-    /// Error rates against the exact oracle, where the case asks for them; of epoch 0 alone.
+    /// Error counts against the exact oracle; only in epoch 0 and with [`Check::Oracle`](super::Check::Oracle).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub errors: Option<ErrorCounts>,
-    /// The longest that a single ray takes when it is asked alone, nanoseconds; likewise.
+    /// The longest time of a single ray that is traced on its own, ns; only in epoch 0 and with
+    /// [`Check::Oracle`](super::Check::Oracle).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slowest_ns: Option<u64>,
 }
 
-/// Rays whose answers were checked: some against brute force, and all that are timed against another tree, with brute force
-/// and exact arithmetic as the judges where the two differ.
+/// The result of the last check. Before the timing, brute force checks a sample of the rays. After it, another tree
+/// checks all timed rays; brute force and exact arithmetic judge the rays on which structure and tree differ.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Checked {
     pub rays: usize,
-    /// Those of them with a wrong answer, which no rounding explains.
+    /// Rays with a wrong hit, which no rounding explains.
     pub errors: usize,
-    /// Those with an answer that the triangle test rounds.
+    /// Rays whose hit differs only by the rounding of the triangle test.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub rounded: usize,
-    /// The worst kind of wrong answer.
+    /// The worst kind of wrong hit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fault: Option<Kind>,
-    /// The ray with the worst answer, and what is wrong with that.
+    /// The ray with the worst hit, and a description of the fault.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub example: Option<(String, String)>,
 }
@@ -157,36 +161,37 @@ impl Checked {
     }
 }
 
-/// What no machine changes, but for the processor's own counters: of all rays of the workload, or an even sample of
-/// many.
+/// Counts over `rays` evenly spread rays of the workload. They are the same on every machine, except the two processor
+/// counters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RayCounts {
-    /// Rays that are counted.
+    /// Counted rays.
     pub rays: usize,
     pub hits: usize,
-    /// Of the distances of the hits, bit by bit: the same for all structures over the exact triangle test.
+    /// Checksum of the bits of `t` of all hits and of the misses. It is the same for all structures over the exact
+    /// triangle test.
     pub distances: u64,
-    /// Triangles tested; nothing where the structure does not tell.
+    /// Triangles tested; `None` if not counted.
     pub tests: Option<u64>,
-    /// Blocks of triangles that were tested at once, likewise.
+    /// Blocks of triangles tested at once; `None` if not counted.
     pub blocks: Option<u64>,
-    /// Nodes and leaves entered, likewise.
+    /// Inner nodes and leaves entered; `None` if not counted.
     pub steps: Option<u64>,
-    /// Leaves entered, likewise.
+    /// Leaves entered; `None` if not counted.
     pub leaves: Option<u64>,
-    /// Leaves entered that hold nothing, likewise.
+    /// Empty leaves entered; `None` if not counted.
     pub empty_leaves: Option<u64>,
-    /// Triangles tested for all rays of the workload, where the case asks for it.
+    /// Triangles tested for all rays of the workload; `None` unless `Settings::whole_counts` names the structure.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub whole_tests: Option<u64>,
-    /// Machine instructions a ray in user space; nothing where they are not counted.
+    /// Mean of the machine instructions per ray, in user space; `None` if not counted.
     pub instructions_per_ray: Option<f64>,
-    /// Branches that the processor predicted wrongly, a ray; likewise.
+    /// Mean of the mispredicted branches per ray; `None` if not counted.
     pub branch_misses_per_ray: Option<f64>,
 }
 
 impl From<&TreeShape> for Shape {
-    /// Without the memory.
+    /// Leaves `bytes` 0.
     fn from(shape: &TreeShape) -> Self {
         Self {
             bytes: 0,
@@ -202,21 +207,21 @@ impl From<&TreeShape> for Shape {
 }
 
 impl Structure {
-    /// Whether other answers than before cost it its own times alone: those of a program, or of a structure with known
-    /// defects.
+    /// Whether hits that change after a rebuild cost only this structure its times, not the whole scene: true for a
+    /// runner and for a structure with known defects.
     pub fn may_err(&self) -> bool {
         self.name == RUNNER || known_defect(&self.name).is_some()
     }
 
-    /// Whether it is built a second time, for the A/A noise.
+    /// Whether it is a twin: the second build of another structure, for the A/A check.
     pub fn is_twin(&self) -> bool {
         self.role == TWIN
     }
 }
 
 impl Rays {
-    /// Nanoseconds a ray in every sample, over the part of `rays` rays of it. None where those were not timed.
-    pub fn paces(&self, rays: usize) -> Vec<f64> {
+    /// Time per ray of each sample, ns, over its subset of `rays` rays. Empty if this subset was not timed.
+    pub fn ns_per_ray(&self, rays: usize) -> Vec<f64> {
         let part = self.parts.iter().find(|part| part.rays == rays).map(|part| &part.ns);
         let ns = if rays == self.rays { Some(&self.ns) } else { part };
         ns.into_iter().flatten().map(|&ns| ns.max(1) as f64 / rays as f64).collect()
@@ -224,30 +229,28 @@ impl Rays {
 }
 
 impl RayCounts {
-    /// `n` for each ray that is counted.
     fn per_ray(&self, n: Option<u64>) -> Option<f64> {
         Some(n? as f64 / self.rays.max(1) as f64)
     }
 
-    /// Triangles tested for each ray.
     pub fn tests_per_ray(&self) -> Option<f64> {
         self.per_ray(self.tests)
     }
 
-    /// Nodes and leaves entered for each ray.
+    /// Inner nodes and leaves entered per ray.
     pub fn steps_per_ray(&self) -> Option<f64> {
         self.per_ray(self.steps)
     }
 
-    /// Triangle tests as a multiple of the fewest that could do: one for each ray that hits, which a structure that knew
-    /// the answer would still make, and none for the others (Havran, Purgathofer 2003). Nothing where no ray hits.
+    /// Triangle tests divided by the minimum. The minimum is one test per ray that hits: a structure that knows the hit
+    /// in advance still tests its triangle (Havran, Purgathofer 2003). `None` if no ray hits or no tests are counted.
     pub fn tests_over_minimum(&self) -> Option<f64> {
         (self.hits > 0).then_some(self.tests? as f64 / self.hits as f64)
     }
 }
 
 impl Epoch {
-    /// The scene as keys and tables name it.
+    /// The name of the scene in keys and tables.
     pub fn title(&self) -> String {
         scene_name(&self.scene, self.stand_in)
     }
@@ -257,20 +260,20 @@ impl Epoch {
         self.structures.iter().find(|structure| structure.role == role)
     }
 
-    /// Rays of a workload on which all structures with a time are timed: as many as the slowest takes.
+    /// The number of rays of a workload that all timed structures share: the size of the smallest sample.
     pub fn common_rays(&self, workload: &str) -> usize {
         let rays = self.structures.iter().filter(|structure| structure.refused.is_none()).flat_map(|s| &s.rays);
         let timed = rays.filter(|rays| rays.workload == workload && !rays.ns.is_empty());
         timed.map(|rays| rays.rays).min().unwrap_or(0)
     }
 
-    /// Whether no structure has rays, though none is refused.
-    pub fn says_nothing(&self) -> bool {
+    /// Whether no structure has rays although none is refused.
+    pub fn has_no_rays(&self) -> bool {
         let is_idle = |structure: &Structure| structure.refused.is_none() && structure.rays.is_empty();
         self.structures.iter().all(is_idle)
     }
 
-    /// Every structure without a time, once.
+    /// One failure per structure, or structure and workload, without a time; no duplicates.
     pub fn failures(&self) -> Vec<Failure> {
         let mut failures: Vec<Failure> = vec![];
         for structure in &self.structures {
@@ -288,12 +291,12 @@ impl Epoch {
         each_once(failures)
     }
 
-    /// That every structure is timed on all workloads, and that all of them, being over one triangle test, give the same
-    /// answers to the bit.
+    /// Checks that every structure has a time on every workload, and that all structures return the same `t`, bit for
+    /// bit. That requires one common triangle test.
     ///
     /// # Errors
-    /// The first structure of which that is not true.
-    pub fn is_whole(&self) -> Result<(), StudyError> {
+    /// The first structure without a time, or the first two that differ.
+    pub fn check_complete(&self) -> Result<(), StudyError> {
         if let Some(failure) = self.failures().into_iter().next() {
             return Err(StudyError::Missing { failure: failure.sentence, wrong: failure.wrong });
         }
@@ -303,26 +306,28 @@ impl Epoch {
         self.agree(|_| Some(""))
     }
 
-    /// That structures over the exact triangle test give the same answers to the bit, to the rays that they are counted
-    /// on: many times as many as are held against brute force. Over a test that rounds, an answer outside of a triangle's
-    /// box is one tree's and not the other's. Those with known defects, and those that have no time, are left out.
+    /// Checks that all structures over the exact triangle test return the same `t`, bit for bit, on the counted rays,
+    /// which are far more than the rays that brute force checks. Other tests are not compared: a test that rounds may
+    /// place a hit outside the box of its triangle, where one tree finds it and another culls it. Structures with known
+    /// defects or without a time are skipped.
     ///
     /// # Errors
-    /// The first two that do not.
-    pub fn is_unanimous(&self) -> Result<(), StudyError> {
+    /// The first two structures that differ.
+    pub fn check_agreement(&self) -> Result<(), StudyError> {
         self.agree(|structure| {
             Some(structure.triangle_test.as_str()).filter(|test| *test == Exact::NAME && !structure.may_err())
         })
     }
 
-    /// That all structures of which `group` gives the same text agree.
+    /// Checks that all structures of one group return the same `t`. `group` returns the group of a structure; `None`
+    /// skips the structure.
     fn agree<'a>(&'a self, group: impl Fn(&'a Structure) -> Option<&'a str>) -> Result<(), StudyError> {
         let mut seen: Vec<(&Structure, &Rays, &str, RayCounts)> = vec![];
         let all = self.structures.iter().filter_map(|structure| Some((structure, group(structure)?)));
         for (structure, own) in all.filter(|(structure, _)| structure.refused.is_none()) {
             for rays in structure.rays.iter().filter(|rays| rays.untimed.is_none()) {
                 let Some(counts) = rays.counts else { continue };
-                // Of those counted on as many rays: trees that test many triangles are counted on fewer.
+                // Compare only equal numbers of counted rays: trees that test many triangles are counted on fewer.
                 let is_same = |(_, other, group, known): &&(&Structure, &Rays, &str, RayCounts)| {
                     *group == own && other.workload == rays.workload && known.rays == counts.rays
                 };
@@ -345,7 +350,7 @@ impl Epoch {
 pub(crate) mod tests {
     use super::*;
 
-    /// 1000 closest-hit rays of a workload as if they had been counted, not timed.
+    /// 1000 closest-hit rays of a workload that were counted, but not timed.
     pub fn rays(workload: &str) -> Rays {
         Rays {
             workload: workload.into(),
@@ -367,8 +372,8 @@ pub(crate) mod tests {
         }
     }
 
-    /// An epoch as if it had been measured: a structure, its build, and nanoseconds of every round of 1000 primary rays.
-    /// A label that stands there a second time is the twin of the first.
+    /// An epoch with one entry per structure: label, build time, and the time of every round of 1000 primary rays, ns.
+    /// A repeated label makes a twin.
     pub fn example(scene: &str, triangles: usize, epoch: usize, structures: &[(&str, u64, &[u64])]) -> Epoch {
         let structure = |(place, &(label, build_ns, ns)): (usize, &(&str, u64, &[u64]))| Structure {
             label: label.into(),

@@ -1,13 +1,12 @@
-//! From the samples of several structures to values that are independent of each other.
+//! Turns the samples of several structures into values that are independent of each other.
 
 use crate::measure::{Estimate, Rerun, Variance, median};
 
-/// Logarithms, one for each structure, once for each epoch. Given are the logarithms of all samples: of each epoch, of
-/// each structure.
+/// One logarithm per epoch and structure. The input is the logarithms of all samples, by epoch and structure.
 ///
-/// Within an epoch, what slowed a whole round is taken out (the median over the structures of how far each is off its
-/// own median), then each structure has the median of its rounds. Figures that are sums over these add up exactly,
-/// epoch by epoch.
+/// Within an epoch, a disturbance that slows a whole round is removed first: the median, over the structures, of the
+/// distance from their own medians. Then each structure has the median of its rounds. Sums over these values add up
+/// exactly in every epoch.
 pub(super) fn epoch_medians(mut epochs: Vec<Vec<Vec<f64>>>) -> Vec<Vec<f64>> {
     let middle = |values: &[f64]| median(values).expect("a structure has samples");
     let rounds = |trees: &[Vec<f64>]| trees.iter().map(Vec::len).min().unwrap_or(0);
@@ -22,7 +21,7 @@ pub(super) fn epoch_medians(mut epochs: Vec<Vec<Vec<f64>>>) -> Vec<Vec<f64>> {
     epochs.iter().map(|trees| trees.iter().map(|tree| middle(tree)).collect()).collect()
 }
 
-/// e to the power of what `of` makes of an epoch, with its interval; `noise` is what the A/A noise adds to it.
+/// exp(`of`(epoch)), with its interval; `noise` is the variance that the A/A noise adds.
 pub(super) fn ratio(epoch_medians: &[Vec<f64>], of: impl Fn(&[f64]) -> f64, noise: Variance) -> Estimate {
     Rerun::of(&values(epoch_medians, of), noise).expect("there is an epoch").ratio()
 }

@@ -2,7 +2,7 @@ use super::journal::JournalError;
 use crate::accel::BuildError;
 use crate::report::number::plural;
 
-/// Why a study cannot go on.
+/// The reason why a study cannot continue.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
     #[error("{structure} cannot be built over {scene}: {cause}")]
@@ -43,21 +43,21 @@ pub enum StudyError {
     Journal(#[from] JournalError),
 }
 
-/// What epochs differ in, where one of them has wrong [answers](StudyError::Apart).
+/// The difference between two epochs, if one of them has wrong [hits](StudyError::Apart).
 pub const ANSWERS: &str = "the hits";
 
-/// What to name where so many structures fit into memory, before what else helps.
+/// Advice to name at most `most` structures, which fit into memory.
 fn fewer(most: usize) -> String {
     if most == 0 { String::new() } else { format!("at most {}, or ", plural(most, "structure")) }
 }
 
 impl StudyError {
-    /// What comes of the cause why `structure` cannot be built over `scene`.
+    /// The error for the reason why `structure` cannot be built over `scene`.
     pub fn of_build(structure: &str, scene: &str) -> impl FnOnce(BuildError) -> Self {
         move |cause| Self::Build { structure: structure.into(), scene: scene.into(), cause }
     }
 
-    /// Whether other scenes can be measured all the same.
+    /// Whether other scenes can still be measured.
     pub fn is_of_one_scene(&self) -> bool {
         match self {
             Self::Threads(_) | Self::Nothing | Self::Journal(_) => false,
@@ -66,7 +66,7 @@ impl StudyError {
         }
     }
 
-    /// Whether a structure answered wrongly, so that nothing but the structure is to blame.
+    /// Whether a structure returned wrong hits, so only the structure is to blame.
     pub fn is_wrong_answer(&self) -> bool {
         matches!(
             self,

@@ -1,8 +1,7 @@
-//! Epochs of a scene, measured each by itself, as one measurement: a pure function of what was measured.
+//! Joins the separately measured epochs of a scene into one measurement. A pure function of the measurements.
 //!
-//! Epoch 0 alone is checked and counted: what it found holds for all of them, and without it the scene is left out. What
-//! epochs have in common says that they are of one measurement: the rays, how many of them are timed and how often, and
-//! the answers to them.
+//! Only epoch 0 checks and counts: its results hold for all epochs, and without it the scene is left out. Epochs belong
+//! to one measurement if they have the same rays, number of timed rays, number of samples and hits.
 
 use super::StudyError;
 use super::dataset::Measured;
@@ -11,20 +10,20 @@ use super::error::ANSWERS;
 use crate::registry::RUNNER;
 use crate::report::words::listed;
 
-/// Cases that a report can be made of, and why others are left out.
+/// Cases for a report, and the reasons why other cases are left out.
 #[derive(Debug, Default)]
 pub struct JoinedEpochs {
-    /// In the order in which they were given.
+    /// In the order of the input.
     pub measured: Vec<Measured>,
-    /// What ends a scene: its cases are left out.
+    /// The errors that end scenes: their cases are left out.
     pub failures: Vec<StudyError>,
-    /// Scenes that are not checked, a sentence each: their cases are left out.
+    /// Scenes without a check, one sentence each: their cases are left out.
     pub unchecked: Vec<String>,
-    /// Epochs that were planned and are not there, a sentence each.
+    /// Planned epochs that are missing, one sentence each.
     pub missing: Vec<String>,
 }
 
-/// Joins the epochs of each scene. A scene that counts [whole](super::case::Settings::whole) is left out where a
+/// Joins the epochs of each scene. A scene that counts only as a [whole](super::case::Settings::whole) is left out if a
 /// structure lacks a time.
 pub fn join(mut measured: Vec<Measured>) -> JoinedEpochs {
     let mut joined = JoinedEpochs::default();
@@ -39,7 +38,7 @@ pub fn join(mut measured: Vec<Measured>) -> JoinedEpochs {
             out.extend(places);
             continue;
         }
-        let agree = if case.settings.whole { Epoch::is_whole } else { Epoch::is_unanimous };
+        let agree = if case.settings.whole { Epoch::check_complete } else { Epoch::check_agreement };
         let found = one(&mut own).and_then(|()| own.iter().try_for_each(agree));
         if let Err(error) = found {
             joined.failures.push(error);
@@ -61,7 +60,7 @@ pub fn join(mut measured: Vec<Measured>) -> JoinedEpochs {
     joined
 }
 
-/// The places of the cases of each scene.
+/// The indices of the cases of each scene.
 fn scenes(measured: &[Measured]) -> Vec<Vec<usize>> {
     let mut found: Vec<Vec<usize>> = vec![];
     for (place, own) in measured.iter().enumerate() {
@@ -80,7 +79,7 @@ fn lacks(title: &str, missing: &[usize]) -> String {
     format!("{title}: {epochs} {} {are} not measured", listed(&numbers))
 }
 
-/// Makes the epochs of a scene, the first of which is epoch 0, one measurement.
+/// Turns the epochs of a scene, epoch 0 first, into one measurement.
 fn one(epochs: &mut [Epoch]) -> Result<(), StudyError> {
     let (title, structures) = (epochs[0].title(), epochs[0].structures.len());
     for place in 0..structures {
@@ -95,7 +94,7 @@ fn one(epochs: &mut [Epoch]) -> Result<(), StudyError> {
         if let Some(other) = epochs.iter().find(|e| e.structures.get(place).is_none_or(|own| own.label != label)) {
             return Err(apart(other, "", "the structures"));
         }
-        // What is refused in one of them is refused in all.
+        // A structure that is refused in one epoch is refused in all.
         let refused = epochs.iter().find_map(|epoch| epoch.structures[place].refused.clone());
         if let Some(reason) = refused {
             refuse(epochs, place, &reason);
@@ -154,15 +153,15 @@ fn one(epochs: &mut [Epoch]) -> Result<(), StudyError> {
     Ok(())
 }
 
-/// Said of a structure of others that answers otherwise once it is built again, as packets do in which other rays
-/// travel together.
+/// Reason for a structure of another crate whose hits change after a rebuild. Packets do so: other rays travel
+/// together.
 const CHANGED: &str = "after a rebuild it returns other hits than before: its times are not comparable";
 
-/// Said of a program whose epochs have no rays in common.
+/// Reason for a runner whose epochs have no rays in common.
 const UNSTEADY: &str =
     "one epoch is more than sixteen times as slow as another by its own clock: the epochs share no rays";
 
-/// Refuses a structure in all epochs, for wrong answers if that is so in one of them.
+/// Refuses a structure in all epochs; for wrong hits if one of them has wrong hits.
 fn refuse(epochs: &mut [Epoch], place: usize, reason: &str) {
     let wrong = epochs.iter().any(|epoch| epoch.structures[place].wrong);
     for structure in epochs.iter_mut().map(|epoch| &mut epoch.structures[place]) {
@@ -170,7 +169,7 @@ fn refuse(epochs: &mut [Epoch], place: usize, reason: &str) {
     }
 }
 
-/// Leaves of the samples of a program the largest part that all epochs have. Whether there is one.
+/// Reduces the samples of a runner to the largest subset that all epochs have. Returns whether there is one.
 fn reduce(epochs: &mut [Epoch], place: usize, kind: usize) -> bool {
     let timed = |rays: &Rays, count: usize| rays.rays == count || rays.parts.iter().any(|part| part.rays == count);
     let of = |epoch: &Epoch| epoch.structures[place].rays[kind].clone();
@@ -188,7 +187,7 @@ fn reduce(epochs: &mut [Epoch], place: usize, kind: usize) -> bool {
     true
 }
 
-/// Leaves of each structure the parts that all epochs have.
+/// Reduces each structure to the subsets that all epochs have.
 fn keep_common_parts(epochs: &mut [Epoch]) {
     for place in 0..epochs[0].structures.len() {
         for kind in 0..epochs[0].structures[place].rays.len() {

@@ -1,45 +1,43 @@
 //! The journal of a study: a folder with one file per scene and epoch. A killed run resumes where it
 //! stopped, and several machines can write to one folder without communicating.
 //!
-//! Each file holds the case, its provenance and its results. One writer writes it whole, and it never changes. A file
-//! name that begins with a dot marks an unfinished write and is ignored. A case file's name has the case's key and
-//! a digest of settings, build and machine, so that cases of any settings lie side by side. Anybody may read at any time,
-//! and any number of planned jobs may write; only one run at a time may measure the missing cases.
+//! Each file contains the case, its provenance and its results. One writer writes it whole, and it never changes. A
+//! file name that begins with a dot marks an unfinished write and is ignored. The name of a case file has the case's
+//! key and a digest of settings, build and machine, so cases of any settings fit into one folder. Any process may read
+//! at any time, and any number of planned jobs may write; only one run at a time may measure the missing cases.
 
 mod case_file;
 mod error;
-mod lock;
 mod newest;
 
-use std::fs;
+use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
 
 use super::case::Case;
 use crate::measure::Provenance;
 pub use case_file::CaseFile;
 pub use error::JournalError;
-use lock::Lock;
 pub use newest::{datasets, newest, of_all};
 
-/// A folder of cases, and those of them that one build has measured on one machine.
+/// A folder of cases, and the cases that one build measured on one machine.
 #[derive(Debug)]
 pub struct Journal {
     folder: PathBuf,
-    /// Of this process: cases of another build or machine are not its own.
+    /// Provenance of this process. Cases of another build or machine do not count.
     provenance: Provenance,
     files: Vec<CaseFile>,
     /// Number of leading `files` to ignore: with `fresh`, those present when the journal was opened; otherwise 0.
     ignored: usize,
-    /// Held while a run measures into the folder.
-    _lock: Option<Lock>,
+    /// The folder, locked while a run measures into it. The system unlocks it when the process ends for any reason.
+    _lock: Option<File>,
 }
 
 impl Journal {
-    /// Opens the journal in `folder`, and makes the folder where there is none. With `fresh` the cases there are measured
-    /// again: they stay, and the newest count.
+    /// Opens the journal in `folder`, and creates the folder if it is missing. With `fresh` the existing cases are
+    /// measured again: their files stay, and the newest file counts.
     ///
     /// # Errors
-    /// If what is there cannot be read, or the folder cannot be made.
+    /// If a file cannot be read, or the folder cannot be created.
     pub fn open(folder: &Path, provenance: Provenance, fresh: bool) -> Result<Self, JournalError> {
         fs::create_dir_all(folder).map_err(|cause| JournalError::Write { path: folder.into(), cause })?;
         let files = files(folder)?.iter().map(|path| CaseFile::read(path)).collect::<Result<Vec<_>, _>>()?;
@@ -47,11 +45,11 @@ impl Journal {
         Ok(Self { folder: folder.into(), provenance, files, ignored, _lock: None })
     }
 
-    /// As [`open`](Self::open), for a run that measures those of `cases` that are not there. One at a time does so: two
-    /// would measure the same cases, and disturb each other's times.
+    /// Like [`open`](Self::open), for a run that measures the missing cases of `cases`. Only one run at a time may do
+    /// so: two would measure the same cases and disturb each other's times.
     ///
     /// # Errors
-    /// Likewise, and if something is to be measured while another run measures into the folder.
+    /// Like [`open`](Self::open), and if cases are missing while another run measures into the folder.
     pub fn open_to_measure(
         folder: &Path,
         provenance: Provenance,
@@ -59,16 +57,18 @@ impl Journal {
         cases: &[Case],
     ) -> Result<Self, JournalError> {
         fs::create_dir_all(folder).map_err(|cause| JournalError::Write { path: folder.into(), cause })?;
-        // Take the lock before reading the cases, so that they include everything an earlier run wrote.
-        let lock = Lock::take(folder);
+        // Take the lock before reading the cases: they then include everything an earlier run wrote.
+        let lock = File::open(folder).ok();
+        // Some systems cannot lock folders, such as Windows and many network file systems: there the run continues.
+        let is_taken = lock.as_ref().is_some_and(|own| matches!(own.try_lock(), Err(TryLockError::WouldBlock)));
         let journal = Self::open(folder, provenance, fresh)?;
         if cases.iter().all(|case| journal.get(case).is_some()) {
             return Ok(journal);
         }
-        Ok(Self { _lock: Some(lock.ok_or_else(|| JournalError::Busy(folder.into()))?), ..journal })
+        if is_taken { Err(JournalError::Busy(folder.into())) } else { Ok(Self { _lock: lock, ..journal }) }
     }
 
-    /// The newest file of the case, as this build would measure it on this machine.
+    /// The newest file of the case, of this build and machine.
     pub fn get(&self, case: &Case) -> Option<&CaseFile> {
         let machine = self.provenance.machine();
         let own = self.files[self.ignored..].iter();
@@ -76,7 +76,7 @@ impl Journal {
             .max_by(|a, b| a.provenance.date.cmp(&b.provenance.date))
     }
 
-    /// Where a file for the case goes, one that is not there yet.
+    /// The path of a new file for the case.
     pub fn place(&self, case: &Case) -> PathBuf {
         let name = file_name(case, &self.provenance);
         let again = (2..).map(|n| format!("{name}-{n}"));
@@ -84,7 +84,7 @@ impl Journal {
         names.find(|path| !path.exists()).expect("there are more numbers than files")
     }
 
-    /// Takes up what has been written at `path`.
+    /// Adds the file at `path`, which was written meanwhile.
     ///
     /// # Errors
     /// If it cannot be read.
@@ -94,7 +94,7 @@ impl Journal {
     }
 }
 
-/// The name of the file of a case, without its ending: small letters, digits and hyphens.
+/// The file name of a case without its extension: lower-case letters, digits and hyphens.
 pub fn file_name(case: &Case, provenance: &Provenance) -> String {
     let plain = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
     let words: String = case.key().chars().map(plain).collect();
@@ -103,7 +103,7 @@ pub fn file_name(case: &Case, provenance: &Provenance) -> String {
     format!("{}-{}", name.trim_end_matches('-'), case.digest(&provenance.machine()))
 }
 
-/// Characters of a name before what tells it from others, at most.
+/// The maximum number of characters before the digest.
 const LONGEST: usize = 100;
 
 /// The files of a folder that may be cases, by name.

@@ -1,4 +1,4 @@
-//! Do two measures put things in the same order?
+//! Whether two measures have the same order: Kendall's tau.
 
 use std::collections::BTreeMap;
 
@@ -6,8 +6,7 @@ use super::claims::CLAIMS;
 use crate::measure::{Estimate, Rerun, Variance};
 
 /// Kendall's tau-b of pairs `(x, y)` (Kendall, "The treatment of ties in ranking problems", 1945): 1 for the same
-/// order, -1 for the opposite one. Only couples for which `compared` says so take part. Nothing where none differs in
-/// both.
+/// order, -1 for the opposite one. Only couples with `compared(i, j)` count. `None` if no couple differs in both.
 pub fn kendall(pairs: &[(f64, f64)], compared: impl Fn(usize, usize) -> bool) -> Option<f64> {
     let (mut same, mut x_differ, mut y_differ) = (0.0, 0.0, 0.0);
     for i in 0..pairs.len() {
@@ -22,18 +21,19 @@ pub fn kendall(pairs: &[(f64, f64)], compared: impl Fn(usize, usize) -> bool) ->
     (x_differ > 0.0 && y_differ > 0.0).then(|| same / libm::sqrt(x_differ * y_differ))
 }
 
-/// How well estimates have the order that is expected of them.
+/// How well estimates have the expected order.
 pub struct Order {
-    /// Kendall's tau; at the ends of its interval all couples whose order is not sure are in it, or against it.
+    /// Kendall's tau. The ends of its interval count all couples with an uncertain order for and against the expected
+    /// order.
     pub tau: Estimate,
-    /// The couples that surely have the other order: numbers of that which was expected to be larger, and of the
-    /// smaller one.
+    /// The couples that significantly have the other order: the index expected to be larger, and the index expected to
+    /// be smaller.
     pub reversed: Vec<[usize; 2]>,
 }
 
 impl Order {
-    /// Of positive estimates with their ranks, the largest expected first; those of one rank are not compared. What
-    /// each couple shows allows for all couples and for `looks` as many.
+    /// The order of positive estimates with their ranks, the largest expected first; estimates of one rank are not
+    /// compared. Each comparison is corrected for all couples and for `looks` as many.
     pub fn of(ranked: &[(Estimate, usize)], looks: usize) -> Self {
         let couples: Vec<[usize; 2]> = (0..ranked.len())
             .flat_map(|i| (0..ranked.len()).map(move |j| [i, j]))
@@ -57,15 +57,15 @@ impl Order {
     }
 }
 
-/// The mean of the taus of several scenes, with the interval of one among all claims for as many other scenes, cut to
-/// what a tau can be.
+/// The mean of the taus of several scenes. Its interval is the prediction for another set of as many scenes, corrected
+/// for all claims and cut to the range of tau.
 fn mean(taus: &[f64]) -> Option<Estimate> {
     let mean = Rerun::of(taus, Variance::NONE)?.plain().among(CLAIMS);
     Some(mean.map(|tau| tau.clamp(-1.0, 1.0)))
 }
 
-/// That [`mean`] of taus of several scenes. Taus of one scene are not independent: trees are the same whatever the rays,
-/// and a stand-in is built after the real mesh. They count as their mean.
+/// The [`mean`] over scenes. Taus of one scene are not independent: the trees are the same for all workloads, and a
+/// stand-in imitates the real mesh. They count as their mean.
 pub fn mean_of_scenes<'a>(taus: impl IntoIterator<Item = (&'a str, f64)>) -> Option<Estimate> {
     let mut scenes: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
     for (scene, tau) in taus {
@@ -84,7 +84,7 @@ mod tests {
         let all = |_: usize, _: usize| true;
         assert_eq!(kendall(&[(1.0, 10.0), (2.0, 20.0), (3.0, 30.0)], all), Some(1.0));
         assert_eq!(kendall(&[(1.0, 30.0), (2.0, 20.0), (3.0, 10.0)], all), Some(-1.0));
-        // Five couples of six in order.
+        // Five of six couples in order.
         let one_off = [(1.0, 1.0), (2.0, 3.0), (3.0, 2.0), (4.0, 4.0)];
         assert!((kendall(&one_off, all).unwrap() - 4.0 / 6.0).abs() < 1e-12);
         assert_eq!(kendall(&[(1.0, 1.0), (1.0, 2.0)], all), None);
@@ -106,14 +106,14 @@ mod tests {
             let ranked = estimates.map(|x| Estimate::between(x, x / 1.1, x * 1.1));
             Order::of(&[(ranked[0], 0), (ranked[1], 0), (ranked[2], 1), (ranked[3], 2)], 1)
         };
-        // The first two are not compared: five couples.
+        // The first two have equal rank: five couples.
         let right = of([8.0, 9.0, 4.0, 2.0]);
         assert_eq!(right.tau, Estimate::exact(1.0));
-        // One surely against it.
+        // One couple significantly reversed.
         let one_off = of([8.0, 9.0, 2.0, 4.0]);
         assert_eq!(one_off.reversed, [[2, 3]]);
         assert!((one_off.tau.estimate - 0.6).abs() < 1e-12 && (one_off.tau.high().unwrap() - 0.6).abs() < 1e-12);
-        // One that may be either.
+        // One couple undecided.
         let open = of([8.0, 9.0, 2.02, 2.0]);
         assert_eq!((open.tau.estimate, open.tau.high()), (1.0, Some(1.0)));
         assert!((open.tau.low().unwrap() - 0.6).abs() < 1e-12 && open.reversed.is_empty());

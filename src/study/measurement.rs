@@ -1,4 +1,4 @@
-//! All epochs of one structure on one workload of one scene: what tables, curves and comparisons of runs are made of.
+//! All epochs of one structure on one workload of one scene: the input of tables, curves and comparisons of runs.
 
 use serde_json::Value;
 
@@ -10,21 +10,21 @@ use crate::report::words::scene_name;
 use crate::report::{Cell, Table};
 use crate::request::is_obvhs;
 
-/// One structure on one workload of one scene. What is not known is nothing, never 0.
+/// One structure on one workload of one scene. An unknown value is `None`; numbers of rays and of hits are 0 instead.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Measurement {
     pub scene: String,
     pub scene_hash: String,
     pub triangles: usize,
-    /// Those of them without area.
+    /// Triangles without area.
     pub degenerate: usize,
-    /// Whether a mesh of our own stands in for a real one.
+    /// Whether a generated mesh replaces a real one.
     pub stand_in: bool,
     /// Name in the registry.
     pub structure: String,
     /// The name with the keys that differ from their defaults.
     pub label: String,
-    /// What the structure stands for in the study.
+    /// The role of the structure in the study; empty if it has none.
     pub role: String,
     pub config: Value,
     pub triangle_test: String,
@@ -35,26 +35,26 @@ pub struct Measurement {
     pub workload_rays: usize,
     /// Rays of one timed sample; 0 without a time.
     pub rays: usize,
-    /// Whether that is a part of the workload.
+    /// Whether a sample has fewer rays than the workload; also `true` without a time.
     pub sampled: bool,
-    /// The same samples for a part of their rays, as many as a slower structure is timed on.
+    /// The same samples, restricted to the subsets of rays on which slower structures are timed.
     pub parts: Vec<SubsetSamples>,
-    /// Rays that hits, tests, steps, instructions and branch misses are of.
+    /// The number of rays over which hits, tests, steps, instructions and branch misses are counted.
     pub counted_rays: usize,
     pub hits: usize,
-    /// Hash of the answers to the timed rays.
-    pub answers: Option<u64>,
-    /// Nanoseconds of the build, median over the epochs.
+    /// Checksum of the hits on the rays that all epochs trace; `None` without a time.
+    pub hit_checksum: Option<u64>,
+    /// Build time, ns, the median over the epochs.
     pub build_ns: u64,
-    /// Every build, one an epoch.
+    /// The build time of each epoch, ns.
     pub build_samples_ns: Vec<u64>,
     pub build_peak_bytes: Option<usize>,
-    /// Median nanoseconds of a sample; nothing without a time.
+    /// Time of a sample, ns, the median; `None` without a time.
     pub trace_ns: Option<f64>,
-    /// How often everything was built anew; each epoch has as many samples as another, one after the other.
+    /// The number of epochs. All epochs have the same number of samples; `samples_ns` lists them epoch by epoch.
     pub epochs: usize,
     pub samples_ns: Vec<f64>,
-    /// The samples and builds of the twin, where the structure has one that was timed on as many rays.
+    /// The samples and builds of the twin. `None` without a twin, or if the twin was timed on another number of rays.
     pub twin_samples_ns: Option<Vec<f64>>,
     pub twin_builds_ns: Option<Vec<u64>>,
     pub mrays_per_s: Option<f64>,
@@ -66,17 +66,18 @@ pub struct Measurement {
     pub instructions_per_ray: Option<f64>,
     pub branch_misses_per_ray: Option<f64>,
     pub shape: Shape,
-    /// What of these rays the structure declines.
+    /// The feature of these rays that the structure does not support.
     pub declined: Option<String>,
-    /// Rays held against brute force over the same triangle test, and those of them with a wrong answer.
+    /// Rays of the check in epoch 0, see [`Checked`](super::epoch::Checked).
     pub checked_rays: usize,
-    pub structure_errors: usize,
+    /// Rays with a wrong hit, which no rounding explains.
+    pub wrong_hits: usize,
 }
 
-/// The name of a column, and what it says of a measurement.
+/// A column: its name, and its cell for a measurement.
 pub type MeasurementColumn = (&'static str, fn(&Measurement) -> Cell);
 
-/// Columns of tables for programs.
+/// Columns of CSV tables.
 pub const COLUMNS: [MeasurementColumn; 38] = [
     ("scene", |own| (&own.scene).into()),
     ("scene_hash", |own| (&own.scene_hash).into()),
@@ -115,10 +116,10 @@ pub const COLUMNS: [MeasurementColumn; 38] = [
     ("counted_rays", |own| own.counted_rays.into()),
     ("declined", |own| own.declined.as_ref().into()),
     ("checked_rays", |own| own.checked_rays.into()),
-    ("structure_errors", |own| own.structure_errors.into()),
+    ("structure_errors", |own| own.wrong_hits.into()),
 ];
 
-/// Adds the columns of these names to a table with a row for each of the measurements.
+/// Appends the columns `names` to `table`, whose rows are the measurements `rows`, in order.
 pub fn push_columns(table: &mut Table, names: &[&str], rows: &[&Measurement]) {
     for name in names {
         let (_, cell) = COLUMNS.iter().find(|(known, _)| known == name).expect("a measurement has such a column");
@@ -126,18 +127,18 @@ pub fn push_columns(table: &mut Table, names: &[&str], rows: &[&Measurement]) {
     }
 }
 
-/// Whether it is of one of the BVHs from outside over their own triangle test, with nothing of ours in it.
-pub fn is_reference(own: &Measurement) -> bool {
+/// Whether the structure is an obvhs BVH with the triangle test of obvhs.
+pub fn is_native_obvhs(own: &Measurement) -> bool {
     is_obvhs(&own.structure) && !own.label.contains("test=")
 }
 
-/// Those of all scenes, structure by structure and workload by workload. Twins are part of the structure that they are
-/// the twin of.
+/// The measurements of all scenes, in the order of scenes, structures and workloads. A twin has no measurement of its
+/// own: its samples are in the measurement of its structure. A refused structure has no measurement.
 pub fn measurements(dataset: &Dataset) -> Vec<Measurement> {
     dataset.scenes().iter().flat_map(of_scene).collect()
 }
 
-/// Those of one scene.
+/// The measurements of one scene.
 pub fn of_scene(scene: &SceneEpochs) -> Vec<Measurement> {
     let first = scene.epochs[0];
     let mut all = vec![];
@@ -146,37 +147,37 @@ pub fn of_scene(scene: &SceneEpochs) -> Vec<Measurement> {
             continue;
         }
         let twin = first.structures.iter().position(|other| other.is_twin() && other.label == structure.label);
-        all.extend((0..structure.rays.len()).map(|kind| measurement(scene, place, twin, kind)));
+        all.extend((0..structure.rays.len()).map(|workload| measurement(scene, place, twin, workload)));
     }
     all
 }
 
-fn rays<'a>(scene: &'a SceneEpochs, place: usize, kind: usize) -> impl Iterator<Item = &'a Rays> {
-    scene.epochs.iter().filter_map(move |epoch| epoch.structures.get(place)?.rays.get(kind))
+fn rays<'a>(scene: &'a SceneEpochs, place: usize, workload: usize) -> impl Iterator<Item = &'a Rays> {
+    scene.epochs.iter().filter_map(move |epoch| epoch.structures.get(place)?.rays.get(workload))
 }
 
 /// Every sample of a structure on a workload, nanoseconds.
-pub fn samples(scene: &SceneEpochs, place: usize, kind: usize) -> Vec<f64> {
-    rays(scene, place, kind).flat_map(|rays| &rays.ns).map(|&ns| ns.max(1) as f64).collect()
+pub fn samples(scene: &SceneEpochs, place: usize, workload: usize) -> Vec<f64> {
+    rays(scene, place, workload).flat_map(|rays| &rays.ns).map(|&ns| ns.max(1) as f64).collect()
 }
 
-fn measurement(scene: &SceneEpochs, place: usize, twin: Option<usize>, kind: usize) -> Measurement {
+fn measurement(scene: &SceneEpochs, place: usize, twin: Option<usize>, workload: usize) -> Measurement {
     let epoch = scene.epochs[0];
     let structure = &epoch.structures[place];
-    let first = &structure.rays[kind];
+    let first = &structure.rays[workload];
     let builds =
         |place: usize| -> Vec<u64> { scene.epochs.iter().map(|epoch| epoch.structures[place].build_ns).collect() };
     let build_samples_ns = builds(place);
     let as_numbers: Vec<f64> = build_samples_ns.iter().map(|&ns| ns as f64).collect();
-    let samples_ns = samples(scene, place, kind);
+    let samples_ns = samples(scene, place, workload);
     let trace_ns = median(&samples_ns);
     let timed = trace_ns.is_some();
-    // Of a program each may have been timed on as many rays as its clock allowed.
-    let twin = twin.filter(|&twin| timed && rays(scene, twin, kind).all(|own| own.rays == first.rays));
-    let twin_samples = twin.map(|twin| samples(scene, twin, kind)).filter(|samples| !samples.is_empty());
+    // The clock of a runner may give the runner and its twin different numbers of rays: ignore the twin then.
+    let twin = twin.filter(|&twin| timed && rays(scene, twin, workload).all(|own| own.rays == first.rays));
+    let twin_samples = twin.map(|twin| samples(scene, twin, workload)).filter(|samples| !samples.is_empty());
     let counts = first.counts.unwrap_or_default();
     let per_ray = |n: Option<u64>| Some(n? as f64 / counts.rays.max(1) as f64);
-    let (checked_rays, structure_errors) = first.checked.as_ref().map_or((0, 0), |own| (own.rays, own.errors));
+    let (checked_rays, wrong_hits) = first.checked.as_ref().map_or((0, 0), |own| (own.rays, own.errors));
     Measurement {
         scene: epoch.scene.clone(),
         scene_hash: epoch.scene_hash.clone(),
@@ -194,10 +195,10 @@ fn measurement(scene: &SceneEpochs, place: usize, twin: Option<usize>, kind: usi
         workload_rays: first.all,
         rays: if timed { first.rays } else { 0 },
         sampled: !timed || first.rays < first.all,
-        parts: if timed { parts(scene, place, kind) } else { vec![] },
+        parts: if timed { parts(scene, place, workload) } else { vec![] },
         counted_rays: counts.rays,
         hits: counts.hits,
-        answers: timed.then_some(first.checksum),
+        hit_checksum: timed.then_some(first.checksum),
         build_ns: median(&as_numbers).expect("every epoch builds") as u64,
         build_samples_ns,
         build_peak_bytes: structure.build_peak_bytes,
@@ -217,13 +218,13 @@ fn measurement(scene: &SceneEpochs, place: usize, twin: Option<usize>, kind: usi
         shape: structure.shape,
         declined: first.declined.clone(),
         checked_rays,
-        structure_errors,
+        wrong_hits,
     }
 }
 
-fn parts(scene: &SceneEpochs, place: usize, kind: usize) -> Vec<SubsetSamples> {
+fn parts(scene: &SceneEpochs, place: usize, workload: usize) -> Vec<SubsetSamples> {
     let mut all: Vec<SubsetSamples> = vec![];
-    for part in rays(scene, place, kind).flat_map(|rays| &rays.parts) {
+    for part in rays(scene, place, workload).flat_map(|rays| &rays.parts) {
         match all.iter_mut().find(|other| other.rays == part.rays) {
             Some(other) => other.ns.extend_from_slice(&part.ns),
             None => all.push(part.clone()),
@@ -232,12 +233,12 @@ fn parts(scene: &SceneEpochs, place: usize, kind: usize) -> Vec<SubsetSamples> {
     all
 }
 
-/// The A/A noise of times: how the twins' samples relate to those of the structures that they are the twins of.
+/// The A/A noise of trace times, from the ratio of each structure to its twin.
 pub fn trace_noise(measurements: &[Measurement]) -> AaNoise {
     AaNoise::new(&measurements.iter().filter_map(Measurement::speed_against_twin).collect::<Vec<_>>())
 }
 
-/// Likewise of builds, a cell for each scene.
+/// The A/A noise of build times, with one cell per scene.
 pub fn build_noise(measurements: &[Measurement]) -> AaNoise {
     let of = |own: &Measurement| {
         let log = |ns: &u64| libm::log((*ns).max(1) as f64);
@@ -249,7 +250,7 @@ pub fn build_noise(measurements: &[Measurement]) -> AaNoise {
 }
 
 impl Measurement {
-    /// The scene as tables name it.
+    /// The name of the scene in tables.
     pub fn scene_title(&self) -> String {
         scene_name(&self.scene, self.stand_in)
     }
@@ -258,12 +259,13 @@ impl Measurement {
         self.shape.references as f64 / self.triangles.max(1) as f64
     }
 
-    /// Whether wrong answers cost it its time.
+    /// Whether the structure has wrong hits and therefore no time.
     pub fn is_disqualified(&self) -> bool {
-        self.structure_errors > 0
+        self.wrong_hits > 0
     }
 
-    /// Nanoseconds of every sample for `rays` rays, which are all of it or a part. Nothing where these were not timed.
+    /// The time of every sample on `rays` rays, ns: the whole sample or a subset of it. `None` if no subset of this
+    /// size was timed.
     fn samples_of(&self, rays: usize) -> Option<Vec<f64>> {
         if rays == self.rays {
             return Some(self.samples_ns.clone());
@@ -272,41 +274,42 @@ impl Measurement {
         Some(part.ns.iter().map(|&ns| ns.max(1) as f64).collect())
     }
 
-    /// Nanoseconds a ray, the median of the samples, over so many rays: all of it or a part. Nothing where these were not
-    /// timed.
+    /// Median time per ray, ns, over `rays` rays: the whole sample or a subset of it. `None` if no subset of this size
+    /// was timed.
     pub fn ns_per_ray_of(&self, rays: usize) -> Option<f64> {
         Some(median(&self.samples_of(rays)?)? / rays as f64)
     }
 
-    /// How many times faster this is than `other`, as logarithms, round by round in each epoch, both on the same rays:
-    /// those of the one that was timed on fewer. Nothing where one has no time, or they were not measured in the same
-    /// rounds.
+    /// ln(time of `other` / time of this), by epoch and round. Both times are on the same rays: the smaller of the two
+    /// samples. `None` if one has no time, or if epochs, workload or rounds differ.
     pub fn speed_against(&self, other: &Self) -> Option<Vec<Vec<f64>>> {
         let alike = self.epochs == other.epochs && self.workload_hash == other.workload_hash;
         let rays = self.rays.min(other.rays);
         if alike { self.ratios(&other.samples_of(rays)?, &self.samples_of(rays)?) } else { None }
     }
 
-    /// How many times faster this is than its twin, likewise. Nothing where it has none.
+    /// ln(time of the twin / time of this), by epoch and round. `None` without a twin.
     pub fn speed_against_twin(&self) -> Option<Vec<Vec<f64>>> {
         self.ratios(self.twin_samples_ns.as_ref()?, &self.samples_ns)
     }
 
-    /// Logarithms of `slow` / `fast`, if they can be samples of the same rounds of these epochs.
-    fn ratios(&self, slow: &[f64], fast: &[f64]) -> Option<Vec<Vec<f64>>> {
-        let whole = !fast.is_empty() && self.epochs > 0 && fast.len().is_multiple_of(self.epochs);
-        let positive = || slow.iter().chain(fast).all(|&time| time > 0.0);
-        (slow.len() == fast.len() && whole && positive()).then(|| log_ratios(slow, fast, self.epochs))
+    /// ln(`numerator` / `denominator`) by epoch and round. `None` if the numbers of samples differ or are no multiple
+    /// of the epochs, or a time is 0.
+    fn ratios(&self, numerator: &[f64], denominator: &[f64]) -> Option<Vec<Vec<f64>>> {
+        let whole = !denominator.is_empty() && self.epochs > 0 && denominator.len().is_multiple_of(self.epochs);
+        let positive = || numerator.iter().chain(denominator).all(|&time| time > 0.0);
+        (numerator.len() == denominator.len() && whole && positive())
+            .then(|| log_ratios(numerator, denominator, self.epochs))
     }
 
-    /// ln nanoseconds of a ray, epoch by epoch: the median of its rounds. Nothing without a time.
+    /// ln(ns per ray) of each epoch, the median over its rounds. `None` without a time.
     pub fn log_paces(&self) -> Option<Vec<f64>> {
         let rounds = (self.samples_ns.len() / self.epochs.max(1)).max(1);
         let of_epoch = |ns: &[f64]| median(&ns.iter().map(|&ns| libm::log(ns / self.rays as f64)).collect::<Vec<_>>());
         (!self.samples_ns.is_empty()).then(|| self.samples_ns.chunks(rounds).filter_map(of_epoch).collect())
     }
 
-    /// ln nanoseconds of the build, epoch by epoch.
+    /// ln(build time in ns) of each epoch.
     pub fn log_builds(&self) -> Vec<f64> {
         self.build_samples_ns.iter().map(|&ns| libm::log(ns.max(1) as f64)).collect()
     }
@@ -319,7 +322,7 @@ pub(crate) mod tests {
     use crate::request::is_obvhs;
     use crate::triangle::{Exact, TriangleTest};
 
-    /// The structure `label` on a workload, as if its samples of 500 rays had been taken in so many epochs.
+    /// A measurement of the structure `label` on a workload: samples of 500 rays in `epochs` epochs.
     pub fn example(label: &str, workload: &str, samples_ns: &[f64], epochs: usize) -> Measurement {
         let trace_ns = median(samples_ns);
         Measurement {
@@ -337,7 +340,7 @@ pub(crate) mod tests {
             sampled: true,
             counted_rays: 1000,
             hits: 20,
-            answers: Some(1),
+            hit_checksum: Some(1),
             build_ns: 1500,
             build_samples_ns: vec![1500; epochs],
             build_peak_bytes: Some(8192),
@@ -354,7 +357,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn both_sides_of_a_ratio_are_of_the_same_rays() {
+    fn both_times_of_a_ratio_are_of_the_same_rays() {
         let part = |rays, ns: [u64; 2]| SubsetSamples { rays, ns: ns.into() };
         let whole = Measurement { parts: vec![part(100, [10, 20])], ..example("a", "primary", &[100.0, 200.0], 2) };
         let few = Measurement { rays: 100, ..example("b", "primary", &[40.0, 40.0], 2) };

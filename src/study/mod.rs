@@ -1,7 +1,7 @@
-//! Studies: each asks a question, plans cases and reports on what was measured.
+//! Studies: each asks a question, plans cases and reports on the measurements.
 //!
-//! A [`Study`] is a value: two functions and their options. Measuring is not its business: `engine` measures the cases
-//! of a plan that the journal lacks, one [`Case`] a process, and hands the [`Dataset`] to the study's report.
+//! A [`Study`] is a value: two functions and their options. It does not measure: `engine` measures the cases of a plan
+//! that the journal lacks, one [`Case`] per process, and passes the [`Dataset`] to the study's report.
 
 pub mod accuracy;
 pub mod attribution;
@@ -17,7 +17,6 @@ mod error;
 mod join;
 pub mod journal;
 mod kendall;
-mod least_squares;
 pub mod measure;
 pub mod measurement;
 mod plan;
@@ -51,55 +50,54 @@ pub use stage::Stage;
 pub use status::Status;
 pub use verdict::Verdict;
 
-/// A question, how it is measured, and what is said of what was measured.
+/// A question, its plan and its report.
 pub struct Study {
-    /// As written on the command line; also the name of its journal.
+    /// The subcommand; also the name of its journal.
     pub name: &'static str,
-    /// What it finds out, in one line.
+    /// The question, in one line.
     pub question: &'static str,
     /// Arguments of `study all`.
     pub presets: Presets,
-    /// Its options. Scenes are the only ones without a name.
+    /// Its options. The only positional arguments are scenes.
     pub options: fn() -> Command,
-    /// What is to be measured. No time is spent here, and whatever can be refused is refused.
+    /// The cases to measure. It does no measuring, and rejects everything that cannot be measured.
     pub plan: fn(&ArgMatches, &Registry) -> anyhow::Result<Plan>,
-    /// A pure function of what was measured. The options are those of the run, or the defaults where a journal or an
-    /// export is shown.
+    /// A pure function of the measurements. The options are the options of the run, or the defaults for a journal or an
+    /// export.
     pub report: fn(&Dataset, &ArgMatches) -> Report,
 }
 
-/// What `study all` measures of a study, in words of its command line: scenes, which others may take the place of, then
-/// options.
+/// The arguments with which `study all` runs a study: scenes, which other scenes may replace, then options.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Presets {
     pub full: &'static str,
-    /// A few minutes for trying out.
+    /// A few minutes, for trying out.
     pub quick: &'static str,
 }
 
-/// How much `study all` measures.
+/// The extent of `study all`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effort {
     Full,
-    /// A few minutes for trying out: few scenes, rays and epochs.
+    /// A few minutes, for trying out: few scenes, rays and epochs.
     Quick,
 }
 
 impl Study {
-    /// Its options alone, without the name of a program.
+    /// Its options, without a program name.
     fn command(&self) -> Command {
         (self.options)().no_binary_name(true)
     }
 
-    /// Its options as these words give them.
+    /// Parses the arguments `words`.
     ///
     /// # Errors
-    /// If they are not those of its command.
+    /// If its command rejects them.
     pub fn matches<W: AsRef<OsStr>>(&self, words: &[W]) -> Result<ArgMatches, clap::Error> {
         self.command().try_get_matches_from(words.iter().map(OsString::from))
     }
 
-    /// Its options by default.
+    /// Its default options.
     ///
     /// # Panics
     /// If an option has no default.
@@ -107,12 +105,12 @@ impl Study {
         self.matches::<OsString>(&[]).unwrap_or_else(|error| panic!("study {}: {error}", self.name))
     }
 
-    /// Whether its options name scenes.
+    /// Whether it accepts scenes.
     pub fn names_scenes(&self) -> bool {
         self.command().get_positionals().next().is_some()
     }
 
-    /// What `study all` measures of it, in words of its command line; on these scenes, where there are any.
+    /// The arguments with which `study all` runs it; `scenes` replace its scenes, if there are any.
     pub fn preset(&self, effort: Effort, scenes: &[OsString]) -> Vec<OsString> {
         let own = match effort {
             Effort::Full => self.presets.full,
@@ -142,7 +140,7 @@ impl Studies {
         Self { list: vec![] }
     }
 
-    /// Those of this crate. A new one is one more line.
+    /// The studies of this crate. A new study is one more line.
     pub fn builtin() -> Self {
         Self::empty()
             .with(attribution::STUDY)
@@ -155,7 +153,7 @@ impl Studies {
     /// Adds a study.
     ///
     /// # Panics
-    /// If its name is taken, is `all` or `plan`, or holds anything but lower-case letters, digits and hyphens.
+    /// If its name is taken, is `all` or `plan`, or contains anything except lower-case letters, digits and hyphens.
     pub fn with(mut self, study: Study) -> Self {
         let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
         let name = study.name;

@@ -1,4 +1,4 @@
-//! What a study is going to measure.
+//! The measurements that a study plans.
 
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
@@ -14,15 +14,15 @@ use crate::scene::Scene;
 #[derive(Clone, Debug, Default)]
 pub struct Plan {
     pub cases: Vec<Case>,
-    /// What is said below the tables.
+    /// Notes below the tables.
     pub notes: Vec<String>,
-    /// Of the notes those that are said before anything is measured.
+    /// The notes to print before the measurement.
     pub warnings: Vec<String>,
-    /// Files that are read, and so are not written.
+    /// Files that the study reads: no output may replace them.
     pub inputs: Vec<PathBuf>,
-    /// Of a scene no further epoch is begun that would take it beyond this.
+    /// Time limit of a scene: no further epoch starts that would exceed it.
     pub limit: Option<Duration>,
-    /// Whether the journal is kept in the folder `runs` where no other is named.
+    /// Whether the journal is kept in the folder `runs` by default.
     pub keep_journal: bool,
 }
 
@@ -37,7 +37,7 @@ pub struct PlannedScene {
 }
 
 impl PlannedScene {
-    /// A scene seen by its own camera, without labels.
+    /// A scene with its own camera, without labels.
     pub fn new(
         (word, scene): &(impl AsRef<OsStr>, Scene),
         structures: &[StructureRequest],
@@ -63,7 +63,7 @@ impl PlannedScene {
 }
 
 impl Plan {
-    /// All epochs of `scenes`, the first of all scenes before the second of any, with a journal that is kept.
+    /// All epochs of `scenes`, epoch 0 of all scenes first, with a journal that is kept.
     pub fn by_epoch(study: &str, scenes: &[PlannedScene]) -> Self {
         let command: Vec<String> = std::env::args_os().map(quoted).collect();
         let command = command.join(" ");
@@ -84,7 +84,7 @@ impl Plan {
         Self { cases, keep_journal: true, ..Self::default() }
     }
 
-    /// The same plan with all epochs of a scene one after the other: its tables are there before the next one begins.
+    /// The same plan, scene by scene: the tables of a scene are ready before the next scene begins.
     pub fn by_scene(mut self) -> Self {
         let mut order: Vec<String> = vec![];
         let mut number = |case: &Case| {

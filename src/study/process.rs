@@ -1,13 +1,14 @@
-//! A case in a process of its own.
+//! A case in its own process.
 //!
-//! Where the system puts a program, its stack and its heap can change the speed of a structure by some percent, for as
-//! long as the process lives: only samples from several processes say by how much (Mytkowicz et al., Producing Wrong Data
-//! Without Doing Anything Obviously Wrong!, 2009; Kalibera and Jones, Rigorous Benchmarking in Reasonable Time, 2013).
+//! The addresses of a program, its stack and its heap can change the speed of a structure by some percent as long as
+//! the process lives. Only samples from several processes show the size of this effect (Mytkowicz et al., Producing
+//! Wrong Data Without Doing Anything Obviously Wrong!, 2009; Kalibera and Jones, Rigorous Benchmarking in Reasonable
+//! Time, 2013).
 //!
-//! The process is this program with a case and a file, `--case JSON --out FILE`: it measures the case and writes the file,
-//! whoever started it, a run or a cluster's scheduler. A run that listens (`--listen`) reads what the process is doing, a
-//! marked line of JSON each, from its standard output. After each line the process waits for one in answer: so the run
-//! does nothing while the process times. Other lines are a structure's own, and go to standard error.
+//! The process is this program with a case and a file, `--case JSON --out FILE`. It measures the case and writes the
+//! file; a run or the scheduler of a cluster may start it. A run that listens (`--listen`) reads the progress from the
+//! standard output of the process, one marked line of JSON per message. After each line the process waits for a reply:
+//! so the run is idle while the process times. Other lines come from structures and are copied to standard error.
 
 use std::ffi::OsString;
 use std::io::{self, BufRead, BufReader, Write};
@@ -27,34 +28,35 @@ use super::{Screen, Stage, StudyError};
 use crate::measure::{Provenance, SystemClock, process_group, program};
 use crate::registry::Registry;
 
-/// The options that make a process measure a case.
+/// The option with which a process measures a case.
 pub const CASE: &str = "case";
 pub const OUT: &str = "out";
 pub const LISTEN: &str = "listen";
 pub const CORES: &str = "cores";
 
-/// A line of a process.
+/// A message of a process.
 #[derive(Serialize, Deserialize)]
 enum Message<'a> {
     Stage(#[serde(borrow)] Stage<'a>),
     Failed { sentence: String, of_one_scene: bool, wrong_answer: bool },
 }
 
-/// How processes are started.
+/// How processes start.
 #[derive(Clone, Debug, Default)]
 pub struct Processes {
-    /// Options of this one that each of them gets, such as the level of instructions.
+    /// Options of this process to pass on, such as the instruction level.
     pub options: Vec<OsString>,
 }
 
-/// What the lines of a process begin with.
+/// The prefix of a message line.
 const MARK: &str = "\u{1e}case ";
 
 impl Processes {
-    /// Has a process measure a case and write the file `out`. Its threads are bound to `cores`, where they are known.
+    /// Starts a process that measures a case and writes the file `out`. Its threads are bound to `cores`, if these are
+    /// known.
     ///
     /// # Errors
-    /// As the measuring of the case, and if the process cannot be started or ends without an answer.
+    /// Like the measuring of a case, and if the process cannot be started or ends without a result.
     pub fn measure(
         &self,
         case: &Case,
@@ -72,7 +74,7 @@ impl Processes {
             command.arg(format!("--{CORES}={}", cores.join(",")));
         }
         process_group::set_apart(&mut command);
-        // Programs that are timed have files there: what is left when the process is ended goes with the folder.
+        // Runners have temporary files there: the folder is removed with everything that a killed process leaves.
         let has_programs = case.structures.iter().any(|own| own.runner.is_some());
         let scratch = if has_programs { tempfile::Builder::new().prefix("sahara-").tempdir().ok() } else { None };
         command.envs(scratch.iter().flat_map(|folder| ["TMPDIR", "TMP", "TEMP"].map(|name| (name, folder.path()))));
@@ -95,10 +97,10 @@ impl Processes {
                     return Err(StudyError::Reported { sentence, of_one_scene, wrong_answer });
                 }
             }
-            // A process that has ended already is known by what it has said, or how it ended.
+            // If the process has already ended, its last message or exit status is the error.
             let _ = writeln!(input);
         }
-        // Others may end it meanwhile.
+        // Another thread may end it meanwhile.
         let status = loop {
             if let Some(status) = locked(&child.0).try_wait().map_err(|cause| failure(cause.to_string()))? {
                 break status;
@@ -112,13 +114,13 @@ impl Processes {
     }
 }
 
-/// A process that does not outlive its use.
+/// A process that is killed when it goes out of use.
 struct Guard(Arc<Mutex<Child>>);
 
-/// The last one that was started.
+/// The process that was started last.
 static LAST: Mutex<Weak<Mutex<Child>>> = Mutex::new(Weak::new());
 
-/// Whether what measures was to end.
+/// Whether the measuring process was told to end.
 static ENDED: AtomicBool = AtomicBool::new(false);
 
 fn locked<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
@@ -138,14 +140,14 @@ impl Guard {
 
 impl Drop for Guard {
     fn drop(&mut self) {
-        // It has ended, or nobody listens any more.
+        // It has ended, or no run listens any more.
         let mut child = locked(&self.0);
         process_group::end(&mut child);
         let _ = child.wait();
     }
 }
 
-/// Ends the process that measures, if one does: the run is told that it has ended without an answer.
+/// Ends the measuring process, if there is one: the run then sees a process that ended without a result.
 pub fn end() {
     ENDED.store(true, Ordering::SeqCst);
     if let Some(child) = locked(&LAST).upgrade() {
@@ -153,21 +155,21 @@ pub fn end() {
     }
 }
 
-/// What a process with a case and a file comes to.
+/// The result of a process with a case and a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Written {
     Now,
-    /// It had been measured before.
+    /// The file existed before.
     Before,
-    /// Another process has measured it meanwhile.
+    /// Another process measured the case meanwhile.
     Meanwhile,
 }
 
-/// Measures a case and writes the file `out`, unless it is there.
+/// Measures a case and writes the file `out`, unless it exists.
 ///
 /// # Errors
-/// If the file cannot be written or holds anything else, there are fewer cores than threads, or nothing can be measured:
-/// then it is as it was.
+/// If the file cannot be written or contains anything else, there are fewer cores than threads, or the measuring fails:
+/// then the file is unchanged.
 pub fn measure_into(
     case: &Case,
     out: &Path,
@@ -189,8 +191,8 @@ pub fn measure_into(
     let file = CaseFile::place(out)?;
     let prepared = Prepared::new(case, registry, None)?;
     let command = case.command.clone();
-    let provenance = Provenance { process_per_epoch: true, command, ..Provenance::of(prepared.threads()) };
-    // A run warns of it. Nobody reads the logs of all jobs, and a file that is there is not measured again.
+    let provenance = Provenance { process_per_epoch: true, command, ..Provenance::of(&prepared.threads) };
+    // A run only warns. But nobody reads the logs of all jobs, and an existing file is not measured again.
     if let Some(cause) = provenance.too_many_threads().filter(|_| !screen.is_watched()) {
         return Err(StudyError::Case { key: case.key(), cause }.into());
     }
@@ -205,11 +207,11 @@ pub fn measure_into(
     Ok(Written::Meanwhile)
 }
 
-/// The screen of a process that a run listens to.
+/// The screen of a process with a listening run.
 pub struct Listened(());
 
 impl Listened {
-    /// From now on this process ends with the run: one that is killed leaves nothing behind that disturbs the next one.
+    /// Makes this process end with the run: a killed run leaves no process that disturbs the next run.
     #[allow(clippy::new_without_default)]
     pub fn new() -> Self {
         process_group::end_with_parent();
@@ -220,7 +222,7 @@ impl Listened {
 impl Screen for Listened {
     fn stage(&mut self, stage: &Stage) {
         if say(&Message::Stage(stage.clone())).and_then(|()| hear()).is_err() {
-            // The run is gone, and would be disturbed by this process when it goes on.
+            // The run has ended: exit, because this process would disturb the next run.
             std::process::exit(1);
         }
     }
@@ -230,10 +232,10 @@ impl Screen for Listened {
     }
 }
 
-/// Says why nothing was measured.
+/// Reports the reason why the case was not measured.
 ///
 /// # Errors
-/// If nobody listens.
+/// If no run listens.
 pub fn report_failure(error: &anyhow::Error) -> io::Result<()> {
     let known = error.downcast_ref::<StudyError>();
     say(&Message::Failed {
@@ -259,8 +261,8 @@ fn hear() -> io::Result<String> {
     }
 }
 
-/// Watches the builds of `case`, which a process measures by `args`: where one takes too long, the process starts itself
-/// again without that structure, since a builder cannot be interrupted from within.
+/// Watches the builds of `case`, which a process with the arguments `args` measures. If a build takes too long, the
+/// process starts itself again without that structure, because nothing can interrupt a builder from within.
 pub fn build_watch(case: &Case, args: Vec<OsString>) -> BuildWatch {
     let Some(limit) = case.settings.build_limit_s else { return BuildWatch::default() };
     let case = case.clone();
@@ -301,7 +303,7 @@ mod tests {
 
     #[test]
     fn a_process_that_ends_without_an_answer_is_one_sentence() {
-        // The program of these tests knows no such option.
+        // The test program does not know this option.
         let processes = Processes { options: vec!["--no-such-option".into()] };
         let out = tempfile::tempdir().unwrap();
         let case = example("Cube", 0, &["sah-kd"]);

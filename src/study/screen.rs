@@ -1,28 +1,28 @@
 use super::Stage;
 use crate::report::Table;
 
-/// Shows how far a run has come. It is never called inside a timed region. By itself it shows nothing.
+/// Shows the progress of a run. It is never called inside a timed region. By default it shows nothing.
 pub trait Screen {
-    /// So much is to be measured, as a multiple of any unit.
+    /// The run starts; its total work, as a multiple of any unit.
     fn begin(&mut self, _: u64) {}
-    /// The next case is measured, which is so much of it.
+    /// The next case starts; its work.
     fn case(&mut self, _title: &str, _work: u64) {}
-    /// What is done for it.
+    /// The case enters a stage.
     fn stage(&mut self, _: &Stage) {}
-    /// It is measured.
+    /// The case is measured.
     fn done(&mut self) {}
-    /// Whether the run is to stop.
+    /// Whether the run must stop.
     fn is_interrupted(&self) -> bool {
         false
     }
-    /// Whether somebody watches, who sees warnings.
+    /// Whether a user sees warnings.
     fn is_watched(&self) -> bool {
         false
     }
-    /// Shows what spoils the run, or may not be what was meant.
+    /// Shows conditions that disturb the run, or options that may be unintended.
     fn warn(&mut self, _: &[String]) {}
     /// A table of the result.
     fn table(&mut self, _: &Table) {}
-    /// Nothing more is measured.
+    /// The run has ended.
     fn end(&mut self) {}
 }

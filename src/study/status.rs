@@ -1,31 +1,31 @@
-//! What a run comes to.
+//! The result of a run.
 
 use serde::{Deserialize, Serialize};
 
 use crate::report::Failure;
 use crate::request::known_defect;
 
-/// What a command found; its exit status.
+/// The result of a command, which is its exit status.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
     Right,
-    /// A structure gave wrong answers.
+    /// A structure has wrong hits.
     Wrong,
-    /// Something could not be measured, and why has been told.
+    /// A measurement failed; the reason has been printed.
     Failed,
-    /// A structure could not be built or panicked; the others are right.
+    /// A structure could not be built or panicked; all other structures are right.
     Refused,
     /// A structure became slower.
     Regression,
-    /// The samples do not tell whether a structure became slower.
+    /// The samples are inconclusive: a structure may have become slower.
     Undecided,
-    /// It was interrupted before all was measured.
+    /// The user interrupted it before all cases were measured.
     Interrupted,
 }
 
 impl Status {
-    /// What these make of a run. Wrong answers of a baseline with known defects do not count.
+    /// The status that follows from `failures`. Wrong hits of a baseline with known defects do not count.
     pub fn of(failures: &[Failure]) -> Self {
         if failures.iter().any(|failure| failure.wrong && known_defect(&failure.structure).is_none()) {
             Self::Wrong
@@ -36,7 +36,7 @@ impl Status {
         }
     }
 
-    /// That of two runs: what is wrong weighs more than what failed, and that more than what is refused.
+    /// The status of two runs: wrong takes precedence over failed, failed over refused.
     pub fn and(self, other: Self) -> Self {
         match (self, other) {
             (Self::Right, other) => other,

@@ -1,4 +1,4 @@
-//! What becomes of a run in which scenes fail, is interrupted, or lacks an epoch.
+//! Runs with failing scenes, interrupted runs, and runs that lack an epoch.
 
 use clap::Command;
 
@@ -8,7 +8,7 @@ use super::*;
 use crate::measure::Provenance;
 use crate::report::{Block, Report, Table};
 
-/// Three scenes of two epochs, with a table each and one of all.
+/// Three scenes of two epochs. Each scene has a table, and all of them together have one.
 const TINY: Study = Study {
     name: "tiny",
     question: "What becomes of a run in which scenes fail?",
@@ -30,7 +30,7 @@ fn plan() -> Plan {
     Plan { cases: cases.map(|(scene, epoch)| case(scene, epoch, &["x"])).collect(), ..Plan::default() }
 }
 
-/// Writes what a process would have measured into the journal of the study: all but `without`.
+/// Writes what a process would measure into the journal of the study, except `without`.
 fn measured(folder: &std::path::Path, without: &[(&str, usize)], change: fn(&Case, &mut Epoch)) {
     let provenance = Provenance { process_per_epoch: false, ..Provenance::of(&crate::measure::Threads::unstarted(1)) };
     let journal = journal::Journal::open(&folder.join("tiny"), provenance.clone(), false).unwrap();
@@ -45,7 +45,7 @@ fn measured(folder: &std::path::Path, without: &[(&str, usize)], change: fn(&Cas
     }
 }
 
-/// The titles of what is shown while a run goes on.
+/// The titles of the tables that are shown during a run.
 #[derive(Default)]
 struct RecordingScreen {
     titles: Vec<String>,
@@ -66,7 +66,7 @@ fn outcome(folder: &std::path::Path, screen: &mut RecordingScreen) -> RunOutcome
 #[test]
 fn scenes_that_fail_are_told_and_cut_no_mean() {
     let folder = tempfile::tempdir().unwrap();
-    // The second epoch of c has other answers, and that of b cannot be measured: there is no such scene.
+    // The second epoch of c has other hits, and epoch 1 of b fails because the scene does not exist.
     let other = |case: &Case, epoch: &mut Epoch| {
         if (case.scene.name.as_str(), case.epoch) == ("c", 1) {
             epoch.structures[0].rays[0].checksum = 2;
@@ -78,7 +78,7 @@ fn scenes_that_fail_are_told_and_cut_no_mean() {
     let told: Vec<String> = outcome.failures.iter().map(ToString::to_string).collect();
     assert!(told.len() == 2 && told[0].contains("b epoch 1") && told[1].contains("rays of c: epoch 0"), "{told:?}");
     assert_eq!(outcome.status, Status::Wrong, "wrong answers weigh more than what cannot be measured");
-    // What there is of b is shown, and is in no mean.
+    // The measured part of b is shown, and is in no mean.
     assert_eq!(screen.titles, ["a", "b (1 of 2 epochs)"]);
     let titles: Vec<&str> = outcome.tables.iter().map(|table| table.title.as_str()).collect();
     assert!(titles == ["mean of a"] && outcome.dataset.is_some(), "{titles:?}");

@@ -1,18 +1,18 @@
-//! What a user wants to know of a structure: is it right?
+//! Whether a structure is right: the summary for users.
 
 use serde::{Deserialize, Serialize};
 
 use crate::report::number::{count, plural};
 use crate::validate::{Kind, Validation};
 
-/// The outcome of all rays that a structure was checked on.
+/// The outcome over all checked rays of a structure.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Verdict {
     /// Rays checked.
     pub rays: u64,
     /// Rays with a wrong hit that no rounding explains.
     pub wrong: u64,
-    /// Rays with a hit that differs from the exact one by what the triangle test rounds.
+    /// Rays with a hit that differs from the exact one by the rounding of the triangle test.
     #[serde(default)]
     pub rounded: u64,
     /// The worst kind of wrong hit.
@@ -32,7 +32,7 @@ impl From<&Validation> for Verdict {
 }
 
 impl Verdict {
-    /// That of these rays and further ones.
+    /// The verdict on these rays and on the rays of `other`.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         let fault = self.fault.into_iter().chain(other.fault).min();
@@ -62,7 +62,7 @@ impl Verdict {
     }
 }
 
-/// What a structure with such hits does, and what follows.
+/// The effect of a structure with such hits, and the consequence.
 fn fault(kind: Kind) -> (&'static str, &'static str) {
     const TREE: &str = "the tree is wrong";
     const EITHER: &str = "the tree or its triangle test is wrong";

@@ -1,4 +1,4 @@
-//! Rays that break traversals, for any mesh: named strata, seeded, the same on every machine.
+//! Rays that break traversals, for any mesh: named, seeded strata, the same on every machine.
 
 use glam::Vec3;
 
@@ -13,10 +13,10 @@ use crate::names::named_enum;
 use crate::triangle::{MollerTrumbore, scalar_hit};
 
 named_enum! {
-    /// A kind of ray. Strata are never pooled: each has its own way to fail.
+    /// A stratum. Strata are never pooled: each has its own way to fail.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum Stratum {
-        /// Random lines through the box: what every structure survives.
+        /// Random lines through the box: every structure handles them.
         Random = "random",
         /// Through a vertex.
         Vertices = "vertices",
@@ -46,15 +46,16 @@ named_enum! {
         NearSurface = "near-surface",
         /// Intervals that begin or end at a hit, or an ulp beside it.
         Windows = "windows",
-        /// NaN, infinity, zero directions, empty intervals: nothing may be hit.
+        /// NaN, infinity, zero directions, empty intervals: no ray may hit.
         Invalid = "invalid",
-        /// Intervals that end or begin where the exact `t` of a hit is rounded to, half of them near the largest float.
+        /// Intervals that end or begin at the float to which the exact `t` of a hit rounds, half of them near the
+        /// largest float.
         RoundedEnds = "rounded-ends",
     }
 }
 
 impl Stratum {
-    /// `count` rays of this kind for `mesh`. An empty mesh is treated as if a triangle of unit size were there.
+    /// `count` rays of this stratum for `mesh`. For an empty mesh, rays for a triangle of unit size.
     pub fn rays(self, mesh: &Mesh, count: usize, seed: u64) -> Vec<Ray> {
         let mut generator = Generator::new(mesh, seed ^ (self as u64) << 32);
         (0..count).map(|_| generator.ray(self)).collect()
@@ -64,7 +65,7 @@ impl Stratum {
 struct Generator<'a> {
     mesh: &'a Mesh,
     bounds: Aabb,
-    /// Length of the box's longest side; 1 when the box is a point.
+    /// Length of the longest side of the box; 1 if the box is a point.
     size: f32,
     sampler: Sampler,
 }
@@ -152,7 +153,7 @@ impl<'a> Generator<'a> {
         corners
     }
 
-    /// In the box, or around it up to twice its size.
+    /// A point in the box, or around it up to twice its size.
     fn origin(&mut self) -> Vec3 {
         let reach = if self.sampler.coin() { 0.5 } else { 2.0 };
         self.bounds.centre() + self.sampler.cube() * (self.size * reach)
@@ -170,7 +171,7 @@ impl<'a> Generator<'a> {
         }
     }
 
-    /// A point of such coordinates.
+    /// A point with such coordinates.
     fn on_splits(&mut self) -> Vec3 {
         Vec3::from_array(std::array::from_fn(|axis| self.split(axis)))
     }
@@ -189,7 +190,7 @@ impl<'a> Generator<'a> {
         Ray::new(origin, self.any_direction(origin))
     }
 
-    /// Through a vertex, an edge point or a split, along `direction`, from outside the box or inside.
+    /// A ray through a vertex, an edge point or a split, along `direction`, from outside the box or inside.
     fn through(&mut self, direction: Vec3) -> Ray {
         let target = match self.sampler.below(3) {
             0 => self.vertex(),
@@ -222,7 +223,7 @@ impl<'a> Generator<'a> {
         let direction = self.sampler.direction();
         let direction = self.axis_of(direction);
         let mut ray = self.through(direction);
-        // Often mix the coordinates of several vertices: corners of boxes that belong to different triangles.
+        // Often mix the coordinates of several vertices: they are corners of boxes of different triangles.
         if self.sampler.coin() {
             let axis = direction.abs().max_position();
             for other in [(axis + 1) % 3, (axis + 2) % 3] {
@@ -275,7 +276,7 @@ impl<'a> Generator<'a> {
         Ray::new(target - direction * self.sampler.pick(&[0.0, 1.0, 4.0]), direction)
     }
 
-    /// Uses the `t` of Möller-Trumbore at a triangle aimed at; other tests are met within their rounding.
+    /// Uses the `t` of Möller-Trumbore at the target triangle; other tests agree within their rounding.
     fn window(&mut self) -> Ray {
         let [a, b, c] = self.corners();
         let [u, v, w] = self.sampler.barycentric();
@@ -309,7 +310,7 @@ impl<'a> Generator<'a> {
         ray
     }
 
-    /// From so far away now and then that a direction short enough for the largest `t` is no denormal number.
+    /// Some origins are so far away that a direction short enough for the largest `t` is not denormal.
     fn rounded_end(&mut self) -> Ray {
         let [a, b, c] = self.corners();
         let ([u, v, w], away) = (self.sampler.barycentric(), self.sampler.pick(&[1.0, 30.0, 1e3]));

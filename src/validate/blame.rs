@@ -13,7 +13,7 @@ pub(super) struct Blame {
     pub sentence: String,
 }
 
-/// Judges the hit `found` where the reference has `expected`; nothing if they agree.
+/// Judges the hit `found` for which the reference has `expected`; `None` if they agree.
 pub(super) fn blame(
     reference: &Reference,
     mesh: &Mesh,
@@ -36,19 +36,19 @@ pub(super) fn blame(
     }
 }
 
-/// The verdict on two tests, given what the structure's own says of the triangles in dispute.
+/// The verdict for two different tests. The structure's own test decides about the disputed triangles.
 fn own_test(own: ScalarTest, mesh: &Mesh, ray: &Ray, expected: Option<Hit>, found: Option<Hit>, other: Blame) -> Blame {
     let exists = |hit: &Hit| (hit.prim.index() as usize) < mesh.len();
     let of = |hit: Option<Hit>| hit.filter(exists).and_then(|hit| own(ray, mesh.corners(hit.prim.index())));
     let by_the_test = |sentence: &str| verdict(Kind::TriangleTest, format!("{}, but {sentence}", other.sentence));
     match (other.kind, found) {
-        // What its test does not find, or not in front of what was found, no walk can return.
+        // No traversal can return a hit that its test does not find, or does not find in front of the returned one.
         (Kind::Lost | Kind::NearerLost, _) => match (of(expected), found) {
             (None, _) => by_the_test("the structure's own test does not hit it"),
             (Some(t), Some(f)) if t >= f.t => by_the_test(&format!("the structure's own test hits it at {t:?}")),
             _ => other,
         },
-        // What its test gives, whatever is true, it may return.
+        // It may return what its test returns, right or wrong.
         (Kind::WrongT | Kind::Invented, Some(f)) => match of(found) {
             Some(t) if DepthRule::COARSE.allows(t.into(), f.t, true) => by_the_test("so says the structure's own test"),
             _ => other,
@@ -67,7 +67,7 @@ pub(super) fn gap(expected: Option<Hit>, found: Option<Hit>) -> f64 {
 
 /// Both must return the same bits, and the reference has tested every triangle.
 fn same_test(test: ScalarTest, mesh: &Mesh, ray: &Ray, expected: Option<Hit>, found: Option<Hit>) -> Blame {
-    // A hit must be one that the test gives at that primitive.
+    // The test must return this hit at this primitive.
     if let Some(f) = found {
         let solid = (f.prim.index() as usize) < mesh.len() && !mesh.is_degenerate(f.prim.index());
         let tested = if solid { test(ray, mesh.corners(f.prim.index())) } else { None };
@@ -100,7 +100,7 @@ fn same_test(test: ScalarTest, mesh: &Mesh, ray: &Ray, expected: Option<Hit>, fo
     }
 }
 
-/// The structure returns less than its test found: an error if that hit is real.
+/// The structure returns less than its test found: an error if the missing hit is real.
 fn lost(mesh: &Mesh, ray: &Ray, expected: Hit, found: Option<Hit>) -> Blame {
     let Some(nearer) = true_hit(mesh, ray, expected) else {
         return verdict(Kind::TriangleTest, format!("exactly, {:?} is not hit in the interval", expected.prim));
@@ -108,7 +108,7 @@ fn lost(mesh: &Mesh, ray: &Ray, expected: Hit, found: Option<Hit>) -> Blame {
     let sure = format!("exactly, {:?} is hit at {:?}", expected.prim, nearer.round());
     let Some(f) = found else { return verdict(Kind::Lost, sure) };
     if nearer.compare(f.t).is_some_and(Ordering::is_ge) {
-        // What lies behind a hit as computed may be culled.
+        // It may cull hits behind the computed one.
         return verdict(Kind::TriangleTest, format!("{sure}, not before the computed t of {:?}", f.prim));
     }
     match true_hit(mesh, ray, f) {
@@ -118,7 +118,7 @@ fn lost(mesh: &Mesh, ray: &Ray, expected: Hit, found: Option<Hit>) -> Blame {
     }
 }
 
-/// The same computed `t` at two primitives. The lower number must win if the traversal had to come to it.
+/// The same computed `t` at two primitives. The lower number must win if the traversal had to visit it.
 fn tie(mesh: &Mesh, ray: &Ray, expected: Hit, found: Hit) -> Blame {
     let lower = true_hit(mesh, ray, expected).filter(|t| t.compare(found.t).is_some_and(Ordering::is_le));
     if lower.is_some() && expected.prim.index() < found.prim.index() {
@@ -127,14 +127,14 @@ fn tie(mesh: &Mesh, ray: &Ray, expected: Hit, found: Hit) -> Blame {
     verdict(Kind::Tie, "both primitives have this computed t".into())
 }
 
-/// The nearest of two hits that truly is one.
+/// The nearest of two hits that is exactly a hit.
 fn nearest(mesh: &Mesh, ray: &Ray, expected: Option<Hit>, found: Option<Hit>) -> Option<(ExactT, PrimId)> {
     let truths = [expected, found].map(|hit| Some((true_hit(mesh, ray, hit?)?, hit?.prim)));
     truths.into_iter().flatten().min_by(|(a, _), (b, _)| a.cmp(b))
 }
 
-/// The structure's test is not that of the reference. Exact arithmetic judges structure and test together; what a test of
-/// this precision may round is blamed on the test.
+/// The structure and the reference have different tests. Exact arithmetic judges structure and test together;
+/// differences that rounding in this precision explains are blamed on the test.
 fn other_test(
     precision: Precision,
     mesh: &Mesh,
@@ -146,7 +146,7 @@ fn other_test(
     if let Some(blame) = found.and_then(|hit| no_hit(precision, mesh, ray, hit, truth.as_ref())) {
         return Some(blame);
     }
-    // The structure compares computed depths: a hit that is computed before this one was lost.
+    // The structure compares computed depths: it has lost a hit that is computed before this one.
     let limit = found.map_or(f64::INFINITY, |hit| hit.t.into());
     let is_found = |t: &ExactT, prim| {
         found.is_some_and(|f| f.prim == prim || DepthRule::STRICT.allows(t.approximate(), f.t, false))
@@ -157,7 +157,8 @@ fn other_test(
         if margin.latest() < limit && !margin.may_miss(ray) {
             return Some(verdict(kind, format!("exactly, {prim:?} is hit at {:?}", t.round())));
         }
-        // A test may miss the nearest triangle or take it for a later one, but not one behind it.
+        // A test may miss the nearest triangle or place it behind a later one, but may not return a hit behind that
+        // one.
         if precision == Precision::Single
             && let Some((t, prim)) = nearest_sure(mesh, ray, limit)
         {
@@ -167,7 +168,7 @@ fn other_test(
     rounded(truth, expected, found)
 }
 
-/// Why no test of this precision returns that hit, unless one may.
+/// The reason why no test of this precision returns that hit; `None` if one may return it.
 fn no_hit(precision: Precision, mesh: &Mesh, ray: &Ray, found: Hit, truth: Option<&(ExactT, PrimId)>) -> Option<Blame> {
     let is_there =
         truth.is_some_and(|(t, prim)| *prim != found.prim && DepthRule::COARSE.allows(t.approximate(), found.t, false));
@@ -190,7 +191,7 @@ fn no_hit(precision: Precision, mesh: &Mesh, ray: &Ray, found: Hit, truth: Optio
     }
 }
 
-/// That a hit lies outside of the interval of its ray, where it does.
+/// Describes a hit outside the interval of its ray; empty if it is inside.
 fn outside(ray: &Ray, found: Hit) -> String {
     let (t_min, t_max) = ray.interval();
     if t_min <= found.t && found.t < t_max {
@@ -199,7 +200,7 @@ fn outside(ray: &Ray, found: Hit) -> String {
     format!(", and t = {:?} is not in [{t_min:?}, {t_max:?}): t below 0 never counts", found.t)
 }
 
-/// Nothing is lost or invented that rounding could not: who of the two is off?
+/// Rounding may explain every lost or invented hit: decides whether structure or reference is wrong.
 fn rounded(truth: Option<(ExactT, PrimId)>, expected: Option<Hit>, found: Option<Hit>) -> Option<Blame> {
     let is_right = |hit: Option<Hit>| match (&truth, hit) {
         (None, None) => true,
@@ -225,7 +226,7 @@ fn verdict(kind: Kind, sentence: String) -> Blame {
     Blame { kind, sentence }
 }
 
-/// The exact `t` of the primitive of a hit, if the ray really meets it in its interval.
+/// The exact `t` of the primitive of a hit, if the ray meets it in its interval.
 fn true_hit(mesh: &Mesh, ray: &Ray, hit: Hit) -> Option<ExactT> {
     let exists = (hit.prim.index() as usize) < mesh.len() && ray.is_valid();
     exists.then(|| exact::hit(ray, mesh.corners(hit.prim.index())))?.filter(|t| t.is_within(ray))

@@ -1,4 +1,4 @@
-//! The comparison itself.
+//! Compares a structure with its reference, ray by ray.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -14,22 +14,23 @@ use crate::geometry::{Hit, Mesh, Ray};
 use crate::oracle::Oracle;
 use crate::panics::caught;
 
-/// Rays per batch: part of the result's definition, so that no thread count changes it.
+/// Rays per batch. The result may depend on the batch size, so the size is fixed and does not follow the thread count.
 pub(super) const BATCH: usize = 256;
 
-/// Compares `subject` with `reference` on every ray: the closest hit is the same, any hit agrees with it, and the ray alone
-/// has the same hit as in a batch; batches are loaded ([`Accel::load`](crate::accel::Accel::load)), as they are timed.
+/// Compares `subject` with `reference` on every ray. Three checks: the closest hit equals the reference's; the any-hit
+/// result agrees with the closest hit; the ray has the same hits on its own and in a batch. Batches are loaded with
+/// [`Accel::load`](crate::accel::Accel::load), as for timing.
 ///
-/// `mesh` is the one that both were built from. Rays that the structure declines are left out and counted. A panic is caught
-/// and ends its batch; against endless loops see [`validate_watched`](super::validate_watched). Runs on all threads of the
-/// pool; the result does not depend on how many.
-/// Costs two closest and two any-hit queries of `subject` per ray, one closest hit of `reference`, and some microseconds per
-/// ray on which they differ.
+/// Both structures must be built over `mesh`. Rays that the structure declines are left out and counted. A panic is
+/// caught and ends its batch; [`validate_watched`](super::validate_watched) also stops endless loops. Runs on all
+/// threads of the pool; the result does not depend on their number.
+/// Cost per ray: two closest-hit and two any-hit queries of `subject` and one closest-hit query of `reference`; a few
+/// microseconds more for a ray on which the hits differ.
 pub fn validate(subject: &dyn DynAccel, reference: &Reference, mesh: &Mesh, rays: &[Ray]) -> Validation {
     validate_known(subject, reference, &reference.closest_hits(rays), mesh, rays)
 }
 
-/// As [`validate`], with `expected` the hits of `reference` for `rays`: for several structures they are found once.
+/// Like [`validate`], but receives the hits of `reference` in `expected`: several structures capabilities share them.
 ///
 /// # Panics
 /// If there is not one hit per ray.
@@ -50,17 +51,17 @@ pub fn validate_known(
 /// The rays that `subject` does not decline, and the hits of the reference for them.
 pub(super) fn admitted(subject: &dyn DynAccel, rays: &[Ray], expected: &[Option<Hit>]) -> (Vec<Ray>, Vec<Option<Hit>>) {
     assert_eq!(rays.len(), expected.len(), "one hit per ray");
-    let can = subject.capabilities();
+    let capabilities = subject.capabilities();
     let known = rays.iter().copied().zip(expected.iter().copied());
-    known.filter(|(ray, _)| can.declines(ray).is_none()).unzip()
+    known.filter(|(ray, _)| capabilities.declines(ray).is_none()).unzip()
 }
 
-/// Compares closest hits that were found elsewhere with `expected`, the hits of `reference`: as [`validate`], without what
-/// needs queries.
+/// Compares `found`, closest hits from elsewhere, with `expected`, the hits of `reference`. It makes the first check of
+/// [`validate`] and not the two checks that query the structure.
 ///
 /// # Panics
 /// If there is not one hit per ray.
-pub fn validate_answers(
+pub fn validate_hits(
     reference: &Reference,
     expected: &[Option<Hit>],
     mesh: &Mesh,
@@ -83,8 +84,9 @@ pub fn validate_answers(
     Validation::of_batches(0, batches)
 }
 
-/// The rays on which `found` differs from `expected`, the hits of another tree for the triangle test of `reference`, each with
-/// how it differs if that tree is right.
+/// The indices of the rays on which `found` differs from `expected`, each with the kind of the difference. `expected`
+/// are the hits of another tree over the triangle test of `reference`; the kind presumes that this tree is right.
+/// Differences within the depth rule of `reference` are left out.
 pub fn differences(
     reference: &Reference,
     mesh: &Mesh,
@@ -102,14 +104,16 @@ pub fn differences(
     (0..rays.len()).into_par_iter().filter_map(differs).collect()
 }
 
-/// Compares results of the any-hit query that were found elsewhere with `expected`, the closest hits of `reference`; the
-/// exact oracle judges where they differ. Where the triangle test is shared, a hit that the reference does not have is
-/// invented, whatever is exactly so. Where rounding may explain a result, `subject`, the structure itself, is queried for
-/// its closest hit: a triangle test rounds alike in both queries.
+/// Compares `found`, any-hit results from elsewhere, with `expected`, the closest hits of `reference`. The exact oracle
+/// judges the rays on which they differ.
+///
+/// If structure and reference share the triangle test, a hit that the reference lacks is `Invented`, even if the oracle
+/// has a hit there. If rounding may explain a result, `subject`, which is the structure, traces the ray on_its_own for the
+/// closest hit: a triangle test rounds the same way in both queries, so the two must agree.
 ///
 /// # Panics
 /// If there is not one result per ray.
-pub fn validate_any_answers(
+pub fn validate_any_hits(
     reference: &Reference,
     expected: &[Option<Hit>],
     mesh: &Arc<Mesh>,
@@ -128,7 +132,7 @@ pub fn validate_any_answers(
             continue;
         }
         let truth = oracle.get_or_insert_with(|| Oracle::new(mesh)).nearest(ray);
-        // A test in single precision may find a hit too much or too few.
+        // A test in single precision may find a hit that does not exist, or miss one.
         let rounds = !shares_test && reference.precision == Precision::Single;
         let kind = match (found, truth.is_some()) {
             (true, _) if shares_test => Kind::Invented,
@@ -140,15 +144,18 @@ pub fn validate_any_answers(
             _ => Kind::Reference,
         };
         let verdict = match truth {
-            Some(truth) => format!("any hit says {found}; exactly, there is a hit at {:?}", truth.rounded()),
-            None => format!("any hit says {found}; exactly, nothing is hit in the interval"),
+            Some(truth) => {
+                format!("the any-hit query returns {found}; exact arithmetic finds a hit at t = {:?}", truth.rounded())
+            }
+            None => format!("the any-hit query returns {found}; exact arithmetic finds no hit in the interval"),
         };
         let (at, gap) = (index as u64, f64::INFINITY);
         let ray = WorstRay { index: at, ray: *ray, expected, found: None, kind, verdict, gap };
         if rounds && kind == Kind::TriangleTest { excused.push(ray) } else { sums.note(ray, shares_test) }
     }
 
-    // A rounding triangle test may be wrong here, but the same way in both queries.
+    // Rounding excuses these results only if the closest-hit query rounds the same way: otherwise the two queries
+    // disagree.
     let rays: Vec<Ray> = excused.iter().map(|own| own.ray).collect();
     let closest = subject.filter(|_| !rays.is_empty()).map(|subject| subject.closest(&rays));
     for (place, mut own) in excused.into_iter().enumerate() {
@@ -166,7 +173,7 @@ pub fn validate_any_answers(
     sums
 }
 
-/// Compares one batch; `clock` shows the running query to another thread.
+/// Compares one batch. `clock` shows the running query to another thread.
 pub(super) fn validate_batch(
     subject: &dyn DynAccel,
     reference: &Reference,
@@ -177,26 +184,26 @@ pub(super) fn validate_batch(
 ) -> Validation {
     let mut sums = Validation { rays: rays.len() as u64, ..Validation::default() };
 
-    // Trace each ray alone, and only then the batch: what panics or hangs does so at a ray that can be named.
-    let mut alone = Vec::with_capacity(rays.len());
+    // Trace each ray on its own before the batch: a panic or hang then has a known ray.
+    let mut single = Vec::with_capacity(rays.len());
     for (index, ray) in rays.iter().enumerate() {
         match returned(clock, Call::Ray(index), || traced_alone(subject, ray)) {
-            Ok(hits) => alone.push(hits),
+            Ok(hits) => single.push(hits),
             Err(message) => return sums.ended(expected[index], rays, Call::Ray(index), Kind::Panicked, message),
         }
     }
-    // In the form in which it is timed.
+    // Trace the loaded batch, as the timing does.
     let (found, any) = match returned(clock, Call::Batch, || traced_loaded(subject, rays)) {
         Ok(hits) => hits,
         Err(message) => return sums.ended(expected[0], rays, Call::Batch, Kind::Panicked, message),
     };
 
     sums.hits = expected.iter().flatten().count() as u64;
-    let can = subject.capabilities();
-    let checks_any = can.any_hit;
+    let capabilities = subject.capabilities();
+    let checks_any = capabilities.any_hit;
     for (index, ray) in rays.iter().enumerate() {
         let (expected, found, any) = (expected[index], found[index], any[index]);
-        if can.excuses(ray, expected) {
+        if capabilities.excuses(ray, expected) {
             sums.declined += 1;
             continue;
         }
@@ -205,16 +212,19 @@ pub(super) fn validate_batch(
             sums.worst.push(WorstRay { index, ray: *ray, expected, found, kind, verdict, gap: gap(expected, found) });
         };
 
-        // Nothing more can be said of a hit that is not always the same.
-        let (again, any_again) = alone[index];
-        if !same(again, found) || checks_any && any_again != any {
-            let alone = again.map_or("nothing".to_owned(), |hit| format!("t = {:?} at {:?}", hit.t, hit.prim));
-            note(Kind::Unrepeatable, format!("alone, closest hit says {alone}, any hit {any_again}"));
+        // A hit that is not repeatable gets no further check.
+        let (on_its_own, any_alone) = single[index];
+        if !same(on_its_own, found) || checks_any && any_alone != any {
+            let closest = on_its_own.map_or("none".to_owned(), |hit| format!("t = {:?} at {:?}", hit.t, hit.prim));
+            note(
+                Kind::Unrepeatable,
+                format!("traced on its own, the ray has the closest hit {closest} and the any-hit result {any_alone}"),
+            );
             sums.unrepeatable += 1;
             continue;
         }
         if checks_any && any != found.is_some() {
-            note(Kind::AnyHitDisagrees, format!("any hit says {any}"));
+            note(Kind::AnyHitDisagrees, format!("the any-hit query returns {any}"));
             sums.any_hit_errors += 1;
         }
 
@@ -232,6 +242,7 @@ fn unwritten() -> Option<Hit> {
 fn traced_alone(subject: &dyn DynAccel, ray: &Ray) -> (Option<Hit>, bool) {
     let mut found = [unwritten()];
     subject.closest_hits(&[*ray], &mut found);
+    // The any-hit slots start with the opposite of the closest hit: an unwritten slot then contradicts it.
     let mut any = [found[0].is_none()];
     subject.any_hits(&[*ray], &mut any);
     (found[0], any[0])
@@ -246,7 +257,7 @@ fn traced_loaded(subject: &dyn DynAccel, rays: &[Ray]) -> (Vec<Option<Hit>>, Vec
     (found, any)
 }
 
-/// What a query returns, or the message of its panic.
+/// The result of a query, or the message of its panic.
 fn returned<R>(clock: &QueryClock, call: Call, query: impl FnOnce() -> R) -> Result<R, String> {
     clock.begin(call);
     let result = caught(query);

@@ -74,7 +74,7 @@ pub(crate) fn coplanar(n: usize, u: Vec3, v: Vec3) -> Arc<Mesh> {
     }))
 }
 
-/// Points, doubled corners and corners on a line among triangles that have an area.
+/// Points, triangles with two equal corners and triangles with corners on a line, among triangles with an area.
 pub(crate) fn half_without_area(n: usize) -> Arc<Mesh> {
     let mut sampler = Sampler::new(5);
     mesh(soup_triangles(n, 5).enumerate().map(|(i, [a, b, c])| match i % 6 {
@@ -89,7 +89,7 @@ pub(crate) fn half_without_area(n: usize) -> Arc<Mesh> {
     }))
 }
 
-/// Long thin triangles through one point: they overlap whatever the boxes.
+/// Long thin triangles through one point: no partition separates their boxes.
 pub(crate) fn needles(n: usize) -> Arc<Mesh> {
     let mut sampler = Sampler::new(6);
     mesh((0..n).map(|_| {
@@ -99,7 +99,7 @@ pub(crate) fn needles(n: usize) -> Arc<Mesh> {
     }))
 }
 
-/// Octahedra around the origin, each of the double size of the one before: 2^-30 to 2^30.
+/// Octahedra around the origin, each twice as large as the previous one: 2^-30 to 2^30.
 pub(crate) fn shells() -> Arc<Mesh> {
     mesh((-30..=30).flat_map(|exponent| {
         let r = libm::scalbnf(1.0, exponent);
@@ -114,7 +114,7 @@ pub(crate) fn octahedron() -> impl Iterator<Item = [Vec3; 3]> {
     })
 }
 
-/// Triangle `k` lies at 1.3^k and has that size: every middle split takes off a few triangles only.
+/// Triangle `k` lies at 1.3^k and has that size: every middle split separates only a few triangles.
 pub(crate) fn exponential(n: usize) -> Arc<Mesh> {
     let mut at = 1e-16_f32;
     mesh((0..n).map(|_| {
@@ -123,7 +123,7 @@ pub(crate) fn exponential(n: usize) -> Arc<Mesh> {
     }))
 }
 
-/// The cube [-1, 1]^3 with `n` by `n` squares a side, corners on simple coordinates.
+/// The cube [-1, 1]^3 with `n` by `n` squares per side, corners on simple coordinates.
 pub(crate) fn box_grid(n: usize) -> Arc<Mesh> {
     let mut triangles = vec![];
     for axis in 0..3 {
@@ -159,7 +159,8 @@ pub(crate) fn huge_and_small() -> Arc<Mesh> {
     mesh(soup_triangles(200, 8).chain([huge]))
 }
 
-/// An octahedron whose triangles are cut in four `levels` times, pushed out to the unit sphere; closed, shared vertices.
+/// An octahedron whose triangles are divided into four `levels` times and projected to the unit sphere; closed, shared
+/// vertices.
 fn sphere(levels: usize) -> Arc<Mesh> {
     let mut triangles: Vec<[Vec3; 3]> = octahedron().collect();
     for _ in 0..levels {

@@ -1,32 +1,31 @@
-//! Error rates: hits compared with the truth, whatever structure or triangle test they come from.
+//! Error counts: hits compared with the exact ones, for any structure and triangle test.
 
 use super::Rate;
 use crate::geometry::Hit;
 use crate::oracle::Truth;
 
-/// When a depth counts as wrong.
+/// The condition for a wrong depth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DepthRule {
-    /// Relative error that is allowed at a primitive that truly is hit first.
+    /// Allowed relative error at a primitive that is exactly the first one hit.
     right: f64,
-    /// Relative error that is allowed at any other.
+    /// Allowed relative error at any other primitive.
     other: f64,
-    /// Error that is allowed in any case, in units in the last place of the true `t` as an `f32`.
+    /// Error that is always allowed, in units in the last place of the exact `t` as an `f32`.
     ulps: f64,
 }
 
 impl DepthRule {
-    /// Only what shows in a picture: more than 1 % at the right primitive, more than 0.1 % at another.
+    /// Only errors that are visible in a picture: more than 1 % at the right primitive, more than 0.1 % at another.
     pub const COARSE: Self = Self { right: 1e-2, other: 1e-3, ulps: 0.0 };
 
-    /// More than 4 units in the last place and more than 1e-6, at whatever primitive.
+    /// More than 4 units in the last place and more than 1e-6, at any primitive.
     pub const STRICT: Self = Self { right: 1e-6, other: 1e-6, ulps: 4.0 };
 
-    /// Whether a hit at `found` counts as one at `t`, which is not negative; `right`: at the primitive that is hit
-    /// there.
+    /// Whether a hit at `found` counts as one at `t`, which is not negative. `right`: its primitive is hit there.
     pub(super) fn allows(self, t: f64, found: f32, right: bool) -> bool {
         let allowed = (t * if right { self.right } else { self.other }).max(ulp(t) * self.ulps);
-        // Not if it is NaN.
+        // This is false for NaN.
         (f64::from(found) - t).abs() <= allowed
     }
 }
@@ -34,47 +33,46 @@ impl DepthRule {
 /// The outcome of one ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Outcome {
-    /// Nothing is hit, and nothing was found.
+    /// A miss, and the structure returns a miss.
     Nothing,
     /// The right primitive at the right depth.
     Right,
-    /// A hit, and nothing was found.
+    /// A hit, and the structure returns a miss.
     Missed,
-    /// Nothing is hit, and something was found.
+    /// A miss, and the structure returns a hit.
     FalseHit,
-    /// A hit at a wrong depth, whatever the primitive.
+    /// A hit at a wrong depth, at any primitive.
     WrongDepth,
-    /// A hit at the right depth, but at a primitive that is not among the nearest: float numbers cannot tell them
-    /// apart, or did not.
+    /// A hit at the right depth, but at a primitive that is not among the nearest: its depth equals theirs within the
+    /// tolerance.
     WrongPrimitive,
 }
 
-/// Sums over rays. Rates of workloads that fail in different ways must not be added up.
+/// Sums over rays. Rates of workloads that fail in different ways must not be added.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct ErrorCounts {
     /// Rays compared.
     pub rays: u64,
-    /// Those that truly hit something.
+    /// Rays with an exact hit.
     pub hits: u64,
-    /// Hits that were not found.
+    /// Exact hits that the structure misses.
     pub missed: u64,
-    /// Hits where exactly there is none.
+    /// Hits of the structure without an exact hit.
     pub false_hits: u64,
     /// Hits at a wrong depth, by the given rule.
     pub wrong_depth: u64,
-    /// Hits at a primitive that is not among the nearest, their depth right or wrong.
+    /// Hits at a primitive that is not among the nearest, at any depth.
     pub wrong_primitive: u64,
-    /// Error of `t` where the primitive is right; nothing where it never is.
+    /// Error of `t` over the hits on a right primitive; `None` if there are none.
     pub ulps: Option<Ulps>,
 }
 
-/// Distances of `t` from the truth, in units in the last place of the true `t` as an `f32`: at most 0.5 is correctly
-/// rounded.
+/// Errors of `t` in units in the last place of the exact `t` as an `f32`: at most 0.5 is correct rounding.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Ulps {
     #[serde(deserialize_with = "infinite_if_null")]
     pub median: f64,
-    /// Not exceeded by 99 %.
+    /// The 99th percentile.
     #[serde(deserialize_with = "infinite_if_null")]
     pub p99: f64,
     #[serde(deserialize_with = "infinite_if_null")]
@@ -87,21 +85,21 @@ fn infinite_if_null<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result
 }
 
 impl ErrorCounts {
-    /// Misses, false hits and wrong depths: no ray has two of them.
+    /// Misses, false hits and wrong depths; no ray has two of them.
     pub fn errors(&self) -> u64 {
         self.missed + self.false_hits + self.wrong_depth
     }
 
-    /// Wrong hits among all rays.
+    /// The share of rays with a wrong hit.
     pub fn error(&self) -> Rate {
         Rate { events: self.errors(), of: self.rays }
     }
 }
 
-/// Counts the wrong hits of some rays.
+/// Counts the wrong hits on some rays.
 ///
 /// # Panics
-/// If there are not as many hits as truths.
+/// If the numbers of hits and truths differ.
 pub fn count_errors(truths: &[Option<Truth>], answers: &[Option<Hit>], rule: DepthRule) -> ErrorCounts {
     assert_eq!(truths.len(), answers.len(), "one hit per ray");
     let mut counts = ErrorCounts { rays: truths.len() as u64, ..ErrorCounts::default() };
@@ -147,12 +145,13 @@ fn names(truth: &Truth, hit: Hit) -> bool {
     truth.ids.binary_search(&hit.prim.index()).is_ok()
 }
 
-/// How far `t` is from the truth.
+/// The distance of `t` from the exact one.
 fn off(truth: &Truth, t: f32) -> f64 {
     (f64::from(t) - truth.t.approximate()).abs()
 }
 
-/// The distance of the floats around `t`, which is not negative; that of denormals for what is smaller than all others.
+/// The distance between floats around `t`, which is not negative; for numbers below the normal range, the distance
+/// between denormals.
 fn ulp(t: f64) -> f64 {
     let exponent = if t > 0.0 { libm::ilogb(t).clamp(-126, 127) } else { -126 };
     libm::ldexp(1.0, exponent - 23)
@@ -161,7 +160,7 @@ fn ulp(t: f64) -> f64 {
 fn summary(mut ulps: Vec<f64>) -> Option<Ulps> {
     ulps.sort_unstable_by(f64::total_cmp);
     let max = *ulps.last()?;
-    // The least value that at least this share does not exceed.
+    // The smallest value that at least this share does not exceed.
     let quantile = |percent: usize| ulps[(ulps.len() * percent).div_ceil(100) - 1];
     Some(Ulps { median: quantile(50), p99: quantile(99), max })
 }
@@ -176,8 +175,8 @@ mod tests {
     use crate::geometry::{Mesh, Ray};
     use crate::oracle::Oracle;
 
-    /// Two triangles one behind the other; the truth of a ray that hits both at 1 and 1 + `gap`, and of one that hits
-    /// none.
+    /// Two triangles, one behind the other; the truth of a ray that hits both at 1 and 1 + `gap`, and of a ray that
+    /// misses both.
     fn truths(gap: f32) -> [Option<Truth>; 2] {
         let corners = |z: f32| [Vec3::new(-1.0, -1.0, z), Vec3::new(3.0, -1.0, z), Vec3::new(-1.0, 3.0, z)];
         let positions = [corners(1.0), corners(1.0 + gap)].concat();

@@ -1,10 +1,10 @@
-//! Validation: compares a structure with a reference, hit for hit; the exact oracle judges where they differ.
+//! Validation: compares a structure with a reference, hit for hit; the exact oracle judges the differences.
 //!
-//! Two errors are told apart. A *structure error* is a hit that the traversal lost or invented, although its own triangle
-//! test, run over all triangles, says otherwise: a correct structure has none, on any ray. A *triangle-test error* is caused by
-//! the triangle test: it returns a hit where exactly there is none, and the traversal was free to cull it.
-//! Where the structure's test is its own, exact arithmetic decides: what a test in single precision may round is a
-//! triangle-test error, everything else an *answer error*, which no rounding explains.
+//! There are two kinds of errors. A *structure error* is a hit that the traversal lost or invented although its own
+//! triangle test, run over all triangles, disagrees: a correct structure has none, on any ray. A *triangle-test error*
+//! is caused by the triangle test: it returns a hit where exactly there is none, and the traversal was free to cull it.
+//! If the reference lacks the structure's test, exact arithmetic decides: differences that rounding in single precision
+//! explains are triangle-test errors; all others are *answer errors*.
 
 pub mod adversarial;
 mod blame;
@@ -23,7 +23,7 @@ mod validation;
 mod watchdog;
 
 pub use adversarial::Stratum;
-pub use compare::{differences, validate, validate_answers, validate_any_answers, validate_known};
+pub use compare::{differences, validate, validate_any_hits, validate_hits, validate_known};
 pub use degenerate::{degenerate_meshes, stacked_sheets};
 pub use error_counts::{DepthRule, ErrorCounts, Outcome, Ulps, count_errors, outcome};
 pub use rate::Rate;

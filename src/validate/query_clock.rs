@@ -1,4 +1,4 @@
-//! Which query a thread runs and since when, as seen from another thread.
+//! The running query of a thread and its start, visible to other threads.
 
 use std::any::Any;
 use std::sync::Mutex;
@@ -14,13 +14,13 @@ pub(super) fn message(payload: &(dyn Any + Send)) -> String {
 /// A query of a structure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Call {
-    /// One ray of a batch, alone.
+    /// One ray of a batch, on its own.
     Ray(usize),
     /// All rays of a batch.
     Batch,
 }
 
-/// Which query a thread runs and since when, as seen from another thread.
+/// The running query of a thread and its start, visible to other threads.
 #[derive(Default)]
 pub(super) struct QueryClock(Mutex<Option<(Call, Instant)>>);
 
@@ -37,7 +37,7 @@ impl QueryClock {
         *self.0.lock().expect("nobody panics while holding it") = state;
     }
 
-    /// The query that has taken longer than `limit`.
+    /// The running query, if it has taken longer than `limit`.
     pub fn overdue(&self, limit: Duration) -> Option<Call> {
         let (call, since) = (*self.0.lock().expect("nobody panics while holding it"))?;
         (since.elapsed() > limit).then_some(call)

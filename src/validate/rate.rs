@@ -1,4 +1,4 @@
-//! How often something happens, and how often it may.
+//! The rate of an event, and its upper bound.
 
 use crate::measure::beta_quantile;
 
@@ -9,19 +9,19 @@ pub struct Rate {
     pub of: u64,
 }
 
-/// The chance that a bound leaves to its outside.
+/// The probability that the true rate exceeds the bound.
 const LEVEL: f64 = 0.05;
 
 impl Rate {
-    /// The share of trials with the event; nothing of no trials.
+    /// The share of trials with the event; `None` without trials.
     pub fn share(self) -> Option<f64> {
         (self.of > 0).then(|| self.events as f64 / self.of as f64)
     }
 
-    /// What the true rate is below with 95 % confidence, at most 1; nothing of no trials.
+    /// The upper bound of the true rate with 95 % confidence, at most 1; `None` without trials.
     ///
-    /// One-sided: at this rate so few events would be seen in 5 % of the cases. Without an event it is 1 - 0.05^(1 /
-    /// n), about 3 / n.
+    /// One-sided: at this rate so few events would occur in 5 % of the cases. Without an event it is 1 - 0.05^(1 / n),
+    /// about 3 / n.
     ///
     /// # References
     /// Clopper, Pearson: The use of confidence or fiducial limits illustrated in the case of the binomial. Biometrika
@@ -61,7 +61,7 @@ mod tests {
         assert_eq!(rate(10, 10).bound(), Some(1.0));
         for n in [100_u64, 1_000_000, 1_000_000_000] {
             let bound = rate(0, n).bound().unwrap();
-            // Were the rate as high, no event would be seen in 5 % of the runs.
+            // At this rate no event would occur in 5 % of the runs.
             assert!((libm::exp(n as f64 * libm::log1p(-bound)) - 0.05).abs() < 1e-9, "{n}: {bound}");
             assert!((bound * n as f64 - 2.9957).abs() < 0.05, "{n}: {bound}");
         }

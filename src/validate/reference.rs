@@ -20,11 +20,11 @@ use crate::triangle::{
     BaldwinWeber, EdgeF64, Exact, MollerTrumbore, MollerTrumboreF64, Plucker, TriangleTest, Watertight, scalar_hit,
 };
 
-/// One triangle, tested alone: `t` where the ray hits it within its interval.
+/// Tests one triangle: `t` if the ray hits it within its interval.
 pub type ScalarTest = fn(&Ray, [Vec3; 3]) -> Option<f32>;
 
-/// A triangle test that has a reference of its own. Without one, a structure would be compared with Möller-Trumbore. The
-/// registry offers brute force, and all of this crate's structures, only over such tests.
+/// A triangle test with its own reference. Without it, a structure would be compared with Möller-Trumbore. The registry
+/// offers brute force, and all structures of this crate, only over such tests.
 pub(crate) trait HasReference: TriangleTest {}
 
 type OfMesh = fn(&Arc<Mesh>) -> Result<Reference, BuildError>;
@@ -53,27 +53,28 @@ references!(
     ParryTest,
 );
 
-/// Rays that a thread takes at a time: few, since brute force takes milliseconds for each.
+/// Rays per task of a thread: few, because brute force takes milliseconds per ray.
 const BATCH: usize = 32;
 
-/// What the hits of a structure are compared with, and how strictly.
+/// The reference of a comparison, and how strict it is.
 pub struct Reference {
     /// Returns the hits.
     pub accel: Box<dyn DynAccel>,
-    /// The triangle test that the structure and the reference share: their hits must be the same bits, and the reference has
-    /// tested every triangle. `None` when the tests differ, or when the reference may itself have lost hits.
+    /// The triangle test that the structure and the reference share: their hits must be the same bits, and the
+    /// reference has tested every triangle. `None` if the tests differ, or if the reference may itself have lost hits.
     pub test: Option<ScalarTest>,
-    /// Of the structure's triangle test, where the reference does not share it: what that may round is no error of the tree.
+    /// The precision of the structure's triangle test, if the reference does not share it: differences that its
+    /// rounding explains are no errors of the tree.
     pub precision: Precision,
-    /// The structure's own triangle test, where it is known but too slow to be run over all triangles. Run on the triangles
-    /// in dispute, it tells what the structure lost from what its test did not find.
+    /// The structure's own triangle test, if it is known but too slow to run over all triangles. Run on the disputed
+    /// triangles, it distinguishes hits lost by the structure from hits that its test does not find.
     pub disputed: Option<ScalarTest>,
 }
 
 impl Reference {
-    /// Brute force with the triangle test named `test` ([`TRIANGLE_TEST`](crate::accel::Accel::TRIANGLE_TEST)); for a test
-    /// that this crate does not have, or has only as a scene of one triangle, brute force with `exact`; the latter test is run
-    /// in disputes.
+    /// Brute force with the triangle test named `test` ([`TRIANGLE_TEST`](crate::accel::Accel::TRIANGLE_TEST)). For a
+    /// test that this crate lacks, or has only as a scene of one triangle, brute force with `exact`; the latter kind of
+    /// test judges disputes.
     ///
     /// # Errors
     /// If it cannot be built over the mesh.
@@ -104,23 +105,23 @@ impl Reference {
 
     #[cfg(feature = "peer-embree")]
     fn in_disputes(disputed: ScalarTest, mesh: &Arc<Mesh>) -> Result<Self, BuildError> {
-        // What that test rounds is known exactly: no bound is needed.
+        // The rounding of this test is known exactly: no bound is needed.
         let precision = Precision::Exact;
         Ok(Self { test: None, precision, disputed: Some(disputed), ..Self::brute_force::<Exact>(mesh)? })
     }
 
-    /// Its closest hits, one for each ray, found on all threads of the pool.
+    /// The closest hits of the reference, one per ray, traced on all threads of the pool.
     pub fn closest_hits(&self, rays: &[Ray]) -> Vec<Option<Hit>> {
         self.accel.closest_by_chunks(rays, BATCH)
     }
 
-    /// Whether what a structure lost can be told from what its triangle test did not find.
+    /// Whether hits lost by a structure can be distinguished from hits that its triangle test does not find.
     pub fn knows_structure_errors(&self) -> bool {
         self.test.is_some() || self.disputed.is_some()
     }
 
-    /// Any other structure: it may have lost hits, so the exact oracle decides wherever the hits differ from those of a
-    /// structure over the triangle test named `test`.
+    /// Any other structure as a reference. It may have lost hits, so the exact oracle decides the rays on which a
+    /// structure over the triangle test named `test` has other hits.
     pub fn structure(accel: Box<dyn DynAccel>, test: &str) -> Self {
         let precision = if test == Exact::NAME { Precision::Exact } else { Precision::Single };
         Self { accel, test: None, precision, disputed: None }

@@ -1,18 +1,18 @@
-//! A program of another language, compared with the reference.
+//! Compares a program in any language with the reference.
 
 use std::sync::Arc;
 
 use super::compare::same;
-use super::{Kind, Reference, Validation, WorstRay, validate_answers};
+use super::{Kind, Reference, Validation, WorstRay, validate_hits};
 use crate::accel::DynAccel;
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::measure::spread;
 
-/// Rays that are traced once more in another batch.
+/// Rays that are traced again in another batch.
 const AGAIN: usize = 256;
 
-/// As [`validate_known`](super::validate_known), of a structure that takes long to receive a ray: each query runs once for
-/// all rays, and once more for some of them.
+/// Like [`validate_known`](super::validate_known), for a structure that takes long to receive a ray: each query runs
+/// once for all rays, and once more for some of them.
 pub fn validate_remote(
     subject: &dyn DynAccel,
     reference: &Reference,
@@ -32,12 +32,12 @@ pub fn validate_remote(
         return ended;
     }
 
-    let mut sums = validate_answers(reference, expected, mesh, rays, &found);
+    let mut sums = validate_hits(reference, expected, mesh, rays, &found);
     for (index, ray) in rays.iter().enumerate() {
         if let Some(any) = any.as_ref().map(|any| any[index])
             && any != found[index].is_some()
         {
-            let verdict = format!("any hit says {any}");
+            let verdict = format!("the any-hit query returns {any}");
             sums.worst.push(worst(index, ray, expected[index], found[index], Kind::AnyHitDisagrees, verdict));
             sums.any_hit_errors += 1;
         }

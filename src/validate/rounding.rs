@@ -1,5 +1,5 @@
-//! What a triangle test in single precision may round: a structure whose own test is not known is wrong only where no
-//! such rounding could hide a hit.
+//! Bounds the rounding of a triangle test in single precision: a structure with an unknown test is wrong only if no
+//! such rounding explains its hit.
 
 use glam::{DVec3, Vec3};
 
@@ -8,11 +8,12 @@ use crate::geometry::{Mesh, PrimId, Ray};
 /// Half a unit in the last place of 1, the largest relative error of one operation.
 const ROUNDOFF: f64 = 1.0 / (1_u64 << 24) as f64;
 
-/// How many such errors a test may add up: a dozen operations on three coordinates, and as much again for tests that
-/// store planes or transformations instead of corners.
+/// The maximum number of such errors in a test: a dozen operations on three coordinates, and as many again for tests
+/// that store planes or transformations instead of corners.
 const OPERATIONS: f64 = 32.0;
 
-/// Products from here on overflow in single precision, and determinants below underflow or have no finite reciprocal.
+/// Products of at least this size overflow in single precision, and determinants below its inverse underflow or have no
+/// finite reciprocal.
 const LARGEST: f64 = (1_u128 << 125) as f64;
 const SMALLEST: f64 = 1.0 / (1_u128 << 102) as f64;
 
@@ -25,17 +26,18 @@ pub enum Precision {
     Single,
 }
 
-/// A line, a triangle, and how far a test may be off. With A the largest distance of the corners and the ray's origin from
-/// the origin of the coordinates, a barycentric weight is off by at most `OPERATIONS` roundings of A times the longest edge
-/// over the determinant, a depth by as many of A times the square of that edge over the determinant, and of itself.
+/// A line, a triangle, and the maximum error of a test. Let A be the largest distance of the corners and the ray's
+/// origin from the origin of the coordinates. A barycentric weight is wrong by at most `OPERATIONS` roundings of A
+/// times the longest edge over the determinant; a depth by as many roundings of A times the square of that edge over
+/// the determinant, and of the depth itself.
 ///
 /// # References
 /// Higham: Accuracy and Stability of Numerical Algorithms, 2nd edition, 2002 (running error of inner products).
 pub struct Margin {
-    /// The smallest of the three weights, negative outside.
+    /// The smallest of the three weights; negative outside the triangle.
     weight: f64,
     weight_error: f64,
-    /// Where the line meets the plane.
+    /// The parameter at which the line meets the plane.
     t: f64,
     t_error: f64,
     /// Whether all intermediate results are normal numbers.
@@ -69,20 +71,20 @@ impl Margin {
         }
     }
 
-    /// Whether a test that rounds may miss a triangle that is hit: near an edge, near an end of the ray's interval, along
-    /// the plane, or where its numbers are too large or too small.
+    /// Whether a rounding test may miss a triangle that is hit: near an edge, near an end of the ray's interval, along
+    /// the plane, or with numbers that are too large or too small.
     pub fn may_miss(&self, ray: &Ray) -> bool {
         let (t_min, _) = ray.interval();
-        // No more than a third, but for what `f64` rounds where the error is beyond all bounds.
+        // The smallest weight is at most a third, except for the rounding of `f64` beyond all bounds.
         let is_inside = self.weight.min(1.0 / 3.0) > self.weight_error
             && self.t - self.t_error > f64::from(t_min)
             && self.t + self.t_error < ray.end();
         self.precision == Precision::Single && !(is_inside && self.is_in_range)
     }
 
-    /// Whether a test that rounds may return a hit at `t` on a triangle that is missed, or hit outside of the interval.
+    /// Whether a rounding test may return a hit at `t` on a triangle that is missed, or hit outside the interval.
     pub fn may_hit(&self, ray: &Ray, t: f32) -> bool {
-        // Along the plane any weight and depth may come out, and a triangle without area has none.
+        // Along the plane any weight and depth may result, and a triangle without area has no weights.
         let is_along = self.weight_error.is_nan() || self.weight_error >= 1.0;
         let is_near = self.weight >= -self.weight_error && self.may_round_to(t);
         let (t_min, t_max) = ray.interval();
@@ -90,19 +92,19 @@ impl Margin {
         self.precision == Precision::Single && is_within && (is_along || is_near || !self.is_in_range)
     }
 
-    /// Whether a test that rounds may compute `t` where the plane is met.
+    /// Whether a rounding test may compute `t` as the parameter at the plane.
     pub fn may_round_to(&self, t: f32) -> bool {
         let is_near = (f64::from(t) - self.t).abs() <= self.t_error || self.t_error.is_nan();
         self.precision == Precision::Single && (is_near || !self.is_in_range)
     }
 
-    /// Where the plane is met at the latest, as computed.
+    /// The largest parameter that a rounding test may compute for the plane.
     pub fn latest(&self) -> f64 {
         self.t + if self.precision == Precision::Single { self.t_error } else { 0.0 }
     }
 }
 
-/// The nearest triangle of all that no rounding hides, and that is hit before `limit`, whatever rounds.
+/// The nearest triangle that no rounding hides, with a hit before `limit` under any rounding.
 pub fn nearest_sure(mesh: &Mesh, ray: &Ray, limit: f64) -> Option<(f64, PrimId)> {
     let margins = mesh.solid().map(|index| (Margin::new(ray, mesh.corners(index), Precision::Single), index));
     let sure = margins.filter(|(margin, _)| margin.latest() < limit && !margin.may_miss(ray));
@@ -130,7 +132,7 @@ mod tests {
     use crate::triangle::{BaldwinWeber, Exact, MollerTrumbore, TriangleTest, Watertight};
     use crate::validate::{Reference, Stratum, degenerate_meshes, validate};
 
-    /// Brute force with a test in single precision, judged as a structure whose test is not known.
+    /// Brute force with a test in single precision, judged as a structure with an unknown test.
     fn is_excused<T: TriangleTest>(count: usize) {
         for (name, mesh) in degenerate_meshes() {
             let subject = BruteForce::<T>::build(&mesh, &Default::default()).unwrap();
@@ -144,7 +146,7 @@ mod tests {
         }
     }
 
-    /// Volumes (Plücker) are left out: their error grows with the square of the distance, and to excuse that would excuse
+    /// Volumes (Plücker) are left out: their error grows with the square of the distance, and to excuse it would excuse
     /// lost leaves of large, fine meshes.
     #[test]
     fn no_test_by_edges_or_planes_rounds_beyond_the_bound() {

@@ -1,10 +1,10 @@
-//! Seeded random numbers, points and picks: the same on every machine.
+//! Seeded random numbers, points and choices: the same on every machine.
 
 use glam::Vec3;
 use rand_core::{RngCore, SeedableRng};
 use rand_pcg::Pcg32;
 
-/// A seeded source of what ray and mesh generators need. Uses no function whose bits vary by platform.
+/// A seeded source of random values for ray and mesh generators. It uses no function whose bits vary by platform.
 pub struct Sampler(Pcg32);
 
 impl Sampler {
@@ -22,7 +22,7 @@ impl Sampler {
         self.unit() * 2.0 - 1.0
     }
 
-    /// A number below `n`; 0 when `n` is 0.
+    /// A number below `n`; 0 if `n` is 0.
     pub fn below(&mut self, n: usize) -> usize {
         ((u64::from(self.0.next_u32()) * n as u64) >> 32) as usize
     }
@@ -51,7 +51,7 @@ impl Sampler {
         Vec3::new(self.signed(), self.signed(), self.signed())
     }
 
-    /// A direction, uniform on the sphere up to rounding: a point of the ball, found by rejection, made longer.
+    /// A direction, uniform on the sphere up to rounding: a normalised point of the ball, found by rejection.
     pub fn direction(&mut self) -> Vec3 {
         loop {
             let p = self.cube();
@@ -62,7 +62,7 @@ impl Sampler {
         }
     }
 
-    /// Weights of three corners, not negative, of sum 1 up to rounding.
+    /// Weights of three corners: not negative, with the sum 1 up to rounding.
     pub fn barycentric(&mut self) -> [f32; 3] {
         let (mut u, mut v) = (self.unit(), self.unit());
         if u + v > 1.0 {

@@ -1,4 +1,4 @@
-//! What a comparison found.
+//! The result of a comparison.
 
 use std::fmt::{Display, Formatter};
 
@@ -11,30 +11,30 @@ use crate::names::named_enum;
 /// Sums over the rays of a comparison.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Validation {
-    /// Rays compared; where a panic or an endless loop ended a batch, all of the batch.
+    /// Compared rays; if a panic or an endless loop ended a batch, all rays of the batch.
     pub rays: u64,
     /// Rays that the structure declines ([`Capabilities`](crate::accel::Capabilities)): they were not traced.
     pub declined: u64,
-    /// Rays that hit something by the reference.
+    /// Rays with a hit of the reference.
     pub hits: u64,
-    /// Rays with another `t` than the reference, bit for bit, or with a hit where it has none or the reverse. Where the
-    /// triangle tests differ: rays on which the two differ by more than 4 ulps and 1e-6.
+    /// Rays with another `t` than the reference, bit for bit, or with a hit instead of a miss or the reverse. With
+    /// different triangle tests: rays on which the two differ by more than 4 ulps and 1e-6.
     pub differing: u64,
     /// Hits lost or invented by the structure; zero in a correct one.
     pub structure_errors: u64,
-    /// Differences that the triangle test causes: its hit exactly is none, or exactly is not the nearer one.
+    /// Differences that the triangle test causes: its hit is exactly a miss, or exactly not the nearer one.
     pub test_errors: u64,
-    /// Differences that the reference causes, which has another triangle test: the hit is right.
+    /// Differences that the reference causes, which has another triangle test: the structure's hit is right.
     pub reference_errors: u64,
     /// Wrong hits of a structure whose triangle test the reference does not share, which no rounding of such a test
     /// explains.
     pub answer_errors: u64,
-    /// Depths of such a structure that are wrong by [`DepthRule::STRICT`](super::DepthRule::STRICT), and that a test in single
-    /// precision may round so.
+    /// Depths of such a structure that are wrong by [`DepthRule::STRICT`](super::DepthRule::STRICT), but that rounding
+    /// in single precision explains.
     pub depth_errors: u64,
-    /// Rays for which any hit and closest hit contradict each other.
+    /// Rays on which any hit and closest hit contradict each other.
     pub any_hit_errors: u64,
-    /// Rays whose hit in a batch differs from that alone; nothing more is said of such a hit.
+    /// Rays whose hit in a batch differs from the hit on their own; such a hit gets no further check.
     pub unrepeatable: u64,
     /// Batches that a panic of the structure ended.
     pub panics: u64,
@@ -42,8 +42,8 @@ pub struct Validation {
     pub hangs: u64,
     /// Rays with the `t` of the reference at another primitive that also has it: not an error.
     pub ties: u64,
-    /// Those of the ties where the reference names a lower number that truly is hit no later: an error only of a structure
-    /// that promises the lowest number.
+    /// Ties for which the reference has a lower number that is exactly hit no later: an error only of a structure that
+    /// promises the lowest number.
     pub higher_ids: u64,
     /// At most [`Validation::WORST`] rays, worst first.
     pub worst: Vec<WorstRay>,
@@ -52,7 +52,7 @@ pub struct Validation {
 /// A ray on which structure and reference differ.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WorstRay {
-    /// Position among the rays compared.
+    /// Index among the compared rays.
     pub index: u64,
     pub ray: Ray,
     /// The hit of the reference.
@@ -60,14 +60,14 @@ pub struct WorstRay {
     /// The hit of the structure.
     pub found: Option<Hit>,
     pub kind: Kind,
-    /// The exact truth, in one sentence.
+    /// The exact result, in one sentence.
     pub verdict: String,
-    /// Relative distance of the two `t`; infinite for a hit against a miss.
+    /// Relative distance of the two `t`; infinite for a hit and a miss.
     pub gap: f64,
 }
 
 named_enum! {
-    /// How a hit differs, the worst first.
+    /// The kind of a difference, the worst first.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
     #[serde(rename_all = "kebab-case")]
     pub enum Kind {
@@ -76,27 +76,28 @@ named_enum! {
         /// The structure panics.
         #[serde(rename = "panics")]
         Panicked = "panics",
-        /// A true hit, and the structure returns none.
+        /// An exact hit, and the structure returns a miss.
         Lost = "lost",
-        /// A true hit, and the structure returns one behind it, or one that exactly is none.
+        /// An exact hit, and the structure returns one behind it, or one that is exactly a miss.
         NearerLost = "nearer-lost",
-        /// A hit that the triangle test over all triangles does not give.
+        /// A hit that the triangle test over all triangles does not return.
         Invented = "invented",
-        /// The right primitive at a `t` that the triangle test does not give.
+        /// The right primitive at a `t` that the triangle test does not return.
         WrongT = "wrong-t",
         /// The right `t`, at a primitive that is not hit there.
         WrongPrimitive = "wrong-primitive",
         /// Any hit contradicts closest hit.
         AnyHitDisagrees = "any-hit-disagrees",
-        /// In a batch the ray has another hit than alone.
+        /// In a batch the ray has another hit than on its own.
         Unrepeatable = "unrepeatable",
-        /// Right but for a `t` that is off by more than the strict rule of depth allows, and by no more than rounding.
+        /// Right, except that `t` is wrong by more than the strict rule of depth allows, and by no more than rounding
+        /// explains.
         Depth = "depth",
         /// An error of the triangle test, not of the structure.
         TriangleTest = "triangle-test",
-        /// The reference, which has another triangle test, is wrong; the hit is right.
+        /// The reference, which has another triangle test, is wrong; the structure's hit is right.
         Reference = "reference",
-        /// The same `t` at a higher number than the lowest that is hit there: wrong only where the lowest is promised.
+        /// The same `t` at a higher number than the lowest that is hit there: wrong only if the lowest is promised.
         HigherId = "higher-id",
         /// The same `t` at another primitive: not an error.
         Tie = "tie",
@@ -111,7 +112,7 @@ impl Kind {
 }
 
 impl Validation {
-    /// How many rays are kept.
+    /// The number of stored rays.
     pub const WORST: usize = 10;
 
     /// Wrong hits of all kinds that no rounding explains; 0 in a correct structure.
@@ -124,7 +125,7 @@ impl Validation {
         self.worst.first().filter(|w| w.kind.is_error())
     }
 
-    /// All rays: `declined` of them were not traced, the others in these batches.
+    /// The sum of all batches; `declined` further rays were not traced.
     pub(super) fn of_batches(declined: usize, batches: impl IntoIterator<Item = Self>) -> Self {
         let mut whole = Self { declined: declined as u64, ..Self::default() };
         batches.into_iter().for_each(|batch| whole.append(batch));
@@ -145,8 +146,8 @@ impl Validation {
         self.keep_worst();
     }
 
-    /// Counts a ray on which structure and reference differ. `tells_structure_errors` says whether an error of the
-    /// structure can be told from one of its triangle test.
+    /// Counts a ray on which structure and reference differ. `tells_structure_errors`: an error of the structure can be
+    /// distinguished from an error of its triangle test.
     pub(super) fn note(&mut self, ray: WorstRay, tells_structure_errors: bool) {
         match ray.kind {
             Kind::Tie => self.ties += 1,
@@ -164,8 +165,8 @@ impl Validation {
         self.worst.push(ray);
     }
 
-    /// The sums of a batch that `kind`, a panic or an endless loop, has ended at a ray, or at the first of a whole batch, where
-    /// the reference returns `expected`.
+    /// The sums of a batch that `kind`, a panic or an endless loop, has ended at a ray, or at the first ray of a whole
+    /// batch. The reference returns `expected` for that ray.
     pub(super) fn ended(mut self, expected: Option<Hit>, rays: &[Ray], call: Call, kind: Kind, why: String) -> Self {
         let (index, verdict) = match call {
             Call::Ray(index) => (index, why),

@@ -1,6 +1,6 @@
 //! Queries that may never return, on threads with a time limit.
 //!
-//! A thread cannot be ended from outside: one that hangs is left behind, and ends with the process.
+//! No other thread can end a thread: a hanging one is left behind, and ends with the process.
 
 use std::collections::BTreeMap;
 use std::panic::resume_unwind;
@@ -17,12 +17,12 @@ use crate::accel::DynAccel;
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::panics::caught;
 
-/// Default time limit of a build, or of 256 rays: far longer than any of them takes that returns at all.
+/// Default time limit of a build, or of 256 rays: far longer than any of them takes unless it hangs.
 pub const LIMIT: Duration = Duration::from_secs(120);
 
 const PAUSE: Duration = Duration::from_millis(20);
 
-/// Why work on a watched thread has no result.
+/// The reason why work on a watched thread has no result.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum WatchError {
     /// It took longer than the limit.
@@ -33,7 +33,7 @@ pub enum WatchError {
     Panicked(String),
 }
 
-/// Runs `work` on a thread of its own and waits for `limit` at most.
+/// Runs `work` on a separate thread and waits for at most `limit`.
 ///
 /// # Errors
 /// If the work panics, or takes longer; then its thread is left behind.
@@ -41,7 +41,7 @@ pub fn watched<R: Send + 'static>(limit: Duration, work: impl FnOnce() -> R + Se
     let (sender, receiver) = channel();
     thread::spawn(move || {
         let result = caught(work).map_err(|payload| message(payload.as_ref()));
-        // Nobody listens after the limit.
+        // After the limit there is no receiver.
         let _ = sender.send(result);
     });
     match receiver.recv_timeout(limit) {
@@ -69,7 +69,7 @@ struct ThreadState {
 }
 
 impl Comparison {
-    /// Rays, and the hits of the reference.
+    /// Rays, and the hits of the reference for them.
     fn batch(&self, number: usize) -> Option<(&[Ray], &[Option<Hit>])> {
         self.rays.chunks(BATCH).zip(self.expected.chunks(BATCH)).nth(number)
     }
@@ -80,10 +80,11 @@ impl Comparison {
     }
 }
 
-/// As [`validate`](super::validate), but the comparison ends when the structure takes longer than `limit` for one ray, or for
-/// 256 of them: the ray is named, and what was compared until then stands. `expected` are the hits of `reference` for `rays`.
+/// Like [`validate`](super::validate), but the comparison ends when the structure takes longer than `limit` for one ray
+/// or for 256 rays: the result names the ray, and keeps the comparison so far. `expected` are the hits of `reference`
+/// for `rays`.
 ///
-/// Runs on as many threads of its own as the machine has processors. One that hangs is left behind.
+/// Runs on as many separate threads as the machine has processors. A hanging thread is left behind.
 pub fn validate_watched(
     subject: &Arc<dyn DynAccel>,
     reference: &Arc<Reference>,
@@ -135,7 +136,7 @@ pub fn validate_watched(
             let call = state.clock.overdue(limit)?;
             Some((state.batch.load(Ordering::Relaxed), call))
         };
-        // Batches are taken in order: of several that hang the first is named.
+        // Batches are taken in order: report the first of several hanging ones.
         if let Some((number, call)) = states.iter().filter_map(overdue).min_by_key(|(number, _)| *number) {
             let (rays, expected) = comparison.batch(number).expect("a thread compares it");
             let sums = Validation { rays: rays.len() as u64, ..Validation::default() };
@@ -146,7 +147,7 @@ pub fn validate_watched(
         }
     }
     for thread in threads {
-        // A panic of the structure was caught: this one is a fault of ours.
+        // Panics of the structure are caught: this one is a defect of this crate.
         thread.join().unwrap_or_else(|fault| resume_unwind(fault));
     }
     Validation::of_batches(declined, batches.into_values())

@@ -1,4 +1,4 @@
-//! Chromium without a window, told what to do through its debugging pipe.
+//! Chromium without a window, controlled through its debugging pipe.
 
 use std::env;
 use std::io::{BufRead, BufReader, Write};
@@ -11,7 +11,7 @@ use std::time::Duration;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-/// Nothing answers after so long any more: far longer than a busy machine takes.
+/// The time limit of a reply: far longer than on a busy machine.
 const HANGS: Duration = Duration::from_secs(300);
 
 pub struct Chromium {
@@ -41,9 +41,9 @@ const KEYS: [(&str, u32, &str); 12] = [
 ];
 
 impl Chromium {
-    /// Nothing where there is none, which is said.
+    /// `None` without Chromium, with a message.
     pub fn launch() -> Option<Self> {
-        // Names under which systems have it.
+        // Names of the program on various systems.
         let program = ["chromium", "chromium-browser", "google-chrome"].iter().find_map(|name| on_path(name));
         if program.is_none() {
             eprintln!("skipped: no chromium on the path");
@@ -103,7 +103,7 @@ impl Chromium {
         }
     }
 
-    /// Shows a page `width` pixels wide, in dark colours or light ones, and waits until it is there.
+    /// Shows a page `width` pixels wide, in dark or light mode, and waits until it is loaded.
     pub fn open(&mut self, page: &Path, width: u32, dark: bool) {
         let size = json!({ "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": false });
         self.call("Emulation.setDeviceMetricsOverride", size);
@@ -115,7 +115,7 @@ impl Chromium {
         }
     }
 
-    /// What an expression is.
+    /// The value of an expression.
     pub fn evaluate(&mut self, expression: &str) -> Value {
         let request = json!({ "expression": expression, "returnByValue": true, "awaitPromise": true });
         let result = self.call("Runtime.evaluate", request);
@@ -148,7 +148,7 @@ impl Chromium {
         }
     }
 
-    /// What the page wrote to the console, what went wrong in it, and what it asked for besides itself.
+    /// The console messages of the page, its errors, and its requests for other files.
     pub fn complaints(&self) -> Vec<String> {
         let asked = |event: &Value| {
             let url = event["params"]["request"]["url"].as_str().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! The page of a report in a browser: Chromium, where there is one.
+//! The page of a report in a browser: Chromium, if it is installed.
 
 mod chromium;
 #[cfg(feature = "page")]
@@ -13,7 +13,7 @@ use tempfile::TempDir;
 use crate::cli::command::prints;
 use chromium::Chromium;
 
-/// A report on a torus, with a structure that answers some pixels wrong.
+/// A report on a torus, with a structure that has wrong hits in some pixels.
 fn report() -> PathBuf {
     static REPORT: OnceLock<TempDir> = OnceLock::new();
     let folder = REPORT.get_or_init(|| {
@@ -29,7 +29,7 @@ fn report() -> PathBuf {
     folder.path().join("page/index.html")
 }
 
-/// Presses Tab until the focus is on what the selector names.
+/// Presses Tab until the selected element has the focus.
 fn tab_to(browser: &mut Chromium, selector: &str) {
     for _ in 0..500 {
         browser.press("Tab");
@@ -60,7 +60,7 @@ fn rows(browser: &mut Chromium, figure: &str) -> Vec<Vec<String>> {
     serde_json::from_value(rows).unwrap()
 }
 
-/// What the command of the inspector prints.
+/// The output of the inspector's command.
 fn asked_again(browser: &mut Chromium, figure: &str) -> String {
     let command = browser.text(&format!("document.querySelector('{figure} .inspector code').textContent"));
     let (words, ray) = command.split_once(" \"").expect("the ray is quoted");
@@ -86,7 +86,7 @@ fn the_ray_inspector_works_by_keyboard_alone_and_shows_what_the_command_prints()
     }
     assert_eq!(pixel(&mut browser, HEAT), start);
 
-    // Up to a ray that meets something.
+    // Up to a ray with a hit.
     for _ in 0..30 {
         if rows(&mut browser, HEAT)[0][4] != "no hit" {
             break;
@@ -100,14 +100,14 @@ fn the_ray_inspector_works_by_keyboard_alone_and_shows_what_the_command_prints()
     for row in &shown[1..] {
         assert!(row[1..4].iter().all(|count| count.parse::<u64>().is_ok()), "{row:?}");
         let [t, triangle, u, v] = [&row[4], &row[5], &row[6], &row[7]];
-        // Below its structure, the same with other keys is named by these alone.
+        // Below its structure, the same structure with other keys is named only by these.
         let name = row[0].split_once(':').map_or(row[0].as_str(), |(_, keys)| keys);
         let is_line = |line: &&str| [name, t, triangle, u, v].iter().all(|cell| line.contains(cell));
         assert!(u.len() > 5 && printed.lines().any(|line| is_line(&line)), "{row:?} is not in {printed}");
     }
 
     browser.press("Enter");
-    // The clipboard answers when it likes.
+    // The clipboard replies late.
     let said = browser.text(&format!(
         "new Promise((done) => {{ const look = () => {{ const said = document.querySelector('{HEAT} .pixel').textContent; \
          if (said.startsWith('Command ')) done(said); else setTimeout(look, 10); }}; look(); }})"
@@ -126,12 +126,12 @@ fn a_click_asks_the_nearest_pixel_of_any_picture() {
         let off = [column as f64 - 320.0 * across, row as f64 - 320.0 * down];
         assert!(off.iter().all(|off| off.abs() < 8.0), "{column}, {row}");
     }
-    // The border between two structures is moved, and asks nothing.
+    // Moving the border between two structures keeps the pixel.
     let before = pixel(&mut browser, HEAT);
     browser.click(&format!("{HEAT} .stage"), [0.5, 0.9]);
     assert_eq!(pixel(&mut browser, HEAT), before);
 
-    // Of a picture of errors the wrong pixels are asked: each has a structure that exact arithmetic contradicts.
+    // In a picture of errors only wrong pixels are selectable: in each, exact arithmetic contradicts a structure.
     browser.click(&format!("{ERRORS} .stage"), [0.9, 0.9]);
     for _ in 0..5 {
         let shown = rows(&mut browser, ERRORS);
@@ -181,22 +181,29 @@ fn the_scatter_plot_shows_every_case_and_what_is_done_first() {
     assert_eq!(browser.complaints(), Vec::<String>::new());
 }
 
-/// The texts whose contrast to what is behind them is less than WCAG asks for, with that contrast.
+/// The texts whose contrast with their background is below WCAG's limit, with that contrast.
 const PALE: &str = include_str!("pale.js");
 
-/// What is wider than the window, and columns of ratios that are not seen without scrolling.
+/// Elements that are wider than the window, and columns of ratios that are visible only after scrolling.
 const WIDE: &str = include_str!("wide.js");
 
-#[test]
-fn the_page_is_read_in_light_and_dark_on_a_desk_and_on_a_telephone() {
+/// Opens a page on a desk and on a telephone, in light and dark mode: it must be readable and correct.
+fn is_read_everywhere(page: impl Fn() -> PathBuf, look: impl Fn(&mut Chromium)) {
     let Some(mut browser) = Chromium::launch() else { return };
     for (width, dark) in [(1400, false), (1400, true), (400, false), (400, true)] {
-        browser.open(&report(), width, dark);
+        browser.open(&page(), width, dark);
+        look(&mut browser);
         let paper = browser.text("getComputedStyle(document.documentElement).backgroundColor");
         assert_eq!(paper == "rgb(255, 255, 255)", !dark, "{paper}");
         assert_eq!(browser.evaluate(PALE), json!([]), "{width}, dark: {dark}");
         assert_eq!(browser.evaluate(WIDE), json!([]), "{width}, dark: {dark}");
-        assert!(browser.evaluate("document.querySelectorAll('.table th').length").as_u64() > Some(10));
     }
     assert_eq!(browser.complaints(), Vec::<String>::new());
+}
+
+#[test]
+fn the_page_is_read_in_light_and_dark_on_a_desk_and_on_a_telephone() {
+    is_read_everywhere(report, |browser| {
+        assert!(browser.evaluate("document.querySelectorAll('.table th').length").as_u64() > Some(10));
+    });
 }

@@ -1,4 +1,4 @@
-//! Running the command, and what it says.
+//! Runs the command, and checks its output.
 
 use std::fs;
 use std::path::Path;
@@ -12,12 +12,12 @@ pub const USAGE: i32 = 1;
 pub const WRONG: i32 = 2;
 pub const REGRESSION: i32 = 3;
 
-/// The words of a command line in which nothing is quoted.
+/// The words of a command line without quotes.
 pub fn words(line: &str) -> Vec<&str> {
     line.split(' ').collect()
 }
 
-/// The command, whatever the environment of the tests is: without real meshes.
+/// The command in a fixed environment: without real meshes.
 pub fn command(args: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_sahara"));
     command.args(args).env_remove("SAHARA_DATA").stdin(Stdio::null());
@@ -37,13 +37,13 @@ pub fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).expect("messages are UTF-8")
 }
 
-/// What a command that succeeds prints.
+/// The output of a successful command.
 #[track_caller]
 pub fn prints(args: &[&str]) -> String {
     printed(&mut command(args))
 }
 
-/// As [`prints`].
+/// Like [`prints`], for a prepared command.
 #[track_caller]
 pub fn printed(command: &mut Command) -> String {
     let output = command.output().expect("the command runs");
@@ -51,7 +51,8 @@ pub fn printed(command: &mut Command) -> String {
     stdout(&output)
 }
 
-/// A command has failed with one message, which holds all of `parts` and is given, and printed nothing as a result.
+/// Checks that a command has failed with one message that contains all of `parts`, which is returned, and that it
+/// printed no result.
 #[track_caller]
 fn refused(output: &Output, parts: &[&str]) -> String {
     let message = stderr(output);
@@ -65,26 +66,26 @@ fn refused(output: &Output, parts: &[&str]) -> String {
     message
 }
 
-/// As [`refused`], in one line.
+/// Like [`refused`], in one line.
 #[track_caller]
 pub fn refused_in_a_line(output: &Output, parts: &[&str]) {
     let message = refused(output, parts);
     assert_eq!(message.lines().count(), 1, "{message}");
 }
 
-/// As [`refused`], by the command with these arguments.
+/// Like [`refused`], for the command with these arguments.
 #[track_caller]
 pub fn refuses(args: &[&str], parts: &[&str]) -> String {
     refused(&sahara(&[&["--quiet"], args].concat()), parts)
 }
 
-/// As [`refuses`], in one line.
+/// Like [`refuses`], in one line.
 #[track_caller]
 pub fn refuses_in_a_line(args: &[&str], parts: &[&str]) {
     refused_in_a_line(&sahara(&[&["--quiet"], args].concat()), parts);
 }
 
-/// What a file of JSON holds.
+/// The content of a JSON file.
 #[track_caller]
 pub fn json(path: impl AsRef<Path>) -> Value {
     serde_json::from_slice(&fs::read(path).unwrap()).unwrap()

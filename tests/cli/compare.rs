@@ -11,7 +11,7 @@ use super::command::{
 };
 use super::journal::rows;
 
-/// A warning or, where a run takes long, how far it has come.
+/// A warning, or the progress of a long run.
 fn is_line_of_log(line: &str) -> bool {
     line.starts_with("warning: ") || line.contains(" %: ")
 }
@@ -67,7 +67,7 @@ fn a_file_without_camera_is_compared_and_rendered() {
     let square = write(&directory, "square.obj", SQUARE);
     let text = prints(&small(&square));
     assert!(text.starts_with("square: 2 triangles"), "{text}");
-    // A mesh of nothing is no reason to fail.
+    // An empty mesh is no reason to fail.
     let flat = write(&directory, "flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
     let text = prints(&small(&flat));
     assert!(text.contains("1 triangle (1 degenerate)"), "{text}");
@@ -83,7 +83,7 @@ fn a_file_without_camera_is_compared_and_rendered() {
 #[test]
 fn compare_says_who_won_and_relates_to_what_is_asked_for() {
     let args = [&small("cube")[..], &["-s", "sah-kd", "-s", "sah-bvh"]].concat();
-    // Lines end where they are full.
+    // Lines wrap at the screen's width.
     let said = |args: &[&str]| stdout(&sahara(args)).split_whitespace().collect::<Vec<_>>().join(" ");
     let text = said(&args);
     assert!(text.contains("x sah-kd") && !text.contains("x median"), "{text}");
@@ -94,7 +94,7 @@ fn compare_says_who_won_and_relates_to_what_is_asked_for() {
     assert!(last.contains("median-kd:leaf=8"), "that sentence is about the reference: {last}");
 }
 
-/// The blocks of an output that blank lines divide.
+/// The blocks of an output between blank lines.
 fn blocks(text: &str) -> Vec<Vec<&str>> {
     text.trim_end().split("\n\n").map(|block| block.lines().collect()).collect()
 }
@@ -160,7 +160,7 @@ fn rays_that_no_scene_has_are_no_result() {
     let mirror = ["compare", "cube", "-w", "mirror", "--quick", "-s", "sah-kd", "--export-json", &json];
     refuses_in_a_line(&mirror, &["nothing was measured: these scenes have no rays of these workloads"]);
     assert!(!folder.path().join("none.json").exists());
-    // A scene that has them is enough.
+    // One scene with mirrors is enough.
     prints(&["compare", "cube", "billards", "-w", "mirror", "--quick", "-s", "sah-kd"]);
 }
 

@@ -1,4 +1,4 @@
-//! `rays corpus`, from outside: the same files wherever it runs, which other programs and our own commands read.
+//! `rays corpus` from outside: the same files on every machine, readable for other programs and for this command.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -15,7 +15,7 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     entries.map(|entry| (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap())).collect()
 }
 
-/// What `sha256sum -c` says of the files of a folder; nothing where there is no such program.
+/// The output of `sha256sum -c` for the files of a folder; `None` if the program is missing.
 fn checked(folder: &Path) -> Option<String> {
     let output = Command::new("sha256sum")
         .args(["-c", "--strict", "SHA256SUMS"])
@@ -35,7 +35,7 @@ fn a_corpus_is_the_same_again_and_what_it_says() {
     let printed = prints(&["rays", "corpus", "cube", "-o", &out, "--rays", "40"]);
     assert!(printed.contains("Cube") && printed.contains("320") && !printed.contains("published"), "{printed}");
     let first = files(&folder);
-    // A mesh, eight kinds of rays with their truths, the hashes and the list of what is ours.
+    // A mesh, eight kinds of rays with their exact hits, the hashes and the list of stand-ins.
     assert_eq!(first.len(), 1 + 2 * 8 + 2, "{:?}", first.keys());
     if let Some(said) = checked(&folder) {
         let names: Vec<&str> = said.lines().map(|line| line.strip_suffix(": OK").unwrap()).collect();
@@ -45,7 +45,7 @@ fn a_corpus_is_the_same_again_and_what_it_says() {
         println!("not checked: there is no sha256sum here");
     }
 
-    // Over the old one, on another number of threads and other instructions; a scene that is named twice counts once.
+    // Replaces the old one, with another number of threads and other instructions; a repeated scene counts once.
     let again = command(&["rays", "corpus", "CUBE", "cube", "-o", &out, "--rays", "40", "--level", "portable"])
         .env("RAYON_NUM_THREADS", "1")
         .output()
@@ -62,7 +62,7 @@ fn a_corpus_is_the_same_again_and_what_it_says() {
     let hash: String = truth[24..32].iter().map(|byte| format!("{byte:02x}")).collect();
     assert_eq!(hash, rays.workload.hash());
 
-    // From the mesh of a corpus: the same rays, whose hash stands in the answers, but for those of the camera.
+    // From the mesh of a corpus: the same rays, whose hash is in the exact hits, except those from the camera.
     let beside = parent.path().join("e");
     prints(&["rays", "corpus", &mesh, "-o", &path_text(&beside), "--rays", "40", "--seed", "2"]);
     for name in ["cube.ply", "cube-vertex.truth", "cube-offset.truth"] {
@@ -93,7 +93,7 @@ fn what_a_corpus_cannot_be_made_of_is_refused_and_nothing_of_others_is_replaced(
     refuses_in_a_line(&["rays", "corpus", "cube", "-o", &notes], &["notes.txt", "it is a file"]);
     assert_eq!(files(foreign.path()).len(), 1);
 
-    // A corpus is not made of what it replaces.
+    // A corpus must not be made from files that it replaces.
     let square = write(&parent, "square.obj", SQUARE);
     prints(&["rays", "corpus", &square, "-o", &out, "--rays", "3"]);
     let before = files(Path::new(&out));

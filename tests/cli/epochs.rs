@@ -1,5 +1,5 @@
-//! Studies of several epochs from outside: what they keep, add and refuse; each epoch of a scene is measured in a process of
-//! its own.
+//! Studies of several epochs from outside: the files that they keep, add and reject; each epoch of a scene is measured
+//! in a separate process.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use serde_json::Value;
 use tempfile::TempDir;
 
-use super::command::{RIGHT, command, json, prints, refuses, stderr, words};
+use super::command::{RIGHT, command, json, prints, stderr, words};
 use super::journal::{answers, cases};
 
 /// A study that takes no time, in a folder.
@@ -36,32 +36,20 @@ fn a_study_goes_on_where_it_stopped_and_repeats_what_it_said() {
         assert_eq!(prints(&one), first, "{study:?} measures nothing again");
         assert_eq!(cases().len(), measured);
 
-        // A second epoch adds as many cases once more.
+        // A second epoch doubles the number of cases.
         let two = [&small(study, dir)[..], &["--epochs", "2"]].concat();
         prints(&two);
         assert_eq!(cases().len(), 2 * measured, "{study:?}");
-        // A case that is removed is measured again.
+        // A removed case is measured again.
         fs::remove_file(&cases()[0]).unwrap();
         prints(&two);
         assert_eq!(cases().len(), 2 * measured, "{study:?}");
-        // Other settings lie beside, and what is measured anew leaves the old one there.
+        // Files of other settings lie beside, and a repeated measurement keeps the old file.
         prints(&[&one[..], &["--seed", "2"]].concat());
         assert_eq!(cases().len(), 3 * measured, "{study:?}");
         prints(&[&one[..], &["--fresh"]].concat());
         assert_eq!(cases().len(), 4 * measured, "{study:?}");
     }
-}
-
-#[test]
-fn what_is_wrong_is_said_before_anything_is_measured() {
-    let folder = TempDir::new().unwrap();
-    let dir = folder.path().to_str().unwrap();
-    refuses(&["study", "scaling", "no-such-scene", "--dir", dir], &["no-such-scene"]);
-    refuses(&["study", "scaling", "--finest", "11", "--dir", dir], &["11", "10"]);
-    refuses(&["compare", "cube", "-s", "sah-kd:leef=3", "--dir", dir], &["leef"]);
-    refuses(&["study", "attribution", "cube", "--epochs", "0", "--dir", dir], &["0"]);
-    refuses(&["compare", "icosphere:99", "--dir", dir], &["icosphere:99", "0 to 10"]);
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "nothing was begun");
 }
 
 /// A study of seconds, of twelve epochs, into the folder `dir`.
@@ -95,10 +83,10 @@ fn a_killed_study_ends_as_one_that_was_left_alone() {
     let (alone, killed) = (folder.path().join("alone"), folder.path().join("killed"));
     finish(&alone);
 
-    // Once with a case, and once with another one.
+    // Once with one case, and once with another.
     kill_at(study(&killed).spawn().unwrap(), &killed, 1);
     kill_at(study(&killed).spawn().unwrap(), &killed, 2);
-    // As if the power had failed while a case was written.
+    // As after a power failure while a case was written.
     fs::write(killed.join("attribution/.sahara-1234.part"), "{\"schema\":4,\"pr").unwrap();
     let before = cases(&killed, "attribution").len();
 
@@ -111,7 +99,7 @@ fn a_killed_study_ends_as_one_that_was_left_alone() {
 const TWO_SCENES: [&str; 13] =
     ["compare", "cube", "torus", "-s", "sah-kd", "-s", "sah-bvh", "-w", "diffuse", "--rays", "256", "--epochs", "2"];
 
-/// The numbers of the processes that have measured the cases of a journal.
+/// The numbers of the processes that measured the cases of a journal.
 fn processes(folder: &Path) -> BTreeSet<u64> {
     let process = |path| json(path)["epoch"]["environment"]["process"].as_u64().unwrap();
     cases(folder, "compare").iter().map(process).collect()
@@ -131,7 +119,7 @@ fn each_epoch_of_a_scene_has_a_process_and_one_process_answers_the_same() {
     assert_eq!(cases(&apart, "compare").len(), 8);
 }
 
-/// What a process with a case says to a run that listens, given answers.
+/// The messages of a process with a case to a listening run, with replies.
 fn said(case: &Value, out: &Path) -> Vec<Value> {
     let mut command = command(&[&format!("--case={case}"), "--out", out.to_str().unwrap(), "--listen"]);
     let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
@@ -158,7 +146,7 @@ fn a_process_measures_its_case_alone_and_says_what_it_does() {
     };
     assert_eq!(checksums(&json(&out)), checksums(&first));
 
-    // A scene that has changed is refused, in the words that the run shows.
+    // A changed scene is rejected, with the error that the run shows.
     let mut changed = first["case"].clone();
     changed["scene"]["hash"] = "0123456789abcdef".into();
     let lines = said(&changed, &folder.path().join("never.json"));

@@ -1,4 +1,4 @@
-//! The gate, by the commands of its document: a runner that says prescribed seconds stands in place of a structure.
+//! The gate, with the commands of its document: a runner with prescribed times replaces a structure.
 #![cfg(unix)]
 
 use std::fs;
@@ -12,8 +12,8 @@ use super::runner::NOTHING;
 
 const DOCUMENT: &str = include_str!("../../src/study/diff/GATE.md");
 
-/// The script of the document over rays that hit nothing, with runners in place of the structure and of the yardstick, and
-/// fewer epochs.
+/// The script of the document over rays that miss everything, with runners instead of the structure and the reference,
+/// and with fewer epochs.
 fn script(rays: &str, own: &str, yardstick: &str) -> String {
     let script = DOCUMENT.split("```sh\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
     let runners = format!("--only $name --reference steady --runner $name={own} --runner steady={yardstick} --quiet");
@@ -29,8 +29,8 @@ fn script(rays: &str, own: &str, yardstick: &str) -> String {
     })
 }
 
-/// Runs the `nth` command of the document that runs the script, with prescribed seconds of a pass on both sides, those of
-/// even and of odd epochs; what it says, and how many epochs of the branch were measured.
+/// Runs the `nth` command of the document that runs the script, with prescribed seconds per pass on both sides, for
+/// even and for odd epochs. Returns its output, and the number of measured epochs of the branch.
 fn gate(nth: usize, base: [f64; 2], branch: [f64; 2]) -> (Output, usize) {
     let command = DOCUMENT.lines().filter_map(|line| line.trim().strip_prefix("- run: sh gate.sh ")).nth(nth).unwrap();
     let folder = TempDir::new().unwrap();
@@ -43,7 +43,8 @@ fn gate(nth: usize, base: [f64; 2], branch: [f64; 2]) -> (Output, usize) {
     let (text, rays) =
         (write(&folder, "away.txt", &"9,9,9 0,0,1\n".repeat(64)), path_text(&folder.path().join("away.rays")));
     prints(&["rays", "import", &text, "-o", &rays, "--scene", "cube"]);
-    // Each epoch is a process that starts the runner and its twin: those of every other process have the same seconds.
+    // Each epoch is a process that starts the runner and its twin: the runners of every second process have the same
+    // seconds.
     let starts = "grep -qx $PPID \"$STARTS\" 2>/dev/null || echo $PPID >> \"$STARTS\"\n\
                   n=$(grep -nx $PPID \"$STARTS\" | cut -d: -f1)\n\
                   if [ $((n % 2)) -eq 1 ]; then own=$EVEN; else own=$ODD; fi\n";
@@ -52,7 +53,7 @@ fn gate(nth: usize, base: [f64; 2], branch: [f64; 2]) -> (Output, usize) {
     let yardstick = program("steady.sh", NOTHING);
     program("gate.sh", &script(&rays, &runner, &yardstick));
     let sahara = env!("CARGO_BIN_EXE_sahara");
-    // The programs of both sides, where the workflow has built them.
+    // The programs of both sides, at the place of the workflow's builds.
     let sides = command.split_whitespace().take(2).map(|word| word.trim_matches('"').replace("$RUNNER_TEMP/", ""));
     for (path, [even, odd]) in sides.zip([base, branch]) {
         let starts = path_text(&folder.path().join(path.replace('/', "-") + ".starts"));
@@ -70,7 +71,7 @@ fn the_gate_passes_what_is_unchanged_fails_what_is_slower_and_ends_where_it_cann
     for (nth, base, branch, status, epochs, verdict) in [
         (0, [0.001; 2], [0.001; 2], RIGHT, 3, "sah-hybrid (own clock): right on 64 checked rays; no change"),
         (0, [0.001; 2], [0.0012; 2], REGRESSION, 3, "% slower"),
-        // Every other epoch is much slower: more epochs do not tell either.
+        // Every second epoch is much slower: more epochs do not decide either.
         (0, [0.001; 2], [0.0004, 0.0025], RIGHT, 6, "inconclusive"),
         (1, [0.001; 2], [0.0012; 2], REGRESSION, 3, "mybvh (own clock): right on 64 checked rays;"),
     ] {

@@ -13,7 +13,7 @@ use super::command::{
     RIGHT, USAGE, WRONG, json, path_text, prints, refuses, refuses_in_a_line, sahara, stdout, words, write,
 };
 
-/// Folders of pictures, `expected` and `actual` in them.
+/// Folders of pictures, `expected` and `actual`.
 struct Folders(TempDir);
 
 impl Folders {
@@ -29,7 +29,7 @@ impl Folders {
         write_picture(Path::new(&self.path(name)), &picture.into()).unwrap();
     }
 
-    /// Compares the folders, and gives the status and what is printed.
+    /// Compares the folders; returns the status and the output.
     fn compare(&self, options: &str) -> (Option<i32>, String) {
         let (expected, actual) = (self.path("expected"), self.path("actual"));
         let options: Vec<&str> = options.split_whitespace().collect();
@@ -79,7 +79,7 @@ fn folders_of_pictures_are_compared_by_name() {
         assert_eq!(text.contains("1 accepted, 1 identical"), accepted, "{options}: {text}");
     }
 
-    // What one folder lacks is a failure, and less than a difference.
+    // A picture that is missing in one folder is a failure, and less severe than a difference.
     folders.add("expected/gone.png", picture());
     folders.add("actual/new.png", picture());
     let json_file = folders.path("run.json");
@@ -96,7 +96,7 @@ fn folders_of_pictures_are_compared_by_name() {
     assert_eq!([&measures["pixels"], &measures["pixels_over"], &measures["compared"]], [9, 0, 1200]);
     assert!(measures["flip"]["mean"].as_f64() > Some(0.0) && measures["ssim"].as_f64() < Some(1.0), "{measures}");
 
-    // A damaged picture is one that fails, and the others are compared.
+    // A damaged picture fails, and all others are compared.
     fs::write(folders.path("actual/same.png"), "no picture").unwrap();
     let (status, text) = folders.compare("--max-difference 2");
     assert_eq!(status, Some(USAGE));
@@ -112,18 +112,12 @@ fn pictures_of_another_layout_and_what_cannot_be_compared_are_told() {
     folders.add("deep.png", DynamicImage::from(picture()).to_rgb16());
     folders.add("small.png", RgbImage::new(4, 4));
     for (other, words) in [("rgba", "RGBA with 8"), ("deep", "RGB with 16"), ("small", "4 x 4 pixels")] {
-        let output = sahara(&[
-            "golden",
-            "compare",
-            &folders.path("a.png"),
-            &folders.path(&format!("{other}.png")),
-            "--max-difference",
-            "255",
-        ]);
+        let paths = [folders.path("a.png"), folders.path(&format!("{other}.png"))];
+        let output = sahara(&["golden", "compare", &paths[0], &paths[1], "--max-difference", "255"]);
         assert_eq!(output.status.code(), Some(WRONG));
         assert!(stdout(&output).contains("40 x 30 pixels of RGB with 8 bits") && stdout(&output).contains(words));
     }
-    // The same file in other bytes is identical.
+    // The same picture in other bytes is identical.
     let file = fs::File::create(folders.path("again.png")).unwrap();
     let theirs = PngEncoder::new_with_quality(file, CompressionType::Uncompressed, FilterType::NoFilter);
     picture().write_with_encoder(theirs).unwrap();
@@ -139,7 +133,7 @@ fn pictures_of_another_layout_and_what_cannot_be_compared_are_told() {
     refuses(&["golden", "compare", &a, &a, "--max-flip", "1", "--allow-pixels", "1"], &["cannot be used with"]);
     refuses(&["golden", "compare", &a, &a, "--allow-pixels", "101%"], &["0.1%"]);
     refuses(&["golden", "compare", &a, &a, "--max-difference", "-1"], &["at least 0"]);
-    // Neither result may take the place of a picture that is compared.
+    // Neither result may replace a compared picture.
     if cfg!(feature = "page") {
         let inside = folders.path("empty/page");
         refuses_in_a_line(&["golden", "compare", &empty, &folder, "--page", &inside], &["outside", "empty"]);
@@ -196,7 +190,7 @@ fn depths_and_triangles_are_compared_as_numbers() {
     }
 }
 
-/// A scene of one's own.
+/// A user's scene.
 const SCENE: &str = "name = \"Mine\"\ncamera = { eye = [0, 2, 5], target = [0, 0.5, 0], vertical_fov = 45 }\n\
                      lights = [{ pos = [3, 5, 4], col = [1, 1, 1] }]\nobjects = [{ mesh = \"cube\" }]\n";
 
@@ -222,7 +216,7 @@ fn scene_files_and_meshes_have_golden_images_beside_them() {
     refuses_in_a_line(&moved, &["--camera '0,2,5 0,0.5,0 45'", "--camera '0,1,5 0,0,0 30'"]);
     refuses(&check("heat"), &["heat", "shaded, depth, normal, primitive"]);
 
-    // A picture of somebody else is not replaced.
+    // A picture of another program is not replaced.
     let golden = directory.path().join("mine.golden.png");
     fs::write(&golden, "mine").unwrap();
     refuses_in_a_line(&["golden", "update", &scene, "--size", "32x24"], &["mine.golden.png", "--force"]);

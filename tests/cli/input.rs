@@ -1,4 +1,4 @@
-//! Mesh files as users give them: what is wrong is said, and so is what is left out. Many triangles: memory of builds, and a
+//! Mesh files from users: messages for their faults and for omitted parts. Many triangles: memory of builds, and a
 //! scene without a file.
 
 use std::fs;
@@ -37,7 +37,7 @@ fn what_cannot_be_shown_is_refused_by_its_reason() {
     refused(&write(&folder, "s.toml", scene), &["s.toml", "`objects[1].mesh`", "points.obj", "no triangles"]);
 }
 
-/// A scene file with a terrain of so many triangles.
+/// A scene file with a terrain of this many triangles.
 fn terrain(triangles: &str) -> String {
     format!(
         "name = \"Ground\"\n[camera]\neye = [0.0, 1.0, 2.0]\ntarget = [0.0, 0.0, 0.0]\nvertical_fov = 45.0\n\
@@ -46,7 +46,7 @@ fn terrain(triangles: &str) -> String {
     )
 }
 
-/// Bytes a triangle above the mesh that a build of ours may hold at once.
+/// Maximum of bytes per triangle that a build of this crate may allocate beyond the mesh.
 const BOUND: f64 = 200.0;
 
 #[test]

@@ -1,4 +1,4 @@
-//! Tables come scene by scene, and what Ctrl-C interrupts is shown; a journal goes on with it.
+//! Tables appear scene by scene, and a run interrupted by Ctrl-C shows its results; a journal resumes it.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -26,9 +26,9 @@ fn compare(folder: &Path, more: &[&str]) -> Command {
     command
 }
 
-/// Starts a program that meets signals in this way, in whatever way a shell has this one meet them.
+/// Starts a program with this handling of signals, independent of the handling in this process.
 fn spawn(mut command: Command, way: SigHandler) -> Child {
-    // SAFETY: to set what a signal does is async-signal-safe, and nothing is allocated.
+    // SAFETY: setting the action of a signal is async-signal-safe, and the code allocates nothing.
     unsafe {
         command.pre_exec(move || {
             for caught in [Signal::SIGINT, Signal::SIGTERM] {
@@ -40,7 +40,7 @@ fn spawn(mut command: Command, way: SigHandler) -> Child {
     command.spawn().unwrap()
 }
 
-/// Interrupts a run after its first table, that of the smallest scene; how it ends, and all that it says.
+/// Interrupts a run after its first table, for the smallest scene; returns its exit status and its whole output.
 fn signalled(folder: &Path, more: &[&str], way: SigHandler) -> (ExitStatus, String) {
     let mut child = spawn(compare(folder, more), way);
     let mut reader = BufReader::new(child.stdout.take().unwrap());
@@ -54,14 +54,14 @@ fn signalled(folder: &Path, more: &[&str], way: SigHandler) -> (ExitStatus, Stri
     (child.wait().unwrap(), text)
 }
 
-/// What a run says that is interrupted.
+/// The output of an interrupted run.
 fn interrupted(folder: &Path, more: &[&str]) -> String {
     let (status, text) = signalled(folder, more, SigHandler::SigDfl);
     assert_eq!(status.signal(), Some(Signal::SIGINT as i32), "{text}");
     text
 }
 
-/// How many cases an interrupted run says that it has measured: the first scene, and not all of the second.
+/// The number of cases that an interrupted run reports as measured: the first scene, and not all of the second.
 fn measured(text: &str) -> usize {
     let said = text.split("Interrupted: ").nth(1).unwrap_or_else(|| panic!("it does not say so: {text}"));
     let number = said.split(' ').next().unwrap().parse().unwrap();
@@ -75,7 +75,7 @@ fn processes(folder: &Path) -> usize {
     entries.filter(|entry| fs::read_link(entry.path().join("cwd")).is_ok_and(|cwd| cwd == *folder)).count()
 }
 
-/// Nothing goes on in a folder. What is killed takes the system a moment.
+/// Checks that no process works in a folder. The system takes a moment to remove a killed one.
 #[track_caller]
 fn is_left(folder: &Path) {
     let is_left = (0..500).any(|_| {
@@ -113,7 +113,8 @@ fn a_journal_that_was_interrupted_is_only_added_to() {
     assert!(whole.len() == CASES && kept.iter().all(|(path, bytes)| whole.get(path) == Some(bytes)));
 }
 
-/// A process says this and is ended by a signal at once, as if nobody had caught it: a shell ends its script then.
+/// A process prints this and is ended by a signal at once, as if the signal had not been caught: a shell then ends its
+/// script.
 #[track_caller]
 fn ends_by(signal: Signal, command: Command, said: &str) {
     let mut child = spawn(command, SigHandler::SigDfl);

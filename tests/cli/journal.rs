@@ -1,4 +1,4 @@
-//! The journals that studies leave, and what they export.
+//! The journals of studies and their exports.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -8,12 +8,12 @@ use serde_json::Value;
 
 use super::command::json;
 
-/// The cases that a study has measured; none where there is no journal.
+/// The measured cases of a study; empty without a journal.
 pub fn cases(runs: &Path, study: &str) -> Vec<PathBuf> {
     files(&runs.join(study)).unwrap_or_default()
 }
 
-/// What no clock decides, of every case: by scene and epoch. A case that is there twice is found out.
+/// The fields of every case that do not depend on a clock, by scene and epoch. A repeated case is an error.
 pub fn answers(runs: &Path, study: &str) -> BTreeMap<String, Value> {
     let mut answers = BTreeMap::new();
     for path in cases(runs, study) {
@@ -38,7 +38,7 @@ pub fn answers(runs: &Path, study: &str) -> BTreeMap<String, Value> {
     answers
 }
 
-/// What an export holds of epoch 0: a value for each workload of each structure but twins, with the fields of both.
+/// Epoch 0 of an export: a value for each workload of each structure except twins, with the fields of both.
 pub fn rows(export: impl AsRef<Path>) -> Vec<Value> {
     let mut rows = vec![];
     let export = json(export);

@@ -1,4 +1,4 @@
-//! Files of any name that the system knows: taken as it gives them, shown escaped.
+//! Files of any name that the system supports: accepted unchanged, printed escaped.
 
 use std::ffi::{OsStr, OsString};
 use std::fs;
@@ -8,7 +8,7 @@ use std::process::{Command, Output};
 
 use super::command::{RIGHT, SQUARE, USAGE, command, stderr, stdout};
 
-/// Bytes that are no text, an escape sequence with the end of a line, and each of them as it is shown.
+/// Bytes that are not text, an escape sequence with a line break, and their printed forms.
 const NAMES: [(&[u8], &str); 2] = [(b"gr\xfcn", "gr\\xfcn"), (b"a\x1b[31m\nb", "a\\u{1b}[31m\\nb")];
 
 fn with_ending(name: &OsStr, ending: &str) -> OsString {
@@ -17,7 +17,7 @@ fn with_ending(name: &OsStr, ending: &str) -> OsString {
     name
 }
 
-/// A line of words; `@.obj` is the file of that name and ending.
+/// A line of words; `@.obj` is the file with that name and extension.
 fn run(folder: &Path, name: &OsStr, line: &str) -> Output {
     let word = |word: &str| match word.strip_prefix('@') {
         Some(ending) => with_ending(name, ending),
@@ -26,7 +26,7 @@ fn run(folder: &Path, name: &OsStr, line: &str) -> Output {
     command(&["--quiet"]).args(line.split(' ').map(word)).current_dir(folder).output().unwrap()
 }
 
-/// Neither output holds what the name would do to a terminal.
+/// Checks that neither output contains terminal controls from the name.
 #[track_caller]
 fn is_plain(output: &Output) -> String {
     // Both are UTF-8.
@@ -87,7 +87,7 @@ fn files_of_any_name_are_taken_and_shown_escaped() {
             assert!(said.lines().count() == 1 && said.contains(shown), "{line}: {said}");
         }
 
-        // A plan names files as a shell reads them; a second time the case is there.
+        // A plan names files for a shell; the second time the case exists.
         let plan = "study plan compare --dir @.jobs --scenes @.obj --rays 16 --epochs 1 -s sah-kd";
         let plan = run(folder.path(), name, plan);
         let line = is_plain(&plan);

@@ -1,4 +1,4 @@
-//! What becomes of a verdict where its output cannot be written, and what is not printed at all.
+//! The verdict if its output cannot be written, and output that is never printed.
 
 use std::fs::File;
 use std::process::Stdio;
@@ -15,7 +15,7 @@ fn status(line: &str, out: impl Into<Stdio>) -> i32 {
     output.status.code().unwrap_or_else(|| panic!("{line} is ended by a signal: {said}"))
 }
 
-/// Triangles at 2^100, along two axes: a builder of others panics on them.
+/// Triangles at 2^100, along two axes: a builder of another crate panics on them.
 fn huge(folder: &tempfile::TempDir) -> String {
     let mut text = String::new();
     for corners in [
@@ -51,7 +51,7 @@ fn a_verdict_outlives_the_reader_of_its_output() {
         (&refused, REFUSED),
         ("compare sponsa", USAGE),
     ] {
-        // Nobody can have read anything.
+        // No process can have read anything.
         let (reader, writer) = std::io::pipe().unwrap();
         drop(reader);
         assert_eq!(status(line, writer), expected, "{line} without a reader");

@@ -1,4 +1,4 @@
-//! `study plan`: jobs that need each other in nothing, one file each, what they measure, and what becomes of them.
+//! `study plan`: independent jobs, one file each; their measurements and their results.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -23,7 +23,7 @@ pub fn plan(folder: &Path, args: &[&str]) -> Vec<String> {
     text.lines().map(String::from).collect()
 }
 
-/// What a shell makes of a line.
+/// The words that a shell makes of a line.
 fn words(line: &str) -> Vec<String> {
     let words = shlex::split(line).unwrap_or_else(|| panic!("{line}"));
     assert_eq!(words[0], "sahara", "{line}");
@@ -71,13 +71,13 @@ fn a_plan_is_one_command_a_case_with_a_file_of_its_own() {
     }
     assert!(files.len() == 4 && !dir.exists(), "nothing is made");
 
-    // A study that is named twice is planned once; scenes are added up, as everywhere.
+    // A repeated study is planned once; scenes add up, as in all commands.
     let planned = |names: &[&str]| plan(&dir, &[names, &["--scenes", "cube"]].concat());
     assert_eq!(planned(&["compare", "compare"]), planned(&["compare"]));
     let torus = ["compare", "--scenes", "torus"];
     assert_eq!(planned(&torus), plan(&dir, &[&torus[..], &["cube"]].concat()));
 
-    // All studies, in the quick form.
+    // All studies, in the quick version.
     let text = prints(&["study", "plan", "--quick", "--dir", "r"]);
     let files: BTreeSet<PathBuf> = text.lines().map(file).collect();
     for study in ["compare", "replicate", "attribution", "scaling", "accuracy"] {
@@ -89,7 +89,7 @@ fn a_plan_is_one_command_a_case_with_a_file_of_its_own() {
 #[test]
 fn what_cannot_be_planned_is_one_sentence() {
     let plan = |line: &'static str| [&["study", "plan"], &line.split(' ').collect::<Vec<_>>()[..]].concat();
-    // An option that is given twice, wherever it stands; one of them may be of the preset.
+    // A repeated option, at any place; one of them may come from the preset.
     let twice = "cannot be used multiple times";
     for (line, parts) in [
         ("attributoin", &["attributoin"][..]),
@@ -99,12 +99,12 @@ fn what_cannot_be_planned_is_one_sentence() {
         ("--dir a compare scaling --dir=b", &["--dir", twice]),
         ("compare scaling --dir a --dir b", &["--dir", twice]),
         ("compare --rays 64 --quick --quick", &["--quick", twice]),
-        // What writes what came of a study.
+        // Options that write the results of a study.
         ("attribution --rays 64 --export-json x.json", &["--", "when all jobs are done"]),
         ("attribution --rays 64 --export-csv=x.csv", &["--", "when all jobs are done"]),
         ("attribution --rays 64 --plot x.svg", &["--", "when all jobs are done"]),
         ("attribution --scenes cube --plot x.svg", &["--plot", "when all jobs are done"]),
-        // A job that finds its case measures nothing, whatever is asked.
+        // A job that finds its case measures nothing, with any options.
         ("attribution --rays 64 --fresh", &["--fresh", "--dir"]),
     ] {
         refuses_in_a_line(&plan(line), parts);
@@ -130,13 +130,13 @@ fn jobs_in_any_order_are_the_study() {
     assert_eq!(answers(&apart, "attribution").len(), 4);
     assert_eq!(answers(&apart, "attribution"), answers(&one, "attribution"));
 
-    // They are the journal of the study: it has nothing left to measure, and changes nothing.
+    // The files are the journal of the study: nothing remains to be measured, and nothing changes.
     let before: Vec<Vec<u8>> = lines.iter().map(|line| fs::read(file(line)).unwrap()).collect();
     assert!(study(&apart, &[]).contains("Cube"));
     assert_eq!(lines.iter().map(|line| fs::read(file(line)).unwrap()).collect::<Vec<_>>(), before);
     assert_eq!(fs::read_dir(apart.join("attribution")).unwrap().count(), 4);
 
-    // Each says where it comes from, and names the run and not the job.
+    // Each contains its provenance, with the command of the run and not of the job.
     let case = json(file(&lines[0]));
     for field in ["host", "cpu", "commit", "target_features", "date", "command"] {
         assert!(!case["provenance"][field].as_str().unwrap().is_empty(), "{field}");
@@ -152,7 +152,7 @@ fn a_report_shows_the_newest_of_each_scene_and_names_what_else_there_is() {
     let own = ["-s", "sah-kd", "-s", "obvhs-bvh2", "-w", "primary", "--rays", "256", "--epochs", "2", "--budget", "1"];
     let lines = plan(&runs, &[&["compare", "--scenes", "cube", "torus"][..], &own].concat());
     lines.iter().for_each(|line| done(line));
-    // As another machine would have measured one of them before.
+    // As if another machine had measured one of them before.
     let mut case = json(file(&lines[2]));
     case["provenance"]["cpu"] = "Another Processor".into();
     case["provenance"]["date"] = "2020-01-01T00:00:00Z".into();
@@ -170,7 +170,7 @@ fn a_job_measures_once_and_refuses_what_is_not_its_own() {
     let folder = TempDir::new().unwrap();
     let mesh = write(&folder, "square.obj", SQUARE);
     let lines = plan(folder.path(), &[&SMALL[..], &["--scenes", &mesh]].concat());
-    // Of two at one file one wins, and both are content.
+    // Of two jobs for one file one wins, and both succeed.
     let both = [0, 1].map(|_| job(&lines[0]).spawn().unwrap());
     let both = both.map(|child| child.wait_with_output().unwrap());
     assert!(both.iter().all(|output| output.status.code() == Some(RIGHT)), "{both:?}");
@@ -182,7 +182,7 @@ fn a_job_measures_once_and_refuses_what_is_not_its_own() {
     let path = file(&lines[0]);
     assert_eq!(json(&path)["case"]["study"], "attribution");
     let before = fs::read(&path).unwrap();
-    // What is repeated loads nothing.
+    // A repeated job loads nothing.
     let away = folder.path().join("away.obj");
     fs::rename(&mesh, &away).unwrap();
     let again = run(&lines[0]);
@@ -194,7 +194,7 @@ fn a_job_measures_once_and_refuses_what_is_not_its_own() {
     let refused = |line: &str, part: &str| refused_in_a_line(&run(line), &[part]);
     refused(&lines[1].replace(file(&lines[1]).to_str().unwrap(), path.to_str().unwrap()), "holds another case");
     assert_eq!(fs::read(&path).unwrap(), before);
-    // Its scene must be what it was when it was planned, and each thread needs a core.
+    // Its scene must be unchanged since the plan, and each thread needs a core.
     let hash = lines[1].split("\"hash\":\"").nth(1).unwrap()[..16].to_owned();
     refused(&lines[1].replace(&hash, "0123456789abcdef"), "plan it again");
     refused(&lines[1].replace(&format!("\"word\":\"{mesh}"), "\"word\":\"torus"), "plan it again");
@@ -209,12 +209,12 @@ fn a_job_measures_once_and_refuses_what_is_not_its_own() {
 fn what_cannot_be_written_is_one_sentence_and_no_file() {
     let folder = TempDir::new().unwrap();
     let lines = plan(&folder.path().join("runs"), &[&SMALL[..], &["--scenes", "cube"]].concat());
-    // A file stands where the folder should be.
+    // A file has the place of the folder.
     fs::write(folder.path().join("runs"), "x").unwrap();
     refused_in_a_line(&run(&lines[0]), &["cannot write", "runs/attribution"]);
     fs::remove_file(folder.path().join("runs")).unwrap();
 
-    // As on a full disk: the system takes no more than a thousand bytes of a file.
+    // As on a full disk: the system accepts at most a thousand bytes per file.
     #[cfg(target_os = "linux")]
     {
         let job = lines[0].strip_prefix("sahara ").unwrap();

@@ -1,4 +1,4 @@
-//! Files of rays and hits, from outside: what is recorded is replayed to the bit, and what is damaged is refused.
+//! Files of rays and hits from outside: recorded rays are replayed to the bit, and damaged files are rejected.
 
 use std::fs;
 use std::process::Command;
@@ -14,13 +14,13 @@ fn sahara(folder: &TempDir, args: &[&str]) -> Command {
     command
 }
 
-/// What the command prints; it must succeed.
+/// The output of the command; it must succeed.
 #[track_caller]
 fn right(folder: &TempDir, args: &[&str]) -> String {
     printed(&mut sahara(folder, args))
 }
 
-/// The command refuses in one line that holds all of `parts`.
+/// Checks that the command rejects in one line that contains all of `parts`.
 #[track_caller]
 fn refuses(folder: &TempDir, args: &[&str], parts: &[&str]) {
     refused_in_a_line(&sahara(folder, args).output().unwrap(), parts);
@@ -32,7 +32,7 @@ fn a_replayed_workload_is_the_workload() {
     let common = ["--runs", "2", "--budget", "2", "-s", "sah-kd", "-s", "brute-force"];
     for kind in ["diffuse", "shadow"] {
         let printed = right(&folder, &["rays", "record", "torus", "-w", kind, "-o", "f.rays"]);
-        // How many are timed is no matter of the workload.
+        // The number of timed rays does not change the workload.
         let mut made = vec!["compare", "torus", "-w", kind, "--rays", "900", "--export-json", "made.json"];
         made.extend(common);
         right(&folder, &made);
@@ -69,7 +69,7 @@ fn answers_go_out_and_come_back_and_wrong_ones_are_found() {
         let own = right(&folder, &[&exchange[..], &["--hits", "f.hits"]].concat());
         assert!(own.contains("f.hits is right on 900 rays."), "{own}");
 
-        // One hit is taken away.
+        // Remove one hit.
         let path = folder.path().join("f.hits");
         let mut bytes = fs::read(&path).unwrap();
         let hit = bytes[32..].chunks_exact(8).position(|answer| answer[4..] != [0xff; 4]).unwrap();

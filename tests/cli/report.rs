@@ -1,4 +1,4 @@
-//! `report` from outside: the folder it writes, and what it refuses.
+//! `report` from outside: its folder, and rejected inputs.
 
 use std::fs;
 use std::path::Path;
@@ -50,7 +50,7 @@ fn a_report_is_written_whole_with_pictures_and_again_in_its_place() {
     prints(&["report", text(runs.path()), "-o", text(&other)]);
     assert_eq!(fs::read_to_string(other.join("index.html")).unwrap(), page);
 
-    // Heat has one scale on the page and in a picture: the costliest tree of all is among those of the page.
+    // Heat has one scale on the page and in a picture: the costliest tree is on the page.
     let scale: u64 = page.split("--hottest ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
     let said = prints(&["render", "torus", "--view", "heat", "-o", text(&place.path().join("heat.png"))]);
     assert!(
@@ -92,7 +92,7 @@ fn results_are_written_with_the_numbers_of_the_readme_beside_them() {
     fs::write(&readme, marked).unwrap();
     prints(&["report", text(runs.path()), &results]);
     let filled = fs::read_to_string(&readme).unwrap();
-    // Lines are wrapped anywhere.
+    // Lines wrap anywhere.
     let words = filled.split_whitespace().collect::<Vec<_>>().join(" ");
     for part in ["by another tree, brute force and exact arithmetic", "(`sahara study replicate --dir runs`)"] {
         assert!(words.contains(part), "{filled}");
@@ -102,7 +102,7 @@ fn results_are_written_with_the_numbers_of_the_readme_beside_them() {
     assert!(!paper.contains(text(runs.path())), "no path of this machine");
     assert!(papers.join("figures/speed-torus.svg").is_file() && papers.join("results.json").is_file());
 
-    // Again it is the same; what is asked for and unknown leaves everything as it was.
+    // Again it is the same; an unknown request leaves everything unchanged.
     prints(&["report", text(runs.path()), &results]);
     assert_eq!(fs::read_to_string(&readme).unwrap(), filled);
     fs::write(&readme, filled.replace("replicate.hard", "no.such")).unwrap();

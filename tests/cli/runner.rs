@@ -1,4 +1,4 @@
-//! `sahara compare --runner`: programs of others, good ones and bad ones.
+//! `sahara compare --runner`: other programs, good and bad ones.
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
@@ -8,11 +8,11 @@ use std::process::Command;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use super::command::{RIGHT, WRONG, path_text, prints, refuses_in_a_line, sahara, stderr, stdout, write};
+use super::command::{RIGHT, WRONG, path_text, prints, refuses_in_a_line, sahara, stderr, stdout, words, write};
 
 const EXAMPLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/runner/brute_force.cpp");
 
-/// Compiles the example, its text changed; nothing where there is no compiler.
+/// Compiles the example with a changed text; `None` without a compiler.
 fn compiled(folder: &TempDir, name: &str, change: impl Fn(String) -> String) -> Option<String> {
     if Command::new("c++").arg("--version").output().is_err() {
         println!("skipped: there is no C++ compiler, `c++`, here");
@@ -57,7 +57,7 @@ fn the_example_of_the_document_is_timed_beside_ours() {
         for same in ["hash", "all", "query"] {
             assert_eq!(ours[same], theirs[same]);
         }
-        // Their samples are of the same rounds, and hardly any ray hits by one test and not by the other.
+        // Their samples are from the same rounds, and hardly any ray hits by one test and not by the other.
         assert!(theirs["ns"].as_array().unwrap().len() == ours["ns"].as_array().unwrap().len(), "{theirs}");
         let hits = |record: &Value| record["counts"]["hits"].as_f64().unwrap();
         assert!((hits(ours) - hits(theirs)).abs() <= 0.001 * hits(ours), "{ours} {theirs}");
@@ -71,13 +71,13 @@ fn wrong_hits_of_a_program_cost_it_all_its_times_and_nobody_else() {
     let (status, text, records) = records(&folder, &[&SMALL[..], &[&program]].concat());
     assert_eq!(status, Some(WRONG), "{text}");
     assert!(text.contains("loses (own clock)") && text.contains(" wrong"), "{text}");
-    // A cube alone throws no shadow on itself: those rays are right, but a wrong tree has no time.
+    // A single cube throws no shadow on itself: those rays are right, but a wrong tree has no time.
     let timed: Vec<bool> = records.iter().map(|record| !record["ns"].as_array().unwrap().is_empty()).collect();
     assert_eq!(timed, [true, true, false, false], "{text}");
     assert!(records[2]["checked"]["errors"].as_u64() > Some(0), "{text}");
 }
 
-/// Says that nothing is hit, and misbehaves as its argument says.
+/// Returns a miss for every ray, and misbehaves in the way of its argument.
 pub const NOTHING: &str = include_str!("../runner/nothing.sh");
 
 pub fn nothing(folder: &TempDir) -> String {
@@ -129,21 +129,8 @@ fn a_clock_that_disagrees_with_ours_is_told_and_what_it_declines_is_not_asked() 
     {
         let import = ["rays", "import", &text, "-o", &rays, "--scene", "cube"];
         prints(&import.into_iter().chain(any).collect::<Vec<_>>());
-        let runner = format!("{program} {how}");
-        let args = [
-            "compare",
-            "--rays",
-            &rays,
-            "-s",
-            "sah-kd",
-            "--epochs",
-            "2",
-            "--runs",
-            "2",
-            "--verbose",
-            "--runner",
-            &runner,
-        ];
+        let own = ["--rays", &rays, "--runner", &format!("{program} {how}")];
+        let args = [&words("compare -s sah-kd --epochs 2 --runs 2 --verbose")[..], &own].concat();
         let (status, text, records) = records(&folder, &args);
         assert_eq!((status, records.len()), (Some(RIGHT), 2), "{text}");
         assert!(text.contains(&format!("nothing.sh {how} (own clock)")) && text.contains(part), "{text}");
@@ -179,7 +166,7 @@ fn another_build_of_a_program_is_another_structure() {
     let dir = path_text(&folder.path().join("runs"));
     let own =
         ["-s", "sah-kd", "-w", "primary", "--rays", "256", "--epochs", "1", "--budget", "1", "--runner", &program];
-    // Whatever the status: a program that finds nothing is wrong.
+    // With any status: a program that finds nothing is wrong.
     let run = || sahara(&[&["compare", "cube", "--dir", &dir][..], &own].concat());
     let cases = || super::journal::cases(Path::new(&dir), "compare").len();
     run();

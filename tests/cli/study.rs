@@ -1,4 +1,4 @@
-//! `sahara study`: what is printed, exported and drawn.
+//! `sahara study`: its output, exports and figures.
 
 use std::fs;
 
@@ -31,7 +31,7 @@ fn accuracy_prints_exports_and_draws_what_it_finds() {
     let exact: Vec<&Value> = rows.iter().filter(|row| row["triangle_test"] == "exact").collect();
     assert_eq!(exact.len(), 2);
     assert!(exact.iter().all(|row| wrong(row) == [0; 3] && row["errors"]["rays"] == 300), "{rows:?}");
-    // A process has measured them, and the whole names the run.
+    // A process has measured them, and the dataset names the run.
     let provenance = &json(&export)["provenance"];
     assert_eq!(provenance["process_per_epoch"], true);
     assert!(!provenance["command"].as_str().unwrap().contains("--case"), "{provenance}");
@@ -57,14 +57,14 @@ fn real_meshes_that_are_asked_for_are_never_replaced() {
     refused_in_a_line(&output, &["real meshes of Dragon are missing: `sahara fetch`"]);
 }
 
-/// A limit of the memory that may be addressed stands for one of the threads.
+/// A limit of the address space acts as a limit of threads.
 #[test]
 #[cfg(target_os = "linux")]
 fn more_threads_than_the_system_gives_are_refused_before_anything_is_measured() {
     let folder = tempfile::tempdir().unwrap();
     for words in ["study attribution cube --threads 1024", "compare cube --threads 1024"] {
-        // Eight and a half gigabytes of addresses, and one for the stack of each thread: what is refused is a stack, which
-        // leaves more than all else asks for. A thread that fails while it starts would end the process.
+        // Eight and a half gigabytes of addresses, and one for the stack of each thread: the system refuses a stack,
+        // which leaves more than everything else requires. A thread that fails while it starts would end the process.
         let script = format!("ulimit -v 8300000; exec {} -q {words}", env!("CARGO_BIN_EXE_sahara"));
         let mut command = std::process::Command::new("sh");
         command.env("RUST_MIN_STACK", "1000000000").env("RAYON_NUM_THREADS", "1").env("MALLOC_ARENA_MAX", "1");

@@ -1,4 +1,4 @@
-//! `sahara validate`, its hard cases among them.
+//! `sahara validate`, including its hard cases.
 
 use super::command::{
     RIGHT, SQUARE, WRONG, json, path_text, prints, refuses, refuses_in_a_line, sahara, stdout, words, write,
@@ -10,11 +10,11 @@ fn validation_tells_right_from_wrong() {
 
     // obvhs' CwBvh misses every ray with a component of -0.0: this one hits the cube in the middle of a face.
     let ray = ["validate", "cube", "--ray", "0.5,0.25,5 -0,0,-1", "-s"];
-    // A documented defect of a baseline is shown and named, and changes no status, here as in every command.
+    // A known defect of a baseline is printed with its name, and does not change the status of any command.
     let printed = prints(&[&ray[..], &["obvhs-cwbvh", "--verbose"]].concat());
     assert!(printed.contains("obvhs-cwbvh: known defects (they do not change the exit status)"), "{printed}");
     assert!(printed.contains("0.5,0.25,5.0 -0.0,0.0,-1.0"), "the ray can be asked again: {printed}");
-    // What each structure answers is printed, right or wrong: the cube's front face is at z = 1.
+    // The hit of each structure is printed, right or wrong: the cube's front face is at z = 1.
     let both = stdout(&sahara(&[&ray[..], &["sah-kd", "-s", "obvhs-cwbvh"]].concat()));
     let row = |name: &str| -> Vec<String> {
         let answers = both.split("Cube: hits").nth(1).expect("a table of hits");
@@ -29,7 +29,7 @@ fn validation_tells_right_from_wrong() {
     prints(&[&ray[..], &["sah-kd", "--against", "obvhs-bvh2"]].concat());
 }
 
-/// A needle along which a ray grazes: `f64` gets its depth 115 ulps wrong, which is no error of 1 %.
+/// A ray grazes along a needle: the depth in `f64` is wrong by 115 ulps, which is not an error of 1 %.
 #[test]
 fn validation_against_exact_answers_judges_depths_strictly() {
     let directory = tempfile::tempdir().unwrap();
@@ -58,7 +58,7 @@ fn hard_cases_are_named_and_tell_what_each_structure_gets_wrong() {
     let directory = tempfile::tempdir().unwrap();
     let export = path_text(&directory.path().join("hard.json"));
     let hard = "validate --hard cube_axis_negzero limits --rays 50 -s sah-kd -s obvhs-cwbvh --verbose --export-json";
-    // What is known of a baseline does not fail the run.
+    // Known defects of a baseline do not fail the run.
     let text = prints(&[words(hard), vec![export.as_str()]].concat());
     let row = text.lines().find(|line| line.trim_start().starts_with("cube_axis_negzero")).expect("a row");
     assert_eq!(row.split_whitespace().collect::<Vec<_>>(), ["cube_axis_negzero", ".", "m", "100", "S", "100"]);
@@ -75,7 +75,7 @@ fn hard_cases_are_named_and_tell_what_each_structure_gets_wrong() {
     assert_eq!(of("limits", "sah-kd")["property"]["broken"], 0);
     assert!(of("limits", "sah-kd")["rays"].is_null());
 
-    // They run over the tests asked for.
+    // They run over the requested tests.
     let text =
         prints(&words("validate --hard one_triangle --rays 20 --test exact --test edge-f64 -s median-kd --verbose"));
     assert!(text.contains("median-kd  median-kd:test=edge-f64"), "{text}");
@@ -113,7 +113,7 @@ fn options_that_the_rays_asked_for_do_not_heed_are_refused() {
             refuses(&[&["validate"], scene, asked, unheeded].concat(), &[asked[0], unheeded[0], "cannot be used with"]);
         }
     }
-    // From where a mesh is seen matters to none of these rays, and is not advised about.
+    // These rays do not depend on the camera, so there is no advice about it.
     let directory = tempfile::tempdir().unwrap();
     let mesh = write(&directory, "square.obj", SQUARE);
     for rays in [&ray[..], &["--adversarial", "--rays", "20"]] {
@@ -122,7 +122,7 @@ fn options_that_the_rays_asked_for_do_not_heed_are_refused() {
     }
 }
 
-/// Möller-Trumbore overflows on a triangle as large as this, and finds none of its hits.
+/// Möller-Trumbore overflows on such a large triangle, and finds none of its hits.
 #[test]
 fn a_wrong_reference_is_no_error_of_a_triangle_test() {
     let directory = tempfile::tempdir().unwrap();

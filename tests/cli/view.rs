@@ -1,4 +1,4 @@
-//! `--camera`, `--inside` and `--size` mean the same in all commands that look at a scene.
+//! `--camera`, `--inside` and `--size` mean the same in all commands with a camera.
 
 use sahara::image;
 use serde_json::Value;

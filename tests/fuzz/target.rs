@@ -1,4 +1,4 @@
-//! One case of the fuzzer: a mesh and rays of any floats whatever, and all that must hold for them.
+//! One case of the fuzzer: a mesh and rays of arbitrary floats, and all properties that they must have.
 //!
 //! Shared by `tests/properties.rs` and by the fuzz target of this folder, which both draw bytes.
 
@@ -17,8 +17,8 @@ use sahara::simd::Level;
 use sahara::validate::adversarial::{near_the_largest_t, rounded_ends};
 use sahara::validate::{Reference, validate};
 
-/// The structures of this crate and their variants, over every triangle test that they are offered with; the eight-wide
-/// trees with every way to answer slices. Small leaves, so that small meshes make deep trees.
+/// The structures of this crate and their variants, over every triangle test that they offer; the eight-wide trees with
+/// every batch strategy. Small leaves make deep trees of small meshes.
 pub const VARIANTS: [(&str, &str); 17] = [
     ("brute-force", ""),
     ("median-kd", ""),
@@ -39,13 +39,13 @@ pub const VARIANTS: [(&str, &str); 17] = [
     ("sah-bvh", "block_cost=50,batch=packets"),
 ];
 
-/// The tests over which several rays of a slice may be answered at once.
+/// The tests over which several rays of a slice may be traced at once.
 const BATCHED: [&str; 3] = ["moller-trumbore", "watertight", "exact"];
 
-/// The level is that of the process: one case at a time changes it.
+/// The SIMD level belongs to the process: one case at a time changes it.
 static LEVEL: Mutex<()> = Mutex::new(());
 
-/// What is drawn. Numbers may be anything, indices may be out of range.
+/// The drawn values. Numbers are arbitrary, indices may be out of range.
 #[derive(Clone, Debug)]
 pub struct Case {
     pub positions: Vec<Vec3>,
@@ -54,13 +54,13 @@ pub struct Case {
 }
 
 impl Case {
-    /// What must hold: a mesh is refused with a sentence or every structure is built over it; no structure over any
-    /// triangle test loses or invents a hit against brute force with the same test, or returns a higher number than the
-    /// lowest, also where an interval ends at the float that an exact `t` is rounded to, and all levels of instructions
-    /// give the same bits; `exact` gives the mathematical answer, by two judges. Nothing panics.
+    /// Checks all properties. A mesh is rejected with a sentence, or every structure is built over it. No structure
+    /// over any triangle test loses or invents a hit compared with brute force over the same test, or returns a higher
+    /// number than the lowest, even if an interval ends at the float to which an exact `t` rounds. All SIMD levels
+    /// return the same bits. `exact` returns the mathematical result, by two judges. Nothing panics.
     ///
     /// # Errors
-    /// What does not hold, with the case.
+    /// The violated property, with the case.
     pub fn check(&self) -> Result<(), String> {
         let mesh = match Mesh::new(self.positions.clone(), self.triangles.clone()) {
             Ok(mesh) => Arc::new(mesh),
@@ -91,7 +91,7 @@ impl Case {
             }
         }
 
-        // Brute force gives the answers of a test alone.
+        // Brute force returns the hits of a test itself.
         let answers = |test: &str| {
             let known = registry.find("brute-force", test).is_some();
             known.then(|| Reference::of_test(test, &mesh).map(|reference| reference.accel.closest(&rays)))
@@ -104,7 +104,7 @@ impl Case {
                     return Err(blame(format!("exact: ray \"{ray}\": {found:?} in place of {truth:?}")));
                 }
             }
-            // These sums are those of the test itself: rationals are not, but take a hundred times as long.
+            // These sums are also used by the test itself: rationals are independent, but take a hundred times as long.
             for ray in rays.iter().step_by(20) {
                 let truth = oracle::nearest(ray, &mesh).map(|(t, ids)| (t.round(), ids[0]));
                 let second = rational::nearest(ray, mesh.solid().map(|id| (id, mesh.corners(id))));
@@ -116,8 +116,8 @@ impl Case {
         Ok(())
     }
 
-    /// The rays as they are, and some of those that hit something once more: with intervals that end and begin where
-    /// the exact `t` is rounded to, as they are and near the largest float.
+    /// The rays, and some of the rays with a hit once more: with intervals that end and begin at the float to which the
+    /// exact `t` rounds, unchanged and near the largest float.
     fn with_rounded_ends(&self, mesh: &Mesh) -> Vec<Ray> {
         let nearest = |ray: &Ray| oracle::nearest(ray, mesh).map(|(t, _)| t);
         let mut rays = self.rays.clone();
@@ -129,8 +129,8 @@ impl Case {
         rays
     }
 
-    /// Reads a case from any bytes at all: bytes that are not there count as 0. Each case has its own mixture of floats, so
-    /// that numbers of one size meet each other.
+    /// Reads a case from any bytes: missing bytes count as 0. Each case has its own mixture of floats: numbers of one
+    /// size then meet each other.
     pub fn read(bytes: &[u8]) -> Self {
         let mut bytes = Bytes { left: bytes, kinds: (0..KINDS).collect() };
         let points = 3 + bytes.byte() as usize % 29;
@@ -142,7 +142,7 @@ impl Case {
         let limit = if wild { points + 1 } else { points } as u32;
         let triangles = (0..bytes.byte() % 48).map(|_| [0; 3].map(|_: u32| u32::from(bytes.byte()) % limit)).collect();
         let mut rays = vec![];
-        // Rays draw from more kinds than the mesh now and then, NaN and infinity among them.
+        // Rays sometimes draw from more kinds than the mesh, including NaN and infinity.
         let more = bytes.byte();
         if more < 64 {
             bytes.kinds.extend((0..KINDS).filter(|kind| more >> kind & 1 == 1).chain([KINDS - 1]));
@@ -167,10 +167,10 @@ impl Case {
     }
 }
 
-/// Hits of a case whose rays are asked once more.
+/// Hits of a case whose rays are traced once more.
 const SEVERAL: usize = 6;
 
-/// The rays as they are, and then those of the two commonest octants in sixteens, so that packets form.
+/// The rays, and then the rays of the two commonest octants in groups of sixteen, which form packets.
 fn in_company(rays: &[Ray]) -> Vec<Ray> {
     let octant = |ray: &Ray| ray.direction.to_array().map(f32::is_sign_negative);
     let mut octants: BTreeMap<[bool; 3], Vec<Ray>> = BTreeMap::new();
@@ -181,14 +181,14 @@ fn in_company(rays: &[Ray]) -> Vec<Ray> {
     crowds.sort_by_key(|alike| Reverse(alike.len()));
     let mut rays = rays.to_vec();
     for alike in crowds.iter().take(2) {
-        // A packet begins with a sixteen of the slice.
+        // A packet begins at a multiple of sixteen in the slice.
         rays.resize(rays.len().next_multiple_of(16), alike[0]);
         rays.extend(alike.iter().cycle().take(alike.len().next_multiple_of(16)));
     }
     rays
 }
 
-/// Every structure of this crate is among the variants.
+/// Names of structures of this crate that have no variant.
 #[allow(dead_code, reason = "a test of `tests/properties.rs`, not of the fuzzer")]
 pub fn left_out() -> Vec<String> {
     let registry = Registry::builtin();
@@ -197,7 +197,7 @@ pub fn left_out() -> Vec<String> {
     ours.filter(|name| VARIANTS.iter().all(|(known, _)| known != name)).map(String::from).collect()
 }
 
-/// What a slice is told on every level of instructions, closest and any hits, must be what it is told on the first one.
+/// Checks that a slice has the same closest hits and any hits on every SIMD level.
 fn same_on_all_levels(accel: &dyn DynAccel, rays: &[Ray]) -> Result<(), String> {
     let _alone = LEVEL.lock().unwrap_or_else(PoisonError::into_inner);
     let before = Level::current();
@@ -221,8 +221,8 @@ fn same_on_all_levels(accel: &dyn DynAccel, rays: &[Ray]) -> Result<(), String> 
 /// Kinds of floats that break traversals; the number of [`float_of`].
 const KINDS: u8 = 7;
 
-/// A float of the kind `kind` below [`KINDS`]: k/8, a zero, a denormal, a power of two, any number of moderate size,
-/// any bits at all, NaN or infinity. `bits` chooses which.
+/// A float of the kind `kind` below [`KINDS`]: k/8, a zero, a denormal, a power of two, a number of moderate size,
+/// arbitrary bits, NaN or infinity. `bits` selects the value.
 fn float_of(kind: u8, bits: u32) -> f32 {
     let signed = |x: f32| if bits >> 31 == 1 { -x } else { x };
     match kind {
@@ -236,7 +236,7 @@ fn float_of(kind: u8, bits: u32) -> f32 {
     }
 }
 
-/// What is left to read, and the kinds of floats that are made of it.
+/// The remaining bytes, and the kinds of floats that are made from them.
 struct Bytes<'a> {
     left: &'a [u8],
     kinds: Vec<u8>,
@@ -261,7 +261,7 @@ impl Bytes<'_> {
         float_of(kind, bits)
     }
 
-    /// A point; of finite numbers unless it may be `wild`.
+    /// A point; with finite numbers unless it may be `wild`.
     fn point(&mut self, wild: bool) -> Vec3 {
         Vec3::from_array([0; 3].map(|_: u8| {
             let x = self.float();

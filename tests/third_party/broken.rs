@@ -1,4 +1,4 @@
-//! The grid, broken in nine ways: what conformance must reject, and `validate` too.
+//! The grid, broken in nine ways: conformance and `validate` must reject each.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -11,7 +11,7 @@ use sahara::triangle::MollerTrumbore;
 
 use super::grid::{Grid, GridConfig};
 
-/// The grid and what it does wrong.
+/// The grid and its fault.
 pub struct Broken {
     grid: Grid<MollerTrumbore>,
     fault: Fault,
@@ -23,9 +23,9 @@ pub struct Broken {
 pub enum Fault {
     #[default]
     None,
-    /// Answers "nothing" to one ray in 10,000.
+    /// Returns a miss for one ray in 10,000.
     Drops,
-    /// Names the next triangle.
+    /// Returns the number of the next triangle.
     WrongId,
     /// Computes `t` 3 ulps too far.
     Late,
@@ -33,9 +33,9 @@ pub enum Fault {
     AnyHitDisagrees,
     /// Panics on one ray in 500.
     Panics,
-    /// Never answers one ray in 500.
+    /// Never returns for one ray in 500.
     Hangs,
-    /// Loses the hit of every 500th question.
+    /// Loses the hit of every 500th query.
     Moody,
     /// Panics in its builder.
     BuilderPanics,
@@ -102,7 +102,8 @@ impl Accel for Broken {
     }
 }
 
-/// A structure that can do little, and says so: no any hit, no ends of intervals, no counts, a triangle test of its own.
+/// A structure with few features, and it declares so: no any hit, no ends of intervals, no counts, its own triangle
+/// test.
 pub struct Modest(Grid<MollerTrumbore>);
 
 impl Accel for Modest {

@@ -1,5 +1,4 @@
-//! A binary BVH over a triangle test of its own, as somebody writes it in an afternoon, with one of the faults that people
-//! make.
+//! A binary BVH with its own triangle test, as written in an afternoon, with one of the usual faults.
 
 use std::sync::Arc;
 
@@ -15,29 +14,29 @@ pub enum Fault {
     None,
     /// Leaves below a depth are missing.
     LeafDropped,
-    /// The far child is left out once the near one had a hit.
+    /// The far child is skipped after a hit in the near one.
     ChildOrder,
     /// The interval does not end at the nearest hit so far, and the last hit counts.
     StaleTMax,
-    /// A slab of 0 x infinity is not a number, and the box is missed.
+    /// A slab of 0 x infinity is NaN, and the box is missed.
     ZeroTimesInfinity,
     /// A leaf is traversed up to its last triangle, exclusively.
     LastTriangle,
-    /// Two hits at one depth annul each other.
+    /// Two hits at one depth cancel each other.
     Ties,
-    /// Any hit does not heed the end of the interval.
+    /// Any hit ignores the end of the interval.
     AnyHit,
     /// Hits nearer than a thousandth do not count.
     Epsilon,
-    /// The place in the tree's order is returned for the number of the triangle.
+    /// The place in the tree's order is returned instead of the number of the triangle.
     WrongId,
     /// Boxes without thickness are missed.
     DegenerateBox,
-    /// The traversal turns round at a depth.
+    /// The traversal turns back at a depth.
     DepthLimit,
-    /// The stack has too few places, and what does not fit is lost.
+    /// The stack is too small, and nodes beyond it are dropped.
     OverflowedStack,
-    /// A ray in the plane of a triangle hits it at a depth that is no number.
+    /// A ray in the plane of a triangle hits it at a NaN depth.
     NotANumber,
     /// The third triangle of a leaf is not tested.
     OneOfABlock,
@@ -93,7 +92,7 @@ impl Faulty {
         (corners().fold(Vec3::INFINITY, Vec3::min), corners().fold(Vec3::NEG_INFINITY, Vec3::max))
     }
 
-    /// Where the ray enters a box, if it does.
+    /// The parameter at which the ray enters a box, if it does.
     fn enters(&self, ray: &Ray, t_max: f32, low: Vec3, high: Vec3) -> Option<f32> {
         let (mut near, mut far) = (ray.t_min.max(0.0), t_max);
         for axis in 0..3 {
@@ -105,7 +104,7 @@ impl Faulty {
                 }
                 continue;
             }
-            // Rounded outwards, so that no triangle is lost at the border of its box.
+            // Rounded outwards: no triangle may be lost at the border of its box.
             near = near.max(a.min(b) * (1.0 - 1e-6 * a.min(b).signum()));
             far = far.min(a.max(b) * (1.0 + 1e-6 * a.max(b).signum()));
         }

@@ -1,4 +1,4 @@
-// A uniform grid, deliberately naive: what a crate of its own writes to add a structure. It works over every triangle test.
+// A uniform grid, deliberately naive: an example of a structure in another crate. It works over every triangle test.
 use std::sync::Arc;
 
 use sahara::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
@@ -47,7 +47,8 @@ impl<T: TriangleTest> Grid<T> {
         rows.flat_map(move |row| (xs[0]..=xs[1]).map(move |x| row + x))
     }
 
-    /// Walks the layers of cells across the main axis of the ray, nearest first, and in each the cells that it may touch.
+    /// Visits the layers of cells across the main axis of the ray, nearest first, and in each the cells that it may
+    /// touch.
     fn walk<const ANY: bool, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
         if !ray.is_valid() {
             return None;
@@ -68,7 +69,7 @@ impl<T: TriangleTest> Grid<T> {
             let layer = if direction[main] > 0.0 { step } else { self.resolution - 1 - step };
             let ([a, b], [c, d]) = (plane(layer), plane(layer + 1));
             let (enter, leave) = (a.min(c).max(t_min.into()), b.max(d).min(t_max.into()));
-            // What was found lies before this layer.
+            // The hit lies before this layer.
             if nearest.is_some_and(|(depth, _)| f64::from(depth.bound()) < enter) {
                 break;
             }
@@ -86,7 +87,7 @@ impl<T: TriangleTest> Grid<T> {
                 for &id in cell {
                     let hit = T::hit(&prepared, &self.triangles[id as usize], t_min, T::last(t_max));
                     let Some(depth) = hit else { continue };
-                    // The nearest wins, and of equals the lowest number.
+                    // The nearest wins, and among equals the lowest number.
                     if nearest.is_none_or(|(n, i)| T::order(&prepared, &depth, &n).then(id.cmp(&i)).is_lt()) {
                         nearest = Some((depth, id));
                     }

@@ -1,5 +1,4 @@
-//! What somebody else writes to add a structure: a type of their own, the public interface, one macro; and what becomes of
-//! structures that are broken.
+//! An example of adding a structure: a type, the public interface, one macro; and the results of broken structures.
 
 mod broken;
 mod faulty;
@@ -29,7 +28,7 @@ use sahara::validate::conformance::{Named, Subject, answers, counting, shapes};
 use sahara::validate::hard_cases::{CaseTruth, find, run};
 use sahara::validate::{degenerate_meshes, stacked_sheets};
 
-// Few cells: two thousand triangles that coincide are in each that they meet.
+// Few cells: each of two thousand coincident triangles is in all cells that it meets.
 sahara::conformance!(my_grid, Grid<MollerTrumbore>, GridConfig { resolution: 2 }, lowest_id);
 sahara::conformance!(my_bvh, Faulty, FaultyConfig::default());
 
@@ -70,17 +69,17 @@ fn it_is_compared_like_our_own() {
     let epoch = measure(&case, &prepared, &SystemClock::start(), &BuildWatch::default(), &mut |_| {}).unwrap();
     let records = measurements(&Dataset::new(Provenance::capture(1), vec![Measured { case, epoch }]));
     assert_eq!(records.len(), 6);
-    assert!(records[..4].iter().all(|r| r.structure_errors == 0 && r.mrays_per_s > Some(0.0)));
+    assert!(records[..4].iter().all(|r| r.wrong_hits == 0 && r.mrays_per_s > Some(0.0)));
     assert_eq!(records[0].label, "grid");
     assert_eq!(records[0].hits, records[2].hits);
 
     // Declined is neither a time nor an error.
     assert!(records[4].mrays_per_s.is_some() && records[4].declined.is_none());
     assert_eq!((records[5].mrays_per_s, records[5].declined.as_deref()), (None, Some("any hit")));
-    assert_eq!(records[5].structure_errors, 0);
+    assert_eq!((records[5].wrong_hits, records[4].tests_per_ray), (0, None));
 }
 
-/// Some meshes, so that the faults that take one ray in 10,000 are met.
+/// Some meshes: they trigger the faults that affect one ray in 10,000.
 fn meshes() -> Vec<Named> {
     let wanted = ["closed sphere", "soup", "nested shells", "crossing needles", "same centroid"];
     degenerate_meshes().into_iter().filter(|(name, _)| wanted.contains(&name.as_str())).collect()
@@ -126,12 +125,12 @@ fn builders_that_panic_or_hang_are_told_from_each_other() {
     assert!(shapes(&subject(Fault::BuilderHangs), &meshes()).unwrap_err().contains("it hangs"));
 }
 
-/// The command of a crate with these structures: what the tests below run in a process of their own.
+/// The command of a crate with these structures: the tests below run it in a separate process.
 #[test]
 fn command() {
     let Some(args) = std::env::var_os("SAHARA_THIRD_PARTY") else { return };
     let args = args.into_string().unwrap();
-    // The whole list takes minutes: where all of it is run, it is this crate's study alone.
+    // The whole list takes minutes: if all of it is run, use only this crate's study.
     let all = args.starts_with("study all") || args.starts_with("report");
     let studies = if all { Studies::empty() } else { Studies::builtin() };
     let suite = Suite { registry: registry(), studies: studies.with(DUPLICATION) };
@@ -140,7 +139,7 @@ fn command() {
     std::process::exit(if status == ExitCode::SUCCESS { 0 } else { 42 });
 }
 
-/// What the command prints, and whether it is content.
+/// The output of the command, and whether it succeeds.
 fn sahara(args: &str) -> (String, bool) {
     let mut command = Command::new(std::env::current_exe().unwrap());
     command
@@ -152,7 +151,7 @@ fn sahara(args: &str) -> (String, bool) {
     (printed, output.status.code() == Some(0))
 }
 
-/// What the command prints; it must be content, and say all of `parts`.
+/// The output of the command; it must succeed, and contain all of `parts`.
 #[track_caller]
 fn content(args: &str, parts: &[&str]) -> String {
     let (printed, right) = sahara(args);
@@ -162,7 +161,7 @@ fn content(args: &str, parts: &[&str]) -> String {
 
 #[test]
 fn the_command_rejects_each_fault_for_its_own_reason() {
-    // The ray that is named is one that the fault takes, where it takes one in so many.
+    // The named ray triggers the fault, if the fault affects one ray in so many.
     for (fault, rays, reason, one_in) in [
         ("drops", 100_000, "lost: ray \"", 10_000),
         ("wrong-id", 1000, "wrong-primitive: ray \"", 1),
@@ -183,7 +182,7 @@ fn the_command_rejects_each_fault_for_its_own_reason() {
     }
 }
 
-/// Faults of a BVH with a triangle test of its own, and the sentence that `validate` and `compare` end with. Ordinary rays show
+/// Faults of a BVH with its own triangle test, and the final sentence of `validate` and `compare`. Ordinary rays show
 /// most of them.
 #[test]
 fn each_fault_of_a_tree_is_told_from_what_its_triangle_test_rounds() {
@@ -233,7 +232,7 @@ fn each_fault_of_a_tree_is_told_from_what_its_triangle_test_rounds() {
     }
 }
 
-/// A structure with wrong answers to rays that are timed has no time, and a ray to go on with is named.
+/// A structure with wrong hits on timed rays has no time, and the message names a ray.
 #[test]
 fn wrong_answers_are_seen_where_speed_is() {
     for (fault, is_timed) in [("none", true), ("leaf-dropped", false), ("epsilon", false)] {
@@ -282,10 +281,10 @@ fn a_study_of_another_crate_is_in_the_command_in_study_all_and_on_the_page() {
     assert!(std::fs::read_to_string(path("d.json")).unwrap().contains("\"word\":\"staircase:64\""));
     let csv = std::fs::read_to_string(path("d.csv")).unwrap();
     assert!(csv.starts_with("scene,structure,references_per_triangle\n") && csv.lines().count() == 5, "{csv}");
-    // Other settings are added, and a job in another process measures a case by its line alone.
+    // Other settings are added, and a job in another process measures a case from its line.
     content(&format!("study duplication -s grid --dir {runs}"), &[]);
     let lines = content(&format!("study plan duplication -s sah-kd --dir {}", path("jobs")), &[]);
-    // The harness writes the name of the test before the first line.
+    // The harness prints the name of the test before the first line.
     let lines: Vec<&str> = lines.lines().filter_map(|line| Some(line.split_once("sahara ")?.1)).collect();
     assert_eq!(lines.len(), 2, "{lines:?}");
     content(lines[0], &[]);

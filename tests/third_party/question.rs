@@ -1,4 +1,4 @@
-// A study of a crate of its own, with scenes of its own: how often a structure refers to a triangle of a staircase.
+// A study of another crate with its own scenes: how often a structure refers to a triangle of a staircase.
 use sahara::anyhow;
 use sahara::clap::{ArgMatches, Args, Command, FromArgMatches};
 use sahara::glam::Vec3;
@@ -9,7 +9,7 @@ use sahara::scene::{Model, Scene, WorkloadKind};
 use sahara::study::measurement::{Measurement, measurements};
 use sahara::study::{Dataset, Plan, PlannedScene, Presets, Settings, Study};
 
-/// `staircase:N`: so many steps, of which every second one is wide.
+/// `staircase:N`: N steps; every second one is wide.
 pub fn staircase(parameters: &str) -> anyhow::Result<Scene> {
     let steps: u32 = parameters.parse()?;
     let corner = |i: u32, wide: f32, z: f32| Vec3::new(i as f32 * 0.1 + wide, i as f32 * 0.1, z);

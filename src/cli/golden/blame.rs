@@ -1,4 +1,4 @@
-//! Which side exact arithmetic takes in a pixel that differs.
+//! Judges a differing pixel by exact arithmetic.
 
 use image::DynamicImage;
 
@@ -12,14 +12,14 @@ use crate::request::BRUTE_FORCE;
 use crate::scene::Scene;
 use crate::validate::{DepthRule, outcome};
 
-/// A scene with what judges pixels of it.
+/// A scene with the judge of its pixels.
 pub struct Judge<'a> {
     scene: &'a Scene,
     golden: &'a SceneGolden,
     /// Brute force over the exact triangle test.
     exact: Box<dyn DynAccel>,
     oracle: Oracle,
-    /// The scene on a command line.
+    /// The scene on the command line.
     word: &'a str,
 }
 
@@ -29,7 +29,8 @@ impl<'a> Judge<'a> {
         Ok(Self { scene, golden, exact, oracle: Oracle::new(&scene.mesh), word })
     }
 
-    /// What a structure paints at a pixel, who is right, and a command that traces its primary ray.
+    /// The values that a structure paints at a pixel, the side that is right, and a command that traces the pixel's
+    /// primary ray.
     pub fn blame(
         &self,
         structure: &str,
@@ -65,7 +66,7 @@ impl<'a> Judge<'a> {
         (sentence, format!("sahara validate {} -s {} --ray \"{ray}\"", self.word, quoted(structure)))
     }
 
-    /// The values of a picture of one pixel.
+    /// The values of a picture of one pixel, as text.
     fn values(&self, pixel: &DynamicImage) -> String {
         let numbers = self.golden.pixel_values(pixel);
         let is_hit = !numbers.contains(&f64::INFINITY);

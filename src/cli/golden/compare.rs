@@ -17,10 +17,10 @@ use crate::report::number::count;
 use crate::report::{Cell, Table, Tone};
 use crate::study::Status;
 
-/// The group of options that say which pictures are accepted.
+/// The group of options for accepting pictures.
 const TOLERANCE: &str = "Tolerance";
 
-/// What the statuses of all commands mean here.
+/// The meaning of the common exit statuses here.
 const STATUSES: &str = "Exit status: 0, all are accepted; 2, a picture differs; 1, one is missing, additional or cannot \
                         be read.";
 
@@ -82,7 +82,7 @@ impl Args {
         }
     }
 
-    /// The pictures; those of folders that neither has are nothing to compare.
+    /// The pictures; two folders without any picture are an error.
     fn pairs(&self) -> anyhow::Result<Vec<Pair>> {
         let [expected, actual] = [&self.expected, &self.actual];
         if let Some(missing) = [expected, actual].into_iter().find(|path| !path.exists()) {
@@ -195,7 +195,7 @@ fn compare(
     Ok(comparison)
 }
 
-/// Those that are not identical.
+/// The comparisons that are not identical.
 fn table(comparisons: &[Comparison]) -> Table {
     let rows = comparisons.iter().filter(|own| own.verdict != Verdict::Identical);
     let known = |own: &Comparison, of: fn(&golden::measures::Measures) -> Cell| {

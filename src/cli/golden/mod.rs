@@ -43,7 +43,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     }
 }
 
-/// Where results go besides the terminal.
+/// Outputs in addition to the terminal.
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = OUTPUT)]
 struct Outputs {
@@ -55,7 +55,7 @@ struct Outputs {
     export_json: Option<PathBuf>,
 }
 
-/// Outputs that can be written.
+/// Outputs that are known to be writable.
 struct CheckedOutputs {
     page: Option<OutputFolder>,
     json: Option<OutputFile>,
@@ -69,7 +69,7 @@ struct Export<'a> {
 }
 
 impl Outputs {
-    /// Refuses places that cannot be written, or that `inputs` are in.
+    /// Rejects outputs that cannot be written or that contain `inputs`.
     fn check<'a>(&self, inputs: impl Iterator<Item = &'a Path> + Clone) -> anyhow::Result<CheckedOutputs> {
         anyhow::ensure!(
             self.page.is_none() || cfg!(feature = "page"),
@@ -82,7 +82,7 @@ impl Outputs {
 }
 
 impl CheckedOutputs {
-    /// What `compare` gives, which may add to the page.
+    /// The result of `compare`, which may add to the page.
     fn with_page<T>(
         &self,
         title: &str,
@@ -94,19 +94,19 @@ impl CheckedOutputs {
         }
     }
 
-    /// Writes the JSON, and says where the page is.
+    /// Writes the JSON, and prints the place of the page.
     fn export(&self, comparisons: &[Comparison], terminal: &Terminal) -> anyhow::Result<()> {
         if let Some(json) = &self.json {
             json.write(&serde_json::to_vec_pretty(&Export { schema: "sahara-golden-1", comparisons })?)?;
         }
         if let Some(folder) = &self.page {
-            terminal.print(&format!("{}\n", page::index(folder.path()).escaped()));
+            terminal.print(&format!("{}\n", page::index(&folder.path).escaped()));
         }
         Ok(())
     }
 }
 
-/// How many comparisons came to what.
+/// The number of comparisons by verdict.
 fn tally(comparisons: &[Comparison]) -> String {
     let said = [
         (Verdict::Differs, "different"),

@@ -19,7 +19,7 @@ use crate::request::{self, BRUTE_FORCE, OUTPUT, SAH_TREE, SCENES, STRUCTURES, Vi
 use crate::scene::{BUILTIN, Builtin, Scene};
 use crate::study::Status;
 
-/// Triangles times pixels of anybody's scene above which brute force would take minutes.
+/// Above this number of triangles times pixels, brute force would take minutes on a user's scene.
 const WORK: u64 = 1 << 32;
 
 #[derive(Debug, clap::Args)]
@@ -65,13 +65,13 @@ fn view(name: &str) -> Result<ViewKind, String> {
     find("view of golden images", VIEWS, name, ViewKind::name).map_err(|unknown| unknown.to_string())
 }
 
-/// A scene, and its golden image.
+/// A scene and its golden image.
 struct Target {
     scene: Scene,
     golden: SceneGolden,
-    /// On a command line.
+    /// The scene on the command line.
     word: String,
-    /// The structure that draws unless one is named.
+    /// The default structure for rendering.
     default: &'static str,
 }
 
@@ -87,7 +87,7 @@ impl Targets {
     fn words(&self) -> Vec<OsString> {
         let all = || BUILTIN.iter().map(|builtin| builtin.name.into()).collect();
         let words = if self.scenes.is_empty() { all() } else { self.scenes.clone() };
-        // What is named twice counts once.
+        // A repeated name counts once.
         each_once_by(words, |one, other| one.eq_ignore_ascii_case(other))
     }
 
@@ -104,7 +104,7 @@ impl Targets {
             let golden = SceneGolden::file(&folder, &name, self.view, &scene);
             return Ok(Target::new(scene, golden, word));
         };
-        // Real meshes that happen to be there must not change the picture.
+        // A real mesh on this machine must not change the picture.
         let mut scene = builtin.scene(None)?;
         scene.size = SIZE;
         let is_default = self.from.is_default() && self.view == ViewKind::Shaded;
@@ -130,7 +130,7 @@ impl Targets {
         Ok(Target::new(scene, golden, word))
     }
 
-    /// The files that are read besides golden images.
+    /// The input files, without golden images.
     fn inputs(&self, registry: &Registry) -> Vec<PathBuf> {
         request::scene_files(registry, &self.scenes)
     }
@@ -139,7 +139,7 @@ impl Targets {
 pub fn check(registry: &Registry, args: &CheckArgs, terminal: &Terminal) -> anyhow::Result<Status> {
     let inputs = args.targets.inputs(registry);
     let outputs = args.outputs.check(inputs.iter().map(PathBuf::as_path))?;
-    // A golden image belongs to the scene: all structures with one triangle test owe it the same bytes.
+    // A golden image belongs to the scene: all structures with one triangle test must return the same bytes.
     let choices: Vec<Choice> = if args.structure.is_empty() {
         registry.all().into_iter().filter(|choice| choice.triangle_test() == TRIANGLE_TEST).collect()
     } else {
@@ -208,7 +208,7 @@ fn check_scene(
                 status = Status::Wrong;
             }
             let lines = comparison.said.iter().chain(&comparison.command).map(|line| format!("  {line}\n"));
-            terminal.print(&format!("{}: differs from {}\n", comparison.name, golden.named().escaped()));
+            terminal.print(&format!("{}: differs from {}\n", comparison.name, golden.display_path().escaped()));
             terminal.print(&lines.collect::<String>());
         } else {
             right.push(choice.label.as_str());

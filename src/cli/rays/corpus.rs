@@ -1,5 +1,4 @@
-//! `rays corpus`: meshes, rays of all kinds and their exact answers, so that anyone can count wrong answers without
-//! this program.
+//! `rays corpus`: meshes, rays of all kinds and their exact hits, for counting wrong hits without this program.
 
 #[cfg(test)]
 mod tests;
@@ -30,7 +29,7 @@ use crate::scene::files::{ExactHitFile, RayFile, mesh_bytes};
 use crate::scene::{BUILTIN, Builtin, Scene, Workload};
 use crate::study::Status;
 
-/// The SHA-256 of `SHA256SUMS` in the corpus of all defaults.
+/// The SHA-256 of `SHA256SUMS` in the corpus with default options.
 const CORPUS_SHA256: &str = "80236458bcb0a6bbaadffad14093129fc1b00782e4f0118cc37d15f480bc129d";
 
 const SUMS: &str = "SHA256SUMS";
@@ -69,7 +68,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let named = if args.scenes.is_empty() { all() } else { args.scenes.clone() };
 
     let waiting = spinner("loading scenes", terminal);
-    // Our own meshes are the same everywhere.
+    // Generated meshes are the same on every machine.
     let own = |name: &OsString| if Builtin::find(name).is_ok() { stand_in(name) } else { name.clone() };
     let scenes = request::scenes(registry, &named.iter().map(own).collect::<Vec<OsString>>())?;
 
@@ -87,7 +86,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         files.extend(part.files);
     }
 
-    waiting.set_message(format!("writing {}", folder.path().escaped()));
+    waiting.set_message(format!("writing {}", folder.path.escaped()));
     let sums = sums(&files);
     let digest_of_sums = digest(sums.as_bytes());
     files.insert(SUMS.into(), sums.into_bytes());
@@ -101,7 +100,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     verdict(args, &digest_of_sums, terminal)
 }
 
-/// Prints the hash, and whether it is the one that it should be.
+/// Prints the hash, and whether it is the expected one.
 fn verdict(args: &Args, digest: &str, terminal: &Terminal) -> anyhow::Result<Status> {
     let (status, said) = match args.is_default() {
         false => (Status::Right, ""),
@@ -155,7 +154,7 @@ fn part(scene: &Scene, args: &Args, waiting: &ProgressBar) -> anyhow::Result<Par
     Ok(part)
 }
 
-/// The rays of one kind, for no scene in particular, so that they fit the mesh in the folder, and their exact answers.
+/// The rays of one kind and their exact hits. They name no scene, so they fit the mesh in the folder.
 fn answered(
     scene: &Scene,
     kind: RayKind,
@@ -174,12 +173,12 @@ fn answered(
 /// The distance of the nearest hit, with a relative error below 2^-50, and all triangles that are hit there.
 fn exact_answer(oracle: &Oracle, mesh: &Mesh, ray: &Ray) -> Option<(f64, Vec<u32>)> {
     let ids = oracle.nearest(ray)?.ids;
-    // The last bits are those of the triangle with the lowest number, whichever the oracle has met first.
+    // Take the last bits from the triangle with the lowest number, whichever the oracle has found first.
     let t = exact::hit(ray, mesh.corners(ids[0])).expect("the oracle has found it");
     Some((t.approximate(), ids))
 }
 
-/// A line for each file, as `sha256sum` writes and checks them.
+/// One line per file, in the format of `sha256sum`.
 fn sums(files: &Files) -> String {
     files.iter().map(|(name, bytes)| format!("{}  {name}\n", digest(bytes))).collect()
 }

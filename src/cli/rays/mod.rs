@@ -1,4 +1,4 @@
-//! `rays`: files of rays, so that others replay exactly ours.
+//! `rays`: files of rays, for replaying the same rays elsewhere.
 
 mod corpus;
 
@@ -147,7 +147,7 @@ fn parse(text: &str) -> Result<Vec<Ray>, String> {
 fn finish(file: &RayFile, output: &OutputFile, terminal: &Terminal) -> anyhow::Result<Status> {
     RayFile::check_names(&file.scene, &file.workload.name).map_err(anyhow::Error::msg)?;
     file.write(output)?;
-    terminal.print(&format!("{}: {}\n", output.path().escaped(), described(file)));
+    terminal.print(&format!("{}: {}\n", output.path.escaped(), described(file)));
     Ok(Status::Right)
 }
 

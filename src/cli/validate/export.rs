@@ -9,12 +9,12 @@ use crate::measure::Provenance;
 /// A run; `study/SCHEMA.md` describes it.
 #[derive(Debug, Serialize)]
 pub struct Export {
-    /// Of this form.
+    /// Version of this format.
     schema: u32,
     provenance: Provenance,
-    /// One for each structure.
+    /// One per structure.
     verdicts: Vec<Value>,
-    /// Scene by scene or case by case, structure by structure.
+    /// By scene or case, then by structure.
     results: Vec<Value>,
 }
 

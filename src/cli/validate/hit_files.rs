@@ -1,4 +1,5 @@
-//! Hits in files: those of one structure are written for others, those of others are compared with the reference.
+//! Hits in files: writes the hits of a structure for other programs, and compares the hits of other programs with the
+//! reference.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -18,9 +19,9 @@ use crate::request;
 use crate::scene::Scene;
 use crate::scene::files::{HitFile, RayFile};
 use crate::study::Status;
-use crate::validate::{validate_answers, validate_any_answers, watched};
+use crate::validate::{validate_any_hits, validate_hits, watched};
 
-/// Rays that are traced at a time, under one limit.
+/// Rays per batch, which share one time limit.
 const BATCH: usize = 256;
 
 impl Run<'_> {
@@ -54,7 +55,7 @@ impl Run<'_> {
         }
         HitFile::new(workload, hits).write(&output)?;
         drop(waiting);
-        let (path, results, hash) = (output.path().escaped(), plural(rays, "result"), workload.hash());
+        let (path, results, hash) = (output.path.escaped(), plural(rays, "result"), workload.hash());
         self.terminal.print(&format!("{path}: {results} of {label} for the rays {hash}\n"));
         Ok(Status::Right)
     }
@@ -75,10 +76,10 @@ impl Run<'_> {
         let reference_name = choice.name_for_file(&reference, test);
         let expected = closest_hits(&reference, scene, &rays, &reference_name, &waiting);
         let found = match hit_file.query {
-            Query::Closest => validate_answers(&reference, &expected, &scene.mesh, &rays, &hits),
+            Query::Closest => validate_hits(&reference, &expected, &scene.mesh, &rays, &hits),
             Query::Any => {
                 let any: Vec<bool> = hits.iter().map(Option::is_some).collect();
-                validate_any_answers(&reference, &expected, &scene.mesh, &rays, &any, None)
+                validate_any_hits(&reference, &expected, &scene.mesh, &rays, &any, None)
             }
         };
         drop(waiting);

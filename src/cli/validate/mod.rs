@@ -94,7 +94,7 @@ pub struct Args {
     seed: Option<u64>,
 }
 
-/// One run of the command, but for hard cases.
+/// One run of the command, except for hard cases.
 struct Run<'a> {
     registry: &'a Registry,
     args: &'a Args,
@@ -136,7 +136,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         let (scenes, recorded) = match replay {
             Some(((_, scene), file)) => (vec![scene], Some(file.workload.rays)),
             None => {
-                // Where the scene is seen from matters to the rays of the workloads alone.
+                // The camera only matters for the rays of the workloads.
                 let is_seen = args.ray.is_empty() && !args.adversarial;
                 let seen = |scene| if is_seen { args.from.of(scene) } else { Ok(scene) };
                 let scenes = request::scenes(registry, &args.scenes)?.into_iter().map(seen);
@@ -171,7 +171,7 @@ impl Args {
         self.rays.clone().unwrap_or(RaySource::Count(DEFAULT_RAYS))
     }
 
-    /// The structures to check: with --runner and without --structure the programs alone.
+    /// The structures to check: with --runner and without --structure, only the programs.
     fn structures(&self, registry: &Registry) -> anyhow::Result<Vec<Choice>> {
         let mut structures = vec![];
         if self.runner.is_empty() || !self.structure.is_empty() {
@@ -187,7 +187,7 @@ impl Args {
         waiting.set_message(format!("{}: building {}", scene.name, choice.label));
         let (own, mesh) = (choice.clone(), Arc::clone(&scene.mesh));
         let limit = self.limit.duration() * u32::try_from(1 + mesh.len() / 1_000_000).unwrap_or(u32::MAX);
-        // The registry catches a panic of the builder: what ends without a result hangs.
+        // The registry catches a panic of the builder: without a result it hangs.
         let built = watched(limit, move || own.build(&mesh)).map_err(|_| BuildFailure::Hangs(limit.as_secs_f64()))?;
         Ok(Arc::from(built?))
     }

@@ -1,4 +1,4 @@
-//! What was found of a structure in a scene.
+//! The result of a structure in a scene.
 
 use serde_json::{Value, json};
 
@@ -9,7 +9,7 @@ use crate::request::known_defect;
 use crate::study::{Status, Verdict};
 use crate::validate::{Kind, Validation};
 
-/// Why a structure could not be built.
+/// The reason why a structure could not be built.
 #[derive(Debug, thiserror::Error)]
 pub enum BuildFailure {
     #[error("it hangs: its build did not finish within {0} s (see --limit)")]
@@ -23,9 +23,9 @@ pub struct Outcome {
     pub scene: String,
     pub label: String,
     pub triangle_test: String,
-    /// Whether a user brings it: another crate's structure, a program or a file of hits.
+    /// Whether a user brings it: a structure of another crate, a program or a file of hits.
     pub is_brought: bool,
-    /// Whether it is known to be wrong, which does not change the exit status.
+    /// Whether it has a known defect, which does not change the exit status.
     pub has_known_defect: bool,
     pub found: Result<Validation, BuildFailure>,
 }
@@ -42,7 +42,7 @@ impl Outcome {
         }
     }
 
-    /// What it means for the exit status; with `strict`, rounding counts as well.
+    /// The exit status; with `strict`, rounding counts as well.
     pub fn status(&self, strict: bool) -> Status {
         match &self.found {
             Err(BuildFailure::Hangs(_)) => Status::Wrong,
@@ -55,7 +55,7 @@ impl Outcome {
         }
     }
 
-    /// Whether a ray is printed that shows a difference from the reference.
+    /// Whether a ray with a difference from the reference is printed.
     pub fn has_example(&self) -> bool {
         !self.has_known_defect && self.found.as_ref().is_ok_and(|found| !found.worst.is_empty())
     }
@@ -113,7 +113,7 @@ pub struct Verdicts {
     pub verdict: Verdict,
 }
 
-/// One verdict a structure, over all scenes.
+/// One verdict per structure, over all scenes.
 pub fn verdicts(outcomes: &[Outcome]) -> Vec<Verdicts> {
     let mut all: Vec<Verdicts> = vec![];
     for outcome in outcomes {

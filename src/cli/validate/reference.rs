@@ -1,4 +1,4 @@
-//! The reference that hits are compared with.
+//! The reference of a comparison.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -16,22 +16,22 @@ use crate::scene::Scene;
 use crate::triangle::{Exact, TriangleTest};
 use crate::validate::Reference;
 
-/// Default number of rays of a scene, and how many triangle tests brute force may run for them with each triangle test.
+/// Default number of rays of a scene, and the limit of brute-force triangle tests for them, per triangle test.
 pub const DEFAULT_RAYS: usize = 10_000;
 const TESTS: usize = 1 << 33;
 
-/// Likewise for the rays of a file, as a power of two: more, about two minutes of them, since the user wants these rays.
+/// The limit for the rays of a file, as a power of two: about two minutes, because the user wants these rays.
 const FILE_TESTS: u32 = 36;
 
 /// Triangle tests after which brute force reports its progress: about a second.
 const PROGRESS_TESTS: usize = 1 << 29;
 
-/// A structure that was chosen for its hits, brute force with a test of its own among them; without one brute force with
-/// the triangle test of each structure.
+/// A structure chosen as the reference, such as brute force with a fixed test; `None`: brute force with the triangle
+/// test of each structure.
 pub struct ReferenceChoice(Option<Choice>);
 
 impl ReferenceChoice {
-    /// What --against names: brute force by its bare name shares each structure's test.
+    /// The structure of --against. Plain brute force shares each structure's test.
     pub fn named(registry: &Registry, name: &str) -> anyhow::Result<Self> {
         let is_shared = name.eq_ignore_ascii_case(BRUTE_FORCE);
         Ok(Self(if is_shared { None } else { Some(request::structure(registry, name)?) }))
@@ -43,7 +43,7 @@ impl ReferenceChoice {
         Ok(Reference::structure(choice.build(&scene.mesh).with_context(failure)?, test))
     }
 
-    /// `reference` in words, for hits from a file that this triangle test found.
+    /// `reference` in words, for hits from a file over this triangle test.
     pub fn name_for_file(&self, reference: &Reference, test: &str) -> String {
         match self.0 {
             Some(_) => self.to_string(),
@@ -52,13 +52,12 @@ impl ReferenceChoice {
         }
     }
 
-    /// How many rays of a scene of so many triangles are traced by default.
+    /// The default number of traced rays of a scene with this number of triangles.
     pub fn affordable(&self, triangles: usize) -> usize {
         self.most(triangles, TESTS).min(DEFAULT_RAYS)
     }
 
-    /// The rays of a file that are traced, all or some evenly spread, each with what belongs to it; and a note if these are
-    /// not all.
+    /// The traced rays of a file, all or an even selection, with their data; and a note if these are not all.
     pub fn sample<T: Copy>(&self, recorded: &[T], triangles: usize) -> (Vec<T>, Option<String>) {
         let sample = spread(recorded, self.most(triangles, 1 << FILE_TESTS));
         let note = (sample.len() < recorded.len()).then(|| {
@@ -71,7 +70,7 @@ impl ReferenceChoice {
         (sample, note)
     }
 
-    /// Rays for which brute force, which tests every triangle, runs no more than so many tests.
+    /// The maximum number of rays for which brute force, which tests every triangle, stays below `tests` tests.
     fn most(&self, triangles: usize, tests: usize) -> usize {
         let is_brute_force = self.0.as_ref().is_none_or(|choice| choice.entry.name == BRUTE_FORCE);
         if is_brute_force { (tests / triangles.max(1)).max(1) } else { usize::MAX }
@@ -94,13 +93,13 @@ pub struct References<'a> {
     pub scene: &'a Scene,
     pub rays: &'a [Ray],
     pub choice: &'a ReferenceChoice,
-    /// By the triangle test that each is for; a structure chosen for its hits is for all.
+    /// By triangle test; a chosen structure is for all tests.
     pub known: BTreeMap<Option<&'static str>, ReferenceHits>,
 }
 
 impl References<'_> {
     pub fn get(&mut self, test: &'static str, waiting: &ProgressBar) -> anyhow::Result<&ReferenceHits> {
-        // A structure that was chosen for its hits is one for all tests that round.
+        // A chosen structure is the same for all tests that round.
         let key = (self.choice.0.is_none() || test == Exact::NAME).then_some(test);
         if !self.known.contains_key(&key) {
             let reference = self.choice.build(self.scene, test)?;
@@ -160,7 +159,7 @@ mod tests {
         assert_eq!(tree.sample(&recorded, 10_000_000), (recorded, None));
     }
 
-    /// What a test may round decides who is wrong, so `exact` has a reference of its own.
+    /// The rounding of a test decides which side is wrong, so `exact` has a separate reference.
     #[test]
     fn one_structure_for_all_tests_that_round_is_built_and_traced_once() {
         let scene = Builtin::find("cube").unwrap().scene(None).unwrap();

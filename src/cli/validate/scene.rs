@@ -1,4 +1,4 @@
-//! Structures over one scene, compared with the reference.
+//! Compares structures over one scene with the reference.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
 use crate::validate::{Stratum, Validation, validate_remote, validate_watched};
 
 impl Run<'_> {
-    /// Compares all structures with the reference, on recorded rays or others, and prints the table.
+    /// Compares all structures with the reference, on recorded or other rays, and prints the table.
     pub fn validate(&self, scene: &Scene, recorded: Option<&[Ray]>) -> anyhow::Result<Vec<Outcome>> {
         let Self { args, terminal, .. } = self;
         let triangles = scene.mesh.len();
@@ -59,7 +59,7 @@ impl Run<'_> {
         Ok(outcomes)
     }
 
-    /// Recorded or given rays, or else rays of every workload or stratum, of each the same number.
+    /// Recorded or given rays; otherwise the same number of rays of every workload or stratum.
     fn rays(&self, scene: &Scene, recorded: Option<&[Ray]>, notes: &mut Vec<String>) -> anyhow::Result<Vec<Ray>> {
         let Self { registry, args, reference, terminal, .. } = self;
         if let Some(recorded) = recorded {
@@ -93,7 +93,7 @@ impl Run<'_> {
     }
 }
 
-/// Why a structure has no row of numbers, or the ray that shows it wrong; known defects need no ray.
+/// The reason why a structure has no row of numbers, or the ray with its wrong hit; known defects need no ray.
 fn fault(choice: &Choice, outcome: &Outcome) -> Option<String> {
     let label = &choice.label;
     match &outcome.found {
@@ -103,7 +103,7 @@ fn fault(choice: &Choice, outcome: &Outcome) -> Option<String> {
     }
 }
 
-/// What explains the row of an outcome.
+/// The notes that explain the row of an outcome.
 fn notes_on(choice: &Choice, outcome: &Outcome) -> Vec<String> {
     let Ok(found) = &outcome.found else { return vec![] };
     let label = &choice.label;

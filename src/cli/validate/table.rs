@@ -1,4 +1,4 @@
-//! The tables of a scene: a row for each structure, and what each returns for rays that are given one by one.
+//! The tables of a scene: a row per structure, and the hits of each structure on given rays.
 
 use std::fmt;
 use std::sync::Arc;
@@ -29,7 +29,7 @@ pub fn scene_table(
     table.with_details(COLUMNS.iter().skip(5).map(|(name, _)| *name)).noted(notes)
 }
 
-/// What stands above a column, and its cell of an outcome.
+/// The heading of a column, and its cell for an outcome.
 type OutcomeColumn = (&'static str, fn(&Outcome) -> Cell);
 
 const COLUMNS: [OutcomeColumn; 10] = [
@@ -63,7 +63,7 @@ fn errors(own: &Outcome, of: fn(&Validation) -> u64) -> Cell {
     number(own, of).with(if is_wrong { Tone::Wrong } else { Tone::Plain })
 }
 
-/// Where the reference has another triangle test, exact arithmetic may find either of the two wrong.
+/// If the reference has another triangle test, exact arithmetic may find either side wrong.
 pub fn note_on_reference(name: &str, found: &Validation) -> Option<String> {
     let rays = plural(found.reference_errors as usize, "ray");
     (found.reference_errors > 0).then(|| format!("On {rays} the reference is wrong, not {name}."))
@@ -72,7 +72,7 @@ pub fn note_on_reference(name: &str, found: &Validation) -> Option<String> {
 pub const RETRACE: &str = "Trace a ray again, with its interval if it has one: sahara validate SCENE --structure NAME --ray \"ox,oy,oz dx,dy,dz [t_min,t_max]\" \
      (a program: --runner COMMAND instead of --structure NAME)";
 
-/// What the columns mean.
+/// The meaning of the columns.
 pub const LEGEND: [&str; 3] = [
     "hits: rays with a hit in the reference. wrong: hits that no rounding of the triangle test explains, contradictions, panics \
      and queries that never return; a correct structure has none. rounded: hits that differ from the reference because the \
@@ -83,7 +83,7 @@ pub const LEGEND: [&str; 3] = [
     "test errors: errors of the triangle test, not of the structure. ties: hits on another triangle at the same depth; not errors.",
 ];
 
-/// One row per ray: number of the ray, t, triangle, and where on it.
+/// One row per ray: number of the ray, t, triangle, and the position on it.
 pub fn answers(label: &str, accel: &Arc<dyn DynAccel>, rays: &[Ray], mesh: &Mesh, limit: Duration) -> Vec<Vec<Cell>> {
     let row = |(i, ray): (usize, &Ray)| {
         let mut row: Vec<Cell> = vec![label.into(), format!("{} ({ray})", i + 1).into()];
@@ -118,5 +118,5 @@ pub fn answer_table(scene: &str, of_structures: &[Vec<Vec<Cell>>]) -> Table {
     let rows = (0..rays).flat_map(|ray| of_structures.iter().map(move |rows| rows[ray].clone()));
     let note = "u, v: barycentric weights of the second and third corner where the ray meets the triangle's plane, in f64. \
                 Triangle numbers start at 0.";
-    Table::new(format!("{scene}: hits"), ANSWERS, rows).noted(vec![note.into()])
+    Table::new(format!("{scene}: hits"), ANSWERS, rows).noted([note])
 }

@@ -1,4 +1,4 @@
-//! What a structure can be asked.
+//! The features that a structure supports.
 
 use std::borrow::Cow;
 
@@ -11,8 +11,8 @@ use crate::geometry::{Hit, Ray};
 /// [`Accel::TRIANGLE_TEST`](super::Accel::TRIANGLE_TEST) a private triangle test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Capabilities {
-    /// Whether it has its own any-hit query. If not, any hit uses the closest hit so that pictures can be drawn; it is
-    /// neither checked nor timed.
+    /// Whether it has its own any-hit query. If not, any hit uses the closest hit, for drawing pictures; it is neither
+    /// checked nor timed.
     pub any_hit: bool,
     /// Whether it ignores hits before a `t_min` above 0.
     pub t_min: bool,
@@ -34,7 +34,7 @@ impl Capabilities {
 
     /// The feature of `ray` that the structure declines, if any.
     pub fn declines(self, ray: &Ray) -> Option<&'static str> {
-        // What is not a number is no end that could be left out.
+        // A NaN end is not an omitted one.
         let (from_start, endless) = (ray.t_min <= 0.0, ray.t_max == f32::INFINITY);
         match () {
             () if !self.t_min && !from_start => Some("t_min"),

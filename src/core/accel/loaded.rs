@@ -3,7 +3,7 @@ use crate::geometry::Hit;
 /// A batch of rays that a structure has loaded ([`Accel::load`](super::Accel::load)). Its queries are timed and may be
 /// repeated.
 ///
-/// Every time the results are those of the structure's queries for the same rays, bit for bit.
+/// The results always equal those from the structure's queries for the same rays, bit for bit.
 pub trait Loaded: Send + Sync {
     /// The nearest hits of the rays.
     ///

@@ -42,6 +42,6 @@ impl Observed {
     pub const ALL: Self = Self { steps: true, tests: true };
     /// Triangle tests only.
     pub const TESTS: Self = Self { steps: false, tests: true };
-    /// Nothing.
+    /// No events.
     pub const NONE: Self = Self { steps: false, tests: false };
 }

@@ -74,7 +74,7 @@ mod tests {
 
     use super::*;
 
-    /// Inner nodes and leaves as a test writes them.
+    /// Inner nodes and leaves in the notation of a test.
     enum Tree {
         Node(Vec<Tree>),
         Leaf(usize),

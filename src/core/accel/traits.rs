@@ -11,7 +11,7 @@ use serde::de::DeserializeOwned;
 use super::{Capabilities, Counts, Footprint, Loaded, Observed, Observer, Remote, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
 
-/// Why a build failed.
+/// The reason why a build failed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BuildError {
     /// A configuration value is out of range; the sentence states the value and the allowed range.
@@ -85,7 +85,7 @@ pub trait Accel: Sized + Send + Sync + 'static {
     ///
     /// The default uses the closest hit. If the structure declines [`Capabilities::t_max`], the default also checks
     /// that the rounded `t` of this hit lies before `t_max`. A structure that keeps the default should decline
-    /// [`Capabilities::any_hit`], so that its time is not reported as the time of an any-hit query.
+    /// [`Capabilities::any_hit`]: otherwise its time would be reported as the time of an any-hit query.
     #[inline]
     fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
         let may_be_beyond = !Self::CAPABILITIES.t_max;
@@ -120,8 +120,8 @@ pub trait Accel: Sized + Send + Sync + 'static {
     ///
     /// The default keeps the rays unchanged, and every query prepares them in its timed region. This is right for every
     /// structure that traces a [`Ray`] directly, such as all structures of this crate. An adapter to a library with its
-    /// own ray type converts the rays here, once, so that the conversion is not timed. Only data that depends on the
-    /// rays alone may be prepared here: no traversal, no hits.
+    /// own ray type converts the rays here, once, so the conversion is not timed. Only data that depends on nothing but
+    /// the rays may be prepared here: no traversal, no hits.
     fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
         Box::new(RayBatch { accel: self, rays })
     }
@@ -135,9 +135,9 @@ pub trait Accel: Sized + Send + Sync + 'static {
 
 /// [`Accel`] without its type: one virtual call per batch; everything inside is monomorphised.
 pub trait DynAccel: Send + Sync {
-    /// As [`Accel::closest_hits`], without an observer.
+    /// See [`Accel::closest_hits`]; without an observer.
     fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]);
-    /// As [`Accel::any_hits`], without an observer.
+    /// See [`Accel::any_hits`]; without an observer.
     fn any_hits(&self, rays: &[Ray], hits: &mut [bool]);
     /// The closest hit of each ray.
     fn closest(&self, rays: &[Ray]) -> Vec<Option<Hit>> {
@@ -151,11 +151,11 @@ pub trait DynAccel: Send + Sync {
         self.any_hits(rays, &mut hits);
         hits
     }
-    /// As `closest_hits`; adds the work to `counts`.
+    /// Like `closest_hits`; adds the work to `counts`.
     fn closest_hits_counted(&self, rays: &[Ray], hits: &mut [Option<Hit>], counts: &mut Counts);
-    /// As `any_hits`; adds the work to `counts`.
+    /// Like `any_hits`; adds the work to `counts`.
     fn any_hits_counted(&self, rays: &[Ray], hits: &mut [bool], counts: &mut Counts);
-    /// As [`Accel::load`].
+    /// See [`Accel::load`].
     fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
         Box::new(RayBatch { accel: self, rays })
     }
@@ -165,9 +165,9 @@ pub trait DynAccel: Send + Sync {
     fn capabilities(&self) -> Capabilities {
         Capabilities::ALL
     }
-    /// As [`Accel::footprint`].
+    /// See [`Accel::footprint`].
     fn footprint(&self) -> Footprint;
-    /// As [`Accel::shape`].
+    /// See [`Accel::shape`].
     fn shape(&self) -> TreeShape;
     /// Additional information, if the structure runs in another process.
     fn remote(&self) -> Option<&dyn Remote> {
@@ -175,7 +175,7 @@ pub trait DynAccel: Send + Sync {
     }
 }
 
-// Compiled once, not once for each structure and triangle test.
+// Compiled once, not separately for each structure and triangle test.
 impl dyn DynAccel + '_ {
     /// The closest hit of each ray. All threads of the pool trace chunks of `chunk` rays.
     pub fn closest_by_chunks(&self, rays: &[Ray], chunk: usize) -> Vec<Option<Hit>> {
@@ -224,7 +224,7 @@ impl<A: Accel> DynAccel for A {
     }
 }
 
-/// A batch of rays as they are: the structure prepares them in each query.
+/// A batch of unprepared rays: the structure prepares them in each query.
 pub(crate) struct RayBatch<'a, A: ?Sized> {
     pub accel: &'a A,
     pub rays: Cow<'a, [Ray]>,

@@ -1,4 +1,4 @@
-/// What `of` makes of each axis, on threads of their own where there is `much` to do.
+/// The results of `of` on all axes, computed in parallel if there is `much` work.
 pub(super) fn on_axes<T: Send>(much: bool, of: impl Fn(usize) -> T + Sync) -> [T; 3] {
     if !much {
         return [0, 1, 2].map(of);

@@ -1,9 +1,9 @@
-//! The binary tree of tight boxes that every wide tree is collapsed from, for all partitions.
+//! The binary tree of tight boxes, from which all wide trees are collapsed, for all partitions.
 
 use crate::geometry::Aabb;
 
-/// Leaves of a partition and how they were found, depth first: a node, then all below its first child, then all below
-/// its second. So what is below a node is a range, of nodes and of references.
+/// Leaves of a partition and the splits above them, depth first: a node, then all nodes below its first child, then all
+/// below its second. So the subtree of a node is a range of nodes and a range of references.
 ///
 /// Without triangles there are no nodes.
 #[derive(Clone, Debug, Default)]
@@ -16,12 +16,12 @@ pub(crate) struct BinaryTree {
 /// A part of the scene.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BinaryNode {
-    /// Holds what the triangles of this part have inside of it, rounded outward; never empty.
+    /// Contains the parts of the triangles inside this part of space, rounded outward; never empty.
     pub bounds: Aabb,
     pub content: Content,
 }
 
-/// What a part is made of.
+/// The content of a part.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Content {
     /// Two nodes, by number.
@@ -31,7 +31,7 @@ pub(crate) enum Content {
 }
 
 impl BinaryTree {
-    /// Adds the nodes of `other` behind these.
+    /// Appends the nodes of `other`.
     pub fn append(&mut self, other: Self) {
         let (nodes, references) = (self.nodes.len() as u32, self.references.len() as u32);
         self.nodes.extend(other.nodes.into_iter().map(|node| {

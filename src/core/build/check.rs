@@ -1,4 +1,4 @@
-//! What the tests of all partitions need: meshes, and what every binary tree must keep.
+//! Helpers for the tests of all partitions: meshes, and the invariants of every binary tree.
 
 use std::fmt::Debug;
 
@@ -18,7 +18,7 @@ pub fn mesh(count: usize, corners: impl FnMut(usize) -> [Vec3; 3]) -> Mesh {
     Mesh::from_triangles(&triangles).unwrap()
 }
 
-/// What `build` gives must not depend on the number of threads.
+/// Checks that the result of `build` does not depend on the number of threads.
 pub fn same_on_threads<R: Debug>(build: impl Fn() -> R + Sync) {
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
@@ -33,12 +33,12 @@ pub fn soup(count: usize, seed: u64) -> Mesh {
     mixed(count, seed, 50, 0.1)
 }
 
-/// The same with more of the large ones, so that many straddle.
+/// The same with more large triangles: many straddle a plane.
 pub fn straddling_soup(count: usize, seed: u64) -> Mesh {
     mixed(count, seed, 10, 0.2)
 }
 
-/// Small triangles, and a large one among `every` so many.
+/// Small triangles, and one large one among `every`.
 fn mixed(count: usize, seed: u64, every: usize, small: f32) -> Mesh {
     let mut rng = Pcg32::seed_from_u64(seed);
     mesh(count, |i| {
@@ -56,7 +56,7 @@ pub fn needles(count: usize, seed: u64) -> Mesh {
     })
 }
 
-/// A room: walls, floor and tables of right-angled triangles in planes of the axes, as buildings have them.
+/// A room: walls, floor and tables of right-angled triangles in planes of the axes, as in buildings.
 pub fn room(cells: usize) -> Mesh {
     let mut corners = vec![];
     for axis in 0..3 {
@@ -76,7 +76,7 @@ pub fn room(cells: usize) -> Mesh {
     Mesh::from_triangles(&corners).unwrap()
 }
 
-/// A point of a triangle, at random.
+/// A random point of a triangle.
 pub fn point_in(rng: &mut Pcg32, corners: [Vec3; 3]) -> DVec3 {
     let [p, q, r] = corners.map(Vec3::as_dvec3);
     let (u, v) = (f64::from(rng.next_u32()) / 4294967295.0, f64::from(rng.next_u32()) / 4294967295.0);
@@ -89,12 +89,11 @@ pub fn holds(bounds: &Aabb, point: DVec3) -> bool {
     bounds.min.as_dvec3().cmple(point).all() && bounds.max.as_dvec3().cmpge(point).all()
 }
 
-/// The boxes and references of all leaves, after checking what holds for every tree: leaves of at most `most`
-/// references.
+/// The boxes and references of all leaves. Checks the invariants of every tree; leaves have at most `most` references.
 pub fn leaves(tree: &BinaryTree, most: u32) -> Vec<(Aabb, &[u32])> {
     let mut found = vec![];
     let mut next = 0;
-    // What must come next, depth first.
+    // The expected next nodes, depth first.
     let mut stack = if tree.nodes.is_empty() { vec![] } else { vec![0] };
     for (at, node) in tree.nodes.iter().enumerate() {
         assert_eq!(stack.pop(), Some(at as u32), "nodes are in depth-first order");
@@ -115,11 +114,11 @@ pub fn leaves(tree: &BinaryTree, most: u32) -> Vec<(Aabb, &[u32])> {
         }
     }
     assert_eq!(next as usize, tree.references.len());
-    assert!(stack.is_empty(), "every node is there");
+    assert!(stack.is_empty(), "every node exists");
     found
 }
 
-/// Every point of every triangle lies in a leaf that holds it, as far as points at random tell.
+/// Checks with random points that every point of every triangle lies in a leaf that has the triangle.
 pub fn covers(tree: &BinaryTree, mesh: &Mesh, seed: u64) {
     let mut of = vec![vec![]; mesh.len()];
     for (bounds, ids) in leaves(tree, u32::MAX) {
@@ -135,7 +134,7 @@ pub fn covers(tree: &BinaryTree, mesh: &Mesh, seed: u64) {
     }
 }
 
-/// No two leaves have a volume in common.
+/// Checks that no two leaves have a volume in common.
 pub fn disjoint(leaves: &[(Aabb, &[u32])]) {
     for (i, (a, _)) in leaves.iter().enumerate() {
         for (b, _) in &leaves[..i] {

@@ -1,32 +1,31 @@
-//! The box of the part of a triangle that lies in a cell: what makes a split "perfect".
+//! The box of the part of a triangle in a cell, which makes a split "perfect".
 
 use glam::{DVec3, Vec3};
 
 use crate::geometry::{Aabb, round_down, round_up};
 
-/// At most this many corners are left when six planes have cut a triangle.
+/// Maximum number of corners after six planes have cut a triangle.
 const CORNERS: usize = 9;
 
-/// By how much a computed corner is off on an axis, as a share of the triangle's largest coordinate on it, at most: one
-/// interpolation a + (b - a) w with w = (s - a) / (b - a) takes five roundings of up to twice that coordinate and one
-/// of it, and at most seven interpolations follow each other: 77 units of 2^-53.
+/// Maximum error of a computed corner on an axis, as a share of the triangle's largest coordinate on it. One
+/// interpolation a + (b - a) w with w = (s - a) / (b - a) has five roundings of up to twice that coordinate and one of
+/// it, and at most seven interpolations follow each other: 77 units of 2^-53.
 ///
-/// Planes are moved outward by as much. So a point that is kept exactly is kept here too, off by what the corners
-/// around it are off, however flat the angle at which an edge with computed ends crosses the plane.
+/// Planes are moved outward by this error. So a point that is exactly inside stays inside, with the error of the
+/// corners around it, at any angle between the plane and an edge with computed ends.
 const ERROR: f64 = 128.0 / (1u64 << 53) as f64;
 
 /// A box that contains the part of the triangle `corners` in `cell`, inside `cell` and inside `known`, a box of the
 /// part in some larger cell.
 ///
-/// Clips in f64 (Sutherland, Hodgman 1974) and rounds outward, so that nothing of the triangle is lost; where rounding
-/// leaves no polygon at all, the answer is `known` cut by the cell: a triangle that reaches into the cell is never
-/// dropped.
+/// Clips in f64 (Sutherland, Hodgman 1974) and rounds outward: the box contains the whole part. If rounding leaves no
+/// polygon at all, the result is `known` cut by the cell: a triangle that reaches into the cell is never dropped.
 pub(crate) fn clipped_bounds(corners: [Vec3; 3], cell: &Aabb, known: &Aabb) -> Aabb {
     Polygon::clipped(corners, cell).corner_box().in_cut(known.intersection(*cell))
 }
 
-/// The boxes of both sides of a plane: [`clipped_bounds`] of the parts of `bounds` below and above, where `bounds` is a
-/// box of the part of the triangle in some cell and the plane meets its inside.
+/// The boxes of both sides of a plane: [`clipped_bounds`] of the parts of `bounds` below and above. `bounds` is a box
+/// of the part of the triangle in some cell, and the plane meets its inside.
 pub(crate) fn cut_bounds(corners: [Vec3; 3], bounds: &Aabb, axis: usize, plane: f32) -> (Aabb, Aabb) {
     let polygon = Polygon::clipped(corners, bounds);
     let (below, above) = bounds.cut(axis, plane);
@@ -38,8 +37,8 @@ pub(crate) fn cut_bounds(corners: [Vec3; 3], bounds: &Aabb, axis: usize, plane: 
     (half(below, -1.0), half(above, 1.0))
 }
 
-/// The area of the part of the triangle `corners` in `cell`, its faces included. Off by less than 1e-12 of the square
-/// of the triangle's largest coordinate.
+/// The area of the part of the triangle `corners` in `cell`, including its faces. The error is below 1e-12 of the
+/// square of the triangle's largest coordinate.
 #[cfg(feature = "suite")]
 pub fn clipped_area(corners: [Vec3; 3], cell: &Aabb) -> f64 {
     let mut polygon = Polygon { slack: DVec3::ZERO, ..Polygon::new(corners) };
@@ -47,7 +46,7 @@ pub fn clipped_area(corners: [Vec3; 3], cell: &Aabb) -> f64 {
     polygon.area()
 }
 
-/// Corners, and for each whether it was computed (and hence rounded) rather than given.
+/// Corners, and for each whether it was computed (and hence rounded) or given.
 struct Polygon {
     corners: [(DVec3, bool); CORNERS],
     len: usize,
@@ -71,7 +70,7 @@ impl Polygon {
         polygon
     }
 
-    /// Leaves what of it lies in `cell`.
+    /// Cuts the polygon to its part in `cell`.
     fn cut_to(&mut self, cell: &Aabb) {
         for axis in 0..3 {
             self.keep(axis, cell.min[axis].into(), 1.0);
@@ -83,7 +82,7 @@ impl Polygon {
         self.corners[..self.len].iter().copied()
     }
 
-    /// How far off a corner may be.
+    /// The maximum error of a corner.
     fn slack_of(&self, computed: bool) -> DVec3 {
         if computed { self.slack } else { DVec3::ZERO }
     }
@@ -101,7 +100,7 @@ impl Polygon {
         fan.sum::<DVec3>().length() * 0.5
     }
 
-    /// Cuts away what surely lies beyond the plane.
+    /// Cuts away the part that certainly lies beyond the plane.
     fn keep(&mut self, axis: usize, plane: f64, side: f64) {
         let bound = plane - side * self.slack[axis];
         if self.corners().all(|(p, _)| side * (p[axis] - bound) >= 0.0) {
@@ -116,8 +115,8 @@ impl Polygon {
         (self.corners, self.len) = (after, len);
     }
 
-    /// Visits the corners of what does not surely lie beyond the plane: keeps points with `side * (p[axis] - plane) >=
-    /// 0` and some slack.
+    /// Visits the corners of the part that may lie on this side of the plane: keeps points with `side * (p[axis] -
+    /// plane) >= 0` and some slack.
     #[inline(always)]
     fn kept(&self, axis: usize, plane: f64, side: f64, mut visit: impl FnMut(DVec3, bool)) {
         let plane = plane - side * self.slack[axis];
@@ -128,7 +127,7 @@ impl Polygon {
                 visit(p, computed);
             }
             if inside(p) != inside(q) {
-                // Both directions of an edge give the same point.
+                // Both directions of an edge must give the same point.
                 let (a, b) = if inside(p) { (p, q) } else { (q, p) };
                 let mut crossing = a + (b - a) * ((plane - a[axis]) / (b[axis] - a[axis]));
                 crossing[axis] = plane;
@@ -152,7 +151,7 @@ impl CornerBox {
         self.max = self.max.max(p + slack);
     }
 
-    /// Rounded outward to f32, what of it is in `cut`; `cut` where rounding has left nothing.
+    /// The box of the polygon within `cut`, rounded outward to f32; `cut` if rounding has left nothing.
     fn in_cut(&self, cut: Aabb) -> Aabb {
         let tight = Aabb {
             min: Vec3::from_array(self.min.to_array().map(round_down)),
@@ -245,8 +244,8 @@ mod tests {
         assert!(clipped.contains(&Aabb::of_points([Vec3::ZERO])), "{clipped:?}");
     }
 
-    /// Planes close to 0 cut triangles with large coordinates, where corners are computed less exactly than the planes
-    /// are apart.
+    /// Planes close to 0 cut triangles with large coordinates: the error of corners is larger than the distance between
+    /// the planes.
     #[test]
     fn nothing_is_lost_where_edges_almost_lie_in_planes() {
         use std::cmp::Ordering::{Equal, Greater, Less};
@@ -254,7 +253,7 @@ mod tests {
         let mut rng = rand_pcg::Pcg32::seed_from_u64(12);
         let mut cuts = 0;
         for _ in 0..100_000 {
-            // A triangle through the neighbourhood of the origin, on which two coordinates are often the same.
+            // A triangle through the neighbourhood of the origin; two coordinates are often equal.
             let middle = point(&mut rng) * SMALL;
             let mut reach: [Vec3; 2] = std::array::from_fn(|_| point(&mut rng) * 1e4);
             let [a, b, flat] = std::array::from_fn(|_| (rng.next_u32() % 3) as usize);
@@ -264,7 +263,7 @@ mod tests {
             }
             let corners = [middle - reach[0], middle + reach[0] - reach[1] * 0.5, middle + reach[1]];
 
-            // Where a line along an axis meets it is known exactly.
+            // The intersection of a line along an axis is known exactly.
             let along = (rng.next_u32() % 3) as usize;
             let (mut origin, mut direction) = (point(&mut rng) * SMALL, Vec3::ZERO);
             (origin[along], direction[along]) = (0.0, 1.0);

@@ -12,7 +12,7 @@ pub(crate) struct Cut {
 }
 
 impl Cut {
-    /// On which sides a reference has a part: below, above.
+    /// The sides on which a reference has a part: below, above.
     #[inline(always)]
     pub fn sides(&self, reference: &Reference) -> [bool; 2] {
         let (low, high) = (reference.min(self.axis), reference.max(self.axis));
@@ -22,7 +22,7 @@ impl Cut {
         }
     }
 
-    /// How many references each side gets.
+    /// The number of references on each side.
     pub fn counts(&self, references: &[Reference]) -> [usize; 2] {
         let count = |references: &[Reference]| {
             references.iter().fold([0; 2], |[below, above], r| {

@@ -23,7 +23,7 @@ impl Extent {
         Self { min: point.min(self.min), max: point.max(self.max) }
     }
 
-    /// Half of the surface area of what two boxes have in common; 0 where they have nothing.
+    /// Half of the surface area of the intersection of two boxes; 0 if it is empty.
     pub fn overlap(self, other: Self) -> f64 {
         let common = self.intersection(other);
         if common.min.cmple(common.max).all() { common.half_area() } else { 0.0 }
@@ -34,14 +34,14 @@ impl Extent {
         Self { min: self.min.max(other.min), max: self.max.min(other.max) }
     }
 
-    /// What of the box lies below a plane.
+    /// The part of the box below a plane.
     #[inline(always)]
     pub fn up_to(mut self, axis: usize, plane: f32) -> Self {
         self.max[axis] = self.max[axis].min(plane);
         self
     }
 
-    /// What of the box lies above a plane.
+    /// The part of the box above a plane.
     #[inline(always)]
     pub fn down_to(mut self, axis: usize, plane: f32) -> Self {
         self.min[axis] = self.min[axis].max(plane);
@@ -54,7 +54,7 @@ impl Extent {
         self
     }
 
-    /// Half of the surface area, in `f64` so that it overflows for no mesh; 0 when empty.
+    /// Half of the surface area, in `f64`, which overflows for no mesh; 0 if empty.
     #[inline(always)]
     pub fn half_area(&self) -> f64 {
         half_area(self.min.as_dvec3(), self.max.as_dvec3())

@@ -5,9 +5,9 @@ use super::reference::Reference;
 /// A rule that sorts references into two groups, by the centres of their boxes on an axis.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Group {
-    /// Below are those in the bins up to `last`.
+    /// The first group has the bins up to `last`.
     Bins { bins: Bins, last: usize },
-    /// Below are the first `count` in ascending order of centres.
+    /// The first group has the first `count` references in ascending order of centres.
     First { axis: usize, count: usize },
 }
 
@@ -35,7 +35,7 @@ impl Bins {
     }
 }
 
-/// The half with the lower centres on the axis on which these are farthest apart, in whole blocks; the counts.
+/// The lower half by centres, on the axis with their largest extent, in whole blocks; and both counts.
 pub(crate) fn median(references: &[Reference], block: usize) -> (Group, [usize; 2]) {
     let width = |axis| {
         let (min, max) = centres(references.iter(), axis);
@@ -52,7 +52,7 @@ pub(crate) fn centres<'a>(references: impl Iterator<Item = &'a Reference>, axis:
     references.fold((f32::INFINITY, f32::NEG_INFINITY), with)
 }
 
-/// The places of the references in ascending order of centres, equal ones as they stand.
+/// The indices of the references in ascending order of centres, equal ones in their order.
 pub(crate) fn order(references: &[Reference], axis: usize) -> Vec<u32> {
     let key = |(i, r): (u32, &Reference)| u64::from(ordered_bits(r.centre(axis))) << 32 | u64::from(i);
     let mut keys: Vec<u64> = (0..).zip(references).map(key).collect();
@@ -63,7 +63,8 @@ pub(crate) fn order(references: &[Reference], axis: usize) -> Vec<u32> {
 /// Bits in the order of the floats, the same for both zeros.
 #[inline(always)]
 pub(crate) fn ordered_bits(x: f32) -> u32 {
-    // Negative floats order backwards: flip all their bits, and the sign bit of the others. -0.0 becomes 0.0.
+    // Negative floats are ordered backwards: flip all their bits, and only the sign bit of other floats. -0.0 becomes
+    // 0.0.
     let bits = (x + 0.0).to_bits();
     if bits >> 31 == 1 { !bits } else { bits | 1 << 31 }
 }

@@ -1,4 +1,4 @@
-//! Carrying out a split.
+//! Performs a split.
 
 use rayon::prelude::*;
 
@@ -21,7 +21,7 @@ impl Part {
         Self { references, extent }
     }
 
-    /// The triangles of `mesh` that have an area, whole.
+    /// The whole triangles of `mesh` with an area.
     pub fn whole(mesh: &Mesh) -> Self {
         let ids: Vec<u32> = mesh.solid().collect();
         let references: Vec<Reference> =
@@ -40,7 +40,7 @@ impl Part {
     }
 }
 
-/// Sorts references into two parts of the given sizes; `place` puts one where it belongs.
+/// Divides references into two parts of the given sizes; `place` puts each where it belongs.
 fn deal(
     references: Vec<Reference>,
     counts: [usize; 2],
@@ -55,7 +55,7 @@ fn deal(
         return dealt(&references, counts);
     }
 
-    // Chunks are dealt in any order and joined in their own.
+    // Chunks are divided in any order and joined in order.
     let chunks: Vec<[Part; 2]> = references.par_chunks(CHUNK).map(|chunk| dealt(chunk, [CHUNK / 2; 2])).collect();
     drop(references);
     let (below, above): (Vec<Part>, Vec<Part>) = chunks.into_iter().map(|[below, above]| (below, above)).unzip();
@@ -71,7 +71,7 @@ fn deal(
     [below, above]
 }
 
-/// Cuts at a plane. References on both sides are clipped to each; none is dropped.
+/// Cuts at a plane. References on both sides are clipped to each side; none is dropped.
 pub(crate) fn at_plane(mesh: &Mesh, references: Vec<Reference>, cut: Cut, counts: [usize; 2]) -> [Part; 2] {
     deal(references, counts, |r, [below, above]| match cut.sides(r) {
         [true, true] => {
@@ -84,13 +84,13 @@ pub(crate) fn at_plane(mesh: &Mesh, references: Vec<Reference>, cut: Cut, counts
     })
 }
 
-/// Deals references out to two groups by the [`median`].
+/// Divides references into two groups by the [`median`].
 pub(crate) fn halves(references: Vec<Reference>) -> [Part; 2] {
     let (group, counts) = median(&references, BLOCK);
     by_group(references, group, counts)
 }
 
-/// Sorts into two groups.
+/// Divides into two groups.
 pub(crate) fn by_group(references: Vec<Reference>, group: Group, counts: [usize; 2]) -> [Part; 2] {
     match group {
         Group::Bins { bins, last } => {

@@ -1,14 +1,14 @@
-//! The planes of one axis that a spatial split may take.
+//! The candidate planes of spatial splits on one axis.
 
 use super::sample::Sample;
 
-/// At most this many planes, both ends of the range included; a power of two, so that a mask bounds an index.
+/// Maximum number of planes, including both ends of the range; a power of two, so a mask bounds an index.
 pub(crate) const PLANES: usize = 64;
 
 /// Ascending planes: both ends of a range and, in every cell of an even grid between them, the highest edge of a
-/// reference, or the middle of the cell where no edge is.
+/// reference, or the middle of the cell if it has no edge.
 ///
-/// That a plane is an edge is what keeps walls whole: a plane beside a wall would cut all triangles that end there.
+/// Planes at edges keep walls whole: a plane beside a wall would cut all triangles that end at it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Planes {
     pub axis: usize,
@@ -19,13 +19,13 @@ pub(crate) struct Planes {
 }
 
 impl Planes {
-    /// The planes at `min` and `max` and `count` between them; nothing where there is no room.
+    /// The planes at `min` and `max` and `count` between them; `None` if there is no space.
     pub fn new(axis: usize, (min, max): (f32, f32), count: usize, sample: &Sample) -> Option<Self> {
         let last = count + 1;
         assert!(last < PLANES, "{count} planes between both ends are too many");
         let mut planes =
             Self { axis, min, scale: last as f32 / (max - min), last, values: [f32::NEG_INFINITY; PLANES] };
-        // The second says whether the extent is so large or small that the grid overflows.
+        // The second condition detects an extent so large or small that the grid overflows.
         if min >= max || planes.cell(max) != last {
             return None;
         }
@@ -39,7 +39,7 @@ impl Planes {
         (planes.values[0], planes.values[last]) = (min, max);
         for cell in 1..last {
             if planes.values[cell] == f32::NEG_INFINITY {
-                // Should rounding move the middle to another cell, repeat the last plane: everything in the cell lies
+                // If rounding moves the middle to another cell, repeat the last plane: everything in the cell lies
                 // above it.
                 let middle = min + cell as f32 / planes.scale;
                 planes.values[cell] = if planes.cell(middle) == cell { middle } else { planes.values[cell - 1] };
@@ -48,12 +48,11 @@ impl Planes {
         Some(planes)
     }
 
-    /// The cell of a coordinate: does not decrease where the coordinate increases.
+    /// The cell of a coordinate: it is monotonic in the coordinate.
     #[inline(always)]
     fn cell(&self, x: f32) -> usize {
         let at = ((x - self.min) * self.scale + 0.5).max(0.0).min(self.last as f32);
-        // SAFETY: `max` turns NaN into 0, so that `at` is in [0, `last`]; `new` has checked that `last` is below
-        // `PLANES`.
+        // SAFETY: `max` turns NaN into 0, so `at` is in [0, `last`]; `new` has checked that `last` is below `PLANES`.
         unsafe { at.to_int_unchecked::<i32>() as usize }
     }
 
@@ -68,25 +67,25 @@ impl Planes {
         self.values[i % PLANES]
     }
 
-    /// From the plane before plane `i` to the one after it.
+    /// The range from the plane before plane `i` to the plane after it.
     pub fn around(&self, i: usize) -> (f32, f32) {
         (self.values[i.saturating_sub(1)], self.values[(i + 1).min(self.last)])
     }
 
-    /// Whether plane `i` is another than the one before.
+    /// Whether plane `i` differs from the previous one.
     #[inline(always)]
     pub fn is_new(&self, i: usize) -> bool {
         i == 0 || self.values[i - 1] < self.values[i]
     }
 
-    /// The bin above all planes `<= x`: where something begins that begins at `x`.
+    /// The bin above all planes `<= x`: the first bin of a reference that begins at `x`.
     #[inline(always)]
     pub fn first_bin(&self, x: f32) -> usize {
         let cell = self.cell(x);
         cell + usize::from(self.value(cell) <= x)
     }
 
-    /// The bin below all planes `>= x`: where something ends that ends at `x`.
+    /// The bin below all planes `>= x`: the last bin of a reference that ends at `x`.
     #[inline(always)]
     pub fn last_bin(&self, x: f32) -> usize {
         let cell = self.cell(x);

@@ -6,17 +6,17 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Quality {
-    /// Few candidate planes, selected from few references in larger nodes; with planes alone also fewer references and
-    /// larger leaves. Takes 1.0 to 1.7 times as long as obvhs `medium`, with planes alone 1.6 to 2.4, on two threads at
-    /// most 1.9 times. Builds by groups take 0.8 of the time of `Balanced`, by both kinds of splits 0.6, by planes 0.4;
-    /// rays are 0.89 to 1.05 times as fast, in the kitchen 0.95, 0.84 and 0.79 to 0.87.
+    /// Few candidate planes, selected from few references in larger nodes; with only planes also fewer references and
+    /// larger leaves. A build takes 1.0 to 1.7 x as long as obvhs `medium`, with only planes 1.6 to 2.4 x, on two
+    /// threads at most 1.9 x. Relative to `Balanced`, builds by groups take 0.8 of the time, by both kinds of splits
+    /// 0.6, by planes 0.4; rays have 0.89 to 1.05 of the speed, in the kitchen 0.95, 0.84 and 0.79 to 0.87.
     Fast,
-    /// A finer search around the best plane; then parts of the tree move to better places. Takes 0.15 to 0.92 times as
-    /// long as obvhs `very-slow`.
+    /// A finer search around the best plane; then parts of the tree move to better places. A build takes 0.15 to 0.92 x
+    /// as long as obvhs `very-slow`.
     #[default]
     Balanced,
-    /// Slices of triangles instead of boxes (for cells, more planes), and more moves: 0.94 to 1.01 times the SAH cost
-    /// of `Balanced`. Builds take 1.0 to 1.2 times as long, with both kinds of splits 1.1 to 1.6, with tight boxes of
-    /// planes 1.9 to 2.4; rays are 0.97 to 1.02 times as fast, for cells in the kitchen 1.05.
+    /// Slices of triangles instead of boxes (for cells, more planes), and more moves: 0.94 to 1.01 of the SAH cost of
+    /// `Balanced`. Builds take 1.0 to 1.2 x as long, with both kinds of splits 1.1 to 1.6 x, with tight boxes of planes
+    /// 1.9 to 2.4 x; rays have 0.97 to 1.02 of the speed, for cells in the kitchen 1.05.
     High,
 }

@@ -4,14 +4,14 @@ use super::clip::cut_bounds;
 use super::extent::Extent;
 use crate::geometry::{Aabb, Mesh};
 
-/// Nodes of at least this many references are worked on by several threads.
+/// Nodes with at least this many references are processed by several threads.
 pub(crate) const PARALLEL: usize = 4096;
 
-/// References that one thread works on at a time.
+/// References per task of a thread.
 pub(crate) const CHUNK: usize = 2048;
 
-/// A triangle and the box of the part of it that a node answers for: each corner of the box is one load, with the
-/// number of the triangle beside the lower one.
+/// A triangle and the box of its part in a node: each corner of the box is one load, with the number of the triangle
+/// beside the lower one.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
 pub(crate) struct Reference {
@@ -21,12 +21,12 @@ pub(crate) struct Reference {
 
 impl Reference {
     pub fn new(id: u32, Aabb { min, max }: Aabb) -> Self {
-        // Meshes have fewer than 2^30 triangles, so that the bits of a number are never those of a NaN, which a copy
-        // might change.
+        // Meshes have fewer than 2^30 triangles: the bits of a number are never the bits of a NaN, which a copy might
+        // change.
         Self { low: min.extend(f32::from_bits(id)).to_array(), high: max.extend(0.0).to_array() }
     }
 
-    /// A triangle of the mesh, whole.
+    /// A whole triangle of the mesh.
     pub fn whole(mesh: &Mesh, id: u32) -> Self {
         Self::new(id, mesh.triangle_bounds(id))
     }
@@ -37,13 +37,13 @@ impl Reference {
         self.low[3].to_bits()
     }
 
-    /// Where the box begins on an axis.
+    /// The lower end of the box on an axis.
     #[inline(always)]
     pub fn min(&self, axis: usize) -> f32 {
         self.low[axis & 3]
     }
 
-    /// Where the box ends on an axis.
+    /// The upper end of the box on an axis.
     #[inline(always)]
     pub fn max(&self, axis: usize) -> f32 {
         self.high[axis & 3]

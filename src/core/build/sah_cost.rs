@@ -6,15 +6,15 @@ use crate::geometry::Aabb;
 pub(crate) const BLOCK: usize = 8;
 
 /// Expected cost of a tree for a random line that meets its box (Goldsmith, Salmon 1987; MacDonald, Booth 1990), with
-/// the empty-space bonus of Wald and Havran (2006). Leaves test a block of triangles at once, so a leaf costs by the
-/// block: counting triangles instead gave trees of the same speed and 40 % more memory.
+/// the empty-space bonus of Wald and Havran (2006). Leaves test a block of triangles at once, so the cost of a leaf is
+/// per block: counting triangles instead gave trees of the same speed and 40 % more memory.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CostModel {
-    /// Of a step from a node to its children.
+    /// Cost of a step from a node to its children.
     step: f64,
-    /// Of testing a block.
+    /// Cost of testing a block.
     block: f64,
-    /// Share of the cost of a split that is saved where it cuts off empty space.
+    /// Share of the cost of a split that is saved if it cuts off empty space.
     empty_bonus: f64,
 }
 
@@ -23,14 +23,13 @@ impl CostModel {
         Self { step: step.into(), block: block.into(), empty_bonus: empty_bonus.into() }
     }
 
-    /// Of testing `count` triangles.
+    /// Cost of testing `count` triangles.
     #[inline(always)]
     pub fn leaf(&self, count: usize) -> f64 {
         self.block * count.div_ceil(BLOCK) as f64
     }
 
-    /// Of a cell with half area `1 / inverse_area` whose sides, of which half areas and counts are given, become
-    /// leaves.
+    /// Cost of a cell with half area `1 / inverse_area` whose sides become leaves with the given half areas and counts.
     #[inline(always)]
     pub fn cell_split(
         &self,
@@ -43,19 +42,19 @@ impl CostModel {
         if below == 0 || above == 0 { cost * (1.0 - self.empty_bonus) } else { cost }
     }
 
-    /// Of a box of half area `area` with `count` triangles, times its area.
+    /// Cost of a box of half area `area` with `count` triangles, times its area.
     #[inline(always)]
     pub fn box_leaf(&self, area: f64, count: usize) -> f64 {
         area * self.block * count.div_ceil(BLOCK) as f64
     }
 
-    /// Of a box whose children cost `children`, times its area; `children` is times theirs.
+    /// Cost of a box, times its area; `children` is the cost of its children, times their areas.
     #[inline(always)]
     pub fn box_node(&self, area: f64, children: f64) -> f64 {
         self.step * area + children
     }
 
-    /// Of a box that is split into two leaves with these areas and counts, times its area.
+    /// Cost of a box that is split into two leaves with these areas and counts, times its area.
     #[inline(always)]
     pub fn box_split(&self, area: f64, areas: [f64; 2], counts: [usize; 2]) -> f64 {
         self.box_node(area, self.box_leaf(areas[0], counts[0]) + self.box_leaf(areas[1], counts[1]))

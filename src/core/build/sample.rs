@@ -1,6 +1,6 @@
 use super::reference::Reference;
 
-/// Some of the references of a node, evenly spread: of thousands, a sample finds a split as good as all do.
+/// Some evenly spread references of a node: among thousands, a sample finds a split as good as all do.
 #[derive(Clone, Copy)]
 pub(crate) struct Sample<'a> {
     references: &'a [Reference],
@@ -26,12 +26,12 @@ impl<'a> Sample<'a> {
         self.references.len().div_ceil(self.stride)
     }
 
-    /// Number of references that it is taken from.
+    /// Number of references in the node.
     pub fn whole(&self) -> usize {
         self.references.len()
     }
 
-    /// How many of the whole `count` in the sample stand for.
+    /// The estimated number of references in the node for `count` references in the sample.
     #[inline(always)]
     pub fn scaled(&self, count: usize) -> usize {
         (count * self.stride).min(self.references.len())

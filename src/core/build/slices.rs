@@ -1,4 +1,4 @@
-//! Boxes of the slices that parallel planes cut a triangle into: for the cost of a split, not for the tree.
+//! Boxes of the slices of a triangle between parallel planes: for the cost of a split, not for the tree.
 
 use glam::Vec3A;
 
@@ -8,7 +8,7 @@ use super::planes::Planes;
 /// A triangle with its corners in ascending order on an axis.
 struct Slicer<const AXIS: usize> {
     corners: [Vec3A; 3],
-    /// Reciprocal lengths of the edges 0-1, 1-2 and 0-2 on the axis; 0 where there is none.
+    /// Reciprocal lengths of the edges 0-1, 1-2 and 0-2 on the axis; 0 for a length of 0.
     inverse: [f32; 3],
 }
 

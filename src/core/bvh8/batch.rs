@@ -14,11 +14,11 @@ use crate::traversal::leaf::Nearest;
 use crate::traversal::walk::{silent, single};
 use crate::triangle::{Depth, INPUTS, TriangleTest, last_bits};
 
-/// Rays of a slice that are traced before the next window begins: so many that the rays at the end of a window, when
-/// fewer and fewer are under way, hardly count.
+/// Rays of a slice that are traced before the next window begins: so many that the end of a window, where few rays are
+/// active, hardly matters.
 const WINDOW: usize = 4096;
 
-/// Groups of a window, by their numbers in ascending order; the last one may be shorter.
+/// Groups of a window, by index in ascending order; the last one may be shorter.
 pub(super) struct Groups {
     numbers: [u8; WINDOW / RAYS],
     len: usize,
@@ -29,7 +29,7 @@ const _: () = assert!(WINDOW / RAYS <= 1 << u8::BITS);
 impl Groups {
     const NONE: Self = Self { numbers: [0; WINDOW / RAYS], len: 0 };
 
-    /// All of a window of `rays` rays.
+    /// All groups of a window of `rays` rays.
     #[cfg(test)]
     pub fn all(rays: usize) -> Self {
         Self { numbers: std::array::from_fn(|i| i as u8), len: rays.div_ceil(RAYS) }
@@ -41,14 +41,14 @@ impl Groups {
         self.len += 1;
     }
 
-    /// The places of their rays in a window of `rays`.
+    /// The index ranges of their rays in a window of `rays`.
     #[inline(always)]
     fn places(&self, rays: usize) -> impl Iterator<Item = Range<usize>> {
         let first = |&number: &u8| usize::from(number) * RAYS;
         self.numbers[..self.len].iter().map(first).map(move |first| first..rays.min(first + RAYS))
     }
 
-    /// The same, with groups that follow each other joined.
+    /// The same ranges, with adjacent groups joined.
     fn runs(&self, rays: usize) -> impl Iterator<Item = Range<usize>> {
         let numbers = &self.numbers[..self.len];
         numbers.chunk_by(|one, next| next - one == 1).map(move |run| {
@@ -67,7 +67,7 @@ impl Groups {
     }
 }
 
-/// Hits whose `t` are computed together, so that the last bit of one does not wait for that of the one before.
+/// Hits whose `t` are computed together: the last bit of one does not wait for the previous one.
 struct HitBatch {
     /// The inputs of their `t`, and their rays and triangles.
     inputs: [[f32; HITS]; INPUTS],
@@ -97,7 +97,7 @@ impl HitBatch {
         self.len == HITS
     }
 
-    /// Hands the hits to `hit` and empties the batch.
+    /// Passes the hits to `hit` and empties the batch.
     #[inline(always)]
     fn finish<D: Depth>(&mut self, level: Level, mut hit: impl FnMut(usize, Hit)) {
         let len = std::mem::take(&mut self.len);
@@ -111,7 +111,7 @@ impl HitBatch {
     }
 }
 
-/// One after the other.
+/// Traces one ray after the other.
 struct InOrder<'a, const ANY: bool, T: TriangleTest, A, F> {
     tree: &'a Bvh8<T>,
     rays: &'a [Ray],
@@ -182,8 +182,8 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
     }
 }
 
-/// Traces some groups of a window with several rays under way at once: a kernel of its own, because it is a third
-/// slower beside another traversal in the same function.
+/// Traces some groups of a window with several rays at once: a separate kernel, because it is a third slower beside
+/// another traversal in the same function.
 pub(super) struct Interleaved<'a, const ANY: bool, T: TriangleTest, A, F> {
     pub tree: &'a Bvh8<T>,
     pub rays: &'a [Ray],
@@ -211,7 +211,7 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
     }
 }
 
-/// Whether four of the rays are of one octant: a quick test that rejects most groups that form no packet.
+/// Whether four of the rays have the same octant: a quick test that rejects most groups that cannot form a packet.
 #[inline(always)]
 fn alike(rays: &[Ray; RAYS]) -> bool {
     let signs = |i: usize| each(&rays[i].direction.to_array(), |x| x.to_bits());
@@ -220,7 +220,7 @@ fn alike(rays: &[Ray; RAYS]) -> bool {
     (differ(5) | differ(10) | differ(15)) >> 31 == 0
 }
 
-/// Traces `rays` on the current level; hits are in the order of the rays.
+/// Traces `rays` on the current SIMD level; hits are in the order of the rays.
 ///
 /// # Panics
 /// If the slices differ in length.
@@ -233,7 +233,7 @@ pub(super) fn answer<const ANY: bool, T: TriangleTest, A, O: Observer>(
 ) {
     assert_eq!(rays.len(), answers.len(), "one answer a ray");
     if O::ACTIVE {
-        // Counts are those of single rays.
+        // Count the steps of single rays.
         for (answer, ray) in answers.iter_mut().zip(rays) {
             *answer = form(single::<ANY, _, O>(tree, ray, observer));
         }
@@ -250,7 +250,7 @@ pub(super) fn answer<const ANY: bool, T: TriangleTest, A, O: Observer>(
     }
 }
 
-/// Traces the groups of a window that form no packet in the faster of two ways.
+/// Traces the groups of a window that form no packet, with the faster of two strategies.
 fn answer_apart<const ANY: bool, T: TriangleTest, A>(
     level: Level,
     tree: &Bvh8<T>,

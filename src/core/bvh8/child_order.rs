@@ -5,8 +5,8 @@
 use super::collapse::Collapse;
 
 impl Collapse<'_> {
-    /// The lanes of the at most `parts` parts of `at` as rays of each octant should visit them, three bits each, the
-    /// last one lowest; and how many bits these are. Takes the lanes in the order in which the parts are gathered.
+    /// The lanes of the at most `parts` parts of `at` in the visiting order of each octant, three bits each, the last
+    /// one lowest; and the number of these bits. Takes the lanes in the order in which the parts are gathered.
     pub(super) fn orders<'b>(
         &self,
         at: u32,
@@ -29,7 +29,7 @@ impl Collapse<'_> {
         (std::array::from_fn(order), left_bits + right_bits)
     }
 
-    /// The axis along which the boxes are furthest apart, and whether `r` comes before `l` on it.
+    /// The axis with the largest distance of the boxes, and whether `r` comes before `l` on it.
     fn apart(&self, l: u32, r: u32) -> (usize, bool) {
         let [l, r] = [l, r].map(|at| &self.tree.nodes[at as usize].bounds);
         let (up, down) = (r.min - l.max, l.min - r.max);
@@ -49,7 +49,7 @@ mod tests {
     use crate::build::sah_cost::CostModel;
     use crate::build::sbvh::{SbvhConfig, Splits, build};
 
-    /// The parts as rays of an octant see them, gathered for that octant alone.
+    /// The parts in the visiting order of one octant, gathered separately for it.
     fn gathered(collapse: &Collapse, at: u32, parts: usize, octant: usize, into: &mut Vec<Part>) {
         match collapse.dealt(at, parts) {
             Some([l, r]) => {

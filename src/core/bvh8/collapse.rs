@@ -1,4 +1,4 @@
-//! Which nodes of a binary tree become nodes and leaves of a wide one, chosen by dynamic programming.
+//! Selects the nodes of a binary tree that become nodes and leaves of a wide one, by dynamic programming.
 //!
 //! # References
 //! Ylitie, Karras, Laine: Efficient incoherent ray traversal on GPUs through compressed wide BVHs. HPG 2017, section 4.
@@ -8,13 +8,13 @@ use crate::build::binary_tree::{BinaryTree, Content};
 use crate::build::sah_cost::CostModel;
 use crate::geometry::Aabb;
 
-/// Blocks of the largest leaf that is made of several.
+/// Maximum number of blocks of a leaf that is merged from several.
 const LARGEST: usize = 8;
 
-/// Nodes above at least so many others are decided about by several threads.
+/// Several threads process nodes with at least this many nodes below them.
 const PARALLEL: usize = 2048;
 
-/// For each node of a binary tree how it is represented best by at most 1 to 7 parts.
+/// For each node of a binary tree, its best representation by at most 1 to 7 parts.
 pub(super) struct Collapse<'a> {
     pub(super) tree: &'a BinaryTree,
     best: Vec<Best>,
@@ -23,16 +23,16 @@ pub(super) struct Collapse<'a> {
 /// The choices for one node.
 #[derive(Clone, Copy)]
 struct Best {
-    /// `cost[i]`: of at most `i + 1` parts.
+    /// `cost[i]`: with at most `i + 1` parts.
     cost: [f32; WIDTH - 1],
-    /// `left[i]`: how many of at most `i + 1` parts the first child gets; 0 where one part less is as good.
-    /// `left[WIDTH - 1]`: the same where the node is a wide node.
+    /// `left[i]`: the number of parts, of at most `i + 1`, for the first child; 0 if one part less is as good.
+    /// `left[WIDTH - 1]`: the same for a wide node.
     left: [u8; WIDTH],
-    /// Whether one part alone is a leaf.
+    /// Whether a single part is a leaf.
     leaf: bool,
-    /// The references below: the first, and the one after the last.
+    /// The range of references below.
     references: [u32; 2],
-    /// So many different triangles, or more, are among them.
+    /// A lower bound of the number of different triangles among them.
     triangles: u32,
 }
 
@@ -53,27 +53,27 @@ pub(super) enum Part {
 pub(super) struct Children {
     parts: [Part; WIDTH],
     len: usize,
-    /// For each octant of directions the order that nodes hold.
+    /// The visiting order for each octant of directions, as stored in nodes.
     pub orders: [u32; 8],
 }
 
 impl Children {
-    /// In the order of lanes, up to the last one.
+    /// The parts in the order of lanes, up to the last one.
     pub fn parts(&self) -> &[Part] {
         &self.parts[..self.len]
     }
 }
 
-/// What every choice knows.
+/// The inputs of every choice.
 struct Chooser<'a> {
     tree: &'a BinaryTree,
     costs: &'a CostModel,
-    /// Shares of the root's area fit an `f32`, whatever the unit of length.
+    /// Shares of the root's area fit an `f32` in any unit of length.
     whole: f64,
 }
 
 impl Chooser<'_> {
-    /// Chooses for the node `at` and all below, which `best` is about.
+    /// Chooses for the node `at` and its subtree, whose choices are `best`.
     fn choose(&self, at: usize, best: &mut [Best], ids: &mut Vec<u32>) {
         let node = &self.tree.nodes[at];
         let area = node.bounds.half_area() / self.whole;
@@ -101,7 +101,7 @@ impl Chooser<'_> {
     }
 
     fn inner(&self, area: f64, [l, r]: [&Best; 2], ids: &mut Vec<u32>) -> Best {
-        // The best way to give `parts` to the two children.
+        // The best distribution of `parts` to the two children.
         let distribute = |parts: usize| {
             let with = |left: usize| (l.cost[left - 1] + r.cost[parts - left - 1], left as u8);
             (1..parts).map(with).min_by(|a, b| a.0.total_cmp(&b.0)).expect("at least two parts")
@@ -125,14 +125,14 @@ impl Chooser<'_> {
         best
     }
 
-    /// What all triangles below a node cost as one leaf; infinite where they are too many, or cost more than `limit`.
+    /// The cost of all triangles below a node as one leaf; infinite if they are too many, or cost more than `limit`.
     fn merged(&self, area: f64, limit: f32, best: &mut Best, ids: &mut Vec<u32>) -> f32 {
         let most = (LARGEST * WIDTH) as u32;
         let [first, end] = best.references;
         if end - first > 2 * most || best.triangles > most || self.as_leaf(area, best.triangles) > limit {
             return f32::INFINITY;
         }
-        // A triangle may be in several leaves: count again before giving up.
+        // A triangle may be in several leaves: count distinct ones before giving up.
         ids.clear();
         ids.extend_from_slice(&self.tree.references[first as usize..end as usize]);
         ids.sort_unstable();
@@ -152,18 +152,18 @@ impl<'a> Collapse<'a> {
         if let Some(root) = tree.nodes.first() {
             let whole = Some(root.bounds.half_area()).filter(|&whole| whole > 0.0).unwrap_or(1.0);
             Chooser { tree, costs, whole }.choose(0, &mut best, &mut vec![]);
-            // A root of several blocks stays below a box, which spares the rays that miss them all.
+            // A root with several blocks stays below a box: rays that miss it test nothing.
             best[0].leaf &= best[0].triangles as usize <= WIDTH;
         }
         Self { tree, best }
     }
 
-    /// What the root becomes; nothing without triangles.
+    /// The part of the root; `None` without triangles.
     pub fn root(&self) -> Option<Part> {
         (!self.best.is_empty()).then(|| self.part(0))
     }
 
-    /// What is below a part; a triangle may be there several times.
+    /// The references below a part; a triangle may occur several times.
     pub fn references(&self, part: Part) -> &[u32] {
         let (Part::Node(at) | Part::Leaf(at)) = part;
         let [first, end] = self.best[at as usize].references;
@@ -174,7 +174,7 @@ impl<'a> Collapse<'a> {
     pub fn children(&self, at: u32) -> Children {
         let (mut found, mut len) = ([Part::Leaf(0); WIDTH], 0);
         self.gather(at, WIDTH, &mut |part| {
-            // What is not dealt out is the one child of its node.
+            // A part that is not distributed is the only child of its node.
             found[len] = if part == Part::Node(at) { Part::Leaf(at) } else { part };
             len += 1;
         });
@@ -186,7 +186,7 @@ impl<'a> Collapse<'a> {
         let mut lanes = [0; WIDTH];
         (empty as u32..).zip(&places[..len]).for_each(|(lane, &place)| lanes[place] = lane);
 
-        // Empty lanes come after the last, so that the first to visit is looked at first.
+        // Empty lanes come after the last, so the first lane to visit is tested first.
         let unused = (0..empty as u32).rev().fold(0, |order, lane| order << 3 | lane);
         let orders = self.orders(at, WIDTH, &mut lanes.iter()).0.map(|order| order << (3 * empty) | unused);
         Children { parts: places.map(|place| found[place]), len, orders }
@@ -196,7 +196,7 @@ impl<'a> Collapse<'a> {
         if self.best[at as usize].leaf { Part::Leaf(at) } else { Part::Node(at) }
     }
 
-    /// How at most `parts` parts of `at` are dealt to its children: nothing where it is one part itself.
+    /// The distribution of at most `parts` parts of `at` to its children; `None` if it is a single part.
     pub(super) fn dealt(&self, at: u32, parts: usize) -> Option<[(u32, usize); 2]> {
         let left = |parts: usize| (parts, self.best[at as usize].left[parts - 1] as usize);
         let (parts, left) = (1..=parts).rev().map(left).find(|&(_, left)| left > 0)?;
@@ -227,7 +227,7 @@ mod tests {
     use crate::build::check::soup;
     use crate::build::sbvh::{SbvhConfig, Splits, build};
 
-    /// Merged leaves are counted only where they may win; here always.
+    /// Merged leaves are counted only if they may win; here always.
     #[test]
     fn leaves_that_are_not_counted_would_not_have_won() {
         let tree = build(&soup(3000, 44), &SbvhConfig::new(Splits::Spatial, Quality::Balanced));

@@ -24,7 +24,7 @@ pub struct Bvh8Config {
     /// Maximum number of references, as a multiple of the triangles: a guard against inputs that explode. At least 1;
     /// [`Quality::Fast`] uses at most 1.75.
     pub duplication: f32,
-    /// How a slice of rays is traced; only [`Batch::Single`] over tests that are not
+    /// The tracing of a slice of rays; only [`Batch::Single`] over tests that are not
     /// [`BATCHED`](TriangleTest::BATCHED).
     pub batch: Batch,
 }
@@ -43,7 +43,7 @@ pub enum Partition {
     Objects,
 }
 
-/// How a slice of rays is traced; the hits are always the same.
+/// The tracing of a slice of rays; the hits are always the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Batch {
@@ -76,7 +76,7 @@ impl Bvh8Config {
 
     /// Partitions the triangles of `mesh`.
     pub(super) fn partition(&self, mesh: &Mesh) -> BinaryTree {
-        // Trees without object splits have twice the nodes and less to gain.
+        // Trees without object splits have twice as many nodes and less to gain.
         let passes = match (self.quality, self.partition) {
             (Quality::Fast, Partition::Objects) => 2,
             (Quality::Fast, _) => 0,
@@ -84,7 +84,7 @@ impl Bvh8Config {
             (Quality::Balanced, _) => 3,
             (Quality::High, _) => 8,
         };
-        // Making references is what takes the time where planes cut triangles.
+        // Making references takes most of the time if planes cut triangles.
         let duplication = if self.quality == Quality::Fast { self.duplication.min(1.75) } else { self.duplication };
         let boxes = |splits| sbvh::build(mesh, &SbvhConfig { duplication, ..SbvhConfig::new(splits, self.quality) });
         let tree = match self.partition {

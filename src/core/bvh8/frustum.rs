@@ -1,4 +1,4 @@
-//! What rays of one octant have in common.
+//! Common bounds of rays of one octant.
 
 use super::node::{Node, WIDTH};
 use super::prepared_ray::rows;
@@ -7,14 +7,14 @@ use crate::simd::{Lanes, each};
 
 /// Bounds of the crossings of several rays with a plane.
 ///
-/// **It rejects only what every ray rejects.** A ray computes a near crossing as fl(fl(p - o) i). Subtraction and
-/// multiplication round monotonically, so that the least of fl(fl(p - o') i') over the corners of the ranges of o and i
-/// is not above it; which o' is least is known from the sign of the direction. Likewise for the far crossings. Where
-/// the bound of a near crossing exceeds that of a far one, so do the crossings of each ray.
+/// **It rejects only boxes that every ray rejects.** A ray computes a near crossing as fl(fl(p - o) i). Subtraction and
+/// multiplication round monotonically, so the least fl(fl(p - o') i') over the corners of the ranges of o and i is not
+/// above it; the sign of the direction determines the least o'. The same holds for the far crossings. If the bound of a
+/// near crossing exceeds the bound of a far one, so do the crossings of each ray.
 pub(super) struct Frustum<L> {
     near_origin: [L; 3],
     far_origin: [L; 3],
-    /// The least and the greatest.
+    /// By axis, the least and the greatest inverse.
     inverse: [[L; 2]; 3],
     enlarged: [[L; 2]; 3],
     t_min: L,

@@ -1,4 +1,4 @@
-//! Writes nodes and leaf blocks, depth first but for the top of the tree, which comes first.
+//! Writes nodes and leaf blocks depth first, except the top of the tree, which comes first.
 
 use rayon::prelude::*;
 
@@ -10,10 +10,10 @@ use crate::traversal::leaf::LeafBlock;
 use crate::traversal::pages;
 use crate::triangle::TriangleTest;
 
-/// What is below a node with at most this many references is written by one thread.
+/// One thread writes the subtree of a node with at most this many references.
 const PIECE: usize = 4096;
 
-/// What a walk goes through.
+/// The data of a traversal.
 pub(super) struct Layout<T: TriangleTest> {
     pub root: Child,
     pub nodes: Vec<Node>,
@@ -21,7 +21,7 @@ pub(super) struct Layout<T: TriangleTest> {
 }
 
 impl<T: TriangleTest> Layout<T> {
-    /// The tree that `collapse` has chosen. It does not depend on the number of threads.
+    /// The tree of `collapse`. It does not depend on the number of threads.
     ///
     /// # Errors
     /// If it exceeds the limits.
@@ -46,7 +46,7 @@ impl<T: TriangleTest> Layout<T> {
         Self::joined(root, top, pieces, limits)
     }
 
-    /// The pieces behind `top`, which says where they were cut off.
+    /// Joins the pieces behind `top`, which contains their places.
     fn joined(root: Child, mut top: Piece<T>, pieces: Vec<Piece<T>>, limits: &Limits) -> Result<Self, BuildError> {
         let whole = || pieces.iter().chain([&top]);
         let nodes = whole().map(|piece| piece.nodes.len()).sum();
@@ -89,12 +89,12 @@ struct Piece<'a, T: TriangleTest> {
     blocks: Vec<LeafBlock<T, WIDTH>>,
     /// Nodes on the longest path from the root.
     depth: usize,
-    /// Nodes below the first with at most this many references are left to others.
+    /// Subtrees with at most this many references are left to other threads.
     cut: usize,
     cuts: Vec<Cut>,
 }
 
-/// What is left to others: where it belongs, and how many nodes are above it.
+/// A subtree that is left to another thread: its place, and the number of nodes above it.
 struct Cut {
     part: Part,
     parent: usize,
@@ -133,13 +133,13 @@ impl<'a, T: TriangleTest> Piece<'a, T> {
         }
     }
 
-    /// Whether others write it.
+    /// Whether another thread writes it.
     fn is_left(&self, part: Part) -> bool {
         matches!(part, Part::Node(_)) && self.collapse.references(part).len() <= self.cut
     }
 
     fn leaf(&mut self, part: Part) -> Child {
-        // A triangle may be in several of the leaves that became one.
+        // A triangle may be in several of the merged leaves.
         let mut ids = self.collapse.references(part).to_vec();
         ids.sort_unstable();
         ids.dedup();
@@ -161,7 +161,7 @@ mod tests {
 
     type Tree = Layout<MollerTrumbore>;
 
-    /// What can be seen of the subtree at a child: boxes, orders and triangles, depth first.
+    /// The visible content of the subtree at a child: boxes, orders and triangles, depth first.
     fn seen(tree: &Tree, child: Child, into: &mut Vec<String>) {
         match child.blocks() {
             Some((first, count)) => {

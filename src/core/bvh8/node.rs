@@ -5,32 +5,32 @@ use glam::Vec3;
 use crate::accel::BuildError;
 use crate::geometry::Aabb;
 
-/// The deepest tree that a traversal can follow, in nodes.
+/// Maximum depth of a tree, in nodes, that a traversal can follow.
 pub(super) const DEPTH: usize = 100;
 
 /// Children of a node.
 pub(super) const WIDTH: usize = 8;
 
-/// How large a tree may be.
+/// The size limits of a tree.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
     /// Nodes on a path.
     pub levels: usize,
     pub nodes: usize,
     pub blocks: usize,
-    /// Nodes of the binary tree that it is made of, and references in that.
+    /// Nodes of its binary tree, and references in that tree.
     pub binary: usize,
 }
 
 impl Limits {
-    /// What children can name and walks can follow.
+    /// The limits of child references and of traversals.
     pub const OF_NODES: Self =
         Self { levels: DEPTH, nodes: Child::LARGEST, blocks: Child::LARGEST, binary: u32::MAX as usize };
 
-    /// Before anything is built: so many triangles, of which each takes so many references on average at most.
+    /// Checks before the build that `triangles` triangles with on average at most `duplication` references are allowed.
     ///
     /// # Errors
-    /// If the binary tree might have more nodes or references than it can name: it has fewer than two nodes a
+    /// If the binary tree might have more nodes or references than it can number: it has fewer than two nodes per
     /// reference.
     pub fn admit(&self, triangles: usize, duplication: f32) -> Result<(), BuildError> {
         let most = 2.0 * f64::from(duplication) * triangles as f64;
@@ -58,15 +58,15 @@ impl Limits {
     }
 }
 
-/// Eight boxes, coordinate by coordinate, and what is in them: 256 bytes, four cache lines.
+/// Eight boxes, coordinate by coordinate, and their contents: 256 bytes, four cache lines.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(super) struct Node {
     /// By axis, the lower and the upper planes of the boxes.
     pub planes: [[[f32; WIDTH]; 2]; 3],
     pub children: [Child; WIDTH],
-    /// For each octant of directions (bit 0 is set for a negative x), the lanes from the last to the first that such a
-    /// ray should visit: three bits each, the last one lowest. The lanes not in use are the lowest ones, and come last.
+    /// For each octant of directions (bit 0 is set for a negative x), the order in which such a ray visits the lanes:
+    /// three bits per lane, the last lane in the lowest bits. Unused lanes have the lowest numbers and come last.
     pub orders: [u32; 8],
 }
 
@@ -80,15 +80,15 @@ pub(super) struct Child(u32);
 impl Child {
     const LEAF: u32 = 1 << 31;
     const COUNT_BITS: u32 = 4;
-    /// Blocks of the largest leaf.
+    /// Maximum number of blocks of a leaf.
     pub const BLOCKS: usize = (1 << Self::COUNT_BITS) - 1;
-    /// Nodes, and blocks, that a child can name.
+    /// Number of nodes, and of blocks, that a child can refer to.
     pub const LARGEST: usize = 1 << (31 - Self::COUNT_BITS);
 
-    /// A leaf of nothing.
+    /// A leaf without triangles.
     pub const NOTHING: Self = Self(Self::LEAF);
 
-    /// A leaf of nothing that is in no node.
+    /// A leaf without triangles that is in no node.
     pub const BOTTOM: Self = Self(Self::LEAF | 1 << Self::COUNT_BITS);
 
     pub fn node(at: usize) -> Self {
@@ -106,20 +106,20 @@ impl Child {
         self.0 & Self::LEAF != 0
     }
 
-    /// The first block of a leaf and how many it has; nothing for a node.
+    /// The first block of a leaf and the number of its blocks; `None` for a node.
     #[inline(always)]
     pub fn blocks(self) -> Option<(usize, usize)> {
         self.is_leaf().then_some(self.leaf_blocks())
     }
 
-    /// The first block of what is known to be a leaf and how many it has.
+    /// The first block of a known leaf and the number of its blocks.
     #[inline(always)]
     pub fn leaf_blocks(self) -> (usize, usize) {
         let first = (self.0 & !Self::LEAF) >> Self::COUNT_BITS;
         (first as usize, (self.0 & Self::BLOCKS as u32) as usize)
     }
 
-    /// The same child where `nodes` nodes and `blocks` blocks have come before its own.
+    /// The same child after `nodes` nodes and `blocks` blocks have been placed before its own.
     pub fn moved(self, nodes: usize, blocks: usize) -> Self {
         match self.blocks() {
             None => Self::node(self.index() + nodes),
@@ -131,7 +131,7 @@ impl Child {
     /// Eight children as they are in memory.
     #[inline(always)]
     pub fn bits(children: &[Self; WIDTH]) -> &[u32; WIDTH] {
-        // SAFETY: `Child` is a transparent `u32`, so that arrays of both have one layout.
+        // SAFETY: `Child` is a transparent `u32`, so arrays of both have one layout.
         unsafe { &*(&raw const *children).cast() }
     }
 
@@ -159,12 +159,12 @@ impl Node {
         self.children[lane] = child;
     }
 
-    /// The same node where `nodes` nodes and `blocks` blocks have come before those of its part of the tree.
+    /// The same node after `nodes` nodes and `blocks` blocks have been placed before its part of the tree.
     pub fn moved(self, nodes: usize, blocks: usize) -> Self {
         Self { children: self.children.map(|child| child.moved(nodes, blocks)), ..self }
     }
 
-    /// The boxes in use, and what is in them.
+    /// The used boxes and their contents.
     pub fn boxes(&self) -> impl Iterator<Item = (Aabb, Child)> + '_ {
         let corner =
             |side: usize, lane: usize| Vec3::from_array(std::array::from_fn(|axis| self.planes[axis][side][lane]));

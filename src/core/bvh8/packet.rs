@@ -3,12 +3,12 @@
 //! **The same hits as one ray at a time.** A packet visits the children of a node in the order of the octant that its
 //! rays share. A ray participates in a visit if and only if its own box test, with its own end, passes. The test of the
 //! whole packet rejects only boxes that each of its rays rejects (see [`Frustum`]). So every ray visits all leaves that
-//! it visits alone, in the same order, and perhaps some behind its hit, because eight rays at once bound the `t` of a
-//! hit less closely.
+//! it visits on its own, in the same order, and perhaps some behind its hit, because eight rays at once bound the `t`
+//! of a hit less closely.
 //!
 //! A leaf that nearly all rays visit is searched triangle by triangle, eight rays at once; other leaves are searched
 //! ray by ray. If the test of eight rays cannot decide whether a ray meets a triangle, or which of two hits is nearer,
-//! that ray searches the leaf again alone. The nearest of the same hits does not depend on the order.
+//! that ray searches the leaf again on its own. The nearest of the same hits does not depend on the order.
 
 use std::mem::MaybeUninit;
 
@@ -26,10 +26,10 @@ use crate::triangle::TriangleTest;
 /// A packet with at most this many active rays is finished one ray at a time.
 const FEW: u32 = 3;
 
-/// The order 0 to 7, three bits a lane.
+/// The order 0 to 7, three bits per lane.
 const IN_LANES: u32 = 0o76543210;
 
-/// A child to visit, where its box is stored, and the rays that may visit it.
+/// A child to visit, the place of its box, and the rays that may visit it.
 #[derive(Clone, Copy)]
 struct Entry {
     child: Child,
@@ -63,8 +63,8 @@ impl<T: TriangleTest> Bvh8<T> {
                 self.one_by_one::<ANY, L>(child, active, &mut packet, &mut state);
             } else {
                 // SAFETY: a child that is no leaf names one of `nodes`, and a path has at most `DEPTH` of them
-                // (invariants of `Bvh8`). Each node above this one has left at most seven entries, so that eight more
-                // fit in `SIZE`.
+                // (invariants of `Bvh8`). Each node above this one has left at most seven entries, so eight more fit in
+                // `SIZE`.
                 unsafe {
                     let node = self.nodes.get_unchecked(child.index());
                     let met = frustum.meet(node);
@@ -88,8 +88,8 @@ impl<T: TriangleTest> Bvh8<T> {
                     return true;
                 }
                 len -= 1;
-                // SAFETY: entries are written before `len` counts them; their parent is the node that they were read
-                // from.
+                // SAFETY: entries are written before `len` counts them; their parent is the node from which they were
+                // read.
                 let (entry, node) = unsafe {
                     let entry = stack.get_unchecked(len).assume_init();
                     (entry, self.nodes.get_unchecked(entry.parent as usize))

@@ -7,17 +7,18 @@ use crate::triangle::{Depth, EightHits, TriangleTest};
 pub(super) const RAYS: usize = 16;
 pub(super) const HALVES: usize = RAYS / WIDTH;
 
-/// The nearest hits of sixteen rays so far, or the ends of their intervals, side by side: a [`Nearest`] each.
+/// The nearest hits of sixteen rays so far, or the ends of their intervals, side by side: the data of a [`Nearest`]
+/// each.
 pub(super) struct PacketHits<'a, T: TriangleTest> {
     /// The blocks of the tree.
     blocks: &'a [LeafBlock<T, WIDTH>],
     t: [[f32; WIDTH]; HALVES],
-    /// Lower bounds of the `t` of the hits; infinite where nothing is found.
+    /// Lower bounds of the `t` of the hits; infinite without a hit.
     least: [[f32; WIDTH]; HALVES],
-    /// [`NONE`] where nothing is found.
+    /// [`NONE`] without a hit.
     ids: [[u32; WIDTH]; HALVES],
-    /// Where the triangles hit are stored, unless they were found by single rays: eight times the number of the block,
-    /// plus the lane.
+    /// The places of the hit triangles, unless single rays found them: eight times the number of the block, plus the
+    /// lane.
     places: [[u32; WIDTH]; HALVES],
     /// The hits of the rays in `alone`.
     depths: [Option<T::Depth<'a>>; RAYS],
@@ -38,7 +39,7 @@ pub(super) struct HitLanes<L: EightLanes> {
 
 impl<L: EightLanes> HitLanes<L> {
     /// Updates the lanes of `active` with the hits of triangle `id` at `place` that are nearer, or as near with a lower
-    /// number. Returns the lanes where that cannot be decided, as bits.
+    /// number. Returns the undecided lanes, as bits.
     #[inline(always)]
     pub fn offer<T: TriangleTest>(&mut self, active: L::Mask, found: &EightHits<L>, id: u32, place: u32) -> u32 {
         let id = L::splat_number(id);
@@ -66,7 +67,7 @@ impl<L: EightLanes> HitLanes<L> {
 }
 
 impl<'a, T: TriangleTest> PacketHits<'a, T> {
-    /// Nothing found yet; hits of ray `i` must lie at or before `last(i)`.
+    /// No hits yet; hits of ray `i` must lie at or before `last(i)`.
     #[inline(always)]
     pub fn until(blocks: &'a [LeafBlock<T, WIDTH>], last: impl Fn(usize) -> f32) -> Self {
         let mut hits = Self {
@@ -121,7 +122,7 @@ impl<'a, T: TriangleTest> PacketHits<'a, T> {
         }
     }
 
-    /// As [`Nearest::offer`], for ray `i` and a test whose depth is a float.
+    /// Like [`Nearest::offer`], for ray `i` and a test whose depth is a float.
     #[inline(always)]
     pub fn offer(&mut self, i: usize, t: f32, id: u32) {
         let (own, own_id) = (&mut self.t[i / WIDTH][i % WIDTH], &mut self.ids[i / WIDTH][i % WIDTH]);
@@ -130,8 +131,8 @@ impl<'a, T: TriangleTest> PacketHits<'a, T> {
         }
     }
 
-    /// The same for a test whose depth is more than a float, and a triangle stored at `place`; false if it cannot be
-    /// decided which hit is nearer.
+    /// The same for a test whose depth is more than a float, and a triangle stored at `place`; false if the order of
+    /// the two hits is undecided.
     #[inline(always)]
     pub fn offer_between(&mut self, i: usize, depth: &T::Depth<'_>, id: u32, place: u32) -> bool {
         let (half, lane) = (i / WIDTH, i % WIDTH);

@@ -10,13 +10,13 @@ use crate::simd::{EightLanes, Level, each};
 use crate::traversal::leaf::{LeafBlock, NONE, Nearest, settle};
 use crate::triangle::{BETWEEN_BOUNDS, Depth, ORIGIN, TriangleTest, last_bits};
 
-/// With fewer rays a leaf is searched ray by ray: hardly any of them hits something, which that search finds out
-/// sooner. With so many, both halves have some.
+/// With fewer rays a leaf is searched ray by ray: hardly any of them hits a triangle, which that search detects sooner.
+/// With so many, both halves have active rays.
 const MANY: u32 = 12;
 
 pub(super) struct PacketState<'a, T: TriangleTest> {
     rays: &'a [Ray; RAYS],
-    /// The rays in the form of the triangle test, prepared at their first leaf: many never visit one.
+    /// The rays in the format of the triangle test, prepared at their first leaf: many never visit one.
     prepared: [MaybeUninit<T::Ray>; RAYS],
     ready: u16,
     nearest: PacketHits<'a, T>,
@@ -55,7 +55,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         self.unfinished
     }
 
-    /// Hands the hit of each ray to `answer`.
+    /// Passes the hit of each ray to `answer`.
     #[allow(clippy::needless_range_loop)] // a lane is a column of many
     #[inline(always)]
     pub fn answer<const ANY: bool, L: EightLanes>(
@@ -91,7 +91,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         }
     }
 
-    /// Ray `i` for a search of its own: in the form of the test, its `t_min`, and its nearest hit so far.
+    /// Ray `i` for a separate search: in the format of the test, its `t_min`, and its nearest hit so far.
     #[inline(always)]
     pub fn single(&mut self, i: usize) -> (&T::Ray, f32, Nearest<T::Depth<'a>>) {
         self.prepare(1 << i);
@@ -99,7 +99,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         (unsafe { self.prepared(i) }, self.t_min[i], self.nearest.get(i))
     }
 
-    /// Stores the nearest hit that ray `i` has found in a search of its own.
+    /// Stores the nearest hit that a separate search has found for ray `i`.
     #[inline(always)]
     pub fn put_back<const ANY: bool, L: EightLanes>(
         &mut self,
@@ -139,7 +139,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     }
 
     /// Triangle by triangle, half of the rays at once. No branch depends on which rays meet a triangle, because such a
-    /// branch cannot be predicted. Returns the rays that must search the leaf alone.
+    /// branch cannot be predicted. Returns the rays that must search the leaf on their own.
     #[inline(always)]
     fn triangle_by_triangle<L: EightLanes>(
         &mut self,
@@ -172,8 +172,8 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     }
 
     /// Ray by ray, the triangles of a block at once. The first stage runs for all rays before the second stage decides
-    /// about the candidates: whether a ray has any cannot be predicted, and a mispredicted branch costs as much as the
-    /// tests of two rays. With `ANY`, rays that have a hit stop.
+    /// the candidates: whether a ray has any cannot be predicted, and a mispredicted branch costs as much as the tests
+    /// of two rays. With `ANY`, rays with a hit stop.
     #[inline(always)]
     fn ray_by_ray<const ANY: bool, L: EightLanes>(
         &mut self,
@@ -219,7 +219,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         }
     }
 
-    /// Decides about the candidates of ray `i`.
+    /// Decides the candidates of ray `i`.
     ///
     /// # Safety
     /// [`prepare`](Self::prepare) has prepared the ray.
@@ -264,7 +264,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         }
     }
 
-    /// Ray `i` in the form of the triangle test.
+    /// Ray `i` in the format of the triangle test.
     ///
     /// # Safety
     /// [`prepare`](Self::prepare) has prepared the ray.

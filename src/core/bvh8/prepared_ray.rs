@@ -13,18 +13,18 @@ use crate::traversal::line::inverses;
 /// crosses the near plane at n <= t* and the far plane at f >= t*. The near crossing is computed as N = fl(p - o) i,
 /// rounded, where i = fl(1 / d); the far one as F = fl(p - o) g, rounded, where g is i enlarged by 8 units of 2^-23.
 /// Two roundings move N away from n by less than 2.1 units of 2^-24, relatively, and three move F by less than 3.1 from
-/// 16 units beyond f. So N <= F for the planes of any two axes where n is not negative, and t_min <= F; and because the
-/// last rounding is monotonic, also where the products underflow, the rounded ones are in that order. Where n is
-/// negative, t_min stands for it. `end` is 8 units beyond the last parameter of interest, which n does not exceed;
-/// where N overflows, `end` is infinite (see [`Line`](crate::traversal::line::Line)), and so is F. Infinite crossings
-/// (`d` = 0) order correctly, and what has no answer is NaN (see [`inverses`]), which leaves the interval as it is.
-/// Nothing is fused, so that all levels visit the same boxes for the same `end`.
+/// 16 units beyond f. So N <= F for the planes of any two axes if n is not negative, and t_min <= F; because the last
+/// rounding is monotonic, the rounded ones have the same order, even if the products underflow. If n is negative, t_min
+/// replaces it. `end` is 8 units beyond the last parameter of interest, which n does not exceed; if N overflows, `end`
+/// is infinite (see [`Line`](crate::traversal::line::Line)), and so is F. Infinite crossings (`d` = 0) order correctly,
+/// and undefined ones are NaN (see [`inverses`]), which leaves the interval unchanged. Nothing is fused: all levels
+/// visit the same boxes for the same `end`.
 #[derive(Clone, Copy)]
 pub(super) struct PreparedRay<L> {
     origin: [L; 3],
     inverse: [L; 3],
     enlarged: [L; 3],
-    /// By axis, how many bytes of planes come before those that are near and those that are far.
+    /// By axis, the byte offsets of the near and of the far planes.
     near: [usize; 3],
     far: [usize; 3],
     t_min: L,
@@ -32,10 +32,10 @@ pub(super) struct PreparedRay<L> {
     pub octant: usize,
 }
 
-/// The factor by which the crossings of far planes are enlarged.
+/// The factor that enlarges the crossings of far planes.
 pub(super) const ENLARGED: f32 = 1.0 + 8.0 * f32::EPSILON;
 
-/// By axis, which of the six rows of planes are near and which are far for rays of an octant.
+/// By axis, the rows of planes, among six, that are near and that are far for rays of an octant.
 #[inline(always)]
 pub(super) fn rows(octant: usize) -> ([usize; 3], [usize; 3]) {
     let [x, y, z] = indexed(|axis| octant >> axis & 1);
@@ -43,7 +43,7 @@ pub(super) fn rows(octant: usize) -> ([usize; 3], [usize; 3]) {
 }
 
 impl<L: Lanes<WIDTH>> PreparedRay<L> {
-    /// For boxes in `bounds`.
+    /// Prepares `ray` for boxes in `bounds`.
     #[inline(always)]
     pub fn new(ray: &Ray, bounds: &Aabb, t_min: f32) -> Self {
         let octant = Vec3A::from(ray.direction).is_negative_bitmask();
@@ -66,15 +66,15 @@ impl<L: Lanes<WIDTH>> PreparedRay<L> {
         }
     }
 
-    /// Where the ray enters and leaves the boxes, both within the interval: it misses those that it leaves before it
-    /// enters.
+    /// The parameters at which the ray enters and leaves the boxes, both within the interval: it misses a box that it
+    /// leaves before it enters.
     #[inline(always)]
     pub fn cross(&self, node: &Node, end: L) -> (L, L) {
         let planes = (&raw const node.planes).cast::<u8>();
         let (mut enter, mut leave) = (self.t_min, end);
         for axis in 0..3 {
             // SAFETY: `near` and `far` are the offsets that `of` has computed from numbers of `rows`, all below the six
-            // rows of `planes`; a row of floats is aligned as the node is.
+            // rows of `planes`; a row of floats has the alignment of the node.
             let (near, far) = unsafe { (&*planes.add(self.near[axis]).cast(), &*planes.add(self.far[axis]).cast()) };
             enter = L::load(near).sub(self.origin[axis]).mul(self.inverse[axis]).max(enter);
             leave = L::load(far).sub(self.origin[axis]).mul(self.enlarged[axis]).min(leave);

@@ -11,7 +11,7 @@ use crate::triangle::{DIRECTION, EightRays, INPUTS, ORIGIN};
 /// One number of each ray.
 type Row = [[f32; WIDTH]; HALVES];
 
-/// The rays of a packet: for each the numbers of its [`PreparedRay`].
+/// The rays of a packet: the numbers of a [`PreparedRay`] for each.
 pub(super) struct RayPacket<L> {
     pub origin: [[L; HALVES]; 3],
     direction: [[L; HALVES]; 3],
@@ -26,8 +26,8 @@ pub(super) struct RayPacket<L> {
     pub octant: usize,
 }
 
-/// The eight numbers of eight rays, transposed: a row of each number. A function, because a closure as large as this is
-/// not always inlined, and then is not compiled for the level.
+/// The eight numbers of eight rays, transposed: a row for each number. A function, because a closure as large as this
+/// is not always inlined, and then is not compiled for the level.
 #[inline(always)]
 fn numbers<L: EightLanes>(rays: &[Ray]) -> [L; 8] {
     let mut rows = [L::zero(); WIDTH];
@@ -47,7 +47,7 @@ fn greatest<L: EightLanes>(lanes: L) -> f32 {
 
 impl<L: EightLanes> RayPacket<L> {
     /// For rays of one octant without zero components whose inverses are finite and whose differences to planes in
-    /// `bounds` do not overflow; nothing for other rays. The ends are not set yet.
+    /// `bounds` do not overflow; `None` for other rays. The ends are not set yet.
     #[inline(always)]
     pub fn new(rays: &[Ray; RAYS], bounds: &Aabb) -> Option<Self> {
         let (low, high) = rays.split_at(WIDTH);
@@ -56,7 +56,7 @@ impl<L: EightLanes> RayPacket<L> {
         let (origin, direction) = ([row(0), row(1), row(2)], [row(4), row(5), row(6)]);
         let mut octant = 0;
         for (axis, [low, high]) in direction.iter().enumerate() {
-            // Zeros of either sign are refused below, because their inverses are infinite.
+            // Zeros of either sign are rejected below, because their inverses are infinite.
             match low.lt(L::zero()) | high.lt(L::zero()) << WIDTH {
                 0 => {}
                 0xffff => octant |= 1 << axis,
@@ -68,7 +68,7 @@ impl<L: EightLanes> RayPacket<L> {
         let enlarged = each(&inverse, |halves| each(halves, |i| i.mul(L::splat(ENLARGED))));
         let (t_min, t_max) = (each(&row(3), |t| t.max(L::zero())), row(7));
 
-        // The conditions of `Ray::is_valid` and `inverses`, and that no inverse, enlarged or not, is infinite or NaN.
+        // The conditions of `Ray::is_valid` and `inverses`; no inverse, enlarged or not, may be infinite or NaN.
         let abs = |x: L| x.flip_sign(x);
         let mut good = u32::MAX;
         for half in 0..HALVES {

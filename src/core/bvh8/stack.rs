@@ -7,32 +7,32 @@ use crate::simd::EightLanes;
 
 /// Each node leaves at most seven children behind, and eight are written at once.
 pub(super) const SIZE: usize = DEPTH * (WIDTH - 1) + WIDTH;
-/// The bottom, what all nodes of a path but the last one leave behind, and the eight children of that.
+/// The bottom, the remaining children of all nodes of a path except the last one, and its eight children.
 const _: () = assert!(1 + (DEPTH - 1) * (WIDTH - 1) + WIDTH <= SIZE);
 
-/// Children to visit, the next one on top, and where the ray enters them. Not initialised, because that would cost more
-/// than a short traversal.
+/// Children to visit, the next one on top, and the parameters at which the ray enters them. Not initialised, because
+/// that would cost more than a short traversal.
 ///
 /// The address matters: eight entries are written at once, and a store across the border of two pages is slow. If the
 /// first few dozen entries, which most traversals use, cross a border, a traversal takes 1.25 to 1.4 times as long
-/// (Xeon). So the stack of a single ray lies in one page, see [`OnePage`]. Several stacks in use at once should begin
-/// at different offsets in their pages, because the first-level cache has few ways for the same offset in many pages.
+/// (Xeon). So the stack of a single ray lies in one page, see [`OnePage`]. Several simultaneous stacks should begin at
+/// different offsets in their pages, because the first-level cache has few ways for the same offset in many pages.
 #[repr(C)]
 pub(super) struct Entries {
     children: [MaybeUninit<Child>; SIZE],
     enters: [MaybeUninit<f32>; SIZE],
 }
 
-/// The first `len` of some entries, for a closest-hit or any-hit query. The length is stored apart, so that it stays in
-/// a register.
+/// The first `len` of some entries, for a closest-hit or any-hit query. The length is separate, which keeps it in a
+/// register.
 pub(super) struct Stack<'a, const ANY: bool> {
     entries: &'a mut Entries,
     len: usize,
 }
 
 /// A value in one page of memory, a quarter of a page after its beginning: the compiler spills registers near the
-/// beginning, and a load waits for a store to the same offset of another page. 1.01 times as fast as at the beginning
-/// of a page; half a page after it, 1.005 (Xeon).
+/// beginning, and a load waits for a store to the same offset of another page. The speed is 1.01 of the speed at the
+/// beginning of a page; half a page after it, 1.005 (Xeon).
 #[repr(C, align(4096))]
 pub(super) struct OnePage<T>(pub [MaybeUninit<u8>; BEFORE], pub T);
 
@@ -60,8 +60,8 @@ impl Entries {
     /// `entries` is valid for writes.
     #[inline(always)]
     pub unsafe fn reset(entries: *mut Self) {
-        // SAFETY: by the contract of this function the entries may be written; raw pointers do, so that no reference to
-        // memory that is not initialised is made.
+        // SAFETY: by the contract of this function the entries may be written; the code uses raw pointers, because a
+        // reference to uninitialised memory would be unsound.
         unsafe {
             (&raw mut (*entries).children[0]).write(MaybeUninit::new(Child::BOTTOM));
             (&raw mut (*entries).enters[0]).write(MaybeUninit::new(f32::NEG_INFINITY));
@@ -86,19 +86,20 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
     }
 
     /// Pushes the children whose boxes are met, but returns the first to visit instead of pushing it. With `ANY` the
-    /// order is that of the lanes, the highest first, else that of the octant.
+    /// order is the order of the lanes, the highest first, otherwise the order of the octant.
     ///
     /// The first child is found by a branch for each place, not by a table look-up: a branch is predicted, and the
-    /// processor goes on in the next node while the boxes of this one are still being tested. A look-up waits for them.
+    /// processor continues in the next node while the boxes of this one are still being tested. A look-up waits for
+    /// them.
     ///
     /// # Safety
-    /// Every node on the way here has been pushed once, and there are at most [`DEPTH`].
+    /// Every node on the path has been pushed once, and there are at most [`DEPTH`].
     #[inline(always)]
     pub unsafe fn push<L: EightLanes>(&mut self, node: &Node, octant: usize, (enter, leave): (L, L)) -> Option<Child> {
         let children = Child::bits(&node.children);
         let order = node.orders[octant & 7];
         // SAFETY: by the contract of this function at most `DEPTH` - 1 nodes have left entries, seven each, above at
-        // most one of `reset`: eight more fit, as the assertion at `SIZE` says. A child is a `u32`, transparently.
+        // most one entry of `reset`: eight more fit, by the assertion at `SIZE`. A child is a transparent `u32`.
         let met = unsafe {
             let chosen = self.entries.children.as_mut_ptr().add(self.len).cast();
             if ANY {
@@ -130,7 +131,7 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
     /// sharing it makes any-hit queries a twentieth slower.
     ///
     /// # Safety
-    /// As of [`push`](Self::push).
+    /// See [`push`](Self::push).
     #[inline(always)]
     pub unsafe fn push_all<L: EightLanes>(&mut self, node: &Node, octant: usize, (enter, leave): (L, L)) {
         let children = Child::bits(&node.children);
@@ -147,15 +148,15 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
         self.len += met.count_ones() as usize;
     }
 
-    /// The next child that the ray enters not after `end`; at last the [`BOTTOM`](Child::BOTTOM).
+    /// The next child that the ray enters at or before `end`; finally [`BOTTOM`](Child::BOTTOM).
     ///
     /// # Safety
     /// The entries were [`reset`](Entries::reset), and the bottom has not been returned since.
     #[inline(always)]
     pub unsafe fn pop_down(&mut self, end: f32) -> Child {
-        // SAFETY: by the contract of this function and that of `of`, `reset`, `push` and `push_all` have written the
-        // entries below `len`: of searches for any hit their children alone, and no others are read. The loop ends
-        // above the bottom or at it, for that is entered at minus infinity.
+        // SAFETY: by the contracts of this function and of `of`, the functions `reset`, `push` and `push_all` have
+        // written the entries below `len`: for any-hit searches only their children, and only these are read. The loop
+        // ends at the bottom or above it, because the bottom is entered at minus infinity.
         unsafe {
             self.len -= 1;
             while !ANY && self.entries.enters.get_unchecked(self.len).assume_init() > end {
@@ -165,13 +166,13 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
         }
     }
 
-    /// The next child that the ray enters not after `end`.
+    /// The next child that the ray enters at or before `end`.
     #[inline(always)]
     pub fn pop(&mut self, end: f32) -> Option<Child> {
         while self.len > 0 {
             self.len -= 1;
-            // SAFETY: by the contract of `of`, `push` has written the entries below `len`: of searches for any hit
-            // their children alone, and no others are read.
+            // SAFETY: by the contract of `of`, `push` has written the entries below `len`: for any-hit searches only
+            // their children, and only these are read.
             unsafe {
                 if ANY || self.entries.enters.get_unchecked(self.len).assume_init() <= end {
                     return Some(self.entries.children.get_unchecked(self.len).assume_init());

@@ -1,9 +1,9 @@
-//! Interleaved traversal: several single rays are under way at once.
+//! Interleaved traversal: several single rays are active at once.
 //!
-//! **The same hits as one ray after the other.** Each ray has a stack of its own and takes the same steps in the same
-//! order as it does alone. After a step of one ray the memory for its next step is prefetched, and meanwhile the other
-//! rays take theirs. Rays at nodes and rays at leaves are kept in separate lists, so that no branch depends on which of
-//! both comes next.
+//! **The same hits as one ray after the other.** Each ray has its own stack and takes the same steps in the same order
+//! as on its own. After a step of one ray the memory for its next step is prefetched, and meanwhile the other rays take
+//! their steps. Rays at nodes and rays at leaves are in separate lists, so no branch depends on which of the two comes
+//! next.
 
 use std::marker::PhantomData;
 use std::mem::MaybeUninit;
@@ -19,17 +19,17 @@ use crate::traversal::line::after;
 use crate::traversal::pages;
 use crate::triangle::TriangleTest;
 
-/// Rays under way: enough to hide the latency of memory, few enough for the first-level cache.
+/// Active rays: enough to hide the latency of memory, few enough for the first-level cache.
 const SLOTS: usize = 8;
 
-/// A ray under way.
+/// An active ray.
 struct StreamRay<'a, L, T: TriangleTest> {
     prepared_ray: PreparedRay<L>,
     original: &'a Ray,
     ray: T::Ray,
     t_min: f32,
     nearest: Nearest<T::Depth<'a>>,
-    /// Boxes that the ray enters after this are skipped.
+    /// Boxes that the ray enters after this parameter are skipped.
     end: f32,
     /// The node or leaf to visit next.
     child: Child,
@@ -40,7 +40,7 @@ struct StreamRay<'a, L, T: TriangleTest> {
     left: usize,
 }
 
-/// Memory for the rays under way.
+/// Memory for the active rays.
 pub(super) struct Slots<'a, L, T: TriangleTest>([MaybeUninit<StreamRay<'a, L, T>>; SLOTS]);
 
 impl<L, T: TriangleTest> Slots<'_, L, T> {
@@ -72,7 +72,7 @@ impl<'a, L, T: TriangleTest> List<'a, L, T> {
     }
 }
 
-/// Rays under way through a tree. Each slot is in exactly one of the lists.
+/// Active rays in a tree. Each slot is in exactly one of the lists.
 pub(super) struct Stream<'a, L, T: TriangleTest> {
     tree: &'a Bvh8<T>,
     slots: PhantomData<&'a mut Slots<'a, L, T>>,
@@ -124,10 +124,10 @@ impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
         let Some((t_min, nearest)) = start::<T>(ray) else { return done(number, None) };
         self.freed -= 1;
         let root = self.tree.root;
-        // SAFETY: `freed` counts the slots in `free`, all of which `new` has borrowed for the lifetime of the stream,
-        // and was above 0. Every field of the slot is written before the slot is put into a list, but for the entries
-        // above the bottom of its stack, which `left` leaves out. A slot is in one list at a time, so that no list gets
-        // longer than `SLOTS`.
+        // SAFETY: `freed` counts the slots in `free`, which `new` has borrowed for the lifetime of the stream, and was
+        // above 0. Every field of the slot is written before the slot is put into a list, except the entries above the
+        // bottom of its stack, which `left` excludes. A slot is in one list at a time, so no list becomes longer than
+        // `SLOTS`.
         unsafe {
             let slot = self.free.get(self.freed);
             (&raw mut (*slot).prepared_ray).write(PreparedRay::new(ray, &self.tree.bounds, t_min));
@@ -158,10 +158,10 @@ impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
         // them.
         let (mut nodes, rays) = (0, self.at_nodes);
         for k in 0..rays {
-            // SAFETY: the first `at_nodes` slots of `nodes` were filled by `push`, and each is in one list, so that
-            // this is the only reference to it, and no list gets longer than `SLOTS`. Its child is a node, and a path
-            // has at most `DEPTH` nodes (invariants of `Bvh8`). The bottom of its stack is left, for `Child::BOTTOM` is
-            // a leaf.
+            // SAFETY: `push` has filled the first `at_nodes` slots of `nodes`, and each is in one list, so this is the
+            // only reference to it, and no list becomes longer than `SLOTS`. Its child is a node, and a path has at
+            // most `DEPTH` nodes (invariants of `Bvh8`). The bottom of its stack is left, because `Child::BOTTOM` is a
+            // leaf.
             unsafe {
                 let slot = self.nodes.get(k);
                 let at = &mut *slot;

@@ -29,7 +29,7 @@ fn lanes_left_over_are_not_counted_as_triangles() {
     }
 }
 
-/// Triangles of one place, which no partition can divide, and a few that lie apart.
+/// Triangles at one place, which no partition can divide, and a few separate ones.
 #[test]
 fn rays_that_miss_a_root_of_several_blocks_test_no_triangle() {
     let coincident = mesh(40, |_| [Vec3::X, Vec3::Y, Vec3::Z]);
@@ -65,8 +65,8 @@ fn the_unit_of_length_does_not_matter() {
     }
 }
 
-/// A direction may be so short on an axis that its inverse is finite and the enlarged inverse is not. This one passes
-/// the first triangle by less than the test can see.
+/// A direction may be so short on an axis that its inverse is finite and the enlarged inverse is not. This ray passes
+/// the first triangle by less than the test can resolve.
 #[test]
 fn packets_leave_alone_what_their_common_bounds_cannot_tell() {
     let mesh = mesh(200, |i| {
@@ -113,7 +113,7 @@ fn scattered(i: u32) -> Ray {
 
 #[test]
 fn several_rays_under_way_find_what_each_finds_alone() {
-    // Of nothing, of one block, of several below the root, and of many levels.
+    // Empty, of one block, of several below the root, and of many levels.
     for n in [0, 3, 30, 3000] {
         let mesh = Arc::new(soup(n, 5));
         let mut rays: Vec<Ray> = (0..500).map(scattered).collect();
@@ -125,7 +125,7 @@ fn several_rays_under_way_find_what_each_finds_alone() {
     }
 }
 
-/// Such a ray meets all eight boxes of a node, also those of lanes that are not in use.
+/// Such a ray meets all eight boxes of a node, including the boxes of unused lanes.
 #[test]
 fn rays_without_an_inverse_on_any_axis_are_not_through_at_the_first_unused_lane() {
     let mesh = Arc::new(soup(300, 5));
@@ -142,8 +142,7 @@ fn rays_without_an_inverse_on_any_axis_are_not_through_at_the_first_unused_lane(
     }
 }
 
-/// Groups that agree, sixteens of which each ray goes its own way, and a few rays at the end, in slices of several
-/// windows.
+/// Coherent groups, incoherent groups of sixteen rays, and a few rays at the end, in slices of several windows.
 #[test]
 fn long_slices_are_answered_as_their_rays_are() {
     let mesh = Arc::new(soup(300, 5));
@@ -156,7 +155,7 @@ fn long_slices_are_answered_as_their_rays_are() {
         _ => toward(i * 7, scattered(i).origin),
     };
     let mut rays: Vec<Ray> = (0..2 * 4096 + 21).map(ray).collect();
-    // Some begin on a triangle, where only exact arithmetic tells.
+    // Some begin on a triangle, which requires exact arithmetic.
     for (i, ray) in rays.iter_mut().enumerate().filter(|(i, _)| i / 16 % 3 == 1 && i % 4 == 0) {
         ray.origin = mesh.corners(i as u32 % 300)[0];
     }
@@ -192,9 +191,8 @@ fn as_bits(hits: &[Option<Hit>]) -> Vec<Option<(u32, PrimId)>> {
     hits.iter().map(|hit| hit.map(|hit| (hit.t.to_bits(), hit.prim))).collect()
 }
 
-/// Sixty-four triangles a few bits apart, some of them the same, in the order of their numbers or not; rays from
-/// anywhere, from one of them and from just beside, over intervals that end there: what `f32` cannot order is what sums
-/// of floats say.
+/// Sixty-four triangles a few bits apart, some of them equal, in the order of their numbers or not; rays from anywhere,
+/// from one of them and from beside it, over intervals that end there. Sums of floats decide the order if `f32` cannot.
 #[test]
 fn crowds_of_triangles_are_ordered_exactly() {
     let bits = |i: u32| i.wrapping_mul(0x9e37_79b1).rotate_left(11).wrapping_mul(2_654_435_761);
@@ -236,7 +234,7 @@ fn several_rays_at_once_are_refused_over_tests_that_they_are_not_compiled_for() 
     assert!(matches!(refused, Err(BuildError::Config(_))));
 }
 
-/// With limits that a small mesh reaches: what is built is what they are told of.
+/// With limits that a small mesh reaches: the error counts what the tree has.
 #[test]
 fn a_tree_beyond_the_limits_is_refused() {
     let mesh = Arc::new(soup(6000, 32));

@@ -2,8 +2,8 @@
 //!
 //! **No hit is lost.** A triangle that the ray hits at the exact t* in its interval has a reference in a leaf. The box
 //! of this leaf and the boxes of all nodes above it contain the hit point, because partitions round the boxes of
-//! clipped parts outward. The traversal loses no such box (see [`PreparedRay`]) unless a hit with a computed t before
-//! t* has been found; then the argument in [`kdtree`](crate::kdtree) about this case applies.
+//! clipped parts outward. The traversal loses no such box (see [`PreparedRay`]) unless it has found a hit with a
+//! computed t before t*; then the argument in [`kdtree`](crate::kdtree) about this case applies.
 //!
 //! The closest-hit query visits children from front to back, in an order stored for the octant of the direction. The
 //! any-hit query visits lanes from the highest to the lowest: leaves before nodes and large boxes before small ones,
@@ -65,7 +65,7 @@ impl<T: TriangleTest> Bvh8<T> {
             let next = if let Some((first, count)) = child.blocks() {
                 // SAFETY: a leaf names a range of `blocks` (invariants of `Bvh8`).
                 let blocks = unsafe { self.blocks.get_unchecked(first..first + count) };
-                // The number of triangles takes a loop over the lanes in use, so only counting observers pay for it.
+                // Counting triangles takes a loop over the used lanes, so only counting observers pay for it.
                 let mut held = u32::MAX;
                 if O::ACTIVE {
                     held = blocks.iter().map(|block| block.len()).sum();
@@ -80,7 +80,7 @@ impl<T: TriangleTest> Bvh8<T> {
             } else {
                 observer.inner();
                 // SAFETY: a child that is no leaf names one of `nodes`, and a path has at most `DEPTH` of them
-                // (invariants of `Bvh8`), each of which this walk pushes once.
+                // (invariants of `Bvh8`). This traversal pushes each of them once.
                 unsafe {
                     let node = self.nodes.get_unchecked(child.index());
                     stack.push::<L>(node, prepared_ray.octant, prepared_ray.cross(node, L::splat(end)))

@@ -32,8 +32,8 @@ pub struct Bvh8<T: TriangleTest> {
     pub(super) blocks: Vec<LeafBlock<T, WIDTH>>,
     pub(super) bounds: Aabb,
     pub(super) batch: Batch,
-    /// The strategy for rays that form no packet, for closest-hit and any-hit queries. Boxed, so that writes to it do
-    /// not share a cache line with data that all threads read.
+    /// The strategy for rays that form no packet, for closest-hit and any-hit queries. Boxed: writes to it must not
+    /// share a cache line with data that all threads read.
     pub(super) apart: Box<[Trial; 2]>,
 }
 

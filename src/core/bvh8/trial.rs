@@ -14,19 +14,20 @@ pub(super) enum Way {
     InOrder,
 }
 
-/// Groups of rays in each way that show which one is faster: what one group takes says little.
+/// Groups of rays per strategy that decide which one is faster: a single group varies too much.
 const ENOUGH: usize = 128;
-/// Groups of a call that can be halved: fewer would end before the rays under way at once are many.
+/// Minimum number of groups of a call that is halved: fewer would end before many rays are active.
 const LEAST: usize = 16;
-/// Trials' worth of groups from one trial to the next while the same way wins: they double up to here.
+/// Maximum distance of two trials, in numbers of groups per trial, if the same strategy keeps winning: the distance
+/// doubles up to this.
 const RAREST: usize = 64;
-/// How many trials in a row the winner of many has to lose before the other way is chosen.
+/// The number of consecutive trials that a long-time winner must lose before the other strategy is chosen.
 const LEAD: i32 = 2;
 
-/// The recent speed of both strategies on one kind of rays. Both return the same hits.
+/// The recent speed of both strategies on one workload. Both return the same hits.
 ///
-/// Processors differ in how much memory latency they hide themselves: interleaving is 1.1 to 1.5 times as fast as one
-/// ray after the other on one processor, 0.8 to 1.2 times on another (`papers/TUNING.md`). Rays differ as well.
+/// Processors differ in how much memory latency they hide themselves: interleaving has 1.1 to 1.5 of the speed of one
+/// ray after the other on one processor, 0.8 to 1.2 on another (`papers/TUNING.md`). Rays differ as well.
 #[derive(Debug, Default)]
 pub(super) struct Trial {
     in_order: AtomicBool,
@@ -35,41 +36,41 @@ pub(super) struct Trial {
 
 #[derive(Debug, Default)]
 struct State {
-    /// Groups until the next trial, and as many trials' worth after the last one.
+    /// Groups until the next trial, and the distance of the trials after that, in numbers of groups per trial.
     wait: usize,
     pause: usize,
-    /// By how many trials [`Way::InOrder`] is ahead.
+    /// The lead of [`Way::InOrder`], in trials.
     lead: i32,
-    /// The trial so far: time and groups of each way.
+    /// The current trial: time and groups of each strategy.
     spent: [(Duration, usize); 2],
-    /// Which way goes first: they take turns, since the second finds more in the caches.
+    /// Which strategy goes first: they alternate, because the second finds more data in the caches.
     in_order_first: bool,
 }
 
-/// A trial under way. One thread at a time has it.
+/// A running trial. Only one thread at a time has it.
 pub(super) struct Race<'a> {
     state: MutexGuard<'a, State>,
     in_order: &'a AtomicBool,
 }
 
 impl Trial {
-    /// The faster way so far.
+    /// The faster strategy so far.
     pub fn choice(&self) -> Way {
         if self.in_order.load(Relaxed) { Way::InOrder } else { Way::Interleaved }
     }
 
-    /// The trial that is due, if one is, of a call with so many groups. Half of them are to be answered in each way.
+    /// The trial that is due, if any, for a call with this number of groups. Each strategy traces half of them.
     pub fn due(&self, groups: usize) -> Option<Race<'_>> {
         if groups < LEAST {
             return None;
         }
-        // Where another thread has it, this one need not wait.
+        // If another thread runs the trial, this one need not wait.
         let mut state = self.state.try_lock().ok()?;
         state.wait = state.wait.saturating_sub(groups);
         (state.wait == 0).then_some(Race { state, in_order: &self.in_order })
     }
 
-    /// As after trials that `way` has won, and with none soon.
+    /// The state after trials that `way` has won, with no trial soon.
     #[cfg(test)]
     pub fn won_by(way: Way) -> Self {
         let state = State { wait: usize::MAX, ..State::default() };
@@ -78,7 +79,7 @@ impl Trial {
 }
 
 impl Race<'_> {
-    /// Answers both halves of the groups of a call, `groups` many each, and takes note of what that takes.
+    /// Traces both halves of the groups of a call, `groups` in each, and records their times.
     pub fn run(mut self, groups: [usize; 2], mut half: impl FnMut(Way, usize)) {
         let ways = [Way::Interleaved, Way::InOrder];
         let first = usize::from(self.state.in_order_first);
@@ -112,7 +113,8 @@ impl Race<'_> {
 mod tests {
     use super::*;
 
-    /// Plays trials in which the ways of `winners` are faster, in calls of `groups`; what is chosen between them.
+    /// Runs trials in which the strategies in `winners` are faster, in calls of `groups`; returns the choices between
+    /// them.
     fn chosen(trial: &Trial, groups: usize, winners: &[Way]) -> Vec<Way> {
         let (mut winners, mut chosen) = (winners.iter(), vec![]);
         while let Some(&winner) = winners.as_slice().first() {
@@ -140,7 +142,7 @@ mod tests {
 
     #[test]
     fn trials_that_the_same_way_wins_become_rare_and_one_that_is_disturbed_changes_nothing() {
-        // The slices that a renderer asks, and those that are timed.
+        // The slices of a renderer, and the timed ones.
         for groups in [256, 64] {
             for way in [Way::Interleaved, Way::InOrder] {
                 let steady = chosen(&Trial::default(), groups, &[way; 20]);

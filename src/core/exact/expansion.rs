@@ -1,16 +1,16 @@
-//! Sums of floats as exact numbers.
+//! Exact sums of floats.
 
 use std::cmp::Ordering;
 
 use smallvec::SmallVec;
 
 /// A number as the exact sum of floats, none of them zero, the least first; zero is the empty sum. Their bits do not
-/// overlap nor, since rounding is to even, touch each other; those of an integer may touch, but the largest term is
-/// within 2^-53 of the whole.
+/// overlap nor, because rounding is to even, touch each other; the bits of an integer's terms may touch, but the
+/// largest term is within 2^-53 of the whole.
 ///
-/// Exact as long as nothing overflows or underflows: products of six differences of `f32` numbers do neither, for they
-/// are below 2^780 and multiples of 2^-894. Products rely on the fused multiplication of the machine, or of the C
-/// library where it has none.
+/// Exact as long as nothing overflows or underflows: products of six differences of `f32` numbers do neither, because
+/// they are below 2^780 and multiples of 2^-894. Products rely on the fused multiplication of the machine, or of the C
+/// library on machines without it.
 ///
 /// # References
 /// Shewchuk: Adaptive precision floating-point arithmetic and fast robust geometric predicates. Discrete &
@@ -40,7 +40,7 @@ impl Expansion {
         Self(terms)
     }
 
-    /// Adds a float: Shewchuk's growing of an expansion, zeros left out.
+    /// Adds a float: Shewchuk's growing of an expansion, without zeros.
     fn add(&mut self, mut x: f64) {
         let mut kept = 0;
         for i in 0..self.0.len() {
@@ -89,12 +89,12 @@ impl Expansion {
         self.0.iter_mut().for_each(|term| *term = -*term);
     }
 
-    /// The order of the number and zero: the largest term is larger than all others together.
+    /// The order of the number and zero: the largest term is larger than the sum of all others.
     pub fn sign(&self) -> Ordering {
         self.0.last().map_or(Ordering::Equal, |largest| largest.total_cmp(&0.0))
     }
 
-    /// With a relative error below 2^-51.
+    /// The value with a relative error below 2^-51.
     pub fn approximate(&self) -> f64 {
         self.0.iter().fold(0.0, |sum, term| sum + term)
     }
@@ -115,7 +115,7 @@ impl From<f64> for Expansion {
     }
 }
 
-/// The rounded sum and what rounding took from it (Knuth).
+/// The rounded sum and the rounding error (Knuth).
 #[inline(always)]
 pub(super) fn exact_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
@@ -132,7 +132,7 @@ mod tests {
 
     #[test]
     fn integers_are_those_of_rationals() {
-        // The second term is half of the lowest bit of the first; and numbers around all powers of two.
+        // The second term is half of the lowest bit of the first; also numbers around all powers of two.
         let touching = (((1_i128 << 52) + 1) << 73) + (1 << 72) - 1;
         let around = (0..126).flat_map(|bits| [-1, 0, 1].map(|k| (1_i128 << bits) + k)).filter(|&x| x < 1 << 126);
         for x in around.chain([touching, (1 << 126) - 1, 0x1234_5678_9abc_def0_1234_5678_9abc]) {
@@ -148,7 +148,7 @@ mod tests {
         }
     }
 
-    /// Terms of all sizes and signs, some of which cancel.
+    /// Terms of all sizes and signs; some cancel.
     #[test]
     fn sums_and_products_are_those_of_rationals() {
         let rational = |x: &Expansion| RBig::from(x);

@@ -1,5 +1,5 @@
-//! Where a line meets a triangle, in integers, where all bits in use lie close together: several times as fast as
-//! sums of floats.
+//! Intersects a line and a triangle in integers, if all used bits lie close together: several times the speed of sums
+//! of floats.
 
 use std::cmp::Ordering;
 
@@ -10,9 +10,9 @@ use super::expansion::Expansion;
 use crate::geometry::Ray;
 use crate::simd::each;
 
-/// Places from the lowest bit in use to the highest among points, p, and in a direction, d. Numbers of points are below
-/// 2^p, their differences below 2^(p + 1), components of cross products below 2^(2 p + 3), and three products of these
-/// with a direction together below 2^(2 p + d + 5), with a third difference below 2^(3 p + 6).
+/// The number of places from the lowest to the highest used bit among points, p, and in a direction, d. Numbers of
+/// points are below 2^p, their differences below 2^(p + 1), components of cross products below 2^(2 p + 3), the sum of
+/// three products of these with a direction below 2^(2 p + d + 5), with a third difference below 2^(3 p + 6).
 type Places = i32;
 
 /// Whether the products of two differences and a direction are below 2^126.
@@ -20,12 +20,12 @@ fn sides_fit(points: Places, direction: Places) -> bool {
     2 * points + direction <= 121
 }
 
-/// Whether those of three differences are.
+/// Whether the products of three differences are below 2^126.
 fn heights_fit(points: Places) -> bool {
     points <= 40
 }
 
-/// As [`hit`](super::hit), for finite numbers; nothing where they do not fit.
+/// Like [`hit`](super::hit), for finite numbers; `None` if they do not fit.
 pub(super) fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<Option<ExactT>> {
     let [a, b, c] = corners;
     let (points, unit, places) = integers([ray.origin, a, b, c])?;
@@ -58,14 +58,14 @@ pub(super) fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<Option<ExactT>> {
     }))
 }
 
-/// As [`side`](super::side), where the numbers fit.
+/// Like [`side`](super::side), if the numbers fit.
 pub(super) fn side(ray: &Ray, [p, q]: [Vec3; 2]) -> Option<Ordering> {
     let ([origin, p, q], _, places) = integers([ray.origin, p, q])?;
     let ([direction], _, direction_places) = integers([ray.direction])?;
     sides_fit(places, direction_places).then(|| dot(direction, cross(minus(p, origin), minus(q, origin))).cmp(&0))
 }
 
-/// As [`height`](super::height), where the numbers fit.
+/// Like [`height`](super::height), if the numbers fit.
 pub(super) fn height(origin: Vec3, [a, b, c]: [Vec3; 3]) -> Option<f64> {
     let ([origin, a, b, c], unit, places) = integers([origin, a, b, c])?;
     if !heights_fit(places) {
@@ -75,8 +75,8 @@ pub(super) fn height(origin: Vec3, [a, b, c]: [Vec3; 3]) -> Option<f64> {
     Some(Expansion::of_integer(height, 3 * unit).approximate())
 }
 
-/// Vectors as multiples of 2 to the power of one number, that number, and the places in use; nothing if these are more
-/// than an integer has.
+/// Vectors as multiples of 2 to the power of one number, that number, and the number of used places; `None` if these
+/// are more than an integer has.
 fn integers<const N: usize>(vectors: [Vec3; N]) -> Option<([[i64; 3]; N], i32, Places)> {
     let (mut lowest, mut highest) = (i32::MAX, i32::MIN);
     for x in vectors.iter().flat_map(|vector| vector.to_array()).filter(|&x| x != 0.0) {
@@ -112,7 +112,7 @@ mod tests {
     use super::super::{difference, direction, hit_by_sums, side_by_sums};
     use super::*;
 
-    /// Numbers of a coarse grid, so that much is coplanar, on edges and at corners; and of a fine one.
+    /// Numbers of a coarse grid, which are often coplanar, on edges and at corners; and of a fine one.
     #[test]
     fn integers_give_what_sums_give() {
         const ALL_SIZES: u32 = 1 << 24;

@@ -74,12 +74,12 @@ fn side_of_any_size(ray: &Ray, edge: [Vec3; 2]) -> Ordering {
 
 /// Whether the line of `ray` passes exactly through a point. For finite numbers.
 ///
-/// Costs a few nanoseconds unless the line passes the point within rounding, and the origin and the point differ so much in
-/// size that `f64` does not hold their difference.
+/// Costs a few nanoseconds unless the line passes the point within rounding, and the origin and the point differ so
+/// much in size that `f64` cannot represent their difference.
 #[inline(always)]
 pub fn passes_through(ray: &Ray, point: Vec3) -> bool {
     let (direction, offset) = (ray.direction.as_dvec3(), point.as_dvec3() - ray.origin.as_dvec3());
-    // Each product is off by three units of 2^-53: what is further apart differs.
+    // Each product has an error of three units of 2^-53: values that are further apart differ.
     let may_be_equal = |x: f64, y: f64| (x - y).abs() <= 4.0 * f64::EPSILON * x.abs();
     may_be_equal(direction.x * offset.y, direction.y * offset.x)
         && may_be_equal(direction.y * offset.z, direction.z * offset.y)
@@ -93,7 +93,7 @@ fn surely_passes_through(ray: &Ray, point: Vec3) -> bool {
     if offset.iter().any(|&(_, error)| error != 0.0) {
         return cross(&direction(ray), &difference(point, ray.origin)).iter().all(|minor| minor.sign().is_eq());
     }
-    // Products are equal if they are rounded to the same, and by the same.
+    // Products are equal if their rounded values and their rounding errors are equal.
     let product = |i: usize, j: usize| {
         let (x, y) = (f64::from(ray.direction[i]), offset[j].0);
         (x * y, if x * y == 0.0 { 0.0 } else { x.mul_add(y, -(x * y)) })
@@ -101,7 +101,7 @@ fn surely_passes_through(ray: &Ray, point: Vec3) -> bool {
     [(0, 1), (1, 2), (2, 0)].iter().all(|&(i, j)| product(i, j) == product(j, i))
 }
 
-/// The same for points that are given from the origin.
+/// The same for points relative to the origin.
 fn side_by_sums(direction: &[Expansion; 3], p: &[Expansion; 3], q: &[Expansion; 3]) -> Ordering {
     Expansion::dot(direction, &cross(p, q)).sign()
 }
@@ -163,7 +163,7 @@ impl ExactT {
         (!t.is_nan()).then(|| self.order(t.into()))
     }
 
-    /// The same for what has at most the digits of two floats.
+    /// The order of this `t` and a number with at most the digits of two floats.
     fn order(&self, t: f64) -> Ordering {
         if t.is_infinite() {
             return 0.0_f64.total_cmp(&t);
@@ -187,8 +187,8 @@ impl ExactT {
             return 0.0;
         }
         let near = self.approximate() as f32;
-        // Rounded twice, it may be the neighbour of the nearest one: look at the middles between them, where `f64` is
-        // exact. Infinity stands for 2^128.
+        // Rounded twice, it may be the neighbour of the nearest one: compare with the middles between them, where `f64`
+        // is exact. Infinity represents 2^128.
         let wide = |x: f32| if x.is_infinite() { f64::from(x.signum()) * 2.0_f64.powi(128) } else { f64::from(x) };
         let middle = |x: f32, y: f32| (wide(x) + wide(y)) / 2.0;
         let is_even = near.to_bits() & 1 == 0;

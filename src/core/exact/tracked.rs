@@ -1,4 +1,5 @@
-//! Where a line passes an edge, in `f64`, where nothing is rounded: with coordinates of few digits, or along an axis.
+//! The side on which a line passes an edge, in `f64`. It has a result only if no operation rounds, as with coordinates
+//! of few digits or a direction along an axis.
 
 use std::cmp::Ordering;
 
@@ -31,7 +32,8 @@ impl Tracked {
         self.plus(Self { value: -other.value, ..other })
     }
 
-    /// Products of two differences of `f32` numbers and a third number neither overflow nor underflow.
+    /// The product of two differences of `f32` numbers and a third `f32` number neither overflows nor underflows in
+    /// `f64`, so `error` is exact.
     #[inline(always)]
     fn times(self, other: Self) -> Self {
         let value = self.value * other.value;
@@ -40,13 +42,13 @@ impl Tracked {
     }
 }
 
-/// As [`side`](super::side); nothing where something is rounded.
+/// Like [`side`](super::side), but `None` if an operation rounds.
 #[inline(always)]
 pub(super) fn side(ray: &Ray, edge: [Vec3; 2]) -> Option<Ordering> {
     let difference = |corner: Vec3, axis: usize| Tracked::of(corner[axis]).minus(Tracked::of(ray.origin[axis]));
     let term = |axis: usize| {
         let direction = Tracked::of(ray.direction[axis]);
-        // What a direction along an axis leaves out need not be exact.
+        // A zero component of the direction makes its term zero: the rest of the term need not be exact.
         if direction.value == 0.0 {
             return direction;
         }
@@ -64,7 +66,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_side_that_is_not_rounded_is_that_of_sums() {
+    fn an_unrounded_side_equals_the_side_by_sums() {
         let number = |i: u32, steps: u32, unit: f32| {
             let bits = i.wrapping_mul(2_654_435_761).rotate_left(13).wrapping_mul(0x9e37_79b1);
             ((bits % steps) as f32 - (steps / 2) as f32) * unit

@@ -17,10 +17,10 @@ use nalgebra::{Point3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::leaves::{Leaves, Start};
-use crate::accel::{Accel, BuildError, Footprint, Observed, Observer, TreeShape};
+use crate::accel::{Accel, BuildError, Footprint, Observed, Observer, Part, TreeShape};
 use crate::external::lanes;
 use crate::external::prepared::{Prepare, prepared_queries};
-use crate::geometry::{Hit, Mesh, Ray};
+use crate::geometry::{self, Hit, Mesh, Ray};
 use crate::simd::Lanes;
 use crate::triangle::TriangleTest;
 use crate::triangle::decided_at_once::decided_at_once;
@@ -46,7 +46,7 @@ pub struct SvenstaroBvhConfig {
 #[serde(rename_all = "kebab-case")]
 pub enum Traversal {
     /// The plain iterator over a custom query: the crate's ray with a box test that also rejects boxes behind the
-    /// nearest hit so far. Left before right; its stack holds 32 nodes, and it panics on deeper trees.
+    /// nearest hit so far. Left before right; its stack has space for 32 nodes, and it panics on deeper trees.
     #[default]
     Pruned,
     /// The iterator from near to far, with a heap, up to the first box behind the nearest hit.
@@ -56,7 +56,7 @@ pub enum Traversal {
 struct TriangleBox {
     bounds: Aabb<f32, 3>,
     index: u32,
-    /// Kept for the crate.
+    /// Required by the crate.
     node: usize,
 }
 
@@ -76,7 +76,7 @@ impl BHShape<f32, 3> for TriangleBox {
     }
 }
 
-/// A ray that meets no box behind the nearest hit.
+/// A ray that misses every box behind the nearest hit.
 struct PrunedRay<'a> {
     ray: &'a PreparedRay<f32, 3>,
     /// Distance of the nearest hit so far.
@@ -92,14 +92,14 @@ impl IntersectsAabb<f32, 3> for PrunedRay<'_> {
     }
 }
 
-/// Where the ray enters the box, by the crate's own box test.
+/// The parameter at which the ray enters the box, by the crate's own box test.
 #[inline(always)]
 fn entry(ray: &PreparedRay<f32, 3>, bounds: &Aabb<f32, 3>) -> Option<f32> {
     ray.intersection_slice_for_aabb(bounds).map(|(entry, _)| entry)
 }
 
-/// Boxes are met in units of length, by two roundings and a difference that the hit's `t` has not seen: so much must be
-/// allowed before a box counts as behind the hit.
+/// Boxes are tested in units of length, with two roundings and a difference that the hit's `t` does not have: the slack
+/// before a box counts as behind the hit.
 const SLACK: f32 = 1.0 + 8.0 * f32::EPSILON;
 
 fn point(v: Vec3) -> Point3<f32> {
@@ -111,10 +111,10 @@ fn prepare(ray: &Ray) -> PreparedRay<f32, 3> {
     PreparedRay::new(point(ray.origin), Vector3::new(d.x, d.y, d.z))
 }
 
-/// A ray as the crate and the triangle test want it.
+/// A ray in the formats of the crate and of the triangle test.
 pub(crate) struct Ready<T: TriangleTest> {
     walked: PreparedRay<f32, 3>,
-    /// Of the direction.
+    /// Length of the direction.
     length: f32,
     start: Start<T>,
 }
@@ -195,46 +195,29 @@ impl<T: TriangleTest> Accel for SvenstaroBvh<T> {
     }
 
     fn shape(&self) -> TreeShape {
-        let mut shape = TreeShape { references: self.shapes.len(), ..TreeShape::default() };
-        let half_area = |bounds: &Aabb<f32, 3>| f64::from(bounds.surface_area()) / 2.0;
-        let (mut cost, mut root_area) = (0.0, 0.0);
-        // Nodes hold the boxes of their children; that of the root is the hull of its two.
-        let mut stack = vec![];
-        match self.tree.nodes.first() {
-            None => return TreeShape { leaves: 1, empty: 1, ..shape },
-            Some(BvhNode::Leaf { shape_index, .. }) => stack.push((0, 0, half_area(&self.shapes[*shape_index].bounds))),
-            Some(BvhNode::Node { child_l_aabb, child_r_aabb, .. }) => {
-                stack.push((0, 0, half_area(&child_l_aabb.join(child_r_aabb))));
+        let bounds = |own: &Aabb<f32, 3>| {
+            geometry::Aabb::of_points([own.min, own.max].map(|corner| Vec3::from(<[f32; 3]>::from(corner))))
+        };
+        // Nodes store the boxes of their children; the root's box is the hull of its two.
+        let root = match self.tree.nodes.first() {
+            None => geometry::Aabb::EMPTY,
+            Some(BvhNode::Leaf { shape_index, .. }) => bounds(&self.shapes[*shape_index].bounds),
+            Some(BvhNode::Node { child_l_aabb, child_r_aabb, .. }) => bounds(&child_l_aabb.join(child_r_aabb)),
+        };
+        TreeShape::of(Some((0, root)), |at: usize, _| match self.tree.nodes.get(at) {
+            None => Part::Leaf(0),
+            Some(BvhNode::Leaf { .. }) => Part::Leaf(1),
+            Some(BvhNode::Node { child_l_index, child_l_aabb, child_r_index, child_r_aabb, .. }) => {
+                Part::Inner(vec![(*child_l_index, bounds(child_l_aabb)), (*child_r_index, bounds(child_r_aabb))])
             }
-        }
-        while let Some((at, depth, area)) = stack.pop() {
-            if at == 0 {
-                root_area = area;
-            }
-            match &self.tree.nodes[at] {
-                BvhNode::Leaf { .. } => {
-                    shape.leaves += 1;
-                    shape.largest_leaf = 1;
-                    shape.depth = shape.depth.max(depth);
-                    cost += area * TreeShape::leaf_cost(1);
-                }
-                BvhNode::Node { child_l_index, child_l_aabb, child_r_index, child_r_aabb, .. } => {
-                    shape.inner += 1;
-                    cost += area * TreeShape::INNER_COST;
-                    stack.push((*child_l_index, depth + 1, half_area(child_l_aabb)));
-                    stack.push((*child_r_index, depth + 1, half_area(child_r_aabb)));
-                }
-            }
-        }
-        shape.sah_cost = (root_area > 0.0).then(|| cost / root_area);
-        shape
+        })
     }
 }
 
 /// The triangle test of the crate: Möller-Trumbore over a unit direction; it culls back faces.
 ///
-/// Wrapped as one of our tests: it runs for both windings, and `t` is divided by the length of the direction. It
-/// rejects determinants and distances below the float's epsilon, whatever the scale of the scene.
+/// Wrapped as a test of this crate: it runs for both windings, and `t` is divided by the length of the direction. It
+/// rejects determinants and distances below the float's epsilon, at any scale of the scene.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SvenstaroTest;
 

@@ -6,13 +6,13 @@ use glam::Vec3;
 
 use crate::simd::{Lanes, indexed};
 
-/// A block of `triangles` as `make` brings them into the form of the test; lanes that are left over have no area.
+/// A block of `triangles`, which `make` converts to the format of the test; unused lanes have no area.
 pub(super) fn block<B, const N: usize>(triangles: &[[Vec3; 3]], make: impl Fn([Vec3; 3]) -> B) -> [B; N] {
     assert!(triangles.len() <= N, "a block of {N} lanes cannot hold {} triangles", triangles.len());
     array::from_fn(|lane| make(triangles.get(lane).copied().unwrap_or_default()))
 }
 
-/// The lanes with `t` in the interval, and all `t`; what is missed is infinitely far.
+/// The lanes with `t` in the interval, and all `t`; a miss is infinitely far.
 #[inline(always)]
 pub(super) fn candidates<const N: usize, L: Lanes<N>>(from: f32, to: f32, t: impl Fn(usize) -> f32) -> (u32, L) {
     let t = L::load(&indexed(t));

@@ -4,15 +4,15 @@ use crate::geometry::{Aabb, Mesh, Ray};
 use crate::traversal::leaf::{Nearest, start};
 use crate::triangle::TriangleTest;
 
-/// The triangles with an area, in the order of the mesh, ready for the test `T`: what a peer that knows boxes alone
-/// leaves to its caller.
+/// The triangles with an area, in the order of the mesh, prepared for the test `T`: for a peer that only tests boxes
+/// and leaves triangles to its caller.
 pub(super) struct Leaves<T: TriangleTest> {
     triangles: Vec<T::Block<1>>,
     /// The triangle of the mesh for each of them.
     pub ids: Vec<u32>,
 }
 
-/// What the triangle test wants of a ray.
+/// The triangle test's data of a ray.
 pub(super) struct Start<T: TriangleTest> {
     pub asked: Ray,
     pub ray: T::Ray,
@@ -22,13 +22,13 @@ pub(super) struct Start<T: TriangleTest> {
 }
 
 impl<T: TriangleTest> Start<T> {
-    /// Nothing if the ray can hit nothing.
+    /// `None` if the ray can hit nothing.
     #[inline(always)]
     pub fn new(ray: &Ray) -> Option<Self> {
         start::<T>(ray).map(|(t_min, nearest)| Self { asked: *ray, ray: T::prepare(ray), t_min, last: nearest.t })
     }
 
-    /// Nothing found yet.
+    /// No hit yet.
     #[inline(always)]
     pub fn nearest<'a>(&self) -> Nearest<T::Depth<'a>> {
         Nearest::until(self.last)

@@ -5,9 +5,9 @@
 //!   ([`Accel::load`](crate::accel::Accel::load)): its own ray with unit or inverse direction if it has one, and the
 //!   input of the triangle test. The timed region still contains the computations of the library's own traversal, and a
 //!   copy to the stack if the library writes into the ray. For rays that mostly miss, this saves a fifth of the time
-//!   and more. The structures of this crate prepare rays inside the timed region: the handicap is ours.
-//! - **Triangle tests**: the peer's own test, wrapped as one of our tests if its API exposes it, so that brute force
-//!   over it can be the reference; and our tests if the peer takes a closure.
+//!   and more. The structures of this crate prepare rays inside the timed region: the handicap is theirs.
+//! - **Triangle tests**: the peer's own test, wrapped as a test of this crate if its API exposes it, which makes brute
+//!   force over it a possible reference; and the tests of this crate if the peer takes a closure.
 //! - **Triangles without area** are left out, as for all structures. An empty scene returns misses without a call to
 //!   the peer.
 //! - **Conventions** that differ from the contract are declared

@@ -55,7 +55,7 @@ fn vector(v: Vec3) -> Vector {
     Vector::new(v.x, v.y, v.z)
 }
 
-/// A ray as the crate and the triangle test want it.
+/// A ray in the formats of the crate and of the triangle test.
 pub(crate) struct Ready<T: TriangleTest> {
     walked: PreparedRay,
     t_max: f32,
@@ -66,7 +66,7 @@ impl<T: TriangleTest> ParryBvh<T> {
     #[inline]
     fn query<const ANY: bool, O: Observer>(&self, ready: &Ready<T>, observer: &mut O) -> Option<Hit> {
         let Ready { walked, t_max, start } = ready;
-        // The closure may not change what it captures.
+        // The closure cannot change captured variables.
         let (nearest, tests) = (Cell::new(start.nearest()), Cell::new(0));
         self.tree.cast_ray(walked, *t_max, |leaf, _| {
             let mut best = nearest.get();
@@ -124,13 +124,13 @@ impl<T: TriangleTest> Accel for ParryBvh<T> {
 
     prepared_queries!();
 
-    /// Nodes with the tables that parry keeps for moving objects.
+    /// Nodes with the tables for moving objects.
     fn footprint(&self) -> Footprint {
         let (triangles, references) = self.leaves.bytes();
         Footprint { nodes: self.tree.total_memory_size(), references, triangles, other: 0 }
     }
 
-    /// Without SAH cost: the tree shows its nodes only to a walk.
+    /// Without SAH cost: only a traversal can see the nodes of the tree.
     fn shape(&self) -> TreeShape {
         let leaves = self.leaves.ids.len();
         match leaves {
@@ -151,7 +151,7 @@ impl<T: TriangleTest> Accel for ParryBvh<T> {
 
 /// The triangle test of parry: Möller-Trumbore by the triangle's normal, two-sided, without an epsilon.
 ///
-/// Wrapped as one of our tests.
+/// Wrapped as a test of this crate.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ParryTest;
 

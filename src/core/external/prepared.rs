@@ -1,29 +1,29 @@
-//! Rays in the form of a structure that takes them one by one.
+//! Rays in the format of a structure that traces them one by one.
 
 use std::borrow::Cow;
 
 use crate::accel::{Accel, Loaded, Observer, RayBatch};
 use crate::geometry::{Hit, Ray};
 
-/// A structure whose queries take a ray in a form of its own.
+/// A structure whose queries take a ray in another format.
 pub(crate) trait Prepare: Accel {
-    /// All that can be known of a ray without the tree.
+    /// All data of a ray that do not depend on the tree.
     type Ready: Send + Sync;
 
-    /// The ray in that form; nothing if it can hit nothing.
+    /// The ray in that format; `None` if it can hit nothing.
     fn ready(&self, ray: &Ray) -> Option<Self::Ready>;
 
     fn closest<O: Observer>(&self, ready: &Self::Ready, observer: &mut O) -> Option<Hit>;
 
     fn any<O: Observer>(&self, ready: &Self::Ready, observer: &mut O) -> bool;
 
-    /// Whether rays are brought into that form when they are loaded, before the clock starts.
+    /// Whether rays are converted when they are loaded, before the clock starts.
     fn prepares_loaded(&self) -> bool {
         true
     }
 }
 
-/// The queries of an [`Accel`] that is [`Prepare`].
+/// The queries of an [`Accel`] that implements [`Prepare`].
 macro_rules! prepared_queries {
     () => {
         #[inline]
@@ -51,7 +51,7 @@ macro_rules! prepared_queries {
 
 pub(crate) use prepared_queries;
 
-/// [`Accel::load`] of what is [`Prepare`].
+/// [`Accel::load`] of a structure that implements [`Prepare`].
 pub(crate) fn load<'a, S: Prepare>(structure: &'a S, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
     if structure.prepares_loaded() {
         Box::new(PreparedBatch::new(structure, &rays))

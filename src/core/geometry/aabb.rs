@@ -91,7 +91,7 @@ impl Aabb {
     }
 }
 
-/// Half of the surface area of the box between two corners; 0 when empty.
+/// Half of the surface area of the box between two corners; 0 if empty.
 #[inline(always)]
 pub(crate) fn half_area(min: DVec3, max: DVec3) -> f64 {
     let e = (max - min).max(DVec3::ZERO);

@@ -16,7 +16,7 @@ pub struct Mesh {
     bounds: Aabb,
 }
 
-/// Why [`Mesh::new`] rejects its input. Numbers start at 0.
+/// The reason why [`Mesh::new`] rejects its input. Numbers start at 0.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum MeshError {
     /// A coordinate is infinite or NaN.
@@ -33,14 +33,14 @@ pub enum MeshError {
     TooMany { what: &'static str, count: usize, limit: usize },
 }
 
-/// At most this many triangles or vertices, so that a triangle number and two flag bits fit a `u32`.
+/// At most this many triangles or vertices: a triangle number and two flag bits then fit a `u32`.
 const LIMIT: usize = 1 << 30;
 
 impl Mesh {
     /// Validates the arrays; a mesh needs no further checks.
     ///
     /// # Errors
-    /// As [`Mesh::check`].
+    /// See [`Mesh::check`].
     pub fn new(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
         Self::check(&positions, &triangles)?;
         let corners = |t: &[u32; 3]| t.map(|i| positions[i as usize]);
@@ -52,7 +52,7 @@ impl Mesh {
     /// A mesh of triangles that share no vertices.
     ///
     /// # Errors
-    /// As [`Mesh::check`].
+    /// See [`Mesh::check`].
     pub fn from_triangles(triangles: &[[Vec3; 3]]) -> Result<Self, MeshError> {
         let numbers = (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]);
         Self::new(triangles.as_flattened().to_vec(), numbers.collect())
@@ -152,13 +152,13 @@ fn collinear([a, b, c]: [Vec3; 3]) -> bool {
 /// # References
 /// Shewchuk: Adaptive precision floating-point arithmetic and fast robust geometric predicates, 1997 (Grow-Expansion).
 fn sum_is_zero(terms: [f64; 6]) -> bool {
-    // Five roundings are off by less than this.
+    // The error of five roundings is below this.
     let size: f64 = terms.iter().map(|term| term.abs()).sum();
     if terms.iter().sum::<f64>().abs() > 8.0 * f64::EPSILON * size {
         return false;
     }
 
-    // The sum as numbers that have no digits in common: it is 0 only if all of them are.
+    // The sum as numbers without common digits: it is 0 only if all of them are.
     let mut parts = [0.0; 6];
     for (count, term) in terms.into_iter().enumerate() {
         let mut rest = term;

@@ -24,7 +24,7 @@ pub struct Ray {
 
 const _: () = assert!(size_of::<Ray>() == 32);
 
-/// 2^128 - 2^103. From here on numbers round to infinity.
+/// 2^128 - 2^103: this and larger numbers round to infinity.
 const UNREPRESENTABLE: f64 = f32::MAX as f64 + (1_u128 << 103) as f64;
 
 impl Ray {
@@ -67,7 +67,7 @@ impl Ray {
     }
 }
 
-/// The number of a triangle in its mesh. Stored inverted, so that `Option<Hit>` takes 8 bytes.
+/// The number of a triangle in its mesh. Stored inverted: `Option<Hit>` then takes 8 bytes.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct PrimId(NonZeroU32);
 
@@ -123,7 +123,7 @@ impl Hit {
 mod tests {
     use super::*;
 
-    /// The naive twin: each number by itself.
+    /// The naive twin: each number separately.
     #[test]
     fn a_ray_is_valid_when_all_its_numbers_are() {
         let numbers = [0.0, -0.0, 1e-45, -1.0, 2.0, f32::MAX, f32::INFINITY, f32::NEG_INFINITY, f32::NAN];

@@ -22,7 +22,7 @@ impl Display for Ray {
     }
 }
 
-/// Why a text is not a ray.
+/// The reason why a text is not a ray.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RayTextError {
     /// Not six numbers.
@@ -109,7 +109,7 @@ pub fn numbers(text: &str) -> Result<Vec<f32>, &str> {
     fields.map(|number| number.parse().map_err(|_| number)).collect()
 }
 
-/// Text that may be a whole file in one line, as it may stand in a message: cut after 120 characters.
+/// Shortens a text for a message, because it may be a whole file in one line: cut after 120 characters.
 fn short(text: &str) -> String {
     const LONGEST: usize = 120;
     match text.char_indices().nth(LONGEST) {

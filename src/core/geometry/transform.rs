@@ -54,7 +54,7 @@ fn rows(rows: [[f64; 3]; 3]) -> DMat3 {
     DMat3::from_cols_array_2d(&rows).transpose()
 }
 
-/// Exact at the multiples of 90 degrees, where the sine of a rounded angle is not.
+/// Exact at the multiples of 90 degrees, although the sine of a rounded angle is not.
 fn sin_cos_degrees(degrees: f32) -> (f64, f64) {
     let degrees = f64::from(degrees) % 360.0;
     match degrees / 90.0 {
@@ -92,7 +92,7 @@ mod tests {
         assert_eq!(placed.point(Vec3::ONE), Vec3::new(6.0, 23.0, 32.0));
         assert_eq!(placed.normal(Vec3::new(0.0, 0.0, -7.0)), Vec3::X);
         assert_eq!(Transform::IDENTITY.point(Vec3::new(0.1, 0.2, 0.3)), Vec3::new(0.1, 0.2, 0.3));
-        // A crushed normal is no NaN.
+        // A normal of length zero does not become NaN.
         assert_eq!(Transform::new(Vec3::ZERO, Vec3::new(1.0, 0.0, 1.0), Vec3::ZERO).normal(Vec3::Y), Vec3::ZERO);
     }
 

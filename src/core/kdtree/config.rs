@@ -9,13 +9,13 @@ use crate::build::sah_cost::CostModel;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KdConfig {
-    /// Where a node is split.
+    /// The position of a split.
     pub plane: Plane,
     /// The axis of a median.
     pub axis: AxisRule,
-    /// When a node stays a leaf.
+    /// The condition for a leaf.
     pub stop: Stop,
-    /// How rays walk the tree.
+    /// The way in which rays traverse the tree.
     pub traversal: Traversal,
     /// `L` of [`Stop::Report`] and [`Stop::Leaf`]: a node with fewer triangles becomes a leaf. At least 1; 100 in the
     /// report's main table.
@@ -25,13 +25,13 @@ pub struct KdConfig {
     /// `T` of [`Stop::Report`]: the share of triangles on both sides that discards a split. In (0, 1]; 0.7 in the
     /// report's main table.
     pub threshold: f32,
-    /// The triangles that the threshold is a share of.
+    /// The triangles to which the share `threshold` refers.
     pub count: CountOf,
     /// The value that represents the middle of the vertex coordinates.
     pub median: Median,
-    /// Where a triangle goes that has a vertex in the plane.
+    /// The side of a triangle with a vertex in the plane.
     pub equal: Equal,
-    /// When a ray stops.
+    /// The condition for the end of a ray.
     pub exit: Exit,
     /// A small hashed mailbox: a ray tests a triangle only once while it is in the mailbox.
     pub mailbox: bool,
@@ -51,7 +51,7 @@ pub struct KdConfig {
     pub duplication: f32,
 }
 
-/// Where a node is split.
+/// The position of a split.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Plane {
@@ -90,7 +90,7 @@ pub enum Stop {
     Sah,
 }
 
-/// How rays walk the tree.
+/// The way in which rays traverse the tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Traversal {
@@ -132,7 +132,7 @@ pub enum Median {
     Welded,
 }
 
-/// Where a triangle goes that has a vertex in the plane.
+/// The side of a triangle with a vertex in the plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Equal {
@@ -142,14 +142,13 @@ pub enum Equal {
     Below,
 }
 
-/// When a ray stops.
+/// The condition for the end of a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Exit {
     /// When no nearer hit can follow: no hit is lost.
     Nearest,
-    /// At the first leaf with any hit, wherever the hit lies: the literal reading of the report. It produces wrong
-    /// pixels.
+    /// At the first leaf with any hit, at any distance: the literal reading of the report. It produces wrong pixels.
     FirstLeaf,
 }
 
@@ -209,7 +208,7 @@ impl KdConfig {
         MedianConfig { plane, axis, median, equal, count, costs: self.costs() }
     }
 
-    /// The settings of the search for the cheapest plane.
+    /// The configuration of the search for the cheapest plane.
     pub(super) fn sah(&self) -> CellConfig {
         let exact = if self.plane == Plane::SahSweep { CellConfig::ALL_PLANES } else { self.exact };
         CellConfig { costs: self.costs(), exact, candidates: self.candidates, sample: self.sample }
@@ -278,7 +277,7 @@ impl Default for KdConfig {
     }
 }
 
-/// The keys of a [`KdConfig`] that choose the plane of a median; [`KdConfig::rules`] says when it is not taken.
+/// The keys of a [`KdConfig`] that select the plane of a median; [`KdConfig::rules`] decides when it is rejected.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MedianConfig {
     pub plane: Plane,
@@ -286,6 +285,6 @@ pub(super) struct MedianConfig {
     pub median: Median,
     pub equal: Equal,
     pub count: CountOf,
-    /// Of a cut that must pay.
+    /// The cost model of a cut that must pay.
     pub costs: CostModel,
 }

@@ -8,7 +8,7 @@ use crate::build::sah_cost::SideAreas;
 
 pub(super) struct Triangles {
     ids: Vec<u32>,
-    /// How many of them went to the sibling as well.
+    /// The number of triangles that are also in the sibling.
     matches: usize,
 }
 
@@ -34,7 +34,7 @@ impl Triangles {
         let corners = self.ids.iter().flat_map(|&id| context.mesh.triangles()[id as usize]);
         let coordinate = |i: u32| context.mesh.positions()[i as usize][axis];
         if context.config.median == Median::Welded {
-            // A point counts once, however many corners lie in it; adding 0.0 makes -0.0 and 0.0 one.
+            // A point counts once, even if many corners lie in it; adding 0.0 makes -0.0 and 0.0 equal.
             let bits = |i: u32| context.mesh.positions()[i as usize].to_array().map(|x| (x + 0.0).to_bits());
             let mut points: Vec<([u32; 3], u32)> = corners.map(|i| (bits(i), i)).collect();
             points.sort_unstable();
@@ -45,9 +45,9 @@ impl Triangles {
         }
     }
 
-    /// Whether a division of the cell into sides with so many triangles is cheaper than testing all of them.
+    /// Whether a division of the cell into sides with these numbers of triangles is cheaper than testing all of them.
     fn pays(&self, context: &Context<MedianConfig>, place: &Place, cut: Cut, below: usize, above: usize) -> bool {
-        // Vertices may lie outside of the cell, and so may their median.
+        // Vertices may lie outside the cell, and so may their median.
         let inside = place.cell.min[cut.axis] < cut.plane && cut.plane < place.cell.max[cut.axis];
         let (model, areas) = (&context.config.costs, SideAreas::new(&place.cell, cut.axis));
         let (below_area, above_area) = areas.at(cut.plane.into());
@@ -56,7 +56,7 @@ impl Triangles {
     }
 }
 
-/// The middle one of the values, or of the middle two the lower or the mean.
+/// The middle value; of two middle values the lower one or the mean.
 fn middle(mut values: Vec<f32>, rule: Median) -> f32 {
     let (middle, even) = ((values.len() - 1) / 2, values.len().is_multiple_of(2));
     let (_, &mut lower, rest) = values.select_nth_unstable_by(middle, f32::total_cmp);
@@ -66,7 +66,7 @@ fn middle(mut values: Vec<f32>, rule: Median) -> f32 {
     }
 }
 
-/// Whether so many of the triangles of a node on both sides are a reason not to cut.
+/// Whether too many of the triangles of a node are on both sides for a cut.
 fn is_too_many(context: &Context<MedianConfig>, matches: usize, count: usize) -> bool {
     context.rules.threshold.is_some_and(|share| matches as f64 >= f64::from(share) * count as f64)
 }

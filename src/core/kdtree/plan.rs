@@ -1,4 +1,4 @@
-//! Growing the tree that a configuration describes.
+//! Grows the tree of a configuration.
 
 use super::config::{KdConfig, Plane};
 use super::median::Triangles;
@@ -14,10 +14,10 @@ pub(super) struct Plan {
     pub references: Vec<u32>,
 }
 
-/// Grows the tree that `config` describes, if it stays within the limits.
+/// Grows the tree of `config`, if it stays within the limits.
 pub(super) fn plan(mesh: &Mesh, config: &KdConfig, limits: &Limits) -> Result<Plan, BuildError> {
     config.check()?;
-    // Every triangle takes a reference: what cannot end well need not begin.
+    // Every triangle takes at least one reference: reject a hopeless build at once.
     limits.check(1, mesh.solid().count())?;
     let rules = config.rules();
     let plan: Plan = match config.plane {
@@ -32,7 +32,7 @@ pub(super) fn plan(mesh: &Mesh, config: &KdConfig, limits: &Limits) -> Result<Pl
             grow(&context, Binned::all(&context))
         }
     };
-    // What nodes name only grows: if the last of it can be named, all of it could.
+    // The numbers in nodes only grow: if the last one fits, all of them fit.
     limits.check(plan.nodes.len(), plan.references.len())?;
     Ok(plan)
 }

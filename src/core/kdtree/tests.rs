@@ -44,7 +44,7 @@ fn configs() -> Vec<KdConfig> {
     ]
 }
 
-/// Sheets an ulp apart that are met at `t` near 2^128: some crossings overflow, though what lies there is hit.
+/// Sheets an ulp apart that rays hit at `t` near 2^128: some crossings overflow although there are hits.
 #[test]
 fn hits_near_the_largest_t_are_found() {
     fn as_brute_force<T: TriangleTest>(mesh: &Arc<Mesh>, rays: &[Ray]) -> Vec<Hit> {
@@ -78,8 +78,8 @@ fn hits_near_the_largest_t_are_found() {
     }
 }
 
-/// A small mesh on a large floor: the first cuts in the middle part nothing from it but space and the floor's two
-/// triangles.
+/// A small mesh on a large floor: the first cuts in the middle separate only empty space and the floor's two triangles
+/// from it.
 #[test]
 fn the_middle_of_a_cell_finds_a_small_mesh_on_a_large_floor() {
     let mut rng = rand_pcg::Pcg32::seed_from_u64(9);
@@ -153,7 +153,7 @@ fn a_bad_configuration_is_refused_in_a_sentence() {
         KdConfig { traversal_cost: -1.0, ..KdConfig::SAH },
         KdConfig { empty_bonus: 1.0, ..KdConfig::SAH },
         KdConfig { duplication: 0.5, ..KdConfig::SAH },
-        // Nobody would read these.
+        // Nothing reads these options.
         KdConfig { leaf: 8, ..KdConfig::SAH },
         KdConfig { threshold: 0.5, stop: Stop::Leaf, ..KdConfig::REPORT },
         KdConfig { axis: AxisRule::Longest, ..KdConfig::SAH },
@@ -168,7 +168,7 @@ fn a_bad_configuration_is_refused_in_a_sentence() {
     }
 }
 
-/// With limits that a small mesh reaches: what is built is what they are told of.
+/// With limits that a small mesh reaches: the error counts what the tree has.
 #[test]
 fn a_tree_beyond_the_limits_is_refused() {
     let mesh = soup(600, 5);
@@ -179,7 +179,7 @@ fn a_tree_beyond_the_limits_is_refused() {
         for limits in [Limits { nodes: nodes - 1, references }, Limits { nodes, references: references - 1 }] {
             assert!(matches!(plan(&mesh, &config, &limits), Err(BuildError::Mesh(_))), "{config:?}");
         }
-        // Refused before anything is built.
+        // Rejected before the build.
         assert!(matches!(plan(&mesh, &config, &Limits { nodes, references: 599 }), Err(BuildError::Mesh(_))));
     }
 }

@@ -103,7 +103,7 @@ impl Leaves {
         })
     }
 
-    /// The next leaf that the ray enters not after `end`, the nearest hit so far.
+    /// The next leaf that the ray enters at or before `end`, the nearest hit so far.
     #[inline(always)]
     fn next<T: TriangleTest, O: Observer>(
         &mut self,
@@ -181,7 +181,8 @@ fn by_boxes<O: Observer>(
             return Some(node);
         }
 
-        // The child that is entered first comes off the stack first; of two entered at once, the one left first.
+        // The child that is entered first comes off the stack first; of two entered at once, the child that is left
+        // first.
         observer.inner();
         let (below, above) = cell.cut(node.axis(), node.split());
         let (in_below, in_above) = (line.clip(&below, t_min, end), line.clip(&above, t_min, end));

@@ -3,15 +3,15 @@ use std::arch::x86_64::*;
 use super::avx_double::F64x8;
 use super::{Arithmetic, EightLanes, Lanes};
 
-/// 8 lanes in one AVX register, for machines with AVX2 and FMA; with `MASKS`, for those with AVX-512 VL as well.
+/// 8 lanes in one AVX register, for machines with AVX2 and FMA; with `MASKS`, for machines with AVX-512 VL as well.
 ///
 /// Why the `unsafe` blocks below are sound: the type is private to `simd`, where only [`dispatch`](super::dispatch)
-/// names it, in functions that are compiled for these instructions and are called for a [`Level`](super::Level) that
-/// has them alone. Loads and stores are unaligned, and of arrays as large as a register unless another note says so.
+/// names it, in functions that are compiled for these instructions and are called only for a [`Level`](super::Level)
+/// that has them. Loads and stores are unaligned, and of arrays as large as a register unless another note says so.
 #[derive(Clone, Copy, Debug)]
 pub struct Avx<const MASKS: bool>(__m256);
 
-/// Operations of two vectors that are one instruction.
+/// Operations on two vectors with one instruction.
 macro_rules! lanewise {
     ($($name:ident: $instruction:ident),*) => {$(
         #[inline(always)]
@@ -22,7 +22,7 @@ macro_rules! lanewise {
     )*};
 }
 
-/// Functions that are a few instructions.
+/// Functions of a few instructions.
 macro_rules! instructions {
     ($(fn $name:ident($($parameter:tt)*) -> $result:ty { $($body:tt)* })*) => {$(
         #[inline(always)]

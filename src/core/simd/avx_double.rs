@@ -2,8 +2,9 @@ use std::arch::x86_64::*;
 
 use super::{Arithmetic, indexed};
 
-/// 8 lanes of `f64` in two AVX registers, for machines with AVX2 and FMA: the double of [`Avx`](super::avx::Avx), made
-/// of it and where it is, so that the machine has the instructions for the reason given there.
+/// 8 lanes of `f64` in two AVX registers, for machines with AVX2 and FMA: the double of [`Avx`](super::avx::Avx). It is
+/// made only from an [`Avx`](super::avx::Avx) or beside one, so the machine has the instructions for the reason given
+/// there.
 #[derive(Clone, Copy, Debug)]
 pub struct F64x8(pub(super) [__m256d; 2]);
 
@@ -19,7 +20,7 @@ impl F64x8 {
     }
 }
 
-/// Operations of two vectors that are one instruction for each half.
+/// Operations on two vectors with one instruction per half.
 macro_rules! lanewise {
     ($($name:ident: $instruction:ident),*) => {$(
         #[inline(always)]

@@ -42,16 +42,16 @@ pub trait Kernel {
     /// The result.
     type Output;
 
-    /// Mark it, and all that it calls with lanes, `#[inline(always)]`: only what is inlined is compiled for the level.
+    /// Mark it, and all functions with lanes that it calls, `#[inline(always)]`: only inlined code is compiled for the
+    /// level.
     fn run<L: EightLanes>(self) -> Self::Output;
 }
 
 static CURRENT: AtomicU8 = AtomicU8::new(UNCHOSEN);
 const UNCHOSEN: u8 = u8::MAX;
 
-/// Whether this build has the level at all. A build for one machine leaves out those that the machine lacks, and those
-/// below the highest that it has, but for the portable one: each is a copy of every search. The feature `all-levels`
-/// asks for all.
+/// Whether this build has the level. A build for one machine omits levels that the machine lacks, and levels below its
+/// highest one, except the portable one: each is a copy of every search. The feature `all-levels` includes all.
 const WITH_AVX2: bool =
     cfg!(all(target_arch = "x86_64", any(feature = "all-levels", not(target_feature = "avx512vl"))));
 const WITH_AVX512: bool = cfg!(all(
@@ -78,7 +78,7 @@ impl Level {
 
     #[cfg(target_arch = "x86_64")]
     fn is_available(self) -> bool {
-        // Everything that `avx2` and `avx512` below are compiled with.
+        // All features of `avx2` and `avx512` below.
         let bits = is_x86_feature_detected!("bmi1")
             && is_x86_feature_detected!("bmi2")
             && is_x86_feature_detected!("lzcnt")
@@ -151,8 +151,9 @@ impl FromStr for Level {
 pub fn dispatch<K: Kernel>(level: Level, kernel: K) -> K::Output {
     debug_assert!(level.is_available());
     match level {
-        // SAFETY: the machine has the instructions: `available` and `choose_highest` give a level after `is_available`
-        // has detected its features, and nothing else makes one but the portable (see `Level`).
+        // SAFETY: the machine has the instructions: `available` and `choose_highest` return a level only after
+        // `is_available` has detected its features, and no other code makes one except the portable level (see
+        // `Level`).
         #[cfg(target_arch = "x86_64")]
         Level::Avx2 if WITH_AVX2 => unsafe { avx2(kernel) },
         // SAFETY: as above.
@@ -162,7 +163,7 @@ pub fn dispatch<K: Kernel>(level: Level, kernel: K) -> K::Output {
     }
 }
 
-// Out of line, so that each kernel has a frame of its own.
+// Out of line: each kernel has its own frame.
 #[cfg(target_arch = "x86_64")]
 #[inline(never)]
 #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]

@@ -1,4 +1,4 @@
-//! Lanes of `f32` and `f64`: written once over a small trait, so that every width gives the same bits.
+//! Lanes of `f32` and `f64`: written once over a small trait, with the same bits for every width.
 
 #[cfg(target_arch = "x86_64")]
 mod avx;
@@ -14,8 +14,7 @@ pub use level::{Kernel, Level, UnknownLevel, dispatch};
 pub use portable::Portable;
 pub use vector::LaneVec3;
 
-/// `N` lanes of one type of float. Arithmetic is that of IEEE 754, lane by lane and never fused but where a name says
-/// so.
+/// `N` lanes of one type of float. Arithmetic follows IEEE 754, lane by lane, and is never fused unless a name says so.
 pub trait Arithmetic<const N: usize>: Copy {
     /// The type of one lane.
     type Scalar: Copy;
@@ -34,18 +33,18 @@ pub trait Arithmetic<const N: usize>: Copy {
     fn mul(self, other: Self) -> Self;
     /// Quotients.
     fn div(self, other: Self) -> Self;
-    /// The lesser; `other` where they are equal or one is NaN.
+    /// The lesser; `other` if they are equal or one is NaN.
     fn min(self, other: Self) -> Self;
-    /// The greater; `other` where they are equal or one is NaN.
+    /// The greater; `other` if they are equal or one is NaN.
     fn max(self, other: Self) -> Self;
     /// `self`, negated in the lanes where the sign bit of `other` is set.
     fn flip_sign(self, other: Self) -> Self;
-    /// Lanes where `self <= other`, as bits, lane 0 lowest; false where one is NaN.
+    /// Lanes where `self <= other`, as bits, lane 0 lowest; false for NaN.
     fn le(self, other: Self) -> u32;
-    /// Lanes where `self < other`, as bits; false where one is NaN.
+    /// Lanes where `self < other`, as bits; false for NaN.
     fn lt(self, other: Self) -> u32;
-    /// `self * factor + term`, rounded once where the machine does that in one step, else twice: only for what no hit
-    /// depends on.
+    /// `self * factor + term`, rounded once if the machine has such an instruction, otherwise twice: only for values
+    /// that no hit depends on.
     fn mul_add_loosely(self, factor: Self, term: Self) -> Self;
     /// `self * factor - term`, rounded in the same way.
     fn mul_sub_loosely(self, factor: Self, term: Self) -> Self;
@@ -71,14 +70,14 @@ pub trait EightLanes: Lanes<8> {
     /// A number in each lane.
     type Numbers: Copy;
 
-    /// Whether the lanes are instructions of the machine, so that work on many at once pays.
+    /// Whether the lanes are instructions of the machine, which makes work on many lanes at once worthwhile.
     const FAST: bool;
 
-    /// Takes the lanes where `self <= limit`, in a given order: three bits a lane, the first one lowest. Writes them to
-    /// `keys` and their `values` to `chosen`, and returns which they are: bit `i` stands for the `i`-th in that order.
+    /// Selects the lanes where `self <= limit`, in a given order: three bits per lane, the first one lowest. Writes
+    /// them to `keys` and their `values` to `chosen`, and returns a mask: bit `i` is the `i`-th in that order.
     ///
     /// # Safety
-    /// Eight floats may be written to `keys` and eight numbers to `chosen`, however many lanes are taken.
+    /// Eight floats may be written to `keys` and eight numbers to `chosen`, for any number of selected lanes.
     unsafe fn compress_ordered(
         self,
         limit: Self,
@@ -88,15 +87,15 @@ pub trait EightLanes: Lanes<8> {
         chosen: *mut u32,
     ) -> u32;
 
-    /// As `compress_ordered`, in the order of the lanes and without the keys.
+    /// Like `compress_ordered`, in the order of the lanes and without the keys.
     ///
     /// # Safety
-    /// Eight numbers may be written to `chosen`, however many lanes are taken.
+    /// Eight numbers may be written to `chosen`, for any number of selected lanes.
     unsafe fn compress(self, limit: Self, values: &[u32; 8], chosen: *mut u32) -> u32;
 
-    /// Lanes where `self <= other`; no where one is NaN.
+    /// Lanes where `self <= other`; false for NaN.
     fn cmp_le(self, other: Self) -> Self::Mask;
-    /// Lanes where `self < other`; no where one is NaN.
+    /// Lanes where `self < other`; false for NaN.
     fn cmp_lt(self, other: Self) -> Self::Mask;
     /// The lanes of the bits that are set, lane 0 lowest.
     fn mask(bits: u32) -> Self::Mask;
@@ -117,7 +116,7 @@ pub trait EightLanes: Lanes<8> {
     fn store_numbers(numbers: Self::Numbers) -> [u32; 8];
     /// Lanes where `one <= other`.
     fn cmp_le_numbers(one: Self::Numbers, other: Self::Numbers) -> Self::Mask;
-    /// Those of `one` in the lanes of `mask`, of `other` elsewhere.
+    /// The numbers of `one` in the lanes of `mask`, and of `other` elsewhere.
     fn choose_numbers(one: Self::Numbers, other: Self::Numbers, mask: Self::Mask) -> Self::Numbers;
 
     /// Lane `j` of the `i`-th becomes lane `i` of the `j`-th.
@@ -157,7 +156,8 @@ mod tests {
         }
     }
 
-    /// What is taken of `a` up to `b`, in an order and in that of the lanes: the sets, and the bits of keys and values.
+    /// The selection from `a` up to `b`, in a given order and in the order of the lanes: the sets, and the bits of keys
+    /// and values.
     fn taken<L: EightLanes>(a: &[f32; 8], b: &[f32; 8], order: u32) -> ([u32; 2], [Vec<u32>; 3]) {
         let (a, b, values) = (L::load(a), L::load(b), std::array::from_fn(|i| 100 + i as u32));
         let (mut keys, [mut ordered, mut plain]) = ([0.0_f32; 8], [[0_u32; 8]; 2]);
@@ -170,7 +170,7 @@ mod tests {
         (sets, [first(keys.map(f32::to_bits), sets[0]), first(ordered, sets[0]), first(plain, sets[1])])
     }
 
-    /// Draws the same lanes as the portable ones, for all comparisons and some orders.
+    /// Selects the same lanes as the portable ones, for all comparisons and some orders.
     fn same_compression<L: EightLanes>() {
         for seed in 0..SPECIAL.len() * SPECIAL.len() {
             let a: [f32; 8] = std::array::from_fn(|k| SPECIAL[(seed + 3 * k) % SPECIAL.len()]);

@@ -1,10 +1,10 @@
 use super::{Arithmetic, EightLanes, Lanes, each, indexed};
 
-/// Lanes as an array: the slow twin of the others, and what machines without them run.
+/// Lanes as an array: the slow twin of all others, and the fallback for other machines.
 #[derive(Clone, Copy, Debug)]
 pub struct Portable<const N: usize, S = f32>([S; N]);
 
-/// Operations of two vectors that are one of two numbers in each lane.
+/// Operations on two vectors that apply an operation on two numbers in each lane.
 macro_rules! lanewise {
     ($all:ident -> $result:ty; $($name:ident: $one:expr,)*) => {$(
         #[inline(always)]

@@ -5,7 +5,7 @@ use glam::Vec3;
 
 use super::{Arithmetic, Lanes};
 
-/// A 3-vector in every lane. Sums of products are taken from x to z.
+/// A 3-vector in every lane. Sums of products are added from x to z.
 #[derive(Clone, Copy, Debug)]
 pub struct LaneVec3<const N: usize, L> {
     /// The x of each lane.
@@ -24,13 +24,13 @@ impl<const N: usize, L: Lanes<N>> LaneVec3<N, L> {
         Self::new(L::splat(v.x), L::splat(v.y), L::splat(v.z))
     }
 
-    /// Vectors that stand coordinate by coordinate.
+    /// Vectors that are stored coordinate by coordinate.
     #[inline(always)]
     pub fn load([x, y, z]: &[[f32; N]; 3]) -> Self {
         Self::new(L::load(x), L::load(y), L::load(z))
     }
 
-    /// One vector of several, which stand coordinate by coordinate, in every lane.
+    /// One of several vectors, which are stored coordinate by coordinate, in every lane.
     ///
     /// # Panics
     /// If there is no such vector.
@@ -59,13 +59,13 @@ impl<const N: usize, L: Arithmetic<N>> LaneVec3<N, L> {
         self.x.mul(other.x).add(self.y.mul(other.y)).add(self.z.mul(other.z))
     }
 
-    /// As `dot`, by [`Arithmetic::mul_add_loosely`].
+    /// Like `dot`, by [`Arithmetic::mul_add_loosely`].
     #[inline(always)]
     pub fn dot_loosely(self, other: Self) -> L {
         self.z.mul_add_loosely(other.z, self.y.mul_add_loosely(other.y, self.x.mul(other.x)))
     }
 
-    /// As `cross`, by [`Arithmetic::mul_add_loosely`].
+    /// Like `cross`, by [`Arithmetic::mul_add_loosely`].
     #[inline(always)]
     pub fn cross_loosely(self, other: Self) -> Self {
         let minor = |a: L, b: L, c: L, d: L| a.mul_sub_loosely(b, c.mul(d));

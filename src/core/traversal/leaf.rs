@@ -19,7 +19,7 @@ impl<D: Depth> Nearest<D> {
     /// The result for a ray that can hit nothing.
     pub const NOTHING: Self = Self { t: 0.0, hit: None };
 
-    /// Nothing found yet; a hit must lie at or before `last`.
+    /// No hit yet; a hit must lie at or before `last`.
     #[inline(always)]
     pub fn until(last: f32) -> Self {
         Self { t: last, hit: None }
@@ -82,7 +82,7 @@ impl<T: TriangleTest, const N: usize> LeafBlock<T, N> {
         self.ids.iter().map(|&id| u32::from(id != NONE)).sum()
     }
 
-    /// The bytes of `blocks`: the numbers of the triangles count as references, all else as triangles.
+    /// The bytes of `blocks`: the numbers of the triangles count as references, everything else as triangles.
     pub fn footprint(blocks: &[Self]) -> Footprint {
         let references = blocks.len() * size_of::<[u32; N]>();
         Footprint { triangles: size_of_val(blocks) - references, references, ..Footprint::default() }
@@ -97,7 +97,7 @@ pub(crate) struct Mailbox([u32; 8]);
 impl Mailbox {
     pub const EMPTY: Self = Self([NONE; 8]);
 
-    /// Whether triangle `id` was remembered; it is from now on.
+    /// Whether triangle `id` is in the mailbox; afterwards it is.
     #[inline(always)]
     fn visit(&mut self, id: u32) -> bool {
         std::mem::replace(&mut self.0[(id & 7) as usize], id) == id
@@ -135,7 +135,7 @@ pub(crate) fn search<'a, const ANY: bool, const N: usize, L: Lanes<N>, T: Triang
     }
 }
 
-/// Decides about the candidates of a block. Rare, so out of line: inlined, it would take registers from the traversal.
+/// Decides the candidates of a block. Rare, so out of line: inlined, it would take registers from the traversal.
 ///
 /// Candidates that need another call are left to [`settle_closely`]. Most need none, and without a call this function
 /// saves no registers.
@@ -176,7 +176,7 @@ pub(crate) fn settle<'a, const N: usize, T: TriangleTest>(
 /// So few candidates are decided faster one by one.
 const FEW: u32 = 2;
 
-/// As [`settle`], with all stages of the test.
+/// Like [`settle`], with all stages of the test.
 #[inline(never)]
 fn settle_closely<'a, const N: usize, T: TriangleTest>(
     block: &'a LeafBlock<T, N>,

@@ -9,28 +9,27 @@ use crate::simd::{Lanes, each};
 /// The line of a ray, prepared for crossing axis-aligned planes.
 ///
 /// **Slack.** The crossing of the plane `axis = s` is computed as `(s - o) * (1 / d)`: three roundings, each by at most
-/// 2^-24 of the result, so that it is within 3.01 * 2^-24 of the exact parameter, relatively, and within 2^-148
-/// absolutely where the product underflows. [`before`] and [`after`] move it outward by 4 * 2^-23 = 8 * 2^-24 and then
-/// by 2^-126. Rounding of the product takes back at most 1.01 * 2^-24, that of the sum nothing: more than twice the
-/// error of a crossing is left, so that a moved crossing compares rightly with one that is not moved. The sign of the
-/// crossing is exact, because a difference of floats has the exact sign; an infinite one (`d` = 0, plane aside) orders
-/// correctly. Three cases have no answer, and all give NaN, which every user reads as "may cross anywhere": the ray
-/// lies in the plane (0 * inf), 1 / d overflows or is too small for full precision, and the difference to some plane
-/// may overflow.
+/// 2^-24 of the result, so it is within 3.01 * 2^-24 of the exact parameter, relatively, and within 2^-148 absolutely
+/// if the product underflows. [`before`] and [`after`] move it outward by 4 * 2^-23 = 8 * 2^-24 and then by 2^-126.
+/// Rounding of the product takes back at most 1.01 * 2^-24, rounding of the sum nothing: more than twice the error of a
+/// crossing remains, so a moved crossing compares correctly with one that is not moved. The sign of the crossing is
+/// exact, because a difference of floats has the exact sign; an infinite one (`d` = 0, plane aside) orders correctly.
+/// Three cases are undefined, and all give NaN, which every user reads as "may cross anywhere": the ray lies in the
+/// plane (0 * inf), 1 / d overflows or is too small for full precision, and the difference to some plane may overflow.
 ///
 /// **Ends of the interval.** Let t* be the exact parameter of a hit in [`t_min`, `t_max`). It may lie beyond the last
-/// float before `t_max` and be reported as `t_max`. So the ends that crossings are compared with are `t_min` itself and
-/// [`TriangleTest::last`](crate::triangle::TriangleTest::last), later the bound of the nearest hit: a float that t*
-/// does not exceed where the test is exact, and that the rounded t* does not exceed where the test rounds it to the
-/// nearest float. Then t* exceeds it by 2^-24 of itself at most. A box that contains the hit is entered at an exact
+/// float before `t_max` and be reported as `t_max`. So crossings are compared with `t_min` itself and with
+/// [`TriangleTest::last`](crate::triangle::TriangleTest::last), later with the bound of the nearest hit: a float that
+/// t* does not exceed if the test is exact, and that the rounded t* does not exceed if the test rounds it to the
+/// nearest float. Then t* exceeds it by at most 2^-24 of itself. A box that contains the hit is entered at an exact
 /// parameter e <= t* and left at f >= t*. The computed entry, moved by `before`, is at least 3.9 * 2^-24 of e before e,
 /// hence not beyond the end; the computed exit, moved by `after`, is not before f, hence not before `t_min`.
 ///
-/// **Overflow.** A crossing from 2.6 * 2^-24 before the largest float on may be computed as infinity, and `before`
-/// leaves that where it is: beyond every finite end, and beyond the computed crossings of planes that the ray meets
-/// later. So either an entry is made finite by [`finite_entry`], or the end is made infinite: by [`open_end`], or by
-/// `after`, which does so from 7.5 * 2^-24 before the largest float on. Before an end that stays finite, no box is
-/// entered at an infinite crossing. An infinite exit is right as it is.
+/// **Overflow.** A crossing at or after 2.6 * 2^-24 before the largest float may be computed as infinity, and `before`
+/// leaves it unchanged: beyond every finite end, and beyond the computed crossings of planes that the ray meets later.
+/// So either an entry is made finite by [`finite_entry`], or the end is made infinite: by [`open_end`], or by `after`,
+/// which does so at or after 7.5 * 2^-24 before the largest float. Before an end that stays finite, no box is entered
+/// at an infinite crossing. An infinite exit is correct.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Line {
     origin: [f32; 3],
@@ -57,13 +56,13 @@ pub(crate) fn after(t: f32) -> f32 {
 /// The largest finite float, moved before: no finite crossing that is moved before lies beyond it.
 const LATEST: f32 = f32::MAX * BEFORE - TINY;
 
-/// A crossing that was moved [`before`], not after the exact parameter also where it overflowed.
+/// A crossing that was moved [`before`], not after the exact parameter even if it overflowed.
 #[inline(always)]
 pub(crate) fn finite_entry(t: f32) -> f32 {
     if t < LATEST { t } else { LATEST }
 }
 
-/// The end `t` of an interval; infinity where a crossing that is not beyond `t` may overflow.
+/// The end `t` of an interval; infinity if a crossing that is not beyond `t` may overflow.
 #[inline(always)]
 pub(crate) fn open_end(t: f32) -> f32 {
     if t < LATEST { t } else { f32::INFINITY }
@@ -79,12 +78,12 @@ pub(crate) fn lanes_after<L: Lanes<8>>(t: L) -> L {
 /// computed with it is undefined.
 #[inline(always)]
 pub(crate) fn inverses(ray: &Ray, bounds: &Aabb) -> [f32; 3] {
-    // All three axes at once: what is done for each ray is much of what a ray costs.
+    // Compute all three axes at once: the preparation is a large part of the cost of a ray.
     let (origin, direction) = (Vec3A::from(ray.origin), Vec3A::from(ray.direction));
     let (min, max) = (Vec3A::from(bounds.min), Vec3A::from(bounds.max));
     let reach = origin.abs() + min.abs().max(max.abs());
     if !reach.is_finite() {
-        // Also where the box is empty.
+        // Also for an empty box.
         return [f32::NAN; 3];
     }
     let inverse = direction.recip();
@@ -94,7 +93,7 @@ pub(crate) fn inverses(ray: &Ray, bounds: &Aabb) -> [f32; 3] {
 }
 
 impl Line {
-    /// For planes that cut the box `bounds` or are its faces.
+    /// Prepares the line for planes that cut the box `bounds` or are its faces.
     #[inline(always)]
     pub fn new(ray: &Ray, bounds: &Aabb) -> Self {
         let backward = each(&ray.direction.to_array(), |x| x.is_sign_negative());
@@ -164,7 +163,7 @@ mod tests {
         assert_eq!(clip([2.0, 0.5, 0.5], [1.0, 0.0, 0.0]), None, "the box lies behind");
     }
 
-    /// The naive twin: each axis by itself.
+    /// The naive twin: each axis separately.
     #[test]
     fn inverses_are_those_of_each_axis() {
         let numbers =
@@ -193,7 +192,7 @@ mod tests {
         }
     }
 
-    /// What is left of the slack after the rounding of the move, in units of 2^-24.
+    /// The remaining slack after the rounding of the move, in units of 2^-24.
     #[test]
     fn the_slack_is_more_than_two_crossings_are_off() {
         let mut least = f64::INFINITY;

@@ -3,7 +3,7 @@
 /// Memory for `len` values that are read at random places, in huge pages if possible: a traversal of a few megabytes in
 /// pages of four kilobytes misses the translation cache at nearly every node.
 ///
-/// Only Linux is advised so, and may decline; the values are the same.
+/// Only Linux receives this advice, and it may decline; the values are the same.
 pub(crate) fn with_capacity<T>(len: usize) -> Vec<T> {
     let values = Vec::with_capacity(len);
     advise(values.as_ptr(), len * size_of::<T>());
@@ -17,11 +17,11 @@ pub(crate) fn moved<T: Copy>(values: Vec<T>) -> Vec<T> {
     moved
 }
 
-/// Prefetches the cache line at an address, which may be any.
+/// Prefetches the cache line at any address.
 #[inline(always)]
 pub(crate) fn fetch(at: *const u8) {
     #[cfg(target_arch = "x86_64")]
-    // SAFETY: a prefetch reads nothing that the program can see, and does not fault at any address; SSE is part of
+    // SAFETY: a prefetch has no visible effect on the program, and does not fault at any address; SSE is part of
     // x86-64.
     unsafe {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
@@ -34,14 +34,14 @@ pub(crate) fn fetch(at: *const u8) {
 #[cfg(target_os = "linux")]
 fn advise<T>(start: *const T, bytes: usize) {
     use std::ffi::{c_int, c_void};
-    // SAFETY: the declaration is that of `madvise` in the C library of Linux: a pointer, a `size_t`, an `int`.
+    // SAFETY: the declaration agrees with `madvise` in the C library of Linux: a pointer, a `size_t`, an `int`.
     unsafe extern "C" {
         fn madvise(start: *mut c_void, bytes: usize, advice: c_int) -> c_int;
     }
     const MADV_HUGEPAGE: c_int = 14;
     const PAGE: usize = 4096;
-    // SAFETY: this advice changes no values; it is given for the whole pages between `start` and `bytes` after it,
-    // which the callers have just allocated.
+    // SAFETY: this advice changes no values; it covers the whole pages between `start` and `bytes` after it, which the
+    // callers have just allocated.
     unsafe {
         let first = start.addr().next_multiple_of(PAGE);
         let end = (start.addr() + bytes) / PAGE * PAGE;
@@ -54,7 +54,7 @@ fn advise<T>(start: *const T, bytes: usize) {
 #[cfg(not(target_os = "linux"))]
 fn advise<T>(_: *const T, _: usize) {}
 
-/// Whether the system reports that it was advised to use huge pages for the memory around these values.
+/// Whether the system confirms the advice to use huge pages for the memory around these values.
 #[cfg(test)]
 fn are_large<T>(values: &[T]) -> bool {
     let at = values.as_ptr().addr() + size_of_val(values) / 2;
@@ -69,7 +69,7 @@ fn are_large<T>(values: &[T]) -> bool {
     flags.next().is_some_and(|line| line.split_whitespace().any(|flag| flag == "hg"))
 }
 
-/// The values lie in huge pages, where the system takes such advice.
+/// Checks that the values lie in huge pages, if the system accepts such advice.
 #[cfg(test)]
 pub(crate) fn assert_large<T>(values: &[T]) {
     let mut probe = with_capacity::<u64>(1 << 20);

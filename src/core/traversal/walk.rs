@@ -30,7 +30,7 @@ pub(crate) fn silent<const ANY: bool, L: EightLanes, W: Walk>(structure: &W, ray
     if L::FAST {
         structure.walk::<ANY, L, ()>(ray, &mut ())
     } else {
-        // The counting walk is compiled anyway, and on portable lanes counting takes little of the time.
+        // The counting traversal is compiled anyway, and on portable lanes counting takes little of the time.
         watched::<ANY, W, Counts>(structure, ray, &mut Counts::default())
     }
 }
@@ -52,7 +52,7 @@ pub(crate) fn single<const ANY: bool, W: Walk, O: Observer>(structure: &W, ray: 
     }
 }
 
-/// The queries of an [`Accel`](crate::accel::Accel) that is a [`Walk`].
+/// The queries of an [`Accel`](crate::accel::Accel) that implements [`Walk`].
 macro_rules! walked_queries {
     () => {
         #[inline]

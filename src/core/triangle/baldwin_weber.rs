@@ -10,8 +10,8 @@ use crate::simd::{LaneVec3, Lanes, indexed};
 /// the world's origin and errors grow with the distance from it (1e3 extents away every other hit is lost); closed
 /// meshes may leak at edges. 48 bytes per triangle.
 ///
-/// Instead of the paper's nine numbers and an axis we store all twelve numbers of the matrix, so lanes may have
-/// different axes. They are computed in `f64` and rounded once.
+/// Instead of the paper's nine numbers and an axis, a block stores all twelve numbers of the matrix: lanes may then
+/// have different axes. They are computed in `f64` and rounded once.
 ///
 /// # References
 /// Baldwin, Weber: Fast ray-triangle intersections by coordinate transformation. Journal of Computer Graphics

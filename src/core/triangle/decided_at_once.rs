@@ -1,4 +1,4 @@
-/// The common part of tests whose first stage decides where each lane is hit.
+/// The common part of tests whose first stage decides all hits.
 macro_rules! decided_at_once {
     () => {
         type First<const N: usize, L: $crate::simd::Lanes<N>> = L;
@@ -17,7 +17,7 @@ macro_rules! decided_at_once {
     };
 }
 
-/// The common part of such tests that take rays and corners as they are.
+/// The common part of such tests that use rays and corners unchanged.
 macro_rules! decided_on_corners {
     () => {
         type Ray = (glam::Vec3, glam::Vec3);

@@ -25,7 +25,7 @@ pub trait Depth: Copy {
     /// The `t` to return for a hit of `ray`: the nearest float.
     fn t(&self, ray: &Ray) -> f32;
 
-    /// Whether `t` needs further computation, so that computing eight hits together pays. Such a depth implements
+    /// Whether `t` needs further computation, for which eight hits at once are faster. Such a depth implements
     /// [`inputs`](Self::inputs) and [`ts`](Self::ts).
     const LATE: bool = false;
 
@@ -40,10 +40,10 @@ pub trait Depth: Copy {
     /// a hit.
     #[inline(always)]
     fn ts<L: EightLanes>(_inputs: &[[f32; 8]; INPUTS], _which: u32) -> [f32; 8] {
-        unreachable!("a depth whose `t` is late computes those of eight hits")
+        unreachable!("a depth whose `t` is late computes the `t` of eight hits")
     }
 
-    /// A float that is not before the hit. Anything beyond it along the ray can be skipped.
+    /// A float that is not before the hit. Everything beyond it along the ray can be skipped.
     fn bound(&self) -> f32;
 
     /// A float that is not behind the hit.
@@ -56,7 +56,7 @@ pub(crate) fn last_bits<D: Depth>(level: Level, inputs: &[[f32; 8]; INPUTS], whi
     dispatch(level, LastBits::<D> { inputs, which, depth: PhantomData })
 }
 
-/// [`Depth::ts`] as a kernel of its own: inlined, it would take registers from the traversal.
+/// [`Depth::ts`] as a separate kernel: inlined, it would take registers from the traversal.
 struct LastBits<'a, D> {
     inputs: &'a [[f32; 8]; INPUTS],
     which: u32,

@@ -5,33 +5,33 @@ use crate::simd::{Arithmetic, LaneVec3, Lanes, each};
 /// scalar triple products for the sides, `t` from the plane equation relative to the origin, with a final rounding to
 /// `f32`.
 ///
-/// Proved, with the size of a vector the sum of the magnitudes of its components, D the size of the direction, and det
-/// = d . (e1 x e2):
+/// Proved, where the size of a vector is the sum of the magnitudes of its components, D the size of the direction, and
+/// det = d . (e1 x e2):
 ///
 /// - The test finds a triangle that the ray hits if |det| >= 2^-48 D |e1| |e2|.
 /// - If it reports a hit, the volume of the direction and an edge e from a corner p, which is the barycentric of the
-///   third corner times |det|, is not below -2^-47 D |p - o| |e|, and `t` is off by at most 2^-49 |e1| |e2| (|a - o| +
-///   |t| D) / |det|, plus half an ulp of the final rounding.
+///   third corner times |det|, is not below -2^-47 D |p - o| |e|, and the error of `t` is at most 2^-49 |e1| |e2| (|a -
+///   o| + |t| D) / |det|, plus half an ulp of the final rounding.
 ///
 /// As with [`MollerTrumboreF64`](super::MollerTrumboreF64), these errors are small except for needles and slivers.
 /// Costs more than that test.
 ///
 /// # References
-/// As [`Plucker`](super::Plucker).
+/// See [`Plucker`](super::Plucker).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct EdgeF64;
 
-/// The lanes whose triangle the line does not certainly miss, and where it meets their planes.
+/// The lanes whose triangle the line does not certainly miss, and the parameters at their planes.
 ///
-/// The volume of the direction and two corners p, q is taken as d . (p x (q - p)), so that its error grows with the
-/// length of the edge and not with the distance twice.
+/// The volume of the direction and two corners p, q is computed as d . (p x (q - p)): its error grows with the length
+/// of the edge and not with the distance twice.
 ///
-/// **Bounds.** With n = 2^-53, a difference is off by n of itself, a component of a cross product of two of them by 4.1
-/// n of |x||y'| + |y||x'|, a dot product adds 3 n: d . (p x e) is off by at most 7.1 n 2 |d| |p| |e| in sums of
-/// magnitudes, which leave the rounding of the bound room in 9. What is computed not below the negative bound of 18 is
-/// exactly not below -33 n |d| |p| |e|. The sign of det = d . (e1 x e2) is known where it is computed beyond 18 n |d|
-/// |e1| |e2|, so where it exactly is beyond 26; a . (e1 x e2) is off by 8.1 n |a| |e1| |e2|, and t by less than 14 n
-/// |e1| |e2| (|a| + |t| |d|) / |det|.
+/// **Bounds.** With n = 2^-53, the relative error of a difference is n; a component of a cross product of two
+/// differences has an error of 4.1 n (|x||y'| + |y||x'|), a dot product adds 3 n: the error of d . (p x e) is at most
+/// 7.1 n 2 |d| |p| |e| in sums of magnitudes, which leave space in 9 for the rounding of the bound. A value computed
+/// not below the negative bound of 18 is exactly not below -33 n |d| |p| |e|. The sign of det = d . (e1 x e2) is known
+/// if the computed value is beyond 18 n |d| |e1| |e2|, so if the exact one is beyond 26; the error of a . (e1 x e2) is
+/// 8.1 n |a| |e1| |e2|, and the error of t less than 14 n |e1| |e2| (|a| + |t| |d|) / |det|.
 #[inline(always)]
 fn solve<const N: usize, L: Arithmetic<N, Scalar = f64>>(
     origin: LaneVec3<N, L>,
@@ -46,7 +46,7 @@ fn solve<const N: usize, L: Arithmetic<N, Scalar = f64>>(
     let det = direction.dot(normal);
     let mut inside = unit.mul(edge1.abs_sum().mul(edge2.abs_sum())).lt(det.flip_sign(det));
 
-    // The volumes add up to det, whose sign is known: theirs must be that one, or hidden by rounding.
+    // The volumes add up to det, whose sign is known: each must have this sign, or an absolute value within rounding.
     for (from, to) in [(second, third), (third, first), (first, second)] {
         let (p, edge) = (from - origin, to - from);
         let volume = direction.dot(p.cross(edge)).flip_sign(det);
@@ -70,7 +70,7 @@ impl TriangleTest for EdgeF64 {
     ) -> (u32, L) {
         let wide = |v| LaneVec3::<N, L>::splat(v).widen();
         let (inside, t) = solve(wide(origin), wide(direction), each(&block.load::<L>(), |corner| corner.widen()));
-        // The beginning before rounding, which may make a zero of what lies behind.
+        // Compare the beginning before rounding, which may turn a hit behind it into zero.
         let inside = inside & L::splat(from).widen().le(t);
         let t = L::narrow(t);
         (inside & t.le(L::splat(to)), t)

@@ -17,8 +17,8 @@ pub(super) struct FilterRay {
     scaling: Scaling,
 }
 
-/// The power of two by which the directions of rays are scaled, so that the largest component of all is in [1, 2), or
-/// below 1 if it is denormal.
+/// The power of two that scales the directions of rays: the largest component of all is then in [1, 2), or below 1 if
+/// it is denormal.
 #[derive(Clone, Copy, Debug)]
 struct Scaling {
     /// The factor and its inverse.
@@ -34,21 +34,21 @@ struct Scaling {
 pub struct FilterBlock<const N: usize> {
     corners: Corners<N>,
     /// The largest component of the two edges, which bounds the rounding; infinite if an overflow cannot be ruled out,
-    /// negative in lanes left over.
+    /// negative in unused lanes.
     extents: [f32; N],
-    /// 10 units of 2^-24 of the largest component of the normal, were the magnitudes of its two products added: bounds
-    /// the rounding of heights and determinants more closely than the extent does, and far more closely where triangles
-    /// are narrow.
+    /// 10 units of 2^-24 of the largest component of the normal, with the magnitudes of its two products added. It
+    /// bounds the rounding of heights and determinants more closely than the extent does, and far more closely for
+    /// narrow triangles.
     areas: [f32; N],
 }
 
 /// The results of the first stage for `N` triangles, in the notation of [`filter_block`].
 #[derive(Clone, Copy, Debug)]
 pub struct Candidates<L> {
-    /// With the sign of det.
+    /// Has the sign of det.
     height: L,
     abs_det: L,
-    /// The least of u, v and |det| - u - v; NaN if one is.
+    /// The minimum of u, v and |det| - u - v; NaN if one is.
     least: L,
     slack: L,
     height_error: L,
@@ -60,24 +60,24 @@ pub struct Candidates<L> {
 /// The candidates among `N` triangles that the line certainly meets, and bounds of their `t`.
 #[derive(Clone, Copy, Debug)]
 pub struct CandidateBounds<const N: usize> {
-    /// The lanes whose triangle the line certainly meets, at an exact `t` in [`low`, `high`], as bits; the others are
-    /// undecided.
+    /// The lanes whose triangle the line certainly meets, at an exact `t` in [`low`, `high`], as bits; all other lanes
+    /// are undecided.
     pub sure: u32,
     pub low: [f32; N],
     pub high: [f32; N],
 }
 
-/// 2^-24, by which a difference, a product and a sum are off, relatively.
+/// 2^-24, the relative error of a difference, a product and a sum.
 const UNIT: f32 = f32::EPSILON / 2.0;
 /// Twice the 40 units of 2^-24 of the argument at [`filter_block`], times 2 for the direction.
 const SLACK: f32 = 2.0 * 40.0 * 2.0 * UNIT;
-/// The error of the height, in N |s|, and so many times that, in N, of det: 8.1 and 43 units, of which is said where
-/// below.
+/// The error of the height in units of N |s|, and this multiple of it the error of det in units of N: 8.1 and 43 units,
+/// derived below.
 const HEIGHT: f32 = 10.0 * UNIT;
 const DETERMINANT: f32 = 6.0;
-/// More than all underflows together: each loses at most 2^-150, and those of u, v and det add up to less than (4 |s| +
-/// 12 E + 42) 2^-150, where TINY (1 + |s| + 2 E) is added. Far more, but the least number that is not denormal: for
-/// each sum with one that is, some processors take a hundred cycles.
+/// More than all underflows together: each loses at most 2^-150, and the underflows of u, v and det add up to less than
+/// (4 |s| + 12 E + 42) 2^-150, while TINY (1 + |s| + 2 E) is added. Far more than necessary, but the smallest number
+/// that is not denormal: some processors take a hundred cycles for a sum with a denormal.
 const TINY: f32 = f32::MIN_POSITIVE;
 const _: () = assert!(TINY.is_normal());
 /// Coordinates up to here cannot overflow: with them E is at most 2^41, |s| below 2^43, and no intermediate exceeds 2 E
@@ -85,10 +85,10 @@ const _: () = assert!(TINY.is_normal());
 const LARGE: f32 = (1_u64 << 40) as f32;
 
 impl Scaling {
-    /// For directions and origins whose components are at most so large.
+    /// For directions and origins whose components have at most these magnitudes.
     #[inline(always)]
     fn new(longest: f32, farthest: f32) -> Self {
-        // Multiply by two to the negative exponent of the largest component: exact, but for components that become
+        // Multiply by two to the negative exponent of the largest component: exact, except for components that become
         // denormal.
         let exponent = longest.to_bits() >> 23;
         let scale = match exponent {
@@ -138,7 +138,7 @@ impl<const N: usize> FilterBlock<N> {
 }
 
 impl<L> Candidates<L> {
-    /// The lanes that are certainly met, and the bounds of their `t`.
+    /// The lanes whose triangle the line certainly meets, and the bounds of their `t`.
     #[inline(always)]
     pub fn bounds<const N: usize>(&self) -> CandidateBounds<N>
     where
@@ -152,7 +152,7 @@ impl<L> Candidates<L> {
         }
     }
 
-    /// Two pairs, and two bounds: where the first of a pair is below the second in both pairs, the line certainly meets
+    /// Two pairs, and two bounds: if the first of a pair is below the second in both pairs, the line certainly meets
     /// the triangle at an exact `t` between the bounds.
     #[inline(always)]
     pub(super) fn look<const N: usize>(&self) -> ([[L; 2]; 2], [L; 2])
@@ -172,37 +172,38 @@ impl<L> Candidates<L> {
     }
 }
 
-/// The lanes whose triangle the ray may meet at a `t` up to `to`, among them all that it does meet; and the results of
+/// The lanes whose triangle the ray may meet at a `t` up to `to`, including all that it does meet; and the results of
 /// the first stage.
 ///
-/// **Why none is lost.** Let s = o - a, e and f the edges from a, det = e . (d x f), u = s . (d x f), v = d . (s x e),
+/// **Why no hit is lost.** Let s = o - a, e and f the edges from a, det = e . (d x f), u = s . (d x f), v = d . (s x e),
 /// exact for the `f32` corners and ray; the line meets the closed triangle if u, v and det - u - v, taken with the sign
-/// of det, are not negative. Let E bound the components of e and f, D = 2 those of d, |s| be the sum of the components
-/// of s, w = 2^-24, and bars mean computed. A difference of inputs is off by w of itself, a product and a sum by w of
-/// themselves. The components of d x f are bounded by 2 D E and off by 3.1 w 2 D E; those of s x e by 2 E |s|, in sum,
-/// and off by 4.1 w of that. Hence u is off by 7.1 w 2 D E |s|, v by 7.1 w 2 D E |s|, and det by 7.1 w 6 D E E. The sum
-/// of all three and of the rounding of u + v and of what is left of det (the sign of its sum with the slack is exact)
-/// is within k = 40 w D E (|s| + 2 E), in which more than 6 w D E |s| are left for the rounding of k itself.
+/// of det, are not negative. Let E bound the components of e and f, D = 2 the components of d, |s| be the sum of the
+/// magnitudes of the components of s, and w = 2^-24. A difference of inputs, a product and a sum have a relative error
+/// of w. The components of d x f are bounded by 2 D E, with an error of 3.1 w 2 D E; the sum of the components of s x e
+/// by 2 E |s|, with an error of 4.1 w of that. Hence the error of u is 7.1 w 2 D E |s|, of v 7.1 w 2 D E |s|, and of
+/// det 7.1 w 6 D E E. The sum of all three and of the rounding of u + v and of the rest of det (the sign of its sum
+/// with the slack is exact) is within k = 40 w D E (|s| + 2 E), in which more than 6 w D E |s| remain for the rounding
+/// of k itself.
 ///
-/// Where the computed sign of det is right, a hit has u and v not below -k, and u + v not beyond |det| + k. Where it is
+/// If the computed sign of det is right, a hit has u and v not below -k, and u + v not beyond |det| + k. If it is
 /// wrong, the exact |det| is at most k; then so are |u|, |v| and |u + v| of a hit, and the computed ones are at most 2
-/// k. So rejecting what is beyond 2 k rejects no hit, and what is inside by more than 2 k is one. Underflow adds less
-/// than [`TINY`] (1 + |s| + 2 E); where an intermediate might overflow the bound is infinite, and comparisons that
-/// involve infinity or NaN decide nothing.
+/// k. So rejecting values beyond 2 k rejects no hit, and values inside by more than 2 k are hits. Underflow adds less
+/// than [`TINY`] (1 + |s| + 2 E); if an intermediate might overflow the bound is infinite, and comparisons that involve
+/// infinity or NaN decide nothing.
 ///
-/// **Where they are met.** A hit is at t = h / |det|, with h = f . (s x e) taken with the sign of det. Let N bound |e_i
-/// f_k| + |e_k f_i| for each pair of axes: the components of e x f, without what cancels. In the computed h each term
-/// s_i e_k f_j is off by 8.1 w of itself, in det each d_i e_k f_j by 7.1 w, so that h is off by less than 8.1 w N |s|
-/// and det by less than 43 w N; both underflow by less than [`TINY`] (1 + E). With bounds dh and dd of 10 w N |s| and
-/// 60 w N, more than both and their own rounding: where |det| is beyond dd its sign is certain, and a hit with h below
-/// -dh lies behind the origin. One at a t of at most T, where T is not below `to` for the scaled direction, has h - T
-/// |det| at most dh + T dd; the computed difference, in which T |det| is at most 6 N T, is off by 7 w N T and w of
-/// itself, of which dd has more to spare. Here the slack 2 k (160 w N or more) stands for dd. Where the computed |det|,
-/// d', is beyond 16 dd, and h' is the computed height, |h/d - h'/d'| <= (dh + |h'/d'| dd) / |d| is at most 16/15 of
-/// that with d' in place of d, which 9/8 covers with what rounds in it; the quotient and the ends of the interval round
-/// by less than 8 w of t, and [`TINY`] covers what underflows when t is that of the direction again. Before that
-/// nothing underflows that counts: what is inside by more than 2 k has |s| > 2^-18 E, and a det beyond 16 TINY takes an
-/// E above 2^-63, so that the error is beyond 2^-104.
+/// **The bounds of `t`.** A hit is at t = h / |det|, with h = f . (s x e) taken with the sign of det. Let N bound |e_i
+/// f_k| + |e_k f_i| for each pair of axes: the components of e x f, without cancellation. In the computed h each term
+/// s_i e_k f_j has a relative error of 8.1 w, in det each d_i e_k f_j of 7.1 w, so the error of h is less than 8.1 w N
+/// |s| and of det less than 43 w N; both underflow by less than [`TINY`] (1 + E). Take bounds dh and dd of 10 w N |s|
+/// and 60 w N, more than both and their own rounding: if |det| is beyond dd its sign is certain, and a hit with h below
+/// -dh lies behind the origin. A hit at a t of at most T, where T is not below `to` for the scaled direction, has h - T
+/// |det| at most dh + T dd; the computed difference, in which T |det| is at most 6 N T, has an error of 7 w N T and w
+/// of itself, which dd more than covers. Here the slack 2 k (160 w N or more) replaces dd. If the computed |det|, d',
+/// is beyond 16 dd, and h' is the computed height, |h/d - h'/d'| <= (dh + |h'/d'| dd) / |d| is at most 16/15 of the
+/// same with d' instead of d, which 9/8 covers together with its rounding; the quotient and the ends of the interval
+/// round by less than 8 w of t, and [`TINY`] covers the underflow when t is converted back to the direction. Before
+/// that no relevant value underflows: a value inside by more than 2 k has |s| > 2^-18 E, and a det beyond 16 TINY
+/// requires an E above 2^-63, so the error is beyond 2^-104.
 #[inline(always)]
 pub(super) fn filter_block<const N: usize, L: Lanes<N>>(
     ray: &FilterRay,
@@ -217,11 +218,12 @@ pub(super) fn filter_block<const N: usize, L: Lanes<N>>(
     (!signs.lt(L::zero()) & ((1_u64 << N) - 1) as u32, candidates)
 }
 
-/// As [`filter_block`], for eight rays and the triangle in one lane of a block: the rays that miss it, and the results.
+/// Like [`filter_block`], for eight rays and the triangle in one lane of a block: the rays that miss it, and the
+/// results.
 ///
-/// All directions are scaled as the longest one is. The argument at [`filter_block`] needs only that no component is
-/// beyond 2, and that a component that becomes denormal is off by 2^-150 at most, so it holds for the other directions
-/// too; of much shorter ones fewer are decided.
+/// All directions are scaled like the longest one. The argument at [`filter_block`] only requires that no component is
+/// beyond 2, and that the error of a component that becomes denormal is at most 2^-150, so it holds for all directions;
+/// for much shorter ones fewer cases are decided.
 #[inline(always)]
 pub(super) fn filter_eight<const N: usize, L: EightLanes>(
     rays: &EightRays<L>,
@@ -240,7 +242,7 @@ pub(super) fn filter_eight<const N: usize, L: EightLanes>(
     (signs.cmp_lt(L::zero()), candidates)
 }
 
-/// The same for lines and triangles, lane by lane, the latter by their corners, extents and areas: where the first
+/// The same for lines and triangles, lane by lane, with the corners, extents and areas of the triangles: if the first
 /// result is negative, the line does not meet the triangle at a `t`, for the scaled direction, up to `last`.
 #[inline(always)]
 fn filter_lanes<const N: usize, L: Lanes<N>>(
@@ -254,7 +256,7 @@ fn filter_lanes<const N: usize, L: Lanes<N>>(
     let to_origin = origin - a;
     let (edge1, edge2) = (b - a, c - a);
 
-    // Möller-Trumbore without the division. Fusing leaves out roundings, which the bound need not know.
+    // Möller-Trumbore without the division. Fusing omits roundings, which the bound allows.
     let p = direction.cross_loosely(edge2);
     let q = to_origin.cross_loosely(edge1);
     let det = edge1.dot_loosely(p);
@@ -265,19 +267,19 @@ fn filter_lanes<const N: usize, L: Lanes<N>>(
     let distance = to_origin.abs_sum();
     let tiny = L::splat(scaling.tiny);
     let slack = distance.add(extent.add(extent)).mul_add_loosely(extent.mul_add_loosely(L::splat(SLACK), tiny), tiny);
-    // A NaN in u or v makes the third one, which wins.
+    // A NaN in u or v makes the third one NaN, which wins.
     let least = u.min(v).min(abs_det.sub(u.add(v)));
     let outside = least.add(slack);
 
-    // Computed also where no lane is left: that cannot be predicted, and one mispredicted branch a block is enough.
+    // Compute it even if no lane remains: that cannot be predicted, and one mispredicted branch per block is enough.
     let height = edge2.dot_loosely(q).flip_sign(det);
     let underflow = extent.mul_add_loosely(tiny, tiny);
     let height_error = area.mul_add_loosely(distance, underflow);
     let behind = slack.sub(abs_det).max(height.add(height_error));
     let beyond = slack.mul_add_loosely(last, height_error).add(last.mul_sub_loosely(abs_det, height));
 
-    // Each is negative where it rejects and NaN where it cannot decide; the minimum is negative where any rejects. The
-    // extent of unused lanes is negative.
+    // Each is negative if it rejects and NaN if it cannot decide; the minimum is negative if any rejects. The extent of
+    // unused lanes is negative.
     let signs = beyond.min(behind).min(outside).min(extent);
     let scale = scaling.scale;
     (signs, Candidates { height, height_error, abs_det, least, slack, area, underflow, scale })

@@ -109,8 +109,8 @@ pub trait TriangleTest: Send + Sync + 'static {
         values: &Self::Values<N>,
     ) -> Option<Self::Depth<'a>>;
 
-    /// As [`decide`](Self::decide), without a call, if the first stage decides; otherwise `None`. The values come from
-    /// [`values`](Self::values), not from [`look_closer`](Self::look_closer).
+    /// Like [`decide`](Self::decide), without a call, if the first stage decides; otherwise `None`. The values come
+    /// from [`values`](Self::values), not from [`look_closer`](Self::look_closer).
     #[inline(always)]
     fn decide_at_once<'a, const N: usize>(
         ray: &Self::Ray,

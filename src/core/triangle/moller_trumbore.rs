@@ -36,7 +36,7 @@ struct Solution<L> {
     t: L,
 }
 
-/// Of each lane: `to_origin` goes from the first corner to the ray's origin.
+/// Solves each lane: `to_origin` points from the first corner to the ray's origin.
 #[inline(always)]
 fn solve<const N: usize, L: Lanes<N>>(
     direction: LaneVec3<N, L>,

@@ -4,37 +4,37 @@ use crate::simd::{Arithmetic, LaneVec3, Lanes, each};
 /// [`MollerTrumbore`](super::MollerTrumbore) in `f64` over corners in `f32`, widened by its own rounding error; the
 /// final `t` is rounded to `f32`.
 ///
-/// Proved, with D, E and |s| the sums of the magnitudes of the components of the direction, of both edges at the first
-/// corner, and of the vector from this corner to the origin, and det = e1 . (d x e2):
+/// Proved, where D, E and |s| are the sums of the magnitudes of the components of the direction, of both edges at the
+/// first corner, and of the vector from this corner to the origin, and det = e1 . (d x e2):
 ///
 /// - The test finds a triangle that the ray hits if |det| >= 2^-46 D E E.
-/// - If it reports a hit, no barycentric is below -2^-46 D E (|s| + 2 E) / |det|, and `t` is off by at most 2^-51 E E
-///   (|s| + |t| D) / |det|, plus half an ulp of the final rounding.
+/// - If it reports a hit, no barycentric is below -2^-46 D E (|s| + 2 E) / |det|, and the error of `t` is at most 2^-51
+///   E E (|s| + |t| D) / |det|, plus half an ulp of the final rounding.
 ///
 /// So it loses a ray through an edge or a vertex of a closed mesh only if the triangles are needles that the ray
 /// grazes.
 ///
 /// The errors are small for triangles of ordinary shape, but not for needles and slivers: |det| is twice the area times
 /// the sine of the angle to the plane times the length of the direction. Measured on single triangles: a hit 4.5e-11
-/// beside a sliver of 1 to 10,000; a lost needle of 1 to 10,000,000, hit along its length; `t` of another needle off by
-/// 115 ulps. [`Exact`](super::Exact) is right in these cases.
+/// beside a sliver of 1 to 10,000; a lost needle of 1 to 10,000,000, hit along its length; an error of `t` of 115 ulps
+/// on another needle. [`Exact`](super::Exact) is right in these cases.
 ///
 /// Cost: two to three times the `f32` test in blocks.
 ///
 /// # References
-/// As [`MollerTrumbore`](super::MollerTrumbore).
+/// See [`MollerTrumbore`](super::MollerTrumbore).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MollerTrumboreF64;
 
-/// The lanes whose triangle the line does not certainly miss, and where it meets their planes.
+/// The lanes whose triangle the line does not certainly miss, and the parameters at their planes.
 ///
-/// **Bounds.** As for the first stage of the exact test (`filter::filter_block`), with n = 2^-53 in place of 2^-24: u,
-/// v and det - u - v are off by less than 40 n D E (|s| + 2 E), det by 43 n D E E, where D and E bound the components
-/// of the direction and of the edges, here by sums in place of greatest components. Where det may have either sign
-/// there is no hit: that is if its computed magnitude is at most 80 n D E E, hence never if the exact one is 2^7 n D E
-/// E. What is computed not below the negative slack is exactly not below twice that, 80 n D E (|s| + 2 E). In sums, h =
-/// f . (s x e) is off by 8.1 n |e| |f| |s| <= 2.1 n E E |s| and det by 1.8 n D E E, so that h / det is off by less than
-/// 4 n E E (|s| + |t| D) / |det|.
+/// **Bounds.** As for the first stage of the exact test (`filter::filter_block`), with n = 2^-53 instead of 2^-24: the
+/// error of u, v and det - u - v is less than 40 n D E (|s| + 2 E), of det 43 n D E E, where D and E bound the
+/// components of the direction and of the edges, here by sums instead of maxima. If det may have either sign there is
+/// no hit: this is the case if its computed magnitude is at most 80 n D E E, hence never if the exact one is 2^7 n D E
+/// E. A value computed not below the negative slack is exactly not below twice that, 80 n D E (|s| + 2 E). In sums, the
+/// error of h = f . (s x e) is 8.1 n |e| |f| |s| <= 2.1 n E E |s| and of det 1.8 n D E E, so the error of h / det is
+/// less than 4 n E E (|s| + |t| D) / |det|.
 #[inline(always)]
 fn solve<const N: usize, L: Arithmetic<N, Scalar = f64>>(
     direction: LaneVec3<N, L>,
@@ -72,7 +72,7 @@ impl TriangleTest for MollerTrumboreF64 {
         let [a, b, c] = each(&block.load::<L>(), |corner| corner.widen());
         let wide = |v| LaneVec3::<N, L>::splat(v).widen();
         let (inside, t) = solve(wide(direction), wide(origin) - a, [b - a, c - a]);
-        // The beginning before rounding, which may make a zero of what lies behind.
+        // Compare the beginning before rounding, which may turn a hit behind it into zero.
         let inside = inside & L::splat(from).widen().le(t);
         let t = L::narrow(t);
         (inside & t.le(L::splat(to)), t)

@@ -4,8 +4,8 @@ use crate::simd::{LaneVec3, Lanes, each};
 /// Edge test in `f32`: the ray passes the three edges on the same side, by triple products of the corners relative to
 /// the origin; `t` from the plane through the first corner.
 ///
-/// Guarantees: the two triangles at an edge compute the same number for it with opposite signs, so no ray slips between
-/// them; `t` is as accurate as the normal. Not guaranteed: rays through vertices may be lost; products of four
+/// Guarantees: the two triangles at an edge compute the same number for it with opposite signs, so no ray passes
+/// between them; `t` is as accurate as the normal. Not guaranteed: rays through vertices may be lost; products of four
 /// coordinates leave the range of `f32` at scales of 1e9 and above, and below 1e-10. Cost: one cross and one dot
 /// product more than Möller-Trumbore.
 ///
@@ -15,7 +15,7 @@ use crate::simd::{LaneVec3, Lanes, each};
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Plucker;
 
-/// The lanes whose triangle the line meets, and where.
+/// The lanes whose triangle the line meets, and the parameters.
 ///
 /// Any of the three volumes may be zero: the triangle is closed.
 #[inline(always)]

@@ -1,4 +1,4 @@
-//! What the tests of triangle tests have in common: numbers, rays and triangles.
+//! Common parts of the tests of triangle tests: numbers, rays and triangles.
 
 mod closed;
 mod eight_rays;
@@ -21,12 +21,12 @@ pub(crate) fn unit(rng: &mut Pcg32) -> f32 {
     rng.next_u32() as f32 / u32::MAX as f32 * 2.0 - 1.0
 }
 
-/// Coarse, so that hits on edges and corners, -0.0 and parallel rays are frequent.
+/// Coarse numbers: hits on edges and corners, -0.0 and parallel rays are frequent.
 pub(crate) fn grid(rng: &mut Pcg32) -> f32 {
     (rng.next_u32() % 5) as f32 - 2.0
 }
 
-/// Any size, up to where the products of tests overflow and underflow.
+/// Any size, up to the overflow and the underflow of the products of tests.
 pub(crate) fn any(rng: &mut Pcg32) -> f32 {
     loop {
         let x = f32::from_bits(rng.next_u32());
@@ -48,7 +48,7 @@ pub(crate) fn ray(rng: &mut Pcg32, number: Number) -> Ray {
     Ray::new(point(rng, number), point(rng, number))
 }
 
-/// Aims at the triangle, so that it is often hit or narrowly missed, from any distance.
+/// Aims at the triangle from any distance: it is often hit or narrowly missed.
 fn aimed(rng: &mut Pcg32, [a, b, c]: [Vec3; 3]) -> Ray {
     let (u, v) = (unit(rng) * 0.7 + 0.3, unit(rng) * 0.7 + 0.3);
     let target = a + (b - a) * u + (c - a) * v;
@@ -60,9 +60,9 @@ fn true_t(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
     judge::hit(ray, corners).filter(|t| ray.is_valid() && t.is_within(ray)).map(|t| t.round())
 }
 
-/// The cases on which the stages of a filter are put to the test: all sizes, aimed closely, on a grid, at random.
+/// Difficult cases for the stages of a filter: all sizes, aimed closely, on a grid, at random.
 fn hard(rng: &mut Pcg32, round: usize) -> (Ray, [Vec3; 3]) {
-    // Every size of scene, not every tenth power: each intermediate underflows at another one.
+    // Every size of scene, not every tenth power: each intermediate underflows at a different one.
     let scale = f32::from_bits((1 + rng.next_u32() % 251) << 23);
     match round % 4 {
         0 => (ray(rng, any), triangle(rng, any)),

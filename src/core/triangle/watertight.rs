@@ -4,7 +4,7 @@ use super::{Corners, TriangleTest};
 use crate::geometry::Ray;
 use crate::simd::{Lanes, each, indexed};
 
-/// Watertight, in `f32`: the test shears the triangle so that the ray becomes the third axis, and tests edges in 2D; it
+/// Watertight, in `f32`: the test shears the triangle, which makes the ray the third axis, and tests edges in 2D; it
 /// recomputes edge values that are exactly zero, very small or very large in `f64`.
 ///
 /// Guarantees: a corner is sheared to the same point for every triangle that contains it, and the sign of an edge is
@@ -43,7 +43,7 @@ impl TriangleTest for Watertight {
 
     #[inline(always)]
     fn prepare(ray: &Ray) -> ShearedRay {
-        // The longest component becomes the third; swapping the others keeps the winding where it points backward.
+        // The longest component becomes the third; swapping the others keeps the winding if it points backward.
         let z = ray.direction.abs().max_position();
         let (mut x, mut y) = ((z + 1) % 3, (z + 2) % 3);
         if ray.direction[z] < 0.0 {
@@ -73,7 +73,7 @@ impl TriangleTest for Watertight {
         let xs = sheared(ray.axes[0], x, shear[0]);
         let ys = sheared(ray.axes[1], y, shear[1]);
 
-        // The edges, again in f64 where one is zero: products of two floats are exact there, and so is the sign.
+        // The edges, recomputed in f64 if one is zero: products of two floats are exact there, and so is the sign.
         let edges = |[ax, bx, cx]: [L; 3], [ay, by, cy]: [L; 3]| {
             [cx.mul(by).sub(cy.mul(bx)), ax.mul(cy).sub(ay.mul(cx)), bx.mul(ay).sub(by.mul(ax))]
         };
@@ -99,12 +99,12 @@ impl TriangleTest for Watertight {
     }
 }
 
-/// Sums of edge values between these neither lose digits to underflow nor overflow where `t` is computed with them.
+/// Sums of edge values between these neither lose digits to underflow nor overflow in the computation of `t`.
 const SMALL: f32 = 1.0 / (1_u128 << 100) as f32;
 const LARGE: f32 = (1_u64 << 40) as f32;
 
-/// The edge values, those of lanes with a zero among them or with a sum that is too small or too large computed in
-/// `f64`, all three times a power of two, which changes neither their signs nor `t`.
+/// The edge values. Lanes with a zero among them, or with a sum that is too small or too large, are computed in `f64`,
+/// all three times a power of two, which changes neither their signs nor `t`.
 #[cold]
 fn in_f64<const N: usize, L: Lanes<N>>(volumes: [L; 3], xs: [L; 3], ys: [L; 3]) -> [L; 3] {
     let mut values = each(&volumes, |v| v.store());

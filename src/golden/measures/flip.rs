@@ -1,7 +1,7 @@
-//! FLIP for low dynamic range: how different two pictures look when one is shown in the place of the other.
+//! FLIP for low dynamic range: the visible difference when a viewer flips between two pictures.
 //!
-//! We depart from the paper in one thing: pictures with transparency are compared over black and over white, and the
-//! larger difference of a pixel counts. Elsewhere alpha is not seen.
+//! This implementation departs from the paper in one point: pictures with transparency are compared over black and over
+//! white, and the larger difference of a pixel counts. The paper ignores alpha.
 //!
 //! # References
 //! Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild: FLIP: a difference evaluator for alternating images,
@@ -15,10 +15,11 @@ use image::DynamicImage;
 use super::plane::{Plane, gaussian, in_bands, offsets};
 use crate::golden::layout::Layout;
 
-/// Pixels in a degree of sight, of a screen 0.7 m wide with 3840 pixels from 0.7 m away: what the paper assumes.
+/// Pixels per degree of sight for a screen 0.7 m wide with 3840 pixels at a distance of 0.7 m: the assumption of the
+/// paper.
 pub const PIXELS_PER_DEGREE: f64 = 3840.0 * PI / 180.0;
 
-/// FLIP of each pixel, from 0 (alike) to 1. The pictures have one layout, without floats.
+/// FLIP of each pixel, from 0 (equal) to 1. The pictures have one layout, without floats.
 pub fn flip(one: &DynamicImage, other: &DynamicImage, pixels_per_degree: f64) -> Vec<f32> {
     let layout = Layout::of(one);
     let filters = Filters::new(pixels_per_degree);
@@ -52,7 +53,7 @@ struct Filters {
 impl Filters {
     fn new(pixels_per_degree: f64) -> Self {
         // A term `a sqrt(π/b) exp(-π² x²/b)` of the paper, x in degrees, is a Gaussian of this deviation in pixels. The
-        // widest determines the size of all.
+        // widest one determines the size of all.
         let deviation = |b: f64| (b / (2.0 * PI * PI)).sqrt() * pixels_per_degree;
         let reach = (3.0 * deviation(0.04)).ceil() as usize;
         let term = |b| gaussian(reach, deviation(b));
@@ -87,14 +88,14 @@ impl Filters {
     }
 }
 
-/// The weights with their positive ones divided by their sum, and their negative ones by theirs.
+/// The weights; the positive ones are divided by their sum, and so are the negative ones.
 fn balanced(weights: Vec<f64>) -> Vec<f64> {
     let sum = |sign: f64| weights.iter().map(|weight| (sign * weight).max(0.0)).sum::<f64>();
     let (above, below) = (sum(1.0), sum(-1.0));
     weights.iter().map(|weight| weight / if *weight > 0.0 { above } else { below }).collect()
 }
 
-/// What the eye sees of some rows: colours, and how strong edges and points are.
+/// The perceived values of some rows: colours, and the strengths of edges and points.
 struct Seen {
     lab: Vec<DVec3>,
     edges: Vec<f64>,
@@ -172,7 +173,8 @@ fn opponent(rgb: DVec3) -> DVec3 {
     DVec3::new(116.0 * xyz.y - 16.0, 500.0 * (xyz.x - xyz.y), 200.0 * (xyz.y - xyz.z))
 }
 
-/// CIELAB of a filtered colour in YCxCz, cut off at what a screen can show; dark colours lose some of their chroma (Hunt).
+/// CIELAB of a filtered colour in YCxCz, clamped to the colours of a screen; dark colours lose some of their chroma
+/// (Hunt).
 fn perceived(colour: DVec3) -> DVec3 {
     let y = (colour.x + 16.0) / 116.0;
     let xyz = DVec3::new(y + colour.y / 500.0, y, y - colour.z / 200.0);
@@ -187,13 +189,14 @@ fn lab(rgb: DVec3) -> DVec3 {
     DVec3::new(lightness, 5.0 * lightness * (x - y), 2.0 * lightness * (y - z))
 }
 
-/// The distance of two colours: of large ones Euclid's is too small.
+/// The distance of two colours: Euclid's is too small for large distances.
 fn hyab(one: DVec3, other: DVec3) -> f64 {
     let gap = one - other;
     gap.x.abs() + (gap.y * gap.y + gap.z * gap.z).sqrt()
 }
 
-/// A distance, to the power of 0.7, from 0 to 1, where small ones get most of the room. The largest is from green to blue.
+/// A distance, to the power of 0.7, mapped to 0..1 with most of the range for small ones. The largest is from green to
+/// blue.
 fn spread(distance: f64) -> f64 {
     let most = libm::pow(hyab(lab(DVec3::Y), lab(DVec3::Z)), 0.7);
     let bend = 0.4 * most;

@@ -1,4 +1,4 @@
-//! How different two pictures of one layout are, by the measures that renderers are compared with.
+//! Measures of the difference of two pictures of one layout, as used for renderers.
 
 mod flip;
 mod plane;
@@ -15,23 +15,23 @@ use super::mask::Mask;
 
 pub use flip::PIXELS_PER_DEGREE;
 
-/// The measures of two pictures. What is not defined is none, and null in JSON.
+/// The measures of two pictures. An undefined measure is `None`, and null in JSON.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Measures {
-    /// Pixels that are compared: all but those that the mask leaves out.
+    /// Compared pixels: all except the masked ones.
     pub compared: usize,
     pub masked: usize,
     #[serde(flatten)]
     pub difference: Difference,
     /// Pixels that differ by more than the accepted difference.
     pub pixels_over: usize,
-    /// The mean difference over all channels of all compared pixels, a part of `full_scale` as well.
+    /// The mean difference over all channels of all compared pixels, in the unit of `full_scale`.
     pub mean: f64,
     /// The peak signal-to-noise ratio in dB.
     pub psnr: f64,
-    /// Mean of the pixels with a whole window; none of pictures that are smaller.
+    /// Mean over the pixels with a whole window; `None` for smaller pictures.
     pub ssim: Option<f64>,
-    /// None of floats.
+    /// `None` for floats.
     pub flip: Option<Flip>,
 }
 
@@ -39,7 +39,7 @@ pub struct Measures {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Flip {
     pub mean: f64,
-    /// 95 % of the pixels have no more.
+    /// The 95th percentile of the pixels.
     pub percentile_95: f64,
     pub largest: f64,
 }
@@ -52,14 +52,14 @@ pub struct FlipMap {
 }
 
 impl FlipMap {
-    /// Of two pictures of one layout; none of floats, for which this FLIP is not made.
+    /// FLIP of two pictures of one layout; `None` for floats, which this FLIP does not support.
     pub fn new(one: &DynamicImage, other: &DynamicImage, pixels_per_degree: f64) -> Option<Self> {
         let layout = Layout::of(one);
         let values = || flip::flip(one, other, pixels_per_degree);
         (!layout.is_float()).then(|| Self { size: layout.size, values: values() })
     }
 
-    /// Over the pixels that a mask compares.
+    /// The summary over the unmasked pixels.
     pub fn summary(&self, mask: Option<&Mask>) -> Flip {
         let compared = self.values.iter().enumerate().filter(|(i, _)| Mask::compares(mask, *i));
         let mut values: Vec<f32> = compared.map(|(_, value)| *value).collect();
@@ -75,7 +75,8 @@ impl FlipMap {
 }
 
 impl Measures {
-    /// Of two pictures that differ, the masked pixels of both already the same. `tolerance` is what `pixels_over` are over.
+    /// The measures of two pictures that differ and have equal masked pixels. `tolerance` is the limit of
+    /// `pixels_over`.
     pub fn new(
         [one, other]: [&DynamicImage; 2],
         difference: Difference,
@@ -105,7 +106,8 @@ impl Measures {
         }
     }
 
-    /// Those of pictures whose values are names, such as numbers of primitives: how many differ, and not by how much.
+    /// The measures of pictures whose values are names, such as numbers of primitives: the number of differing pixels,
+    /// without sizes of differences.
     #[must_use]
     pub fn of_names(self) -> Self {
         let difference = Difference { worst: self.difference.first, largest: f64::NAN, ..self.difference };

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-/// Numbers of the pixels of some rows.
+/// Numbers of the pixels in some rows.
 pub struct Plane {
     width: usize,
     pub values: Vec<f64>,
@@ -13,10 +13,11 @@ pub struct Plane {
 /// Rows of a band.
 const BAND: usize = 64;
 
-/// A number for each pixel of a picture, from bands of rows in parallel. `of` gets the rows of a band with `reach` more on
-/// either side, where beyond the edge the outermost row stands again, and gives the numbers of their pixels.
+/// A number for each pixel of a picture, computed in bands of rows in parallel. `of` receives the rows of a band and
+/// `reach` more on each side; beyond the edge the outermost row is repeated. It returns the numbers of the pixels in
+/// these rows.
 ///
-/// Memory is what a band takes, whatever the size of the picture. The numbers do not depend on the bands.
+/// Each thread takes the memory of a band, for any size of the picture. The numbers do not depend on the bands.
 pub fn in_bands(size: [u32; 2], reach: usize, of: impl Fn(&[usize]) -> Vec<f64> + Sync) -> Vec<f32> {
     let [width, height] = size.map(|side| side as usize);
     let bands: Vec<Range<usize>> = (0..height).step_by(BAND).map(|top| top..height.min(top + BAND)).collect();
@@ -34,13 +35,13 @@ impl Plane {
         Self { width, values }
     }
 
-    /// The values times those of `other`.
+    /// The product of each value and the value of `other`.
     pub fn times(&self, other: &Self) -> Self {
         Self::new(self.width, self.values.iter().zip(&other.values).map(|(one, other)| one * other).collect())
     }
 
-    /// Each value with its neighbours, weighted by `across` in a row and `down` in a column; both have one centre. Beyond
-    /// the edge the outermost value stands again.
+    /// Each value convolved with its neighbours, weighted by `across` in a row and `down` in a column. Beyond the edge
+    /// the outermost value is repeated.
     pub fn convolved(&self, across: &[f64], down: &[f64]) -> Self {
         let (width, reach) = (self.width, across.len() / 2);
         let mut rows = vec![0.0; self.values.len()];
@@ -69,7 +70,7 @@ fn add(sums: &mut [f64], weight: f64, row: &[f64]) {
     sums.iter_mut().zip(row).for_each(|(sum, value)| *sum += weight * value);
 }
 
-/// The weights of a Gaussian from `-reach` to `reach`, which sum up to 1.
+/// The weights of a Gaussian from `-reach` to `reach`, with the sum 1.
 pub fn gaussian(reach: usize, sigma: f64) -> Vec<f64> {
     let weights: Vec<f64> = offsets(reach).map(|x| libm::exp(-x * x / (2.0 * sigma * sigma))).collect();
     let sum: f64 = weights.iter().sum();

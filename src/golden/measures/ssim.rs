@@ -17,8 +17,8 @@ const SIGMA: f64 = 1.5;
 const C1: f64 = 1e-4;
 const C2: f64 = 9e-4;
 
-/// The mean over all channels, alpha as any other, and all pixels that are `compared` and have their window inside of the
-/// pictures; none if there is no such pixel, or a value that is no finite number. Full scale of floats is 1.
+/// The mean over all channels, including alpha, and all pixels that are `compared` and have their window inside the
+/// pictures; `None` if there is no such pixel, or a value is not finite. Full scale of floats is 1.
 pub fn ssim(one: &DynamicImage, other: &DynamicImage, compared: impl Fn(usize) -> bool) -> Option<f64> {
     let layout = Layout::of(one);
     let [width, height] = layout.size.map(|side| side as usize);

@@ -28,13 +28,13 @@ fn numbers(measures: &Measures) -> Vec<(&'static str, String)> {
     numbers
 }
 
-/// A comparison as the template sees it.
+/// The template's values for a comparison.
 fn value(entry: Entry) -> Value {
     let numbers = entry.comparison.measures.as_ref().map(numbers).unwrap_or_default();
     context! { numbers => numbers, ..Value::from(Serde(entry)) }
 }
 
-/// Failing comparisons first, all others in their order after them.
+/// Failing comparisons first, then all others in order.
 pub fn page(title: &str, mut entries: Vec<Entry>) -> String {
     entries.sort_by_key(|entry| (entry.comparison.verdict, entry.number));
     let mut environment = Environment::new();

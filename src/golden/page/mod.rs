@@ -1,4 +1,4 @@
-//! A page of comparisons: pictures one upon the other, their differences and the values of their pixels.
+//! A page of comparisons: overlaid pictures, their differences and the values of their pixels.
 
 #[cfg(feature = "page")]
 mod html;
@@ -22,16 +22,16 @@ pub use side::{Sides, Values};
 
 const INDEX: &str = "index.html";
 
-/// A page that is being written: comparisons may be added in any order and by several threads.
+/// A page that is being written. Several threads may add comparisons in any order.
 pub struct Page<'a> {
     folder: &'a Path,
     entries: Mutex<Vec<Entry>>,
 }
 
-/// A comparison as the template sees it.
+/// The template's values for a comparison.
 #[derive(Clone, Debug, Serialize)]
 struct Entry {
-    /// Its place in the order in which things were compared; names its files.
+    /// Its index in the order of comparisons; part of its file names.
     number: usize,
     #[serde(flatten)]
     comparison: Comparison,
@@ -49,8 +49,8 @@ struct Map {
     file: String,
 }
 
-/// Writes a page and its pictures into a folder; `fill` adds comparisons. Without the feature `page` there are the pictures
-/// alone.
+/// Writes a page and its pictures into a folder; `fill` adds comparisons. Without the feature `page` it writes only the
+/// pictures.
 ///
 /// # Errors
 /// If they cannot be written.
@@ -72,13 +72,13 @@ pub fn write<T>(
     })
 }
 
-/// The file of a page in this folder; without the feature `page` the folder.
+/// The file of a page in this folder; without the feature `page`, the folder.
 pub fn index(folder: &Path) -> PathBuf {
     if cfg!(feature = "page") { folder.join(INDEX) } else { folder.into() }
 }
 
 impl Page<'_> {
-    /// Adds a comparison with its pictures. Of pictures that are equal one is shown.
+    /// Adds a comparison with its pictures. Only one of two equal pictures is shown.
     pub fn add(&self, number: usize, comparison: &Comparison, sides: Sides, maps: Option<&Maps>) -> io::Result<()> {
         let first = sides.expected.or(sides.actual);
         let size = first.map_or([1, 1], |picture| [picture.width(), picture.height()]);
@@ -96,7 +96,7 @@ impl Page<'_> {
         }
         if let Some(maps) = maps {
             add("difference", &maps.difference.clone().into())?;
-            // Nobody sees names.
+            // Names have no visible difference.
             if let Some(map) = maps.flip.as_ref().filter(|_| sides.values != Values::Primitives) {
                 let colours = map.values.iter().map(|&value| ramp_colour(value.into())).collect();
                 add("FLIP", &from_pixels(map.size, colours).into())?;

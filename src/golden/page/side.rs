@@ -1,4 +1,4 @@
-//! One picture of a comparison: as a browser shows it, and the values of its pixels.
+//! One picture of a comparison: its form for a browser, and the values of its pixels.
 
 use image::DynamicImage;
 use serde_json::json;
@@ -7,7 +7,7 @@ use crate::golden::Layout;
 use crate::golden::numbers::{MISS, unpacked};
 use crate::render::{ViewKind, depth_picture, from_pixels, identity};
 
-/// The pictures of a comparison that are there.
+/// The existing pictures of a comparison.
 #[derive(Clone, Copy)]
 pub struct Sides<'a> {
     pub expected: Option<&'a DynamicImage>,
@@ -15,7 +15,7 @@ pub struct Sides<'a> {
     pub values: Values,
 }
 
-/// What the values of a picture are.
+/// The kind of values in a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Values {
     /// Colours: the channels.
@@ -36,7 +36,7 @@ impl From<ViewKind> for Values {
     }
 }
 
-/// The picture in colours that a PNG file takes.
+/// The picture in colours that PNG supports.
 pub fn shown(picture: &DynamicImage, values: Values) -> DynamicImage {
     let layout = Layout::of(picture);
     match (values, picture) {
@@ -52,7 +52,7 @@ pub fn shown(picture: &DynamicImage, values: Values) -> DynamicImage {
     }
 }
 
-/// A script that hands the values of all pixels to the page: a page from a file may not read those of a picture.
+/// A script that passes the values of all pixels to the page: a page from a file must not read the pixels of a picture.
 pub fn values(number: usize, sides: Sides) -> String {
     let of = |picture: Option<&DynamicImage>| picture.map(|picture| numbers(picture, sides.values));
     let data = json!({ "expected": of(sides.expected), "actual": of(sides.actual) });

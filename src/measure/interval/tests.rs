@@ -1,4 +1,4 @@
-//! Simulated runs, to count how often intervals contain what they should.
+//! Simulates runs, and counts how often intervals contain the value that they should contain.
 
 use super::*;
 use crate::measure::{AaNoise, RandomOrder};
@@ -13,7 +13,7 @@ struct Machine {
     placement: f64,
     /// The effect of a run on a structure in one cell, the same in all epochs.
     run: f64,
-    /// The most that an interruption adds; by default five standard deviations of other samples.
+    /// The maximum that an interruption adds; by default five standard deviations of other samples.
     tail: f64,
     epochs: usize,
     rounds: usize,
@@ -32,8 +32,7 @@ fn noise(random: &mut RandomOrder, tail: f64) -> f64 {
 }
 
 impl Machine {
-    /// ln times of as many structures as `times`, epoch by epoch, round by round; the machine grows slower by a fifth
-    /// over the run.
+    /// ln times of the structures, by epoch and round; the machine becomes slower by a fifth during the run.
     fn cell(&self, times: &[f64], random: &mut RandomOrder) -> Vec<Vec<Vec<f64>>> {
         let mut samples = vec![vec![]; times.len()];
         let run: Vec<f64> = times.iter().map(|_| self.run * random.normal()).collect();
@@ -57,19 +56,19 @@ impl Machine {
         log_differences(&logs[0], &logs[1])
     }
 
-    /// The values of the epochs of so many runs.
+    /// The values of the epochs of `runs` runs.
     fn values(&self, runs: usize, times: [f64; 2], random: &mut RandomOrder) -> Vec<f64> {
         (0..runs).flat_map(|_| epoch_values(&[self.ratio(times, random)]).unwrap()).collect()
     }
 }
 
-/// Round by round, epoch by epoch.
+/// By epoch and round.
 fn log_differences(one: &[Vec<f64>], other: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let of_epoch = |(one, other): (&Vec<f64>, &Vec<f64>)| one.iter().zip(other).map(|(a, b)| a - b).collect();
     one.iter().zip(other).map(of_epoch).collect()
 }
 
-/// Machines of every kind: with and without placement effects, one round and three.
+/// Machines with and without placement effects, with one round and with three.
 fn machines() -> impl Iterator<Item = Machine> {
     let of = |rounds: usize| [0.0, 0.01, 0.04].map(|placement| Machine { placement, rounds, ..Machine::default() });
     [1, 3].into_iter().flat_map(of)
@@ -77,7 +76,7 @@ fn machines() -> impl Iterator<Item = Machine> {
 
 const PAIRS: u64 = 2500;
 
-/// In how many per cent of pairs the interval contains the number; `pair` makes both.
+/// The percentage of pairs in which the interval contains the number; `pair` makes both.
 fn share_held(pairs: u64, pair: impl Fn(&mut RandomOrder) -> (Estimate, f64)) -> f64 {
     let holds = |seed: &u64| {
         let (first, second) = pair(&mut RandomOrder::new(*seed));
@@ -86,7 +85,7 @@ fn share_held(pairs: u64, pair: impl Fn(&mut RandomOrder) -> (Estimate, f64)) ->
     (0..pairs).filter(holds).count() as f64 * 100.0 / pairs as f64
 }
 
-/// In how many per cent of pairs of runs the second's estimate lies within the first's interval.
+/// The percentage of pairs of runs in which the second estimate lies within the first interval.
 fn held(pairs: u64, run: impl Fn(&mut RandomOrder) -> Rerun) -> f64 {
     share_held(pairs, |random| (run(random).plain(), run(random).plain().estimate))
 }
@@ -102,7 +101,7 @@ fn mean_of(cells: &[Vec<Vec<f64>>], noise: Variance) -> Rerun {
 
 #[test]
 fn the_estimate_of_a_second_run_lies_within_the_interval_of_the_first() {
-    // As few epochs as studies have by default, and more.
+    // As few epochs as the default of studies, and more.
     for machine in [3, 4, EPOCHS].into_iter().flat_map(|epochs| machines().map(move |m| Machine { epochs, ..m })) {
         let run = |random: &mut RandomOrder| mean_of(&[machine.ratio([3.0, 1.0], random)], Variance::NONE);
         as_promised(held(PAIRS, run), &format!("{machine:?}"));
@@ -134,7 +133,7 @@ fn so_do_the_estimates_of_longer_runs_and_changes() {
         (Rerun::change(&old, &new, [Variance::NONE; 2]).unwrap().plain(), libm::log(1.1))
     });
     as_promised(changes, "changes");
-    // The interval of the mean over the epochs is for that mean and not for another run.
+    // The interval of the mean over the epochs is an interval for that mean and not for another run.
     let confidence = held(PAIRS, |random| {
         let of = mean_of(&[Machine::default().ratio([3.0, 1.0], random)], Variance::NONE);
         Rerun { variance: of.variance.map(|variance| variance.times(std::f64::consts::FRAC_1_SQRT_2)), ..of }
@@ -142,7 +141,7 @@ fn so_do_the_estimates_of_longer_runs_and_changes() {
     assert!(confidence < 90.0, "{confidence:.1} %");
 }
 
-/// One run of two structures and a second build of the first, in so many cells: the ratios and the A/A noise.
+/// One run of two structures and a second build of the first, in `cells` cells: the ratios and the A/A noise.
 fn with_twins(machine: Machine, cells: usize, random: &mut RandomOrder) -> (Vec<Vec<Vec<f64>>>, AaNoise) {
     let [mut ratios, mut twins] = [vec![], vec![]];
     for _ in 0..cells {
@@ -155,7 +154,8 @@ fn with_twins(machine: Machine, cells: usize, random: &mut RandomOrder) -> (Vec<
 
 #[test]
 fn effects_of_whole_runs_are_covered_with_the_aa_noise_and_not_without() {
-    // The standard error of a ratio is about 0.01 here: run effects add nothing, as much, and three times as much.
+    // The standard error of a ratio is about 0.01 here: run effects add nothing, the same amount, and three times as
+    // much.
     for (run, cells) in [(0.0, 1), (0.007, 1), (0.0, 4), (0.0, 8), (0.007, 8), (0.02, 12)] {
         let machine = Machine { run, ..Machine::default() };
         let share = |noise: &dyn Fn(&AaNoise) -> Variance, all: bool| {
@@ -184,7 +184,7 @@ fn effects_of_whole_runs_are_covered_with_the_aa_noise_and_not_without() {
 
 #[test]
 fn half_widths_are_those_of_students_t() {
-    // Five values with a deviation of 0.01 times the root of 2.5, or without any.
+    // Five values with a deviation of 0.01 times the root of 2.5, or with none.
     let (spread, none) = ([-0.02, -0.01, 0.0, 0.01, 0.02], [0.0; 5]);
     let deviation = 0.01 * libm::sqrt(2.5);
     let half = |rerun: Option<Rerun>| {
@@ -192,13 +192,13 @@ fn half_widths_are_those_of_students_t() {
         interval.unwrap().high - estimate
     };
     let expect = |half: f64, expected: f64| assert!((half - expected).abs() < 1e-4, "{half} {expected}");
-    // The next run has as many epochs, or fewer or more: it is easier to foresee the longer it is.
+    // The next run has as many epochs, or fewer or more: a longer run is easier to predict.
     for epochs in [2, 5, 20] {
         let expected = 2.776 * deviation * libm::sqrt(1.0 / 5.0 + 1.0 / epochs as f64);
         expect(half(Rerun::in_epochs(&spread, epochs, Variance::NONE)), expected);
     }
-    // A change is as sure as both runs: eight degrees of freedom, four where one does not spread, and the noise of
-    // both.
+    // A change has the uncertainty of both runs: eight degrees of freedom, four if one run does not vary, and the noise
+    // of both.
     let change = |old: &[f64], new: &[f64], noise| Rerun::change(old, new, [noise; 2]);
     let noise = Variance { square: 1e-4, freedom: 1e9 };
     expect(half(change(&spread, &spread.map(|x| x + 0.1), Variance::NONE)), 2.306 * deviation * libm::sqrt(2.0 / 5.0));
@@ -210,7 +210,7 @@ fn half_widths_are_those_of_students_t() {
 
 #[test]
 fn cells_of_one_epoch_share_its_placement() {
-    // The same epochs move both cells: their mean is as uncertain as either.
+    // The same epochs move both cells: their mean is as uncertain as each of them.
     let cell = |by: f64| -> Vec<Vec<f64>> { (0..EPOCHS).map(|e| vec![by + 0.01 * e as f64; 3]).collect() };
     let one = mean_of(&[cell(0.0)], Variance::NONE).ratio();
     let two = mean_of(&[cell(0.0), cell(1.0)], Variance::NONE).ratio();

@@ -60,7 +60,7 @@ fn a_pass_that_answers_nothing_is_unsteady() {
     }
 }
 
-/// A structure with its own clock. Each ray takes as many nanoseconds as its origin says.
+/// A structure with its own clock. The origin of a ray is its time in nanoseconds.
 struct Slow<'a>(&'a AtomicU64, Box<dyn DynAccel>);
 
 /// The clock, the number of rays, and the time that they take.
@@ -70,7 +70,7 @@ struct Now<'a>(&'a AtomicU64);
 
 impl Clock for Now<'_> {
     fn now_ns(&self) -> u64 {
-        // Reading takes time as well.
+        // Reading the clock takes time as well.
         self.0.fetch_add(7, Relaxed)
     }
 }
@@ -110,7 +110,7 @@ impl DynAccel for Slow<'_> {
 fn the_time_of_a_part_is_that_of_its_rays_and_lead_ins_are_not_timed() {
     let now = AtomicU64::new(0);
     let slow = Slow(&now, triangle());
-    // The ray with number i takes i nanoseconds.
+    // Ray number i takes i nanoseconds.
     let rays: Vec<Ray> = (0..9000).map(|i| Ray::new(Vec3::splat(i as f32), Vec3::X)).collect();
     let (threads, clock) = (Threads::new(1).unwrap(), Now(&now));
     for (levels, epoch) in [(&[0][..], 0), (&[0, 1, 3], 1), (&[1, 2], 2), (&[4], 3)] {

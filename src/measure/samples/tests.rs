@@ -78,7 +78,7 @@ impl Bench {
         Box::new(self.mock(name, ns, all))
     }
 
-    /// Samples of as many rays as the plan allows.
+    /// Takes samples on as many rays as the plan allows.
     fn take<'a>(&'a self, cases: &mut [Box<dyn Timed + 'a>], plan: &SamplePlan) -> Vec<Samples> {
         let none = |rays: usize| Samples::none(rays, level_within(rays, plan.most_rays));
         let mut samples: Vec<Samples> = cases.iter().map(|case| none(case.rays())).collect();
@@ -111,7 +111,7 @@ fn only_the_pass_is_timed_in_rounds_of_changing_order() {
 
 #[test]
 fn a_case_with_changing_results_is_not_steady_and_the_others_go_on() {
-    // The second of five samples, or its lead-in; where only a part of the rays is timed, the second pass over some of
+    // The second of five samples, or its lead-in; if only a subset of the rays is timed, the second pass over some of
     // them.
     for (runs, most_rays, fickle_at) in [(5, usize::MAX, 2), (5, 16, 4), (1, 16, 2)] {
         let bench = Bench::default();

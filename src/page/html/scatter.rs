@@ -1,4 +1,4 @@
-//! The data of a scatter plot as its script reads them.
+//! The data of a scatter plot for its script.
 
 use serde_json::{Value, json};
 

@@ -1,4 +1,4 @@
-//! The document as the template sees it.
+//! The values of the template.
 
 use minijinja::{Value, context};
 
@@ -10,7 +10,7 @@ use crate::report::{Art, Block, Cell, Colours, Figure, Overlay, Picture, Table, 
 
 const NARROW: f64 = 360.0;
 
-/// The page: what the template may ask of each part stands where the part is made.
+/// The page. The value of each part is built with the part.
 pub fn page(document: &Document, css: String) -> Value {
     let section = |section: &Section| {
         let Section { id, title, command, blocks: own } = section;
@@ -40,7 +40,7 @@ fn answer(answer: &Answer) -> Value {
     }
 }
 
-/// A sentence with what stands between backticks as code.
+/// A sentence whose parts between backticks are code.
 fn spans(text: &str) -> Vec<Value> {
     let span = |(i, text): (usize, &str)| context! { text => text, is_code => i % 2 == 1 };
     text.split('`').enumerate().map(span).collect()
@@ -87,7 +87,7 @@ fn table(table: &Table) -> Value {
 
 fn figure(figure: &Figure) -> Value {
     let chart = figure.chart();
-    // Points have labels all over: they are as wide as they are, and scroll.
+    // Scatter plots have labels everywhere: they keep their width, and scroll.
     let shrinks = |chart: &&Chart| !matches!(chart, Chart::Scatter(_));
     context! {
         id => &figure.id,
@@ -95,7 +95,7 @@ fn figure(figure: &Figure) -> Value {
         alt => &figure.alt,
         wide => chart.map(|chart| inline(&chart.svg(WIDTH))),
         narrow => chart.filter(shrinks).map(|chart| inline(&chart.svg(NARROW))),
-        // The data of a chart that can be changed.
+        // The data of an interactive chart.
         scatter => if let Some(Chart::Tradeoff(tradeoff)) = chart { Some(scatter::data(tradeoff)) } else { None },
         overlay => if let Art::Overlay(drawn) = &figure.art { Some(overlay(drawn)) } else { None },
         pictures => values(figure.pictures(), picture),
@@ -103,7 +103,7 @@ fn figure(figure: &Figure) -> Value {
     }
 }
 
-/// Colours with a scale, and the title above it; or with their meanings.
+/// Colours with a scale and its title; or with their meanings.
 fn overlay(overlay: &Overlay) -> Value {
     let colours = match &overlay.colours {
         Colours::Ramp { title, colours, ticks } => {
@@ -131,7 +131,7 @@ fn picture(picture: &Picture) -> Value {
     }
 }
 
-/// A drawing within a page: it takes the width it is given, and its text stands in its place.
+/// An inline drawing: it adapts to the available width, and screen readers skip it.
 fn inline(svg: &str) -> String {
     let svg = svg.trim_start();
     let end = svg.find('>').map_or(0, |end| end + 1);

@@ -1,4 +1,4 @@
-//! What all structures do for the camera rays of one scene.
+//! The work of all structures on the camera rays of one scene.
 
 use super::loaded_scene::LoadedScene;
 use crate::accel::Observed;
@@ -9,17 +9,17 @@ use crate::report::words::{each_once, scene_name};
 use crate::request::{BRUTE_FORCE, REPORT_TREE, SAH_TREE};
 use crate::study::measure::guarded;
 
-/// A picture of a scene, traced by exact arithmetic and by every structure of the comparison but brute force, whose
-/// work would darken that of all others.
+/// A picture of a scene, traced by exact arithmetic and by every structure of the comparison, except brute force, whose
+/// work would darken all other pictures.
 pub struct CameraRays<'a> {
     pub loaded: &'a LoadedScene,
-    /// The scene as figures name it.
+    /// The name of the scene in figures.
     pub name: String,
     pub exact: ExactPicture,
     pub structures: Vec<StructureWork>,
 }
 
-/// What one structure does for each pixel, row by row.
+/// The work of one structure on each pixel, row by row.
 pub struct StructureWork {
     pub label: String,
     pub observed: Observed,

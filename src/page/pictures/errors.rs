@@ -1,4 +1,4 @@
-//! Where answers are wrong, pixel by pixel, by exact arithmetic.
+//! Pictures of wrong hits, pixel by pixel, judged by exact arithmetic.
 
 use super::camera_rays::{CameraRays, StructureWork};
 use super::inspect::{inspector, most_rays};
@@ -12,8 +12,8 @@ use crate::report::{Art, Block, Colours, Figure, Overlay, Picture, Table};
 
 pub const TITLE: &str = "Wrong hits, pixel by pixel";
 
-/// The pictures of all structures with a wrong answer, with the command that draws one; a sentence where none has one.
-/// Nothing without structures.
+/// The pictures of all structures with a wrong hit, with the command that draws one; a sentence if all hits are right.
+/// `None` without structures.
 pub fn block(camera: &CameraRays) -> Option<(Block, String)> {
     let maps: Vec<(&StructureWork, ErrorMap)> = camera.structures.iter().map(|s| (s, camera.errors(s))).collect();
     let (wrong, right): (Vec<_>, Vec<_>) = maps.into_iter().partition(|(_, map)| map.errors().next().is_some());
@@ -71,7 +71,7 @@ fn figure(camera: &CameraRays, wrong: &[(&StructureWork, ErrorMap)], right: &[&s
     }
 }
 
-/// The rays of all pixels that some structure answers wrong; evenly chosen ones where they are too many.
+/// The rays of all pixels on which some structure has a wrong hit; if there are too many, an even selection.
 fn pixels(camera: &CameraRays, wrong: &[(&StructureWork, ErrorMap)]) -> Inspector {
     let mut pixels: Vec<usize> = wrong.iter().flat_map(|(_, map)| map.errors()).collect();
     pixels.sort_unstable();

@@ -25,12 +25,12 @@ impl Heat<'_> {
     }
 }
 
-/// The maps of all structures that tell their work, with the command that draws one. Nothing where none does.
+/// The maps of all structures that report their work, with the command that draws one. `None` if no structure does.
 pub fn block(camera: &CameraRays) -> Option<(Block, String)> {
     let told = camera.structures.iter().filter(|own| own.observed == Observed::ALL);
     let costs = |own: &StructureWork| own.work.iter().map(Work::cost).collect();
     let maps: Vec<Heat> = told.map(|own| Heat { label: &own.label, costs: costs(own) }).collect();
-    // One scale for all: a structure is as bright as its work.
+    // Use one scale for all: equal work has equal brightness.
     let scale = maps.iter().map(|heat| hottest(&heat.costs)).max()?;
     let (name, size) = (&camera.name, camera.exact.size);
     let picture = |heat: &Heat| {
@@ -100,7 +100,7 @@ fn ramp(scale: u64) -> Colours {
     }
 }
 
-/// A cost in one of a few steps: the eye sees no more, and the file is a third.
+/// A cost rounded to one of a few steps: finer ones are invisible, and the file is a third as large.
 fn stepped(cost: u64, scale: u64) -> u64 {
     const STEPS: f64 = 48.0;
     let unit = libm::log1p(scale as f64) / STEPS;

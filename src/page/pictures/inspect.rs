@@ -1,4 +1,4 @@
-//! The rays of some pixels, and what every structure does for them.
+//! The rays of some pixels, and the work of every structure on them.
 
 use super::camera_rays::{CameraRays, StructureWork};
 use crate::geometry::{Hit, Ray};
@@ -7,19 +7,18 @@ use crate::report::inspector::{Answer, InspectedHit, InspectedStructure, Inspect
 use crate::report::words::each_once;
 use crate::scene::offset::barycentrics;
 
-/// Numbers that a picture may hold, at most: some ten bytes each on the page.
+/// The maximum of numbers in a picture: each takes some ten bytes on the page.
 const NUMBERS: usize = 75_000;
 
-/// Numbers of a ray besides those of each structure.
+/// Numbers per ray, without the numbers of each structure.
 const OF_RAY: usize = 8;
 
-/// Rays that a picture with these structures may hold.
+/// The maximum of rays in a picture with these structures.
 pub fn most_rays(structures: usize) -> usize {
     NUMBERS / (structures + OF_RAY)
 }
 
-/// Everything about `pixels`, which are numbers of pixels in ascending order. `which` says in a sentence which ones
-/// they are.
+/// The data of `pixels`, which are indices of pixels in ascending order. The sentence `which` describes the selection.
 pub fn inspector(camera: &CameraRays, pixels: Vec<usize>, which: String) -> Inspector {
     let options: Vec<String> = camera.structures.iter().map(|s| format!("-s {}", s.label)).collect();
     let answers: Vec<Vec<Answer>> = pixels.iter().map(|&pixel| answers(camera, pixel)).collect();
@@ -53,7 +52,8 @@ pub fn inspector(camera: &CameraRays, pixels: Vec<usize>, which: String) -> Insp
     }
 }
 
-/// Whoever tests triangles has entered a leaf, if leaves are counted: in some trees they are no nodes of their own.
+/// Whether leaves are observed: in some trees they are not separate nodes. If leaves are counted, every structure that
+/// tests triangles has entered one.
 fn sees_leaves(structure: &StructureWork) -> bool {
     let any = |number: fn(&Work) -> u64| structure.work.iter().any(|work| number(work) > 0);
     structure.observed.steps && (any(|work| work.counts.leaves) || !any(|work| work.counts.tests))

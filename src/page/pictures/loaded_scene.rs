@@ -10,13 +10,13 @@ pub struct LoadedScene {
 }
 
 impl LoadedScene {
-    /// The scene and its view as a shell reads them.
+    /// The scene and its view as arguments for a shell.
     pub fn words(&self) -> String {
         let view = self.request.view.words();
         [quoted(&self.request.word), view].into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
     }
 
-    /// The cube under another name, asked for as `word` and seen as the JSON of `view` says.
+    /// The cube with another name, loaded by `word` and with the view in the JSON `view`.
     #[cfg(test)]
     pub fn cube(word: &str, name: &str, view: &str) -> Self {
         let scene = Scene { name: name.into(), ..crate::scene::Builtin::find("cube").unwrap().scene(None).unwrap() };

@@ -1,5 +1,4 @@
-//! Pictures of the scenes, of the work that structures do on them and of their wrong answers: drawn when the report is
-//! made.
+//! Pictures of the scenes, of the work of structures and of their wrong hits. They are drawn for each report.
 
 mod camera_rays;
 mod errors;
@@ -19,13 +18,14 @@ use crate::request::is_large;
 use camera_rays::CameraRays;
 use loaded_scene::LoadedScene;
 
-/// Scenes with heat maps and pictures of errors: the largest of those whose structures are built again in seconds.
+/// The number of scenes with heat maps and pictures of errors: the largest of those whose structures can be rebuilt in
+/// seconds.
 const LARGEST: usize = 3;
 
-/// The sections of scenes, heat maps and errors. `progress` is told what is done.
+/// The sections of scenes, heat maps and errors. `progress` receives each step.
 pub fn draw(runs: &Runs, registry: &Registry, progress: &mut dyn FnMut(String)) -> Vec<Section> {
     let (mut loaded, mut lost): (Vec<LoadedScene>, Vec<String>) = (vec![], vec![]);
-    // The scenes of a generator are many, and look alike.
+    // A generator has many scenes, which look the same.
     let is_generated = |word: &OsStr| {
         let parts = word.to_str().and_then(|word| word.split_once(':'));
         parts.is_some_and(|(name, _)| registry.has_generator(name))
@@ -61,7 +61,8 @@ fn hex([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// What was `found`, introduced by a sentence, with its commands; where there is none, that these pictures are missing.
+/// The blocks of `found` after an introductory sentence, with their commands; without blocks, a note that these
+/// pictures are missing.
 fn introduced(pictures: &str, sentence: &str, found: Vec<(Block, String)>) -> (Vec<Block>, String) {
     let note = "Scenes of more than four million triangles are left out; `sahara render` draws them.";
     let first = match found.is_empty() {
@@ -73,7 +74,7 @@ fn introduced(pictures: &str, sentence: &str, found: Vec<(Block, String)>) -> (V
     (std::iter::once(first).chain(found).collect(), commands.join("\n"))
 }
 
-/// The sections of a report without pictures, which say so.
+/// The sections of a report without pictures, with a note.
 pub fn left_out() -> Vec<Section> {
     let section = |id, title, what| {
         let blocks = vec![Block::missing(what, "sahara report, without --no-pictures")];

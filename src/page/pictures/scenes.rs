@@ -1,4 +1,4 @@
-//! The scenes, as the report's course shades them.
+//! The scenes with the shading of the source report's course.
 
 use image::{Rgb, RgbImage};
 
@@ -16,7 +16,7 @@ const SIDE: u32 = 208;
 
 pub const TITLE: &str = "The scenes";
 
-/// The scene as the report's course shades it, four rays a pixel.
+/// The scene with the shading of the course, four rays per pixel.
 pub fn picture(loaded: &LoadedScene, registry: &Registry) -> Option<Picture> {
     let scene = &loaded.scene;
     let accel = guide(registry).ok()?.build(&scene.mesh).ok()?;

@@ -1,4 +1,4 @@
-//! Places of a Markdown file that a run fills in: text between `<!-- sahara: KEY -->` and `<!-- / -->`.
+//! The marked places of a Markdown file, which a run fills in: text between `<!-- sahara: KEY -->` and `<!-- / -->`.
 
 pub const OPEN: &str = "<!-- sahara: ";
 const END: &str = " -->";
@@ -7,14 +7,14 @@ const CLOSE: &str = "<!-- / -->";
 /// Columns of a line.
 const WIDTH: usize = 120;
 
-/// A marked place: where the text between the marks begins and ends.
+/// A marked place: the beginning and the end of the text between the marks.
 struct Place<'a> {
     key: &'a str,
     from: usize,
     to: usize,
 }
 
-/// Refuses a mark that is not closed.
+/// Rejects a mark that is not closed.
 fn places(text: &str) -> anyhow::Result<Vec<Place<'_>>> {
     let (mut places, mut at) = (vec![], 0);
     while let Some(open) = text[at..].find(OPEN) {
@@ -35,14 +35,14 @@ fn places(text: &str) -> anyhow::Result<Vec<Place<'_>>> {
     Ok(places)
 }
 
-/// Keys and texts of all marked places, in order; a run of white space is one blank.
+/// Keys and texts of all marked places, in order; white space is reduced to single spaces.
 pub fn marked(text: &str) -> anyhow::Result<Vec<(String, String)>> {
     let plain = |place: &Place| text[place.from..place.to].split_whitespace().collect::<Vec<_>>().join(" ");
     Ok(places(text)?.iter().map(|place| (place.key.to_owned(), plain(place))).collect())
 }
 
-/// The file with what `of` says in the marked places; what it does not know stays. Paragraphs with marks are wrapped
-/// anew, tables stand in lines of their own.
+/// The file with the result of `of` in the marked places; for an unknown key the text stays. Paragraphs with marks are
+/// wrapped again, tables start on a new line.
 pub fn fill(text: &str, of: impl Fn(&str) -> Option<String>) -> anyhow::Result<String> {
     let (mut filled, mut at) = (String::new(), 0);
     for Place { key, from, to } in places(text)? {
@@ -74,7 +74,7 @@ pub fn fill(text: &str, of: impl Fn(&str) -> Option<String>) -> anyhow::Result<S
     Ok(out)
 }
 
-/// Writes the lines of a paragraph, anew where it has a mark with text beside it.
+/// Writes the lines of a paragraph; wraps them again if the paragraph has a mark with text beside it.
 fn flush(paragraph: &mut Vec<&str>, out: &mut String) {
     let lines = std::mem::take(paragraph);
     if !lines.iter().any(|line| line.contains(OPEN) && !line.starts_with(OPEN)) {
@@ -94,8 +94,8 @@ fn flush(paragraph: &mut Vec<&str>, out: &mut String) {
     *out += &format!("{line}\n");
 }
 
-/// What may stand at the end of a line: a comment is one word with what is before it, for a line that begins with one
-/// is no Markdown; so is a piece of code.
+/// The parts that may end a line. A comment and the word before it are one part, because a line that begins with a
+/// comment is not Markdown; a piece of code is one part as well.
 fn words(text: &str) -> Vec<String> {
     let (mut words, mut word, mut is_code): (Vec<String>, String, bool) = (vec![], String::new(), false);
     for piece in text.split_whitespace() {

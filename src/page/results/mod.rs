@@ -1,7 +1,7 @@
-//! `report --results`: the findings as a short paper, the numbers that README prints, and the file that holds them.
+//! `report --results`: the findings as a short paper, the numbers in README, and the file with all of them.
 //!
-//! All three are made from one run. The data file has every sentence with a number in it, by its key, and the digests
-//! of the other files: whoever changes a number by hand, or forgets a file, is told by a test.
+//! All three are made from one run. The data file contains every sentence with a number, by key, and the digests of the
+//! other files: a test fails after a manual change of a number, or if a file is forgotten.
 
 mod marks;
 mod paper;
@@ -25,7 +25,7 @@ use crate::measure::program::digest;
 use crate::report::plot::WIDTH;
 use crate::study::Studies;
 
-/// The command that makes all of it.
+/// The command that makes all files.
 pub const COMMAND: &str = "sahara report RUN.. --results";
 
 /// The paper, the data file and the folder of figures, in the folder of results.
@@ -48,11 +48,11 @@ pub struct ResultsData {
     pub run: RunFacts,
     /// By key: the name of the study or part, a full stop, and the key of the finding.
     pub statements: BTreeMap<String, Statement>,
-    /// Digests (SHA-256) of the other files, by their paths beside this one.
+    /// Digests (SHA-256) of the other files, by their paths relative to this one.
     pub files: BTreeMap<String, String>,
 }
 
-/// A sentence, and the number that it is about; an empty one where a number alone was found.
+/// A sentence and its number; the sentence is empty for a finding that is only a number.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Statement {
     pub text: String,
@@ -70,7 +70,7 @@ impl Results {
         for figure in document.figures() {
             let path = paper::path(&figure.id);
             let Some(chart) = figure.chart().filter(|_| paper.contains(&path)) else { continue };
-            // The answer may be the figure of a study as well: it is kept once.
+            // The answer may use the figure of a study: keep it only once.
             let bytes = chart.svg(WIDTH).into_bytes();
             match figures.iter().find(|(_, known)| *known == bytes) {
                 Some((known, _)) => paper = paper.replace(&path, &format!("{FIGURES}/{known}")),
@@ -84,8 +84,8 @@ impl Results {
         Ok(Self { data, paper, figures })
     }
 
-    /// The text of README with what it marks filled in. What it marks and no run has measured says so, here and in the
-    /// data.
+    /// README with its marked places filled in. For a key without a measurement, README and the data say that it is not
+    /// measured.
     pub fn fill(&mut self, readme: &str, studies: &Studies) -> anyhow::Result<String> {
         for (key, _) in marked(readme).context("README.md")? {
             if self.data.statements.contains_key(&key) {
@@ -109,7 +109,7 @@ impl Results {
     }
 }
 
-/// Every finding of every study, the answer, what came of the claims, and the run by their keys.
+/// Every finding of every study, the answer, the tally of the claims, and the run, by key.
 fn statements(document: &Document, runs: &Runs, run: &RunFacts) -> BTreeMap<String, Statement> {
     let sentence = |text: String| Statement { text, value: None };
     let mut all = BTreeMap::new();

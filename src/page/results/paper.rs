@@ -9,15 +9,15 @@ use crate::report::markdown::prose;
 use crate::report::words::listed;
 use crate::report::{Art, Block, wrapped};
 
-/// The text around; a name in double braces stands for what is filled in.
+/// The text around; a name in double braces is replaced.
 const FRAME: &str = include_str!("paper.md");
 
 pub const ANSWER: &str = "answer.svg";
 
-/// Figures of a study that the paper shows; the page has all.
+/// Figures of a study in the paper; the page has all of them.
 const FIGURES_SHOWN: usize = 2;
 
-/// Where the paper looks for a figure.
+/// The path of a figure in the paper.
 pub fn path(id: &str) -> String {
     format!("{FIGURES}/{id}.svg")
 }
@@ -55,7 +55,7 @@ fn answer(document: &Document) -> String {
     text
 }
 
-/// The sections of the studies without what is folded, tables of single scenes and what the page alone can show.
+/// The sections of the studies, without folded blocks, tables of single scenes and interactive blocks.
 fn results(document: &Document, runs: &Runs) -> String {
     let mut text = String::new();
     for own in document.sections.iter().filter(|own| runs.of(own.id).is_some()) {

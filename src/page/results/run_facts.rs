@@ -1,4 +1,4 @@
-//! Where all numbers of the results come from.
+//! The origin of all numbers in the results.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,7 +13,7 @@ pub struct RunFacts {
     pub commit: String,
     pub cpu: String,
     pub simd: String,
-    /// Threads of the study that takes the most.
+    /// The largest number of threads of any study.
     pub threads: usize,
     pub rustc: String,
     pub target: String,
@@ -24,7 +24,7 @@ pub struct RunFacts {
 }
 
 impl RunFacts {
-    /// Refuses runs of more than one commit or machine.
+    /// Rejects runs of more than one commit or machine.
     pub fn new(runs: &Runs) -> anyhow::Result<Self> {
         let all = runs.provenances();
         let one = |what: &'static str, of: fn(&Provenance) -> &String| -> anyhow::Result<String> {
@@ -68,7 +68,7 @@ impl RunFacts {
     }
 }
 
-/// A command without the folders of the machine that it ran on.
+/// A command without the folders of its machine.
 pub fn portable(command: &str) -> String {
     let name = |word: &str| match word.starts_with('/') {
         true => word.rsplit('/').next().unwrap_or(word).to_owned(),

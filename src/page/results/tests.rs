@@ -1,4 +1,4 @@
-//! The paper, README and the data file agree, and say nothing that no run has measured.
+//! Checks that the paper, README and the data file agree, and contain only measured numbers.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -55,7 +55,7 @@ fn marked_places_are_filled_in_and_wrapped() {
     assert!(filled.lines().all(|line| line.chars().count() <= 120), "{filled}");
     assert!(filled.contains("\n  word word"), "the paragraph is indented as before: {filled}");
     assert!(filled.contains("<!-- sahara: t -->\n\n| a |\n| - |\n\n<!-- / -->\n"), "{filled}");
-    // Filled in again it is the same.
+    // Filling it in again changes nothing.
     let again = fill(&filled, |key| Some(if key == "t" { "| a |\n| - |".into() } else { long.trim().into() })).unwrap();
     assert_eq!(again, filled);
     assert_eq!(fill(&filled, |_| None).unwrap(), filled);
@@ -68,7 +68,7 @@ fn results(runs: &Runs) -> anyhow::Result<Results> {
     Results::new(&document(runs, &STUDIES, vec![]), runs)
 }
 
-/// Each figure that the paper shows is written, no other one, and none twice.
+/// Each figure of the paper is written, no other one, and none twice.
 fn are_shown(results: &Results) {
     let shown: BTreeSet<&str> =
         results.paper.split("](figures/").skip(1).filter_map(|rest| rest.split(')').next()).collect();
@@ -147,7 +147,8 @@ fn numbers(text: &str) -> Vec<String> {
     starts.map(around).collect()
 }
 
-/// Numbers that were not measured: statuses, the level of intervals, what a ratio is compared with, and a licence.
+/// Numbers without a measurement: statuses, the level of intervals, the value that ratios are compared with, and a
+/// licence.
 const ALLOWED: [&str; 3] = ["in 95 % of", "from 1.", "Apache 2.0,"];
 
 #[test]

@@ -1,4 +1,4 @@
-//! The question that the source report leaves open, and what the runs say: from the findings of studies, by their keys.
+//! The open question of the source report, and its answer by the runs: from the findings of studies, by key.
 
 use crate::measure::Estimate;
 use crate::page::document::{Answer, Headline};
@@ -12,17 +12,17 @@ use crate::study::compare::FASTEST;
 
 const QUESTION: &str = "Would a SAH tree have been much faster on the hard scenes?";
 
-/// The hard scenes, as keys name them.
+/// The names of the hard scenes in keys.
 const SCENES: [&str; 3] = ["dragon", "lucy", "sponza"];
 
-/// From this on a tree is called much faster: half of the time.
+/// From this ratio on a tree is called much faster: half of the time.
 const MUCH: f64 = 2.0;
 
-/// The studies that tell how fast the SAH tree is on the hard scenes.
+/// The studies that measure the speed of the SAH tree on the hard scenes.
 const REPLICATE: &str = "replicate";
 const ATTRIBUTION: &str = "attribution";
 
-/// A hard scene as tables name it, and how many times faster the SAH tree is there.
+/// The name of a hard scene in tables, and the speedup by the SAH tree.
 struct Hard {
     key: &'static str,
     title: String,
@@ -39,8 +39,7 @@ fn of_findings(run: &StudyRun, prefix: &str) -> Vec<Hard> {
     SCENES.into_iter().filter_map(hard).collect()
 }
 
-/// The hard scenes, their mean and a sentence on them: from `replicate`, or else from `attribution`, which tells no
-/// mean.
+/// The hard scenes, their mean and a sentence on them: from `replicate`, or else from `attribution`, which has no mean.
 fn hard(runs: &Runs) -> Option<(Vec<Hard>, Option<Estimate>, String)> {
     let of = |study: &str, prefix: &str| {
         let run = runs.of(study)?;
@@ -58,7 +57,7 @@ fn hard(runs: &Runs) -> Option<(Vec<Hard>, Option<Estimate>, String)> {
     Some((hard, None, sentence))
 }
 
-/// That the runs were made for trying out, where one of them was.
+/// A warning if one of the runs was a quick one.
 fn banner(runs: &Runs) -> String {
     if !runs.commands().iter().any(|command| command.split(' ').any(|word| word == "--quick")) {
         return String::new();
@@ -68,7 +67,7 @@ fn banner(runs: &Runs) -> String {
         .into()
 }
 
-/// The question that the runs answer, and the answer, or that there is none yet.
+/// The question of the page, and the answer, or a note that there is none yet.
 pub fn answer(runs: &Runs) -> (String, Answer) {
     let Some((hard, mean, sentence)) = hard(runs) else { return otherwise(runs) };
     let numbers = hard.iter().map(|own| headline(&own.title, own.ratio));
@@ -91,7 +90,7 @@ pub fn answer(runs: &Runs) -> (String, Answer) {
     (QUESTION.into(), answer)
 }
 
-/// What came of the claims that were written before the data.
+/// The outcomes of the claims, which were written before the measurement.
 pub fn tally(runs: &Runs) -> String {
     let verdicts = runs.studies.iter().flat_map(|run| &run.report.verdicts);
     format!("Written before the measurement: {}.", claims::tally(verdicts))
@@ -120,8 +119,7 @@ fn verdict(hard: &[Hard], mean: Option<Estimate>) -> String {
     format!("{verdict}, on {}", listed(&titles))
 }
 
-/// How many times faster, scene by scene: in the parts that it is due to where `attribution` tells them, else as a
-/// whole.
+/// The speedup, scene by scene: by factor if `attribution` measured them, otherwise as a whole.
 fn chart(runs: &Runs, hard: &[Hard]) -> Bars {
     let mut figures = runs.of(ATTRIBUTION).into_iter().flat_map(|run| run.report.figures());
     if let Some(Chart::Bars(bars)) = figures.find(|figure| figure.id == ATTRIBUTION).and_then(Figure::chart)
@@ -133,7 +131,7 @@ fn chart(runs: &Runs, hard: &[Hard]) -> Bars {
     Bars::of_products("speedup over the report's tree", vec!["SAH tree".into()], hard.iter().map(bar))
 }
 
-/// What runs say that are not of the hard scenes: which structure is the fastest where several were compared.
+/// The answer from runs without the hard scenes: the fastest structure, if several were compared.
 fn otherwise(runs: &Runs) -> (String, Answer) {
     let mut answer = Answer { banner: banner(runs), verdict: "Not measured".into(), ..Answer::default() };
     let mut title = QUESTION.to_owned();

@@ -1,4 +1,4 @@
-//! The whole page: a section for each study, in the order of the list, and what frames them.
+//! The whole page: a section for each study, in the order of the list, and the frame around them.
 
 mod answer;
 mod provenance;
@@ -11,8 +11,8 @@ use crate::study::Studies;
 
 pub use answer::tally;
 
-/// The whole report; `pictures` are the sections that are drawn and not measured. Studies that no run has measured are
-/// named at the end, with the commands that measure them.
+/// The whole report. `pictures` are the sections that are drawn and not measured. Studies without a measurement are
+/// listed at the end, with their commands.
 pub fn document(runs: &Runs, studies: &Studies, pictures: Vec<Section>) -> Document {
     let (title, answer) = answer::answer(runs);
     let sections = pictures.into_iter().chain(runs.studies.iter().map(section)).collect();
@@ -25,10 +25,10 @@ pub fn document(runs: &Runs, studies: &Studies, pictures: Vec<Section>) -> Docum
     document
 }
 
-/// What a study found, which claims that judges, and its blocks.
+/// The findings of a study, its verdicts on claims, and its blocks.
 fn section(run: &StudyRun) -> Section {
     let StudyRun { study, others, report, .. } = run;
-    // The name of the fastest structure is the verdict of the page, and no sentence.
+    // The name of the fastest structure is the verdict of the page, not a sentence.
     let found = report.findings.iter().filter(|own| !own.sentence.is_empty());
     let mut blocks: Vec<Block> = found.map(|finding| Block::Text(finding.sentence.clone())).collect();
     blocks.extend(report.verdict_table().map(Block::Table));
@@ -39,7 +39,7 @@ fn section(run: &StudyRun) -> Section {
     Section { id: study.name, title: study.question, command: run.commands().join("\n"), blocks }
 }
 
-/// Gives figures of one name, as scenes of much the same name have, names of their own.
+/// Renames figures of equal name, which scenes with similar names have.
 fn name_apart(blocks: &mut [Block], known: &mut Vec<String>) {
     for block in blocks {
         match block {

@@ -1,4 +1,4 @@
-//! Where the numbers come from.
+//! The origin of the numbers.
 
 use crate::measure::Provenance;
 use crate::page::document::Section;
@@ -8,14 +8,11 @@ use crate::report::words::{command_line, each_once, listed};
 use crate::report::{Block, Table};
 use crate::study::Dataset;
 
-/// Every machine; `missing` is what no run has measured.
+/// Every machine; `missing` lists the missing measurements.
 pub fn section(runs: &Runs, missing: Vec<Block>) -> Section {
-    let machines = machines(runs).noted(vec![
-        "The newest cases of each scene and study count, if they share settings, build and machine. The page shows \
-         the settings, build and machine with the most cases of a study."
-            .into(),
-    ]);
-    let mut blocks = vec![Block::Table(machines)];
+    let note = "The newest cases of each scene and study count, if they share settings, build and machine. The page shows \
+                the settings, build and machine with the most cases of a study.";
+    let mut blocks = vec![Block::Table(machines(runs).noted([note]))];
     blocks.extend(warnings(&runs.provenances()).map(Block::Table));
     blocks.extend(runs.notes.iter().map(|note| Block::Note(note.clone())));
     if !missing.is_empty() {
@@ -51,7 +48,7 @@ fn machines(runs: &Runs) -> Table {
     )
 }
 
-/// What spoilt runs, as they say themselves.
+/// The warnings of the runs.
 fn warnings(all: &[&Provenance]) -> Option<Table> {
     let rows = all.iter().flat_map(|p| p.warnings.iter().map(|warning| [command_line(&p.command), warning.clone()]));
     let rows: Vec<[String; 2]> = each_once(rows);

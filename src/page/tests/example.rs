@@ -12,14 +12,14 @@ use crate::report::inspector::{Answer, InspectedHit, InspectedStructure, Inspect
 use crate::report::plot::{Bar, BarGroup, Bars, Chart, Curves, Line, Tradeoff, TradeoffCase, TradeoffPoint};
 use crate::report::words::slug;
 use crate::report::{
-    Art, Block, Cell, Colours, Figure, Finding, Outcome, Overlay, Picture, Report, Table, Tone, Value, Verdict,
+    Art, Block, Cell, ClaimVerdict, Colours, Figure, Finding, Outcome, Overlay, Picture, Report, Table, Tone, Value,
 };
 use crate::study::case::tests as case;
 use crate::study::epoch::tests as epoch;
 use crate::study::measurement::measurements;
 use crate::study::{Case, Dataset, Measured, Plan, Presets, Studies, Study};
 
-/// Studies of these names, which report on whatever was measured.
+/// Studies of these names, which report on any dataset.
 pub static STUDIES: LazyLock<Studies> = LazyLock::new(|| {
     Studies::empty()
         .with(study("attribution", "What is it due to?", attribution))
@@ -32,7 +32,7 @@ fn study(name: &'static str, question: &'static str, report: fn(&Dataset, &ArgMa
     Study { name, question, presets, options, plan: |_, _| Ok(Plan::default()), report }
 }
 
-/// How much faster the SAH tree is on every scene.
+/// The speedup by the SAH tree on every scene.
 fn ratio() -> Estimate {
     Estimate::between(8.0, 7.0, 9.0)
 }
@@ -92,7 +92,7 @@ fn compare(dataset: &Dataset, _: &ArgMatches) -> Report {
     blocks.push(Block::figure(figure("tradeoff", Art::Chart(Chart::Tradeoff(Tradeoff { cases })))));
     blocks.push(Block::Fold("More".into(), vec![Block::Note(titles(dataset).join(" "))]));
     let findings = vec![
-        Finding::new("right", "Of all structures sah-kd is the fastest.").of(ratio()),
+        Finding::new("right", "Of all structures sah-kd is the fastest.").with_value(ratio()),
         Finding::named("fastest", "sah-kd"),
         Finding::new("checked", "None is wrong"),
     ];
@@ -102,8 +102,8 @@ fn compare(dataset: &Dataset, _: &ArgMatches) -> Report {
 fn replicate(dataset: &Dataset, _: &ArgMatches) -> Report {
     let of = |title: String| Finding::number(format!("hard-{}", slug(&title)), ratio());
     let findings = titles(dataset).into_iter().map(of);
-    let hard = Finding::new("hard", "Primary rays are 8.00 times as fast.").of(ratio());
-    let verdict = Verdict {
+    let hard = Finding::new("hard", "Primary rays are 8.00 times as fast.").with_value(ratio());
+    let verdict = ClaimVerdict {
         prediction: 1,
         claim: "Cube: rays".into(),
         expected: "at least 20".into(),
@@ -128,7 +128,7 @@ pub fn provenance(date: &str) -> Provenance {
     }
 }
 
-/// The first epoch of a scene.
+/// Epoch 0 of a scene.
 pub fn measured(study: &str, scene: &str) -> Measured {
     let structures: [(&str, u64, &[u64]); 2] = [("median-kd", 1000, &[8000, 8100]), ("sah-kd", 5000, &[1000, 1100])];
     let case = case::example(scene, 0, &structures.map(|own| own.0));
@@ -170,7 +170,7 @@ pub fn read(folder: &Path) -> Runs<'static> {
     Runs::read(&[folder.to_path_buf()], &STUDIES).unwrap()
 }
 
-/// What is read of these studies, each on these scenes.
+/// The runs of these studies, each on these scenes.
 pub fn runs(studies: &[(&str, &[&str])]) -> Runs<'static> {
     let provenance = provenance("2026-01-02T03:04:05Z");
     let files: Vec<Files> = studies.iter().map(|(study, scenes)| journal(study, scenes, &provenance)).collect();
@@ -181,7 +181,7 @@ pub fn refused(path: PathBuf) -> RunError {
     Runs::read(&[path], &STUDIES).err().expect("it cannot be read")
 }
 
-/// Two rays, of which one meets a triangle that one of two structures misses.
+/// Two rays; one hits a triangle that one of two structures misses.
 fn inspector(scene: &str) -> Inspector {
     let hit = Answer { hit: Some(InspectedHit { t: 0.1, triangle: 7, weights: [0.25, 1.0 / 3.0] }), wrong: "" };
     let (miss, missed) = (Answer { hit: None, wrong: "" }, Answer { hit: None, wrong: "missed" });
@@ -204,7 +204,7 @@ fn inspector(scene: &str) -> Inspector {
     }
 }
 
-/// Everything there is, from a scene called `scene`.
+/// A page with all possible parts, from a scene called `scene`.
 pub fn whole(scene: &str) -> (Document, Runs<'static>) {
     let runs = runs(&[("compare", &[scene]), ("attribution", &[scene]), ("replicate", &[scene])]);
     let picture = |name: &str| Picture {
@@ -238,7 +238,7 @@ pub fn whole(scene: &str) -> (Document, Runs<'static>) {
     (document(&runs, &STUDIES, vec![pictures]), runs)
 }
 
-/// [`whole`] of an ordinary scene, made once.
+/// [`whole`] for an ordinary scene, made once.
 pub fn cube() -> &'static (Document, Runs<'static>) {
     static CUBE: OnceLock<(Document, Runs)> = OnceLock::new();
     CUBE.get_or_init(|| whole("Cube"))

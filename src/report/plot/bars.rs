@@ -1,4 +1,4 @@
-//! Bars with intervals on one logarithmic axis, from 1 on: how many times faster. A bar may consist of the factors of a
+//! Bars with intervals on one logarithmic axis that starts at 1: speedups. A bar may consist of the factors of a
 //! product, whose lengths add up to the whole.
 
 use crate::measure::Estimate;
@@ -7,9 +7,9 @@ use crate::measure::Estimate;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bars {
     pub x_title: String,
-    /// Names of the bars of every group; structures have their colours.
+    /// Names of the bars of every group; structures have fixed colours.
     pub labels: Vec<String>,
-    /// Names of the factors that bars consist of; none where they are whole.
+    /// Names of the factors of the bars; empty if the bars have no factors.
     pub parts: Vec<String>,
     pub groups: Vec<BarGroup>,
 }
@@ -25,9 +25,9 @@ pub struct BarGroup {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Bar {
     Of(Estimate),
-    /// One factor for each part, and the whole.
+    /// One factor per part, and the whole.
     Product(Vec<f64>, Estimate),
-    /// Why there is none, in a word or two; may be empty.
+    /// The reason why there is no bar, in a word or two; may be empty.
     Missing(String),
 }
 
@@ -41,7 +41,7 @@ impl Bar {
 }
 
 impl Bars {
-    /// Bars of products with factors of these names, below no heading.
+    /// Bars of products with factors of these names, without a heading.
     pub fn of_products(x_title: &str, parts: Vec<String>, rows: impl IntoIterator<Item = (String, Bar)>) -> Self {
         let (labels, bars) = rows.into_iter().unzip();
         let group = BarGroup { title: String::new(), bars };

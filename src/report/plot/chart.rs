@@ -1,15 +1,15 @@
-//! All kinds of charts behind one name.
+//! All kinds of charts in one type.
 
 use super::{Bars, Curves, Scatter, Tradeoff};
 
-/// Width of drawings that stand alone, in their units.
+/// Default width of a drawing, in its units.
 pub const WIDTH: f64 = 900.0;
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Chart {
     Bars(Bars),
     Curves(Curves),
-    /// Always as wide as it is, 800: labels stand all over.
+    /// Always 800 units wide, because labels stand everywhere.
     Scatter(Scatter),
     Tradeoff(Tradeoff),
 }

@@ -1,4 +1,4 @@
-//! Lines through points over two logarithmic axes, where a power is a straight line.
+//! Lines through points over two logarithmic axes: a power is a straight line.
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curves {
@@ -10,9 +10,9 @@ pub struct Curves {
 /// A line through points, from left to right.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// Structures have their colours.
+    /// Structures have fixed colours.
     pub label: String,
-    /// What stands behind it.
+    /// The text behind it.
     pub note: String,
     /// Both coordinates are positive.
     pub points: Vec<(f64, f64)>,

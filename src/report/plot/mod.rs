@@ -1,5 +1,5 @@
-//! Charts as data: bars, curves and scatter plots. With the feature `page` they are drawn as SVG, of the width that is
-//! asked for, so that text keeps its size on a narrow screen.
+//! Charts as data: bars, curves and scatter plots. With the feature `page` they are drawn as SVG of the requested
+//! width: text keeps its size on a narrow screen.
 
 mod bars;
 mod chart;

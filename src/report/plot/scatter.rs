@@ -1,4 +1,4 @@
-//! Points on two logarithmic axes, with the border that nothing passes.
+//! Points on two logarithmic axes, with the Pareto front.
 
 use crate::report::words::distinct;
 
@@ -14,21 +14,21 @@ pub struct Scatter {
 pub struct Point {
     pub x: f64,
     pub y: f64,
-    /// Whether nothing but an upper bound is known of `y`: then an arrow points down from it.
+    /// Whether only an upper bound of `y` is known: then an arrow points down from it.
     pub is_bound: bool,
-    /// Whether no other point is better in both: these are filled, and a line joins them.
+    /// Whether no other point is better in both: such points are filled, and a line joins them.
     pub is_front: bool,
-    /// Stands beside the point.
+    /// The text beside the point.
     pub label: String,
-    /// What its colour means; structures have their colours.
+    /// The meaning of its colour; structures have fixed colours.
     pub group: String,
 }
 
-/// Points that are all labelled; where there are more, those of the front alone are.
+/// The maximum number of points that are all labelled; with more points only the front has labels.
 pub const LABELLED: usize = 20;
 
 impl Scatter {
-    /// What there are colours for.
+    /// The groups with a colour.
     pub fn groups(&self) -> Vec<String> {
         distinct(self.points.iter().map(|point| &point.group))
     }

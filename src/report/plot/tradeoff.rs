@@ -1,4 +1,4 @@
-//! Speed against what it costs: memory or time of the build. A page shows any case, other forms the first one.
+//! Speed against memory or build time. A page shows any case, other formats the first one.
 
 use super::scatter::{Point, Scatter};
 
@@ -18,17 +18,17 @@ pub struct TradeoffCase {
 /// A structure. All numbers are positive.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TradeoffPoint {
-    /// Structures have their colours.
+    /// Structures have fixed colours.
     pub label: String,
     pub bytes: f64,
     pub build_ns: f64,
     pub ns_per_ray: f64,
-    /// How its speed is to that of another one, in words.
+    /// Its speed relative to another structure, in words.
     pub ratio: String,
 }
 
 impl Tradeoff {
-    /// The first case over memory.
+    /// The first case against memory.
     pub fn scatter(&self) -> Scatter {
         let of_case = self.cases.first().map_or(&[][..], |case| &case.points);
         let is_better = |a: &TradeoffPoint, b: &TradeoffPoint| {

@@ -50,7 +50,7 @@ pub(super) fn header_bytes(header: &FileHeader, magic: &[u8; 8]) -> Vec<u8> {
     bytes
 }
 
-/// Identifies rays in files: the first bytes of the SHA-256 of [`Workload::bytes`](crate::scene::Workload::bytes).
+/// Identifies the rays in files: the first bytes of the SHA-256 of [`Workload::bytes`](crate::scene::Workload::bytes).
 pub(super) fn rays_hash(rays: &[u8]) -> [u8; 8] {
     Sha256::digest(rays)[..8].try_into().expect("eight bytes")
 }

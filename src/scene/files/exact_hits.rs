@@ -4,19 +4,19 @@ use super::bytes::{FileHeader, header_bytes, rays_hash};
 use crate::accel::Query;
 use crate::scene::Workload;
 
-/// The exact closest hits of the rays of a file, in their order: `t`, and all triangles that are hit there.
+/// The exact closest hits of the rays of a file, in the same order: `t`, and all triangles that are hit there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExactHitFile {
     /// The hash of the rays, as in the header of their file.
     pub hash: [u8; 8],
-    /// `t` and the numbers of all triangles that are hit there, ascending and at least one; none for a miss.
+    /// `t` and the numbers of all triangles that are hit there, ascending and at least one; `None` for a miss.
     pub hits: Vec<Option<(f64, Vec<u32>)>>,
 }
 
 const MAGIC: &[u8; 8] = b"SAHATRUE";
 
 impl ExactHitFile {
-    /// The exact hits of all rays of `workload`, a closest-hit one.
+    /// The exact hits of all rays of `workload`, whose query is closest hit.
     ///
     /// # Panics
     /// If there are more or fewer hits than rays, or the query of the workload is any hit.

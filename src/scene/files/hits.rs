@@ -10,7 +10,7 @@ use crate::output::OutputFile;
 use crate::scene::Workload;
 use crate::scene::hash::hexadecimal;
 
-/// The hits of the rays of a file, in their order.
+/// The hits of the rays of a file, in the same order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HitFile {
     /// The query of the rays.
@@ -19,7 +19,7 @@ pub struct HitFile {
     hits: Vec<Option<Hit>>,
 }
 
-/// The identity of rays: what the header of their file says about them.
+/// The identity of rays, as in the header of their file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RaysId {
     /// Their query.
@@ -37,7 +37,7 @@ impl RaysId {
 
 const MAGIC: &[u8; 8] = b"SAHAHITS";
 
-/// Stands for no hit: no primitive has this number.
+/// Marks a miss: no primitive has this number.
 const NOTHING: u32 = u32::MAX;
 
 impl HitFile {
@@ -51,7 +51,7 @@ impl HitFile {
     }
 
     /// # Errors
-    /// If the file cannot be read, is no file of hits or is truncated.
+    /// If the file cannot be read, is not a file of hits or is truncated.
     pub fn read(path: &Path) -> Result<Self, FileError> {
         read(path, MAGIC, Self::from_bytes)
     }
@@ -62,7 +62,7 @@ impl HitFile {
         Ok(file.write(&self.to_bytes())?)
     }
 
-    /// The hits, if they are those of `workload`.
+    /// The hits, if they belong to `workload`.
     ///
     /// # Errors
     /// If they are the hits of other rays or of another query.
@@ -70,10 +70,10 @@ impl HitFile {
         self.hits_of_rays(&RaysId::of(workload))
     }
 
-    /// As [`HitFile::hits_of`], for rays that are known by their hash.
+    /// Like [`HitFile::hits_of`], for rays that are known by their hash.
     ///
     /// # Errors
-    /// As [`HitFile::hits_of`].
+    /// Like [`HitFile::hits_of`].
     pub fn hits_of_rays(&self, rays: &RaysId) -> Result<&[Option<Hit>], String> {
         if self.hash != rays.hash || self.hits.len() != rays.count {
             return Err(format!(
@@ -104,7 +104,7 @@ impl HitFile {
     }
 }
 
-/// Eight bytes a hit: the bits of `t` and the number of the primitive, little-endian.
+/// Eight bytes per hit: the bits of `t` and the number of the primitive, little-endian.
 pub(crate) fn hits_to_bytes(hits: &[Option<Hit>]) -> Vec<u8> {
     let numbers = |hit: &Option<Hit>| hit.map_or([0, NOTHING], |hit| [hit.t.to_bits(), hit.prim.index()]);
     hits.iter().flat_map(numbers).flat_map(u32::to_le_bytes).collect()

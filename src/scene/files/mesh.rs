@@ -6,7 +6,7 @@ use std::path::Path;
 
 use crate::geometry::Mesh;
 
-/// Writes all triangles of `mesh` as a PLY file in the form that the document describes. Triangle n becomes face n.
+/// Writes all triangles of `mesh` as a PLY file in the format of the document. Triangle n becomes face n.
 ///
 /// # Errors
 /// If the file cannot be written.

@@ -21,7 +21,7 @@ pub(crate) use hits::{hits_from_bytes, hits_to_bytes};
 pub use mesh::{mesh_bytes, write_mesh};
 pub use rays::RayFile;
 
-/// Why a file of rays or hits cannot be used.
+/// The reason why a file of rays or hits cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
     #[error("cannot read {}: {cause}: check that it exists and its permissions", path.escaped())]

@@ -11,12 +11,12 @@ use crate::output::OutputFile;
 use crate::scene::hash::hexadecimal;
 use crate::scene::{Scene, Workload};
 
-/// Rays and where they come from.
+/// Rays and their origin.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RayFile {
     /// Name of the scene; may be empty.
     pub scene: String,
-    /// [`Scene::hash`], in hexadecimal; none for rays without a scene.
+    /// [`Scene::hash`], in hexadecimal; `None` for rays without a scene.
     pub scene_hash: Option<String>,
     /// The rays, their kind and query.
     pub workload: Workload,
@@ -33,7 +33,7 @@ impl RayFile {
     }
 
     /// # Errors
-    /// If the file cannot be read, is no ray file, is truncated, or holds an invalid ray.
+    /// If the file cannot be read, is not a ray file, is truncated, or contains an invalid ray.
     pub fn read(path: &Path) -> Result<Self, FileError> {
         read(path, MAGIC, Self::from_bytes)
     }
@@ -64,7 +64,7 @@ impl RayFile {
     /// Checks the names of the scene and of the workload.
     ///
     /// # Errors
-    /// If a name holds a control character, which would garble tables.
+    /// If a name contains a control character, which would garble tables.
     pub fn check_names(scene: &str, kind: &str) -> Result<(), String> {
         match [scene, kind].into_iter().find(|name| name.chars().any(char::is_control)) {
             Some(name) => Err(format!("the name {name:?} holds a control character: choose another")),

@@ -124,8 +124,9 @@ fn is_texture(keyword: &[u8]) -> bool {
     keyword.starts_with(b"map_") || [&b"bump"[..], b"norm", b"disp", b"decal"].contains(&keyword)
 }
 
-/// The values of a statement, none if it is wrong. tobj gets each by itself, because one that it refuses voids the whole
-/// library; it panics on a colour of fewer than three numbers, of which one is a grey, and takes nan and inf.
+/// The values of a statement; empty if it is wrong. tobj gets each separately, because a value that it rejects voids
+/// the whole library; it panics on a colour of fewer than three numbers (a single one is a grey), and accepts nan and
+/// inf.
 fn values(line: &[u8]) -> Option<tobj::Material> {
     let line = str::from_utf8(line).ok()?;
     let words: Vec<&str> = line.split_whitespace().take_while(|word| !word.starts_with('#')).collect();

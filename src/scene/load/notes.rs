@@ -24,7 +24,7 @@ impl Notes {
         }
     }
 
-    /// Adds a sentence about a count, unless it is 0; it stands for all occurrences and is never left out.
+    /// Adds a sentence about a count, unless it is 0; it covers all occurrences and is never left out.
     pub fn count(&mut self, count: usize, [one, many]: [&str; 2]) {
         let what = if count == 1 { one } else { many };
         if count > 0 {

@@ -19,8 +19,8 @@ type Point = [f64; 2];
 /// Splits polygons into triangles, two fewer than corners, and counts polygons that are not simple and flat.
 ///
 /// A convex polygon becomes the fan around its first corner, a concave quad is split along the diagonal inside it, and
-/// other polygons by ear clipping, which gives fewer triangles where corners repeat or lie on a line. All project the
-/// polygon along the axis of its largest normal component, so that it is counterclockwise. Where a polygon crosses
+/// other polygons by ear clipping, which gives fewer triangles if corners repeat or lie on a line. All project the
+/// polygon along the axis of its largest normal component, which makes it counterclockwise. If a polygon crosses
 /// itself, the areas of its triangles do not add up to its own.
 ///
 /// # References
@@ -145,7 +145,7 @@ fn split_quad(points: [Point; 4], triangles: &mut Vec<usize>) -> bool {
     true
 }
 
-/// Whether the areas of the triangles add up to that of the counterclockwise polygon.
+/// Whether the areas of the triangles add up to the area of the counterclockwise polygon.
 fn is_covered(points: &[Point], triangles: &[[usize; 3]]) -> bool {
     let fan = (2..points.len()).map(|i| area([points[0], points[i - 1], points[i]]));
     let (own, sizes) = fan.fold((0.0, 0.0), |(own, sizes), area| (own + area, sizes + area.abs()));
@@ -174,7 +174,7 @@ mod tests {
         notes.into_vec()
     }
 
-    /// Exact but for the last bits of the result.
+    /// Exact except for the last bits of the result.
     fn area(corners: [Vec3; 3]) -> f64 {
         let [a, b, c] = corners.map(Vec3::as_dvec3);
         (b - a).cross(c - a).z / 2.0

@@ -35,8 +35,8 @@ pub(super) fn lines(text: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
     })
 }
 
-/// Statements with the numbers of the lines that they begin on: a line whose last character is `\` goes on in the next,
-/// unless it ends in a comment.
+/// Statements with the numbers of their first lines: a line whose last character is `\` continues in the next, unless
+/// it ends in a comment.
 pub(super) fn statements(text: &[u8]) -> impl Iterator<Item = (usize, Cow<'_, [u8]>)> {
     let mut lines = lines(text);
     std::iter::from_fn(move || {

@@ -1,13 +1,13 @@
-//! Coincident surfaces, as in models from drawing programs: several triangles are hit at the same or nearly the same
-//! `t`. An exact triangle test must order them; one that rounds may not notice.
+//! Coincident surfaces, as in models from drawing programs: a ray hits several triangles at the same or nearly the same
+//! `t`. An exact triangle test must order them; a rounding one may not notice.
 
 use glam::Vec3;
 
 use super::{cube, flat, net, noise};
 use crate::scene::Model;
 
-/// Two cities on one ground: the square with corners (+-1, 0, +-1), divided by one into 32 x 32 cells and by the other
-/// into 31 x 31, with 144 houses each. Floors of houses lie in the ground, and houses stand in each other: 7,426
+/// Two cities on one ground: the square with corners (+-1, 0, +-1), which one city divides into 32 x 32 cells and the
+/// other into 31 x 31, with 144 houses each. Floors of houses lie in the ground, and houses stand in each other: 7,426
 /// triangles.
 pub fn two_cities() -> Model {
     const BLOCKS: i32 = 12;
@@ -24,7 +24,7 @@ pub fn two_cities() -> Model {
     joined(city(32, 1, 0.0).chain(city(31, 2, 0.03)))
 }
 
-/// 10 x 10 x 10 closed cubes side by side: every face between two of them is there twice, looking both ways: 12,000
+/// 10 x 10 x 10 closed cubes side by side: every face between two of them exists twice, with opposite fronts: 12,000
 /// triangles.
 pub fn shared_faces() -> Model {
     let cube = |i: u32| boxed(Vec3::new((i % 10) as f32, (i / 10 % 10) as f32, (i / 100) as f32), Vec3::splat(0.5));
@@ -43,7 +43,7 @@ pub fn tiled_floor() -> Model {
     joined(std::iter::once(ground(1)).chain((0..SIDE * SIDE).map(slab)))
 }
 
-/// `segments` triangles in the plane z = 0 around the origin, which is a corner of all, with a rim of radius 1.
+/// `segments` triangles in the plane z = 0 around the origin, their common corner, with a rim of radius 1.
 pub fn fan(segments: u32) -> Model {
     let rim = (0..segments).map(|i| {
         let (sine, cosine) = libm::sincos(f64::from(i) * std::f64::consts::TAU / f64::from(segments));
@@ -55,7 +55,7 @@ pub fn fan(segments: u32) -> Model {
     )
 }
 
-/// 5,000 copies of one triangle, each coordinate exact or off by one `f32` step.
+/// 5,000 copies of one triangle, each coordinate exact or different by one `f32` step.
 pub fn near_duplicates() -> Model {
     const CORNERS: [Vec3; 3] = [Vec3::new(-1.1, -0.7, 0.3), Vec3::new(1.3, -0.9, -0.4), Vec3::new(0.1, 1.2, 0.2)];
     joined((0..5000).map(|copy| {
@@ -70,14 +70,14 @@ pub fn near_duplicates() -> Model {
     }))
 }
 
-/// 283 cubes around the origin, each larger than the one before by a fiftieth, 3,396 triangles. A ray into the largest
-/// may hit them all, and no plane separates any two.
+/// 283 cubes around the origin, each a fiftieth larger than the previous one, 3,396 triangles. A ray into the largest
+/// may hit all of them, and no plane separates any two.
 pub fn growing_shells() -> Model {
     let sides = std::iter::successors(Some(1.0_f32), |side| Some(side * 1.02));
     joined(sides.take(283).map(|side| boxed(Vec3::ZERO, Vec3::splat(side))))
 }
 
-/// The square with corners (+-1, 0, +-1), looking up, in so many cells a side.
+/// The square with corners (+-1, 0, +-1), looking up, with `cells` cells per side.
 fn ground(cells: u32) -> Model {
     let at = |step: u32| 2.0 * step as f32 / cells as f32 - 1.0;
     let across = cells + 1;
@@ -89,7 +89,7 @@ fn ground(cells: u32) -> Model {
     flat(corners.collect(), net(cells, cells, quad))
 }
 
-/// The closed cube, its middle and half its sides as given.
+/// The closed cube with this middle and these half sides.
 fn boxed(middle: Vec3, half: Vec3) -> Model {
     let unit = cube();
     flat(unit.positions.iter().map(|&corner| middle + half * corner).collect(), unit.triangles)

@@ -1,4 +1,4 @@
-//! Three small creatures of our own: few triangles, smooth normals, two materials.
+//! Three small creatures made for this project: few triangles, smooth normals, two materials.
 
 use glam::Vec3;
 
@@ -148,7 +148,7 @@ impl Design {
     }
 }
 
-/// The reflection that the scene gives to all creatures, but for the colour.
+/// The reflection of all creatures, without the colour.
 fn coat(name: &str) -> Material {
     Material { ambient: Vec3::splat(0.5), specular: Vec3::ZERO, shininess: 10.0, ..Material::named(name) }
 }

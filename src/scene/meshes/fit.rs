@@ -5,8 +5,8 @@ use glam::DVec3;
 use crate::geometry::Aabb;
 use crate::scene::Model;
 
-/// Scales and moves `model` along each axis so that its box is `bounds` to the last bit; the unit normals of
-/// its vertices turn with it and become those of the corners.
+/// Scales and moves `model` along each axis: its box becomes `bounds` to the last bit. The unit normals of its vertices
+/// turn with it, and the corners use them.
 pub fn fit(model: &mut Model, bounds: Aabb) {
     let from = Aabb::of_points(model.positions.iter().copied());
     let (low, high) = (from.min.as_dvec3(), from.max.as_dvec3());

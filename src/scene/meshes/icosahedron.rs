@@ -5,10 +5,9 @@ use glam::DVec3;
 use super::flat;
 use crate::scene::Model;
 
-/// Corners with the poles on the y axis, as the course's files have them: a unit icosahedron, cut to steps of
-/// 1/200,000.
+/// Corners with the poles on the y axis, as in the course's files: a unit icosahedron, truncated to steps of 1/200,000.
 ///
-/// The cut shows in the report's ray counts: the mirroring room of Infinitycandy is one of these.
+/// The truncation affects the report's ray counts: the mirroring room of Infinitycandy is one of these.
 pub(super) fn corners() -> Vec<DVec3> {
     const HEIGHT: f64 = 0.447215;
     let lower = [[0.7236, 0.52572], [-0.276385, 0.85064], [-0.894425, 0.0], [-0.276385, -0.85064], [0.7236, -0.52572]];

@@ -18,9 +18,9 @@ pub fn icosphere(subdivisions: u32) -> Model {
 
 /// A closed, smooth sphere of radius 1: `20 * steps^2` triangles, `10 * steps^2 + 2` vertices.
 ///
-/// Each side of the icosahedron is cut into a flat, even net of so many steps along each edge, whose points are then
-/// projected onto the sphere. The silhouette of the report's scene shows that the course's sphere was made like this.
-/// (Halving the edges and projecting after each halving gives another sphere.)
+/// Each side of the icosahedron is divided into a flat, even net of `steps` steps along each edge, whose points are
+/// then projected onto the sphere. The silhouette of the report's scene shows that the course's sphere was made in this
+/// way. (Halving the edges and projecting after each halving gives another sphere.)
 ///
 /// # Panics
 /// If `steps` is 0 or above 4096, which exceeds the triangles of a mesh.
@@ -39,7 +39,7 @@ struct Net {
 }
 
 impl Net {
-    /// Point numbers from `first` to `last` in `steps` even steps, those between moved out to the sphere.
+    /// Point numbers from `first` to `last` in `steps` even steps; the points between are projected to the sphere.
     fn row(&mut self, first: u32, last: u32, steps: u32) -> Vec<u32> {
         let (from, to) = (self.points[first as usize], self.points[last as usize]);
         let between = 1..steps.max(1);

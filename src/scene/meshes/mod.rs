@@ -70,7 +70,7 @@ pub const GENERATORS: &[Generator] = &[
     Generator { name: "growing_shells", make: growing_shells },
 ];
 
-/// The mesh called `name`, or none when there is no such generator.
+/// The mesh called `name`; `None` if there is no such generator.
 pub fn by_name(name: &str) -> Option<Model> {
     GENERATORS.iter().find(|g| g.name == name).map(|g| (g.make)())
 }
@@ -89,7 +89,7 @@ fn on_circle(step: u32, steps: u32) -> (f64, f64) {
     }
 }
 
-/// With the normals of the course's mesh files.
+/// A smooth model with the normals of the course's mesh files.
 fn smooth(points: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Model {
     Model {
         normals: normals::of_the_course(&points, &triangles),
@@ -104,7 +104,7 @@ fn flat(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Model {
     Model { positions, triangles, ..Model::default() }
 }
 
-/// The triangles of a net of quadrilaterals, row by row; `quad` gives the corners of the one in a row and a column.
+/// The triangles of a net of quadrilaterals, row by row; `quad` returns the corners for a row and a column.
 fn net(rows: u32, columns: u32, quad: impl Fn(u32, u32) -> [u32; 4]) -> Vec<[u32; 3]> {
     let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column)));
     cells.flat_map(|(row, column)| halves(quad(row, column))).collect()

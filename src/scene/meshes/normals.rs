@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-/// Steps of a component: the program that wrote those files kept normals as 16-bit integers.
+/// Steps of a component: the program that wrote the course's files stored normals as 16-bit integers.
 const STEPS: f64 = 32767.0;
 
 /// One normal per vertex, as in the course's mesh files: the normals of its triangles, weighted by their angles

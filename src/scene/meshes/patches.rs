@@ -6,7 +6,7 @@ use super::sdf::{Frame, cosine, sine};
 use super::{net, normals};
 use crate::scene::{Material, Model};
 
-/// How a patch is shaded.
+/// The shading of a patch.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Finish {
     Flat,
@@ -21,7 +21,7 @@ pub struct Patches {
 }
 
 impl Patches {
-    /// What is added from now on is of `material`, which is looked up by its name.
+    /// Sets the material of all later parts; it is looked up by its name.
     pub fn of(&mut self, material: &Material) -> &mut Self {
         let known = self.model.materials.iter().position(|m| m.name == material.name);
         let number = known.unwrap_or_else(|| {

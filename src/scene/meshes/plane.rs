@@ -12,7 +12,7 @@ pub fn plane_y() -> Model {
     flat(corners, halves([0, 1, 2, 3]).to_vec())
 }
 
-/// Corner `i` of the cube: bit 0 of `i` chooses the sign of x, bit 1 that of y, bit 2 that of z.
+/// Corner `i` of the cube: bit 0 of `i` is the sign of x, bit 1 the sign of y, bit 2 the sign of z.
 fn cube_corners() -> Vec<Vec3> {
     let sign = |i: u32, bit: u32| if i >> bit & 1 == 1 { 1.0 } else { -1.0 };
     (0..8).map(|i| Vec3::new(sign(i, 0), sign(i, 1), sign(i, 2))).collect()

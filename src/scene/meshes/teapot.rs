@@ -1,4 +1,4 @@
-//! The Utah teapot, as the report's scene has it.
+//! The Utah teapot of the report's scene.
 
 use std::collections::HashMap;
 
@@ -18,9 +18,9 @@ const STEPS: usize = 4;
 
 /// The teapot of the report, 4032 triangles and 2082 vertices, smooth; y is up and the spout points to +x.
 ///
-/// Its mesh was found to be this: Newell's 32 patches, each evaluated on a 4 x 4 grid and welded into four shells (body
-/// with rim and bottom, handle, spout, lid); one Catmull-Clark step, to 2016 quadrilaterals; each of these cut along
-/// its longer diagonal. All vertices agree with the course's file to its last digit.
+/// Its mesh is: Newell's 32 patches, each evaluated on a 4 x 4 grid and welded into four shells (body with rim and
+/// bottom, handle, spout, lid); one Catmull-Clark step, to 2016 quadrilaterals; each of these cut along its longer
+/// diagonal. All vertices agree with the course's file to its last digit.
 ///
 /// One control point differs from the published ones: see `PUBLISHED`.
 pub fn teapot() -> Model {
@@ -31,8 +31,8 @@ pub fn teapot() -> Model {
     smooth(points, triangles)
 }
 
-/// Number, published and used x of a control point on the rim: the report's mesh has two digits of it exchanged, which
-/// dents the rim a little.
+/// Number, published and used x of a control point on the rim: in the report's mesh two of its digits are swapped,
+/// which dents the rim a little.
 const PUBLISHED: (usize, f64, f64) = (16, -0.784, -0.874);
 
 /// Patches and points of the data file. Patch entries count from 1.

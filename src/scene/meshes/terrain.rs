@@ -13,9 +13,9 @@ const HEIGHT: f32 = 0.2;
 /// Hills of the first octave from one side to the other.
 const HILLS: f32 = 4.0;
 
-/// Ground over the square with corners (+-1, +-1) of x and z, looking up, in rows of square cells, the last row as far
-/// as the triangles reach. The same `seed` is the same ground, however finely it is divided; cells are the size of the
-/// finest hills.
+/// Ground over the square with corners (+-1, +-1) of x and z, looking up, in rows of square cells; the last row ends
+/// with the last triangle. Equal `seed`s give the same ground at any subdivision; cells have the size of the finest
+/// hills.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Terrain {
@@ -30,7 +30,7 @@ fn one() -> u32 {
 }
 
 impl Terrain {
-    /// The most triangles; such a mesh takes some gigabytes.
+    /// The maximum number of triangles; such a mesh takes some gigabytes.
     pub const MOST: usize = 1 << 27;
 
     pub fn model(self) -> Model {
@@ -83,7 +83,7 @@ mod tests {
             let model = terrain(count, 1);
             let mesh = Mesh::new(model.positions, model.triangles).unwrap();
             assert!(mesh.len() == count && mesh.degenerate().is_empty(), "{count}");
-            // Seen from above, each triangle is half a cell: none lies over another, since their areas add up.
+            // Seen from above, each triangle is half a cell: none overlaps another, because their areas add up.
             let above = |[a, b, c]: [Vec3; 3]| (b - a).cross(c - a).y / 2.0;
             let areas: Vec<f32> = (0..count as u32).map(|i| above(mesh.corners(i))).collect();
             let side = ((count as f32 / 2.0).ceil().sqrt()).ceil();

@@ -27,7 +27,7 @@ fn pieces(model: &Model) -> usize {
     sdf::pieces(model.positions.len(), &model.triangles).into_iter().collect::<HashSet<_>>().len()
 }
 
-/// Of vertices and indices; the first 16 digits tell a change as well as all 64 would.
+/// A hash of vertices and indices; its first 16 digits reveal a change as well as all 64.
 fn fingerprint(model: &Model) -> String {
     let mut hasher = Sha256::new();
     model.positions.iter().flat_map(|p| p.to_array()).for_each(|x| hasher.update(x.to_bits().to_le_bytes()));
@@ -78,12 +78,12 @@ const KNOWN: &[Known] = &[
     Known { name: "growing_shells", vertices: 2264, triangles: 3396, degenerate: 0, pieces: 283, edges: (0, 0), bounds: bounds([-266.223_36, 266.223_36], [-266.223_36, 266.223_36], [-266.223_36, 266.223_36]), fingerprint: "1eb57e4815e770ed" },
 ];
 
-/// Normals are of unit length and look the way the triangles do.
+/// Normals have unit length and point to the front of the triangles.
 fn assert_normals(name: &str, model: &Model) {
     assert!(model.normal_indices.is_empty() || model.normal_indices.len() == model.triangles.len(), "{name}");
-    // Steps of 1/32767 leave a normal a little short.
+    // Steps of 1/32767 make a normal slightly short.
     assert!(model.normals.iter().all(|n| (0.9999..1.000_001).contains(&n.length())), "{name}");
-    // Those of coarse surface nets are of the solid, which bends more sharply than its triangles.
+    // Normals of coarse surface nets belong to the solid, which bends more sharply than its triangles.
     let is_coarse = ["rabbit", "fox", "elephant", "dragon", "lucy"].contains(&name);
     for (corners, normals) in model.triangles.iter().zip(&model.normal_indices) {
         let [a, b, c] = corners.map(|i| model.positions[i as usize]);

@@ -6,9 +6,9 @@ use super::{net, on_circle, smooth};
 use crate::scene::Model;
 
 /// A smooth sphere of radius 1 with poles on the y axis: `segments * (bands + 1)` vertices, `2 * segments * bands`
-/// triangles, of which `2 * segments` have no area.
+/// triangles, including `2 * segments` without area.
 ///
-/// Each pole is `segments` vertices in one point, and the outermost bands are quadrilaterals like the others: half of
+/// Each pole is `segments` vertices in one point, and the outermost bands are quadrilaterals like all others: half of
 /// each is degenerate, as in the course's sphere.
 ///
 /// # Panics

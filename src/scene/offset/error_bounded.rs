@@ -1,13 +1,13 @@
 //! Moves the origin of a ray along the normal by the error bound of its point.
 //!
 //! Guaranteed, for a point from [`SurfacePoint::on_triangle`] at any scale and place: the origin lies on the side of
-//! the triangle's plane to which the ray leaves, so that the ray does not hit the triangle again; and at a distance of
-//! at most about ten units in the last place of the largest coordinate of its corners. The ray passes through another
+//! the triangle's plane to which the ray leaves, so the ray does not hit the triangle again; and at a distance of at
+//! most about ten units in the last place of the largest coordinate of its corners. The ray passes through another
 //! surface that is nearer than that.
 //!
 //! # References
-//! Pharr, Jakob, Humphreys: Physically Based Rendering, 4th edition, 2023, section 6.8.6. We depart in two points,
-//! because of triangles with a coordinate of zero and of coordinates so small that the error bound underflows: every
+//! Pharr, Jakob, Humphreys: Physically Based Rendering, 4th edition, 2023, section 6.8.6. This version departs in two
+//! points, for triangles with a coordinate of zero and coordinates so small that the error bound underflows: every
 //! coordinate in which the normal is not zero moves by at least one float, and `t = 0` is excluded.
 
 use glam::Vec3;

@@ -9,7 +9,7 @@ pub struct SurfacePoint {
     pub position: Vec3,
     /// A bound of the distance between a point from barycentrics and the triangle, along each axis. Not negative.
     pub error: Vec3,
-    /// Unit normal of the triangle, either way; zero on a degenerate one.
+    /// Unit normal of the triangle, on either side; zero on a degenerate one.
     pub normal: Vec3,
 }
 
@@ -25,9 +25,9 @@ impl SurfacePoint {
     /// The point is a weighted mean of the corners: even with wrong weights it lies in the triangle, up to the rounding
     /// of the mean. The error of `origin + t * direction` grows with the length of the ray instead.
     ///
-    /// `error` is the bound of pbrt, gamma(7) times the sum of the magnitudes of the terms: enough for weights and a
-    /// sum in `f32`. Here the sum is computed in `f64` and rounded once; the rest of the bound is a margin for triangle
-    /// tests that round distances from the start.
+    /// `error` is pbrt's bound, gamma(7) times the sum of the magnitudes of the terms: enough for weights and a sum in
+    /// `f32`. Here the sum is computed in `f64` and rounded once; the rest of the bound is a margin for triangle tests
+    /// that round distances from the start.
     ///
     /// # References
     /// Pharr, Jakob, Humphreys: Physically Based Rendering, 4th edition, 2023, section 6.8.
@@ -47,8 +47,8 @@ impl SurfacePoint {
     }
 }
 
-/// The barycentric weights of the point where the line of the ray meets the plane of the corners, by Cramer's rule in
-/// `f64`; equal weights if the line lies in the plane. Some are outside of [0, 1] if it misses the triangle.
+/// The barycentric weights of the point in which the line of the ray meets the plane of the corners, by Cramer's rule
+/// in `f64`; equal weights if the line lies in the plane. Some are outside [0, 1] if it misses the triangle.
 pub fn barycentrics(ray: &Ray, corners: [Vec3; 3]) -> DVec3 {
     let [a, b, c] = corners.map(Vec3::as_dvec3);
     let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());

@@ -11,16 +11,16 @@ use crate::scene::{Scene, Surface};
 /// The batch size of a thread; the hits do not depend on it.
 const CHUNK: usize = 4096;
 
-/// A ray and what it hits.
+/// A ray and its hit.
 pub struct SurfaceHit {
-    /// The number of the ray in the batch.
+    /// The index of the ray in the batch.
     pub number: usize,
     pub ray: Ray,
     pub hit: Hit,
     pub surface: Surface,
 }
 
-/// The rays that hit something, in order, with their hits.
+/// The rays with a hit, in order, with their hits.
 pub fn surface_hits(scene: &Scene, rays: &[Ray], accel: &dyn DynAccel) -> Vec<SurfaceHit> {
     let hits = rays.iter().zip(accel.closest_by_chunks(rays, CHUNK)).enumerate();
     hits.filter_map(|(number, (&ray, hit))| {

@@ -16,7 +16,7 @@ use crate::names::{Unknown, find, named_enum};
 macro_rules! kinds {
     ($($(#[$doc:meta])* $kind:ident, $name:literal, $query:ident, $make:path;)*) => {
         named_enum! {
-            /// The kind of a workload: where its rays start and where they go.
+            /// The kind of a workload: the origins and directions of its rays.
             #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
             #[serde(rename_all = "kebab-case")]
             pub enum WorkloadKind {
@@ -49,11 +49,11 @@ kinds! {
     Corners, "corners", Closest, primary::corners;
     /// From each primary hit to each light, one light after the other, any hit.
     Shadow, "shadow", Any, bounces::shadow;
-    /// From each primary hit, reflected about the shading normal, whatever the material.
+    /// From each primary hit, reflected about the shading normal, for any material.
     Mirror, "mirror", Closest, bounces::mirror;
     /// From each primary hit in a random direction, cosine-distributed about the shading normal.
     Diffuse, "diffuse", Closest, bounces::diffuse;
-    /// As [`WorkloadKind::Diffuse`], any hit, ending at a tenth of the box's diagonal: ambient occlusion.
+    /// Like [`WorkloadKind::Diffuse`], any hit, with a length of a tenth of the box's diagonal: ambient occlusion.
     Ambient, "ambient", Any, bounces::ambient;
     /// Lines through two random points of the sphere around the scene's box.
     Random, "random", Closest, lines::random;
@@ -61,7 +61,7 @@ kinds! {
     Axis, "axis", Closest, lines::axis;
     /// The closest-hit rays of the whole picture: each pixel's primary ray and then its mirror rays.
     Image, "image", Closest, picture::closest;
-    /// The any-hit rays of the whole picture, in the order of the hits that they start from.
+    /// The any-hit rays of the whole picture, in the order of their origins' hits.
     ImageShadow, "image-shadow", Any, picture::shadow;
 }
 

@@ -20,8 +20,8 @@ pub fn random(source: &mut Source) -> Vec<Ray> {
 
 /// About as many rays along the axes as pixels: a square lattice of lines for each axis and direction.
 ///
-/// Lines pass through the middle of the lattice cells. Every fourth has the coordinate of a vertex instead, so that
-/// rays pass through vertices, along edges and in the planes of triangles.
+/// Lines pass through the middle of the lattice cells. Every fourth has the coordinate of a vertex instead: rays then
+/// pass through vertices, along edges and in the planes of triangles.
 pub fn axis(source: &mut Source) -> Vec<Ray> {
     let scene = source.scene;
     let Some((centre, radius)) = sphere(scene) else { return vec![] };
@@ -58,7 +58,7 @@ fn line(scene: &Scene, axis: usize, i: u32, side: u32) -> f32 {
     (min + (max - min) * (f64::from(i) + 0.5) / f64::from(side)) as f32
 }
 
-/// Centre and radius of the sphere around the scene's box; none for an empty scene.
+/// Centre and radius of the sphere around the scene's box; `None` for an empty scene.
 fn sphere(scene: &Scene) -> Option<(DVec3, f64)> {
     let bounds = scene.mesh.bounds();
     let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());

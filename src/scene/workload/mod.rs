@@ -34,7 +34,7 @@ pub struct Workload {
 }
 
 impl Workload {
-    /// Makes the rays. `accel`, built over the scene's mesh, finds the hits that secondary rays start from.
+    /// Makes the rays. `accel`, built over the scene's mesh, finds the hits at which secondary rays start.
     ///
     /// A workload is empty if the scene has no such rays: no shadow rays without lights, no secondary rays without
     /// primary hits, no rays at all for an empty mesh.

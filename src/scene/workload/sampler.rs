@@ -6,7 +6,7 @@ use rand_pcg::Pcg32;
 pub struct Sampler(Pcg32);
 
 impl Sampler {
-    /// The random numbers of the workload `name`, independent of those of other names.
+    /// The random numbers of the workload `name`, independent of other names.
     pub fn new(name: &str, seed: u64) -> Self {
         let mixed = name.bytes().fold(seed, |mixed, byte| mixed.wrapping_mul(0x0100_0000_01b3) ^ u64::from(byte));
         Self(Pcg32::seed_from_u64(mixed))

@@ -1,4 +1,4 @@
-//! The input from which the rays of a workload are made.
+//! The input of the generators of workloads.
 
 use super::sampler::Sampler;
 use crate::accel::DynAccel;
@@ -7,10 +7,10 @@ use crate::scene::Scene;
 /// The number of rays of a workload, and its random numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sampling {
-    /// Width and height of the picture whose hits secondary rays start from; there are as many random and lattice rays
-    /// as pixels.
+    /// Width and height of the picture whose hits are the origins of secondary rays; there are as many random and
+    /// lattice rays as pixels.
     pub size: [u32; 2],
-    /// The most rays; they are spread evenly over the workload.
+    /// The maximum number of rays; they are evenly spread over the workload.
     pub limit: usize,
     pub seed: u64,
 }
@@ -21,7 +21,7 @@ impl Sampling {
         Self { size: scene.size, limit: usize::MAX, seed: 0 }
     }
 
-    /// At most `limit` of them at equal distances: to check hits, not to measure times.
+    /// At most `limit` of the rays at equal distances: for checking hits, not for measuring times.
     pub fn some(scene: &Scene, limit: usize, seed: u64) -> Self {
         Self { limit, seed, ..Self::of(scene) }
     }
@@ -35,7 +35,7 @@ pub(super) struct Source<'a> {
     pub scene: &'a Scene,
     /// The number of rays; [`Sampling::limit`] is applied to the rays that a kind's function returns.
     pub sampling: &'a Sampling,
-    /// The structure that finds the hits from which secondary rays start.
+    /// The structure that finds the hits at which secondary rays start.
     pub accel: &'a dyn DynAccel,
     /// The random numbers of this kind of workload.
     pub sampler: Sampler,

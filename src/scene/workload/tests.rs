@@ -101,7 +101,7 @@ fn bounces_off_a_framed_convex_mesh_hit_nothing_at_any_size_and_place() {
     for (radius, centre) in [(1.0, 0.0), (1e-6, 0.0), (1e6, 0.0), (1.0, 1e3), (10.0, 1e5)] {
         assert_eq!(hidden(None, radius, centre), 0, "r = {radius} at {centre}");
     }
-    // Half of the bounces that start at the point as computed hit their own triangle.
+    // Half of the rays that start at the computed point hit their own triangle.
     assert!(hidden(Some(Offset::Direction(0.0)), 10.0, 1e5) > 300);
 }
 

@@ -7,7 +7,7 @@ use crate::report::plot::{Chart, LABELLED, Point, Scatter};
 use crate::report::words::slug;
 use crate::report::{Art, Figure};
 
-/// That of one scene and kind of rays, the one of this number.
+/// The chart of one scene and workload; `number` becomes part of its id.
 pub fn figure(number: usize, of_kind: &JudgedRays) -> Figure {
     let JudgedRays { epoch, kind, structures, .. } = of_kind;
     let front = structures.iter().filter(|own| own.dominated_by.is_none()).map(|own| {

@@ -1,4 +1,4 @@
-//! Over which triangle tests our structures are right, and over which they are wrong.
+//! The triangle tests with which the structures of this crate are right, and those with which they are wrong.
 
 use super::judged::{Judged, JudgedRays};
 use crate::report::Finding;
@@ -6,7 +6,7 @@ use crate::report::number::{count, figures};
 use crate::report::words::{distinct, listed, slug};
 use crate::request::known_defect;
 
-/// That of one scene and kind of rays; nothing where none of the structures is ours.
+/// The finding on one scene and workload; `None` without a structure of this crate.
 pub fn finding(of_kind: &JudgedRays) -> Option<Finding> {
     let own: Vec<&Judged> =
         of_kind.structures.iter().filter(|judged| known_defect(&judged.structure.name).is_none()).collect();

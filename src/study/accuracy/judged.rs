@@ -1,6 +1,5 @@
-//! What was measured, kind of rays by kind of rays.
+//! The measurements, by workload.
 
-use super::front::dominators;
 use crate::measure::median;
 use crate::report::words::each_once;
 use crate::request::RayKind;
@@ -8,32 +7,31 @@ use crate::study::epoch::{Rays, Structure};
 use crate::study::{Case, Dataset, Epoch};
 use crate::validate::ErrorCounts;
 
-/// All structures with a time on the rays of one kind of one scene.
+/// All structures with a time on one workload of one scene.
 pub struct JudgedRays<'a> {
     pub case: &'a Case,
     pub epoch: &'a Epoch,
-    /// The kind of the rays.
+    /// The name of the workload.
     pub kind: &'a str,
     pub structures: Vec<Judged<'a>>,
 }
 
-/// One structure over one triangle test on the rays of one kind: how wrong, and how fast.
+/// One structure over one triangle test on one workload: its errors and its speed.
 pub struct Judged<'a> {
     pub structure: &'a Structure,
     pub rays: &'a Rays,
     pub errors: &'a ErrorCounts,
-    /// Median of the samples, nanoseconds.
+    /// Median of the samples, ns.
     pub ns_per_ray: f64,
-    /// Share of the rays with a wrong answer: missed, false hit or wrong depth.
+    /// Share of the rays with a wrong hit: missed, false hit or wrong depth.
     pub error: f64,
-    /// What the true share is below, with 95 % confidence.
+    /// Upper bound of the true share, with 95 % confidence.
     pub error_bound: f64,
-    /// The label of a structure on the front that is at most as slow and at most as wrong; nothing for the front
-    /// itself.
+    /// The label of a structure on the front that is at most as slow and at most as wrong; `None` on the front.
     pub dominated_by: Option<&'a str>,
 }
 
-/// Scene by scene and kind by kind.
+/// By scene and workload.
 pub fn judged(dataset: &Dataset) -> Vec<JudgedRays<'_>> {
     let mut all = vec![];
     for scene in dataset.scenes() {
@@ -41,8 +39,7 @@ pub fn judged(dataset: &Dataset) -> Vec<JudgedRays<'_>> {
         let kinds = each_once(epoch.structures.iter().flat_map(|own| &own.rays).map(|rays| rays.workload.as_str()));
         for kind in kinds {
             let mut structures: Vec<Judged> = epoch.structures.iter().filter_map(|own| Judged::of(own, kind)).collect();
-            // What is not proven is not credited: an error that was seen once may be less than one that was not seen in
-            // fewer rays.
+            // Only proven accuracy counts: an error seen once in many rays may be rarer than one not seen in few rays.
             let points: Vec<(f64, f64)> = structures.iter().map(|own| (own.ns_per_ray, own.error_bound)).collect();
             let labels: Vec<&str> = structures.iter().map(|own| own.structure.label.as_str()).collect();
             for (own, dominator) in structures.iter_mut().zip(dominators(&points)) {
@@ -57,29 +54,57 @@ pub fn judged(dataset: &Dataset) -> Vec<JudgedRays<'_>> {
 }
 
 impl JudgedRays<'_> {
-    /// What the rays are, in a few words.
+    /// A short description of the rays.
     pub fn description(&self) -> &'static str {
         self.kind.parse().map_or("rays of a file", RayKind::description)
     }
 
-    /// The most that `of` says of a structure.
+    /// The maximum of `of` over the structures.
     pub fn most(&self, of: fn(&Judged) -> u64) -> u64 {
         self.structures.iter().map(of).max().unwrap_or(0)
     }
 }
 
 impl<'a> Judged<'a> {
-    /// Nothing where the structure has no time.
+    /// `None` if the structure has no time.
     fn of(structure: &'a Structure, kind: &str) -> Option<Self> {
         let rays = structure.rays.iter().find(|rays| rays.workload == kind)?;
         let errors = rays.errors.as_ref()?;
         let (error, error_bound) = (errors.error().share()?, errors.error().bound()?);
-        let ns_per_ray = median(&rays.paces(rays.rays))?;
+        let ns_per_ray = median(&rays.ns_per_ray(rays.rays))?;
         Some(Self { structure, rays, errors, ns_per_ray, error, error_bound, dominated_by: None })
     }
 
-    /// Whether a part of the rays is judged.
+    /// Whether only a subset of the rays is judged.
     pub fn is_sampled(&self) -> bool {
         self.errors.rays < self.rays.all as u64
+    }
+}
+
+/// For each point (cost, error), the point of the front that dominates it: at most as costly and at most as wrong, and
+/// better in one of the two; the cheapest, if there are several. `None` for the points of the front.
+///
+/// # References
+/// Kung, Luccio, Preparata: On finding the maxima of a set of vectors. J. ACM 22, 1975.
+fn dominators(points: &[(f64, f64)]) -> Vec<Option<usize>> {
+    let dominates = |a: (f64, f64), b: (f64, f64)| a.0 <= b.0 && a.1 <= b.1 && a != b;
+    let is_front = |i: usize| !points.iter().any(|&other| dominates(other, points[i]));
+    let front: Vec<usize> = (0..points.len()).filter(|&i| is_front(i)).collect();
+    let cheapest = |point: (f64, f64)| {
+        let dominating = front.iter().copied().filter(|&i| dominates(points[i], point));
+        dominating.min_by(|&a, &b| points[a].0.total_cmp(&points[b].0))
+    };
+    points.iter().map(|&point| cheapest(point)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_front_is_what_nothing_dominates() {
+        let points = [(1.0, 0.5), (2.0, 0.1), (3.0, 0.1), (3.0, 0.6), (9.0, 0.0), (1.0, 0.5)];
+        assert_eq!(dominators(&points), [None, None, Some(1), Some(0), None, None]);
+        assert_eq!(dominators(&[]), []);
     }
 }

@@ -1,9 +1,8 @@
-//! `accuracy`: how wrong, how fast. Every structure over every triangle test answers the same rays; the exact oracle
-//! judges, one thread is timed.
+//! `accuracy`: error and speed. Every structure over every triangle test traces the same rays; the exact oracle judges
+//! the hits, and one thread is timed.
 
 mod figure;
 mod findings;
-mod front;
 mod judged;
 mod table;
 #[cfg(test)]
@@ -67,16 +66,16 @@ struct AccuracyArgs {
     seed: u64,
 }
 
-/// What the samples of a scene may take.
+/// Time limit of all samples of a scene.
 const BUDGET: Seconds = Seconds::whole(40);
 
-/// Brute force takes part in meshes up to this size, unless structures are named.
+/// Brute force participates in meshes up to this size, unless structures are named.
 const SMALL: usize = 5000;
 
-/// Of more tables than these the terminal shows no finding each.
+/// With more tables than this, the terminal shows no finding per table.
 const HEADLINES: usize = 3;
 
-/// A structure that takes more than so many times as long as the median one is timed on fewer rays.
+/// A structure that is slower than the median one by more than this factor is timed on fewer rays.
 const SLOWEST: f64 = 30.0;
 
 fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
@@ -119,7 +118,7 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     Ok(plan)
 }
 
-/// Every structure over every triangle test that it is offered with and that is asked for.
+/// The requested structures over each requested triangle test that they offer.
 fn structures(registry: &Registry, named: &[String], tests: &[String]) -> anyhow::Result<Vec<StructureRequest>> {
     known_tests(registry, tests)?;
     let mut chosen: Vec<StructureRequest> = vec![];
@@ -147,11 +146,9 @@ fn structures(registry: &Registry, named: &[String], tests: &[String]) -> anyhow
 
 fn report(dataset: &Dataset, _: &ArgMatches) -> Report {
     let all = judged(dataset);
-    let mut blocks = vec![Block::Text(
-        "Exact arithmetic gives the true hit of every ray. Workloads are never pooled: each fails in its own way. The \
-         front holds the structures that no other one beats in both speed and error."
-            .into(),
-    )];
+    let text = "Exact arithmetic gives the true hit of every ray. Workloads are never pooled: each fails in its own way. \
+                The front holds the structures that no other one beats in both speed and error.";
+    let mut blocks = vec![Block::Text(text.into())];
     for (i, of_kind) in all.iter().enumerate() {
         blocks.extend([Block::figure(figure::figure(i, of_kind)), Block::Table(table::table(of_kind))]);
     }
@@ -161,15 +158,15 @@ fn report(dataset: &Dataset, _: &ArgMatches) -> Report {
     Report { findings, blocks, failures: failures(dataset, &all), data: table::data(&all), ..Report::default() }
 }
 
-/// Structures without times, and those that owe the truth and err: one test alone promises it, and only in a structure
-/// that loses nothing.
+/// Structures without times, and structures that must be exact but err. Only one triangle test is exact, and only in a
+/// structure without known defects.
 fn failures(dataset: &Dataset, all: &[JudgedRays]) -> Vec<Failure> {
     let mut failures = vec![];
     for judged in all.iter().flat_map(|of_kind| &of_kind.structures) {
         let own = judged.structure;
         let owes = own.triangle_test == Exact::NAME && known_defect(&own.name).is_none();
         if owes && judged.errors.errors() + judged.errors.wrong_primitive > 0 {
-            // The tables say it.
+            // The tables show this failure.
             failures.push(Failure { structure: own.name.clone(), wrong: true, ..Failure::default() });
         }
     }

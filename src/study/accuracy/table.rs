@@ -5,7 +5,7 @@ use crate::report::number::count;
 use crate::report::{Cell, Format, Table, Tone};
 use crate::validate::Ulps;
 
-/// That of one scene and kind of rays.
+/// The table of one scene and workload.
 pub fn table(of_kind: &JudgedRays) -> Table {
     let JudgedRays { epoch, kind, structures, .. } = of_kind;
     let title = format!(
@@ -55,7 +55,7 @@ fn ulps(own: &Judged, value: fn(&Ulps) -> f64) -> Cell {
     own.errors.ulps.as_ref().map(value).into()
 }
 
-/// What the columns mean.
+/// The meaning of the columns.
 pub const LEGEND: [&str; 4] = [
     "slowest: nanoseconds of the slowest ray, traced alone, including the call.",
     "error: share of rays with a wrong result by exact arithmetic: a missed hit, a false hit, or a depth that is off by \
@@ -67,7 +67,7 @@ pub const LEGEND: [&str; 4] = [
      front.",
 ];
 
-/// One row for each structure and kind of rays.
+/// One row per structure and workload.
 pub fn data(all: &[JudgedRays]) -> Table {
     let rows = all.iter().flat_map(|of_kind| of_kind.structures.iter().map(move |own| (of_kind, own)));
     type Row<'a> = (&'a JudgedRays<'a>, &'a Judged<'a>);

@@ -12,7 +12,7 @@ fn planned(words: &str) -> anyhow::Result<Plan> {
     plan(&STUDY.matches(&words).unwrap(), &Registry::builtin())
 }
 
-/// What a run with these options measures.
+/// The dataset of a run with these options.
 fn measured(words: &str) -> Dataset {
     let measured = planned(words).unwrap().cases.into_iter().map(|case| {
         let prepared = Prepared::new(&case, &Registry::builtin(), None).unwrap();
@@ -37,7 +37,7 @@ fn exact_is_right_and_single_precision_is_not() {
         let errors = own.errors;
         [errors.rays, errors.hits, errors.missed, errors.false_hits, errors.wrong_depth, errors.wrong_primitive]
     };
-    // The same rays are judged for the same options, whatever the machine.
+    // The same options judge the same rays on every machine.
     for (of_kind, (kind, expected)) in all.iter().zip(KNOWN) {
         assert_eq!(of_kind.kind, kind);
         for (own, expected) in of_kind.structures.iter().zip(expected) {
@@ -52,7 +52,7 @@ fn exact_is_right_and_single_precision_is_not() {
         assert!(exact.errors.ulps.unwrap().max <= 0.5 && rounds.error < rounds.error_bound);
         // 400 rays without an error: 1 - 0.05^(1 / 400).
         assert!((exact.error_bound - 0.007461).abs() < 1e-6, "{}", exact.error_bound);
-        // Whatever the times are: nothing else is as right.
+        // At any speed: nothing else is as right.
         assert!(exact.dominated_by.is_none());
     }
     assert_eq!(all.len(), KNOWN.len());
@@ -76,7 +76,7 @@ fn what_is_refused_or_owes_the_truth_and_errs_fails() {
     let changes: [(Change, &[(&str, bool)]); 4] = [
         (|_| (), &[]),
         (|own| own.epoch.structures[0].rays[0].errors.as_mut().unwrap().missed = 1, &[("", true)]),
-        // A defect that is known, and a test that promises nothing.
+        // A known defect, and a triangle test that is not exact.
         (
             |own| {
                 own.epoch.structures[0].name = "bvh".into();

@@ -4,22 +4,22 @@ use crate::names::named_enum;
 use crate::request::TWIN;
 
 named_enum! {
-    /// What is varied.
+    /// The factors of the design.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Factor {
-        /// Where a node is split.
+        /// The position of a split.
         Plane = "plane",
-        /// When a node stays a leaf.
+        /// The condition for a leaf.
         Stop = "stop rule",
-        /// How rays walk the tree.
+        /// The way in which rays traverse the tree.
         Traversal = "traversal",
     }
 }
 
-/// One value of a factor: its name, as tables and journals print it, and the keys of the structure.
+/// The name of a value of a factor, and the keys of the structure.
 pub type Level = (&'static str, &'static str);
 
-/// Where a node is split: the report's rule first, the surface area heuristic over all planes last.
+/// Split planes: the report's rule first, the surface area heuristic over all planes last.
 const PLANES: [Level; 6] = [
     ("vertex median cyclic", "plane=vertex-median,axis=cyclic"),
     ("vertex median longest", "plane=vertex-median,axis=longest"),
@@ -29,25 +29,25 @@ const PLANES: [Level; 6] = [
     ("SAH exact", "plane=sah-sweep"),
 ];
 
-/// When a node stays a leaf: the report's rule, then "at most eight triangles", then the surface area heuristic.
+/// Stop rules: the report's rule, then "at most eight triangles", then the surface area heuristic.
 const STOPS: [Level; 3] = [
     ("report", "stop=report,leaf=100,threshold=0.7,limit=below"),
     ("leaf 8", "stop=leaf,leaf=8,limit=at-most"),
     ("SAH", "stop=sah"),
 ];
 
-/// How rays walk: the report's way, then the usual one.
+/// Traversals: the report's, then the usual one.
 const TRAVERSALS: [Level; 2] =
     [("child boxes", "traversal=child-boxes"), ("plane intervals", "traversal=plane-intervals")];
 
-/// What all cells share. The rules of the report ignore the costs; the guard against inputs that explode is the one of
-/// `sah-kd`.
+/// The common keys of all cells. The rules of the report ignore the costs; the limit against exploding inputs is the
+/// default of `sah-kd`.
 const COMMON: &str = "traversal_cost=1.0,intersection_cost=0.7,empty_bonus=0.2,duplication=8.0";
 
-/// Trees that are built a second time, for the A/A noise.
+/// Trees that are built twice, for the A/A check.
 pub const TWINS: [Treatment; 2] = [Treatment::REPORT, Treatment::SAH];
 
-/// The trees of a case with their roles: those of the design in their order, then the twins.
+/// The trees of a case with their roles: the trees of the design in order, then the twins.
 pub fn trees() -> impl Iterator<Item = (Treatment, String)> {
     Treatment::all().map(|cell| (cell, cell.role())).chain(TWINS.map(|cell| (cell, TWIN.into())))
 }
@@ -55,7 +55,7 @@ pub fn trees() -> impl Iterator<Item = (Treatment, String)> {
 /// Cells of the design.
 pub const CELLS: usize = PLANES.len() * STOPS.len() * TRAVERSALS.len();
 
-/// One cell of the design: the number of the level of each factor.
+/// One cell of the design: the index of the level of each factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Treatment(pub [usize; 3]);
 
@@ -65,13 +65,13 @@ impl Treatment {
     /// The SAH tree.
     pub const SAH: Self = Self([PLANES.len() - 1, STOPS.len() - 1, TRAVERSALS.len() - 1]);
 
-    /// All cells; a cell stands at its [number](Self::number).
+    /// All cells, ordered by their [number](Self::number).
     pub fn all() -> impl Iterator<Item = Self> {
         let [stops, traversals] = [STOPS.len(), TRAVERSALS.len()];
         (0..CELLS).map(move |i| Self([i / traversals / stops, i / traversals % stops, i % traversals]))
     }
 
-    /// Where it stands among all.
+    /// Its index among all cells.
     pub fn number(self) -> usize {
         let [plane, stop, traversal] = self.0;
         (plane * STOPS.len() + stop) * TRAVERSALS.len() + traversal
@@ -83,12 +83,12 @@ impl Treatment {
         [PLANES[plane], STOPS[stop], TRAVERSALS[traversal]]
     }
 
-    /// What its tree stands for in the study: `SAH exact / SAH / plane intervals`.
+    /// The role of its tree in the study: `SAH exact / SAH / plane intervals`.
     pub fn role(self) -> String {
         self.levels().map(|(name, _)| name).join(" / ")
     }
 
-    /// The structure, as the command line takes it, over the triangle test `test`.
+    /// The structure on the command line, over the triangle test `test`.
     pub fn spec(self, test: &str) -> String {
         format!("median-kd:test={test},{},{COMMON}", self.levels().map(|(_, keys)| keys).join(","))
     }
@@ -103,7 +103,7 @@ mod tests {
     #[test]
     fn the_corners_are_the_trees_that_they_stand_for() {
         let registry = Registry::builtin();
-        // Numbers as the tree reads them: 1 and 1.0 are one.
+        // Numbers as the tree reads them: 1 and 1.0 are equal.
         let config = |spec: &str| {
             let config: KdConfig = serde_json::from_value(registry.choose(spec).unwrap().config).unwrap();
             serde_json::to_value(config).unwrap()
@@ -113,7 +113,7 @@ mod tests {
             let keys = ours.as_object().unwrap().keys().filter(|key| ours[*key] != theirs[*key]);
             keys.cloned().collect::<Vec<_>>()
         };
-        // What the report's rules take no notice of, and the guard.
+        // The keys that the report's rules ignore, and the limit.
         assert_eq!(different(Treatment::REPORT, "median-kd"), ["intersection_cost", "empty_bonus", "duplication"]);
         assert_eq!(different(Treatment::SAH, "sah-kd"), [""; 0]);
     }

@@ -1,4 +1,4 @@
-//! What was found: sentences, and the numbers of the claims.
+//! The findings: sentences, and the numbers of the claims.
 
 use super::design::{Factor, Treatment};
 use super::result::Attribution;
@@ -9,7 +9,7 @@ use crate::report::words::{each_once, interval, listed, slug};
 use crate::scene::WorkloadKind;
 use crate::study::kendall::{kendall, mean_of_scenes};
 
-/// The scenes that the claims are about.
+/// The scenes of the claims.
 pub const HARD: [&str; 3] = ["Dragon", "Lucy", "Sponza"];
 
 pub fn findings(results: &[Attribution]) -> Vec<Finding> {
@@ -34,16 +34,16 @@ pub fn findings(results: &[Attribution]) -> Vec<Finding> {
     findings
 }
 
-/// The scene `name`, the real mesh or the stand-in.
+/// The scene `name`: the real mesh or the stand-in.
 fn form<'a>(results: &'a [Attribution<'a>], name: &str, stand_in: bool) -> Option<&'a Attribution<'a>> {
     results.iter().find(|r| r.first().scene == name && r.first().stand_in == stand_in)
 }
 
-/// Which of the three gives most of the speedup on the hard scenes.
+/// The factor that contributes most to the speedup on the hard scenes.
 fn parts(hard: &[&Attribution]) -> Option<Finding> {
     let scenes = listed(&hard.iter().map(|r| r.first().scene_title()).collect::<Vec<_>>());
     let told = |factor: Factor| listed(&hard.iter().map(|r| interval(r.part(factor))).collect::<Vec<_>>());
-    // The first of all scenes: its interval lies above the others' there.
+    // The first on all scenes: its interval lies above the intervals of the other factors.
     let first = Factor::ALL.into_iter().find(|&factor| {
         let above = |r: &Attribution, other: Factor| r.part(factor).low() > r.part(other).high();
         hard.iter().all(|r| Factor::ALL.into_iter().all(|other| other == factor || above(r, other)))
@@ -60,7 +60,7 @@ fn parts(hard: &[&Attribution]) -> Option<Finding> {
 }
 
 /// `Dragon: speedup 21.1 = plane 1.60 x stop rule 9.10 x traversal 1.45`, and the ranges over the orders in which the
-/// three are switched.
+/// three factors are switched.
 pub fn split(r: &Attribution) -> Finding {
     let whole = r.whole();
     let [plane, stop, traversal] = Factor::ALL.map(|factor| figures(r.part(factor).estimate));
@@ -71,22 +71,22 @@ pub fn split(r: &Attribution) -> Finding {
         figures(whole.estimate),
         listed(&orders)
     );
-    Finding::new(format!("split-{}", slug(&r.first().scene)), sentence).of(whole)
+    Finding::new(format!("split-{}", slug(&r.first().scene)), sentence).with_value(whole)
 }
 
-/// How much more the SAH tree gains on Sponza than on the scans. Real meshes are held against real ones, and stand-ins
-/// only where those are not there.
+/// How much more the SAH tree gains on Sponza than on the scans. Real meshes are compared with real ones, stand-ins
+/// with stand-ins, and stand-ins only if the real meshes are missing.
 fn gains(results: &[Attribution]) -> Vec<Finding> {
     let of = |stand_in: bool| -> Vec<Finding> {
         let whole = |name: &str| Some(form(results, name, stand_in)?.whole());
-        let gain =
-            |name: &&str| Some(Finding::number(format!("gain-{}", slug(name)), whole("Sponza")?.over(whole(name)?)));
-        ["Dragon", "Lucy"].iter().filter_map(gain).collect()
+        let gain = |name| Some(Finding::number(format!("gain-{}", slug(name)), whole("Sponza")?.over(whole(name)?)));
+        ["Dragon", "Lucy"].into_iter().filter_map(gain).collect()
     };
     [false, true].map(of).into_iter().find(|found| !found.is_empty()).unwrap_or_default()
 }
 
-/// Kendall's tau of SAH cost and time within a family, the trees that are walked alike: the mean over the scenes.
+/// Kendall's tau of SAH cost and time within a family, which are the trees with the same traversal: the mean over the
+/// scenes.
 fn tau(results: &[Attribution]) -> Option<Estimate> {
     fn of<'a>(r: &'a Attribution, traversal: usize) -> Option<(&'a str, f64)> {
         let trees = Treatment::all().filter(|cell| cell.0[Factor::Traversal as usize] == traversal);
@@ -94,6 +94,6 @@ fn tau(results: &[Attribution]) -> Option<Estimate> {
         Some((r.first().scene.as_str(), kendall(&trees.filter_map(cost).collect::<Vec<_>>(), |_, _| true)?))
     }
     let taus = results.iter().flat_map(|r| [0, 1].into_iter().filter_map(|traversal| of(r, traversal)));
-    // One scene is no mean of scenes.
+    // One scene is not a mean.
     mean_of_scenes(taus).filter(|tau| tau.interval.is_some())
 }

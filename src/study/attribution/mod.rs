@@ -1,9 +1,9 @@
 //! `attribution`: how much of the SAH speedup comes from the split plane, the stop rule and the traversal?
 //!
-//! One kind of tree in every combination of six planes, three stop rules and two traversals, over one triangle test, on
-//! the same rays: the factorial design. In every epoch all trees are built anew and timed in rounds, each round
-//! every tree once, in random order. The report's tree and the SAH tree are built twice; the twins show the A/A noise.
-//! The role of a structure is its cell of the design.
+//! The trees are all combinations of six planes, three stop rules and two traversals, over one triangle test, on the
+//! same rays: a factorial design. Every epoch rebuilds all trees and times them in rounds; a round times every tree
+//! once, in random order. The report's tree and the SAH tree are built twice, for the A/A check. The role of a
+//! structure is its cell of the design.
 
 mod design;
 mod findings;
@@ -48,7 +48,7 @@ struct AttributionArgs {
     /// Triangle test of all trees
     #[arg(long, short, help_heading = STRUCTURES, value_name = "NAME", default_value = "exact")]
     test: String,
-    // Claims are judged by these numbers, all of them together: few epochs leave what is sure to luck.
+    // These numbers decide all claims together: with few epochs a significant result would depend on luck.
     #[command(flatten)]
     measuring: Measuring<8, 3, 5>,
 }

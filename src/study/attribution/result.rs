@@ -1,4 +1,4 @@
-//! What came of each scene. Pure functions of what was measured.
+//! The result of each scene. Pure functions of the measurements.
 
 use super::design::{CELLS, Factor, TWINS, Treatment, trees};
 use crate::measure::{AaNoise, Estimate, median};
@@ -6,19 +6,18 @@ use crate::study::epoch_medians::{epoch_medians, ratio, values};
 use crate::study::measurement::{Measurement, of_scene};
 use crate::study::{Dataset, Epoch, SceneEpochs};
 
-/// One scene.
 pub struct Attribution<'a> {
-    /// Each has the [`trees`] of the design.
+    /// The epochs of a scene; each has the [`trees`] of the design.
     pub epochs: Vec<&'a Epoch>,
-    /// Of each cell, in their order.
+    /// One measurement per cell, in order.
     pub trees: Vec<Measurement>,
-    /// Of each epoch the logarithms of the times of its trees.
+    /// The logarithms of the times of all trees, by epoch.
     medians: Vec<Vec<f64>>,
-    /// Of all scenes.
+    /// The noise of all scenes.
     pub noise: AaNoise,
 }
 
-/// One result for each scene with the trees of the design.
+/// One result per scene with the trees of the design.
 pub fn results(dataset: &Dataset) -> Vec<Attribution<'_>> {
     let roles: Vec<String> = trees().map(|(_, role)| role).collect();
     let is_designed = |epoch: &&Epoch| epoch.structures.iter().map(|own| &own.role).eq(&roles);
@@ -29,10 +28,10 @@ pub fn results(dataset: &Dataset) -> Vec<Attribution<'_>> {
     results
 }
 
-/// Nanoseconds a ray in every sample of a tree, on the rays that all trees are timed on.
+/// Time per ray of each sample of a tree, ns, on the rays that all trees are timed on.
 fn paces(epoch: &Epoch, tree: usize) -> Vec<f64> {
     let rays = &epoch.structures[tree].rays[0];
-    rays.paces(epoch.common_rays(&rays.workload))
+    rays.ns_per_ray(epoch.common_rays(&rays.workload))
 }
 
 impl<'a> Attribution<'a> {
@@ -49,50 +48,50 @@ impl<'a> Attribution<'a> {
         [0, 1].map(|i| log(i).into_iter().map(|log| vec![log]).collect())
     }
 
-    /// That of the report's tree, for what all trees of the scene share.
+    /// The measurement of the report's tree, with the fields that all trees of the scene share.
     pub fn first(&self) -> &Measurement {
         &self.trees[0]
     }
 
-    /// Nanoseconds a ray, the median over all samples.
+    /// The median over all samples.
     pub fn ns_per_ray(&self, cell: Treatment) -> f64 {
         let paces = self.epochs.iter().flat_map(|epoch| paces(epoch, cell.number()));
         median(&paces.collect::<Vec<_>>()).expect("every tree is timed")
     }
 
-    /// How many times less time is taken.
+    /// Old time / new time, for a weighted sum of logarithms.
     pub fn speedup(&self, weights: &Weights) -> Estimate {
         let sum = |logs: &[f64]| weights.iter().zip(logs).map(|(weight, log)| weight * log).sum();
         ratio(&self.medians, sum, self.noise.weighted(weights))
     }
 
-    /// How many times less the SAH tree takes than the report's tree.
+    /// Time of the report's tree / time of the SAH tree.
     pub fn whole(&self) -> Estimate {
         self.speedup(&gain(Treatment::REPORT, Treatment::SAH))
     }
 
-    /// What the whole owes to `factor`; the three parts multiply to it.
+    /// The part of the whole speedup that `factor` contributes; the product of the three parts is the whole.
     pub fn part(&self, factor: Factor) -> Estimate {
         self.speedup(&part(factor))
     }
 
-    /// The least and the most that `factor` gives, over the orders of switching; they differ by the interactions.
+    /// The smallest and the largest gain of `factor` over the orders of switching; they differ by the interactions.
     pub fn range(&self, factor: Factor) -> [f64; 2] {
         let orders = parts_by_order(factor).map(|order| self.speedup(&order).estimate);
         [orders.iter().copied().fold(f64::INFINITY, f64::min), orders.iter().copied().fold(0.0, f64::max)]
     }
 
-    /// How many times faster the exact SAH plane is than the report's, where both stop at eight triangles, as far as
-    /// planes divide them, and have plane intervals.
+    /// Speed of the exact SAH plane / speed of the report's plane, if both stop at eight triangles (as far as planes
+    /// can separate them) and use plane intervals.
     pub fn plane_alone(&self) -> Estimate {
         self.speedup(&gain(Treatment([0, 1, 1]), Treatment([5, 1, 1])))
     }
 }
 
-/// One weight for each cell.
+/// One weight per cell.
 type Weights = [f64; CELLS];
 
-/// How much less `to` takes than `from`.
+/// ln(time of `from` / time of `to`).
 pub fn gain(from: Treatment, to: Treatment) -> Weights {
     let mut weights = [0.0; CELLS];
     weights[from.number()] += 1.0;
@@ -100,9 +99,9 @@ pub fn gain(from: Treatment, to: Treatment) -> Weights {
     weights
 }
 
-/// What the whole step from the report's tree to the SAH tree owes to `factor`: its gain, averaged over all orders in
-/// which the three factors can be switched (Shapley, "A value for n-person games", 1953). The three parts add up to the
-/// whole.
+/// The share of `factor` in the step from the report's tree to the SAH tree: its gain, averaged over all orders in
+/// which the three factors can be switched (Shapley, "A value for n-person games", 1953). The sum of the three parts is
+/// the whole.
 fn part(factor: Factor) -> Weights {
     let mut sum = [0.0; CELLS];
     for gain in parts_by_order(factor) {

@@ -13,20 +13,17 @@ pub fn blocks(results: &[Attribution]) -> Vec<Block> {
     }
     let mut sorted: Vec<&Attribution> = results.iter().collect();
     sorted.sort_by_key(|r| HARD.iter().position(|name| r.first().scene == *name).unwrap_or(HARD.len()));
+    let text = "One tree type in every combination of six split planes, three stop rules and two traversals. The \
+                report's tree and the SAH tree differ in these three factors. Each factor is credited with its gain, \
+                averaged over all orders of switching, so the parts multiply to the whole.";
     vec![
-        Block::Text(
-            "One tree type in every combination of six split planes, three stop rules and two traversals. The \
-             report's tree and the SAH tree differ in these three factors. Each factor is credited with its gain, \
-             averaged over all orders of switching, so the parts multiply to the whole."
-                .into(),
-        ),
+        Block::Text(text.into()),
         Block::figure(figure(&sorted)),
         headlines(&sorted).into(),
         Block::Fold("All trees".into(), vec![trees(results).into()]),
     ]
 }
 
-/// The speedup of each scene as a product.
 fn figure(results: &[&Attribution]) -> Figure {
     let bar = |r: &&Attribution| {
         let parts = Factor::ALL.map(|factor| r.part(factor).estimate);
@@ -49,7 +46,7 @@ fn figure(results: &[&Attribution]) -> Figure {
     }
 }
 
-/// One row for each scene: the answer.
+/// One row per scene: the answer to the question.
 fn headlines(results: &[&Attribution]) -> Table {
     let table = Table::of(
         "Speedup of the SAH tree and its factors",
@@ -71,7 +68,7 @@ fn headlines(results: &[&Attribution]) -> Table {
     table.noted(vec![note.into(), noise]).explained()
 }
 
-/// One row for each tree of each scene.
+/// One row per tree of each scene.
 pub fn trees(results: &[Attribution]) -> Table {
     let is_sampled = |r: &Attribution| r.epochs[0].common_rays(&r.first().workload) < r.first().workload_rays;
     let of_scene = |r| Treatment::all().map(move |cell| (r, cell));
@@ -92,7 +89,5 @@ pub fn trees(results: &[Attribution]) -> Table {
     let shape = ["references_per_triangle", "sah_cost", "depth", "bytes", "build_ns"];
     let trees: Vec<&Measurement> = results.iter().flat_map(|r| &r.trees).collect();
     push_columns(&mut table, &[&names[..], &shape].concat(), &trees);
-    table
-        .noted(vec!["speedup: over the report's tree, the first row. ~: timed on a subset of the rays.".into()])
-        .explained()
+    table.noted(["speedup: over the report's tree, the first row. ~: timed on a subset of the rays."]).explained()
 }

@@ -1,4 +1,4 @@
-//! From datasets whose truth is known to the answer.
+//! Checks the report on datasets with known effects.
 
 use super::design::{CELLS, Factor, TWINS};
 use super::result::{Attribution, results};
@@ -10,7 +10,7 @@ use crate::study::Measured;
 use crate::study::case::tests::example as case;
 use crate::study::epoch::{Epoch, RayCounts, Shape, tests};
 
-/// How many times faster each factor makes the tree, and what the plane gives more once the stop rule is the SAH's.
+/// The speedup by each factor, and the additional speedup by the plane with the SAH stop rule.
 const STOP: f64 = 8.0;
 const PLANE: f64 = 1.5;
 const TRAVERSAL: f64 = 1.25;
@@ -25,7 +25,7 @@ fn factor(cell: Treatment) -> f64 {
     times * if plane == 5 && stop == 2 { TOGETHER } else { 1.0 }
 }
 
-/// `epochs` epochs of the stand-in of a scene; times vary by up to `noise` with the epoch, and whole rounds by a third.
+/// `epochs` epochs of the stand-in of a scene. Times vary by up to `noise` with the epoch, and whole rounds by a third.
 fn measured(scene: &str, epochs: usize, noise: f64) -> Vec<Measured> {
     let mut random = RandomOrder::new(3);
     let cells: Vec<Treatment> = Treatment::all().chain(TWINS).collect();
@@ -54,7 +54,7 @@ fn measured(scene: &str, epochs: usize, noise: f64) -> Vec<Measured> {
     (0..epochs).map(&mut of).collect()
 }
 
-/// The same of a real mesh.
+/// The same epochs, of a real mesh.
 fn real(measured: Vec<Measured>) -> impl Iterator<Item = Measured> {
     measured.into_iter().map(|mut own| {
         own.case.scene.stand_in = false;
@@ -71,7 +71,7 @@ fn report(measured: Vec<Measured>) -> Report {
     super::report(&dataset(measured), &STUDY.defaults())
 }
 
-/// What `of` says of the only scene.
+/// The result of `of` for the only scene.
 fn of_one<T>(measured: Vec<Measured>, of: impl Fn(&Attribution) -> T) -> T {
     let dataset = dataset(measured);
     let results = results(&dataset);
@@ -139,7 +139,7 @@ fn claims_are_judged_by_real_meshes_where_they_are_there() {
     assert_eq!(value(&stand_ins, "tau").unwrap().estimate, 1.0);
     let outcomes: Vec<_> = stand_ins.verdicts.iter().map(|verdict| verdict.outcome.name()).collect();
     assert_eq!(outcomes[..4], ["confirmed", "confirmed", "not measured", "not measured"]);
-    // A real mesh of one scene alone is not held against a stand-in.
+    // A real mesh of one scene is not compared with a stand-in.
     all.extend(real(measured("Dragon", 3, 0.0)));
     let both = report(all.clone());
     let headlines = both.tables().next().unwrap();
@@ -147,7 +147,7 @@ fn claims_are_judged_by_real_meshes_where_they_are_there() {
     assert_eq!(scenes, ["Dragon (stand-in)", "Dragon", "Sponza (stand-in)"]);
     assert!(both.finding("split-dragon").unwrap().sentence.starts_with("Dragon: "));
     assert_eq!(value(&both, "gain-dragon").unwrap().estimate, value(&stand_ins, "gain-dragon").unwrap().estimate);
-    // What has other trees than those of the design is left out.
+    // A scene with other trees than the design is left out.
     all[0].epoch.structures[1].role = "of another design".into();
     assert!(results(&dataset(all[..1].to_vec())).is_empty());
 }

@@ -1,15 +1,15 @@
-//! What `--wide` prints beside times, and the table for programs.
+//! The additional columns of `--wide`, and the CSV table.
 
 use crate::report::words::distinct;
 use crate::report::{Cell, Format, Table};
 use crate::request::BRUTE_FORCE;
 use crate::study::measurement::{COLUMNS, Measurement, MeasurementColumn, push_columns};
 
-/// Adds the columns of builds, memory, the shape of the trees, counts and checks to a table with a row for each of the
+/// Adds the columns of builds, memory, tree shape, counts and checks to a table with one row per structure in
 /// `structures`.
 pub fn add_columns(table: &mut Table, all: &[Measurement], structures: &[String]) {
     let own: [MeasurementColumn; 13] = [
-        // A program that times itself may say nothing of its build, and one that does not know its memory says 0.
+        // A runner may not report its build, and a structure of unknown size reports 0 bytes.
         ("build", |r| known(r.build_ns as usize).map(|ns| Cell::duration(ns as f64)).into()),
         ("peak", |r| r.build_peak_bytes.map(Cell::bytes).into()),
         ("memory", |r| known(r.shape.bytes).map(Cell::bytes).into()),
@@ -38,9 +38,8 @@ fn known(n: usize) -> Option<usize> {
     Some(n).filter(|&n| n > 0)
 }
 
-/// After how many rays of its workload a structure has made up for the time that its build takes longer than that of the
-/// structure which is built the fastest: build and rays together take as long then. Nothing where it never has, where one
-/// of the times is unknown, and for that structure itself.
+/// The number of rays of its workload after which build and tracing together take as long as with the structure that
+/// builds fastest. `None` if that never happens, if one of the times is unknown, and for that structure itself.
 pub fn pays_off_after(all: &[Measurement], own: &Measurement) -> Option<f64> {
     let is_rival = |r: &&Measurement| {
         let same = r.scene == own.scene && r.workload == own.workload;
@@ -53,7 +52,7 @@ pub fn pays_off_after(all: &[Measurement], own: &Measurement) -> Option<f64> {
     (own.build_ns > 0 && dearer > 0.0 && saved > 0.0).then(|| dearer / saved)
 }
 
-/// What the columns mean.
+/// The meaning of the columns.
 pub fn legend(first: &str) -> Vec<String> {
     vec![
         format!(
@@ -67,7 +66,7 @@ pub fn legend(first: &str) -> Vec<String> {
     ]
 }
 
-/// One row for each structure and workload of a scene.
+/// One row per structure and workload of a scene.
 pub fn data(all: &[Measurement]) -> Table {
     let mut table = Table::new("", [""; 0], all.iter().map(|_| vec![]));
     push_columns(&mut table, &COLUMNS.map(|(name, _)| name), &all.iter().collect::<Vec<_>>());
@@ -84,7 +83,7 @@ mod tests {
     fn a_dearer_build_pays_off_where_its_rays_are_cheaper() {
         let of = |label: &str, build_ns: u64, ns: f64| Measurement { build_ns, ..example(label, "primary", &[ns], 1) };
         let all = [of("a", 1000, 5000.0), of("b", 2000, 4500.0), of("c", 9000, 6000.0), of("brute-force", 1, 9e9)];
-        // A nanosecond a ray is saved.
+        // One nanosecond per ray is saved.
         let found: Vec<Option<f64>> = all.iter().map(|own| pays_off_after(&all, own)).collect();
         assert_eq!(found, [None, Some(1000.0), None, None]);
         let unknown = [of("a", 1000, 5000.0), of("runner", 0, 10.0)];

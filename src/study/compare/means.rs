@@ -8,20 +8,20 @@ use crate::report::words::{distinct, each_once};
 use crate::report::{Cell, Table, Tone};
 use crate::study::measurement::{Measurement, trace_noise};
 
-/// Speeds over all scenes: one row for each structure; a column for each workload, and one for all of them, against the
-/// first of the `references`, and one for all against each other reference.
+/// Speeds over all scenes, one row per structure: a column for each workload and one for all of them, relative to the
+/// first of the `references`, and one for all workloads relative to each other reference.
 ///
-/// A mean is over the cases in which the reference has a time. A row that lacks some of them names how many it has, and
-/// takes no part in what is the best of a column: means over different scenes cannot be ranked.
+/// A mean is over the cells in which the reference has a time. A row without some of them shows their number, and is
+/// not compared with the best of a column: means over different cells cannot be ranked.
 pub fn mean_table(all: &[Measurement], references: &[Reference]) -> Table {
     let workloads = distinct(all.iter().map(|r| &r.workload));
     let structures = distinct(all.iter().map(|r| &r.label));
     let noise = trace_noise(all);
 
-    // The cells of one column: of every structure, and which of them are over all cases.
+    // The cells of one column: one per structure, and whether it covers all scenes and workloads.
     let column = |reference: &Reference, workload: Option<&str>| -> Vec<Cell> {
         let asked = |r: &&Measurement| workload.is_none_or(|w| r.workload == w);
-        // A case is there if the reference has a time; what the reference itself is does not matter.
+        // A scene and workload counts if the reference has a time, even in the row of the reference.
         let has_rival = |r: &&Measurement| reference.rival(all, r).is_some();
         let related = all.iter().filter(asked).filter(has_rival);
         let cases = each_once(related.map(|r| (&r.scene, &r.workload))).len();
@@ -64,18 +64,16 @@ pub fn mean_table(all: &[Measurement], references: &[Reference]) -> Table {
         }
     }
     if table.rows.iter().flatten().any(|cell| !cell.note.is_empty()) {
-        notes.push(
-            "(n of m): mean over n of the m cases in which the reference has a time; not comparable with the other \
-             rows."
-                .into(),
-        );
+        let note = "(n of m): mean over n of the m cases in which the reference has a time; not comparable with the other \
+                    rows.";
+        notes.push(note.into());
     }
     notes.extend(uneven(all));
     notes.extend(control(all));
     table.noted(notes).without_empty_columns().explained()
 }
 
-/// Said where scenes have different numbers of epochs.
+/// The note if scenes have different numbers of epochs.
 fn uneven(all: &[Measurement]) -> Option<String> {
     let epochs = || all.iter().filter(|r| r.mrays_per_s.is_some()).map(|r| r.epochs);
     let (least, most) = (epochs().min()?, epochs().max()?);

@@ -25,7 +25,7 @@ use rank::Ranking;
 pub use reference::Reference;
 use table::refusals;
 
-/// The structures of `study all`: all names, and each again over a triangle test of the other precision.
+/// The structures of `study all`: all names, and some again over a triangle test of the other precision.
 const FULL: &str = "-s all -s sah-hybrid:batch=packets -s median-kd:test=moller-trumbore -s sah-kd:test=moller-trumbore \
     -s sah-kd-wide:test=moller-trumbore -s sah-kd-tight:test=moller-trumbore -s sah-hybrid:test=moller-trumbore \
     -s sah-bvh:test=moller-trumbore -s obvhs-bvh2:test=exact -s obvhs-cwbvh:test=exact --epochs 4 --runs 1 --budget 4";
@@ -58,7 +58,8 @@ fn report(dataset: &Dataset, matches: &ArgMatches) -> Report {
     }
 }
 
-/// The tables show them, but for the ray that shows a structure wrong and the reason of a refusal: each is said once.
+/// The failures. The tables show them, except the ray with the wrong hit and the reason of a refusal: each is printed
+/// once.
 fn failures(dataset: &Dataset) -> Vec<Failure> {
     let mut told: Vec<String> = vec![];
     let mut failures = dataset.failures();
@@ -68,7 +69,7 @@ fn failures(dataset: &Dataset) -> Vec<Failure> {
     let mut reasons = refusals(&refused).into_iter();
     for own in &mut failures {
         if own.refused && !refused.is_empty() {
-            // There are no fewer refusals than reasons.
+            // There are at least as many refusals as reasons.
             own.sentence = reasons.next().unwrap_or_default();
         } else if !own.wrong || known_defect(&own.structure).is_some() || told.contains(&own.structure) {
             own.sentence.clear();
@@ -79,7 +80,7 @@ fn failures(dataset: &Dataset) -> Vec<Failure> {
     failures
 }
 
-/// What spoilt the run. Of warnings that differ in their numbers alone, the first.
+/// Conditions that disturbed the run. Of warnings that differ only in their numbers, the first.
 fn warnings(dataset: &Dataset) -> Vec<String> {
     let all = dataset.scenes().into_iter().flat_map(|scene| scene_warnings(&scene, &dataset.provenance));
     let words = |warning: &str| warning.replace(|c: char| c.is_ascii_digit() || c == '.', "");

@@ -1,4 +1,4 @@
-//! The options of `compare`, and what they plan.
+//! The options of `compare` and their plan.
 
 use std::collections::BTreeSet;
 use std::ffi::OsString;
@@ -66,11 +66,11 @@ pub struct CompareArgs {
     pub wide: bool,
 }
 
-/// What a program may take for an answer.
+/// Default timeout of a reply of a runner.
 const RUNNER_LIMIT: Seconds = Seconds::whole(120);
 
-/// Of a quick run: its epochs and rays, what all epochs of a scene may take, the samples of one of them, and the
-/// triangle tests and the time of all checks together. These are totals, however many structures there are.
+/// Limits of a quick run: epochs, rays, the time of all epochs of a scene, the time of the samples of one epoch, and
+/// the triangle tests and time of all checks together. They are totals for any number of structures.
 const QUICK_EPOCHS: u16 = 3;
 const QUICK_RAYS: usize = 1 << 14;
 const QUICK: Duration = Duration::from_secs(4);
@@ -78,17 +78,17 @@ const QUICK_SAMPLES_NS: u64 = 250_000_000;
 const QUICK_CHECKS: usize = 1 << 28;
 const QUICK_CHECKS_NS: u64 = 1_000_000_000;
 
-/// The structures that are compared beside one of each name where none is named: for users who have slices of rays.
+/// A structure that is compared by default in addition to one of each name: for users with slices of rays.
 const PACKETS: &str = "sah-hybrid:batch=packets";
 
-/// What a gate judges changes relative to: no change of a user touches its code.
+/// The reference structure of a gate: no change by a user affects its code.
 const YARDSTICK: &str = "obvhs-bvh2";
 
-/// Names no structure of the suite: programs alone are compared.
+/// Names no structure of the suite: only runners are compared.
 const NONE: &str = "none";
 
 impl CompareArgs {
-    /// The structures, the reference among them.
+    /// The structures, including the reference.
     fn chosen(&self, registry: &Registry) -> anyhow::Result<Vec<StructureRequest>> {
         let is_none = matches!(&self.structures.structure[..], [word] if word == NONE) && !self.runner.is_empty();
         let named_alone = is_none || self.only.is_some();
@@ -126,7 +126,7 @@ impl CompareArgs {
                 anyhow::bail!("--only {name} measures nothing else: omit the runner {}", other.spec);
             }
         }
-        // Both sides of a gate are timed on all rays.
+        // A gate times both runs on all rays.
         let is_gate = self.reference.is_none() && (self.only.is_some() || self.measuring.budget == Limit(None));
         if is_gate && structures.iter().all(|own| !is_obvhs(own.name()) || own.spec.contains("test=")) {
             structures.extend(registry.choose(YARDSTICK).ok().map(|choice| (&choice).into()));
@@ -134,14 +134,14 @@ impl CompareArgs {
         Ok(each_once_by(structures, |one, other| one.spec == other.spec))
     }
 
-    /// What is named, the reference among it.
+    /// The named structures, including the reference.
     fn named(&self) -> Structures {
         let mut named = self.structures.clone();
         named.structure.extend(self.reference.iter().chain(&self.only).cloned());
         named
     }
 
-    /// The scenes as they are seen, and their rays.
+    /// The scenes with their cameras, and the rays.
     fn scenes(&self, registry: &Registry) -> anyhow::Result<(Vec<(OsString, Scene)>, WorkloadRequest)> {
         let quick = self.quick.then_some(QUICK_RAYS);
         if let Some((scene, rays)) = replayed(registry, &self.rays, &self.scenes.scenes, &self.workload, quick)? {
@@ -155,7 +155,7 @@ impl CompareArgs {
         Ok((scenes.collect::<anyhow::Result<_>>()?, workloads))
     }
 
-    /// What a build over so many triangles may take, seconds.
+    /// Time limit of a build over `triangles` triangles, seconds.
     fn build_limit_s(&self, triangles: usize) -> Option<f64> {
         let millions = triangles as f64 * 1e-6;
         match self.build_limit {
@@ -171,22 +171,21 @@ impl CompareArgs {
         structures: &[StructureRequest],
         workloads: usize,
     ) -> anyhow::Result<Settings> {
-        let budget_ns = if self.quick { Some(QUICK_SAMPLES_NS) } else { self.measuring.budget.ns() };
-        let check = if self.quick {
-            let tests = structures.iter().map(|own| Ok(own.choose(registry)?.triangle_test()));
-            let tests: BTreeSet<&str> = tests.collect::<anyhow::Result<_>>()?;
-            let tests = QUICK_CHECKS / (tests.len() * workloads).max(1);
-            Check::BruteForce { tests, limit_ns: Some(QUICK_CHECKS_NS) }
-        } else {
-            Check::default()
-        };
-        Ok(Settings { budget_ns, slowest: Some(SLOWEST), check, ..Settings::new(&self.measuring, registry)? })
+        let settings = Settings { slowest: Some(SLOWEST), ..Settings::new(&self.measuring, registry)? };
+        if !self.quick {
+            return Ok(settings);
+        }
+        let tests = structures.iter().map(|own| Ok(own.choose(registry)?.triangle_test()));
+        let tests: BTreeSet<&str> = tests.collect::<anyhow::Result<_>>()?;
+        let tests = QUICK_CHECKS / (tests.len() * workloads).max(1);
+        let check = Check::BruteForce { tests, limit_ns: Some(QUICK_CHECKS_NS) };
+        Ok(Settings { budget_ns: Some(QUICK_SAMPLES_NS), check, ..settings })
     }
 
     /// Scene by scene, small ones first.
     ///
     /// # Errors
-    /// If the options name what is not there.
+    /// If the options name something that does not exist.
     pub fn plan(&self, registry: &Registry) -> anyhow::Result<Plan> {
         let mut structures = self.chosen(registry)?;
         let named = self.named();
@@ -208,13 +207,11 @@ impl CompareArgs {
         let planned = |own: &(OsString, Scene)| {
             let (word, scene) = own;
             let triangles = scene.mesh.len();
-            let fits = |own: &&StructureRequest| !named.leaves_out(own.name(), triangles);
-            PlannedScene {
-                request: SceneRequest::new(word, &self.from, scene),
-                structures: structures.iter().filter(fits).cloned().collect(),
-                settings: Settings { build_limit_s: self.build_limit_s(triangles), ..settings.clone() },
-                ..PlannedScene::new(own, &[], &workloads, &settings, epochs.into())
-            }
+            let mut fitting = structures.clone();
+            fitting.retain(|own| !named.leaves_out(own.name(), triangles));
+            let settings = Settings { build_limit_s: self.build_limit_s(triangles), ..settings.clone() };
+            let request = SceneRequest::new(word, &self.from, scene);
+            PlannedScene { request, ..PlannedScene::new(own, &fitting, &workloads, &settings, epochs.into()) }
         };
         let is_large = |scene: &&Scene| structures.iter().any(|own| named.leaves_out(own.name(), scene.mesh.len()));
         notes.extend(scenes.iter().map(|(_, scene)| scene).filter(is_large).map(left_out));
@@ -284,14 +281,14 @@ mod tests {
         for name in registry.names() {
             assert!(labels.contains(&name), "{name} is not among {labels:?}");
         }
-        // With the twin.
+        // One more for the twin.
         assert_eq!(labels.len(), registry.names().len() + super::super::FULL.matches("-s ").count());
     }
 
     #[test]
     fn a_gate_measures_its_structure_and_the_yardstick() {
         let distinct = |words: &[&str]| {
-            // Without the twin.
+            // One less for the twin.
             each_once_by(specs(&[&["cube"], words].concat()), |one, other| one == other)
         };
         assert_eq!(distinct(&["--only", "sah-bvh"]), ["sah-bvh", "obvhs-bvh2"]);

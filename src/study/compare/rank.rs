@@ -9,17 +9,17 @@ use crate::request::is_brought;
 use crate::study::measurement::{Measurement, trace_noise};
 use crate::triangle::{EdgeF64, Exact, MollerTrumboreF64, TriangleTest};
 
-/// The key of the finding that is a label.
+/// The key of the finding whose name is the label of the fastest structure.
 pub const FASTEST: &str = "fastest";
 
-/// The triangle tests in double precision and beyond. All others round in single precision.
+/// The triangle tests in double precision or exact. All others round to single precision.
 const PRECISE: [&str; 3] = [Exact::NAME, MollerTrumboreF64::NAME, EdgeF64::NAME];
 
 /// A scene and a workload.
 type Cell<'a> = (&'a str, &'a str);
 
-/// The structures by falling speed, over the cells in which every one of them has a time. Structures that lack a time in
-/// half of the cells or more are left out.
+/// The structures, fastest first, by their mean speed over the cells in which all of them have a time. A structure
+/// without a time in at least half of the cells is left out first.
 pub struct Ranking<'a> {
     all: &'a [Measurement],
     noise: AaNoise,
@@ -28,22 +28,22 @@ pub struct Ranking<'a> {
     ranked: Vec<Ranked<'a>>,
 }
 
-/// A structure, and how many times as fast as the reference it is.
+/// A structure and its speed relative to the reference.
 struct Ranked<'a> {
     label: &'a str,
-    /// Any measurement of it.
-    of: &'a Measurement,
+    /// Some measurement of the structure.
+    example: &'a Measurement,
     speed: Option<Estimate>,
 }
 
-/// The measurement of `label` in a cell; nothing where it has no time.
+/// The measurement of `label` in a cell; `None` if it has no time.
 fn find<'a>(all: &'a [Measurement], label: &str, (scene, workload): Cell) -> Option<&'a Measurement> {
     let is = |own: &&Measurement| own.label == label && own.scene == scene && own.workload == workload;
     all.iter().find(is).filter(|own| own.mrays_per_s.is_some())
 }
 
 impl<'a> Ranking<'a> {
-    /// That of `all`, relative to `reference`. Nothing of fewer than two structures.
+    /// Ranks the structures in `all` relative to `reference`. `None` if fewer than two structures share a cell.
     pub fn of(all: &'a [Measurement], reference: &'a Reference) -> Option<Self> {
         let related = all.iter().filter(|own| reference.rival(all, own).is_some());
         let mut cells: Vec<Cell> = each_once(related.map(|own| (own.scene.as_str(), own.workload.as_str())));
@@ -58,8 +58,8 @@ impl<'a> Ranking<'a> {
         let noise = trace_noise(all);
         let row = |label: &'a str| {
             let own: Vec<&Measurement> = cells.iter().filter_map(|cell| find(all, label, *cell)).collect();
-            let of = own[0];
-            Ranked { label, of, speed: Reference::ratio(&reference.pairs(all, own), &noise) }
+            let example = own[0];
+            Ranked { label, example, speed: Reference::ratio(&reference.pairs(all, own), &noise) }
         };
         let mut ranked: Vec<Ranked> = labels.into_iter().map(row).collect();
         let speed = |row: &Ranked| row.speed.map_or(0.0, |speed| speed.estimate);
@@ -67,11 +67,12 @@ impl<'a> Ranking<'a> {
         Some(Self { all, noise, reference, cells, ranked })
     }
 
-    /// The fastest with correct hits and in single precision, and the cost of correct hits.
+    /// The fastest structure with correct hits, the fastest in single precision, the cost of correct hits, the speed of
+    /// each structure that the user brings, and the name of the fastest.
     pub fn findings(&self) -> Vec<Finding> {
-        let is_precise = |row: &&Ranked| PRECISE.contains(&row.of.triangle_test.as_str());
+        let is_precise = |row: &&Ranked| PRECISE.contains(&row.example.triangle_test.as_str());
         let (precise, single): (Vec<&Ranked>, Vec<&Ranked>) = self.ranked.iter().partition(is_precise);
-        // In single precision some give wrong answers by their nature, and stay.
+        // Structures in single precision stay in the ranking although rounding gives some of them wrong hits.
         let errs = |row: &&Ranked| self.all.iter().any(|own| own.label == row.label && own.is_disqualified());
         let right: Vec<&Ranked> = precise.iter().copied().filter(|row| !errs(row)).collect();
         let ranks = [("right", "with correct hits", &right), ("single", "in single precision", &single)];
@@ -80,71 +81,75 @@ impl<'a> Ranking<'a> {
         let mut found: Vec<Finding> =
             firsts.into_iter().enumerate().map(|(i, own)| if i > 0 { own.detail() } else { own }).collect();
         found.extend(self.cost(&precise, &single).map(Finding::detail));
-        found.extend(self.ranked.iter().filter(|row| !errs(row)).filter_map(|row| self.brought(row)));
-        // What is right is the fastest, if anything is.
+        found.extend(self.ranked.iter().filter(|row| !errs(row)).filter_map(|row| self.speed_finding(row)));
+        // The page names the fastest structure with correct hits or, without one, the fastest in single precision.
         found.extend(fastest.into_iter().next());
         found
     }
 
-    /// The speed of a structure that a user brings.
-    fn brought(&self, row: &Ranked) -> Option<Finding> {
-        let value = row
-            .speed
-            .filter(|value| *value != Estimate::exact(1.0) && is_brought(&row.of.structure, &row.of.triangle_test))?;
+    /// The speed of a structure from another crate or of a runner; `None` for the structures of this crate.
+    fn speed_finding(&self, row: &Ranked) -> Option<Finding> {
+        let value = row.speed.filter(|value| {
+            *value != Estimate::exact(1.0) && is_brought(&row.example.structure, &row.example.triangle_test)
+        })?;
         let (label, times, reference) = (row.label, interval(value), self.reference.words());
         let sentence = format!("{label} traces {times} times the rays per second of {reference}.");
-        Some(Finding::new(format!("speed-{}", slug(label)), sentence).of(value))
+        Some(Finding::new(format!("speed-{}", slug(label)), sentence).with_value(value))
     }
 
-    /// How many times faster `one` is than `other`, over the cells.
+    /// Speed of `one` divided by the speed of `other`, the mean over the cells.
     fn ratio(&self, one: &str, other: &str) -> Option<Estimate> {
         let pair = |cell: &Cell| find(self.all, one, *cell).zip(find(self.all, other, *cell));
         speed(self.cells.iter().map(pair).collect::<Option<Vec<_>>>()?, &self.noise)
     }
 
-    /// Which of `rows` is the fastest and by how much, and its label alone.
+    /// Two findings about the fastest of `rows`, which are sorted: a sentence with its speed, and its label for the
+    /// page.
     fn first(&self, key: &str, words: &str, rows: &[&Ranked]) -> Option<(Finding, Finding)> {
         let (first, others) = rows.split_first()?;
         let value = first.speed?;
-        // All others are looked at: one of them would too easily seem slower by chance.
-        let is_level = |row: &&&Ranked| {
+        // Correct for multiple comparisons: one per other structure.
+        let is_indistinguishable = |row: &&&Ranked| {
             self.ratio(first.label, row.label).is_some_and(|ratio| ratio.ratio_among(others.len()).holds(1.0))
         };
-        let level: Vec<&str> = others.iter().filter(is_level).map(|row| row.label).collect();
+        let level: Vec<&str> = others.iter().filter(is_indistinguishable).map(|row| row.label).collect();
         let is_undecided = rows.iter().any(|row| row.speed.is_some_and(|speed| speed.interval.is_none()));
         let (label, n) = (first.label, level.len());
         let (names, level) = match level[..] {
-            _ if is_undecided => (format!("{label} (one epoch)"), "; one epoch decides nothing".into()),
-            [] => (label.to_owned(), String::new()),
-            [other] => (format!("{label} or {other}"), format!("; not distinguishable from it: {other}")),
-            [..] if n < 4 => {
-                (format!("{label} or {n} others"), format!("; not distinguishable from it: {}", listed(&level)))
+            _ if is_undecided => {
+                (format!("{label} (one epoch)"), "; one epoch gives no interval, so the ranking is undecided".into())
             }
-            [..] => (format!("{label} or {n} others"), format!("; not distinguishable from it: {n} others")),
+            [] => (label.to_owned(), String::new()),
+            [other] => (format!("{label} or {other}"), format!("; not distinguishable from {label}: {other}")),
+            [..] if n < 4 => {
+                (format!("{label} or {n} others"), format!("; not distinguishable from {label}: {}", listed(&level)))
+            }
+            [..] => (format!("{label} or {n} others"), format!("; not distinguishable from {label}: {n} others")),
         };
         let (reference, times) = (self.reference.words(), interval(value));
         let told = match () {
             () if value == Estimate::exact(1.0) => "the others are compared with it".to_owned(),
             () if value.holds(1.0) => {
-                format!("not distinguishable from {reference}, {times} times the rays per second")
+                format!("it is not distinguishable from {reference}: {times} times as many rays per second")
             }
             () => format!("it traces {times} times as many rays per second as {reference}"),
         };
         let (ranked, over) = (plural(rows.len(), "structure"), plural(self.cells.len(), "cell"));
         let sentence =
             format!("Of {ranked} {words}, {label} is the fastest over {over} of scene and workload: {told}{level}.");
-        Some((Finding::new(key, sentence).of(value), Finding::named(FASTEST, names)))
+        Some((Finding::new(key, sentence).with_value(value), Finding::named(FASTEST, names)))
     }
 
-    /// Times over the default triangle test as multiples of those in single precision, structure by structure with the
-    /// same keys.
+    /// Time with a precise triangle test divided by the time with a test in single precision, for each structure and
+    /// with the same configuration: the smallest and the largest ratio.
     fn cost(&self, precise: &[&Ranked], single: &[&Ranked]) -> Option<Finding> {
         let mut costs: Vec<(&Measurement, Estimate)> = vec![];
         for right in precise.iter().filter(|row| !row.label.contains(':')) {
-            let is_same =
-                |row: &&&Ranked| (&row.of.structure, &row.of.config) == (&right.of.structure, &right.of.config);
+            let is_same = |row: &&&Ranked| {
+                (&row.example.structure, &row.example.config) == (&right.example.structure, &right.example.config)
+            };
             let cost = single.iter().find(is_same).and_then(|single| self.ratio(single.label, right.label));
-            costs.extend(cost.map(|cost| (right.of, cost)));
+            costs.extend(cost.map(|cost| (right.example, cost)));
         }
         costs.sort_by(|a, b| a.1.estimate.total_cmp(&b.1.estimate));
         let told = |(right, cost): &(&Measurement, Estimate)| format!("{} ({})", interval(*cost), right.structure);
@@ -154,12 +159,8 @@ impl<'a> Ranking<'a> {
             [least, .., most] => format!("{} to {}", told(least), told(most)),
         };
         let test = &costs[0].0.triangle_test;
-        Some(Finding::new(
-            "cost",
-            format!(
-                "Over the triangle test {test} the same structures take {told} times as long as in single precision."
-            ),
-        ))
+        let over = format!("Over the triangle test {test} the same structures take {told} times as long");
+        Some(Finding::new("cost", format!("{over} as in single precision.")))
     }
 }
 
@@ -188,7 +189,7 @@ mod tests {
         for scene in ["a", "b", "c"] {
             all.extend(times.map(|(label, ns)| record(scene, label, ns)));
         }
-        // No time in one of three cells, and one that has hardly any.
+        // One structure has no time in one of three cells; another has a time in only one cell.
         all[0].mrays_per_s = None;
         all.push(record("a", "rare", 1.0));
         let reference = Reference::of(&all, None).pop().unwrap();
@@ -204,13 +205,13 @@ mod tests {
         assert!(told[0].starts_with("Of 2 structures with correct hits, fast is the fastest over 2 cells"), "{told:?}");
         assert!(told[0].contains("traces 2.00") && !told[0].contains("distinguishable"), "{told:?}");
         assert!(told[1].starts_with(&format!("Of 3 structures in single precision, {} is", single[0])), "{told:?}");
-        // Of the same keys: packets of the one are not held against single rays of the other.
+        // Both have the same keys: packets are not compared with single rays.
         assert!(told[2].contains("exact") && told[2].contains("1.25"), "{told:?}");
         assert_eq!(findings.last().and_then(|finding| finding.name.as_deref()), Some("fast"));
-        // What errs somewhere is no right one.
+        // A structure with a wrong hit in any cell is not one with correct hits.
         let mut erring = all.clone();
         erring.iter_mut().filter(|r| r.label == "fast" && r.scene == "c").for_each(|r| {
-            (r.mrays_per_s, r.structure_errors, r.checked_rays) = (None, 2, 9);
+            (r.mrays_per_s, r.wrong_hits, r.checked_rays) = (None, 2, 9);
         });
         erring.push(record("b", "rare", 1.0));
         let told = Ranking::of(&erring, &reference).unwrap().findings().remove(0).sentence;

@@ -1,13 +1,13 @@
-//! What a table relates speeds to, and ratios between measurements, with their intervals.
+//! The reference of a table, and ratios between measurements with their intervals.
 
 use crate::measure::{AaNoise, Estimate, Rerun, cut_to_shared_epochs, epoch_values, mean};
 use crate::registry::is_named;
 use crate::request::REPORT_TREE;
-use crate::study::measurement::{Measurement, is_reference};
+use crate::study::measurement::{Measurement, is_native_obvhs};
 
-/// The geometric mean of how many times faster the first of each pair is than the second, with its
-/// [interval](mod@crate::measure::interval): the mean of what tables say of each, with a spread over the epochs that all pairs
-/// have. Nothing where one of them has no time, or their samples are not of the same rounds.
+/// The geometric mean of the speed of the first of each pair relative to the second, with its
+/// [interval](mod@crate::measure::interval): the mean of the ratios in the tables, with a spread over the epochs that
+/// all pairs have. `None` if one of them has no time, or their samples are not from the same rounds.
 pub fn speed<'a>(
     pairs: impl IntoIterator<Item = (&'a Measurement, &'a Measurement)>,
     noise: &AaNoise,
@@ -16,22 +16,23 @@ pub fn speed<'a>(
     let mut cells: Vec<_> = cells.collect::<Option<_>>()?;
     let of_cell = |cell: &Vec<Vec<f64>>| Some(mean(&epoch_values(std::slice::from_ref(cell))?));
     let centre = mean(&cells.iter().map(of_cell).collect::<Option<Vec<f64>>>()?);
-    // Where time ran out, scenes have different numbers of them.
+    // Scenes have different numbers of epochs if time ran out.
     cut_to_shared_epochs(&mut cells);
     Some(Rerun::of(&epoch_values(&cells)?, noise.of_mean(cells.len()))?.around(centre).ratio())
 }
 
-/// The other side of a column of ratios.
+/// The reference of a column of ratios.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Reference {
     /// The structure of this label.
     Structure(String),
-    /// The BVH of obvhs that is the fastest on the same scene and rays.
+    /// The fastest obvhs BVH on the same scene and rays.
     Obvhs,
 }
 
 impl Reference {
-    /// The one that is `named`; else the report's tree and obvhs, of these what was measured; else the first structure.
+    /// The structure `named`; without it the report's tree and obvhs, as far as they are measured; without these the
+    /// first structure.
     pub fn of(all: &[Measurement], named: Option<&str>) -> Vec<Self> {
         if let Some(spec) = named {
             let known = all.iter().map(|own| own.label.as_str()).find(|label| is_named(label, spec));
@@ -41,7 +42,7 @@ impl Reference {
         if all.iter().any(|own| own.label == REPORT_TREE) {
             found.push(Self::Structure(REPORT_TREE.into()));
         }
-        if all.iter().any(is_reference) {
+        if all.iter().any(is_native_obvhs) {
             found.push(Self::Obvhs);
         }
         if found.is_empty() {
@@ -50,7 +51,7 @@ impl Reference {
         found
     }
 
-    /// As columns name it: `median`, `obvhs` or a label.
+    /// The name in columns: `median`, `obvhs` or a label.
     pub fn name(&self) -> &str {
         match self {
             Self::Structure(label) if label == REPORT_TREE => "median",
@@ -59,7 +60,7 @@ impl Reference {
         }
     }
 
-    /// As sentences name it.
+    /// The name in sentences.
     pub fn words(&self) -> String {
         match self {
             Self::Structure(label) if label == REPORT_TREE => format!("the report's tree, {label}"),
@@ -68,18 +69,18 @@ impl Reference {
         }
     }
 
-    /// What `of` is related to: the same scene and rays. Nothing where that has no time.
+    /// The reference of `of` on the same scene and rays. `None` if it has no time.
     pub fn rival<'a>(&self, all: &'a [Measurement], of: &Measurement) -> Option<&'a Measurement> {
         let is = |own: &&Measurement| match self {
             Self::Structure(label) => own.label == *label,
-            Self::Obvhs => is_reference(own),
+            Self::Obvhs => is_native_obvhs(own),
         };
         let same = all.iter().filter(|own| own.scene == of.scene && own.workload == of.workload);
         let timed = same.filter(is).filter(|own| own.mrays_per_s.is_some());
         timed.max_by(|a, b| a.mrays_per_s.partial_cmp(&b.mrays_per_s).expect("numbers"))
     }
 
-    /// Each of these with what it is related to: those of which both have a time.
+    /// Each of these with its reference, if both have a time.
     pub fn pairs<'a>(
         &self,
         all: &'a [Measurement],
@@ -89,13 +90,10 @@ impl Reference {
         timed.filter_map(|own| Some((own, self.rival(all, own)?))).collect()
     }
 
-    /// The geometric mean of how many times faster the first of each pair is; a structure against itself has no
-    /// interval. `noise` as in `speed`.
+    /// The geometric mean of the speed of the first of each pair relative to the second; a structure relative to itself
+    /// has no interval. `noise` is the A/A noise of the run.
     pub fn ratio(pairs: &[(&Measurement, &Measurement)], noise: &AaNoise) -> Option<Estimate> {
-        let own = !pairs.is_empty() && pairs.iter().all(|(own, other)| own.label == other.label);
-        if own {
-            return Some(Estimate::exact(1.0));
-        }
-        speed(pairs.iter().copied(), noise)
+        let is_itself = !pairs.is_empty() && pairs.iter().all(|(own, other)| own.label == other.label);
+        if is_itself { Some(Estimate::exact(1.0)) } else { speed(pairs.iter().copied(), noise) }
     }
 }

@@ -1,4 +1,4 @@
-//! What is said and shown of a comparison: findings, then tables and figures.
+//! The report of a comparison: findings, then tables and figures.
 
 use super::means::mean_table;
 use super::table::{legend, nothing_measured, refusals, scene_table};
@@ -14,11 +14,11 @@ use crate::study::epoch::Structure;
 use crate::study::kendall::{kendall, mean_of_scenes};
 use crate::study::measurement::{Measurement, of_scene, trace_noise};
 
-/// How many answers were checked and how many of them are wrong, and whose.
+/// The number of checked rays and of wrong hits, and the structures with wrong hits.
 pub fn checked(all: &[Measurement]) -> Option<Finding> {
     let sum = |is: &dyn Fn(&&Measurement) -> bool| {
         let own = || all.iter().filter(is);
-        (own().map(|r| r.structure_errors).sum::<usize>() as u64, own().map(|r| r.checked_rays).sum::<usize>() as u64)
+        (own().map(|r| r.wrong_hits).sum::<usize>() as u64, own().map(|r| r.checked_rays).sum::<usize>() as u64)
     };
     let of = |label: &String| {
         let (errors, rays) = sum(&|r| r.label == *label);
@@ -36,8 +36,8 @@ pub fn checked(all: &[Measurement]) -> Option<Finding> {
     (rays > 0).then(|| Finding::new("checked", sentence))
 }
 
-/// Kendall's tau of SAH cost and time over couples of different families, the mean of the built-in scenes: nothing was
-/// expected of others. Nothing where one of them is missing.
+/// Kendall's tau of SAH cost and time over couples of different families, the mean of the built-in scenes, which the
+/// claim is about. `None` if one of them is missing.
 pub fn tau(all: &[Measurement]) -> Option<Finding> {
     let has = |name: &str| all.iter().any(|r| r.scene == name);
     if !BUILTIN.iter().all(|builtin| has(builtin.name)) {
@@ -56,7 +56,7 @@ pub fn tau(all: &[Measurement]) -> Option<Finding> {
     Some(Finding::number("tau", mean_of_scenes(taus)?))
 }
 
-/// What a structure has in common with those whose cells and nodes are of the same kind.
+/// The name shared by all structures with the same kind of cells and nodes.
 fn family(structure: &str) -> &str {
     match structure {
         REPORT_TREE | SAH_TREE => "binary kd-tree",
@@ -65,10 +65,10 @@ fn family(structure: &str) -> &str {
     }
 }
 
-/// Scenes shown at once on a page; the figures of the others are folded.
+/// The number of scenes that a page shows unfolded; the figures of all others are folded.
 const OPEN: usize = 3;
 
-/// All blocks. The terminal prints the tables of scenes, in full where they are `wide`, then the means.
+/// All blocks. The terminal prints the tables of scenes, with all columns if `wide`, then the means.
 pub fn blocks(dataset: &Dataset, references: &[Reference], wide: bool) -> Vec<Block> {
     let shown = if wide { references } else { &references[references.len().saturating_sub(1)..] };
     let (mut blocks, mut scenes, mut all_refused) = (vec![], vec![], vec![]);
@@ -94,7 +94,7 @@ pub fn blocks(dataset: &Dataset, references: &[Reference], wide: bool) -> Vec<Bl
     }
     blocks.extend(notes.into_iter().map(Block::Note));
 
-    // The largest scenes are what the question is about.
+    // The question is about the largest scenes: they come first.
     scenes.sort_by_key(|scene| std::cmp::Reverse(scene[0].triangles));
     blocks.extend(tradeoff::figure(&scenes, references).map(Block::figure));
     let mut figures: Vec<Block> = scenes.iter().map(|scene| Block::figure(bars(scene))).collect();
@@ -111,13 +111,14 @@ pub fn blocks(dataset: &Dataset, references: &[Reference], wide: bool) -> Vec<Bl
     blocks
 }
 
-/// Speed as a multiple of the report's tree, workload by workload.
+/// Speed as a multiple of the report's tree, by workload.
 fn bars(all: &[Measurement]) -> Figure {
     let noise = trace_noise(all);
     let mut labels = distinct(all.iter().map(|r| &r.label));
     let units = [REPORT_TREE, BRUTE_FORCE].map(String::from);
     let unit = units.into_iter().find(|unit| labels.contains(unit)).unwrap_or_else(|| labels[0].clone());
-    // Where it is not the unit itself, brute force is so far away that it hides what lies between the others.
+    // Leave out brute force unless it is the reference: it is so far away that it hides the differences between all
+    // others.
     labels.retain(|label| unit == BRUTE_FORCE || label != BRUTE_FORCE);
     let workloads = distinct(all.iter().map(|r| &r.workload));
     let reference = Reference::Structure(unit.clone());

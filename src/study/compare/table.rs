@@ -11,10 +11,10 @@ use crate::study::epoch::Structure;
 use crate::study::measurement::{Measurement, trace_noise};
 use crate::triangle::{Exact, TriangleTest};
 
-/// What a structure is asked with that answers many rays in one call.
+/// The key of structures that trace many rays per call.
 const PACKETS: &str = "batch=packets";
 
-/// What the other columns of the tables of these all mean, once for all tables.
+/// The meaning of the other columns, once for all tables.
 pub fn legend(all: &[Measurement], references: &[Reference]) -> Vec<String> {
     let column = |own: &Reference| format!("x {}: speed against {}", own.name(), own.words());
     let mut ratios = references.iter().map(column).collect::<Vec<_>>().join("; ");
@@ -41,7 +41,7 @@ pub fn legend(all: &[Measurement], references: &[Reference]) -> Vec<String> {
     legend
 }
 
-/// Why structures are refused, each reason once for all tables.
+/// The reasons why structures are refused, each once for all tables.
 pub fn refusals(refused: &[&Structure]) -> Vec<String> {
     let reason = |reason: &String| {
         let of = refused.iter().filter(|own| own.refused.as_ref() == Some(reason)).map(|own| &own.label);
@@ -56,8 +56,8 @@ pub fn nothing_measured(scene: &str, refused: &[&Structure]) -> Table {
     Table::of(title, refused, &[("structure", &|own| (&own.label).into())]).of_one_scene()
 }
 
-/// One scene, one row for each structure, those that are refused last, with a column of ratios for each of the
-/// `references`; with all columns where it is `wide`.
+/// One scene, one row per structure, refused ones last, with a column of ratios for each of the `references`; with all
+/// columns if `wide`.
 pub fn scene_table(all: &[Measurement], references: &[Reference], refused: &[&Structure], wide: bool) -> Table {
     let Some(first) = all.first() else { return Table::default() };
     let degenerate = match first.degenerate {
@@ -79,7 +79,7 @@ pub fn scene_table(all: &[Measurement], references: &[Reference], refused: &[&St
     let noise = trace_noise(all);
     for reference in references {
         let mean = |label: &String| {
-            // A row that lacks a time, other than one that it declines, has no mean.
+            // A row that lacks a time has no mean, unless it declines these rays.
             let own: Vec<&Measurement> = all.iter().filter(|r| r.label == *label).collect();
             let timed: Vec<&Measurement> = own.iter().copied().filter(|r| r.declined.is_none()).collect();
             let pairs = reference.pairs(all, timed.iter().copied());
@@ -111,13 +111,13 @@ pub fn scene_table(all: &[Measurement], references: &[Reference], refused: &[&St
     table.noted(notes).without_empty_columns().of_one_scene().explained()
 }
 
-/// A footnote about the A/A ratios, where there are any.
+/// A footnote about the A/A ratios, if there are any.
 pub(super) fn control(all: &[Measurement]) -> Option<String> {
     let (twins, label) = (trace_noise(all), &all.iter().find(|r| r.twin_samples_ns.is_some())?.label);
     let noise = libm::exp(twins.log()?) - 1.0;
     let holding = twins.holding_one();
     let holding = holding.map_or(String::new(), |(n, all)| format!("; {n} of {all} intervals contain 1"));
-    // What the epochs scatter by may hide it: that is no proof of none.
+    // The scatter of the epochs may hide the noise: that does not prove that there is none.
     let noise = match noise {
         0.0 => "none beyond the variation of the epochs".into(),
         _ => format!("{}%", figures(noise * 100.0)),
@@ -125,13 +125,13 @@ pub(super) fn control(all: &[Measurement]) -> Option<String> {
     Some(format!("A/A noise ({label} twice): {noise}{holding}."))
 }
 
-/// A footnote for each baseline that gives wrong answers for a known reason.
+/// A footnote for each baseline with wrong hits from a known defect.
 fn defects(all: &[Measurement]) -> Vec<String> {
     let note = |label: &String| {
         let wrong = || all.iter().filter(|r| r.label == *label && r.is_disqualified());
         let defect = known_defect(&wrong().next()?.structure)?;
         let share = |r: &Measurement| {
-            format!("{} of {} {}", count(r.structure_errors as u64), count(r.checked_rays as u64), r.workload)
+            format!("{} of {} {}", count(r.wrong_hits as u64), count(r.checked_rays as u64), r.workload)
         };
         let shares: Vec<String> = wrong().map(share).collect();
         Some(format!("{label} returns wrong hits on {} rays; known defects: {defect}.", shares.join(", ")))
@@ -139,8 +139,8 @@ fn defects(all: &[Measurement]) -> Vec<String> {
     distinct(all.iter().map(|r| &r.label)).iter().filter_map(note).collect()
 }
 
-/// A footnote for each triangle test that finds another number of hits than the exact one, by more than 1 %: no check of a structure by its
-/// own test tells that.
+/// A footnote for each triangle test whose number of hits differs from the exact one by more than 1 %: no check of a
+/// structure with its own test shows that.
 fn unfit_tests(all: &[Measurement]) -> Vec<String> {
     let exact = |of: &Measurement| {
         let same = |r: &&Measurement| r.workload_hash == of.workload_hash && r.counted_rays == of.counted_rays;
@@ -161,13 +161,13 @@ fn unfit_tests(all: &[Measurement]) -> Vec<String> {
 }
 
 fn speed(own: &Measurement, best: f64) -> Cell {
-    let errors = own.structure_errors;
+    let errors = own.wrong_hits;
     match own.mrays_per_s {
         Some(speed) => {
             Cell::from(speed).sampled(own.sampled).with(if speed >= best { Tone::Best } else { Tone::Plain })
         }
         None if errors == 0 && own.declined.is_some() => "declined".into(),
-        // Wrong on another workload.
+        // It has wrong hits on another workload.
         None if errors == 0 => Cell::from("wrong").with(Tone::Wrong),
         None => {
             let (wrong, of) = (errors as u64, own.checked_rays as u64);

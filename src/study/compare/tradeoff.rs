@@ -1,4 +1,4 @@
-//! Speed against memory and time of the build.
+//! Speed against memory and build time.
 
 use super::Reference;
 use crate::report::plot::{Chart, Tradeoff, TradeoffCase, TradeoffPoint};
@@ -7,8 +7,8 @@ use crate::report::{Art, Cell, Figure, Table};
 use crate::request::BRUTE_FORCE;
 use crate::study::measurement::{Measurement, trace_noise};
 
-/// Every scene, in this order, with every kind of rays; nothing where no two structures have a time on the same rays. Brute force,
-/// far away from all others, is left out.
+/// Every scene, in this order, with every workload; `None` if no two structures have a time on the same rays. Brute
+/// force, far away from all others, is left out.
 pub fn figure(scenes: &[Vec<Measurement>], references: &[Reference]) -> Option<Figure> {
     let cases: Vec<TradeoffCase> = scenes.iter().flat_map(|all| cases(all, references.first())).collect();
     let first = cases.first()?;
@@ -53,7 +53,7 @@ fn cases(all: &[Measurement], reference: Option<&Reference>) -> Vec<TradeoffCase
         let is_drawn =
             |r: &&Measurement| r.workload == *workload && r.structure != BRUTE_FORCE && r.mrays_per_s.is_some();
         let drawn = || all.iter().filter(is_drawn);
-        // All on the same rays: as many as the slowest is timed on.
+        // Compare all on the same rays: the sample of the slowest.
         let common = drawn().map(|own| own.rays).min().unwrap_or(0);
         let point = |own: &Measurement| {
             Some(TradeoffPoint {
@@ -110,7 +110,7 @@ mod tests {
         assert!(figure.alt.contains("fastest sah-bvh") && figure.data.rows.len() == 2, "{}", figure.alt);
         assert!(super::figure(&[all[..2].to_vec()], &[]).is_none());
 
-        // One that is timed on a part of the rays, which take it less than the others, is compared on them.
+        // A structure that is timed on a subset of the rays, which take less time, is compared on that subset.
         let part = SubsetSamples { rays: 25, ns: vec![10_000] };
         let mut all = all;
         all[1].parts = vec![part.clone()];

@@ -1,4 +1,4 @@
-//! That SCHEMA.md names what is written, and nothing else.
+//! Checks that SCHEMA.md names all exported fields and no others.
 
 use std::collections::BTreeSet;
 
@@ -13,7 +13,7 @@ use crate::study::epoch::{RayCounts, Rays};
 use crate::study::{Check, Settings, Studies};
 use crate::validate::{ErrorCounts, Kind, Ulps};
 
-/// Cases with all that a case may have, and an epoch likewise.
+/// Cases and an epoch with all optional fields.
 fn with_all_fields() -> Dataset {
     let runner = RunnerRequest { command: "x".into(), limit_s: 1.0, config: json!({}) };
     let mut first = Case {
@@ -62,7 +62,7 @@ fn with_all_fields() -> Dataset {
     Dataset { notes: vec!["a note".into()], ..Dataset::new(Provenance::capture(1), measured.into()) }
 }
 
-/// All names of fields; what is in `labels` and `config` has names of its own.
+/// All names of fields, except those inside `labels` and `config`, which have other names.
 fn fields(value: &Value, names: &mut BTreeSet<String>) {
     match value {
         Value::Object(object) => {
@@ -78,7 +78,7 @@ fn fields(value: &Value, names: &mut BTreeSet<String>) {
     }
 }
 
-/// The names in the first column of the tables of `text` under this head.
+/// The names in the first column of the tables of `text` under this heading.
 fn documented(text: &str, head: &str) -> BTreeSet<String> {
     let tables = text.split("\n\n").filter(|part| part.starts_with(&format!("| {head} |")));
     let cells = tables.flat_map(|table| table.lines().skip(2)).filter_map(|row| row.split('|').nth(1));

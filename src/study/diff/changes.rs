@@ -1,4 +1,4 @@
-//! Changes of time, each with what its interval says.
+//! Changes of time, each with the outcome of its interval.
 
 use super::relative::{references, relative, weighted};
 use super::{Change, Finding};
@@ -6,7 +6,7 @@ use crate::measure::{AaNoise, Estimate, Rerun, cut_to_shared_epochs, epoch_value
 use crate::report::words::each_once;
 use crate::study::measurement::{Measurement, trace_noise};
 
-/// Of the structures, of which each is looked at `looks` times, and of their cells.
+/// The changes of the structures, each looked at `looks` times, and of their cells.
 pub(super) fn all(
     old: &[Measurement],
     new: &[Measurement],
@@ -19,7 +19,7 @@ pub(super) fn all(
     let (mut structures, mut cells): (Vec<Change>, Vec<Change>) = (vec![], vec![]);
     let labels = each_once(pairs.iter().map(|(_, new)| new.label.as_str()));
     let labels: Vec<&str> = labels.into_iter().filter(|label| !references.iter().any(|one| one == label)).collect();
-    // All structures are judged together, as often as is looked; their cells decide nothing.
+    // The intervals of structures are corrected for their number and for the looks; cells decide nothing.
     let looks = looks * labels.len();
     for label in labels {
         let mut all: (Vec<_>, Vec<_>) = (vec![], vec![]);
@@ -42,7 +42,7 @@ pub(super) fn all(
                 time,
                 finding: finding(time, threshold),
             });
-            // What never had a time, itself or of what it is divided by, is not missing.
+            // Without an old time, of itself or of a reference, it is not missing.
             missing |= !before.samples_ns.is_empty() && after.samples_ns.is_empty();
             if let Some((old, new)) = times {
                 all.0.push(old);
@@ -54,7 +54,7 @@ pub(super) fn all(
         cut_to_shared_epochs(&mut all.1);
         let time = if missing { None } else { change(&all.0, &all.1, &noises, references.len()) };
         let time = time.map(|time| time.ratio_among(looks));
-        // What never had a time, as what answers wrongly, has nothing that could change.
+        // Without any time, as for wrong hits, there is nothing to change.
         if n == 0 && !missing {
             continue;
         }
@@ -71,13 +71,13 @@ pub(super) fn all(
     (structures, cells)
 }
 
-/// The geometric mean over cells of new / old, of ratios to the mean of so many references.
+/// The geometric mean over cells of new / old; both are relative to the mean of `references` references.
 fn change(old: &[Vec<Vec<f64>>], new: &[Vec<Vec<f64>>], noises: &[AaNoise; 2], references: usize) -> Option<Estimate> {
     let noises = [&noises[0], &noises[1]].map(|noise| weighted(noise, references, old.len()));
     Some(Rerun::change(&epoch_values(old)?, &epoch_values(new)?, noises)?.ratio())
 }
 
-/// With a threshold, a regression is what has reached it and is surely slower, and what passes is surely below it.
+/// With a threshold: a regression is at or above it and significantly slower; a pass is significantly below it.
 pub(super) fn finding(time: Option<Estimate>, threshold: Option<f64>) -> Finding {
     let Some(time) = time.filter(|time| time.interval.is_some()) else { return Finding::Unknown };
     let limit = threshold.map_or(f64::INFINITY, libm::exp);

@@ -2,10 +2,10 @@
 
 use serde_json::{Map, Value};
 
-/// Keys that are not the same: name, old and new.
+/// Keys that differ: name, old and new value.
 pub fn other_keys(old: &Value, new: &Value) -> Vec<(String, String, String)> {
     let none = Map::new();
-    // What tells one build of a program from another is what a comparison is about.
+    // Leave out the digests of a program: comparing two builds of it is the purpose.
     let keys = |value: &'_ Value| -> Map<String, Value> {
         let mut map = value.as_object().unwrap_or(&none).clone();
         map.remove("build");
@@ -15,7 +15,7 @@ pub fn other_keys(old: &Value, new: &Value) -> Vec<(String, String, String)> {
     differences(&keys(old), &keys(new))
 }
 
-/// What differs: name, old and new.
+/// Values that differ: name, old and new value.
 pub fn differences(old: &Map<String, Value>, new: &Map<String, Value>) -> Vec<(String, String, String)> {
     let text = |value: Option<&Value>| match value {
         None => "absent".to_owned(),

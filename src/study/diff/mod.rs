@@ -1,14 +1,14 @@
-//! What changed between two runs of the same comparison: speed, answers, and whether a ratio of one is found again in
-//! the other. Pure functions of datasets.
+//! Compares two runs of the same study: changes in speed, changes in hits, and how many ratios of one run lie within
+//! the intervals of the other. All functions are pure.
 //!
-//! Two runs of different moments on a shared machine cannot be compared by their times. They are compared by their
-//! ratios to references: the structures of obvhs, whose code is the same in both runs and which are measured in the
-//! same rounds as all others. So `diff` compares commits on two machines as well, and says that the machine may be the
-//! reason of a change; a gate wants one machine.
+//! Times of two runs at different moments on a shared machine are not comparable. They are compared by their ratios to
+//! references: the structures of obvhs, whose code is the same in both runs and which are measured in the same rounds
+//! as all other structures. So `diff` can compare runs of two machines; it then warns that the machine may cause a
+//! change. A gate requires one machine.
 //!
-//! The change of a structure is the geometric mean over its cells of new / old, decided by its
-//! [interval](fn@crate::measure::Rerun::change), which allows for all structures and for every look at them; cells alone
-//! are shown and decide nothing, for there are many of them.
+//! The change of a structure is the geometric mean, over its cells, of new / old, where both are times relative to the
+//! references. Its [interval](fn@crate::measure::Rerun::change) decides the finding. The interval is corrected for the
+//! number of structures and of looks. Tables show the change of each cell, but it decides nothing.
 //!
 //! # In continuous integration
 #![doc = include_str!("GATE.md")]
@@ -43,130 +43,134 @@ pub struct Side {
     pub all: Vec<Measurement>,
 }
 
-/// The role of what the other structures are judged relative to.
+/// The role of a reference structure.
 const REFERENCE: &str = "reference";
 
 impl Side {
-    /// A run, judged relative to the structure of the label `reference`; without one to those of obvhs.
+    /// A run. `reference` names the reference structure; the default are the obvhs structures over their own triangle
+    /// test.
     pub fn new(dataset: &Dataset, reference: Option<&str>) -> Self {
         Self::of(dataset.provenance.clone(), measurements(dataset), reference)
     }
 
     fn of(provenance: Provenance, mut all: Vec<Measurement>, reference: Option<&str>) -> Self {
         for own in &mut all {
-            if reference.map_or_else(|| measurement::is_reference(own), |name| is_named(&own.label, name)) {
+            if reference.map_or_else(|| measurement::is_native_obvhs(own), |name| is_named(&own.label, name)) {
                 own.role = REFERENCE.into();
             }
         }
         Self { provenance, all }
     }
 
-    /// Whether the run has what the others are judged relative to.
+    /// Whether the run has a reference structure.
     pub fn has_reference(&self) -> bool {
-        self.all.iter().any(is_reference)
+        self.all.iter().any(has_reference_role)
     }
 }
 
-/// Whether the others are judged relative to it.
-fn is_reference(own: &Measurement) -> bool {
+/// Whether it is a reference structure of this comparison.
+fn has_reference_role(own: &Measurement) -> bool {
     own.role == REFERENCE
 }
 
 /// Two runs side by side.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
-    /// Structures that both were normalised by; times are compared as they are where there are none.
+    /// Labels of the reference structures that normalise both runs. If there are none, the times are not normalised.
     pub references: Vec<String>,
-    /// The regression that is looked for, per cent; nothing where any difference is.
+    /// The smallest slowdown that counts as a regression, in percent; `None` if `diff` only prints changes.
     pub threshold_percent: Option<f64>,
-    /// How often a verdict about all structures may be asked for: so many times the structures are judged together.
+    /// The maximum number of looks at the growing data; the intervals are corrected for it.
     pub looks: usize,
-    /// One for each structure that is no reference.
+    /// One per structure that is not a reference. A structure without a comparable time in any cell is left out, unless
+    /// it had a time in the old run and lost it.
     pub structures: Vec<Change>,
-    /// One for each structure that is no reference, scene and workload.
+    /// One per cell of each structure that is not a reference.
     pub cells: Vec<Change>,
-    /// Answers that were right, or others, in the old run.
+    /// Cells in which the hits of the new run are wrong, or differ from the hits of the old run.
     pub wrong: Vec<Wrong>,
-    /// Keys and triangle tests of structures that differ, as `leaf of mybvh 4, now 8`.
+    /// Keys and triangle tests that differ between the runs, such as `leaf of mybvh 4, now 8`.
     pub differences: Vec<String>,
     /// Settings that differ.
     pub settings: Vec<String>,
-    /// Processor and lanes of the old and of the new run, where they are not the same.
+    /// The processor and SIMD level of each run; `None` if they are equal.
     pub machines: Option<[String; 2]>,
-    /// Cases that only one of the runs has.
+    /// Structures and cells that only the old run has.
     pub only_old: Vec<String>,
+    /// Structures and cells that only the new run has.
     pub only_new: Vec<String>,
     pub reproduced: Reproduced,
 }
 
-/// How much longer a structure takes.
+/// The change in time of a structure: in one cell, or the mean over its cells.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Change {
-    /// As the new run names it.
+    /// The label in the new run.
     pub structure: String,
-    /// Nothing for the mean over all cells.
+    /// `None` for the mean over all cells.
     pub scene: Option<String>,
     pub workload: Option<String>,
-    /// Cells in it that have a time in both runs.
+    /// The number of cells that have a time in both runs.
     pub cells: usize,
-    /// Rays of the new run whose answers were checked.
+    /// Rays of the new run whose hits were checked.
     pub checked_rays: usize,
-    /// New time / old time; nothing where one of the runs has none.
+    /// New time / old time, both relative to the references; `None` if one of the runs has no time.
     pub time: Option<Estimate>,
     pub finding: Finding,
 }
 
-/// What an estimate and its interval say.
+/// The outcome that follows from an estimate and its interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Finding {
     /// The interval lies below 1.
     Faster,
-    /// The interval holds 1 and, with a threshold, lies below it.
+    /// The interval contains 1. With a threshold, the interval lies below the threshold.
     NoDifference,
-    /// The interval lies above 1 and, with a threshold, below it.
+    /// The interval lies above 1. With a threshold, the interval lies below the threshold.
     Slower,
-    /// The estimate has reached the threshold, and the interval lies above 1.
+    /// The estimate is at least the threshold, and the interval lies above 1.
     Regression,
-    /// Neither a regression nor an interval below the threshold: more samples or a quieter machine would tell.
+    /// Only with a threshold: no regression, but the interval does not lie below the threshold. More epochs or a
+    /// quieter machine would decide.
     Inconclusive,
-    /// There is no time in one of the runs, or no interval, for one of them has a single epoch.
+    /// One of the runs has no time, or it has a single epoch and therefore no interval.
     Unknown,
 }
 
-/// Answers that changed for the worse.
+/// A cell with wrong or changed hits.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Wrong {
-    /// As the new run names it.
+    /// The label in the new run.
     pub structure: String,
-    /// Structure, scene and rays.
+    /// Structure, workload and scene.
     pub case: String,
-    /// What is wrong.
+    /// The description: wrong hits, another number of hits, or other hits.
     pub what: String,
 }
 
-/// How many ratios of one run are found again in the other.
+/// How many ratios of each run lie within the intervals of the other run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Reproduced {
     pub ratios: usize,
     /// Ratios of the old run within the new run's intervals.
     pub old_in_new: usize,
-    /// The other way round.
+    /// Ratios of the new run within the old run's intervals.
     pub new_in_old: usize,
-    /// Ratios whose change cannot be told from none, by the spread of both runs.
+    /// Ratios whose change is not distinguishable from none: its interval, from the spread of both runs, contains 1.
     pub unchanged: usize,
 }
 
 impl Comparison {
-    /// Compares two runs that are not [unlike]. With a threshold in per cent, regressions of at least as much are
-    /// looked for. `looks` is how often the new run is compared at most while it goes on: every look is a chance to be
-    /// wrong.
+    /// Compares two runs that are not [unlike]. With a threshold, a slowdown of at least `threshold_percent` is a
+    /// regression. `looks` is the maximum number of comparisons while the new run grows; each of them may raise a false
+    /// alarm.
     pub fn new(old: &Side, new: &Side, threshold_percent: Option<f64>, looks: usize) -> Self {
         let machines = other_machine(&old.provenance, &new.provenance);
         let (old, new) = (&old.all[..], &new.all[..]);
         let pairs = pairs(old, new);
         let only = |own: &[Measurement], other: &[Measurement]| -> Vec<String> {
-            own.iter().filter(|one| counterpart(one, own, other).is_none()).map(case).collect()
+            own.iter().filter(|one| counterpart(one, own, other).is_none()).map(cell_title).collect()
         };
         let threshold = threshold_percent.map(|percent| libm::log1p(percent / 100.0));
         let (structures, cells) = changes::all(old, new, &pairs, threshold, looks);
@@ -190,7 +194,8 @@ impl Comparison {
         self.structures.iter().any(|change| change.finding == finding)
     }
 
-    /// What it comes to: wrong answers weigh more than missing ones, those more than slow ones.
+    /// The exit status. Wrong hits take precedence over cells missing in the new run, missing cells over regressions,
+    /// regressions over inconclusive results.
     pub fn status(&self) -> Status {
         let is_gate = self.threshold_percent.is_some();
         match () {
@@ -204,13 +209,14 @@ impl Comparison {
     }
 }
 
-/// What both runs measured, side by side.
+/// Pairs of an old and a new measurement of the same structure in the same cell.
 fn pairs<'a>(old: &'a [Measurement], new: &'a [Measurement]) -> Vec<(&'a Measurement, &'a Measurement)> {
     old.iter().filter_map(|own| Some((own, counterpart(own, old, new)?))).collect()
 }
 
-/// What `others` measured in place of `own`, which is of `run`: on the same scene and workload the structure with the same
-/// label. Where there is none, its keys have changed: then the one structure of its name that has no other counterpart.
+/// The counterpart in `others` of the measurement `own` of `run`: the structure with the same label in the same cell.
+/// If none exists because its keys have changed, the only structure of the same name without a counterpart; `None` if
+/// several qualify in either run.
 fn counterpart<'a>(own: &Measurement, run: &[Measurement], others: &'a [Measurement]) -> Option<&'a Measurement> {
     fn labelled<'a>(own: &Measurement, others: &'a [Measurement]) -> Option<&'a Measurement> {
         let cell = |m: &Measurement| (m.scene.clone(), m.stand_in, m.workload.clone(), m.role.clone());
@@ -227,7 +233,7 @@ fn counterpart<'a>(own: &Measurement, run: &[Measurement], others: &'a [Measurem
     })
 }
 
-/// Keys and triangle tests that differ, each once.
+/// Keys and triangle tests that differ, without duplicates.
 fn differences(pairs: &[(&Measurement, &Measurement)]) -> Vec<String> {
     let of_pair = |(old, new): &(&Measurement, &Measurement)| {
         let mut found = other_keys(&old.config, &new.config);
@@ -246,41 +252,48 @@ fn other_machine(old: &Provenance, new: &Provenance) -> Option<[String; 2]> {
     (machines[0] != machines[1]).then_some(machines)
 }
 
-fn case(record: &Measurement) -> String {
+fn cell_title(record: &Measurement) -> String {
     format!("{} on the {} rays of {}", record.label, record.workload, record.scene_title())
 }
 
 fn wrong(old: &Measurement, new: &Measurement) -> Option<Wrong> {
-    let rate = |r: &Measurement| r.structure_errors as f64 / r.checked_rays.max(1) as f64;
-    let (errors, checked) = (new.structure_errors, new.checked_rays);
-    // How many rays are checked depends on time: what an error was before is no new one if its rate is the same, and
-    // what a baseline is documented to get wrong may be met at any time.
+    let rate = |r: &Measurement| r.wrong_hits as f64 / r.checked_rays.max(1) as f64;
+    let (errors, checked) = (new.wrong_hits, new.checked_rays);
+    // The number of checked rays depends on time. So errors count as new only if their rate has more than doubled, and
+    // errors of a structure with known defects do not count.
     let known = known_defect(&new.structure).is_some();
-    let more = errors > 0 && !known && (old.structure_errors == 0 || rate(new) > 2.0 * rate(old));
+    let more = errors > 0 && !known && (old.wrong_hits == 0 || rate(new) > 2.0 * rate(old));
     let what = if more {
-        format!("{errors} of {checked} rays have a wrong hit, {} of {} had", old.structure_errors, old.checked_rays)
+        format!(
+            "{errors} of {checked} rays have a wrong hit; in the old run {} of {}",
+            old.wrong_hits, old.checked_rays
+        )
     } else if old.triangle_test != new.triangle_test {
-        // Another test has other hits: each is held against its own by the checks of its run.
+        // Another triangle test has other hits; each run checks its hits against its own test.
         return None;
     } else if old.counted_rays == new.counted_rays && old.hits != new.hits {
-        format!("{} of {} rays hit, {} did before", new.hits, new.counted_rays, old.hits)
-    } else if old.rays == new.rays && old.answers.is_some() && new.answers.is_some() && old.answers != new.answers {
-        "hits have another t or primitive".into()
+        format!("{} of {} rays hit; in the old run {}", new.hits, new.counted_rays, old.hits)
+    } else if old.rays == new.rays
+        && old.hit_checksum.is_some()
+        && new.hit_checksum.is_some()
+        && old.hit_checksum != new.hit_checksum
+    {
+        "some hits have another t or primitive than in the old run".into()
     } else {
         return None;
     };
-    Some(Wrong { structure: new.label.clone(), case: case(new), what })
+    Some(Wrong { structure: new.label.clone(), case: cell_title(new), what })
 }
 
-/// Holds the ratios of each run against the intervals of the other: of every structure to the report's tree and to the
-/// structures of obvhs, cell by cell, as tables print them.
+/// Compares the ratios of each run with the intervals of the other run, cell by cell: the ratios of every structure to
+/// the report's tree and to each reference.
 fn reproduced(old: &[Measurement], new: &[Measurement]) -> Reproduced {
     let noises = [old, new].map(trace_noise);
     let mut found = Reproduced::default();
     for (own, own_new) in pairs(old, new) {
         let to = |base: &&Measurement| {
             let same = base.scene == own.scene && base.workload == own.workload && base.label != own.label;
-            same && (base.label == REPORT_TREE || is_reference(base))
+            same && (base.label == REPORT_TREE || has_reference_role(base))
         };
         for base in old.iter().filter(to) {
             let values = |own: &Measurement, base: &Measurement| epoch_values(&[own.speed_against(base)?]);

@@ -8,10 +8,11 @@ use crate::escaped::Escaped as _;
 use crate::study::Dataset;
 use crate::study::journal::{CaseFile, JournalError, files, newest};
 
-/// Reads an export, or of a folder of journals the dataset which was measured last, of `compare` if it has any.
+/// Reads an export, or from a folder of journals the dataset that was measured last; of `compare` if the folder has
+/// any.
 ///
 /// # Errors
-/// If there is nothing that was measured, or it cannot be read.
+/// If it contains no measurement, or cannot be read.
 pub fn read(path: &Path) -> anyhow::Result<Dataset> {
     let found = if path.is_dir() { of_folder(path)? } else { Some(of_export(path)?) };
     let found = found.filter(|own| !own.measured.is_empty());
@@ -29,7 +30,7 @@ fn of_folder(path: &Path) -> anyhow::Result<Option<Dataset>> {
     for path in paths {
         match CaseFile::read(&path) {
             Ok(case) => cases.push(case),
-            // A folder may hold exports besides.
+            // A folder may also contain exports.
             Err(JournalError::Foreign(_)) => {}
             Err(error) => return Err(error.into()),
         }

@@ -1,29 +1,29 @@
-//! Times relative to those of obvhs in the same rounds, which runs of different days and machines have in common.
+//! Times relative to the times of obvhs in the same rounds: comparable between days and machines.
 
-use super::is_reference;
+use super::has_reference_role;
 use crate::measure::{AaNoise, Variance};
 use crate::report::words::distinct;
 use crate::study::measurement::Measurement;
 
-/// What the A/A noise of a run adds to the variance of a mean over `cells` cells of times relative to so many references: the luck of each
-/// cell is its own.
+/// The variance that the A/A noise of a run adds to a mean over `cells` cells of times relative to `references`
+/// references: the noise of each cell is independent.
 pub(super) fn weighted(noise: &AaNoise, references: usize, cells: usize) -> Variance {
     let mut weights = vec![-1.0 / references.max(1) as f64; references];
     weights.push(1.0);
     noise.weighted(&weights).times(1.0 / libm::sqrt(cells.max(1) as f64))
 }
 
-/// Labels of the structures that both runs are normalised by.
+/// Labels of the structures that normalise both runs.
 pub(super) fn references(pairs: &[(&Measurement, &Measurement)]) -> Vec<String> {
     let is_timed =
         |(old, new): &&(&Measurement, &Measurement)| !old.samples_ns.is_empty() && !new.samples_ns.is_empty();
     let timed = pairs.iter().filter(is_timed).map(|(old, _)| old);
-    distinct(timed.filter(|old| is_reference(old)).map(|old| &old.label))
+    distinct(timed.filter(|old| has_reference_role(old)).map(|old| &old.label))
 }
 
-/// ln(time of `own` / geometric mean of the references' times) of each round in each epoch; ln of the time itself where
-/// there is no reference. Only references that have a time in the same cell of `others`, too, count, so that both runs
-/// are divided by the same. Nothing where there is no time.
+/// ln(time of `own` / geometric mean of the references' times), by epoch and round; ln(time) without a reference. A
+/// reference counts only if it has a time in the same cell of `others`, so both runs are divided by the same
+/// structures. `None` without a time.
 pub(super) fn relative(
     own: &Measurement,
     all: &[Measurement],
@@ -44,7 +44,7 @@ pub(super) fn relative(
     }
     let mut sum: Option<Vec<Vec<f64>>> = None;
     for rival in &rivals {
-        // How many times faster the reference is.
+        // Speed of the reference relative to `own`.
         let logs = rival.speed_against(own)?;
         sum = Some(match sum {
             None => logs,

@@ -11,7 +11,7 @@ pub fn tables(comparison: &Comparison) -> Vec<Table> {
     [structures(comparison), cells(comparison)].map(Table::explained).into()
 }
 
-/// What may change the reading of the tables: other hits, machines or settings, and times without a reference.
+/// Conditions that affect the reading of the tables: other hits, machines or settings, and times without a reference.
 pub fn cautions(comparison: &Comparison) -> Vec<String> {
     let mut cautions: Vec<String> =
         comparison.wrong.iter().map(|wrong| format!("Wrong: {}: {}.", wrong.case, wrong.what)).collect();
@@ -21,7 +21,7 @@ pub fn cautions(comparison: &Comparison) -> Vec<String> {
         cautions.push(sentence.into());
     }
     cautions.extend(comparison.machines.as_ref().map(|[old, new]| {
-        // The lanes stand in brackets.
+        // The SIMD level stands in parentheses.
         let cpu = |machine: &String| machine.rsplit_once(" (").map(|(cpu, _)| cpu.to_owned());
         let two = if cpu(old) == cpu(new) { "Two instruction sets" } else { "Two machines" };
         format!("{two}, {old} and {new}: they may cause a change, not the code.")
@@ -32,7 +32,7 @@ pub fn cautions(comparison: &Comparison) -> Vec<String> {
     cautions
 }
 
-/// What a gate says of each structure, in a sentence: whether it is right, and how its time has changed.
+/// One sentence of a gate per structure: whether it is right, and how its time has changed.
 pub fn sentences(comparison: &Comparison) -> Vec<String> {
     let Some(threshold) = comparison.threshold_percent.map(figures) else { return vec![] };
     let sentence = |change: &Change| {
@@ -127,14 +127,14 @@ fn cells(comparison: &Comparison) -> Table {
     let share = |n: usize| format!("{n} of {ratios} ({}%)", figures(100.0 * n as f64 / ratios as f64));
     let reproduced = (ratios > 0).then(|| {
         format!(
-            "Ratios to the report's tree and to obvhs: {} of the old run lie within the new run's intervals, {} of the new run \
+            "Ratios to the report's tree and to the references: {} of the old run lie within the new run's intervals, {} of the new run \
              within the old run's; {} have not changed, by intervals of the change, which include the spread of both runs.",
             share(old_in_new),
             share(new_in_old),
             share(unchanged)
         )
     });
-    Table::new("Change of time, cell by cell", columns, rows).noted(reproduced.into_iter().collect())
+    Table::new("Change of time, cell by cell", columns, rows).noted(reproduced)
 }
 
 fn place(cell: &Change) -> String {

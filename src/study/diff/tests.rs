@@ -7,7 +7,7 @@ use crate::study::measurement::tests::example;
 
 const EPOCHS: usize = 5;
 
-/// A case with `ns` a sample in every round, but for what an epoch adds.
+/// A measurement with samples of `ns` in every round, plus a difference per epoch.
 fn record(label: &str, workload: &str, ns: f64) -> Measurement {
     let epoch = |e: usize| 1.0 + 0.002 * (e as f64 - 2.0);
     let samples_ns: Vec<f64> = (0..EPOCHS).flat_map(|e| [ns * epoch(e); 3]).collect();
@@ -18,7 +18,7 @@ fn side(all: Vec<Measurement>) -> Side {
     Side::of(Provenance::capture(1), all, None)
 }
 
-/// A run in which the machine is `slow` times as slow and the SAH tree takes `sah` times its time.
+/// A run on a machine that is slower by `slow`, with a SAH tree that is slower by `sah`.
 fn run(slow: f64, sah: f64) -> Vec<Measurement> {
     ["primary", "shadow"]
         .into_iter()
@@ -78,7 +78,8 @@ fn another_reference_can_be_named() {
 
 #[test]
 fn without_references_times_count_as_they_are() {
-    let without = |slow: f64| run(slow, 1.0).into_iter().filter(|r| !measurement::is_reference(r)).collect::<Vec<_>>();
+    let without =
+        |slow: f64| run(slow, 1.0).into_iter().filter(|r| !measurement::is_native_obvhs(r)).collect::<Vec<_>>();
     let comparison = compare(&without(1.0), &without(1.5), None, 1);
     assert!(comparison.references.is_empty());
     assert!((change_of(&comparison, "sah-kd").time.unwrap().estimate - 1.5).abs() < 1e-9);
@@ -92,7 +93,7 @@ fn what_an_interval_says() {
     let limit = Some(libm::log(1.05));
     let cases = [
         (interval(1.06, 1.14), limit, Finding::Regression),
-        // Surely slower, and by more than the threshold as far as one can tell.
+        // Significantly slower, and the estimate exceeds the threshold.
         (interval(1.02, 1.14), limit, Finding::Regression),
         (interval(1.01, 1.08), limit, Finding::Inconclusive),
         (interval(0.98, 1.14), limit, Finding::Inconclusive),
@@ -118,25 +119,25 @@ fn answers_that_changed_are_wrong() {
         compare(&old, &new, None, 1).wrong
     };
     assert!(with(&|_| {}).is_empty());
-    let wrong = with(&|r| r.structure_errors = 3);
+    let wrong = with(&|r| r.wrong_hits = 3);
     assert_eq!(wrong.len(), 1);
     assert_eq!(
         (&wrong[0].case[..], &wrong[0].what[..]),
-        ("sah-kd on the primary rays of Cube", "3 of 100 rays have a wrong hit, 0 of 100 had")
+        ("sah-kd on the primary rays of Cube", "3 of 100 rays have a wrong hit; in the old run 0 of 100")
     );
-    assert!(with(&|r| r.hits = 19)[0].what.contains("19 of 1000 rays hit, 20 did"));
-    assert!(with(&|r| r.answers = Some(0))[0].what.contains("another t"));
-    // Other rays have other answers, be they timed or counted, and an unknown answer is none.
+    assert!(with(&|r| r.hits = 19)[0].what.contains("19 of 1000 rays hit; in the old run 20"));
+    assert!(with(&|r| r.hit_checksum = Some(0))[0].what.contains("another t"));
+    // Another number of timed or counted rays gives other hits; an unknown checksum is no change.
     assert!(with(&|r| (r.counted_rays, r.hits) = (500, 9)).is_empty());
-    assert!(with(&|r| (r.rays, r.answers) = (250, Some(0))).is_empty());
-    assert!(with(&|r| r.answers = None).is_empty());
+    assert!(with(&|r| (r.rays, r.hit_checksum) = (250, Some(0))).is_empty());
+    assert!(with(&|r| r.hit_checksum = None).is_empty());
 }
 
 #[test]
 fn known_errors_are_no_new_ones() {
     let erring = |i: usize, errors, checked| {
         let mut run = run(1.0, 1.0);
-        (run[i].structure_errors, run[i].checked_rays) = (errors, checked);
+        (run[i].wrong_hits, run[i].checked_rays) = (errors, checked);
         run
     };
     let ours = |errors, checked| erring(1, errors, checked);
@@ -152,7 +153,7 @@ fn a_structure_is_compared_with_itself_whatever_its_keys_and_its_test() {
     for own in new.iter_mut().filter(|own| own.label == "sah-kd") {
         own.label = "sah-kd:leaf=4,test=moller-trumbore".into();
         own.config = serde_json::json!({ "leaf": 4, "threshold": 0.7 });
-        (own.triangle_test, own.hits, own.answers) = ("other".into(), 19, Some(7));
+        (own.triangle_test, own.hits, own.hit_checksum) = ("other".into(), 19, Some(7));
     }
     let (a, b) = (side(old.clone()), side(new.clone()));
     assert_eq!(unlike(&a, &b, true), Ok(()));
@@ -163,7 +164,7 @@ fn a_structure_is_compared_with_itself_whatever_its_keys_and_its_test() {
     assert!((change.time.unwrap().estimate - 1.1).abs() < 1e-9 && change.cells == 2);
     assert!(comparison.wrong.is_empty() && comparison.only_old.is_empty(), "another test has other hits");
 
-    // Of two structures of one name it is not known which one is meant.
+    // With two structures of one name the counterpart is ambiguous.
     let mut two = new.clone();
     two.extend(new.iter().filter(|own| own.structure == "sah-kd").map(|own| {
         let label = "sah-kd:leaf=2".into();
@@ -179,7 +180,7 @@ fn a_gate_ends_in_a_sentence_a_structure() {
     assert_eq!(said(1.2), "sah-kd: right on 200 checked rays; 20.0 % slower [20.0, 20.0].");
     assert_eq!(said(0.8), "sah-kd: right on 200 checked rays; 20.0 % less time [20.0, 20.0].");
     let mut wrong = run(1.0, 1.0);
-    wrong[1].structure_errors = 3;
+    wrong[1].wrong_hits = 3;
     let found = sentences(&compare(&run(1.0, 1.0), &wrong, Some(10.0), 1))[1].clone();
     assert!(found.starts_with("sah-kd: wrong or other hits in 1 cell;"), "{found}");
     assert!(sentences(&compare(&run(1.0, 1.0), &wrong, None, 1)).is_empty(), "no gate");
@@ -212,7 +213,8 @@ fn what_weighs_most_decides_and_settings_that_differ_are_named() {
 #[test]
 fn ratios_are_found_again_or_not() {
     let same = compare(&run(1.0, 1.0), &run(2.0, 1.0), None, 1).reproduced;
-    // In each of two cells: two structures to three bases, less the tree to itself, and the bases among each other.
+    // In each of two cells: two structures relative to three references, without the tree to itself, and the references
+    // relative to each other.
     assert_eq!((same.ratios, same.old_in_new, same.new_in_old, same.unchanged), (18, 18, 18, 18));
     let other = compare(&run(1.0, 1.0), &run(1.0, 1.5), None, 1).reproduced;
     assert_eq!((other.ratios, other.old_in_new, other.unchanged), (18, 12, 12), "those of the SAH tree are not");
@@ -244,14 +246,14 @@ fn the_aa_noise_of_both_runs_widens_the_interval() {
     for (i, by) in [(0, 0.03), (1, -0.03), (4, 0.03), (5, -0.03)] {
         old[i].twin_samples_ns = Some(old[i].samples_ns.iter().map(|ns| twin(ns, by)).collect());
     }
-    // One A/A ratio of four has a noise of 0.03, a structure over the mean of two references 3 / 4 of its square; two
-    // cells halve it. Of two structures judged together t is 3.495 with four degrees of freedom, and nothing else
-    // varies.
+    // One A/A ratio of four has a noise of 0.03; a structure relative to the mean of two references has 3 / 4 of its
+    // square; two cells halve it. For two structures judged together, t is 3.495 with four degrees of freedom, and
+    // nothing else varies.
     let alone = 2.0 * 3.495 * 0.03 * libm::sqrt(0.75 / 2.0);
     assert!(before < 1e-9 && (width(&old) / alone - 1.0).abs() < 1e-3, "{before} {} {alone}", width(&old));
 }
 
-/// A run of nothing but noise of a hundredth: `structures` of ours and a reference, in eight epochs.
+/// A run with only noise of one percent: `structures` structures and a reference, in eight epochs.
 fn noise(structures: usize, seed: u64) -> Vec<Measurement> {
     let mut random = crate::measure::RandomOrder::new(seed);
     let mut record = |label: &str| {
@@ -273,7 +275,7 @@ fn twelve_structures_and_several_looks_do_not_make_a_false_alarm() {
         };
         (0..400).filter(alarm).count() as f64 / 4.0
     };
-    // Each alone would be wrong in 5 %: of twelve that share a reference about a quarter of all runs.
+    // Each of twelve structures would be wrong in 5 %: with a shared reference that is about a quarter of all runs.
     assert!(alarms(1) <= 7.0, "{} %", alarms(1));
     assert!(alarms(10) <= 2.0, "{} %", alarms(10));
     let comparison = compare(&noise(12, 1), &noise(12, 2), Some(5.0), 10);

@@ -1,14 +1,14 @@
 //! Runs that cannot be compared.
 
 use super::keys::{differences, other_keys};
-use super::{Side, case, is_reference, pairs};
+use super::{Side, cell_title, has_reference_role, pairs};
 use crate::measure::Provenance;
 use crate::report::number::{count, duration};
 use crate::report::words::each_once;
 use crate::request::is_obvhs;
 use crate::study::{Case, Dataset};
 
-/// Why two runs cannot be compared: what differs, in the old run and in the new.
+/// The reason why two runs cannot be compared: a value that differs.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the runs are not comparable: {what} is {old} in the old run and {new} in the new: {advice}")]
 pub struct Unlike {
@@ -31,17 +31,18 @@ fn differ(what: &str, old: &str, new: &str, advice: &'static str) -> Result<(), 
     if old == new { Ok(()) } else { Err(Unlike { what: what.into(), old: old.into(), new: new.into(), advice }) }
 }
 
-/// Refuses runs that differ in more than their code and moment, their settings, the keys and tests of structures, and
-/// their machine where no `gate` is asked for and both time the same structure of obvhs.
+/// Rejects runs that differ in more than their code and date, their settings, the keys and triangle tests of
+/// structures, and, without `gate` and if both time the same obvhs structure, their machine.
 ///
 /// # Errors
-/// The first difference: of machine, instructions, profile, compiler flags, references, scene or rays; that they have no
-/// case in common; or, of a gate, no structure of obvhs.
+/// The first difference: in machine, instructions, profile, compiler flags, references, scene or rays; no common cell;
+/// or, for a gate, no obvhs structure.
 pub fn unlike(old: &Side, new: &Side, gate: bool) -> Result<(), Unlike> {
     let pairs = pairs(&old.all, &new.all);
-    let has_unit = pairs.iter().any(|(old, new)| is_reference(old) && old.trace_ns.is_some() && new.trace_ns.is_some());
+    let has_unit =
+        pairs.iter().any(|(old, new)| has_reference_role(old) && old.trace_ns.is_some() && new.trace_ns.is_some());
     if pairs.is_empty() {
-        let whose = |side: &Side| side.all.first().map_or("nothing".into(), case);
+        let whose = |side: &Side| side.all.first().map_or("nothing".into(), cell_title);
         let (old, new) = (whose(old), whose(new));
         return Err(Unlike { what: "the first case".into(), old, new, advice: SAME_INPUT });
     }
@@ -57,13 +58,15 @@ pub fn unlike(old: &Side, new: &Side, gate: bool) -> Result<(), Unlike> {
         differ("the version of obvhs, the reference,", &a.obvhs, &b.obvhs, SAME_BUILD)?;
     }
     for (before, after) in &pairs {
-        let name = |what: &str| format!("{what} of {}", case(before));
+        let name = |what: &str| format!("{what} of {}", cell_title(before));
         let scene = format!("the hash of the scene {}", before.scene);
         differ(&scene, &before.scene_hash, &after.scene_hash, SAME_INPUT)?;
         let rays = format!("the hash of the {} rays of {}", before.workload, before.scene);
         differ(&rays, &before.workload_hash, &after.workload_hash, SAME_INPUT)?;
         differ(&name("the query"), before.query.name(), after.query.name(), SAME_INPUT)?;
-        if let Some((key, a, b)) = other_keys(&before.config, &after.config).first().filter(|_| is_reference(before)) {
+        if let Some((key, a, b)) =
+            other_keys(&before.config, &after.config).first().filter(|_| has_reference_role(before))
+        {
             differ(&format!("the key {key} of {}", before.label), a, b, SAME_MACHINE)?;
         }
         if gate && before.trace_ns.is_some() && after.trace_ns.is_some() {
@@ -73,11 +76,11 @@ pub fn unlike(old: &Side, new: &Side, gate: bool) -> Result<(), Unlike> {
     }
     if gate && !has_unit {
         let timed = |side: &Side| {
-            let timed = side.all.iter().filter(|own| is_reference(own) && own.trace_ns.is_some());
+            let timed = side.all.iter().filter(|own| has_reference_role(own) && own.trace_ns.is_some());
             let labels = each_once(timed.map(|own| own.label.as_str()));
             if labels.is_empty() { "missing".to_owned() } else { labels.join(" and ") }
         };
-        // What both have is timed on other scenes or rays.
+        // The common cells are timed on other scenes or rays.
         let (old, new) = (timed(old), timed(new));
         return Err(Unlike { what: "the reference".into(), old, new, advice: YARDSTICK });
     }
@@ -91,10 +94,10 @@ fn other_machine(old: &Provenance, new: &Provenance, advice: &'static str) -> Re
     differ("the set of target features", &old.target_features, &new.target_features, SAME_BUILD)
 }
 
-/// Refuses cases that are about to be measured on `here` and that a gate could not compare with those of the run `old`.
+/// Rejects cases that are about to be measured on `here` and that a gate could not compare with the run `old`.
 ///
 /// # Errors
-/// The first difference: of machine, instructions or compiler flags; of a scene, its rays or how many of them are timed.
+/// The first difference: in machine, instructions or compiler flags; in a scene, its rays or the number of timed rays.
 pub fn unlike_plan(old: &Dataset, cases: &[Case], here: &Provenance) -> Result<(), Unlike> {
     other_machine(&old.provenance, here, SAME_MACHINE)?;
     differ("the version of obvhs, the reference,", &old.provenance.obvhs, &here.obvhs, SAME_BUILD)?;
@@ -119,7 +122,7 @@ pub fn unlike_plan(old: &Dataset, cases: &[Case], here: &Provenance) -> Result<(
     Ok(())
 }
 
-/// Settings that differ, such as threads, as `threads 1 and 2`.
+/// Settings that differ, such as `threads 1 and 2`.
 pub fn settings(old: &Case, new: &Case) -> Vec<String> {
     let all = differences(&old.group(), &new.group());
     all.into_iter().map(|(name, old, new)| format!("{name} {old} and {new}")).collect()

@@ -7,7 +7,7 @@ fn epochs(scene: &str, numbers: &[usize]) -> Vec<Epoch> {
     numbers.iter().map(|&n| example(scene, 10, n, &[("x", 50, &[1000; 3]), ("y", 10, &[500; 3])])).collect()
 }
 
-/// What comes of the epochs, each with its case of three planned ones, and why others are left out.
+/// The result of joining these epochs, each with its case of three planned epochs, and the reasons for omitted ones.
 fn joined_as(epochs: Vec<Epoch>, whole: bool) -> (Vec<Epoch>, JoinedEpochs) {
     let measured = |epoch: Epoch| {
         let mut case = case(&epoch.scene, epoch.epoch, &[]);
@@ -22,7 +22,7 @@ fn joined(epochs: Vec<Epoch>) -> (Vec<Epoch>, JoinedEpochs) {
     joined_as(epochs, false)
 }
 
-/// Why two epochs of which the second is changed so are not joined.
+/// The reason why two epochs are not joined if `change` is applied to the second.
 fn failure(change: impl Fn(&mut Epoch)) -> StudyError {
     let mut epochs = epochs("a", &[0, 1]);
     change(&mut epochs[1]);
@@ -57,7 +57,7 @@ fn what_the_first_epoch_found_wrong_has_no_time_anywhere() {
     let one = &cases[0].structures[0].rays[0];
     assert!(one.ns.is_empty() && one.wrong && one.untimed.as_deref() == Some("3 wrong hits on 9 rays"));
     assert_eq!(cases[0].structures[1], given[0].structures[1]);
-    // A study that compares all or nothing leaves the scene out.
+    // A study that requires all structures leaves the scene out.
     let (cases, JoinedEpochs { failures, .. }) = joined_as(given, true);
     assert!(cases.is_empty() && failures[0].is_wrong_answer(), "{failures:?}");
 }
@@ -106,7 +106,7 @@ fn epochs_that_differ_in_what_they_must_not_are_named() {
     let sentence = answers.to_string();
     assert!(sentence.contains("y on the primary rays of a") && sentence.contains("epoch 1"), "{sentence}");
     assert!(sentence.contains("the hits") && answers.is_wrong_answer(), "{sentence}");
-    // What else may differ is no wrong answer, as where a structure that counts could not be built in one of them.
+    // Other differences are not wrong hits: for instance, a structure that counts could not be built in one of them.
     for (other, what) in [
         (failure(|epoch| epoch.structures[1].rays[0].hash = "12".into()), "differ in the rays"),
         (failure(|epoch| epoch.structures[1].rays[0].rays = 250), "the number of timed rays"),
@@ -165,7 +165,7 @@ fn a_program_whose_clock_chose_otherwise_is_timed_on_the_rays_that_all_epochs_ha
     }
     let (cases, _) = joined(vec![program(0, &[400, 100]), program(1, &[25, 6])]);
     assert!(cases.iter().all(|epoch| epoch.structures[0].refused.as_deref() == Some(UNSTEADY)));
-    // Another checksum is another answer, on however many rays.
+    // Another checksum means other hits, on any number of rays.
     let mut other = program(1, &[400, 100]);
     other.structures[0].rays[0].checksum = 2;
     let (cases, _) = joined(vec![program(0, &[400, 100]), other]);

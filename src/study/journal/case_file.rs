@@ -1,4 +1,4 @@
-//! An epoch of a scene in a file of its own, written whole or not at all.
+//! The file of one epoch of one scene, written whole or not at all.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use crate::study::case::Case;
 use crate::study::dataset::Dataset;
 use crate::study::epoch::Epoch;
 
-/// A case with what was measured for it, where and by what.
+/// A case with its results and provenance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CaseFile {
     pub path: PathBuf,
@@ -22,7 +22,7 @@ pub struct CaseFile {
     pub epoch: Epoch,
 }
 
-/// The fields of its file.
+/// The fields of the file.
 #[derive(Serialize, Deserialize)]
 struct Fields {
     schema: u32,
@@ -35,17 +35,17 @@ impl CaseFile {
     /// Reads the file `path`.
     ///
     /// # Errors
-    /// If it cannot be read, is no case or one of another version.
+    /// If it cannot be read, is not a case, or has another version.
     pub fn read(path: &Path) -> Result<Self, JournalError> {
         let bytes = fs::read(path).map_err(|cause| JournalError::Read { path: path.into(), cause })?;
         let value = serde_json::from_slice(&bytes).map_err(|cause| JournalError::damaged(path, &cause))?;
         if Self::is_case(&value) { Self::of(path, value) } else { Err(JournalError::Foreign(path.into())) }
     }
 
-    /// Likewise, of a file that has been read and [is a case](Self::is_case).
+    /// Converts the content of a file that [is a case](Self::is_case).
     ///
     /// # Errors
-    /// If it is of another version.
+    /// If it has another version.
     pub fn of(path: &Path, value: Value) -> Result<Self, JournalError> {
         let there = value.get("schema").and_then(Value::as_u64).unwrap_or(0) as u32;
         if there != Dataset::SCHEMA {
@@ -56,36 +56,36 @@ impl CaseFile {
         Ok(Self { path: path.into(), provenance, case, epoch })
     }
 
-    /// Whether this is a case, of whatever version.
+    /// Whether this is a case, of any version.
     pub fn is_case(value: &Value) -> bool {
         ["schema", "provenance", "case"].iter().all(|field| value.get(field).is_some())
     }
 
-    /// The file `path`, before the case is measured; makes its folder.
+    /// Prepares the file `path` before the case is measured; creates its folder.
     ///
     /// # Errors
-    /// If the folder cannot be made or takes no file.
+    /// If the folder cannot be created or written to.
     pub fn place(path: &Path) -> Result<OutputFile, JournalError> {
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
         folder.map_or(Ok(()), fs::create_dir_all).map_err(|cause| JournalError::Write { path: path.into(), cause })?;
         OutputFile::check(path).map_err(|error| unwritable(path, error))
     }
 
-    /// Writes what was measured as a new file; tells whether there was none before.
+    /// Writes the results as a new file; returns whether the file was new.
     ///
     /// # Errors
-    /// If the system refuses, or there is no room: nothing is there then.
+    /// If the system refuses, or the disk is full: then there is no file.
     ///
     /// # Panics
-    /// If the epoch would not read back.
+    /// If the epoch cannot be read back.
     pub fn write(file: &OutputFile, provenance: &Provenance, case: &Case, epoch: &Epoch) -> Result<bool, JournalError> {
         let (provenance, case, epoch) = (provenance.clone(), case.clone(), epoch.clone());
         let fields = Fields { schema: Dataset::SCHEMA, provenance, case, epoch };
         let value = serde_json::to_value(fields).expect("names are text");
-        // Numbers that are infinite or none become null, and would make the case unreadable.
+        // Infinite numbers and NaN become null, and would make the case unreadable.
         let read: Result<Fields, _> = Fields::deserialize(&value);
         assert!(read.is_ok(), "the case does not read back ({:?}): {value}", read.err());
-        file.write_new(format!("{value}\n").as_bytes()).map_err(|error| unwritable(file.path(), error))
+        file.write_new(format!("{value}\n").as_bytes()).map_err(|error| unwritable(&file.path, error))
     }
 }
 

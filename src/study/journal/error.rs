@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use crate::escaped::Escaped as _;
 use crate::output::OutputError;
 
-/// Why a journal, a case of one or an export cannot be used.
+/// The reason why a journal, a case file or an export cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum JournalError {
     #[error("cannot read {}: {cause}: name a folder that a study has written", path.escaped())]
@@ -40,7 +40,7 @@ pub enum JournalError {
 }
 
 impl JournalError {
-    /// What is wrong, without the place in a line that nobody counts.
+    /// The error without the position in a line, which nobody can count.
     pub fn damaged(path: &Path, cause: &serde_json::Error) -> Self {
         let text = cause.to_string();
         let problem = text.split(" at line ").next().unwrap_or(&text).to_owned();

@@ -1,4 +1,4 @@
-//! The cases of a journal in groups that are comparable, the newest of each case.
+//! Groups the cases of a journal that are comparable, and keeps the newest file of each case.
 
 use std::path::PathBuf;
 
@@ -12,7 +12,7 @@ use crate::report::words::{each_once, listed};
 use crate::study::dataset::{Dataset, Measured};
 use crate::study::join::{JoinedEpochs, join};
 
-/// Cases that one build has measured on one machine with the same settings.
+/// Cases of one build, one machine and the same settings.
 struct Group {
     study: String,
     settings: Map<String, Value>,
@@ -26,9 +26,9 @@ impl Group {
     }
 }
 
-/// One dataset for each group of settings, build and machine, the one with the most cases first, of equal ones the
-/// newest. A case that was measured again counts as it was measured last; the notes of a dataset say so, and what is
-/// missing or does not join.
+/// One dataset per group of settings, build and machine: the group with the most cases first, the newest first among
+/// equals. The newest file of a case counts; the notes of a dataset report replaced files, missing epochs and epochs
+/// that do not join.
 pub fn datasets(files: Vec<CaseFile>) -> Vec<Dataset> {
     let mut datasets: Vec<Dataset> = groups(files).iter().map(|group| dataset(&group.files)).collect();
     datasets.retain(|dataset| !dataset.measured.is_empty());
@@ -36,7 +36,7 @@ pub fn datasets(files: Vec<CaseFile>) -> Vec<Dataset> {
     datasets
 }
 
-/// The dataset of the group that was measured last, with a note if there are others.
+/// The dataset of the group that was measured last, with a note if there are other groups.
 pub fn newest(files: Vec<CaseFile>) -> Option<Dataset> {
     let groups = groups(files);
     let date = |group: &&Group| group.files.iter().map(|file| file.provenance.date.clone()).max();
@@ -80,13 +80,13 @@ fn dataset(files: &[CaseFile]) -> Dataset {
             None => newest.push(file),
         }
     }
-    // Of one scene all epochs are of one set of structures: that of the newest.
+    // All epochs of a scene have one set of structures: the set of the newest file.
     let last = |file: &CaseFile| {
         let own = newest.iter().filter(|other| other.case.is_of_scene(&file.case));
         own.max_by(|a, b| a.provenance.date.cmp(&b.provenance.date)).is_some_and(|last| last.case.is_beside(&file.case))
     };
     let mut kept: Vec<&CaseFile> = newest.iter().copied().filter(|file| last(file)).collect();
-    // They come from many machines in no order: small scenes first.
+    // The files come from many machines in no order: small scenes first.
     kept.sort_by_key(|file| (file.epoch.triangles, file.case.scene_title(), file.case.epoch));
     let measured = kept.iter().map(|file| Measured { case: file.case.clone(), epoch: file.epoch.clone() });
     let JoinedEpochs { measured, failures, unchecked, missing } = join(measured.collect());
@@ -99,7 +99,7 @@ fn dataset(files: &[CaseFile]) -> Dataset {
         let cases = plural(replaced.len(), "case");
         dataset.notes.push(format!("{cases} measured again later, e.g. in {}.", path.escaped()));
     }
-    // Times of different cases may be of different hosts, which one processor does not make alike.
+    // Different cases may run on different hosts, whose times differ even with the same processor.
     let hosts = each_once(files.iter().map(|file| file.provenance.host.as_str()));
     if hosts.len() > 1 {
         dataset.notes.push(format!("cases of {}: {}.", plural(hosts.len(), "host"), listed(&hosts)));
@@ -107,11 +107,11 @@ fn dataset(files: &[CaseFile]) -> Dataset {
     dataset
 }
 
-/// That of the oldest, with the hosts of all, and the load of the one that met the highest for its cores; an empty one of
-/// this process where there are none.
+/// The provenance of the oldest file, with the hosts of all files, and the highest load relative to the cores. Without
+/// files, an empty one of this process.
 pub fn of_all(all: &[&Provenance]) -> Provenance {
     let Some(oldest) = all.iter().min_by_key(|one| &one.date) else { return Provenance::capture(1) };
-    // A job that follows another one meets the load that that has made.
+    // A job that follows another one meets the load that the other one has caused.
     let is_on = |one: &Provenance, host: &str| one.host.split(", ").any(|own| own == host);
     let follows = |one: &Provenance| all.iter().any(|other| is_on(other, &one.host) && other.date < one.date);
     let made = |one: &Provenance| if follows(one) { one.threads as f64 } else { 0.0 };

@@ -17,7 +17,7 @@ fn open(path: &Path) -> Result<Journal, JournalError> {
     Journal::open(path, provenance(), false)
 }
 
-/// Writes an epoch of a scene into the journal, as if it had been measured on this date.
+/// Writes an epoch of a scene with this date into the journal.
 fn measure(journal: &mut Journal, case: &Case, date: &str) -> PathBuf {
     let provenance = Provenance { date: date.into(), ..journal.provenance.clone() };
     let path = journal.place(case);
@@ -28,7 +28,7 @@ fn measure(journal: &mut Journal, case: &Case, date: &str) -> PathBuf {
     path
 }
 
-/// A journal of `n` epochs of the cube in a folder that is not there before.
+/// A journal of `n` epochs of the cube in a new folder.
 fn journal(folder: &TempDir, n: usize) -> PathBuf {
     let path = folder.path().join("runs/compare");
     let mut journal = open(&path).unwrap();
@@ -69,7 +69,7 @@ fn cases_of_other_settings_builds_and_machines_lie_side_by_side() {
     assert_eq!(files(&path).unwrap().len(), 4, "nothing was thrown away");
     let host = Provenance { host: "elsewhere".into(), load: Some(9.0), ..provenance() };
     assert!(Journal::open(&path, host, false).unwrap().get(&own).is_some(), "another host goes on");
-    // What is measured again counts, in this run and the next.
+    // The newest file counts, in this run and the next.
     let mut fresh = Journal::open(&path, provenance(), true).unwrap();
     assert!(fresh.get(&own).is_none());
     let second = measure(&mut fresh, &own, "2026-01-04");
@@ -120,7 +120,7 @@ fn cases_of_equal_settings_are_a_dataset_and_what_was_measured_again_counts_once
     let folder = folder();
     let path = journal(&folder, 2);
     let mut journal = open(&path).unwrap();
-    // A sphere of the same group, and the cube again with other settings, later.
+    // A sphere of the same group, and later the cube again with other settings.
     measure(&mut journal, &case("Sphere", 0, &["x"]), "2026-01-01");
     let mut later = case("Cube", 0, &["x", "y"]);
     later.settings.runs = 9;
@@ -132,12 +132,12 @@ fn cases_of_equal_settings_are_a_dataset_and_what_was_measured_again_counts_once
     let found = datasets(read());
     let all: Vec<Vec<String>> = found.iter().map(scenes).collect();
     assert_eq!(all, [vec!["Cube3", "Cube3", "Sphere3"], vec!["Cube9"]]);
-    // What was measured last is what two runs are compared by.
+    // Two runs are compared by the newest group.
     let last = newest(read()).unwrap();
     assert_eq!(scenes(&last), ["Cube9"]);
     assert!(last.notes.iter().any(|note| note.starts_with("1 group of cases with other settings")), "{:?}", last.notes);
 
-    // The same case again replaces the older one, and hosts are named.
+    // The same case again replaces the older one; the hosts are named.
     let mut elsewhere = open(&path).unwrap();
     elsewhere.provenance.host = "n2".into();
     measure(&mut elsewhere, &later, "2026-03-01");

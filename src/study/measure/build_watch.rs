@@ -1,22 +1,22 @@
-//! What ends a build that takes too long: a builder of another crate cannot be interrupted from within.
+//! Ends a build that takes too long: nothing can interrupt a builder of another crate from within.
 
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::Duration;
 
-/// Called when a build has taken longer than its limit, with the number of the structure: it starts this process again
-/// without the structure, and does not return.
+/// Receives the index of the structure whose build has exceeded the limit. It starts this process again without the
+/// structure, and does not return.
 pub type OnLimit = Box<dyn Fn(usize) + Send>;
 
-/// Watches builds. Between builds, and where there is no limit, nothing is watched.
+/// Watches builds. Between builds, and without a limit, it is idle.
 #[derive(Default)]
 pub struct BuildWatch {
-    /// The thread that waits: told the number of each structure that is being built, and when none is.
+    /// Sends the index of each structure that is being built to the waiting thread, and `None` after a build.
     sender: Option<Sender<Option<usize>>>,
 }
 
 impl BuildWatch {
-    /// Calls `on_limit` where a build takes longer than `limit`.
+    /// Calls `on_limit` if a build takes longer than `limit`.
     pub fn new(limit: Duration, on_limit: OnLimit) -> Self {
         let (sender, receiver) = channel::<Option<usize>>();
         thread::spawn(move || {
@@ -30,9 +30,9 @@ impl BuildWatch {
         Self { sender: Some(sender) }
     }
 
-    /// Builds the structure of this number.
+    /// Runs `build`, the build of structure number `structure`.
     pub fn during<R>(&self, structure: usize, build: impl FnOnce() -> R) -> R {
-        // The thread listens as long as this lives.
+        // The thread listens as long as `self` lives.
         let tell = |what| {
             let _ = self.sender.as_ref().map(|sender| sender.send(what));
         };

@@ -5,34 +5,36 @@ use crate::measure::{Clock, CpuClock, Threads, median, peak_bytes};
 use crate::registry::Choice;
 use crate::scene::Scene;
 
-/// A finished structure, and how long it took.
+/// A finished structure and its build time.
 pub struct Built {
     pub choice: Choice,
     pub accel: Box<dyn DynAccel>,
-    /// Nanoseconds, seen from outside unless it times itself; the median where there were several builds.
+    /// Build time, ns; for a runner, the time that it reports. The median of several builds.
     pub build_ns: u64,
-    /// Most bytes held during the first build; nothing where they were not counted.
+    /// Peak memory of the first build, bytes; `None` if not counted.
     pub peak_bytes: Option<usize>,
 }
 
-/// A build as short as this is repeated, for a steadier median.
+/// A build that takes at most this long is repeated, for a steadier median.
 const SHORT_BUILD_NS: u64 = 20_000_000;
 
-/// One build, timed.
+/// Builds once, and times it.
 type Build = fn(&Choice, &Scene, &Threads, &dyn Clock) -> Result<Built, BuildError>;
 
 impl Built {
-    /// Builds once, or three times when that takes no time.
+    /// Builds once, or three times if a build is short.
     pub fn new(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, BuildError> {
         Self::once(choice, scene, threads, clock)?.again(scene, threads, clock, Self::once)
     }
 
-    /// Likewise, and counts what the first build holds, which takes it less time than builds differ by.
+    /// Like [`new`](Self::new), and counts the peak memory of the first build; counting takes less time than builds
+    /// vary.
     pub fn counted(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, BuildError> {
         Self::once_counted(choice, scene, threads, clock)?.again(scene, threads, clock, Self::once_counted)
     }
 
-    /// Builds of which nothing is known yet of what they hold are `unseen`: what another thread gives back meanwhile may hide that of one.
+    /// Repeats a short build. Builds without a known peak use `unseen`: another thread that frees memory meanwhile may
+    /// hide the peak of one build.
     fn again(self, scene: &Scene, threads: &Threads, clock: &dyn Clock, unseen: Build) -> Result<Self, BuildError> {
         let mut times = vec![self.build_ns as f64];
         let mut last = self;
@@ -46,7 +48,7 @@ impl Built {
         Ok(Self { build_ns, ..last })
     }
 
-    /// What is less than the structure itself was not seen: its memory is C++'s, or another process's.
+    /// A peak below the size of the structure was not seen: the memory belongs to C++ or to another process.
     fn once_counted(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, BuildError> {
         let (built, peak) = peak_bytes(|| Self::once(choice, scene, threads, clock));
         let built = built?;
@@ -56,7 +58,7 @@ impl Built {
 
     fn once(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, BuildError> {
         let mesh = Arc::clone(&scene.mesh);
-        // As for rays: what others take of the core of a single thread is no time of the build.
+        // As for rays: on a single thread, the time that other processes take of the core is no build time.
         let own = CpuClock::of_process(threads);
         let clock = own.as_ref().map_or(clock, |clock| clock as &dyn Clock);
         let start = clock.now_ns();

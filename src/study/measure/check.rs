@@ -1,4 +1,4 @@
-//! Are the answers right? Before any time is taken.
+//! Checks hits against brute force, before the timing.
 
 use std::collections::BTreeMap;
 
@@ -10,9 +10,9 @@ use crate::request::BRUTE_FORCE;
 use crate::scene::{Scene, Workload};
 use crate::study::epoch::Checked;
 use crate::study::{Stage, StudyError};
-use crate::validate::{Reference, Validation, validate_answers, validate_any_answers, validate_known};
+use crate::validate::{Reference, Validation, validate_any_hits, validate_hits, validate_known};
 
-/// What of a workload a structure declines, if anything is: then it has no time.
+/// The feature of a workload that a structure does not support, if any: then it has no time.
 pub fn declined(accel: &dyn DynAccel, workload: &Workload) -> Option<&'static str> {
     let can = accel.capabilities();
     if workload.query == Query::Any && !can.any_hit {
@@ -21,11 +21,12 @@ pub fn declined(accel: &dyn DynAccel, workload: &Workload) -> Option<&'static st
     workload.rays.iter().find_map(|ray| can.declines(ray))
 }
 
-/// Rays of a batch that are checked, at most, and those that are whatever they take.
+/// The maximum number of checked rays of a batch, and the number that is checked at any cost.
 const MOST: usize = 1 << 13;
 const FEWEST: usize = 1 << 6;
 
-/// Rays of a batch that are checked, a number that neither a clock nor the field decides: another run checks the same.
+/// The number of checked rays of a batch. It depends neither on a clock nor on the other structures, so every run
+/// checks the same rays.
 fn affordable(rays: usize, triangles: usize, tests: usize) -> usize {
     if rays <= FEWEST {
         return rays;
@@ -34,29 +35,29 @@ fn affordable(rays: usize, triangles: usize, tests: usize) -> usize {
     rays.min(1 << affordable.ilog2())
 }
 
-/// Brute force with a triangle test, and its answers to the rays of each batch that are checked.
+/// Brute force with a triangle test, and its hits for the checked rays of each batch.
 struct Known {
     reference: Reference,
     answers: Vec<Vec<Option<Hit>>>,
 }
 
-/// What structures are held against.
+/// The reference and the limits of all checks.
 pub struct Checks<'a> {
     pub scene: &'a Scene,
     pub workloads: &'a [Workload],
-    /// Triangle tests that brute force may make for a workload, about.
+    /// Approximate limit of brute-force triangle tests per workload.
     pub tests: usize,
-    /// Nanoseconds that all checks may take; nothing where no clock bounds them.
+    /// Time limit of all checks, ns; `None` if no clock limits them.
     pub limit_ns: Option<u64>,
     pub clock: &'a dyn Clock,
 }
 
-/// Rays that tell how long brute force takes for one.
+/// Rays for estimating the time of brute force per ray.
 const PILOT: usize = 8;
 
 impl Checks<'_> {
-    /// Holds every structure against brute force with its own triangle test, on rays of each workload that are evenly
-    /// spread. One row for each structure, one check for each workload; nothing for a structure that panicked.
+    /// Compares every structure with brute force over its own triangle test, on evenly spread rays of each workload.
+    /// One row per structure, one check per workload; `None` for a structure that panicked.
     pub fn all<'b>(
         &self,
         built: impl IntoIterator<Item = &'b Built>,
@@ -81,8 +82,8 @@ impl Checks<'_> {
         Ok(checks)
     }
 
-    /// Rays of each workload that are checked: as many as the triangle tests allow and, where there is a limit, the time
-    /// that brute force takes for a few.
+    /// The checked rays of each workload: as many as the triangle tests allow and, with a time limit, the estimated
+    /// time of brute force.
     fn batches(&self, reference: &Reference, structures: usize) -> Vec<Vec<Ray>> {
         let rays = |workload: &Workload| {
             let mut count = affordable(workload.rays.len(), self.scene.mesh.len(), self.tests);
@@ -98,10 +99,10 @@ impl Checks<'_> {
         self.workloads.iter().map(rays).collect()
     }
 
-    /// One structure on all workloads; nothing if it panicked.
+    /// Checks one structure on all workloads; `None` if it panicked.
     fn of(&self, built: &Built, known: &Known, batches: &[Vec<Ray>]) -> Option<Vec<Checked>> {
         let Known { reference, answers } = known;
-        // Brute force is held against itself: that it repeats itself is seen on a few rays.
+        // Comparing brute force with itself needs only a few rays: they show whether it repeats itself.
         let most = if built.choice.entry.name == BRUTE_FORCE { FEWEST } else { MOST };
         let of_batch = |((rays, answers), workload): ((&Vec<Ray>, &Vec<Option<Hit>>), &Workload)| {
             let step = rays.len().div_ceil(most).max(1);
@@ -118,7 +119,7 @@ impl Checks<'_> {
     }
 }
 
-/// As [`validate_known`], of a structure of which each question takes time: only what is timed is asked, once.
+/// Like [`validate_known`], for a runner, where each query takes time: only the timed query is sent, once.
 fn validate_remote(
     accel: &dyn DynAccel,
     reference: &Reference,
@@ -128,9 +129,9 @@ fn validate_remote(
     query: Query,
 ) -> Validation {
     match query {
-        Query::Closest => validate_answers(reference, expected, &scene.mesh, rays, &accel.closest(rays)),
+        Query::Closest => validate_hits(reference, expected, &scene.mesh, rays, &accel.closest(rays)),
         Query::Any if !accel.capabilities().any_hit => Validation::default(),
-        Query::Any => validate_any_answers(reference, expected, &scene.mesh, rays, &accel.any(rays), Some(accel)),
+        Query::Any => validate_any_hits(reference, expected, &scene.mesh, rays, &accel.any(rays), Some(accel)),
     }
 }
 

@@ -1,4 +1,4 @@
-//! What answers cost, counted.
+//! Counts the work of queries.
 
 use rayon::prelude::*;
 
@@ -12,33 +12,34 @@ use crate::measure::{EventCounter, checksum, spread};
 use crate::scene::Workload;
 use crate::study::epoch::RayCounts;
 
-/// Of one pass of a structure over a batch of rays.
+/// The counts of one pass of a structure over a batch of rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Counted {
     /// Rays of the pass.
     pub rays: usize,
-    /// Those that hit.
+    /// Rays that hit.
     pub hits: usize,
-    /// Of the distances of all hits, bit by bit, and of where there is none: the same for all structures over the exact
+    /// Checksum of the bits of `t` of all hits and of the misses. It is the same for all structures over the exact
     /// triangle test.
     pub distances: u64,
     pub counts: Counts,
     pub observed: Observed,
 }
 
-/// Rays of a workload that are counted, at most; spread evenly.
+/// The maximum number of counted rays of a workload; they are evenly spread.
 const RAYS: usize = 16384;
 
-/// Triangle tests that a count may take, about: structures that test more for each ray are counted on fewer.
+/// Approximate maximum of triangle tests per count: structures with more tests per ray are counted on fewer rays.
 const TESTS: u64 = 1 << 24;
 
-/// Rays that tell what a ray costs, those where triangle tests are many, and the tests that the former may take.
+/// The number of rays for estimating the cost of a ray, the smaller number for expensive rays, and the limit of triangle
+/// tests for the larger number.
 const FEW: usize = 512;
 const FEWEST: usize = 32;
 const FEW_TESTS: u64 = 1 << 20;
 
-/// Counts, for each pair, what `count` chooses of its rays, on all threads; nothing where the structure could not be
-/// built or panics.
+/// Counts, for each pair, the rays that `count` selects, on all threads; `None` if the structure could not be built or
+/// panics.
 pub fn count_all(
     pairs: &[Pair],
     built: &[Option<Built>],
@@ -52,13 +53,13 @@ pub fn count_all(
     pairs.par_iter().map(of).collect()
 }
 
-/// The processor's counters of events, those that it has.
+/// The event counters of the processor, as far as they exist.
 pub struct Events {
     instructions: Option<EventCounter>,
     branch_misses: Option<EventCounter>,
 }
 
-/// Means of a pass in which no observer takes part; nothing where there is no counter.
+/// Means of a pass without an observer; `None` without a counter.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EventsPerRay {
     pub instructions: Option<f64>,
@@ -66,12 +67,12 @@ pub struct EventsPerRay {
 }
 
 impl Events {
-    /// Of this thread.
+    /// Counters of this thread.
     pub fn of_thread() -> Self {
         Self { instructions: EventCounter::instructions(), branch_misses: EventCounter::branch_misses() }
     }
 
-    /// Counts while `accel` answers all `rays`.
+    /// Counts while `accel` traces all `rays`.
     pub fn per_ray(&mut self, accel: &dyn DynAccel, rays: &[Ray], query: Query) -> EventsPerRay {
         let (mut hits, mut any) = (vec![None; rays.len()], vec![false; rays.len()]);
         let mut pass = || match query {
@@ -80,7 +81,7 @@ impl Events {
         };
         let per_ray = |events: u64| events as f64 / rays.len() as f64;
         let instructions = self.instructions.as_mut().and_then(|counter| counter.count(&mut pass)).map(per_ray);
-        // Misses are those of a predictor that has been trained, whether or not instructions were counted.
+        // Count the misses of a trained predictor, whether or not instructions were counted.
         let branch_misses = self.branch_misses.as_mut().and_then(|counter| {
             pass();
             counter.count(&mut pass).map(per_ray)
@@ -90,8 +91,8 @@ impl Events {
 }
 
 impl Counted {
-    /// Of as many of `rays` as are worth it, evenly spread: a number that no clock decides, so that another run counts
-    /// the same.
+    /// Counts over as many evenly spread `rays` as are affordable. No clock determines the number, so every run counts
+    /// the same rays.
     pub fn affordable(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> Self {
         let counted = |count: usize| Self::new(accel, &spread(rays, count), query);
         let pilot = counted(64);
@@ -99,7 +100,7 @@ impl Counted {
         if affordable >= RAYS { counted(RAYS) } else { counted(1 << affordable.max(64).ilog2()) }
     }
 
-    /// Of a few of `rays`, evenly spread: what tells their cost, and costs nothing to speak of itself.
+    /// Counts over a few evenly spread `rays`, which show the cost of a ray at negligible cost.
     pub fn few(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> Self {
         let counted = |count: usize| Self::new(accel, &spread(rays, count), query);
         let first = counted(FEWEST);
@@ -107,14 +108,14 @@ impl Counted {
         if affordable >= FEW as u64 { counted(FEW) } else { first }
     }
 
-    /// Asks `query` of all `rays`, and watches.
+    /// Traces all `rays` with `query` and counts.
     pub fn new(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> Self {
         let mut counts = Counts::default();
         let distances: Vec<Option<u32>> = match query {
             Query::Closest => {
                 let mut hits = vec![None; rays.len()];
                 accel.closest_hits_counted(rays, &mut hits, &mut counts);
-                // The same distance has one sign at the origin, too.
+                // Give `t` = 0 one sign.
                 hits.iter().map(|hit| hit.map(|hit| (hit.t + 0.0).to_bits())).collect()
             }
             Query::Any => {
@@ -132,13 +133,13 @@ impl Counted {
         }
     }
 
-    /// Whether leaves are observed: in some trees they are no nodes of their own. Whoever tests triangles has entered a
-    /// leaf, if leaves are counted.
+    /// Whether leaves are observed: in some trees they are not separate nodes. If leaves are counted, every structure
+    /// that tests triangles has entered one.
     pub fn sees_leaves(&self) -> bool {
         self.observed.steps && (self.counts.leaves > 0 || self.counts.tests == 0)
     }
 
-    /// What an export says of the pass, with what the processor counts.
+    /// The exported counts of the pass, with the events of the processor.
     pub fn in_export(&self, accel: &dyn DynAccel, workload: &Workload, events: Option<&mut Events>) -> RayCounts {
         let rays = spread(&workload.rays, self.rays);
         let events = events.filter(|_| accel.remote().is_none());
@@ -171,7 +172,7 @@ mod tests {
         use crate::kdtree::{KdConfig, KdTree};
         use crate::triangle::MollerTrumbore;
         let scene = crate::scene::Builtin::find("cube").unwrap().scene(None).unwrap();
-        // Twelve triangles: a block of eight and one of four.
+        // Twelve triangles: a block of eight and a block of four.
         let ray = Ray::new(glam::Vec3::new(0.01, 0.02, 9.0), glam::Vec3::new(0.0, 0.0, -1.0));
         let brute = BruteForce::<MollerTrumbore>::build(&scene.mesh, &Default::default()).unwrap();
         let counts = Counted::new(&brute, &[ray; 3], Query::Closest).counts;

@@ -1,19 +1,19 @@
-//! What happens to the measuring thread while samples are taken.
+//! Conditions of the measuring thread during the sampling.
 
 use serde::{Deserialize, Serialize};
 
 use crate::measure::advice::Conditions;
 use crate::measure::{Clock, machine};
 
-/// What happened to the measuring thread while samples were taken. What the system does not tell is nothing.
+/// Conditions of the measuring thread during the sampling. `None` if the system does not report a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Environment {
     /// Number of the process.
     pub process: u32,
     pub seconds: f64,
-    /// How often it had to make way for another thread.
+    /// How often another thread preempted it.
     pub interruptions: Option<u64>,
-    /// Clock rate of its core at the beginning and at the end.
+    /// Clock rate of its core at the beginning and at the end, kHz.
     pub clock_rates: Option<(f64, f64)>,
 }
 
@@ -32,7 +32,7 @@ impl Environment {
     }
 }
 
-/// Looks at the thread before and after.
+/// Observes the thread before and after the sampling.
 pub struct EnvironmentProbe {
     start_ns: u64,
     interruptions: Option<u64>,

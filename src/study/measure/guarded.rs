@@ -1,20 +1,20 @@
-//! Structures of others may panic on a ray as on a mesh: one of them must not end a run over many.
+//! Catches panics of structures of other crates: a panic on a ray must not end a run with many structures.
 
 use std::rc::Rc;
 
 use crate::measure::{Failure, Pass, Stopwatch, Timed};
 use crate::panics::caught;
 
-/// Said of a structure whose traversal panicked.
+/// Reason for a structure whose traversal panicked.
 pub const PANICKED: &str =
     "its traversal panicked on these rays: omit the structure, or find the ray with `sahara validate`";
 
-/// The result of asking a structure, or nothing if it panicked.
+/// The result of a query; `None` if the structure panicked.
 pub fn guarded<R>(ask: impl FnOnce() -> R) -> Option<R> {
     caught(ask).ok()
 }
 
-/// A pass that survives a panic of its structure: from then on it does nothing and says so.
+/// A pass that survives a panic of its structure: afterwards it does nothing and reports the panic.
 pub struct Guarded<'a> {
     pass: Pass<'a>,
     levels: usize,
@@ -22,7 +22,7 @@ pub struct Guarded<'a> {
 }
 
 impl<'a> Guarded<'a> {
-    /// The pass, and that it has panicked, once it has.
+    /// The pass, and a flag that becomes true when it panics.
     pub fn new(pass: Pass<'a>) -> (Self, Failure) {
         let failure = Failure::default();
         (Self { pass, levels: 1, failure: Rc::clone(&failure) }, failure)
@@ -32,7 +32,7 @@ impl<'a> Guarded<'a> {
         self.failure.borrow().is_some()
     }
 
-    /// What the pass gives; nothing from its first panic on.
+    /// Runs `ask` on the pass; `None` from its first panic on.
     fn ask<R>(&mut self, ask: impl FnOnce(&mut Pass<'a>) -> R) -> Option<R> {
         let given = if self.has_panicked() { None } else { guarded(|| ask(&mut self.pass)) };
         if given.is_none() {

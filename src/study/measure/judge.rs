@@ -1,4 +1,4 @@
-//! Error rates against the exact oracle.
+//! Counts errors against the exact oracle.
 
 use rayon::prelude::*;
 
@@ -7,31 +7,31 @@ use crate::geometry::Ray;
 use crate::oracle::{Oracle, Truth};
 use crate::validate::{DepthRule, ErrorCounts, count_errors};
 
-/// Rays, and the exact answers to them.
+/// Rays and their exact hits.
 pub struct Judge<'a> {
     rays: &'a [Ray],
     truths: Vec<Option<Truth>>,
 }
 
-/// Rays that are judged at least.
+/// The minimum number of judged rays.
 const FEWEST: usize = 64;
 
-/// Rays that a thread hands over at once.
+/// Rays per task of a thread.
 const CHUNK: usize = 1024;
 
-/// What judging a pair may always take.
+/// Time that judging a pair may always take.
 const SHORT_NS: u64 = 2_000_000_000;
 
 impl<'a> Judge<'a> {
-    /// Queries `oracle`, on all threads.
+    /// Queries `oracle` on all threads.
     pub fn new(rays: &'a [Ray], oracle: &Oracle) -> Self {
         let truths = rays.par_iter().map(|ray| oracle.nearest(ray)).collect();
         Self { rays, truths }
     }
 
-    /// Judges the answers of `accel`, on all threads: to all rays, or where one takes so many picoseconds that all would
-    /// take longer than the share of one of so many `pairs` in half of `budget_ns`, to as many as fit, evenly spread. How
-    /// many that are no clock decides, so that another run judges the same.
+    /// Counts the errors of `accel`, on all threads. All rays are judged if that takes no longer than the share of this
+    /// pair, one of `pairs`, in half of `budget_ns`, at `ps` picoseconds per ray; otherwise as many evenly spread rays
+    /// as fit. No clock determines the number, so every run judges the same rays.
     pub fn errors(&self, accel: &dyn DynAccel, ps: u64, budget_ns: u64, pairs: usize) -> ErrorCounts {
         let share_ns = (budget_ns / 2 / pairs.max(1) as u64).max(SHORT_NS);
         let all = self.rays.len();
@@ -60,7 +60,8 @@ mod tests {
         assert_eq!(rays, RayKind::Uniform.rays(&scene, 400, 1));
         let judge = Judge::new(&rays, &Oracle::new(&scene.mesh));
         let judged = |ps, budget_ns, pairs| judge.errors(accel.as_ref(), ps, budget_ns, pairs).rays;
-        // Two seconds, of rays that take nothing to speak of, ten milliseconds each, or for ever; then a share of more.
+        // Two seconds of rays that take almost no time, ten milliseconds each, or for ever; then a share of a larger
+        // budget.
         assert_eq!([1, 10_000_000_000, u64::MAX].map(|ps| judged(ps, 0, 1)), [400, 200, 64]);
         assert_eq!([1, 2, 9].map(|pairs| judged(10_000_000_000, 6_000_000_000, pairs)), [300, 200, 200]);
     }

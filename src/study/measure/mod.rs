@@ -8,11 +8,10 @@ mod environment;
 mod guarded;
 mod judge;
 mod pair;
-mod placed;
+mod prepared;
 mod ray_cost;
 mod rays;
 mod room;
-mod sample_failure;
 mod slowest;
 mod timed_check;
 mod timing;
@@ -21,60 +20,32 @@ use super::case::{Case, Check};
 use super::epoch::{Epoch, Rays, Shape, Structure};
 use super::{Stage, StudyError};
 use crate::accel::{BuildError, Remote};
-use crate::measure::{Clock, SamplePlan, Threads, spread};
+use crate::measure::{Clock, SamplePlan, spread};
 use crate::oracle::Oracle;
-use crate::registry::{Choice, Registry};
-use crate::scene::{Scene, Workload};
+use crate::scene::Workload;
 use built::Built;
 use check::{Checks, declined};
 use counted::{Counted, Events, count_all};
 use judge::Judge;
 use pair::Pair;
-use placed::Placed;
-use rays::{drop_times_of_wrong_tree, settle, untimed};
-use sample_failure::SampleFailure;
+use prepared::Placed;
+use rays::{drop_times_of_wrong_tree, new_record, record_check};
 use slowest::slowest;
 use timed_check::TimedCheck;
-use timing::Timing;
+use timing::{SampleFailure, Timing};
 
 pub use build_watch::BuildWatch;
 pub use environment::Environment;
 pub use guarded::{PANICKED, guarded};
+pub use prepared::Prepared;
 pub use room::may_fit;
 
-/// A case with everything that it names: what a process has before it measures.
-pub struct Prepared {
-    pub scene: Scene,
-    /// In the order of the case.
-    choices: Vec<Choice>,
-    guide: Choice,
-    threads: Threads,
-}
-
-impl Prepared {
-    /// Resolves what the case names. `scene` is the scene, where it is loaded already.
-    ///
-    /// # Errors
-    /// If something is not there, or the scene is another one than was planned.
-    pub fn new(case: &Case, registry: &Registry, scene: Option<Scene>) -> anyhow::Result<Self> {
-        let scene = scene.map_or_else(|| case.scene.load(registry), Ok)?;
-        let choices = case.structures.iter().map(|own| own.choose(registry)).collect::<anyhow::Result<_>>()?;
-        let threads = Threads::pinned(case.settings.threads).map_err(StudyError::Threads)?;
-        Ok(Self { scene, choices, guide: registry.choose(&case.settings.guide)?, threads })
-    }
-
-    pub fn threads(&self) -> &Threads {
-        &self.threads
-    }
-}
-
-/// Builds all structures, checks and counts them if this is the first epoch, and takes their samples. No epoch needs
-/// another: what they must have in common is checked when they are [joined](super::join). What cannot be built, panics or
-/// answers the same rays differently is refused, what answers wrongly gets no time; the others go on. `watch` is told
-/// what is being built.
+/// Builds all structures, checks and counts them if this is epoch 0, and takes their samples. No epoch needs another:
+/// [`join`](super::join) checks what they must have in common. A structure that cannot be built, panics or changes its
+/// hits is refused; a structure with wrong hits gets no time; all others continue. `watch` observes the builds.
 ///
 /// # Errors
-/// If the structures do not fit into memory, or the guide cannot be built.
+/// If the structures do not fit into memory, or the reference structure for secondary rays cannot be built.
 pub fn measure(
     case: &Case,
     prepared: &Prepared,
@@ -114,16 +85,16 @@ pub fn measure(
     })
 }
 
-/// Everything that is timed in an epoch.
+/// Everything that an epoch times.
 struct Bench<'a> {
     case: &'a Case,
     prepared: &'a Prepared,
     workloads: Vec<Workload>,
-    /// All structures of the case, and what is known of them.
+    /// All structures of the case, with their results so far.
     structures: Vec<Structure>,
-    /// Each of them, if it could be built.
+    /// The built structures, in the same order; `None` if a build failed.
     built: Vec<Option<Built>>,
-    /// Of the hits on the rays that were timed in this epoch.
+    /// Checksums of the hits on the timed rays of this epoch.
     checksums: Vec<(Pair, u64)>,
     /// Keeps the memory placement of the structures alive.
     _placed: Placed,
@@ -140,9 +111,7 @@ impl<'a> Bench<'a> {
     ) -> Result<Self, StudyError> {
         let Prepared { scene, choices, threads, .. } = prepared;
         room::fits(choices, scene)?;
-        let seed = case.settings.seed.wrapping_add(case.epoch as u64);
-        let skipped = case.structures.iter().map(|own| own.skipped.clone()).collect();
-        let mut placed = Placed::new(choices, skipped, scene, threads, clock, seed, case.epoch == 0, watch, progress);
+        let mut placed = Placed::new(case, prepared, clock, watch, progress);
         let mut structures: Vec<Structure> = vec![];
         let mut built: Vec<Option<Built>> = vec![];
         for ((choice, request), ready) in choices.iter().zip(&case.structures).zip(placed.built.drain(..)) {
@@ -166,7 +135,7 @@ impl<'a> Bench<'a> {
             built.push(ready.ok());
         }
 
-        // Rays that start on a surface start where the guide finds it.
+        // Secondary rays start at the hits of the guide.
         let own;
         let guide = match built.iter().flatten().find(|built| built.choice.label == prepared.guide.label) {
             Some(built) => built.accel.as_ref(),
@@ -182,7 +151,7 @@ impl<'a> Bench<'a> {
         let hashes: Vec<String> = workloads.iter().map(Workload::hash).collect();
         for (structure, built) in structures.iter_mut().zip(&built) {
             let Some(built) = built else { continue };
-            let rays = |(workload, hash): (&Workload, &String)| untimed(built, workload, hash);
+            let rays = |(workload, hash): (&Workload, &String)| new_record(built, workload, hash);
             structure.rays = workloads.iter().zip(&hashes).map(rays).collect();
         }
         Ok(Self { case, prepared, workloads, structures, built, checksums: vec![], _placed: placed })
@@ -207,13 +176,13 @@ impl<'a> Bench<'a> {
                 continue;
             };
             for (rays, check) in structure.rays.iter_mut().zip(checks) {
-                settle(rays, check, &self.case.scene.word, built);
+                record_check(rays, check, &self.case.scene.word, built);
             }
         }
         Ok(())
     }
 
-    /// Checks all answers that were timed; those with wrong hits lose their times.
+    /// Checks the hits on all timed rays; structures with wrong hits lose their times.
     fn check_timed(&mut self, tests: usize, progress: &mut dyn FnMut(Stage)) -> Result<(), StudyError> {
         let Prepared { scene, .. } = self.prepared;
         let mut checks = TimedCheck::new(scene, &self.workloads, self.case.epochs, tests);
@@ -227,7 +196,7 @@ impl<'a> Bench<'a> {
                 checks.check(built, &pair, timed, checksum).map_err(StudyError::of_build("sah-bvh", &scene.name))?;
             let failure = built.accel.remote().and_then(Remote::failure);
             match check.filter(|_| failure.is_none()) {
-                Some(check) => settle(&mut structure.rays[pair.workload], check, &self.case.scene.word, built),
+                Some(check) => record_check(&mut structure.rays[pair.workload], check, &self.case.scene.word, built),
                 None => structure.refused = Some(failure.unwrap_or_else(|| PANICKED.into())),
             }
         }
@@ -235,7 +204,7 @@ impl<'a> Bench<'a> {
     }
 
     /// Counts the errors of all structures against the exact oracle. A structure that declines some of the rays is
-    /// refused: its rate would be of other rays.
+    /// refused: its error rate would cover other rays.
     fn judge(&mut self, progress: &mut dyn FnMut(Stage)) {
         progress(Stage::Rays("exact results for all".into()));
         let oracle = Oracle::new(&self.prepared.scene.mesh);
@@ -266,8 +235,8 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// Takes all samples. The number of rays and runs depends on all requested pairs, including failed and wrong
-    /// ones, so that an epoch with a failed program, or without checks, uses the same numbers.
+    /// Takes all samples. The number of rays and runs depends on all requested pairs, including failed and wrong ones.
+    /// So an epoch with a failed program, or without checks, uses the same numbers.
     fn sample(&mut self, clock: &dyn Clock, progress: &mut dyn FnMut(Stage)) -> Environment {
         let settings = &self.case.settings;
         let plan = SamplePlan {
@@ -355,4 +324,4 @@ impl<'a> Bench<'a> {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -1,6 +1,6 @@
-//! What is timed: a structure on a workload.
+//! The unit of timing: a structure on a workload.
 
-/// A structure and a workload, by their numbers.
+/// A structure and a workload, by index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pair {
     pub structure: usize,

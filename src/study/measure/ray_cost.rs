@@ -1,4 +1,4 @@
-//! What a ray costs, predicted from counts: so every epoch, on whatever machine and in whatever order, times the same rays.
+//! Predicts the cost of a ray from counts: so every epoch times the same rays, on any machine and in any order.
 
 use rayon::prelude::*;
 
@@ -11,22 +11,22 @@ use crate::measure::median;
 use crate::request::BRUTE_FORCE;
 use crate::scene::Workload;
 
-/// Nanoseconds of a ray, of a node or leaf entered and of a block of triangles tested: a regression over all families of
-/// structures (papers/TUNING.md), rounded. With these the default run of `compare` times nine in ten cases on as many rays
-/// as a clock would give them, and takes as long. A prediction is off by a factor of 1.5 about, and the numbers of rays that there are
-/// to choose from lie four times apart.
+/// Nanoseconds per ray, per node or leaf entered and per block of triangles tested: a regression over all families of
+/// structures (papers/TUNING.md), rounded. With them the default run of `compare` times nine in ten cases on as many
+/// rays as a clock would select, and takes as long. A prediction is wrong by a factor of about 1.5; the possible
+/// numbers of rays differ by factors of four.
 const RAY_NS: f64 = 20.0;
 const STEP_NS: f64 = 15.0;
 const BLOCK_NS: f64 = 8.0;
 
-/// How many times as long a build with debug assertions takes.
+/// The slowdown by debug assertions.
 const UNOPTIMISED: f64 = if cfg!(debug_assertions) { 12.0 } else { 1.0 };
 
-/// Steps of a ray where nothing can be counted: of a tree over a hundred thousand triangles, about.
+/// Steps per ray if they are not counted: about those in a tree over a hundred thousand triangles.
 const STEPS: f64 = 12.0;
 
-/// Picoseconds of a ray of each case. What does not count its steps and tests, a structure of others or a program, what
-/// could not be built and what is declined are taken for the median of the others, brute force left out.
+/// Picoseconds per ray of each case. A structure without counts, a failed build and declined rays get the median of all
+/// other structures except brute force.
 pub fn picoseconds(cases: &[Pair], built: &[Option<&Built>], workloads: &[Workload]) -> Vec<u64> {
     let predicted: Vec<Option<f64>> = cases.par_iter().map(|case| predicted(case, built, workloads)).collect();
     let is_brute = |case: &Pair| built[case.structure].is_some_and(|built| built.choice.entry.name == BRUTE_FORCE);
@@ -42,7 +42,7 @@ pub fn picoseconds(cases: &[Pair], built: &[Option<&Built>], workloads: &[Worklo
     cases.iter().zip(&predicted).map(nanoseconds).collect()
 }
 
-/// Nothing where it cannot be asked, does not count, or panics: then its samples tell.
+/// `None` if it cannot be queried, does not count, or panics: then its samples determine the cost.
 fn predicted(case: &Pair, built: &[Option<&Built>], workloads: &[Workload]) -> Option<f64> {
     let (accel, workload) = (built[case.structure]?.accel.as_ref(), &workloads[case.workload]);
     let observed = accel.observed();
@@ -83,7 +83,7 @@ mod tests {
         assert_eq!(picoseconds(&cases, &built, &workloads), costs, "no clock takes part");
         assert!(picoseconds(&[], &built, &workloads).is_empty());
 
-        // So is what could not be built, and the others cost what they did.
+        // A failed build has the same cost, and all others keep theirs.
         built[1] = None;
         let without = picoseconds(&cases, &built, &workloads);
         assert!(without[1].abs_diff(costs[2].midpoint(costs[3])) <= 1, "{without:?} {costs:?}");

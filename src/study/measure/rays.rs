@@ -1,4 +1,4 @@
-//! The rays of a structure on a workload, before they are timed and after their hits are checked.
+//! Fills the [`Rays`] record of a structure on a workload: before the timing, and after a check of its hits.
 
 use std::ffi::OsStr;
 
@@ -9,8 +9,8 @@ use crate::request::known_defect;
 use crate::scene::Workload;
 use crate::study::epoch::{Checked, Rays, Structure};
 
-/// A structure on a workload before it is checked and timed.
-pub fn untimed(built: &Built, workload: &Workload, hash: &str) -> Rays {
+/// The record of a structure on a workload before any check or timing.
+pub fn new_record(built: &Built, workload: &Workload, hash: &str) -> Rays {
     let declined = declined(built.accel.as_ref(), workload);
     Rays {
         workload: workload.name.clone(),
@@ -23,25 +23,25 @@ pub fn untimed(built: &Built, workload: &Workload, hash: &str) -> Rays {
     }
 }
 
-/// Records what was checked; wrong answers have no time, and the ray that shows it is named.
-pub fn settle(rays: &mut Rays, check: Checked, scene: &OsStr, built: &Built) {
+/// Records a check. If it found wrong hits, drops the times; the reason names a ray with a wrong hit.
+pub fn record_check(rays: &mut Rays, check: Checked, scene: &OsStr, built: &Built) {
     rays.wrong = check.errors > 0 && (rays.untimed.is_none() || rays.wrong);
     if rays.wrong {
         let structure = match built.choice.command() {
             Some(command) => format!("--runner {command:?}"),
             None => format!("-s {}", built.choice.label),
         };
-        let go_on = check.example.as_ref().map_or(String::new(), |(ray, sentence)| {
+        let hint = check.example.as_ref().map_or(String::new(), |(ray, sentence)| {
             format!("; {sentence}; see: sahara validate {} {structure} --ray \"{ray}\"", scene.escaped())
         });
         let counts = format!("{} wrong hits on {} rays", check.errors, check.rays);
-        drop_times(rays, counts + &go_on);
+        drop_times(rays, counts + &hint);
     }
     rays.checked = Some(check);
 }
 
-/// A tree that is wrong on one workload has no time on the others either. Only the known defects of baselines from other
-/// projects cost the times of their workload alone.
+/// Drops the times of a structure on all workloads if it has wrong hits on one. A structure with known defects loses
+/// only the times of the workload with the wrong hits.
 pub fn drop_times_of_wrong_tree(structure: &mut Structure) {
     let Some(wrong) = structure.rays.iter().find(|rays| rays.wrong) else { return };
     if known_defect(&structure.name).is_none() {

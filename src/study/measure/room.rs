@@ -1,4 +1,4 @@
-//! Whether the structures of an epoch fit into memory together.
+//! Whether all structures of an epoch fit into memory together.
 
 use crate::measure::machine::memory;
 use crate::registry::Choice;
@@ -6,15 +6,15 @@ use crate::report::words::distinct;
 use crate::scene::Scene;
 use crate::study::StudyError;
 
-/// What a structure holds of a triangle, about: finished trees hold 50 to 110 bytes, and the last to be built twice as
-/// many on the way.
+/// Approximate bytes per triangle of a structure. Finished trees take 50 to 110 bytes; the last two builds take twice
+/// as much during the build.
 const BYTES: u64 = 100;
 
-/// Refuses what the system would end in the middle, when the last structures are built: all of an epoch are held at
-/// once, for they take turns.
+/// Rejects a case that the system would kill when it builds the last structures: all structures of an epoch exist at
+/// the same time, because their samples alternate.
 pub fn fits(choices: &[Choice], scene: &Scene) -> Result<(), StudyError> {
     let structures = choices.len();
-    // A twin is built beside those that are named.
+    // A twin is built in addition to the named structures.
     let twins = structures - distinct(choices.iter().map(|choice| &choice.label)).len();
     fits_into(memory(), structures, scene.mesh.len()).map_err(|TooMany { fitting, needed, there }| StudyError::Memory {
         scene: scene.name.clone(),
@@ -25,22 +25,23 @@ pub fn fits(choices: &[Choice], scene: &Scene) -> Result<(), StudyError> {
     })
 }
 
-/// Whether so many structures over so many triangles surely fit: with the mesh, and what the last one takes on the way.
+/// Whether `structures` structures over `triangles` triangles certainly fit, including the mesh and the memory of the
+/// last build.
 pub fn may_fit(structures: usize, triangles: usize) -> bool {
     fits_into(memory(), structures + 2, triangles).is_ok()
 }
 
-/// More structures than there is memory for.
+/// There are more structures than fit into memory.
 #[derive(Debug, PartialEq)]
 struct TooMany {
-    /// How many fit.
+    /// The number of structures that fit.
     fitting: usize,
     /// Gigabytes.
     needed: f64,
     there: f64,
 }
 
-/// Whether so many structures fit into so many bytes.
+/// Whether this number of structures fits into `memory` bytes.
 fn fits_into(memory: Option<u64>, structures: usize, triangles: usize) -> Result<(), TooMany> {
     let each = triangles as u64 * BYTES;
     let needed = structures as u64 * each;

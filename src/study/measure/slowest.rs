@@ -5,10 +5,10 @@ use crate::accel::DynAccel;
 use crate::geometry::Ray;
 use crate::measure::Clock;
 
-/// How often each ray is asked: what else the machine does meets no ray every time.
+/// Traces of each ray: a disturbance rarely meets the same ray every time.
 const PASSES: usize = 3;
 
-/// The longest that any of `rays` takes when it is asked alone, nanoseconds: of each ray the least of its times, of these the most.
+/// The longest time of any of `rays` traced on its own, ns: the maximum over the rays of the minimum over the passes.
 pub fn slowest(accel: &dyn DynAccel, rays: &[Ray], clock: &dyn Clock) -> u64 {
     let mut least = vec![u64::MAX; rays.len()];
     for _ in 0..PASSES {

@@ -28,7 +28,7 @@ pub struct Flawed {
 pub enum Flaw {
     #[default]
     None,
-    /// Loses the hits of about every second ray, always the same.
+    /// Loses the hits of about every second ray, always the same ones.
     Lossy,
     /// Loses all hits once [`HAS_TURNED`] is set.
     Turning,
@@ -36,8 +36,10 @@ pub enum Flaw {
     Panicking,
     /// Panics over every mesh with triangles.
     Unbuildable,
-    /// The same, while [`IS_AWAY`] is set.
+    /// Like [`Unbuildable`](Self::Unbuildable), while [`IS_AWAY`] is set.
     Away,
+    /// Panics over the empty mesh.
+    Rootless,
 }
 
 static HAS_TURNED: AtomicBool = AtomicBool::new(false);
@@ -45,13 +47,13 @@ static IS_AWAY: AtomicBool = AtomicBool::new(false);
 
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct FlawedConfig {
-    flaw: Flaw,
+    pub flaw: Flaw,
 }
 
 impl Flawed {
     fn loses(&self, ray: &Ray) -> bool {
         match self.flaw {
-            Flaw::None | Flaw::Unbuildable | Flaw::Away => false,
+            Flaw::None | Flaw::Unbuildable | Flaw::Away | Flaw::Rootless => false,
             Flaw::Turning => HAS_TURNED.load(Ordering::Relaxed),
             Flaw::Panicking => panic!("a traversal panics"),
             Flaw::Lossy => ray.direction.x.to_bits() & 1 == 0,
@@ -63,15 +65,16 @@ impl Accel for Flawed {
     type Config = FlawedConfig;
 
     const TRIANGLE_TEST: &'static str = MollerTrumbore::NAME;
-    const OBSERVED: Observed = Observed::NONE;
+    const OBSERVED: Observed = Observed::TESTS;
 
     fn build(mesh: &Arc<Mesh>, config: &FlawedConfig) -> Result<Self, BuildError> {
         let panics = match config.flaw {
-            Flaw::Unbuildable => true,
-            Flaw::Away => IS_AWAY.load(Ordering::Relaxed),
+            Flaw::Unbuildable => !mesh.is_empty(),
+            Flaw::Away => !mesh.is_empty() && IS_AWAY.load(Ordering::Relaxed),
+            Flaw::Rootless => mesh.is_empty(),
             _ => false,
         };
-        assert!(!panics || mesh.is_empty(), "a builder panics");
+        assert!(!panics, "a builder panics");
         let inner = Accel::build(mesh, &Default::default())?;
         Ok(Self { inner, flaw: config.flaw })
     }
@@ -93,12 +96,12 @@ impl Accel for Flawed {
     }
 }
 
-/// The structures of this crate, and `flawed`.
+/// The structures of this crate and `flawed`.
 pub fn registry() -> Registry {
     Registry::builtin().with::<Flawed>("flawed", FlawedConfig::default())
 }
 
-/// Rays of these kinds in a scene, of which all structures are timed on 1024.
+/// These workloads of a scene; all structures are timed on 1024 rays.
 fn case(word: &str, specs: &[&str], kinds: &[WorkloadKind]) -> Case {
     let registry = registry();
     let case = example("", 0, specs);
@@ -123,7 +126,7 @@ fn measured(case: &Case, progress: &mut dyn FnMut(Stage)) -> Result<Measured, St
 
 /// Two epochs on the primary and shadow rays of the cube.
 fn run(specs: &[&str]) -> Result<Dataset, StudyError> {
-    // The cube has no mirrors, and so no mirror rays.
+    // The cube has no mirrors, so it has no mirror rays.
     let case = case("cube", specs, &[WorkloadKind::Primary, WorkloadKind::Mirror, WorkloadKind::Shadow]);
     let case = Case { structures: with_twin(case.structures.clone()), ..case };
     let epochs = [0, 1].map(|epoch| measured(&Case { epoch, ..case.clone() }, &mut |_| ()));
@@ -139,18 +142,18 @@ fn a_right_structure_has_a_time_and_the_hits_of_all_others() {
     let structures = ["brute-force", "median-kd", "flawed"];
     assert_eq!(pairs, structures.map(|s| [(s, "primary"), (s, "shadow")]).concat());
     for own in &all {
-        assert_eq!((own.structure_errors, own.samples_ns.len(), own.epochs), (0, 4, 2));
+        assert_eq!((own.wrong_hits, own.samples_ns.len(), own.epochs), (0, 4, 2));
         assert!(own.trace_ns > Some(0.0) && own.mrays_per_s > Some(0.0));
         assert!(own.checked_rays > 0 && own.rays <= own.workload_rays);
     }
-    // Nothing stands in the light of a cube alone.
+    // Nothing blocks the light of a single cube.
     for (workload, is_hit) in [("primary", true), ("shadow", false)] {
         let hits: Vec<usize> = all.iter().filter(|r| r.workload == workload).map(|r| r.hits).collect();
         assert!((hits[0] > 0) == is_hit && hits.iter().all(|&n| n == hits[0]), "{workload} {hits:?}");
     }
     assert_eq!(all[0].tests_per_ray, Some(12.0));
-    assert_eq!(all[4].tests_per_ray, None, "what is not observed is unknown");
-    // The twin is that of the first that is not slow.
+    assert_eq!((all[4].tests_per_ray, all[4].steps_per_ray), (Some(12.0), None), "what is not observed is unknown");
+    // The twin belongs to the first structure that is not slow.
     let twins: Vec<bool> = all.iter().map(|own| own.twin_samples_ns.is_some()).collect();
     assert_eq!(twins, [false, false, false, false, true, true]);
 }
@@ -160,7 +163,7 @@ fn a_wrong_structure_has_errors_and_no_time() {
     let all = measurements(&run(&["brute-force", "flawed:flaw=lossy"]).unwrap());
     let (wrong, right): (Vec<&Measurement>, Vec<&Measurement>) =
         all.iter().partition(|r| r.label == "flawed:flaw=lossy");
-    // No shadow ray hits a cube alone: its shadow rays are right, but a wrong tree has no time at all.
+    // No shadow ray hits a single cube, so its shadow rays are right; but a wrong tree has no time at all.
     assert_eq!(wrong.iter().map(|r| r.is_disqualified()).collect::<Vec<_>>(), [true, false]);
     assert!(wrong.iter().all(|r| r.trace_ns.is_none() && r.mrays_per_s.is_none() && r.samples_ns.is_empty()));
     assert!(right.iter().all(|r| r.label == "brute-force" && r.trace_ns.is_some()));
@@ -169,7 +172,7 @@ fn a_wrong_structure_has_errors_and_no_time() {
 #[test]
 fn a_structure_with_other_answers_in_the_next_round_is_refused_and_the_others_go_on() {
     let case = case("cube", &["sah-kd", "flawed:flaw=turning"], &[WorkloadKind::Primary]);
-    // It turns after the first of two rounds.
+    // It changes after the first of two rounds.
     let Measured { epoch, .. } = measured(&case, &mut |stage| {
         HAS_TURNED.fetch_or(stage == Stage::Trace(2, 4), Ordering::Relaxed);
     })
@@ -183,7 +186,7 @@ fn a_structure_with_other_answers_in_the_next_round_is_refused_and_the_others_go
 
 #[test]
 fn what_cannot_be_built_in_one_epoch_costs_nobody_else_a_measurement() {
-    // Brute force is slow beside two others, and hardly slow beside one.
+    // Brute force is slow beside two other structures, and hardly slow beside one.
     let case = case("torus", &["sah-kd", "brute-force", "flawed:flaw=away"], &[WorkloadKind::Primary]);
     let epochs = [0, 1].map(|epoch| {
         IS_AWAY.store(epoch == 1, Ordering::Relaxed);

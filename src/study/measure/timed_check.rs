@@ -1,5 +1,5 @@
-//! Are the answers to all timed rays right? Another tree answers them as well; where the two differ, brute force and exact
-//! arithmetic judge.
+//! Checks the hits on all timed rays. Another tree traces the same rays; brute force and exact arithmetic judge the
+//! rays on which the two differ.
 
 use std::borrow::Cow;
 
@@ -16,31 +16,32 @@ use crate::registry::Registry;
 use crate::scene::{Scene, Workload};
 use crate::study::epoch::Checked;
 use crate::triangle::{Exact, TriangleTest};
-use crate::validate::{Kind, Reference, differences, validate_answers, validate_any_answers};
+use crate::validate::{Kind, Reference, differences, validate_any_hits, validate_hits};
 
-/// Rays of a workload that brute force judges at least, where so many are in dispute.
+/// The minimum number of disputed rays of a workload that brute force judges.
 const FEWEST: usize = 64;
 
-/// What is needed to check the answers in a scene.
+/// The inputs of the check in a scene.
 pub struct TimedCheck<'a> {
     pub scene: &'a Scene,
     pub workloads: &'a [Workload],
-    /// Epochs that are planned: each times rays of its own.
+    /// Planned epochs: each times other rays.
     pub epochs: usize,
-    /// Triangle tests that brute force may make for a workload, about.
+    /// Approximate limit of brute-force triangle tests per workload.
     pub tests: usize,
     references: Vec<TreeHits>,
 }
 
-/// The hits of a tree of this suite for rays of each workload.
+/// The hits of a tree of this suite for the rays of each workload.
 struct TreeHits {
     name: &'static str,
     triangle_test: &'static str,
-    /// The tree. A structure over its test must return its bits, others what exact arithmetic and rounding allow.
+    /// The tree. A structure over its triangle test must return its bits, any other structure must agree within exact
+    /// arithmetic and rounding.
     tree: Reference,
-    /// Judges differences: brute force over the structure's test, or over `exact` for a test of its own.
+    /// Judges differences: brute force over the structure's test, or over `exact` if the suite lacks this test.
     judge: Reference,
-    /// By workload and ray; nothing where it was not needed yet.
+    /// By workload and ray; `None` if not needed so far.
     hits: Vec<Vec<Option<Option<Hit>>>>,
 }
 
@@ -49,10 +50,10 @@ impl<'a> TimedCheck<'a> {
         Self { scene, workloads, epochs, tests, references: vec![] }
     }
 
-    /// Checks the hits on all rays that are timed, `rays` of them in an epoch; nothing if the structure panics.
+    /// Checks the hits on all timed rays, `rays` of them per epoch; `None` if the structure panics.
     ///
-    /// With the triangle test of the tree all bits must be those of the tree. Then the checksum of what was timed in the first
-    /// epoch is enough, and later epochs must repeat it.
+    /// With the triangle test of the tree, all bits must equal the tree's. Then the checksum of the timed hits of the
+    /// first epoch is enough, and later epochs must repeat it.
     ///
     /// # Errors
     /// If no tree can be built over the mesh.
@@ -85,7 +86,7 @@ impl<'a> TimedCheck<'a> {
         Ok(guarded(|| self.judged(built, &self.references[place], &chosen, &expected, &found)))
     }
 
-    /// The tree that answers over the same triangle test, or over `exact`, and is of another name.
+    /// The index of a tree over the same triangle test, or over `exact`, that has another name than the structure.
     fn reference(&mut self, built: &Built) -> Result<usize, BuildError> {
         let own_test = built.choice.triangle_test();
         let name = if built.choice.entry.name == "sah-bvh" { "sah-hybrid" } else { "sah-bvh" };
@@ -104,8 +105,8 @@ impl<'a> TimedCheck<'a> {
         Ok(self.references.len() - 1)
     }
 
-    /// What the structure gets wrong. The tree may be wrong itself, so brute force judges the rays on which they differ, or
-    /// as many of them as it can afford.
+    /// Judges the differences. The tree may be wrong itself, so brute force traces the disputed rays, or as many of
+    /// them as it can afford.
     fn judged(
         &self,
         built: &Built,
@@ -136,18 +137,18 @@ impl<'a> TimedCheck<'a> {
         let judged = Checked::from(&match found {
             QueryResults::Closest(found) => {
                 let found: Vec<Option<Hit>> = some.iter().map(|&index| found[index]).collect();
-                validate_answers(judge, &truth, mesh, &disputed, &found)
+                validate_hits(judge, &truth, mesh, &disputed, &found)
             }
             QueryResults::Any(found) => {
                 let found: Vec<bool> = some.iter().map(|&index| found[index]).collect();
-                validate_any_answers(judge, &truth, mesh, &disputed, &found, Some(built.accel.as_ref()))
+                validate_any_hits(judge, &truth, mesh, &disputed, &found, Some(built.accel.as_ref()))
             }
         });
         Checked { rays: rays.len(), rounded: checked.rounded + judged.rounded, ..judged }
     }
 }
 
-/// The rays of a workload that are timed in any of so many epochs where a sample has `rays` rays, by their positions.
+/// The indices of the rays of a workload that any of `epochs` epochs times, with `rays` rays per sample.
 fn timed(all: usize, rays: usize, epochs: usize) -> Vec<usize> {
     let level = level_of(all, rays).unwrap_or(0);
     let mut timed: Vec<usize> = (0..epochs.max(1)).flat_map(|epoch| tiles(all, level, epoch)).flatten().collect();
@@ -157,7 +158,7 @@ fn timed(all: usize, rays: usize, epochs: usize) -> Vec<usize> {
 }
 
 impl TreeHits {
-    /// The hits for these rays of a workload.
+    /// The hits of the tree for these rays of a workload.
     fn hits_of(&mut self, place: usize, workload: &Workload, wanted: &[usize]) -> Vec<Option<Hit>> {
         let hits = &mut self.hits[place];
         let missing: Vec<usize> = wanted.iter().copied().filter(|&index| hits[index].is_none()).collect();
@@ -168,7 +169,7 @@ impl TreeHits {
     }
 }
 
-/// The answers of a structure, which receives the rays as when it is timed; a program receives all of them at once.
+/// The hits of a structure, which receives the rays as in the timing; a runner receives all of them at once.
 fn traced(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> QueryResults {
     let chunk = if accel.remote().is_some() { rays.len().max(1) } else { TILE };
     let chunks = rays.par_chunks(chunk);

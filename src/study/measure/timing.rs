@@ -1,10 +1,9 @@
-//! Samples of many structures on many workloads: the one place where studies take time.
+//! Samples of many structures on many workloads: the only module of the studies that takes times.
 
 use super::built::Built;
 use super::guarded::Guarded;
 use super::pair::Pair;
 use super::ray_cost;
-use super::sample_failure::SampleFailure;
 use crate::measure::tiles::{last_level, rays_at};
 use crate::measure::{
     Allotment, Clock, Cost, CpuClock, Failure, Pass, RemotePass, SamplePlan, Samples, Stopwatch, SubsetSamples,
@@ -13,33 +12,43 @@ use crate::measure::{
 use crate::registry::Choice;
 use crate::scene::Workload;
 
-/// What a predicted sample may take, as a multiple of its share of the budget, before the clock gives it fewer rays.
+/// The maximum time of a predicted sample, as a multiple of its share of the budget, before the clock reduces its rays.
 const SLACK: u64 = 8;
 
+/// The reason why the samples of a case are invalid.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum SampleFailure {
+    /// The structure panicked, or the runner failed: a clause.
+    #[error("{0}")]
+    Ended(String),
+    #[error("it returns other hits when it traces the same rays again: the structure is not deterministic")]
+    Unsteady,
+}
+
 pub struct Timing<'a> {
-    /// The structures asked for.
+    /// The requested structures.
     pub choices: &'a [Choice],
-    /// Each of them, if it could be built.
+    /// The built structures, in the same order; `None` if a build failed.
     pub built: &'a [Option<&'a Built>],
-    /// None of them empty.
+    /// All workloads; none is empty.
     pub workloads: &'a [Workload],
     pub threads: &'a Threads,
     pub clock: &'a dyn Clock,
-    /// Whether the clock decides on how many rays each is timed, as it does for programs: a prediction may be far off.
+    /// Whether the clock decides how many rays a case is timed on, as for runners: a prediction may be far off.
     pub by_clock: bool,
 }
 
-/// What decides how much of cases is timed, and is the same in every epoch.
+/// The numbers of rays and samples of all cases, the same in every epoch.
 pub struct Allotted {
     cases: Vec<Pair>,
     pub allotment: Allotment,
 }
 
 impl Timing<'_> {
-    /// How many rays of each of `cases` are timed, and how often, by what their rays cost. What could not be built and
-    /// what is declined are among them: so an epoch in which a program fails decides the same for the others.
+    /// The number of rays and of samples of each of `cases`, from the cost of their rays. Failed builds and declined
+    /// workloads are included: so an epoch in which a program fails decides the same for all others.
     pub fn allot(&self, cases: &[Pair], plan: &SamplePlan) -> Allotted {
-        // Twins, structures of one label, take as many rays.
+        // Twins, which have the same label, take the same number of rays.
         let group = |case: &Pair| {
             let label = |structure: usize| &self.choices[structure].label;
             let alike =
@@ -53,11 +62,13 @@ impl Timing<'_> {
         Allotted { cases: cases.to_vec(), allotment: allot(&costs, plan) }
     }
 
-    /// Takes samples of as many rays as are allotted, of those cases that `is_timed` picks, interleaved, on a pinned thread where there
-    /// is one. The samples of any two structures on a workload, or those of a part of them, are of the same rays.
+    /// Takes interleaved samples on the allotted rays, of the cases for which `is_timed` returns true, on a pinned
+    /// thread if there is one. The samples of any two structures on a workload are on the same rays, or one has subsets
+    /// on the rays of the other.
     ///
-    /// What a ray costs a program is not known: its own clock may allot it fewer rays, in another epoch other ones. So it is timed, and
-    /// with it all others of its workload, on the next level as well: epochs have rays in common then.
+    /// The cost of a ray for a runner is unknown: its clock may allot it fewer rays, and other ones in another epoch.
+    /// So it and all other structures of its workload are also timed on the next level: epochs then have rays in
+    /// common.
     pub fn take(
         &self,
         allotted: &Allotted,
@@ -79,7 +90,7 @@ impl Timing<'_> {
         };
         let (mut passes, failures): (Vec<_>, Vec<_>) = timed.iter().map(pass).collect();
         let _pin = self.threads.pin();
-        // What others take of the core is no time of a pass.
+        // The time that other processes take of the core is not part of a pass.
         let own = CpuClock::of_thread(self.threads);
         let clock = own.as_ref().map_or(self.clock, |clock| clock as &dyn Clock);
 
@@ -113,7 +124,7 @@ impl Timing<'_> {
     }
 }
 
-/// What decides on which rays a case is timed.
+/// Determines the rays on which a case is timed.
 struct Of {
     workload: usize,
     /// Rays of the workload.
@@ -122,7 +133,7 @@ struct Of {
     is_by_clock: bool,
 }
 
-/// The samples of `case` before the first one, of its own rays and those of each slower one of its workload.
+/// The samples of `case` before the first one: on its own rays and on the rays of each slower case of its workload.
 fn none(case: &Of, cases: &[Of]) -> Samples {
     let own = Samples::none(case.all, case.level);
     let mut fewer = vec![];
@@ -135,7 +146,7 @@ fn none(case: &Of, cases: &[Of]) -> Samples {
     fewer.retain(|&rays| rays < own.rays);
     fewer.sort_unstable_by(|a, b| b.cmp(a));
     fewer.dedup();
-    // Whatever rays it is timed on, its answers to the same ones are kept.
+    // Keep its hits on one fixed set of rays, regardless of the timed ones.
     let asked = if case.is_by_clock { Some(pilot_level(case.all)) } else { own.asked };
     Samples { asked, parts: fewer.into_iter().map(|rays| SubsetSamples { rays, ns: vec![] }).collect(), ..own }
 }
@@ -144,7 +155,7 @@ fn none(case: &Of, cases: &[Of]) -> Samples {
 mod tests {
     use super::*;
 
-    /// The rays of the parts of cases on two workloads.
+    /// The sizes of the subsets of cases on two workloads.
     fn parts(cases: &[(usize, usize, bool)]) -> Vec<Vec<usize>> {
         let of =
             |&(workload, level, is_by_clock): &(usize, usize, bool)| Of { workload, all: 65_536, level, is_by_clock };
@@ -162,7 +173,7 @@ mod tests {
     fn a_program_and_all_that_it_is_compared_with_are_timed_on_the_next_level_as_well() {
         let cases = [(0, 0, false), (0, 1, true), (0, 3, false), (1, 0, false)];
         assert_eq!(parts(&cases), [vec![16_384, 4096, 1024], vec![4096, 1024], vec![], vec![]]);
-        // At the last level there is no next one.
+        // The last level has no next one.
         assert_eq!(parts(&[(0, 0, false), (0, 5, true)]), [vec![64], vec![]]);
         let program = Of { workload: 0, all: 65_536, level: 1, is_by_clock: true };
         assert_eq!(none(&program, &[]).asked, Some(5));

@@ -1,4 +1,4 @@
-//! What is found again of the report.
+//! The findings: how much of the report is reproduced.
 
 use super::original::{CROWDED, DEFAULT, MAIN};
 use super::replication::{BRUTE, Replicated, mean};
@@ -9,14 +9,15 @@ use crate::report::words::{interval, listed, slug};
 use crate::study::claims::CLAIMS;
 use crate::study::kendall::Order;
 
-/// How much faster the SAH tree is, whether the rays are the report's, and the numbers that claims are about.
+/// The speedup by the SAH tree, whether the rays are the report's, and the numbers of the claims.
 pub fn findings(main: &[Replicated], hard: &[Replicated]) -> Vec<Finding> {
     let mut findings: Vec<Finding> = [faster(hard), rays(main)].into_iter().flatten().collect();
     let number =
         |key: &str, own: &Replicated, value| Finding::number(format!("{key}-{}", slug(own.report.scene)), value);
     findings.extend(hard.iter().map(|own| number("hard", own, own.faster())));
     let difference = |own: &Replicated| Estimate::exact(own.total() as f64 - own.report.rays as f64);
-    let theirs = main.iter().filter(|own| own.report.scene != OWN);
+    // The creatures of Starters must not be copied: this project made its own, with other rays.
+    let theirs = main.iter().filter(|own| own.report.scene != "Starters");
     findings.extend(theirs.map(|own| number("rays", own, difference(own))));
     findings.extend(t_prime(main).map(|factor| Finding::number("t-prime", factor)));
     findings.extend(order(main));
@@ -37,17 +38,13 @@ fn faster(hard: &[Replicated]) -> Option<Finding> {
         () if mean.holds(1.0) => "cannot be told to be faster or slower with the SAH tree than with",
         () => "are slower with the SAH tree than with",
     };
-    let (scenes, mean_text) = (listed(&scenes), interval(mean));
-    let sentence =
-        format!("Primary rays {told} the report's tree, by this much: {scenes}; geometric mean {mean_text}.");
-    Some(Finding::new("hard", sentence).of(mean))
+    let (scenes, times) = (listed(&scenes), interval(mean));
+    let sentence = format!("Primary rays {told} the report's tree, by this much: {scenes}; geometric mean {times}.");
+    Some(Finding::new("hard", sentence).with_value(mean))
 }
 
-/// So many rays may be decided otherwise at edges.
+/// The number of rays that may be decided differently at edges.
 const CLOSE: u64 = 2;
-
-/// Its creatures must not be copied: its rays are our own.
-const OWN: &str = "Starters";
 
 fn rays(main: &[Replicated]) -> Option<Finding> {
     let off = |own: &Replicated| own.total().abs_diff(own.report.rays);
@@ -61,7 +58,7 @@ fn rays(main: &[Replicated]) -> Option<Finding> {
     (!main.is_empty()).then(|| Finding::new("rays", sentence))
 }
 
-/// The largest `t'` of brute force over the smallest, of all scenes.
+/// Over all scenes, the largest `t'` of brute force / the smallest.
 fn t_prime(main: &[Replicated]) -> Option<Estimate> {
     let all: Vec<Estimate> = main.iter().filter_map(|own| own.t_prime(BRUTE)).collect();
     let by_size = |one: &&Estimate, other: &&Estimate| one.estimate.total_cmp(&other.estimate);
@@ -69,10 +66,10 @@ fn t_prime(main: &[Replicated]) -> Option<Estimate> {
     (all.len() == MAIN.len()).then(|| most.over(*least))
 }
 
-/// The scenes by falling improvement, as expected; the first two are not told apart.
+/// The scenes in the expected order, the largest improvement first; the first two are not compared.
 const ORDER: &str = "Torus Sphere Teapot Metallic Cornellbox Starters Billards Infinitycandy Cube";
 
-/// How well the improvements have the order that was expected of them, and what surely has not: about all scenes.
+/// How well the improvements have the expected order, and the scenes significantly out of order: for all scenes.
 fn order(main: &[Replicated]) -> Option<Finding> {
     let improvement = |name: &str| main.iter().find(|own| own.report.scene == name)?.improvement();
     let names: Vec<&str> = ORDER.split(' ').collect();
@@ -81,5 +78,5 @@ fn order(main: &[Replicated]) -> Option<Finding> {
     let reversed = order.reversed.iter().map(|&[more, less]| [names[more], names[less]].join(" gains less than "));
     let reversed = listed(&reversed.collect::<Vec<_>>());
     let told = format!("Clearly not in the expected order: {reversed}.");
-    Some(Finding::new("order", if reversed.is_empty() { String::new() } else { told }).of(order.tau))
+    Some(Finding::new("order", if reversed.is_empty() { String::new() } else { told }).with_value(order.tau))
 }

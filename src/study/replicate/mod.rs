@@ -1,7 +1,7 @@
-//! `replicate`: the source report's tables measured again, and the claim it ends with put to the test.
+//! `replicate`: measures the source report's tables again, and tests its conclusion.
 //!
-//! The report times all rays of a picture, construction left out, on a machine of its own: seconds can be compared with
-//! its seconds only in their ratios. `t'` is seconds / (rays x triangles).
+//! The report times all rays of a picture, without construction, on its own machine: only ratios of seconds can be
+//! compared with it. `t'` is seconds / (rays x triangles).
 
 mod findings;
 mod original;
@@ -32,11 +32,11 @@ pub const STUDY: Study = Study {
     report,
 };
 
-// Claims are judged by these numbers, all of them together: few epochs leave what is sure to luck.
+// These numbers decide all claims together: with few epochs a significant result would depend on luck.
 type Options = Measuring<8, 3, 5>;
 
-/// Tells where secondary rays start: over a triangle test in single precision, as the report's program has one. The
-/// exact test decides edges otherwise, and with them a few rays.
+/// The structure whose hits are the origins of secondary rays. Its triangle test is in single precision, as in the
+/// report's program. The exact test decides edges differently, which changes a few rays.
 const GUIDE: &str = "sah-kd:test=moller-trumbore";
 
 fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
@@ -48,9 +48,8 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     let planned = |(own, row): (&(OsString, Scene), &&Row)| {
         let (workloads, table) =
             if row.is_hard() { (WorkloadRequest::PrimaryPicture, "hard") } else { (WorkloadRequest::Picture, "main") };
-        let counted = [DEFAULT, CROWDED.1].iter().filter(|_| row.scene == CROWDED.0);
-        let whole_counts = counted.map(SweepRow::spec).collect();
-        let settings = Settings { whole_counts, ..settings.clone() };
+        let counted = if row.scene == CROWDED.0 { &[DEFAULT, CROWDED.1][..] } else { &[] };
+        let settings = Settings { whole_counts: counted.iter().map(SweepRow::spec).collect(), ..settings.clone() };
         let structures = structures(registry, row)?;
         let planned = PlannedScene::new(own, &structures, &workloads, &settings, measuring.epochs.into());
         anyhow::Ok(planned.labelled("table", table))
@@ -59,7 +58,6 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     Ok(Plan::by_epoch(STUDY.name, &planned).noting(scenes.iter().map(|(_, scene)| scene)))
 }
 
-/// The structures of a scene, in their roles.
 fn structures(registry: &Registry, row: &Row) -> anyhow::Result<Vec<StructureRequest>> {
     let first = if row.is_hard() { (REPORT_TREE, TREE) } else { (BRUTE_FORCE, BRUTE) };
     let mut roles = [first, (SAH_TREE, SAH)].map(|(spec, role)| (spec.to_owned(), role.to_owned())).to_vec();

@@ -1,21 +1,20 @@
-//! The numbers that the report prints, as facts: its machine, its code, single runs.
+//! The numbers in the report: its machine, its code, single runs.
 
 use crate::request::REPORT_TREE;
 
-/// A scene of the report's tables.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
     pub scene: &'static str,
     pub triangles: usize,
-    /// All rays of the picture; on a hard scene the primary rays alone.
+    /// All rays of the picture; on a hard scene only the primary rays.
     pub rays: u64,
     /// Seconds with the tree (L = 100, T = 0.7), without its construction.
     pub tree_s: f64,
-    /// Of an easy or normal scene: seconds with every ray tested against every triangle, and `improvement` as printed;
-    /// that of Teapot should be 23.776.
+    /// Only for an easy or normal scene: seconds with every ray tested against every triangle, and `improvement` as
+    /// printed; for Teapot it should be 23.776.
     pub brute_s: Option<f64>,
     pub improvement: Option<f64>,
-    /// Of a hard scene: seconds of the construction.
+    /// Only for a hard scene: seconds of the construction.
     pub build_s: Option<f64>,
 }
 
@@ -28,7 +27,6 @@ const fn hard(scene: &'static str, triangles: usize, tree_s: f64, build_s: f64) 
     Row { scene, triangles, rays: 512 * 512, tree_s, brute_s: None, improvement: None, build_s: Some(build_s) }
 }
 
-/// The easy and normal scenes.
 pub const MAIN: [Row; 9] = [
     main("Cube", 12, 282_793, [0.522, 0.467], 0.894),
     main("Sphere", 1280, 287_756, [1.171, 33.078], 28.247),
@@ -41,14 +39,13 @@ pub const MAIN: [Row; 9] = [
     main("Starters", 4480, 776_648, [47.746, 440.416], 9.224),
 ];
 
-/// The hard scenes.
 pub const HARD: [Row; 3] = [
     hard("Dragon", 130_862, 221.1635, 2.863),
     hard("Lucy", 275_694, 372.482, 4.488),
     hard("Sponza", 174_840, 239.7165, 3.628),
 ];
 
-/// A setting of the report's tree and its seconds on the scenes of [`MAIN`], in their order.
+/// A setting of the report's tree and its seconds on the scenes of [`MAIN`], in order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SweepRow {
     /// L: a node with fewer triangles is a leaf.
@@ -58,9 +55,9 @@ pub struct SweepRow {
     pub seconds: [f64; 9],
 }
 
-/// The report's sweep; its columns Teapot and Torus are swapped in print and stand right here.
+/// The report's sweep; its columns Teapot and Torus are swapped in print and correct here.
 ///
-/// The setting of the main table, 100 / 0.7, comes back with other seconds: both are single runs.
+/// The setting of the main table, 100 / 0.7, has other seconds here: both are single runs.
 pub const SWEEP: [SweepRow; 6] = [
     sweep(25, 0.4, [0.527, 1.405, 2.734, 6.897, 138.3193, 54.305, 65.218, 57.408, 50.229]),
     sweep(50, 0.5, [0.543, 1.319, 3.157, 7.730, 132.452, 45.076, 61.802, 54.773, 46.709]),
@@ -70,11 +67,11 @@ pub const SWEEP: [SweepRow; 6] = [
     sweep(150, 0.9, [0.522, 1.3248, 2.697, 7.637, 101.9409, 52.054, 61.10, 61.996, 61.777]),
 ];
 
-/// The setting of the main table, and of the structure where no other one is named.
+/// The setting of the main table, and the default of the structure.
 pub const DEFAULT: SweepRow = SWEEP[4];
 
-/// The scene in which all triangles crowd in one place, and the setting that was expected to make more tests there than
-/// brute force.
+/// The scene in which all triangles are in one place, and the setting for which the claim expects more tests than brute
+/// force.
 pub const CROWDED: (&str, SweepRow) = ("Infinitycandy", SWEEP[2]);
 
 const fn sweep(leaf: u32, threshold: f32, seconds: [f64; 9]) -> SweepRow {
@@ -82,7 +79,7 @@ const fn sweep(leaf: u32, threshold: f32, seconds: [f64; 9]) -> SweepRow {
 }
 
 impl SweepRow {
-    /// `100 / 0.7`: what tables and roles call it.
+    /// `100 / 0.7`: the name in tables and roles.
     pub fn role(&self) -> String {
         format!("{} / {}", self.leaf, self.threshold)
     }
@@ -92,7 +89,7 @@ impl SweepRow {
         MAIN.iter().position(|row| row.scene == scene).map(|place| self.seconds[place])
     }
 
-    /// The structure, as the registry labels it.
+    /// The label of the structure in the registry.
     pub fn spec(&self) -> String {
         if *self == DEFAULT {
             return REPORT_TREE.into();
@@ -106,7 +103,7 @@ impl Row {
         self.build_s.is_some()
     }
 
-    /// `t'` of so many of the report's seconds: seconds / (rays x triangles).
+    /// `t'` for the report's seconds: seconds / (rays x triangles).
     pub fn t_prime(&self, seconds: f64) -> f64 {
         seconds / (self.rays as f64 * self.triangles as f64)
     }
@@ -120,7 +117,7 @@ mod tests {
     fn the_printed_improvements_follow_from_the_seconds() {
         for row in &MAIN {
             let (brute_s, improvement) = row.brute_s.zip(row.improvement).unwrap();
-            // Teapot is printed wrong in the last two digits; the others are cut or rounded.
+            // The last two digits of Teapot are a misprint; all others are truncated or rounded.
             let tolerance = if row.scene == "Teapot" { 0.0045 } else { 0.0011 };
             assert!((brute_s / row.tree_s - improvement).abs() < tolerance, "{row:?}");
         }

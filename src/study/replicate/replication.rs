@@ -1,4 +1,4 @@
-//! The report's scenes as they were measured.
+//! The measured scenes of the report.
 
 use super::original::{DEFAULT, HARD, MAIN, Row};
 use crate::accel::Query;
@@ -7,13 +7,12 @@ use crate::request::TWIN;
 use crate::study::whole_times::WholeTimes;
 use crate::study::{Dataset, Epoch};
 
-/// Roles of structures. The settings of the sweep have [roles](original::SweepRow::role) of their own.
+/// Roles of structures. The settings of the sweep have their own [roles](original::SweepRow::role).
 pub const BRUTE: &str = "brute force";
 pub const SAH: &str = "sah";
-/// The report's tree. On an easy scene it is one of the sweep, by whose role it goes there.
+/// The report's tree. On an easy scene it is a setting of the sweep and has the role of that setting.
 pub const TREE: &str = "tree";
 
-/// A scene of the report, ours beside its own.
 pub struct Replicated<'a> {
     pub report: &'static Row,
     epochs: Vec<&'a Epoch>,
@@ -29,18 +28,15 @@ pub fn replicated(dataset: &Dataset) -> Vec<Replicated<'_>> {
     MAIN.iter().chain(&HARD).flat_map(of).collect()
 }
 
-/// How many times faster the SAH tree is: the geometric mean over the hard scenes, so far as they are measured.
+/// Speedup by the SAH tree: the geometric mean over the measured hard scenes.
 pub fn mean(hard: &[Replicated]) -> Option<Estimate> {
     let ratios = |other: &str| hard.iter().map(|own| own.log_ratios(other)).collect::<Vec<_>>();
     let noise = AaNoise::new(&ratios(TWIN)).of_mean(hard.len());
     let mut ratios = ratios(SAH);
-    // What is not measured to its end has scenes that lack an epoch.
+    // After an interrupted run some scenes lack an epoch.
     cut_to_shared_epochs(&mut ratios);
     Some(Rerun::of(&epoch_values(&ratios)?, noise)?.ratio())
 }
-
-/// Pixels of the report's pictures, each with one primary ray.
-const PIXELS: u64 = 512 * 512;
 
 impl Replicated<'_> {
     pub fn first(&self) -> &Epoch {
@@ -54,7 +50,8 @@ impl Replicated<'_> {
             asked.map(|rays| rays.all as u64).sum::<u64>()
         };
         let closest = all(Query::Closest);
-        let primary = closest.min(PIXELS);
+        // Each pixel has one primary ray.
+        let primary = closest.min(512 * 512);
         [primary, closest - primary, all(Query::Any)]
     }
 
@@ -70,7 +67,7 @@ impl Replicated<'_> {
         WholeTimes { epochs: &self.epochs }
     }
 
-    /// ln of the time of the report's tree over that of another structure, in each epoch.
+    /// ln(time of the report's tree / time of another structure), by epoch.
     fn log_ratios(&self, other: &str) -> Vec<Vec<f64>> {
         self.times().log_ratios(&self.role(TREE), other)
     }
@@ -91,32 +88,31 @@ impl Replicated<'_> {
         Some(self.seconds(role)?.map(|seconds| seconds / rays_and_triangles))
     }
 
-    /// Whether a part of the rays was timed and stands for all.
+    /// Whether only a subset of the rays was timed.
     pub fn is_sampled(&self, role: &str) -> Option<bool> {
-        let structure = self.first().in_role(&self.role(role))?;
-        Some(structure.rays.iter().any(|rays| rays.rays < rays.all))
+        Some(self.first().in_role(&self.role(role))?.rays.iter().any(|rays| rays.rays < rays.all))
     }
 
-    /// Seconds of the build, median over the epochs.
+    /// Build time in seconds, the median over the epochs.
     pub fn build_s(&self, role: &str) -> Option<f64> {
         let role = self.role(role);
         let builds = self.epochs.iter().filter_map(|epoch| epoch.in_role(&role)).map(|own| own.build_ns as f64);
         Some(median(&builds.collect::<Vec<_>>())? * 1e-9)
     }
 
-    /// Triangle tests for each ray and triangle; nothing where they are not counted.
+    /// Triangle tests per ray and triangle; `None` if not counted.
     pub fn tests(&self, role: &str) -> Option<f64> {
         let structure = self.first().in_role(&self.role(role))?;
         let tests: u64 = structure.rays.iter().map(|rays| rays.counts?.whole_tests).sum::<Option<_>>()?;
         Some(tests as f64 / (self.total() as f64 * self.first().triangles as f64))
     }
 
-    /// Seconds with every ray against every triangle / seconds with the report's tree; nothing on hard scenes.
+    /// Seconds with every ray against every triangle / seconds with the report's tree; `None` on hard scenes.
     pub fn improvement(&self) -> Option<Estimate> {
         (!self.report.is_hard()).then(|| self.times().ratio(BRUTE, &self.role(TREE), &self.noise()))
     }
 
-    /// Seconds with the report's tree / seconds with the SAH tree: how many times faster SAH is.
+    /// Seconds with the report's tree / seconds with the SAH tree.
     pub fn faster(&self) -> Estimate {
         self.times().ratio(&self.role(TREE), SAH, &self.noise())
     }

@@ -8,7 +8,7 @@ use crate::report::{Cell, Table, Value};
 pub fn tables(all: &[Replicated], main: &[Replicated], hard: &[Replicated]) -> Vec<Table> {
     let note = "~: extrapolated from a subset of the rays. improvement: brute-force / median-kd; times faster: \
                 median-kd / sah-kd; both from times of one round.";
-    let easy = table("Seconds for all rays, without construction", main, &SECONDS).noted(vec![note.into()]);
+    let easy = table("Seconds for all rays, without construction", main, &SECONDS).noted([note]);
     let hard = table("Hard scenes: seconds for the primary rays, without construction", hard, &SECONDS);
     let t_primes = table("t' = seconds / (rays x triangles)", all, &T_PRIMES);
     let all = [rays(all), easy, t_primes, settings(main), hard];
@@ -30,19 +30,19 @@ fn rays(all: &[Replicated]) -> Table {
             ("difference", &|own| difference(own).into()),
         ],
     )
-    .noted(vec![
-        "Hard scenes: primary rays only, as in the report. Starters uses our own creatures, so its rays differ.".into(),
-        "Secondary rays start at the hits of a single-precision triangle test, as in the report's program.".into(),
+    .noted([
+        "Hard scenes: primary rays only, as in the report. Starters uses our own creatures, so its rays differ.",
+        "Secondary rays start at the hits of a single-precision triangle test, as in the report's program.",
     ])
 }
 
-/// Seconds with the structure in this role, marked where a part of the rays stands for all.
+/// Seconds with the structure in this role, marked if only a subset of the rays was timed.
 fn seconds(own: &Replicated, role: &str) -> Cell {
     let seconds = own.seconds(role).map(|seconds| seconds.estimate);
     Cell::from(seconds).sampled(own.is_sampled(role) == Some(true))
 }
 
-/// Ours beside the report's: above the column, its name in tables for programs, and what it says of a scene.
+/// A column beside the report's: its heading, its name in CSV tables, and its cell for a scene.
 type ReplicatedColumn = (&'static str, &'static str, fn(&Replicated) -> Cell);
 
 const SECONDS: [ReplicatedColumn; 12] = [
@@ -68,7 +68,7 @@ const T_PRIMES: [ReplicatedColumn; 5] = [
     ("sah-kd", "sah_t_prime", |own| own.t_prime(SAH).into()),
 ];
 
-/// What no scene of these has is left out.
+/// A column that is empty for all of these scenes is left out.
 fn table(title: &str, scenes: &[Replicated], columns: &[ReplicatedColumn]) -> Table {
     let mut table = Table::of(title, scenes, &[("scene", &|own| own.first().title().into())]);
     columns.iter().for_each(|(name, _, cell)| table.push_column(*name, scenes.iter().map(cell)));
@@ -81,18 +81,14 @@ fn settings(main: &[Replicated]) -> Table {
         table.push_column(setting.role(), main.iter().map(|own| seconds(own, &setting.role())));
         table.push_column("report", main.iter().map(|own| setting.of(own.report.scene).into()));
     }
-    table.noted(vec![
-        "Leaf limit / match threshold. The report's figures of Teapot and Torus are swapped in print and corrected \
-         here."
-            .into(),
-    ])
+    let note = "Leaf limit / match threshold. The report's figures of Teapot and Torus are swapped in print and corrected \
+                here.";
+    table.noted([note])
 }
 
-/// One row for each scene.
 pub fn data(all: &[Replicated]) -> Table {
     let mut table = rays(all).without_columns(&["difference"]);
-    let columns = SECONDS.iter().chain(&T_PRIMES);
-    columns.for_each(|(_, name, cell)| table.push_column(*name, all.iter().map(cell)));
+    SECONDS.iter().chain(&T_PRIMES).for_each(|(_, name, cell)| table.push_column(*name, all.iter().map(cell)));
     table.push_column("brute_force_build_s", all.iter().map(|own| own.build_s(BRUTE).into()));
     for (name, role) in [("tree", TREE), ("brute_force", BRUTE), ("sah", SAH)] {
         table.push_column(format!("{name}_sampled"), all.iter().map(|own| own.is_sampled(role).into()));

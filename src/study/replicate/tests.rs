@@ -1,4 +1,4 @@
-//! Tables and findings from epochs whose truth is known.
+//! Checks tables and findings on epochs with known times.
 
 use super::*;
 use crate::accel::Query;
@@ -7,8 +7,8 @@ use crate::study::epoch::Rays;
 use crate::study::epoch::tests::{example, rays};
 use crate::study::{Measured, case};
 
-/// Epochs of a scene of 100 triangles whose structures in these roles take so many nanoseconds for each of 1000
-/// closest-hit rays and of 500 shadow rays, in rounds of which one is slow.
+/// Epochs of a scene of 100 triangles. The structures in these roles take the given nanoseconds for each of 1000
+/// closest-hit rays and of 500 shadow rays; one of the rounds is slow.
 fn scene(name: &str, epochs: usize, roles: &[(&str, u64)]) -> Vec<Measured> {
     let one = |number: usize| {
         let ns: Vec<Vec<u64>> = roles.iter().map(|(_, t)| [1000, 1300, 1000].map(|round| round * t).into()).collect();
@@ -29,7 +29,7 @@ fn hard(name: &str, epochs: usize, [tree, sah, twin]: [u64; 3]) -> Vec<Measured>
     scene(name, epochs, &[(TREE, tree), (SAH, sah), (TWIN, twin)])
 }
 
-/// An easy scene in which brute force takes so many times as long as the report's tree.
+/// An easy scene in which brute force takes `improvement` x as long as the report's tree.
 fn main(name: &str, improvement: u64) -> Vec<Measured> {
     let roles: Vec<String> = SWEEP.iter().map(|row| row.role()).collect();
     let mut times = vec![(BRUTE, 300 * improvement), (SAH, 10)];
@@ -67,7 +67,7 @@ fn the_conclusion_is_the_mean_of_the_hard_scenes() {
     assert!(report.tables().chain([&report.data]).all(|t| t.rows.iter().all(|row| row.len() == t.columns.len())));
     assert!(of(vec![]).blocks.len() == 1 && of(vec![]).findings.is_empty(), "nothing is measured");
 
-    // It is of the epochs that all hard scenes have.
+    // Only the epochs that all hard scenes have count.
     let cut = of(vec![hard("Dragon", 2, [800, 100, 800]), hard("Lucy", 1, [200, 100, 200])]);
     let mean = value(&cut, "hard").unwrap();
     assert!((mean.estimate - 4.0).abs() < 1e-9 && mean.interval.is_none(), "{mean:?}");
@@ -84,8 +84,8 @@ fn what_is_said_of_the_hard_scenes_is_what_was_found() {
         let sentence = report.sentences().next().unwrap();
         assert!(sentence.starts_with(told), "{sentence}");
     }
-    // Twins that cannot be told apart widen the interval: both runs have the noise of one A/A ratio in three epochs,
-    // and t is 4.303.
+    // Indistinguishable twins widen the interval: both runs have the noise of one A/A ratio in three epochs, and t is
+    // 4.303.
     let width = |twin: u64| {
         let faster = value(&of(vec![hard("Sponza", 3, [800, 100, twin])]), "hard-sponza").unwrap();
         libm::log(faster.high().unwrap() / faster.low().unwrap())
@@ -116,7 +116,7 @@ fn an_easy_scene_has_its_improvement_its_sweep_and_its_rays() {
 
 #[test]
 fn claims_about_all_scenes_are_judged_with_all_scenes() {
-    // As expected, but for Cube, which gains more than Infinitycandy and all others.
+    // As expected, except for Cube, which gains more than all other scenes.
     let gains = [90, 50, 60, 40, 3, 9, 2, 20, 6];
     let mut scenes: Vec<Vec<Measured>> = MAIN.iter().zip(gains).map(|(row, gain)| main(row.scene, gain)).collect();
     for Measured { epoch, .. } in &mut scenes[6] {
@@ -130,7 +130,7 @@ fn claims_about_all_scenes_are_judged_with_all_scenes() {
     let exact = |x: f64| Some(Estimate::exact(x));
     assert_eq!((value(&report, "crowded"), value(&report, "crowded-50")), (exact(1.0), exact(2.4)));
     assert!((value(&report, "t-prime").unwrap().estimate - 45.0).abs() < 1e-9);
-    // Of 35 couples, the eight with Cube are against the order.
+    // In eight of 35 couples, those with Cube, the order is reversed.
     let order = value(&report, "order").unwrap();
     assert!((order.estimate - (1.0 - 16.0 / 35.0)).abs() < 1e-12, "{order:?}");
     let told = &report.finding("order").unwrap().sentence;

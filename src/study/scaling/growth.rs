@@ -1,48 +1,47 @@
-//! Powers of the number of triangles, fitted to what was measured.
+//! Powers of the number of triangles, fitted to the measurements.
 
-use crate::measure::{AaNoise, Estimate, Rerun, Variance};
+use crate::measure::{self, AaNoise, Estimate, Rerun, Variance, factor};
 use crate::report::words::each_once;
 use crate::study::Dataset;
-use crate::study::least_squares;
 use crate::study::measurement::{Measurement, build_noise, measurements, of_scene, trace_noise};
 
-/// Labels of a case: what its mesh belongs to, and the level of an icosphere.
+/// Labels of a case: the family of its mesh, and the level of an icosphere.
 pub const FAMILY: &str = "family";
 pub const LEVEL: &str = "level";
 
-/// One sphere, divided more and more finely.
+/// One sphere at several subdivision levels.
 pub const SPHERES: &str = "icospheres";
 
 /// Different meshes.
 pub const MESHES: &str = "meshes";
 
-/// Triangles of the icosphere of level 8.
+/// The number of triangles of the icosphere of level 8.
 pub const LEVEL_8: usize = 20 << 16;
 
-/// How one structure grows on one family and one workload.
+/// The growth of one structure on one family and one workload.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Growth {
     pub family: &'static str,
-    /// As chosen.
+    /// The name, with the keys that differ from their defaults.
     pub label: String,
     pub workload: String,
-    /// From the fewest triangles to the most.
+    /// By number of triangles.
     pub points: Vec<Point>,
-    /// Time a ray grows like this power of the number of triangles. Nothing with fewer than three meshes of more than
-    /// one leaf.
+    /// The exponent with which time per ray grows with the number of triangles. `None` with fewer than three meshes of
+    /// more than one leaf.
     pub time: Option<Estimate>,
-    /// Likewise over the meshes of at most [`LEVEL_8`] triangles: what a claim about these is judged by.
+    /// The same exponent over the meshes of at most [`LEVEL_8`] triangles, which the claims are about.
     pub time_to_level_8: Option<Estimate>,
-    /// Half of the 95 % interval that this power would have by the scatter of the meshes about it alone, were they
-    /// drawn from a family at random.
+    /// Half the width of the 95 % interval of the exponent if it came only from the scatter of the meshes, as if they
+    /// were drawn from a family at random.
     pub scatter: Option<f64>,
-    /// Likewise the build.
+    /// The exponent of the build time.
     pub build: Option<Estimate>,
-    /// Likewise memory.
+    /// The exponent of the memory.
     pub bytes: Option<Estimate>,
-    /// Likewise triangle tests a ray, which no machine changes.
+    /// The exponent of triangle tests per ray, which are the same on every machine.
     pub tests: Option<Estimate>,
-    /// Likewise nodes and leaves entered.
+    /// The exponent of nodes and leaves entered per ray.
     pub steps: Option<Estimate>,
 }
 
@@ -55,7 +54,7 @@ pub struct Point {
 }
 
 impl Point {
-    /// Nothing where there is no time.
+    /// `None` without a time.
     fn new(measurement: Measurement) -> Option<Self> {
         let mean = |logs: Vec<f64>| libm::exp(logs.iter().sum::<f64>() / logs.len() as f64);
         let (ns_per_ray, build_ns) = (mean(measurement.log_paces()?), mean(measurement.log_builds()));
@@ -66,7 +65,7 @@ impl Point {
         self.measurement.triangles
     }
 
-    /// Whether it takes part in the fit: the structure has more than one leaf.
+    /// Whether it is part of the fit: the structure has more than one leaf.
     pub fn is_fitted(&self) -> bool {
         self.measurement.shape.leaves > 1
     }
@@ -76,8 +75,8 @@ impl Point {
     }
 }
 
-/// The growth of every structure. The intervals hold what another run finds of these meshes; how well a power describes
-/// them is told by their scatter about it.
+/// The growth of every structure. The intervals predict another run on these meshes; the scatter describes how well a
+/// power fits them.
 pub fn growths(dataset: &Dataset) -> Vec<Growth> {
     let all = measurements(dataset);
     let noise = Noise { trace: trace_noise(&all), build: build_noise(&all) };
@@ -106,14 +105,14 @@ struct Noise {
     build: AaNoise,
 }
 
-/// That of the points of one structure and one workload, from the fewest triangles to the most.
+/// The growth over the points of one structure and one workload, ordered by number of triangles.
 fn growth(family: &'static str, points: Vec<Point>, noise: &Noise) -> Growth {
     let fitted: Vec<&Point> = points.iter().filter(|point| point.is_fitted()).collect();
     let coarser: Vec<&Point> = fitted.iter().copied().filter(|point| point.triangles() <= LEVEL_8).collect();
     let measured = |points: &[&Point], logs: fn(&Measurement) -> Option<Vec<f64>>, noise: &AaNoise| {
         power(points, &logs, |weights| noise.weighted(weights)).map(|rerun| rerun.plain())
     };
-    // Counts and bytes do not vary.
+    // Counts and bytes have no variance.
     let counted = |value: fn(&Measurement) -> Option<f64>| {
         let log = |own: &Measurement| value(own).filter(|&x| x > 0.0).map(|x| vec![libm::log(x)]);
         power(&fitted, &log, |_| Variance::NONE).map(|rerun| Estimate::exact(rerun.plain().estimate))
@@ -126,7 +125,7 @@ fn growth(family: &'static str, points: Vec<Point>, noise: &Noise) -> Growth {
         workload: points[0].measurement.workload.clone(),
         time: measured(&fitted, Measurement::log_paces, &noise.trace),
         time_to_level_8: measured(&coarser, Measurement::log_paces, &noise.trace),
-        scatter: least_squares::scatter(&logs),
+        scatter: scatter(&logs),
         build: measured(&fitted, |own| Some(own.log_builds()), &noise.build),
         bytes: counted(|own| Some(own.shape.bytes as f64)),
         tests: counted(|own| own.tests_per_ray),
@@ -135,9 +134,9 @@ fn growth(family: &'static str, points: Vec<Point>, noise: &Noise) -> Growth {
     }
 }
 
-/// The slope of `value`, logarithms of each epoch, over the logarithm of the number of triangles; `noise` is what the
-/// A/A noise adds to a sum of them with these weights. Nothing where it is not known of every mesh, or of fewer than
-/// three.
+/// The slope of `value`, which are logarithms by epoch, over the logarithm of the number of triangles. `noise` is the
+/// variance that the A/A noise adds to a sum with these weights. `None` if a value is unknown, or with fewer than three
+/// meshes.
 fn power(
     points: &[&Point],
     value: &dyn Fn(&Measurement) -> Option<Vec<f64>>,
@@ -145,9 +144,51 @@ fn power(
 ) -> Option<Rerun> {
     let values: Vec<Vec<f64>> = points.iter().map(|point| value(&point.measurement)).collect::<Option<_>>()?;
     let places: Vec<f64> = points.iter().map(|point| libm::log(point.triangles() as f64)).collect();
-    let weights = least_squares::slope_weights(&places).filter(|weights| weights.len() > 2)?;
-    // Meshes are measured in the same epochs; of one that has more of them those that all have count.
+    let weights = slope_weights(&places).filter(|weights| weights.len() > 2)?;
+    // Meshes share their first epochs; ignore further epochs of some meshes.
     let epochs = values.iter().map(Vec::len).min()?;
     let slope = |e: usize| weights.iter().zip(&values).map(|(weight, logs)| weight * logs[e]).sum();
     Rerun::of(&(0..epochs).map(slope).collect::<Vec<f64>>(), noise(&weights))
+}
+
+/// The weights for which the slope over `x` is the weighted sum of the heights. `None` if all `x` are equal.
+fn slope_weights(x: &[f64]) -> Option<Vec<f64>> {
+    let mean = x.iter().sum::<f64>() / x.len() as f64;
+    let squares: f64 = x.iter().map(|x| (x - mean) * (x - mean)).sum();
+    (squares > 0.0).then(|| x.iter().map(|x| (x - mean) / squares).collect())
+}
+
+/// Half the width of the 95 % interval of the slope if points scatter about the line independently and identically
+/// (Student's t with n - 2 degrees of freedom). `None` with fewer than three points.
+fn scatter(points: &[(f64, f64)]) -> Option<f64> {
+    let freedom = points.len().checked_sub(2).filter(|&freedom| freedom > 0)? as f64;
+    let (x, y): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
+    let [mean_x, mean_y] = [&x, &y].map(|all| all.iter().sum::<f64>() / all.len() as f64);
+    let slope: f64 = slope_weights(&x)?.iter().zip(&y).map(|(weight, y)| weight * y).sum();
+    let squares: f64 = x.iter().map(|x| (x - mean_x) * (x - mean_x)).sum();
+    let off = points.iter().map(|(x, y)| y - mean_y - slope * (x - mean_x));
+    let rest: f64 = off.map(|off| off * off).sum();
+    Some(factor(freedom, measure::LEVEL) * libm::sqrt(rest / freedom / squares))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_is_found_where_points_lie_on_one() {
+        let points: Vec<(f64, f64)> = [1.0, 2.0, 5.0].map(|x| (x, 3.0 + 0.5 * x)).into();
+        assert!(scatter(&points).unwrap() < 1e-6);
+        assert_eq!((scatter(&points[..2]), slope_weights(&[1.0; 3])), (None, None));
+        let weights = slope_weights(&[1.0, 2.0, 5.0]).unwrap();
+        let sum: f64 = weights.iter().zip(&points).map(|(weight, point)| weight * point.1).sum();
+        assert!((sum - 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_scatter_of_a_slope_is_students() {
+        // Residuals 1, -2, 1 about y = 1 at x = -1, 0, 1: s^2 = 6, the error of the slope sqrt(6 / 2), t(1) = 12.706.
+        let points = [(-1.0, 2.0), (0.0, -1.0), (1.0, 2.0)];
+        assert!((scatter(&points).unwrap() - 12.706 * libm::sqrt(3.0)).abs() < 1e-3);
+    }
 }

@@ -1,9 +1,8 @@
 //! `scaling`: how do time, build and memory grow with the number of triangles?
 //!
-//! Icospheres of 20 to 16 million triangles, seen alike, so that nothing changes but how finely one surface is divided;
-//! and the meshes that are named, which differ in more than their number of triangles, so that their exponent says
-//! less. Powers are fitted to medians on logarithms, over the meshes on which the structure has more than one leaf: a
-//! single leaf is brute force.
+//! Icospheres of 20 to 16 million triangles from the same view: only the subdivision of the surface changes. The named
+//! meshes differ in more than their number of triangles, so their exponent is less meaningful. Powers are fitted to
+//! logarithms of medians, over the meshes on which the structure has more than one leaf: a single leaf is brute force.
 
 mod growth;
 mod section;
@@ -39,13 +38,13 @@ pub const STUDY: Study = Study {
 const STRUCTURES: [&str; 7] =
     ["median-kd", "sah-kd", "sah-kd-wide", "sah-hybrid", "sah-bvh", "obvhs-bvh2", "obvhs-cwbvh"];
 
-/// Epochs of meshes of more than [`LEVEL_8`] triangles, at most: the builds of the finest sphere alone take minutes in
-/// each.
+/// Maximum number of epochs for meshes of more than [`LEVEL_8`] triangles: the builds of the finest sphere take minutes
+/// per epoch.
 const EPOCHS_OF_FINEST: usize = 3;
 
 #[derive(Clone, Debug, clap::Args)]
 struct ScalingArgs {
-    // Beside the icospheres.
+    // In addition to the icospheres.
     #[command(flatten)]
     scenes: Scenes,
     /// Finest icosphere: level 0 has 20 triangles, each level four times as many, level 10 has 16 million [default: the
@@ -56,12 +55,12 @@ struct ScalingArgs {
     structures: Structures,
     #[command(flatten)]
     rays: Rays,
-    // Claims are judged by these numbers, all of them together: few epochs leave what is sure to luck.
+    // These numbers decide all claims together: with few epochs a significant result would depend on luck.
     #[command(flatten)]
     measuring: Measuring<8, 3, 5>,
 }
 
-/// The finest level of which `fits` says that its triangles have room; the coarsest where none has.
+/// The finest level for whose number of triangles `fits` returns true; the coarsest if there is none.
 fn finest(fits: impl Fn(usize) -> bool) -> u32 {
     (0..=FINEST).rev().find(|&level| fits(triangles(level))).unwrap_or(0)
 }
@@ -71,7 +70,7 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     let structures = with_twin(args.structures.chosen(registry, &STRUCTURES)?);
     let workloads = args.rays.request(&[WorkloadKind::Primary, WorkloadKind::Random]);
     let settings = Settings { slowest: Some(SLOWEST), ..Settings::new(&args.measuring, registry)? };
-    // Before the spheres, for they may not be there.
+    // Before the spheres, because these meshes may be missing.
     let meshes = args.scenes.read(registry, &["dragon", "lucy", "sponza"])?;
     let finest = args.finest.unwrap_or_else(|| finest(|triangles| may_fit(structures.len(), triangles)));
     let spheres = Scenes { scenes: (0..=finest).map(|level| format!("icosphere:{level}").into()).collect() };

@@ -42,7 +42,7 @@ const MEMORY: Quantity = Quantity {
     power: |growth| growth.bytes,
 };
 
-/// How the time of a primary ray grows on the spheres with the report's tree and with the SAH tree.
+/// The growth of the time of a primary ray on the spheres, with the report's tree and with the SAH tree.
 pub fn findings(growths: &[Growth]) -> Vec<Finding> {
     let of = |label: &str| {
         let primary = WorkloadKind::Primary.name();
@@ -61,8 +61,8 @@ pub fn findings(growths: &[Growth]) -> Vec<Finding> {
     let sentence = format!("On one sphere of n triangles the time of a primary ray grows like {}.", listed(&powers));
     let first = both.iter().find_map(|(_, growth)| growth.as_ref()?.time);
     let mut findings: Vec<Finding> =
-        first.map(|power| Finding::new("spheres", sentence).of(power)).into_iter().collect();
-    // Claims are about spheres up to level 8: coarser ones alone judge none.
+        first.map(|power| Finding::new("spheres", sentence).with_value(power)).into_iter().collect();
+    // The claims are about spheres up to level 8: coarser spheres cannot decide them.
     let claimed = both.iter().filter_map(|(key, growth)| {
         let growth = growth.filter(|growth| growth.points.iter().any(|point| point.triangles() >= LEVEL_8))?;
         Some(Finding::number(*key, growth.time_to_level_8?))
@@ -71,7 +71,7 @@ pub fn findings(growths: &[Growth]) -> Vec<Finding> {
     findings
 }
 
-/// The fewest and the most triangles of the meshes of the fit.
+/// The smallest and the largest number of triangles in the fit.
 fn ends(growth: &Growth) -> Option<(usize, usize)> {
     let mut fitted = growth.points.iter().filter(|point| point.is_fitted()).map(Point::triangles);
     let first = fitted.next()?;
@@ -81,15 +81,13 @@ fn ends(growth: &Growth) -> Option<(usize, usize)> {
 pub fn blocks(growths: &[Growth]) -> Vec<Block> {
     let groups: Vec<&[Growth]> = growths.chunk_by(|a, b| a.family == b.family && a.workload == b.workload).collect();
     let Some(first) = groups.first() else { return vec![] };
-    let mut blocks = vec![Block::Text(
-        "A query that is logarithmic in the number of triangles n has a power of n near 0; a power of 1 means that \
-         twice the triangles take twice the time. Icospheres of one sphere, subdivided more finely and seen by the \
-         same camera, change only n; different meshes differ in more than their size."
-            .into(),
-    )];
+    let text = "A query that is logarithmic in the number of triangles n has a power of n near 0; a power of 1 means that \
+                twice the triangles take twice the time. Icospheres of one sphere, subdivided more finely and seen by \
+                the same camera, change only n; different meshes differ in more than their size.";
+    let mut blocks = vec![Block::Text(text.into())];
     let spheres = groups.iter().filter(|group| group[0].family == SPHERES);
     blocks.extend(spheres.clone().map(|group| Block::figure(figure(group, &TIME))));
-    // Builds and memory do not know of rays.
+    // Builds and memory do not depend on rays.
     let quantities = if first[0].family == MESHES { &[][..] } else { &[BUILD, MEMORY] };
     blocks.extend(quantities.iter().map(|quantity| Block::figure(figure(first, quantity))));
     let families: Vec<&[Growth]> = growths.chunk_by(|a, b| a.family == b.family).collect();
@@ -140,7 +138,7 @@ fn all_points(growths: &[Growth]) -> impl Iterator<Item = (&Growth, &Point)> {
     growths.iter().flat_map(|growth| growth.points.iter().map(move |point| (growth, point)))
 }
 
-/// Nothing of fewer meshes than a power takes.
+/// `None` with too few meshes for a power.
 fn exponents(family: &[Growth]) -> Option<Table> {
     let power = |x: Option<Estimate>| Cell::from(x.map(|x| Cell::estimate(x, Format::Decimals(2))));
     let over = |growth: &Growth| {
@@ -166,7 +164,7 @@ fn exponents(family: &[Growth]) -> Option<Table> {
     let note = "Least squares on logarithms over the meshes on which the structure has more than one leaf, with 95 % \
                 intervals for a rerun on these meshes; counts and memory do not vary. +-: half of the 95 % interval \
                 of the power of time from the scatter of the meshes.";
-    family.iter().any(|growth| growth.time.is_some()).then(|| table.noted(vec![note.into()]).explained())
+    family.iter().any(|growth| growth.time.is_some()).then(|| table.noted([note]).explained())
 }
 
 fn points(family: &[Growth]) -> Table {
@@ -191,7 +189,7 @@ fn points(family: &[Growth]) -> Table {
     )
 }
 
-/// One row for each structure on each mesh and workload.
+/// One row per structure on each mesh and workload.
 pub fn data(growths: &[Growth]) -> Table {
     let mut table = Table::of(
         "",

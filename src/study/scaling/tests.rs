@@ -6,7 +6,7 @@ use crate::study::case::tests::example as case;
 use crate::study::epoch::Rays;
 use crate::study::epoch::tests::example;
 
-/// One epoch of `sah-kd` over so many triangles.
+/// One epoch of `sah-kd` over `n` triangles.
 fn measured(family: &str, n: usize, epoch: usize, build_ns: u64, ns: &[u64]) -> Measured {
     let scene = format!("mesh {n}");
     let mut case = case(&scene, epoch, &["sah-kd"]);
@@ -16,7 +16,7 @@ fn measured(family: &str, n: usize, epoch: usize, build_ns: u64, ns: &[u64]) -> 
 
 const TRIANGLES: [usize; 4] = [100, 400, 1600, 6400];
 
-/// Four levels, two epochs of three rounds: 2 ns times n^b, the build 1000 n^c, both with an odd epoch.
+/// Four levels, two epochs of three rounds: 2 ns x n^b, the build 1000 n^c, both different in the odd epoch.
 fn spheres(b: f64, c: f64, wobble: f64) -> Vec<Measured> {
     let mut all = vec![];
     for (i, n) in TRIANGLES.into_iter().enumerate() {
@@ -30,7 +30,7 @@ fn spheres(b: f64, c: f64, wobble: f64) -> Vec<Measured> {
     all
 }
 
-/// Two epochs of a mesh beyond level 8, of so many nanoseconds.
+/// Two epochs of a mesh beyond level 8 with this time.
 fn finest_of(triangles: usize, ns: u64) -> impl Iterator<Item = Measured> {
     (0..2).map(move |epoch| measured(SPHERES, triangles, epoch, ns, &[ns + epoch as u64; 3]))
 }
@@ -56,7 +56,7 @@ fn a_power_is_found_where_there_is_one() {
     // Noise widens the interval.
     let noisy = one(spheres(0.25, 1.1, 0.1)).time.unwrap();
     assert!(noisy.holds(0.25) && noisy.high().unwrap() - noisy.low().unwrap() > 0.01, "{noisy:?}");
-    // 100 bytes a triangle, and counts that do not grow.
+    // 100 bytes per triangle, and counts that do not grow.
     assert!((bytes.estimate - 1.0).abs() < 1e-9);
     assert!(growth.tests.unwrap().estimate.abs() < 1e-9);
     assert!((growth.points[0].bytes_per_triangle() - 100.0).abs() < 1e-9);
@@ -89,7 +89,7 @@ fn a_claim_about_coarser_meshes_is_judged_by_these_alone() {
     let mut measured = spheres(0.25, 1.0, 0.0);
     let (all, coarser) = both(&measured);
     assert_eq!(all, coarser);
-    // Beyond level 8 the power is another one.
+    // Beyond level 8 the exponent differs.
     measured.extend(finest_of(16 * LEVEL_8, 1 << 40));
     let (all, coarser) = both(&measured);
     assert!((coarser.estimate - 0.25).abs() < 1e-3 && all.estimate > 0.3, "{all:?} {coarser:?}");
@@ -98,7 +98,7 @@ fn a_claim_about_coarser_meshes_is_judged_by_these_alone() {
 #[test]
 fn meshes_of_few_epochs_take_none_from_a_claim_about_the_others() {
     let mut measured = spheres(0.25, 1.0, 0.02);
-    // Four more epochs of the coarser ones, and two of one that is beyond level 8.
+    // Four more epochs of the coarser meshes, and two of a mesh beyond level 8.
     for (i, n) in TRIANGLES.into_iter().enumerate() {
         let ns = (2e6 * libm::pow(n as f64, 0.25)) as u64;
         let of = |epoch: usize| ns + (i + epoch) as u64 % 2 * 100_000;
@@ -115,13 +115,13 @@ fn a_single_leaf_takes_no_part() {
     let mut measured = spheres(0.25, 1.0, 0.0);
     for own in measured.iter_mut().filter(|own| own.epoch.triangles == 100) {
         own.epoch.structures[0].shape.leaves = 1;
-        // As slow as brute force would be.
+        // As slow as brute force.
         own.epoch.structures[0].rays[0].ns = vec![1 << 50; 3];
     }
     let growth = one(measured.clone());
     assert!((growth.time.unwrap().estimate - 0.25).abs() < 1e-3);
     assert_eq!(growth.points.iter().filter(|point| point.is_fitted()).count(), 3);
-    // Two are too few.
+    // Two meshes are too few.
     measured.retain(|own| own.epoch.triangles != 400);
     let growth = one(measured);
     assert_eq!((growth.time, growth.points.len()), (None, 3));

@@ -47,7 +47,7 @@ fn strata_hold_what_they_promise() {
     let far = Stratum::FarOrigins.rays(&mesh, 200, 3);
     assert!(far.iter().all(|r| r.origin.length() > 900.0));
 
-    // A hit just before the float at which the interval ends, also where that is the largest one.
+    // A hit just before the float at which the interval ends, including the largest float.
     let before_its_end = |ray: &&Ray| match oracle::nearest(ray, &mesh) {
         Some((t, _)) => t.round() == ray.t_max,
         None => false,

@@ -6,7 +6,7 @@ use crate::validate::{Stratum, degenerate_meshes};
 
 type Correct = BruteForce<MollerTrumbore>;
 
-/// What a broken structure does to the right answer of ray `x`, the origin's bits.
+/// The damage that a broken structure does to the right hit of ray `x`, the origin's bits.
 struct Broken {
     correct: Correct,
     damage: fn(u32, Option<Hit>) -> Option<Hit>,
@@ -38,7 +38,7 @@ impl Accel for Broken {
     }
 }
 
-/// Compares a damaged structure on random rays through a soup, with the same test or another.
+/// Compares a damaged structure on random rays through a soup, with the same triangle test or another.
 fn damaged(
     damage: fn(u32, Option<Hit>) -> Option<Hit>,
     any: fn(bool) -> bool,
@@ -115,7 +115,7 @@ fn depths_are_judged_by_a_bound_of_rounding() {
     let worst = &v.worst[0];
     assert!(worst.kind == Kind::Depth && worst.verdict.contains("ulps away"), "{worst}");
     assert_eq!(v.worst_error(), None);
-    // With the same test they owe each other the bits.
+    // With the same test they must return the same bits.
     let v = damaged(near, |any| any, true).unwrap();
     assert_eq!((v.depth_errors, v.structure_errors), (0, v.differing));
 
@@ -140,7 +140,7 @@ fn contradictions_and_moods_are_found() {
 #[test]
 fn a_farther_hit_is_a_lost_nearer_one() {
     let mesh = soup();
-    // The second half of the triangles only, under their numbers: what is left out becomes a point.
+    // Keep only the second half of the triangles, under their numbers: each omitted one becomes a point.
     let keep = mesh.triangles().iter().enumerate().map(|(i, t)| if i < 250 { [t[0]; 3] } else { *t });
     let kept = Mesh::new(mesh.positions().to_vec(), keep.collect()).unwrap();
     let half = Correct::build(&Arc::new(kept), &Default::default()).unwrap();
@@ -152,7 +152,7 @@ fn a_farther_hit_is_a_lost_nearer_one() {
     assert!(answers.answer_errors > 500 && answers.structure_errors == 0);
     let kinds = |v: &Validation| v.worst.iter().all(|w| w.kind == Kind::Lost);
     assert!(kinds(&v) && kinds(&answers), "lost outright comes before lost behind another");
-    // Rays that hit both halves: the kept triangle lies behind.
+    // Rays that hit both halves: the kept triangle is behind.
     let only = |v: &Validation| v.structure_errors + v.answer_errors;
     let both: Vec<Ray> = rays.into_iter().filter(|ray| half.closest_hit(ray, &mut ()).is_some()).collect();
     let reference = Reference::brute_force::<MollerTrumbore>(&mesh).unwrap();
@@ -174,13 +174,13 @@ fn any_hit_that_rounding_may_excuse_is_wrong_if_the_closest_hit_contradicts_it()
     use glam::Vec3;
     let corners = vec![Vec3::new(1.0, 1.0, 1.0), Vec3::new(2.0, 1.0, 1.25), Vec3::new(1.0, 2.0, 1.5)];
     let mesh = Arc::new(Mesh::new(corners, vec![[0, 1, 2]]).unwrap());
-    // From just above the triangle away from it: rounding may find a hit at 0.
+    // From just above the triangle, away from it: rounding may find a hit at 0.
     let ray = Ray::new(Vec3::new(1.25, 1.25, 1.187_500_1), Vec3::new(0.1, 0.1, 1.0));
     let reference = Reference::of_test("own", &mesh)?;
     let expected = reference.closest_hits(&[ray]);
     assert_eq!(expected, [None]);
     let subject: Box<dyn DynAccel> = Box::new(BruteForce::<MollerTrumbore>::build(&mesh, &Default::default())?);
-    let judged = |subject| validate_any_answers(&reference, &expected, &mesh, &[ray], &[true], subject);
+    let judged = |subject| validate_any_hits(&reference, &expected, &mesh, &[ray], &[true], subject);
     let alone = judged(None);
     assert_eq!((alone.errors(), alone.test_errors), (0, 1), "{alone:?}");
     let beside = judged(Some(subject.as_ref()));

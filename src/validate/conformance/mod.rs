@@ -1,4 +1,5 @@
-//! The tests that every structure must pass: functions that return what they found, and a macro that makes tests of them.
+//! The tests that every structure must pass: functions that return their findings, and a macro that turns them into
+//! tests.
 
 mod soundness;
 
@@ -13,13 +14,13 @@ pub use soundness::{counting, shapes};
 
 /// A structure under test.
 pub struct Subject {
-    /// What failures call it.
+    /// Its name in failures.
     pub name: String,
-    /// [`Accel::TRIANGLE_TEST`].
+    /// See [`Accel::TRIANGLE_TEST`].
     pub triangle_test: &'static str,
     /// Whether it promises the lowest number among primitives at equal `t`.
     pub lowest_id: bool,
-    /// How long a build or a query may take before it counts as hanging.
+    /// Time limit of a build or a query before it counts as hanging.
     pub limit: Duration,
     /// Builds it.
     pub build: Build,
@@ -28,7 +29,7 @@ pub struct Subject {
 /// Builds a structure.
 pub type Build = Arc<dyn Fn(&Arc<Mesh>) -> Result<Box<dyn DynAccel>, BuildError> + Send + Sync>;
 
-/// One mesh and one kind of rays, compared.
+/// The comparison on one mesh and one stratum.
 pub struct Finding {
     /// Name of the mesh.
     pub mesh: String,
@@ -42,7 +43,7 @@ pub type Named = (String, Arc<Mesh>);
 const SEED: u64 = 2003;
 
 impl Subject {
-    /// What `build` builds; `triangle_test` as in [`Accel::TRIANGLE_TEST`].
+    /// The structures that `build` builds; `triangle_test` as in [`Accel::TRIANGLE_TEST`].
     pub fn new(
         name: &str,
         triangle_test: &'static str,
@@ -56,7 +57,7 @@ impl Subject {
         Self::new(name, A::TRIANGLE_TEST, move |mesh| Ok(Box::new(A::build(mesh, &config)?)))
     }
 
-    /// Builds within the limit.
+    /// Builds within the time limit.
     fn built(&self, name: &str, mesh: &Arc<Mesh>) -> Result<Arc<dyn DynAccel>, String> {
         let (build, own) = (Arc::clone(&self.build), Arc::clone(mesh));
         let refusal = |why: String| format!("{} does not build over {name:?}: {why}", self.name);
@@ -65,7 +66,7 @@ impl Subject {
     }
 }
 
-/// Compares `count` rays of every stratum on every mesh, and hides nothing; after a hang it runs no further query.
+/// Compares `count` rays of every stratum on every mesh, and reports everything; after a hang it runs no further query.
 ///
 /// # Errors
 /// If a mesh does not build.
@@ -89,14 +90,15 @@ pub fn findings(subject: &Subject, meshes: &[Named], count: usize) -> Result<Vec
     Ok(findings)
 }
 
-/// The hits are right: no structure error on any mesh and stratum, any hit agrees with closest hit, single rays with batches,
-/// nothing panics or hangs, and where it is promised the lowest primitive wins. Declined rays are not traced.
+/// The hits are right: no structure error on any mesh and stratum, any hit agrees with closest hit, single rays agree
+/// with batches, nothing panics or hangs, and the lowest primitive wins if that is promised. Declined rays are not
+/// traced.
 ///
-/// A structure whose triangle test this crate does not have must be right on random rays only: elsewhere its test may be the
-/// cause.
+/// A structure with a triangle test that this crate lacks must be right only on random rays: elsewhere its test may be
+/// the cause.
 ///
 /// # Errors
-/// One line for each mesh and stratum that fails, with the worst ray.
+/// One line per failing mesh and stratum, with the worst ray.
 pub fn answers(subject: &Subject, meshes: &[Named], count: usize) -> Result<(), String> {
     let wrong = |finding: &Finding| {
         let v = &finding.validation;
@@ -114,7 +116,7 @@ pub fn answers(subject: &Subject, meshes: &[Named], count: usize) -> Result<(), 
 }
 
 impl Finding {
-    /// What failed, and the worst ray in the form in which it can be traced again.
+    /// The failure, and the worst ray in a form that can be traced again.
     pub fn line(&self, subject: &str) -> String {
         let v = &self.validation;
         let worst = v.worst.first().map_or("no ray".into(), ToString::to_string);
@@ -138,7 +140,7 @@ impl Finding {
     }
 }
 
-/// Few lines in full, many cut short.
+/// Few lines in full, many lines cut short.
 fn outcome(lines: Vec<String>) -> Result<(), String> {
     const SHOWN: usize = 10;
     if lines.is_empty() {
@@ -149,8 +151,8 @@ fn outcome(lines: Vec<String>) -> Result<(), String> {
     Err(if more > 0 { format!("{shown}\nand {more} more") } else { shown })
 }
 
-/// Makes a module of tests that hold a structure to the contract of [`Accel`]:
-/// `sahara::conformance!(my_tree, MyTree, MyConfig::default());`
+/// Makes a module of tests that check a structure against the contract of [`Accel`]: `sahara::conformance!(my_tree,
+/// MyTree, MyConfig::default());`
 ///
 /// With `lowest_id` as a fourth argument, the lowest primitive number must win among equal `t`.
 #[macro_export]

@@ -1,4 +1,4 @@
-//! What can be checked of a structure without knowing the right answers.
+//! Checks of a structure that do not need the right hits.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use crate::accel::{Counts, DynAccel};
 use crate::geometry::{Hit, Ray};
 use crate::validate::{Stratum, WatchError, watched};
 
-/// Hits with and without counting, and of loaded rays.
+/// Hits with and without counting, and hits of loaded rays.
 struct Traced {
     plain: Vec<Option<Hit>>,
     loaded: Vec<Option<Hit>>,
@@ -21,7 +21,7 @@ struct Traced {
     any_counts: Counts,
 }
 
-/// Runs every query within a limit; any hit only where it is offered.
+/// Runs every query within a time limit; any hit only if the structure supports it.
 fn trace(accel: &Arc<dyn DynAccel>, rays: &[Ray], limit: Duration) -> Result<Traced, WatchError> {
     let (accel, rays) = (Arc::clone(accel), rays.to_vec());
     watched(limit, move || {
@@ -36,7 +36,7 @@ fn trace(accel: &Arc<dyn DynAccel>, rays: &[Ray], limit: Duration) -> Result<Tra
         if accel.capabilities().any_hit {
             accel.any_hits(&rays, &mut any);
             kept.any_hits(&mut any_loaded);
-            // Again after both: what is loaded stays as it is.
+            // Query again after both: loaded rays must stay unchanged.
             kept.closest_hits(&mut loaded);
             accel.any_hits_counted(&rays, &mut any_counted, &mut any_counts);
         }
@@ -45,11 +45,12 @@ fn trace(accel: &Arc<dyn DynAccel>, rays: &[Ray], limit: Duration) -> Result<Tra
     })
 }
 
-/// Counting changes nothing: the hits are the same, at the same primitive where the lowest is promised; what is declared
-/// unobserved stays zero. Nor does loading: such rays have the hits of others, bit for bit.
+/// Counting changes nothing: the hits are the same, at the same primitive if the lowest is promised, and counts
+/// declared unobserved stay zero. Loading changes nothing either: loaded rays have the same hits as other rays, bit for
+/// bit.
 ///
 /// # Errors
-/// One line for each mesh that fails.
+/// One line per failing mesh.
 pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(), String> {
     let mut lines = vec![];
     for (name, mesh) in meshes {
@@ -62,14 +63,14 @@ pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(),
             let traced = match trace(&accel, &rays, subject.limit) {
                 Ok(traced) => traced,
                 Err(ended) => {
-                    // One of the rays may do it alone.
+                    // A single ray may cause the failure.
                     let alone = rays.iter().find(|ray| trace(&accel, &[**ray], subject.limit).is_err());
                     let which = alone.map_or("all of them".into(), |ray| format!("ray \"{ray}\""));
                     return Err(format!("{place}: queried with counts for {which}, {ended}"));
                 }
             };
 
-            // Which of several primitives at one `t` is free, unless the lowest is promised.
+            // The choice among several primitives at one `t` is free, unless the lowest is promised.
             let number = |h: Hit| if subject.lowest_id { h.prim.index() } else { 0 };
             let answer = |hit: Option<Hit>| hit.map(|h| (h.t, number(h)));
             let differ = traced.plain.iter().zip(&traced.counted).position(|(a, b)| answer(*a) != answer(*b));
@@ -104,10 +105,10 @@ pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(),
     outcome(lines)
 }
 
-/// The numbers about the structure are possible: every triangle with an area is referenced, something takes memory.
+/// The shape is possible: every triangle with an area is referenced, and the structure takes memory.
 ///
 /// # Errors
-/// One line for each mesh that fails.
+/// One line per failing mesh.
 pub fn shapes(subject: &Subject, meshes: &[Named]) -> Result<(), String> {
     let mut lines = vec![];
     for (name, mesh) in meshes {

@@ -13,24 +13,24 @@ use crate::scene::files::{hits_from_bytes, hits_to_bytes};
 use crate::validate::compare::same;
 use crate::validate::conformance::Subject;
 
-/// What a structure returned for a case. As JSON it passes from one process to another.
+/// The results of a structure on a case. One process sends them to another as JSON.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Answers {
-    /// One per ray; none for a property.
+    /// One per ray; empty for a property.
     #[serde(serialize_with = "hits_as_bytes", deserialize_with = "hits_of_bytes")]
     pub hits: Vec<Option<Hit>>,
-    /// Measured by the caller of the builder, nanoseconds.
+    /// Build time, measured by the caller of the builder, ns.
     pub build_ns: u64,
-    /// Rays for which any hit contradicts closest hit.
+    /// Rays on which any hit contradicts closest hit.
     pub any_hit_errors: u64,
-    /// Rays whose hit alone differs from that in a batch, among some of them.
+    /// The number of rays, among some of them, whose hit on their own differs from the hit in a batch.
     pub unrepeatable: u64,
-    /// Time of these rays over that of the ordinary ones of the case, where it has such; median of interleaved passes.
+    /// Time of these rays / time of the ordinary rays of the case, if it has any; median of interleaved passes.
     pub slowness: Option<f64>,
     pub property: Option<Property>,
 }
 
-/// Bit for bit: numbers of JSON are finite.
+/// Encodes the bits, because numbers of JSON are finite.
 fn hits_as_bytes<S: Serializer>(hits: &[Option<Hit>], serializer: S) -> Result<S::Ok, S::Error> {
     hits_to_bytes(hits).serialize(serializer)
 }
@@ -63,7 +63,7 @@ pub fn run(case: &HardCase, subject: &Subject, rays: usize, clock: &dyn Clock) -
     }
 }
 
-/// Rays that are traced again alone, at most, spread evenly.
+/// The maximum number of rays that are traced again on their own, evenly spread.
 const AGAIN: usize = 500;
 
 fn traced(accel: &dyn DynAccel, set: &Set, clock: &dyn Clock) -> Answers {
@@ -80,10 +80,10 @@ fn traced(accel: &dyn DynAccel, set: &Set, clock: &dyn Clock) -> Answers {
     Answers { hits, any_hit_errors, unrepeatable, slowness: slowness(accel, set, clock), ..Answers::default() }
 }
 
-/// Passes over either kind of rays.
+/// Passes over these rays and over the ordinary ones.
 const PASSES: usize = 15;
 
-/// Time of the case's rays over that of its ordinary ones.
+/// Time of the case's rays / time of its ordinary rays.
 fn slowness(accel: &dyn DynAccel, set: &Set, clock: &dyn Clock) -> Option<f64> {
     if set.ordinary.is_empty() {
         return None;

@@ -1,4 +1,4 @@
-//! A case, and how it is written in the catalogue.
+//! A case, and the macro of the catalogue.
 
 use super::set::Set;
 use crate::validate::conformance::Subject;
@@ -6,38 +6,38 @@ use crate::validate::conformance::Subject;
 /// One entry of the catalogue.
 #[derive(Clone, Copy)]
 pub struct HardCase {
-    /// From 1 on, ascending over the catalogue.
+    /// From 1, ascending in the catalogue.
     pub number: u32,
-    /// As written on the command line.
+    /// The name on the command line.
     pub name: &'static str,
     pub rank: Rank,
     pub content: Content,
-    /// Why systems fail here, in a sentence.
+    /// The reason why systems fail here, in one sentence.
     pub reason: &'static str,
-    /// Who says so: a paper of `papers/`, a project's source or thread, or what was measured.
+    /// The source of the reason: a paper of `papers/`, a project's source or thread, or a measurement.
     pub source: &'static str,
 }
 
-/// Which totals a case counts in.
+/// The totals that include a case.
 ///
-/// The survey measured 71 cases and ranked 59: not the empty scene, vertices that are not finite, the ends of intervals, origins
-/// on a surface, and the six kinds of invalid rays. Of the 59, ten are extreme: scales of 1e-20 and less and of 1e15 and
-/// more, directions of such lengths (from 1e-20 and 1e15 on), and origins 1e8 away.
+/// The survey measured 71 cases and ranked 59. It did not rank the empty scene, vertices that are not finite, the ends
+/// of intervals, origins on a surface, and the six kinds of invalid rays. Of the 59, ten are extreme: scales of at most
+/// 1e-20 or at least 1e15, directions with such lengths, and origins 1e8 away.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Rank {
-    /// Valid input of sizes that a careful user may have: in the totals of both 59 and 49 cases.
+    /// Valid input of sizes that a careful user may have: in both totals, of 59 and of 49 cases.
     Moderate,
     /// Valid input of sizes at which `f32` products leave their range: in the total of 59 cases.
     Extreme,
-    /// In no total: the input is not valid, nothing can be hit, or systems differ about what an interval includes.
+    /// In no total: the input is not valid, no ray can hit, or systems differ in what an interval includes.
     Unranked,
-    /// Added to the survey's measured cases: in no total either, so that totals can be compared.
+    /// Added to the survey's measured cases: in no total, which keeps totals comparable.
     Added,
 }
 
 impl HardCase {
-    /// Mesh and rays, at most so many; nothing for a property.
+    /// Mesh and rays, at most `most` rays; `None` for a property.
     pub fn set(&self, most: usize) -> Option<Set> {
         match self.content {
             Content::Rays { rays, make, .. } => Some(make(rays.min(most))),
@@ -46,18 +46,18 @@ impl HardCase {
     }
 }
 
-/// What a case checks.
+/// The check of a case.
 #[derive(Clone, Copy)]
 pub enum Content {
     /// The closest hits of rays over one mesh.
     Rays {
-        /// Number of rays unless the user wants fewer.
+        /// Default number of rays.
         rays: usize,
         expected: Expected,
         /// Mesh and rays, the same bits on every machine. Fewer rays are the first of more.
         make: fn(usize) -> Set,
     },
-    /// Something that hits must have in common, or why it cannot be checked.
+    /// A property of hits, or the reason why it cannot be checked.
     Property(fn(&Subject, usize) -> Result<Property, String>),
 }
 
@@ -68,20 +68,20 @@ pub enum Expected {
     Hit,
     /// No ray hits anything.
     Miss,
-    /// What the exact oracle says.
+    /// The hits of the exact oracle.
     Oracle,
-    /// Every ray hits, exactly where the ray of the same place in the case of this name does.
+    /// Every ray hits exactly where the ray with the same index hits in the named case.
     SameAs(&'static str),
 }
 
-/// What the check of a property found.
+/// The result of the check of a property.
 #[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Property {
-    /// Comparisons made.
+    /// Number of comparisons.
     pub checked: u64,
-    /// Those that failed.
+    /// Number of failed comparisons.
     pub broken: u64,
-    /// The first that failed, in a sentence.
+    /// The first failed comparison, in one sentence.
     pub example: Option<String>,
 }
 
@@ -96,8 +96,9 @@ impl Property {
     }
 }
 
-/// The table of the cases, `CASES`. A row is rank, number and name; the expected hits, the number of rays unless it is
-/// 10,000, and what makes mesh and rays, or the property that is checked; why systems fail here, in a sentence; who says so.
+/// The table of the cases, `CASES`. A row contains: rank, number and name; the expected hits, the number of rays unless
+/// it is 10,000, and the generator of mesh and rays, or the check of a property; the reason, in one sentence; its
+/// source.
 macro_rules! cases {
     ($($rank:ident $number:literal $name:literal, $expected:ident $(($of:literal))? $(x $rays:literal)? => $make:expr,
         $reason:literal, $source:expr;)*) => {

@@ -18,7 +18,7 @@ const INVERSE: &str = "obvhs, safe_inverse: 1.19e-7";
 const INVERSES: &str = "obvhs, safe_inverse; Embree, zero_fix";
 const MISSED: &str = "measured: every f32 system misses all";
 const OVERFLOW: &str = "Embree, FLT_LARGE; measured: every peer of f32 misses or misplaces all";
-const TIME: &str = "Embree, verify.cpp, nan_test and inf_test: time below 2.5 times that of valid rays";
+const TIME: &str = "Embree, verify.cpp, nan_test and inf_test: time below 2.5 times the time of valid rays";
 
 cases! {
     // Closed meshes from inside, near zero and far from it: every ray hits.
@@ -31,7 +31,7 @@ cases! {
     Moderate 3 "closed_edge", Hit => |n| Set::new(star(), n, 1, |mesh, s| ray_to(inside(s), on_edge(mesh, s))),
         "At an edge both triangles may reject the ray when their edge functions round differently.", "Woop, Benthin, Wald 2013";
 
-    // A cube of a grid whose lines lie at multiples of an eighth: rays along its axes, diagonals and faces.
+    // A cube with grid lines at multiples of an eighth: rays along its axes, diagonals and faces.
     Moderate 4 "cube_random", Hit => |n| Set::new(cube(), n, 3, |_, s| Ray::new(s.cube() * 0.99, s.direction())),
         "Random rays inside a cube: faces in the planes of the root box.", "survey";
     Moderate 5 "cube_axis_aligned", Hit => |n| {
@@ -199,10 +199,10 @@ cases! {
         Set::new(largest_numbers(), n, 40, |_, s| ray_to(s.direction() * 3.0, s.cube()))
     },
         "Mesh::new rejects vertices that are NaN or infinite, so no structure receives one; this is the worst that it \
-         accepts: some vertices at the largest float, so that extents and areas are infinite.",
+         accepts: some vertices at the largest float, which makes extents and areas infinite.",
         "obvhs, ploc, and svenstaro/bvh, bvh_node.rs: builders panic";
 
-    // Where the interval of a ray begins and ends, and rays that begin at a surface.
+    // Ends of ray intervals, and rays that begin on a surface.
     Unranked 58 "tmin_tmax_window", Hit => |n| Set::new(sphere(), n, 54, window),
         "Intervals that hold only the first, or only the second crossing of a sphere.", "parry: has no t_min";
     Unranked 59 "tmax_exact_hit", Miss => |n| Set::new(box_grid(4), n, 51, |_, s| to_the_lid(s, |t| (0.0, t))),
@@ -226,7 +226,7 @@ cases! {
     Moderate 64 "soup_random", Oracle => |n| Set::new(soup(2000, 22), n, 22, to_surface),
         "Random triangles and rays: the baseline for the other cases.", "survey";
 
-    // Invalid rays: nothing may be hit, and nothing may take long.
+    // Invalid rays: no ray may hit, and none may take long.
     Unranked 65 "rays_nan_origin", Miss x 1000 => |n| spoilt(n, |s, ray| ray.origin[s.below(3)] = f32::NAN),
         "NaN in the origin: comparisons with it are false, and code that drops NaN walks the whole tree.", TIME;
     Unranked 66 "rays_nan_dir", Miss x 1000 => |n| spoilt(n, |s, ray| ray.direction[s.below(3)] = f32::NAN),
@@ -249,7 +249,7 @@ cases! {
         "Rays that leave a surface at a rounded point: half of the points lie below it, so the ray hits it again.",
         "Wächter, Binder 2019; pbrt-v4, Triangle.Reintersect";
 
-    // What hits must have in common, whatever they are.
+    // Properties that all hits must have.
     Added 73 "continuation", Property => continuation,
         "Continuing behind each hit must visit every crossing of a ray once.",
         "Embree, verify.cpp, sphere_filter_multi_hit";
@@ -288,7 +288,7 @@ cases! {
         "Numbers of nodes and references must stay bounded where triangles cannot be separated, before memory ends.",
         "pbrt-v4, kd-tree: depth 8 + 1.3 log2 N and bad refines; Embree, regression with failing allocations";
 
-    // What reviews and fuzzing of this crate have found: no failure without a name.
+    // Failures that reviews and fuzzing of this crate have found.
     Added 85 "scale_7e-15", Hit => in_tiny_star,
         "Products of three lengths underflow, products of two do not: a bound on one does not bound the other.",
         "sahara, the first stage of the exact test";

@@ -3,7 +3,7 @@
 use super::case::HardCase;
 use super::catalogue::CASES;
 
-/// A name that is no case.
+/// A name without a hard case.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("there is no hard case {name:?}; similar names: {nearest}; `sahara list hard` lists all")]
 pub struct UnknownCase {
@@ -11,7 +11,7 @@ pub struct UnknownCase {
     nearest: String,
 }
 
-/// All cases, in the order of their numbers.
+/// All cases, ordered by number.
 pub fn catalogue() -> Vec<&'static HardCase> {
     CASES.iter().collect()
 }
@@ -19,15 +19,15 @@ pub fn catalogue() -> Vec<&'static HardCase> {
 /// The first of [`find_all`].
 ///
 /// # Errors
-/// As there.
+/// Like [`find_all`].
 pub fn find(name: &str) -> Result<&'static HardCase, UnknownCase> {
     Ok(find_all(name)?[0])
 }
 
-/// The case called `name`, in any case of letters, or all with that number: number 23 is two cases.
+/// The case called `name`, in upper or lower case, or all cases with that number: number 23 is two cases.
 ///
 /// # Errors
-/// If there is none: names the three that differ least.
+/// If there is none: the error contains the three most similar names.
 pub fn find_all(name: &str) -> Result<Vec<&'static HardCase>, UnknownCase> {
     let mut cases = catalogue();
     cases.retain(|case| case.name.eq_ignore_ascii_case(name) || case.number.to_string() == name);

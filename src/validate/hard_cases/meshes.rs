@@ -24,7 +24,7 @@ pub(super) fn joined(one: &Mesh, other: &Mesh) -> Arc<Mesh> {
     indexed([one.positions(), other.positions()].concat(), one.triangles().iter().copied().chain(moved_on).collect())
 }
 
-/// A rotation without simple numbers: three perpendicular unit vectors up to rounding.
+/// A rotation with no simple numbers: three perpendicular unit vectors up to rounding.
 pub(super) fn tilted(p: Vec3) -> Vec3 {
     const AXES: [Vec3; 3] = [
         Vec3::new(0.754_406_5, -0.304_113_5, 0.581_715_7),
@@ -76,7 +76,7 @@ pub(super) fn sheet(n: u32) -> Arc<Mesh> {
     indexed(points, triangles.collect())
 }
 
-/// The cube [-1, 1]^3 of a grid of 16 by 16 squares a side, corners at multiples of an eighth, all fronts outward.
+/// The cube [-1, 1]^3 with a grid of 16 by 16 squares per side, corners at multiples of an eighth, all fronts outward.
 pub(super) fn cube() -> Arc<Mesh> {
     let grid = box_grid(16);
     let outward = |&[i, j, k]: &[u32; 3]| {
@@ -121,7 +121,7 @@ pub(super) fn ulp_copies() -> Arc<Mesh> {
     mesh((0..500).map(|_| TRIANGLE.map(|p| Vec3::from_array(p.to_array().map(&mut shift)))))
 }
 
-/// Needles without area along a line, and among them slivers that have one.
+/// Needles without area along a line, and among them slivers with an area.
 pub(super) fn line() -> Arc<Mesh> {
     let on_line = |i: usize, step: f32| Vec3::new(i as f32 * 0.125 + step, 0.0, 0.0);
     mesh((0..400).map(|i| {
@@ -156,7 +156,7 @@ pub(super) fn largest_numbers() -> Arc<Mesh> {
     }))
 }
 
-/// Each triangle stands across the x axis at its power of two, with that size.
+/// Each triangle stands across the x axis at its power of two, and has that size.
 pub(super) fn deep_chain() -> Arc<Mesh> {
     mesh((-60..=60).map(|exponent| {
         let at = libm::scalbnf(1.0, exponent);

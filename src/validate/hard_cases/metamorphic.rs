@@ -1,4 +1,4 @@
-//! Scenes changed so that their hits are known from the hits before.
+//! Changed scenes whose hits follow from the original hits.
 
 use glam::Vec3;
 
@@ -11,20 +11,21 @@ use crate::validate::Sampler;
 use crate::validate::conformance::Subject;
 use crate::validate::degenerate::mesh;
 
-/// A scene changed so that every `t` stays as it is, or is multiplied by a power of two.
+/// A change of a scene that keeps every `t`, or multiplies it by a power of two.
 struct Change {
     name: &'static str,
-    /// Whether every product rounds as before: every test must return the same bits. Otherwise only an exact one must.
+    /// Whether every product rounds as before: then every test must return the same bits. Otherwise only an exact test
+    /// must.
     same_rounding: bool,
     triangles: fn(&[[Vec3; 3]]) -> Vec<[Vec3; 3]>,
-    /// What becomes of the points of the scene, and of origins of rays.
+    /// The new position of a point of the scene or of a ray's origin.
     point: fn(Vec3) -> Vec3,
     direction: fn(Vec3) -> Vec3,
-    /// What `t` is multiplied by.
+    /// The factor of `t`.
     factor: f32,
 }
 
-/// Nothing is changed.
+/// No change.
 const SAME: Change = Change {
     name: "",
     same_rounding: false,
@@ -34,7 +35,7 @@ const SAME: Change = Change {
     factor: 1.0,
 };
 
-/// Coordinates of the scene are multiples of 2^-10 below 8: what these changes compute is exact.
+/// Coordinates of the scene are multiples of 2^-10 below 8: these changes are computed exactly.
 const CHANGES: [Change; 7] = [
     Change {
         name: "in another order",
@@ -95,8 +96,8 @@ pub(super) fn metamorphic(subject: &Subject, rays: usize) -> Result<Property, St
     Ok(property)
 }
 
-/// Rays straight down through the inner corners of a sheet, each in the plane of many boxes: what the structure hits with a
-/// direction of almost the same numbers, it must hit, whatever its triangle test rounds.
+/// Rays straight down through the inner corners of a sheet, each in the plane of many boxes. A structure must hit
+/// everything that it hits with an almost equal direction, under any rounding of its triangle test.
 pub(super) fn straight_down(subject: &Subject, rays: usize) -> Result<Property, String> {
     let accel = built(subject, &sheet(32))?;
     let (mut sampler, mut property) = (Sampler::new(77), Property::default());

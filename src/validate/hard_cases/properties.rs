@@ -1,4 +1,4 @@
-//! What the hits of a structure must have in common, whatever they are.
+//! Properties that all hits of a structure must have.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ pub(super) fn shared(rays: usize, among: usize) -> usize {
     rays.div_ceil(among).max(4)
 }
 
-/// Builds, or says that it cannot be built.
+/// Builds, or returns the reason why it cannot be built.
 pub(super) fn built(subject: &Subject, mesh: &Arc<Mesh>) -> Result<Box<dyn DynAccel>, String> {
     (subject.build)(mesh).map_err(|error| format!("{} does not build: {error}", subject.name))
 }
@@ -66,10 +66,10 @@ fn validated(
     Ok(property)
 }
 
-/// No ray of these scenes has more crossings; a structure that does not move on is stopped here.
+/// The maximum number of crossings in these scenes; a structure that does not advance is stopped here.
 const CROSSINGS: usize = 4096;
 
-/// The rays that go on behind each hit of `ray` as `accel` finds them, the first being `ray` itself.
+/// The rays that continue behind each hit of `ray` as `accel` finds them; the first is `ray` itself.
 fn continued(accel: &dyn DynAccel, ray: Ray) -> Vec<Ray> {
     let mut rays = vec![ray];
     while let Some(hit) = accel.closest(&rays[rays.len() - 1..])[0] {
@@ -90,7 +90,7 @@ fn through_star(count: usize, seed: u64) -> Vec<Ray> {
     (0..count).map(ray).collect()
 }
 
-/// Compares each continued ray with brute force, which says where to go on.
+/// Compares each continued ray with brute force, whose hits are the next origins.
 pub(super) fn continuation(subject: &Subject, rays: usize) -> Result<Property, String> {
     let mesh = star();
     let (accel, reference) = with_reference(subject, &mesh)?;
@@ -101,7 +101,7 @@ pub(super) fn continuation(subject: &Subject, rays: usize) -> Result<Property, S
     Ok(Property { checked: found.rays, broken: found.errors(), example })
 }
 
-/// Where brute force with the same test counts an odd number too, the test is to blame.
+/// If brute force with the same test also counts an odd number, the test is to blame.
 pub(super) fn parity(subject: &Subject, rays: usize) -> Result<Property, String> {
     let (accel, reference) = with_reference(subject, &star())?;
     let mut property = Property::default();
@@ -114,9 +114,9 @@ pub(super) fn parity(subject: &Subject, rays: usize) -> Result<Property, String>
     Ok(property)
 }
 
-/// References per triangle from which on a tree has lost control, whatever it is built over.
+/// A tree with more references per triangle is out of control, over any mesh.
 const REFERENCES: usize = 64;
-/// Edges from root to leaf likewise.
+/// A tree with more edges from root to leaf is out of control.
 const DEPTH: usize = 1024;
 
 pub(super) fn limits(subject: &Subject, _rays: usize) -> Result<Property, String> {

@@ -1,4 +1,4 @@
-//! The rays of the cases, as far as they need more than a line of the catalogue.
+//! The rays of cases that need more than a line in the catalogue.
 
 use glam::Vec3;
 
@@ -15,7 +15,7 @@ pub(super) fn inside(sampler: &mut Sampler) -> Vec3 {
     sampler.direction() * (0.5 * sampler.unit())
 }
 
-/// From at most half the radius away from the centre. Its vertices are rounded: the surface stays closed.
+/// From at most half the radius away from the centre. Its vertices are rounded, but the surface stays closed.
 pub(super) fn in_sphere(count: usize, centre: Vec3, radius: f32) -> Set {
     let mesh = moved(&sphere(), |p| centre + p * radius);
     Set::new(mesh, count, 2, |_, sampler| Ray::new(centre + inside(sampler) * radius, sampler.direction()))
@@ -39,8 +39,8 @@ fn on_grid(sampler: &mut Sampler) -> f32 {
     sampler.below(17) as f32 / 8.0 - 1.0
 }
 
-/// From outside of the cube along an axis, through its face at t = 2. A negative direction has zeros of the other sign, as
-/// `-axis` gives.
+/// From outside the cube along an axis, through its face at t = 2. A negative direction has zeros of the other sign,
+/// like `-axis`.
 pub(super) fn face_plane(_: &Mesh, sampler: &mut Sampler) -> Ray {
     let (axis, sign) = (sampler.below(3), sampler.sign());
     let mut origin = [on_grid(sampler), on_grid(sampler), -3.0 * sign];
@@ -48,7 +48,7 @@ pub(super) fn face_plane(_: &Mesh, sampler: &mut Sampler) -> Ray {
     Ray::new(Vec3::from_array(origin), Vec3::AXES[axis] * sign)
 }
 
-/// Through a grid point of the cube from four steps away; without one of its components when `flat`.
+/// Through a grid point of the cube from four steps away; without one of its components if `flat`.
 pub(super) fn diagonal(sampler: &mut Sampler, flat: bool) -> Ray {
     let through = Vec3::new(on_grid(sampler), on_grid(sampler), on_grid(sampler));
     let mut direction = Vec3::new(sampler.sign(), sampler.sign(), sampler.sign());
@@ -68,7 +68,7 @@ pub(super) fn in_plane(_: &Mesh, sampler: &mut Sampler) -> Ray {
     Ray::new(at_height(sampler, 0.0), Vec3::new(direction.x, direction.y, 0.0))
 }
 
-/// Over a tilted sheet, whose vertices rounding moves a little out of the plane.
+/// Over a tilted sheet, whose vertices are slightly out of the plane by rounding.
 pub(super) fn at_slope(sampler: &mut Sampler, slope: f32) -> Ray {
     let direction = sampler.direction();
     let flat = Vec3::new(direction.x, direction.y, 0.0).normalize_or(Vec3::X);
@@ -110,12 +110,12 @@ pub(super) fn slivers(count: usize, placed: fn(Vec3) -> Vec3) -> Set {
     })
 }
 
-/// A point from which the backs of the fan are seen.
+/// A point that sees the backs of the fan.
 pub(super) fn below(sampler: &mut Sampler) -> Vec3 {
     Vec3::new(sampler.signed(), sampler.signed(), -3.0 - 2.0 * sampler.unit())
 }
 
-/// Well inside the one triangle of which the mesh holds copies.
+/// Well inside the single triangle that the mesh copies.
 pub(super) fn to_copies(_: &Mesh, sampler: &mut Sampler) -> Ray {
     let ([a, b, c], [u, v, w]) = (TRIANGLE, sampler.barycentric().map(|weight| 0.2 + 0.4 * weight));
     let origin = Vec3::new(sampler.signed(), sampler.signed(), 4.0 * sampler.sign());
@@ -133,10 +133,10 @@ pub(super) fn to_surface(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     ray_to(centre + sampler.direction() * reach, on_surface(mesh, sampler))
 }
 
-/// Integer corners, so that eighths of edges are exact.
+/// Integer corners: eighths of edges are then exact.
 pub(super) const SIMPLE: [Vec3; 3] = [Vec3::ZERO, Vec3::new(8.0, 0.0, 4.0), Vec3::new(0.0, 8.0, -4.0)];
 
-/// Towards a corner or an eighth of an edge, from a place in front so simple that the difference is exact: t is 1.
+/// Towards a corner or an eighth of an edge, from a simple point in front, so the difference is exact: t is 1.
 pub(super) fn exactly_on_the_rim(_: &Mesh, sampler: &mut Sampler) -> Ray {
     let [a, b, c] = SIMPLE;
     let normal = (b - a).cross(c - a);
@@ -177,8 +177,8 @@ pub(super) fn stadium(count: usize) -> Set {
     })
 }
 
-/// From just outside of one triangle of the sequence through all that are smaller. It is hit first; where products of three
-/// of its lengths overflow, the next one whose products do not is hit in its place.
+/// From just outside one triangle of the sequence, through all smaller ones. It is hit first; if products of three of
+/// its lengths overflow, the next one whose products do not overflow is hit instead.
 pub(super) fn through_smaller(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     let [corner, ..] = mesh.corners(sampler.below(300) as u32);
     let side = |sampler: &mut Sampler| 0.05 + 0.2 * sampler.unit();
@@ -192,13 +192,13 @@ pub(super) fn along_chain(_: &Mesh, sampler: &mut Sampler) -> Ray {
     Ray::new(Vec3::new(at, 0.0, 0.0) + across * at, Vec3::X + across)
 }
 
-/// Through a sphere, by the first or the second crossing only.
+/// Through a sphere, with an interval around only the first or the second crossing.
 pub(super) fn window(_: &Mesh, sampler: &mut Sampler) -> Ray {
     let ray = ray_to(sampler.direction() * 3.0, sampler.cube() * 0.3);
     if sampler.coin() { ray.until(1.0) } else { Ray { t_min: 1.0, ..ray } }
 }
 
-/// From within a cube to its upper face, in steps so simple that t is known: the interval is a function of it.
+/// From inside a cube to its upper face, in simple steps, so t is known: the interval is a function of t.
 pub(super) fn to_the_lid(sampler: &mut Sampler, interval: fn(f32) -> (f32, f32)) -> Ray {
     let grid = |sampler: &mut Sampler| sampler.below(65) as f32 / 64.0 - 0.5;
     let origin = Vec3::new(grid(sampler), grid(sampler), grid(sampler));
@@ -224,7 +224,7 @@ pub(super) fn off_a_sphere(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     Ray::new(origin, if direction.dot(origin) < 0.0 { -direction } else { direction })
 }
 
-/// Rays through the star, each made invalid; the same as they were serve as ordinary ones.
+/// Rays through the star, each made invalid; the valid rays serve as ordinary ones.
 pub(super) fn spoilt(count: usize, spoil: fn(&mut Sampler, &mut Ray)) -> Set {
     let mut ordinary = vec![];
     let set = Set::new(star(), count, 60, |_, sampler| {
@@ -248,7 +248,7 @@ pub(super) fn spoil_interval(sampler: &mut Sampler, ray: &mut Ray) {
     }
 }
 
-/// Products of three lengths of this star underflow, those of two do not.
+/// Products of three lengths of this star underflow, products of two do not.
 pub(super) fn in_tiny_star(count: usize) -> Set {
     let scale = libm::scalbnf(1.0, -47);
     Set::new(star_times(scale), count, 60, |mesh, sampler| {
@@ -264,7 +264,7 @@ pub(super) fn from_the_largest(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     Ray::new(Vec3::new(side, target.y, target.z), Vec3::new(-0.3 * side, drift.y, drift.z))
 }
 
-/// One triangle; origin and direction of the ray that was found first, and others at or beside points of its edges.
+/// One triangle; the ray that was found first, and others towards or next to points of its edges.
 pub(super) fn along_edges(
     count: usize,
     seed: u64,
@@ -288,7 +288,7 @@ pub(super) fn along_needle(sampler: &mut Sampler, target: Vec3) -> Ray {
     Ray::new(origin, (target - origin) / 64.0)
 }
 
-/// A hit whose exact t lies before `t_max` and rounds to it.
+/// A hit whose exact t is below `t_max` and rounds to it.
 pub(super) fn before_the_end(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     loop {
         let corners = triangle(mesh, sampler);

@@ -1,4 +1,4 @@
-//! Hits compared with the truth.
+//! Compares hits with the exact ones.
 
 use std::collections::BTreeMap;
 
@@ -9,26 +9,26 @@ use super::case::{HardCase, Property};
 use super::set::Set;
 use crate::accel::BuildError;
 use crate::oracle::{Oracle, Truth};
-use crate::validate::{DepthRule, ErrorCounts, Reference, Validation, count_errors, validate_answers};
+use crate::validate::{DepthRule, ErrorCounts, Reference, Validation, count_errors, validate_hits};
 
-/// The mesh, rays and truth of one case, made once for all structures.
+/// The mesh, rays and exact hits of one case, computed once for all structures.
 pub struct CaseTruth {
-    /// Nothing for a property.
+    /// `None` for a property.
     set: Option<(Set, Vec<Option<Truth>>)>,
-    /// By their triangle test.
+    /// By the triangle test of the structure.
     references: BTreeMap<&'static str, Reference>,
 }
 
-/// How one structure did on one case.
+/// The result of one structure on one case.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Score {
     Rays(Box<RayScore>),
     Property(Property),
-    /// The structure returned nothing.
+    /// The structure returned no result.
     Failed(Failure),
 }
 
-/// Why a structure returned nothing.
+/// The reason why a structure returned no result.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Failure {
     /// It took longer than the limit, and was killed.
@@ -37,35 +37,35 @@ pub enum Failure {
     Panic,
     /// Its process ended in another way.
     Crash,
-    /// It cannot be built over the mesh; the sentence says why.
+    /// It cannot be built over the mesh, with the reason.
     Refused(String),
-    /// It declines what the rays need; the sentence says what. Neither right nor wrong.
+    /// It declines these rays, with the reason. Neither right nor wrong.
     Declined(String),
 }
 
-/// Numbers of one structure on the rays of one case.
+/// The numbers of one structure on the rays of one case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RayScore {
-    /// Against the truth, by the strict rule of depth.
+    /// Errors compared with the exact hits, by the strict rule of depth.
     pub judged: ErrorCounts,
-    /// Wrong depths by the coarse rule: what shows in a picture.
+    /// Wrong depths by the coarse rule: visible in a picture.
     pub coarse_depth: u64,
-    /// Against brute force: errors of the structure, and those that its triangle test rounds.
+    /// Comparison with brute force: errors of the structure, and errors by rounding of its triangle test.
     pub validation: Validation,
-    /// Whether that has the structure's own triangle test, run over all triangles.
+    /// Whether that brute force has the structure's own triangle test.
     pub knows_structure_errors: bool,
-    /// Rays for which any hit contradicts closest hit, or a batch a single ray.
+    /// Rays on which any hit contradicts closest hit, or a batch contradicts a single ray.
     pub contradictions: u64,
-    /// Hits that are not the nearest `f32` of the true `t`, or not at the lowest number of the nearest primitives. An exact
-    /// test must have none.
+    /// Hits whose `t` is not the nearest `f32` of the exact `t`, or whose primitive is not the nearest one with the
+    /// lowest number. An exact test must have none.
     pub inexact: u64,
-    /// Time of the rays over that of ordinary ones.
+    /// Time of the rays / time of ordinary rays.
     pub slowness: Option<f64>,
     pub build_ns: u64,
 }
 
 impl Failure {
-    /// As printed.
+    /// The printed name.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Hang => "hang",
@@ -78,7 +78,7 @@ impl Failure {
 }
 
 impl CaseTruth {
-    /// Finds the truth of the first `rays` rays of `case`.
+    /// Computes the exact hits of the first `rays` rays of `case`.
     pub fn new(case: &HardCase, rays: usize) -> Self {
         let with_truths = |set: Set| {
             let oracle = Oracle::new(&set.mesh);
@@ -88,7 +88,7 @@ impl CaseTruth {
         Self { set: case.set(rays).map(with_truths), references: BTreeMap::new() }
     }
 
-    /// Scores what a structure over `test` returned.
+    /// Scores the results of a structure over `test`.
     ///
     /// # Errors
     /// If brute force cannot be built over the mesh.
@@ -104,7 +104,7 @@ impl CaseTruth {
         }
         let reference = &self.references[test];
         let expected = reference.closest_hits(&set.rays);
-        let validation = validate_answers(reference, &expected, &set.mesh, &set.rays, &answers.hits);
+        let validation = validate_hits(reference, &expected, &set.mesh, &set.rays, &answers.hits);
 
         let inexact = truths.iter().zip(&answers.hits).filter(|(truth, hit)| match (truth, hit) {
             (Some(truth), Some(hit)) => {
@@ -134,7 +134,7 @@ impl Score {
         }
     }
 
-    /// Nothing missed, invented, at a wrong depth (strictly) or lost, and no contradiction.
+    /// No miss, false hit, wrong depth (strict) or structure error, and no contradiction.
     pub fn is_clean(&self) -> bool {
         match self {
             Self::Rays(score) => score.judged.errors() == 0 && score.is_sound(),
@@ -154,7 +154,7 @@ impl Score {
 }
 
 impl RayScore {
-    /// No hit that the structure lost or invented, whatever its triangle test rounds, and no contradiction.
+    /// No hit that the structure lost or invented, under any rounding of its triangle test, and no contradiction.
     fn is_sound(&self) -> bool {
         self.validation.errors() == 0 && self.contradictions == 0
     }

@@ -12,12 +12,12 @@ use crate::validate::Sampler;
 pub struct Set {
     pub mesh: Arc<Mesh>,
     pub rays: Vec<Ray>,
-    /// Ordinary rays over the same mesh, where the time of invalid rays is compared with theirs; otherwise none.
+    /// Ordinary rays over the same mesh, if the time of invalid rays is compared with them; otherwise empty.
     pub ordinary: Vec<Ray>,
 }
 
 impl Set {
-    /// `count` rays over `mesh`, drawn from random numbers of their own.
+    /// `count` rays over `mesh`, drawn from their own seeded random numbers.
     pub(super) fn new(
         mesh: Arc<Mesh>,
         count: usize,
@@ -34,7 +34,7 @@ pub(super) fn ray_to(origin: Vec3, target: Vec3) -> Ray {
     Ray::new(origin, target - origin)
 }
 
-/// A triangle of `mesh` that has an area.
+/// A triangle of `mesh` with an area.
 pub(super) fn triangle(mesh: &Mesh, sampler: &mut Sampler) -> [Vec3; 3] {
     loop {
         let index = sampler.below(mesh.len()) as u32;

@@ -1,4 +1,4 @@
-//! The catalogue is complete, and its generators make what they say.
+//! Checks that the catalogue is complete, and that its generators do what their names claim.
 
 use std::collections::BTreeSet;
 
@@ -21,7 +21,7 @@ fn sets(count: usize) -> impl Iterator<Item = (&'static HardCase, Expected, Set)
 #[test]
 fn there_are_91_numbers_and_every_case_has_a_name_of_its_own() {
     let cases = catalogue();
-    // Number 23 stands at two scales.
+    // Number 23 has two scales.
     let numbers = (1..=91).flat_map(|number| vec![number; if number == 23 { 2 } else { 1 }]);
     assert!(cases.iter().map(|case| case.number).eq(numbers));
     let ranked = |rank: Rank| cases.iter().filter(|case| case.rank == rank).count();
@@ -54,7 +54,7 @@ fn bits(rays: &[Ray]) -> Vec<u32> {
     rays.iter().flat_map(of_ray).collect()
 }
 
-/// The hash names all meshes and rays: a change of it changes what all published numbers mean.
+/// The hash covers all meshes and rays: if it changes, all published numbers change their meaning.
 #[test]
 fn every_machine_makes_the_same_cases() {
     assert!(set_of("nonfinite_verts", FEW).mesh.positions().iter().any(|p| p.abs().max_element() == f32::MAX));
@@ -65,7 +65,7 @@ fn every_machine_makes_the_same_cases() {
             point.to_array().iter().for_each(|x| hasher.update(x.to_bits().to_le_bytes()));
         }
         set.mesh.triangles().iter().flatten().for_each(|index| hasher.update(index.to_le_bytes()));
-        // Which NaN it is does not matter.
+        // All NaNs are equal.
         let number = |x: u32| if f32::from_bits(x).is_nan() { u32::MAX } else { x };
         bits(&set.rays).into_iter().for_each(|x| hasher.update(number(x).to_le_bytes()));
     }
@@ -105,8 +105,8 @@ fn what_must_be_hit_is_and_what_must_be_missed_is_not() {
     assert_eq!((hit, missed), (49, 10));
 }
 
-/// Rational numbers share nothing with oracle and exact test: all triangles of small meshes, of others those that are hit
-/// first.
+/// Rational numbers share nothing with the oracle and the exact test. They check all triangles of small meshes, and of
+/// other meshes the triangles that are hit first.
 #[test]
 fn rational_arithmetic_finds_the_same_truths() {
     let (mut whole, mut hits) = (0, 0);

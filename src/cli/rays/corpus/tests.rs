@@ -24,7 +24,7 @@ fn the_document_states_the_hash_of_the_corpus() {
     assert!(defaults.is_default() && !others.iter().any(Args::is_default));
 }
 
-/// The judge of the document, run as it stands there.
+/// Runs the judge in the document.
 #[test]
 fn the_python_of_the_document_counts_the_errors_that_we_count() {
     if Command::new("python3").arg("--version").output().is_err() {

@@ -1,4 +1,4 @@
-//! A hard case in a process of its own, so that neither a panic nor an endless loop of a structure ends the run.
+//! A hard case in a separate process: neither a panic nor an endless loop of a structure ends the run.
 
 use std::io;
 use std::process::Output;
@@ -14,7 +14,7 @@ use crate::study::Status;
 use crate::validate::LIMIT;
 use crate::validate::hard_cases::{Answers, Failure, HardCase, find, run};
 
-/// The hidden command that a child runs.
+/// The hidden command of a child.
 pub const COMMAND: &str = "hard-answer";
 
 #[derive(Debug, clap::Args)]
@@ -37,7 +37,7 @@ pub struct Args {
 
 const PANICKED: i32 = 101;
 
-/// The child's side: writes what the structure returns to standard output.
+/// The child's side: writes the results of the structure to standard output.
 pub fn run_child(registry: &Registry, args: &Args) -> anyhow::Result<Status> {
     process_group::end_with_parent();
     let case = find(&args.name)?;
@@ -57,7 +57,7 @@ pub fn run_child(registry: &Registry, args: &Args) -> anyhow::Result<Status> {
     }
 }
 
-/// The parent's side: runs a case of at most `rays` rays in a child. The outer error is that none can be started.
+/// The parent's side: runs a case of at most `rays` rays in a child. The outer error: no child can be started.
 pub fn answers(case: &HardCase, choice: &Choice, rays: u32, limit: Duration) -> io::Result<Result<Answers, Failure>> {
     let (rays, level) = (rays.to_string(), Level::current().name());
     let limit_s = limit.as_secs_f64().to_string();

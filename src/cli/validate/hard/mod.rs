@@ -33,7 +33,7 @@ pub use child::{Args as ChildArgs, COMMAND as CHILD, run_child};
 
 const CHILDREN: usize = 2;
 
-/// Rays of a case, at most; no case has more.
+/// The maximum number of rays of a case.
 const MOST_RAYS: usize = 10_000;
 
 pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Terminal) -> anyhow::Result<Status> {
@@ -42,7 +42,7 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
     } else {
         named.iter().map(|name| find_all(name)).collect::<Result<Vec<_>, _>>()?.concat()
     };
-    // A case that is named twice, by its name and by its number, counts once.
+    // A case with both its name and its number counts once.
     let cases = each_once_by(cases, |one, other| one.name == other.name);
     let structures = args.structures(registry)?;
     let choices = choices(registry, structures, &args.test)?;
@@ -80,7 +80,7 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
     Ok(if wrong { Status::Wrong } else { Status::Right })
 }
 
-/// What all cases say of a structure.
+/// The verdict on a structure over all cases.
 fn verdicts(column: &Column) -> Verdicts {
     let all = column.scores.iter().map(verdict).fold(Verdict::default(), Verdict::and);
     Verdicts {
@@ -90,16 +90,16 @@ fn verdicts(column: &Column) -> Verdicts {
     }
 }
 
-/// Whether a score changes the exit status: hits that no rounding explains and failures do, inexact hits of the exact test, and
-/// what other tests round if `strict`; known defects of the baselines do not.
+/// Whether a score changes the exit status: hits that no rounding explains and failures do, inexact hits of the exact
+/// test, and rounding of other tests if `strict`; known defects of the baselines do not.
 fn is_wrong(choice: &Choice, score: &Score, strict: bool) -> bool {
     let is_inexact = choice.triangle_test() == Exact::NAME && score.rays().is_some_and(|rays| rays.inexact > 0);
     let rounds = strict && verdict(score).rounded > 0;
     (!score.is_sound() || is_inexact || rounds) && known_defect(&choice.entry.name).is_none()
 }
 
-/// Each of the structures over all of the tests that it is offered over. Structures that are offered over none of them, that
-/// have known defects or that name a test themselves stay as they are.
+/// Each of the structures over all `tests` that it offers. Structures that offer none of them, have known defects or
+/// name a test themselves stay unchanged.
 fn choices(registry: &Registry, structures: Vec<Choice>, tests: &[String]) -> anyhow::Result<Vec<Choice>> {
     request::known_tests(registry, tests)?;
     let mut choices: Vec<Choice> = vec![];
@@ -115,11 +115,11 @@ fn choices(registry: &Registry, structures: Vec<Choice>, tests: &[String]) -> an
             choices.push(request::structure(registry, &format!("{}{separator}test={test}", choice.label))?);
         }
     }
-    // Tests may be named twice, and a structure over the test that it is named with as well.
+    // Tests may be repeated, and so may a structure over the test of its name.
     Ok(each_once_by(choices, |one, other| one.label == other.label))
 }
 
-/// Runs a case on all structures, some at a time, and finds the truth meanwhile.
+/// Runs a case on all structures, several at a time, and computes the exact hits meanwhile.
 fn scores(case: &HardCase, choices: &[Choice], rays: u32, limit: Duration) -> anyhow::Result<Vec<Score>> {
     let waiting = Mutex::new(choices.iter().enumerate());
     let worker = || -> io::Result<Vec<(usize, Result<Answers, Failure>)>> {
@@ -152,7 +152,7 @@ fn scores(case: &HardCase, choices: &[Choice], rays: u32, limit: Duration) -> an
     Ok(scores)
 }
 
-/// The cases, and why systems fail on them.
+/// The cases, and the reasons why systems fail on them.
 pub fn described() -> Vec<String> {
     let lines = |case: &&HardCase| {
         let what = match case.content {

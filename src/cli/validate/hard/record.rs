@@ -6,7 +6,7 @@ use super::verdict::verdict;
 use crate::registry::Choice;
 use crate::validate::hard_cases::{HardCase, Score};
 
-/// One structure on one case. Numbers that are not known are null.
+/// One structure on one case. Unknown numbers are null.
 pub fn record(case: &HardCase, choice: &Choice, score: &Score) -> Value {
     let rays = score.rays();
     let judged = rays.map(|rays| &rays.judged);
@@ -29,7 +29,7 @@ pub fn record(case: &HardCase, choice: &Choice, score: &Score) -> Value {
         "false_hits": judged.map(|judged| judged.false_hits),
         // By more than 4 ulps and more than 1e-6.
         "wrong_depth": judged.map(|judged| judged.wrong_depth),
-        // Those of them by more than 1 %, or 0.1 % at another primitive.
+        // Wrong by more than 1 %, or 0.1 % at another primitive.
         "coarse_depth": rays.map(|rays| rays.coarse_depth),
         "wrong_primitive": judged.map(|judged| judged.wrong_primitive),
         "structure_errors": rays.filter(|rays| rays.knows_structure_errors).map(|rays| rays.validation.structure_errors),
@@ -39,7 +39,7 @@ pub fn record(case: &HardCase, choice: &Choice, score: &Score) -> Value {
         "ulps": judged.and_then(|judged| judged.ulps),
         "slowness": rays.and_then(|rays| rays.slowness),
         "build_ns": rays.map(|rays| rays.build_ns),
-        // Of a case that is a property.
+        // Only for a case that is a property.
         "property": match score {
             Score::Property(property) => Some(property),
             _ => None,

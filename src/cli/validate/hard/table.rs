@@ -24,7 +24,7 @@ pub const LEGEND: [&str; 4] = [
      Plus: an addition to the catalogue's measured cases.",
 ];
 
-/// The tables of a run that have rows: hits, errors of t, times of invalid rays, properties, totals.
+/// The nonempty tables of a run: hits, errors of t, times of invalid rays, properties, totals.
 pub fn tables(cases: &[&HardCase], columns: &[Column]) -> Vec<Table> {
     let is_property = |case: &HardCase| matches!(case.content, Content::Property(_));
     let of_rays = table(cases, columns, "Answers", |case, score| (!is_property(case)).then(|| outcome(score)));
@@ -45,7 +45,7 @@ pub fn tables(cases: &[&HardCase], columns: &[Column]) -> Vec<Table> {
     all.into_iter().filter(|table| !table.rows.is_empty()).collect()
 }
 
-/// What a user looks at first: the cases in which a structure fails, and why; the totals.
+/// The summary: the cases in which a structure fails, with the reasons; the totals.
 pub fn summary(cases: &[&HardCase], columns: &[Column]) -> Vec<Table> {
     let is_failed = |(i, _): &(usize, &&HardCase)| {
         columns.iter().any(|column| known_defect(&column.choice.entry.name).is_none() && !column.scores[*i].is_sound())
@@ -58,7 +58,7 @@ pub fn summary(cases: &[&HardCase], columns: &[Column]) -> Vec<Table> {
     all.into_iter().filter(|table| !table.rows.is_empty()).collect()
 }
 
-/// Rows for the cases about which `cell` has something to say.
+/// Rows for the cases with a nonempty `cell`.
 fn table(
     cases: &[&HardCase],
     columns: &[Column],
@@ -82,12 +82,12 @@ fn table(
     Table::new(title, std::iter::once("case").chain(names), rows)
 }
 
-/// The worst ray, the first failure or the reason, of every score that has one.
+/// The worst ray, the first failure or the reason, for every score that has one.
 fn notes(cases: &[&HardCase], columns: &[Column], is_shown: impl Fn(&HardCase) -> bool) -> Vec<String> {
     let mut notes = vec![];
     for (i, case) in cases.iter().enumerate().filter(|(_, case)| is_shown(case)) {
         for column in columns {
-            // Wrong rays of what has known defects need not be shown.
+            // Skip the wrong rays of structures with known defects.
             let has_defects = known_defect(&column.choice.entry.name).is_some();
             let sentence = match &column.scores[i] {
                 Score::Failed(Failure::Refused(sentence) | Failure::Declined(sentence)) => sentence,

@@ -1,10 +1,10 @@
-//! What a hard case says of a structure.
+//! The verdict of a hard case on a structure.
 
 use crate::study::Verdict;
 use crate::validate::Kind;
 use crate::validate::hard_cases::{Failure, Score};
 
-/// What a score says of a structure. A property counts as the rays that it was checked on.
+/// The verdict of a score on a structure. A property counts as the rays of its check.
 pub fn verdict(score: &Score) -> Verdict {
     let failed = |fault| Verdict { rays: 1, wrong: 1, rounded: 0, fault };
     match score {

@@ -1,6 +1,5 @@
-//! The SAH among a few planes of each axis and for some of the references where a node is large, and among all planes
-//! where it is small: a fraction of the time and memory of keeping all events sorted, for trees that cost nearly the
-//! same.
+//! The SAH over a few planes per axis and a sample of the references in large nodes, and over all planes in small
+//! nodes: a fraction of the time and memory of keeping all events sorted, for trees of nearly the same cost.
 
 use super::config::CellConfig;
 use super::grow::{Content, Context, Place};
@@ -19,7 +18,7 @@ pub(crate) enum Binned {
     Fine(Events),
 }
 
-/// How many references begin and end in each bin, and how many lie in each plane.
+/// The numbers of references that begin and end in each bin, and that lie in each plane.
 struct Counts {
     begin: [u32; PLANES + 1],
     end: [u32; PLANES + 1],
@@ -35,7 +34,7 @@ impl Counts {
             let first = planes.first_bin(r.min(planes.axis));
             let last = planes.last_bin(r.max(planes.axis));
             if first > last {
-                // Only what is flat begins above the bin in which it ends, and then it lies in the plane between.
+                // Only a flat reference begins above the bin in which it ends; it then lies in the plane between.
                 counts.flat[last] += 1;
             } else {
                 counts.begin[first] += 1;
@@ -67,7 +66,7 @@ impl Binned {
     }
 }
 
-/// The cheapest plane that makes not too many references, as far as a sample of `part` tells: its cost and the cut.
+/// The cheapest plane that keeps within the budget, as estimated from a sample of `part`: its cost and the cut.
 fn cheapest(context: &Context<CellConfig>, part: &Part, sample: &Sample, place: &Place) -> Option<(f64, Cut)> {
     let found = on_axes(sample.len() >= PARALLEL, |axis| along(context, part, sample, place, axis));
     found.into_iter().flatten().reduce(|a, b| if b.0 < a.0 { b } else { a })
@@ -87,10 +86,10 @@ fn along(
     let inverse = 1.0 / areas.whole();
     let mut best: Option<(f64, Cut)> = None;
     let mut offer = |plane: f32, below: usize, above: usize, flat_below: bool| {
-        // A plane on the cell's own face cuts nothing.
+        // A plane on a face of the cell cuts nothing.
         if min < plane && plane < max {
             let (below_area, above_area) = areas.at(plane.into());
-            // Both sides of a plane inside hold something, in the sample or not.
+            // Both sides of an inner plane have references, in the sample or not.
             let least = usize::from(range.0 < plane && plane < range.1);
             let [below, above] = [below, above].map(|count| sample.scaled(count).max(least));
             let cost = model.cell_split(inverse, (below_area, below), (above_area, above));
@@ -102,7 +101,7 @@ fn along(
     let count = sample.len();
     let candidates = (context.config.candidates as usize).min(count);
     let Some(planes) = Planes::new(axis, range, candidates, sample) else {
-        // All lie in one plane, if the axis is not too long or short for a grid.
+        // All lie in one plane, unless the axis is too long or short for a grid.
         if range.0 == range.1 {
             offer(range.0, count, 0, true);
             offer(range.0, 0, count, false);
@@ -153,7 +152,7 @@ impl Content for Binned {
         let sample = Sample::new(&part.references, context.config.sample);
         let mut found = cheapest(context, part, &sample, place);
         if sample.len() < part.references.len() {
-            // A sample only estimates how many references there will be.
+            // A sample only estimates the number of references: check it.
             let affords = |cut: Cut| {
                 let [below, above] = cut.counts(&part.references);
                 place.affords(below, above)
@@ -194,7 +193,7 @@ mod tests {
     use crate::build::check::{mesh, room, soup};
     use crate::build::sah_cost::CostModel;
 
-    /// The naive twin: every plane by itself, counting all references.
+    /// The naive twin: every plane separately, counting all references.
     #[test]
     fn no_plane_is_cheaper_than_the_one_that_is_chosen() {
         for mesh in [soup(40, 1), soup(700, 2), room(5)] {
@@ -226,7 +225,7 @@ mod tests {
         }
     }
 
-    /// Few of them show, in a sample, that a plane across x cuts nearly all.
+    /// In a sample, few of the references show that a plane across x cuts nearly all.
     #[test]
     fn a_sample_that_is_wrong_about_the_budget_is_not_the_last_word() {
         let stride = 20;

@@ -1,15 +1,15 @@
 use crate::build::quality::Quality;
 use crate::build::sah_cost::CostModel;
 
-/// How the cheapest cut of a cell is searched.
+/// The search for the cheapest cut of a cell.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CellConfig {
     pub costs: CostModel,
     /// Nodes of at most this many references try every plane.
     pub exact: u32,
-    /// Planes that larger nodes try on an axis, in 2..=62.
+    /// Planes per axis that larger nodes try, in 2..=62.
     pub candidates: u32,
-    /// Of larger nodes, only about so many references tell where to cut. At least 16.
+    /// Larger nodes use a sample of about this many references. At least 16.
     pub sample: u32,
 }
 
@@ -17,10 +17,10 @@ impl CellConfig {
     /// Every plane of every node.
     pub const ALL_PLANES: u32 = u32::MAX;
 
-    /// The cells that a wide tree is made of: cheap steps, since three of them are one step of that tree, and all
-    /// planes only where nodes are small or never. In larger nodes the cheapest of all often cuts off empty space,
-    /// which a tight box does without: by the heuristic the finished tree costs 0.94 to 0.98 as much with 8 in place of
-    /// 65,536 in the highest preset. 24 builds a little faster than 8.
+    /// The cells of a wide tree. Steps are cheap, because three of them are one step of that tree, and all planes are
+    /// tried only in small nodes or never: in larger nodes the cheapest plane often cuts off empty space, which a tight
+    /// box does not need. With 8 instead of 65,536 in the highest preset, the finished tree has 0.94 to 0.98 of the
+    /// cost. 24 builds a little faster than 8.
     pub fn new(quality: Quality) -> Self {
         let (exact, candidates, sample, step) = match quality {
             Quality::Fast => (0, 12, 512, 1.0),

@@ -1,44 +1,44 @@
-//! Growing a KD-tree: one recursion for all plane rules.
+//! Grows a KD-tree: one recursion for all plane rules.
 
 use rayon::join;
 
 use crate::build::cut::Cut;
 use crate::geometry::{Aabb, Mesh};
 
-/// What every step of a build knows.
+/// The inputs of every step of a build.
 pub(crate) struct Context<'a, C> {
     pub mesh: &'a Mesh,
     pub rules: Rules,
-    /// Of the plane rule.
+    /// The configuration of the plane rule.
     pub config: &'a C,
     depth_cap: u32,
 }
 
-/// When a node stays a leaf. The depth cap 8 + 1.3 log2 n holds besides.
+/// The conditions for a leaf, in addition to the depth cap 8 + 1.3 log2 n.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Rules {
-    /// Nodes of at most so many references are leaves.
+    /// Nodes with at most this many references are leaves.
     pub leaf: usize,
-    /// The share of clipped references on both sides at which a cut is discarded, if one is.
+    /// The share of clipped references on both sides at which a cut is discarded, if at all.
     pub threshold: Option<f32>,
     /// Whether a cut must cost less than testing all triangles.
     pub pays: bool,
-    /// References of all leaves together, as a multiple of those of the root.
+    /// Maximum number of references of all leaves, as a multiple of the root's.
     pub duplication: f32,
-    /// Whether a cut is progress that leaves all triangles on one side and fewer on the other.
+    /// Whether a cut with all triangles on one side and fewer on the other is progress.
     pub one_side_is_progress: bool,
 }
 
 impl Rules {
-    /// Leaves where no cut pays.
+    /// Rules that make a leaf if no cut pays.
     pub const fn sah(duplication: f32) -> Self {
         Self { leaf: 1, threshold: None, pays: true, duplication, one_side_is_progress: false }
     }
 }
 
-/// The triangles of a node, in whatever form a plane rule works on.
+/// The triangles of a node, in the form that a plane rule uses.
 pub(crate) trait Content: Sized + Send {
-    /// What the rule is told.
+    /// The configuration of the rule.
     type Config: Sync;
 
     fn len(&self) -> usize;
@@ -46,50 +46,49 @@ pub(crate) trait Content: Sized + Send {
     /// The triangles, in ascending order.
     fn ids(&self) -> impl Iterator<Item = u32>;
 
-    /// Where to cut, or nothing when a leaf is better.
+    /// The cut, or `None` if a leaf is better.
     fn choose(&self, context: &Context<Self::Config>, place: &Place) -> Option<Cut>;
 
-    /// The contents below and above. Nothing when the rule discards the cut after all.
+    /// The contents below and above; an error returns the content if the rule discards the cut after all.
     fn divide(self, context: &Context<Self::Config>, place: &Place, cut: Cut) -> Result<(Self, Self), Self>;
 
-    /// Whether this content, new from a division, may be divided further.
+    /// Whether this content, the result of a division, may be divided further.
     fn may_divide(&self, _context: &Context<Self::Config>) -> bool {
         true
     }
 }
 
-/// Where in the tree a node is.
+/// The position of a node in the tree.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place {
     pub cell: Aabb,
     pub depth: u32,
-    /// How many splits in a row have left a child with all triangles of its parent.
+    /// The number of consecutive splits that left all triangles of the parent in one child.
     stalled: u32,
-    /// References that the leaves below this node may hold together.
+    /// The maximum number of references of all leaves below this node.
     budget: f64,
 }
 
 /// A tree that grows depth first.
 pub(crate) trait Tree<C>: Default + Send {
-    /// Whether leaves without triangles are left out, and the nodes that had one.
+    /// Whether leaves without triangles are omitted, together with their parents.
     const SKIPS_EMPTY: bool;
 
     fn len(&self) -> usize;
 
     fn leaf(&mut self, content: C);
 
-    /// Appends an inner node, whose children are not known yet.
+    /// Appends an inner node without its children.
     fn open(&mut self);
 
-    /// The node `inner` is cut; everything below the second child begins with the node `second`, and its last is the
-    /// last there is.
+    /// Cuts the node `inner`. The subtree of the second child is the nodes from `second` to the end.
     fn close(&mut self, inner: usize, cut: Cut, second: usize);
 
-    /// Adds the nodes of `other` behind these.
+    /// Appends the nodes of `other`.
     fn append(&mut self, other: Self);
 }
 
-/// Both sides of a node with fewer references than this are grown by the same thread.
+/// Nodes with fewer references than this are grown by one thread.
 const PARALLEL: usize = 2048;
 
 impl<'a, C> Context<'a, C> {
@@ -98,14 +97,14 @@ impl<'a, C> Context<'a, C> {
     }
 }
 
-/// The greatest depth of a leaf: 8 + 1.3 log2 n (Pharr, Jakob, Humphreys).
+/// The maximum depth of a leaf: 8 + 1.3 log2 n (Pharr, Jakob, Humphreys).
 const fn depth_cap(triangles: usize) -> u32 {
-    // The logarithm is rounded up to a whole number: no library function decides about the shape of a tree.
+    // The logarithm is rounded up to a whole number: no library function affects the shape of a tree.
     let log2 = usize::BITS - if triangles > 1 { triangles } else { 1 }.leading_zeros();
     8 + log2 * 13 / 10
 }
 
-/// That of the largest mesh.
+/// The depth cap of the largest mesh.
 pub(crate) const DEEPEST: u32 = depth_cap(u32::MAX as usize);
 const _: () = assert!(DEEPEST == 49);
 
@@ -132,7 +131,7 @@ fn subdivide<C: Content, T: Tree<C>>(
         Err(content) => return tree.leaf(content),
     };
 
-    // Give each side its share of the references that are still allowed.
+    // Give each side its share of the remaining references.
     let (below_cell, above_cell) = place.cell.cut(cut.axis, cut.plane);
     let stalled = if context.rules.is_progress(count, below.len(), above.len()) { 0 } else { place.stalled + 1 };
     let share = place.budget / (below.len() + above.len()).max(1) as f64;
@@ -166,7 +165,7 @@ fn subdivide<C: Content, T: Tree<C>>(
     tree.close(inner, cut, second);
 }
 
-/// The cut and both sides, or the content back when the node stays a leaf.
+/// The cut and both sides, or an error with the content if the node stays a leaf.
 fn try_divide<C: Content>(
     context: &Context<C::Config>,
     content: C,
@@ -183,7 +182,7 @@ fn try_divide<C: Content>(
 }
 
 impl Place {
-    /// Of `count` references to all triangles.
+    /// The place of the root with `count` references.
     pub fn root<C>(context: &Context<C>, count: usize) -> Self {
         let budget = f64::from(context.rules.duplication) * count as f64;
         Self { cell: context.mesh.bounds(), depth: 0, stalled: 0, budget }
@@ -194,15 +193,14 @@ impl Place {
         (below + above) as f64 <= self.budget
     }
 
-    /// Whether the rules take a cut that makes sides of these sizes of `count` clipped triangles.
+    /// Whether the rules accept a cut of `count` clipped triangles into sides of these sizes.
     pub fn accepts<C>(&self, context: &Context<C>, count: usize, [below, above]: [usize; 2]) -> bool {
         let both = (below + above - count) as f64;
         let discarded = context.rules.threshold.is_some_and(|share| both >= f64::from(share) * count as f64);
         !discarded && self.affords(below, above)
     }
 
-    /// Whether sides of these sizes are progress, or the lack of it may be had once more: not for the third time in a
-    /// row.
+    /// Whether sides of these sizes are progress, or another split without progress is allowed: not the third in a row.
     pub fn progresses<C>(&self, context: &Context<C>, count: usize, below: usize, above: usize) -> bool {
         context.rules.is_progress(count, below, above) || self.stalled < 2
     }
@@ -210,7 +208,7 @@ impl Place {
 
 impl Rules {
     /// Whether neither side has all triangles of the node. The middle of a cell may also leave all of them in one half,
-    /// but for those that reach into the other: the cell is smaller, and that is what such a rule is after.
+    /// and the other half has only those that reach into it: such a rule accepts the smaller cell as progress.
     fn is_progress(&self, count: usize, below: usize, above: usize) -> bool {
         let most = if self.one_side_is_progress { below.min(above) } else { below.max(above) };
         most < count

@@ -2,8 +2,8 @@
 //!
 //! # References
 //! Wald, Havran: On building fast kd-trees for ray tracing, and on doing that in O(N log N). IEEE Symposium on
-//! Interactive Ray Tracing 2006. We depart from the paper in that a triangle in the plane goes to the cheaper side only
-//! (the traversal visits both sides of a plane that it crosses), and in the guard against duplication.
+//! Interactive Ray Tracing 2006. Two departures from the paper: a triangle in the plane goes only to the cheaper side
+//! (the traversal visits both sides of a plane that it crosses), and the guard against duplication.
 
 use rayon::prelude::*;
 
@@ -17,12 +17,12 @@ use crate::build::reference::Reference;
 use crate::build::sah_cost::{CostModel, SideAreas};
 use crate::geometry::Aabb;
 
-/// Where a reference begins or ends on an axis: coordinate, kind and number of the reference, in this order from the
-/// highest bit, so that the order of the numbers is the order of the sweep.
+/// The beginning or end of a reference on an axis: coordinate, kind and number of the reference, in this order from the
+/// highest bit, which makes the numeric order the order of the sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Event(u64);
 
-/// In the order in which the sweep must meet them at one coordinate.
+/// In the order of the sweep at one coordinate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 enum Kind {
@@ -53,7 +53,7 @@ impl Event {
         self.0 as u32 & ((1 << 30) - 1)
     }
 
-    /// The same event of the reference that is now called `reference`.
+    /// The same event, for the new number `reference`.
     fn renamed(self, reference: u32) -> Self {
         Self(self.0 & !((1 << 30) - 1) | u64::from(reference))
     }
@@ -105,7 +105,7 @@ impl Events {
             let [end, planar, start] = counts;
             above -= end + planar;
 
-            // A plane on the cell's own face cuts nothing.
+            // A plane on a face of the cell cuts nothing.
             if min < plane && plane < max {
                 let (below_area, above_area) = areas.at(plane.into());
                 let mut offer = |below, above, flat_below| {
@@ -124,7 +124,7 @@ impl Events {
         best
     }
 
-    /// What has a part on the side `here`, in `cell`: below, which is 0, or above. `sides` says on which each has one.
+    /// The part on the side `here` (0: below, 1: above), in `cell`. `sides` contains the sides of each reference.
     fn part(&self, context: &Context<CellConfig>, sides: &[[bool; 2]], here: usize, cell: &Aabb) -> Self {
         let count = sides.iter().filter(|side| side[here]).count();
         let mut references = Vec::with_capacity(count);
@@ -157,7 +157,7 @@ impl Events {
     }
 }
 
-/// The events of `references`, the first of which is called `first`.
+/// The events of `references`, numbered from `first`.
 fn push_events(references: &[Reference], first: u32, axis: usize, events: &mut Vec<Event>) {
     for (name, reference) in (first..).zip(references) {
         let (lo, hi) = (reference.min(axis), reference.max(axis));

@@ -1,4 +1,4 @@
-//! The cells of a KD-tree as tight boxes: what a wide tree is made of.
+//! The cells of a KD-tree as tight boxes: the binary tree of a wide tree.
 
 use super::binned::Binned;
 use super::config::CellConfig;
@@ -8,16 +8,15 @@ use crate::build::cut::Cut;
 use crate::build::part::{Part, halves};
 use crate::geometry::{Aabb, Mesh};
 
-/// References that a leaf may hold; fuller ones are dealt out to several.
+/// Maximum number of references of a leaf; fuller ones are divided among several.
 const MOST: usize = 64;
 
-/// Cells that hold something, each as the tight box of what its triangles have in it, and the inner nodes that are
-/// still needed.
+/// Nonempty cells, each as the tight box of its parts of triangles, and the inner nodes that are still needed.
 #[derive(Default)]
 struct Cells(BinaryTree);
 
-/// The cells of `mesh` that are not empty, as tight boxes, with at most `duplication` references a triangle. The tree
-/// does not depend on the number of threads.
+/// The nonempty cells of `mesh` as tight boxes, with at most `duplication` references per triangle. The tree does not
+/// depend on the number of threads.
 pub(crate) fn build(mesh: &Mesh, config: &CellConfig, duplication: f32) -> BinaryTree {
     let context = Context::new(mesh, Rules::sah(duplication), config);
     let Cells(tree) = grow(&context, Binned::all(&context));
@@ -45,7 +44,7 @@ impl Cells {
         self.0.nodes.push(BinaryNode { bounds, content });
     }
 
-    /// Makes the nodes after `inner` and at `second` its children.
+    /// Makes the node after `inner` and the node `second` its children.
     fn join(&mut self, inner: usize, second: usize) {
         let nodes = &mut self.0.nodes;
         let bounds = nodes[inner + 1].bounds.union(nodes[second].bounds);

@@ -1,4 +1,4 @@
-//! A tree of which parts can be moved.
+//! A tree whose parts can be moved.
 
 use std::ops::{Index, IndexMut};
 
@@ -9,7 +9,7 @@ use crate::build::extent::Extent;
 
 pub(super) const NONE: u32 = u32::MAX;
 
-/// A node with links in both directions: all that a search reads of it, in one cache line.
+/// A node with links in both directions: the data of a search, in one cache line.
 #[derive(Clone, Copy)]
 #[repr(align(64))]
 pub(super) struct Link {
@@ -36,7 +36,7 @@ impl Link {
     }
 }
 
-/// The tree that is changed.
+/// The tree during the moves.
 #[derive(Clone)]
 pub(super) struct Links(pub Vec<Link>);
 
@@ -105,7 +105,8 @@ impl Links {
         self[new].parent = parent;
     }
 
-    /// Recomputes boxes and heights from `at` up, as far as they change; by how much their areas have grown together.
+    /// Recomputes boxes and heights from `at` upward until they no longer change; returns the total growth of their
+    /// areas.
     pub fn refit(&mut self, mut at: u32) -> f64 {
         let mut growth = 0.0;
         while at != NONE {
@@ -123,7 +124,7 @@ impl Links {
         growth
     }
 
-    /// The nodes and references of `tree` as they are linked now, depth first.
+    /// The current nodes and references of `tree`, depth first.
     pub fn write(&self, tree: &BinaryTree) -> BinaryTree {
         let mut order = Vec::with_capacity(tree.nodes.len());
         let mut number = vec![0; tree.nodes.len()];

@@ -1,11 +1,11 @@
-//! Moving parts of a finished tree to where they make it cheaper.
+//! Moves parts of a finished tree to cheaper places.
 //!
 //! # References
 //! Bittner, Hapala, Havran: Fast Insertion-Based Optimization of Bounding Volume Hierarchies, Computer Graphics Forum
 //! 2013. Meister, Bittner: Parallel Reinsertion for Bounding Volume Hierarchy Optimization, Computer Graphics Forum
-//! 2018. We depart in that moves found together are tried one after the other, each only if it still pays, so that the
-//! result is the same for every number of threads; in how many nodes a pass looks at; and in that all passes share one
-//! order, that of the boxes before the first.
+//! 2018. Three departures: moves found together are tried one after the other, each only if it still pays, so the
+//! result is the same for every number of threads; the number of nodes per pass; and all passes share one order, by the
+//! boxes before the first pass.
 
 mod links;
 mod relocate;
@@ -17,19 +17,18 @@ use crate::build::binary_tree::BinaryTree;
 use links::Links;
 use search::Search;
 
-/// Nodes whose moves are sought at the same time, at first; then as many as have been looked at. Near the root moves
-/// are in each other's way: with 256, or made in another order than that of size, rays of indoor scenes took 0.9 to 1.2
-/// times as many steps, for the same area. Further down, threads that wait for each other cost more than the few moves
-/// that are spoilt.
+/// Nodes whose moves are sought at the same time, at first; then as many as have been processed. Near the root moves
+/// conflict: with 256, or in another order than by size, rays of indoor scenes took 0.9 to 1.2 times as many steps, for
+/// the same area. Further down, waiting threads cost more than the few moves that conflict.
 const BATCH: usize = 64;
 
-/// The share of the nodes that the first pass looks at, those of the largest boxes; the k-th pass looks at the first
-/// 1/k of them. With 0.6 in place of 0.4, builds take 1.03 to 1.08 times as long, for 0.99 to 1.00 of the area and rays
-/// that are no faster.
+/// The share of nodes that the first pass processes, those with the largest boxes; pass k processes the first 1/k of
+/// them. With 0.6 instead of 0.4, builds take 1.03 to 1.08 times as long, for 0.99 to 1.00 of the area and no faster
+/// rays.
 const SHARE: f64 = 0.4;
 
-/// Seeks better places for the nodes that have the largest boxes in `tree`, the largest first, `passes` times. Leaves
-/// stay what they are.
+/// Searches better places for the nodes with the largest boxes in `tree`, the largest first, in `passes` passes. Leaves
+/// stay unchanged.
 pub(crate) fn reinsert(tree: BinaryTree, passes: u32) -> BinaryTree {
     if tree.nodes.len() < 2 || passes == 0 {
         return tree;
@@ -41,7 +40,7 @@ pub(crate) fn reinsert(tree: BinaryTree, passes: u32) -> BinaryTree {
         let mut done = 0;
         while done < looked_at {
             let end = looked_at.min(done + done.max(BATCH));
-            // Neighbours in the tree read the same lines.
+            // Neighbours in the tree read the same cache lines.
             let mut batch: Vec<(u32, usize)> = order[done..end].iter().copied().zip(done..end).collect();
             batch.par_sort_unstable();
             let search = |open: &mut Vec<_>, &(at, rank): &(u32, usize)| {
@@ -59,10 +58,10 @@ pub(crate) fn reinsert(tree: BinaryTree, passes: u32) -> BinaryTree {
     links.write(&tree)
 }
 
-/// The `count` nodes below the root that have the largest boxes, the largest first.
+/// The `count` nodes below the root with the largest boxes, the largest first.
 fn largest(links: &Links, count: usize) -> Vec<u32> {
-    // As shares of the root's area, the large ones fit an `f32`, whatever the unit of length; what it cannot tell apart
-    // comes as in the tree. They are not negative: their bits are in the same order.
+    // As shares of the root's area, large areas fit an `f32` in any unit of length; equal shares keep the order of the
+    // tree. They are not negative: their bits are in the same order.
     let whole = Some(links[0].area).filter(|&whole| whole > 0.0).unwrap_or(1.0);
     let key = |at: u32| {
         let share = (links[at].area / whole) as f32;
@@ -94,7 +93,7 @@ mod tests {
 
     #[test]
     fn moves_save_area_and_leave_the_leaves_as_they_were() {
-        // Nothing is to be gained in a regular room.
+        // A regular room gains nothing.
         for (mesh, irregular) in [(soup(4000, 21), true), (room(12), false)] {
             for splits in [Splits::Spatial, Splits::SpatialAndObject, Splits::Object] {
                 let before = binary(&mesh, splits);

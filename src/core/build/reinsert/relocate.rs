@@ -6,7 +6,7 @@ use super::links::{Links, NONE};
 pub(super) const DEEPEST: u32 = 80;
 
 impl Links {
-    /// Moves `at` beside `target`, if by now that is still possible and still saves area.
+    /// Moves `at` beside `target`, if that is still possible and still saves area.
     pub fn relocate(&mut self, at: u32, target: u32) {
         let (parent, sibling) = (self[at].parent, self.sibling(at));
         let grand = self[parent].parent;
@@ -32,7 +32,7 @@ impl Links {
             return;
         }
 
-        // Moves before this one have spoilt it: take it back.
+        // Earlier moves have made it useless: undo it.
         self.replace(above, parent, target);
         self.refit(above);
         self.replace(grand, sibling, parent);

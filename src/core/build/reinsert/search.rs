@@ -1,26 +1,26 @@
-//! Where a node would be better off.
+//! Searches a better place for a node.
 
 use super::links::{Link, Links, NONE};
 use crate::build::extent::Extent;
 
-/// Places that the search for a move looks at.
+/// Maximum number of places that a search visits.
 const VISITS: usize = 512;
 
-/// The search for a better place for one node: looks along the path to the root, and below what lies beside it.
+/// The search for a better place for one node: along the path to the root, and below the siblings of the path.
 pub(super) struct Search<'a> {
     links: &'a Links,
     own: Extent,
     own_area: f64,
-    /// The most that any place so far saves, and that place.
+    /// The largest saving so far, and its place.
     best: f64,
     target: Option<u32>,
-    /// Nodes below which there may be better places, and what is saved above them.
+    /// Nodes whose subtrees may contain better places, and the saving above them.
     open: &'a mut Vec<(u32, f64)>,
     visits: usize,
 }
 
 impl<'a> Search<'a> {
-    /// The node beside which `at` saves most area, if any place does. `open` is lent for its memory.
+    /// The node beside which `at` saves most area; `None` if no place saves any. `open` only lends its memory.
     pub fn best(links: &'a Links, at: u32, open: &'a mut Vec<(u32, f64)>) -> Option<u32> {
         let Link { extent: own, area: own_area, parent, .. } = links[at];
         if parent == NONE || links[parent].parent == NONE {
@@ -30,8 +30,7 @@ impl<'a> Search<'a> {
         Self { links, own, own_area, best: 0.0, target: None, open, visits: 0 }.climb(at, parent)
     }
 
-    /// Goes up from `at`; what lies beside the path is searched, knowing what the removal saves on the path up to
-    /// there.
+    /// Climbs from `at` and searches the siblings of the path; the removal saves a known amount on the path.
     fn climb(mut self, at: u32, parent: u32) -> Option<u32> {
         let links = self.links;
         let mut saved = links[parent].area;
@@ -46,7 +45,7 @@ impl<'a> Search<'a> {
             if links[path].parent == NONE {
                 return self.target;
             }
-            // Beside what is left of a node above; the parent is gone, which is counted from the start.
+            // Place it beside the rest of a node above; the removed parent is counted from the start.
             if path != parent {
                 saved += links[path].area - rest.half_area();
                 self.offer(path, saved - rest.union(self.own).half_area());
@@ -54,7 +53,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Looks at `place` and below, where `saved` is what is saved above it.
+    /// Visits `place` and its subtree; `saved` is the saving above it.
     fn descend(&mut self, place: u32, saved: f64) {
         self.open.push((place, saved));
         while let Some((place, saved)) = self.open.pop() {

@@ -1,4 +1,4 @@
-//! Growing the tree.
+//! Grows the tree.
 
 use super::config::{SbvhConfig, Splits};
 use super::object::cheapest_group;
@@ -13,18 +13,18 @@ use crate::build::reference::{PARALLEL, Reference};
 use crate::build::sah_cost::BLOCK;
 use crate::geometry::Mesh;
 
-/// A tree that grows, and how many references its nodes have looked at: what the time of a build is proportional to.
+/// A growing tree, and the number of references that its nodes have processed, to which the build time is proportional.
 #[derive(Default)]
 pub(super) struct Growth {
     pub tree: BinaryTree,
     pub work: u64,
 }
 
-/// Where in the tree a node is.
+/// The position of a node in the tree.
 #[derive(Clone, Copy, Debug)]
 struct Place {
     depth: u32,
-    /// References that the leaves below this node may hold together.
+    /// The maximum number of references of all leaves below this node.
     budget: f64,
 }
 
@@ -34,10 +34,10 @@ enum Split {
     Set(Group),
 }
 
-/// The tree over the triangles of `mesh` that have an area. It does not depend on the number of threads.
+/// The tree over the triangles of `mesh` with an area. It does not depend on the number of threads.
 ///
-/// Takes O(n log n) time and memory: paths have at most 16 + 2 log2 n levels and those of halving a rest, and all
-/// leaves together hold at most `config.duplication` times the triangles.
+/// Takes O(n log n) time and memory: paths have at most 16 + 2 log2 n levels of chosen splits and then halvings, and
+/// all leaves together have at most `config.duplication` times the triangles.
 pub(crate) fn build(mesh: &Mesh, config: &SbvhConfig) -> BinaryTree {
     growth(mesh, config).tree
 }
@@ -53,7 +53,7 @@ pub(super) fn growth(mesh: &Mesh, config: &SbvhConfig) -> Growth {
     growth
 }
 
-/// Appends the tree over `part`, its root first; what it costs.
+/// Appends the tree over `part`, its root first; returns its cost.
 fn grow(context: &Context, part: Part, place: Place, growth: &mut Growth, slots: &mut Slots) -> f64 {
     let Part { references, extent } = part;
     let (area, count) = (extent.half_area(), references.len());
@@ -70,7 +70,7 @@ fn grow(context: &Context, part: Part, place: Place, growth: &mut Growth, slots:
         Split::Set(group) => by_group(references, group, counts),
     };
 
-    // Give each side its share of the references that are still allowed.
+    // Give each side its share of the remaining references.
     let share = place.budget / (below.references.len() + above.references.len()) as f64;
     let child = |part: &Part| Place { depth: place.depth + 1, budget: share * part.references.len() as f64 };
     let (below_place, above_place) = (child(&below), child(&above));
@@ -95,7 +95,7 @@ fn grow(context: &Context, part: Part, place: Place, growth: &mut Growth, slots:
     merge(context, &mut growth.tree, own, first, area, cost).unwrap_or(cost)
 }
 
-/// How to split, and the references on both sides; nothing when a leaf is better.
+/// The split and the references on both sides; an error returns the part if a leaf is better.
 fn choose(
     context: &Context,
     references: &[Reference],
@@ -151,11 +151,11 @@ fn cheapest(
     }
 }
 
-/// What an object split of `count` references costs more beside the best spatial one. The heuristic lets every ray
-/// visit each box that it meets; but a ray with a hit in the nearer side need not visit the other, unless the two
-/// overlap. So what both have in common costs once more, by the side with fewer triangles. Not where the plane adds
-/// more than a sixteenth of the references, as where shells are nested: those are then missing below. And not in small
-/// nodes, where references that are added fill blocks of their own.
+/// The additional cost of an object split of `count` references that competes with the best spatial one. In the
+/// heuristic every ray visits each box that it meets; but a ray with a hit in the nearer side need not visit the other,
+/// unless the two overlap. So the overlap costs once more, with the triangles of the smaller side. It does not if the
+/// plane adds more than a sixteenth of the references, as in nested shells: these references are then missing below.
+/// Nor in small nodes, where added references fill their own blocks.
 fn overlap_cost(context: &Context, count: usize, object: &Offer<Split>, spatial: &Offer<Split>) -> f64 {
     if count < 4 * BLOCK || spatial.counts.iter().sum::<usize>() > count + count / 16 {
         return 0.0;
@@ -164,7 +164,7 @@ fn overlap_cost(context: &Context, count: usize, object: &Offer<Split>, spatial:
     f64::from(context.config.overlap_cost) * context.costs.box_leaf(object.sides[0].overlap(object.sides[1]), fewer)
 }
 
-/// Makes the subtree at `own` one leaf where that is cheaper; what it costs then.
+/// Merges the subtree at `own` into one leaf if that is cheaper; returns its cost then.
 fn merge(context: &Context, tree: &mut BinaryTree, own: usize, first: usize, area: f64, cost: f64) -> Option<f64> {
     let most = context.config.leaf as usize;
     if tree.references.len() - first > 2 * most {
@@ -185,7 +185,7 @@ fn merge(context: &Context, tree: &mut BinaryTree, own: usize, first: usize, are
 }
 
 impl Growth {
-    /// Adds the nodes of `other` behind these.
+    /// Appends the nodes of `other`.
     fn append(&mut self, other: Growth) {
         self.tree.append(other.tree);
         self.work += other.work;

@@ -1,4 +1,4 @@
-//! The cheapest way to sort the references of a node into two groups.
+//! The cheapest object split of a node.
 
 use super::offer::{Context, Offer, cheaper};
 use crate::build::axes::on_axes;

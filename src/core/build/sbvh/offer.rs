@@ -1,17 +1,17 @@
-//! What the searches for a split know, and what they find.
+//! Inputs and results of the searches for a split.
 
 use super::config::SbvhConfig;
 use crate::build::extent::Extent;
 use crate::build::sah_cost::CostModel;
 use crate::geometry::Mesh;
 
-/// What every step of a build knows.
+/// The inputs of every step of a build.
 pub(super) struct Context<'a> {
     pub mesh: &'a Mesh,
     pub config: &'a SbvhConfig,
     pub costs: CostModel,
     pub root_area: f64,
-    /// Levels of splits that the heuristic chooses; below them nodes are halved, so that any input ends.
+    /// Levels of splits that the heuristic chooses; below them nodes are halved, so every build terminates.
     pub depth: u32,
 }
 
@@ -23,7 +23,7 @@ impl<'a> Context<'a> {
     }
 }
 
-/// A cheapest way so far.
+/// The cheapest split so far.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Offer<T> {
     pub cost: f64,
@@ -40,7 +40,7 @@ impl<T> Offer<T> {
     }
 }
 
-/// The cheaper of two, the first where they cost the same.
+/// The cheaper of two, the first if they have equal cost.
 pub(super) fn cheaper<T>(a: Option<Offer<T>>, b: Option<Offer<T>>) -> Option<Offer<T>> {
     match (a, b) {
         (Some(a), Some(b)) => Some(if b.cost < a.cost { b } else { a }),

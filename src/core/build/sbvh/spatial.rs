@@ -12,21 +12,21 @@ use crate::build::sample::Sample;
 use crate::build::slices::slice;
 use crate::geometry::{Aabb, Mesh};
 
-/// Bins and planes in ascending order: slot `2 i` is bin `i`, slot `2 i + 1` holds what lies in plane `i`.
+/// Bins and planes in ascending order: slot `2 i` is bin `i`, slot `2 i + 1` is plane `i`.
 const SLOTS: usize = 2 * PLANES + 2;
 
-/// What begins and what ends in each slot: how many references, and their whole boxes.
+/// The references that begin and that end in each slot: their number and their whole boxes.
 ///
-/// What lies below a plane is the parts there of all that begins below it. A plane cuts off of a box just what is
-/// beyond it, and the box of all that is cut off so is the box of the whole ones, cut off at the plane: no reference
-/// need be looked at for the slots between its ends. Only sliced triangles grow each bin on their way by their slice
-/// there, among what begins in it and among what ends.
+/// The part below a plane consists of the parts of all references that begin below it. A plane cuts off exactly the
+/// part of a box beyond it, so the box of all parts is the box of the whole references, cut off at the plane: the slots
+/// between the ends of a reference need no update. Only sliced triangles grow each bin on their way by their slice
+/// there, both among the references that begin in it and those that end.
 pub(super) struct Slots {
     begin: [u32; SLOTS],
     end: [u32; SLOTS],
     begin_extents: [Extent; SLOTS],
     end_extents: [Extent; SLOTS],
-    /// What ends in the slots after each.
+    /// The box of the references that end in later slots.
     above: [Extent; SLOTS],
 }
 
@@ -48,7 +48,7 @@ impl Slots {
     fn add<const AXIS: usize, const SLICED: bool>(&mut self, mesh: &Mesh, sample: &Sample, planes: &Planes) {
         for r in sample.iter() {
             let (first, last) = (planes.first_bin(r.min(AXIS)), planes.last_bin(r.max(AXIS)));
-            // Only what is flat begins above the bin in which it ends, and then it lies in the plane between.
+            // Only a flat reference begins above the bin in which it ends; it then lies in the plane between.
             let (begin, end) = (first + first.min(last), last + last.max(first));
             self.begin[begin] += 1;
             self.end[end] += 1;
@@ -65,9 +65,9 @@ impl Slots {
         }
     }
 
-    /// The cheapest plane for `node`, and its place among the planes.
+    /// The cheapest plane for `node`, and its index among the planes.
     fn sweep(&mut self, context: &Context, planes: &Planes, node: &Node) -> Option<Offer<(Cut, usize)>> {
-        // What ends above each boundary, from the top.
+        // Collect the references that end above each boundary, from the top.
         let slots = 2 * planes.bins() - 1;
         let mut above = Extent::EMPTY;
         for slot in (1..slots).rev() {
@@ -75,7 +75,7 @@ impl Slots {
             self.above[slot - 1] = above;
         }
 
-        // Every boundary between slots is a candidate: of a plane, with what lies in it above or below.
+        // Every boundary between slots is a candidate: a plane, with the references in it above or below.
         let mut best: Option<Offer<(Cut, usize)>> = None;
         let mut below = Extent::EMPTY;
         let (mut begun, mut ended) = (0, 0);
@@ -102,7 +102,7 @@ impl Slots {
     }
 }
 
-/// The cheapest plane for references in `extent` that makes at most `budget` references.
+/// The cheapest plane for references in `extent` with at most `budget` references.
 pub(super) fn cheapest_cut(
     context: &Context,
     references: &[Reference],
@@ -114,7 +114,7 @@ pub(super) fn cheapest_cut(
     let some = Node { sample: Sample::new(references, context.config.sample), ..all };
     let mut offer = some.cheapest(context, extent, slots)?;
     if some.sample.len() < references.len() {
-        // A sample only estimates how many references there will be.
+        // A sample only estimates the number of references: count them.
         offer.counts = offer.split.counts(references);
         if !some.affords(offer.counts) {
             return all.cheapest(context, extent, slots);
@@ -123,7 +123,7 @@ pub(super) fn cheapest_cut(
     Some(offer)
 }
 
-/// What a cut is sought for.
+/// The input of a search for a cut.
 struct Node<'a> {
     sample: Sample<'a>,
     area: f64,
@@ -155,7 +155,7 @@ impl Node<'_> {
             return Some(coarse);
         }
 
-        // Look closer between the neighbours of the plane that was found.
+        // Refine between the neighbours of the found plane.
         let planes = Planes::new(axis, around, candidates, &self.sample);
         let fine = planes.and_then(|planes| self.along(context, &planes, slots)).map(|o| o.map(|(cut, _)| cut));
         cheaper(Some(coarse), fine)

@@ -78,7 +78,7 @@ fn no_input_explodes() {
                 leaves.iter().for_each(|(_, ids)| ids.iter().for_each(|&id| seen[id as usize] = true));
                 assert!(mesh.solid().all(|id| seen[id as usize]), "{name} {config:?}");
 
-                // No path is longer than 16 + 2 log2 n chosen levels and as many halvings as it takes from there.
+                // No path is longer than 16 + 2 log2 n chosen levels and the halvings below them.
                 let log2 = (count as f64).log2().ceil() + 1.0;
                 let halvings = (f64::from(duplication) * count as f64).log2();
                 let most = f64::from(duplication) * count as f64 * (16.0 + 2.0 * log2 + halvings + 1.0);
@@ -108,7 +108,7 @@ fn nothing_and_next_to_nothing_build() {
     }
 }
 
-/// The naive twin of the search for a cut: every plane, every reference, nothing shared between planes.
+/// The naive twin of the search for a cut: every plane, every reference, without shared work.
 #[test]
 fn no_candidate_is_cheaper_than_the_cut_that_is_chosen() {
     for seed in 0..60 {
@@ -148,7 +148,7 @@ fn no_candidate_is_cheaper_than_the_cut_that_is_chosen() {
                     }
                 }
             }
-            // Slices are cut in f32, clipped triangles in f64 and rounded outward.
+            // Slices are cut in f32; clipped triangles in f64, rounded outward.
             let slack = if config.sliced == 0 { 0.0 } else { 1e-5 * least };
             assert!((found.cost - least).abs() <= slack, "{} instead of {least}", found.cost);
         }

@@ -1,4 +1,4 @@
-//! The few calls of Embree 4 that are needed, found in its shared library when the first structure is built.
+//! The required functions of Embree 4, looked up in its shared library when the first structure is built.
 
 use std::env;
 use std::ffi::{CStr, OsString, c_char, c_int, c_uint, c_void};
@@ -9,7 +9,7 @@ use libloading::Library;
 /// Names the library to load.
 pub const VARIABLE: &str = "SAHARA_EMBREE";
 
-/// The names that are looked up in the system's search path.
+/// Names for the system's search path.
 const NAMES: [&str; 4] = ["libembree4.so.4", "libembree4.so", "libembree4.4.dylib", "embree4.dll"];
 
 /// An object of Embree.
@@ -18,12 +18,12 @@ pub type Handle = *mut c_void;
 /// Receives errors: the pointer given with the function, the code, a sentence.
 pub type OnError = unsafe extern "C" fn(*mut c_void, c_int, *const c_char);
 
-/// Receives changes of memory: the pointer given with the function, bytes taken or given back, whether that has
-/// happened already. May refuse.
+/// Receives changes of memory: the pointer given with the function, bytes allocated or freed, whether that has happened
+/// already. May refuse.
 pub type OnMemory = unsafe extern "C" fn(*mut c_void, isize, bool) -> bool;
 
-/// How a query is made: the head of `RTCIntersectArguments` and `RTCOccludedArguments`, which agree, with room for what
-/// later versions add.
+/// The options of a query: the head of `RTCIntersectArguments` and `RTCOccludedArguments`, which agree, with space for
+/// later versions.
 #[repr(C)]
 pub struct Arguments {
     pub flags: c_uint,
@@ -31,7 +31,7 @@ pub struct Arguments {
     pub rest: [usize; 5],
 }
 
-/// Kinds of geometry, buffers and formats, as its headers number them.
+/// Kinds of geometry, buffers and formats, as numbered in its headers.
 pub const TRIANGLES: c_int = 0;
 pub const INDICES: c_int = 0;
 pub const VERTICES: c_int = 1;
@@ -50,7 +50,7 @@ macro_rules! api {
             /// # Safety
             /// `library` must be Embree 4.
             unsafe fn find(library: &Library) -> Result<Self, libloading::Error> {
-                // SAFETY: by the contract of this function it is Embree 4, and the types are those of its headers.
+                // SAFETY: by the contract of this function it is Embree 4, and the types agree with its headers.
                 unsafe { Ok(Self { $($field: *library.get(concat!($symbol, "\0").as_bytes())?,)* }) }
             }
         }
@@ -85,7 +85,7 @@ api! {
 /// Embree 4, loaded once and never unloaded: its threads outlive its objects.
 ///
 /// # Errors
-/// If it is not there or is another version: the sentence says what to do.
+/// If it is missing or has another version: the sentence contains a remedy.
 pub fn api() -> Result<&'static Api, String> {
     static LOADED: OnceLock<Result<(Library, Api), String>> = OnceLock::new();
     LOADED.get_or_init(load).as_ref().map(|(_, api)| api).map_err(String::clone)
@@ -99,8 +99,8 @@ fn load() -> Result<(Library, Api), String> {
     };
     let mut failure = None;
     let library = candidates.iter().find_map(|name| {
-        // SAFETY: loading runs the initialisers of the library. It is the one that the user names, or the system's own
-        // Embree: both are trusted to be what they are named.
+        // SAFETY: loading runs the initialisers of the library. It is the library that the user names, or the system's
+        // own Embree: both are trusted to be the named library.
         let loaded = unsafe { Library::new(name) };
         loaded.map_err(|error| failure = Some(error)).ok()
     });
@@ -121,17 +121,18 @@ fn load() -> Result<(Library, Api), String> {
         let place = named.as_ref().map_or(NAMES[0].into(), |path| path.display().to_string());
         format!("{place} is not Embree 4: {what}; set {VARIABLE} to the path of libembree4")
     };
-    // SAFETY: a library with these symbols is Embree's, and `version` calls only what has kept its type since Embree 3.
+    // SAFETY: a library with these symbols is Embree's, and `version` calls only functions whose types are unchanged
+    // since Embree 3.
     let version = unsafe { version(&library) }.map_err(|error| other(&error.to_string()))?;
     if version / 10_000 != 4 {
         return Err(other(&format!("its version is {}.{}", version / 10_000, version / 100 % 100)));
     }
-    // SAFETY: its version, checked above, says that it is Embree 4.
+    // SAFETY: its version, checked above, is Embree 4.
     let api = unsafe { Api::find(&library) }.map_err(|error| other(&error.to_string()))?;
     Ok((library, api))
 }
 
-/// As it numbers itself: 40400 for 4.4.0.
+/// Its version number: 40400 for 4.4.0.
 ///
 /// # Safety
 /// If `library` has these symbols, they must be Embree's, of version 3 or later.
@@ -151,7 +152,7 @@ unsafe fn version(library: &Library) -> Result<isize, libloading::Error> {
     }
 }
 
-/// The sentence that Embree hands to [`OnError`].
+/// The sentence that Embree passes to [`OnError`].
 ///
 /// # Safety
 /// `text` must be null or a string of C.
@@ -159,6 +160,6 @@ pub unsafe fn sentence(text: *const c_char) -> String {
     if text.is_null() {
         return "it gives no reason".into();
     }
-    // SAFETY: by the contract of this function it is a string of C, for it is not null.
+    // SAFETY: by the contract of this function it is a string of C, because it is not null.
     unsafe { CStr::from_ptr(text) }.to_string_lossy().into_owned()
 }

@@ -9,12 +9,12 @@ use super::api::{Api, FLOAT3, Handle, INDICES, TRIANGLES, UINT3, VERTICES, api, 
 use crate::accel::BuildError;
 use crate::geometry::Mesh;
 
-/// What Embree reports by itself.
+/// Errors and memory that Embree reports.
 #[derive(Default)]
 struct Monitor {
     /// The first error since the last look.
     error: Mutex<Option<String>>,
-    /// Bytes that it holds.
+    /// Bytes that it has allocated.
     bytes: AtomicIsize,
 }
 
@@ -23,18 +23,19 @@ pub struct Scene {
     api: &'static Api,
     device: Handle,
     scene: Handle,
-    /// Embree holds a pointer to it. In an `Arc`, which stays where it is and may be shared: a pointer into a `Box` is
-    /// no longer valid once the box is moved.
+    /// Embree stores a pointer to it. In an `Arc`, whose content stays in place and may be shared: a pointer into a
+    /// `Box` is no longer valid once the box is moved.
     monitor: Arc<Monitor>,
 }
 
-// SAFETY: Embree's objects may be used and released by any thread, and a committed scene may be asked by many at once.
+// SAFETY: Embree's objects may be used and released by any thread, and many threads may query a committed scene at
+// once.
 unsafe impl Send for Scene {}
 // SAFETY: as for `Send`; `Monitor` is made of an atomic and a lock.
 unsafe impl Sync for Scene {}
 
 /// # Safety
-/// `monitor` is what was given with this function, and outlives the device; `text` is null or a string of C.
+/// `monitor` is the pointer given with this function, and outlives the device; `text` is null or a string of C.
 unsafe extern "C" fn on_error(monitor: *mut c_void, _: c_int, text: *const c_char) {
     // SAFETY: by the contract of this function the monitor lives, and `text` is null or a string of C.
     let (monitor, text) = unsafe { (&*monitor.cast::<Monitor>(), sentence(text)) };
@@ -44,7 +45,7 @@ unsafe extern "C" fn on_error(monitor: *mut c_void, _: c_int, text: *const c_cha
 }
 
 /// # Safety
-/// `monitor` is what was given with this function, and outlives the device.
+/// `monitor` is the pointer given with this function, and outlives the device.
 unsafe extern "C" fn on_memory(monitor: *mut c_void, bytes: isize, _: bool) -> bool {
     // SAFETY: by the contract of this function the monitor lives.
     unsafe { &*monitor.cast::<Monitor>() }.bytes.fetch_add(bytes, Ordering::Relaxed);
@@ -56,8 +57,8 @@ impl Scene {
     pub fn new(mesh: &Mesh, ids: &[u32], flags: c_int, quality: c_int, threads: usize) -> Result<Self, BuildError> {
         let api = api().map_err(BuildError::Unavailable)?;
         let options = CString::new(format!("threads={threads},set_affinity=0")).expect("no zero inside");
-        // SAFETY: the calls and their order are those of Embree's manual. The monitor that the functions are given is
-        // kept in `scene`, which releases the device before it drops the monitor, whatever fails.
+        // SAFETY: the calls and their order follow Embree's manual. The monitor given to the functions is stored in
+        // `scene`, which releases the device before it drops the monitor, even after a failure.
         unsafe {
             let device = (api.new_device)(options.as_ptr());
             if device.is_null() {
@@ -80,11 +81,11 @@ impl Scene {
         }
     }
 
-    /// Hands over the triangles. Embree pads and aligns the buffers that it makes itself.
+    /// Passes the triangles. Embree pads and aligns the buffers that it makes itself.
     fn attach(&self, mesh: &Mesh, ids: &[u32], quality: c_int) -> Result<(), BuildError> {
         let (api, positions) = (self.api, mesh.positions());
-        // SAFETY: the buffers are not null, and have as many items of 12 bytes as the calls ask for and the loops
-        // write; the geometry is released here and kept alive by the scene.
+        // SAFETY: the buffers are not null, and have the requested number of items of 12 bytes, which the loops write;
+        // the geometry is released here and kept alive by the scene.
         unsafe {
             let geometry = (api.new_geometry)(self.device, TRIANGLES);
             let vertices: *mut Vec3 = (api.new_buffer)(geometry, VERTICES, 0, FLOAT3, 12, positions.len()).cast();
@@ -122,7 +123,7 @@ impl Scene {
         self.scene
     }
 
-    /// All that the device holds: nodes, triangles, buffers.
+    /// All memory of the device: nodes, triangles, buffers.
     pub fn bytes(&self) -> usize {
         self.monitor.bytes.load(Ordering::Relaxed).max(0) as usize
     }
@@ -130,7 +131,8 @@ impl Scene {
 
 impl Drop for Scene {
     fn drop(&mut self) {
-        // SAFETY: `new` has made both, and they are released here alone; the monitor is dropped after this function.
+        // SAFETY: `new` has made both, and only this function releases them; the monitor is dropped after this
+        // function.
         unsafe {
             (self.api.release_scene)(self.scene);
             (self.api.release_device)(self.device);

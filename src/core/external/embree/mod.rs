@@ -5,9 +5,9 @@
 //! `embree-robust`. Only its own triangle test is available; brute force over it uses a scene of one triangle for each
 //! tested triangle ([`alone`]). Rays and packets of eight or sixteen are converted to its format before the clock
 //! starts: 48, 384 and 768 bytes, all that it reads. It writes the end of the hit into them, so each query copies them
-//! to the stack, followed by an empty hit. This is the cheapest way to repeat the same rays, and what a renderer does
-//! that generates rays where it needs them. Builds run on the threads of the caller. The shape of its tree is unknown,
-//! so the adapter reports one leaf.
+//! to the stack, followed by an empty hit. This is the cheapest way to repeat the same rays, and a renderer does the
+//! same if it generates rays on demand. Builds run on the threads of the caller. The shape of its tree is unknown, so
+//! the adapter reports one leaf.
 //!
 //! # References
 //! Wald, Woop, Benthin, Johnson, Ernst: Embree: a kernel framework for efficient CPU ray tracing. SIGGRAPH 2014.
@@ -34,7 +34,7 @@ use rays::{Packet, Single};
 /// A scene of Embree.
 pub struct Embree<M: Mode> {
     scene: Scene,
-    /// The triangle of the mesh for each of its own.
+    /// The triangle of the mesh for each triangle of the scene.
     ids: Vec<u32>,
     packet: Lanes,
     arguments: Arguments,
@@ -43,7 +43,7 @@ pub struct Embree<M: Mode> {
 
 /// The effect of the flag ROBUST.
 pub trait Mode: Send + Sync + 'static {
-    /// Scene flags, as Embree's headers number them.
+    /// Scene flags, as numbered in Embree's headers.
     const FLAGS: c_int;
     /// The name of its triangle test.
     const TEST: &'static str;
@@ -198,7 +198,7 @@ impl<M: Mode> Prepare for Embree<M> {
     }
 }
 
-/// A batch of rays in packets, the last one with what is left.
+/// A batch of rays in packets; the last one has the remaining rays.
 struct Packets<'a, const LANES: usize, M: Mode> {
     structure: &'a Embree<M>,
     packets: Vec<Packet<LANES>>,
@@ -286,8 +286,8 @@ impl<M: Mode> Accel for Embree<M> {
         }
     }
 
-    /// As Embree's own memory monitor counts, buffers of corners included; what is nodes and what triangles is not
-    /// known.
+    /// As counted by Embree's memory monitor, including buffers of corners; the shares of nodes and triangles are
+    /// unknown.
     fn footprint(&self) -> Footprint {
         let references = size_of_val(&self.ids[..]);
         Footprint { references, other: self.scene.bytes(), ..Footprint::default() }

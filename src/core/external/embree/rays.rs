@@ -1,4 +1,4 @@
-//! Rays as Embree takes them, one, eight or sixteen.
+//! Rays in Embree's format: one, eight or sixteen.
 //!
 //! A query reads the ray, and writes the end of its interval and the hit: each query gets a copy of the ray.
 
@@ -24,7 +24,7 @@ pub struct Single {
     flags: u32,
 }
 
-/// `RTCRayHit`, with room for what later versions of Embree 4 add to its hit.
+/// `RTCRayHit`, with space for the additions of later versions of Embree 4.
 #[repr(C, align(16))]
 struct SingleQuery {
     ray: Single,
@@ -52,7 +52,7 @@ struct RayLanes<const LANES: usize> {
     flags: [u32; LANES],
 }
 
-/// `RTCRayHit8` or `RTCRayHit16`, with the same room.
+/// `RTCRayHit8` or `RTCRayHit16`, with the same space.
 #[repr(C, align(64))]
 struct PacketQuery<const LANES: usize> {
     rays: RayLanes<LANES>,
@@ -69,19 +69,19 @@ const _: () = assert!(size_of::<RayLanes<8>>() == 384 && size_of::<PacketQuery<8
 /// At most `LANES` rays, 8 or 16; rays that are not valid are left out of the query.
 #[repr(C, align(64))]
 pub struct Packet<const LANES: usize> {
-    /// -1 for the lanes in use.
+    /// -1 for the used lanes.
     valid: [c_int; LANES],
     rays: RayLanes<LANES>,
 }
 
-/// The last `t` that a ray which ends before `t_max` may have: Embree's end is closed.
+/// The last `t` that a ray that ends before `t_max` may have: Embree's end is closed.
 #[inline(always)]
 fn last(t_max: f32) -> f32 {
     if t_max == f32::INFINITY { t_max } else { t_max.next_down() }
 }
 
 impl Single {
-    /// Nothing if the ray is not valid.
+    /// `None` if the ray is not valid.
     #[inline(always)]
     pub fn new(ray: &Ray) -> Option<Self> {
         let (t_min, t_max) = ray.interval();
@@ -109,8 +109,8 @@ impl Single {
             instances: [NONE; 2],
             reserve: [0; 3],
         };
-        // SAFETY: `Scene::new` has committed the scene; the ray is aligned as Embree asks, and as large as any Embree 4
-        // writes (asserted at its type).
+        // SAFETY: `Scene::new` has committed the scene; the ray has the alignment that Embree requires, and is as large
+        // as any that Embree 4 writes (asserted at its type).
         unsafe { (scene.api().intersect1)(scene.handle(), (&raw mut query).cast(), arguments) };
         (query.geometry != NONE).then_some((query.ray.t_far, query.primitive))
     }
@@ -155,7 +155,7 @@ impl<const LANES: usize> Packet<LANES> {
         Self { valid, rays: packet }
     }
 
-    /// As [`Single::closest`], lane by lane.
+    /// Like [`Single::closest`], lane by lane.
     #[inline]
     pub fn closest(
         &self,
@@ -171,14 +171,14 @@ impl<const LANES: usize> Packet<LANES> {
             instances: [[NONE; LANES]; 2],
         };
         let intersect = if const { LANES == 8 } { scene.api().intersect8 } else { scene.api().intersect16 };
-        // SAFETY: `Scene::new` has committed the scene; mask and packet are aligned as Embree asks, and as large as any
-        // Embree 4 reads and writes (asserted at their types).
+        // SAFETY: `Scene::new` has committed the scene; mask and packet have the alignment that Embree requires, and
+        // are as large as any that Embree 4 reads and writes (asserted at their types).
         unsafe { intersect(self.valid.as_ptr(), scene.handle(), (&raw mut query).cast(), arguments) };
         let (geometry, t, primitive) = (query.geometry, query.rays.t_far, query.primitive);
         (0..LANES).map(move |lane| (geometry[lane] != NONE).then_some((t[lane], primitive[lane])))
     }
 
-    /// As [`Single::any`], lane by lane.
+    /// Like [`Single::any`], lane by lane.
     #[inline]
     pub fn any(&self, scene: &Scene, arguments: &Arguments) -> impl Iterator<Item = bool> + use<LANES> {
         let mut rays = self.rays;

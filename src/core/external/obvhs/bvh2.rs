@@ -42,8 +42,8 @@ impl Tree for Bvh2 {
         })
     }
 
-    /// The walk of obvhs, step by step, without the assertion at every node that its children exist, and with an
-    /// observer. Gives the same hits as its own, which a test holds.
+    /// The traversal of obvhs, step by step, without the assertion at every node that its children exist, and with an
+    /// observer. A test compares its hits with the hits of obvhs.
     #[inline(always)]
     unsafe fn walk<const ANY: bool>(
         &self,
@@ -81,7 +81,7 @@ unsafe fn descend<const ANY: bool, O: Observer>(
     observer: &mut O,
 ) -> Option<RayHit> {
     let mut hit = RayHit::none();
-    // Searches a leaf; whether the walk is over.
+    // Searches a leaf; returns whether the traversal is finished.
     let mut leaf = |node: &Bvh2Node, ray: &mut PreparedRay, hit: &mut RayHit, observer: &mut O| {
         observer.leaf(node.prim_count);
         for index in node.first_index..node.first_index + node.prim_count {
@@ -105,7 +105,7 @@ unsafe fn descend<const ANY: bool, O: Observer>(
     observer.inner();
     let mut first = root.first_index;
     loop {
-        // SAFETY: by the contract of this function `first` and the node after it exist, for a node links to them.
+        // SAFETY: by the contract of this function `first` and the node after it exist, because a node links to them.
         let [mut near, mut far] =
             unsafe { [nodes.get_unchecked(first as usize), nodes.get_unchecked(first as usize + 1)] };
         let (mut near_t, mut far_t) = (near.aabb().intersect_ray(&ray), far.aabb().intersect_ray(&ray));
@@ -114,7 +114,7 @@ unsafe fn descend<const ANY: bool, O: Observer>(
             mem::swap(&mut near, &mut far);
         }
 
-        // Leaves are searched at once, also the farther one before what lies in the nearer inner node.
+        // Leaves are searched at once, even the farther one before the content of the nearer inner node.
         let mut enters = |node: &Bvh2Node, t: f32, ray: &mut PreparedRay, observer: &mut O| {
             let meets = t < ray.tmax;
             if meets && node.is_leaf() {

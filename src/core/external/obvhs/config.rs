@@ -11,11 +11,11 @@ pub struct ObvhsConfig {
     pub rays: Rays,
 }
 
-/// When our ray is converted to the ray of obvhs, with its inverse direction.
+/// When a ray is converted to the ray of obvhs, with its inverse direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Rays {
-    /// In the query, inside the timed region, as in our own structures.
+    /// In the query, inside the timed region, like the structures of this crate.
     #[default]
     Asked,
     /// When a batch is loaded, before the clock starts.

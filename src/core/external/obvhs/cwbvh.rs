@@ -33,8 +33,8 @@ impl Tree for CwBvh {
         size_of_val(&self.nodes[..])
     }
 
-    /// As a walk reads the nodes: of a child with triangles the number of the first and a bit for each, of an inner
-    /// child its place among the inner ones.
+    /// Follows the links as a traversal does: a child with triangles has the number of the first and a bit for each, an
+    /// inner child has its index among the inner ones.
     fn leads_inside(&self, triangles: usize) -> bool {
         self.nodes.iter().all(|node| {
             (0..8).filter(|&child| !node.is_child_empty(child)).all(|child| {
@@ -49,8 +49,8 @@ impl Tree for CwBvh {
         })
     }
 
-    /// The walk of obvhs through its own macro, as its documentation recommends, over nodes without a check of bounds.
-    /// A group of triangles that a node hands over counts as no node of its own, so only inner nodes are steps.
+    /// The traversal of obvhs through its own macro, as its documentation recommends, over nodes without a check of
+    /// bounds. A group of triangles in a node does not count as a node, so only inner nodes are steps.
     #[inline(always)]
     unsafe fn walk<const ANY: bool>(
         &self,
@@ -61,7 +61,7 @@ impl Tree for CwBvh {
         let mut hit = RayHit::none();
         let mut state = self.new_traversal(ray.direction);
         let mut node;
-        // SAFETY: the walk begins at the root, if there is one, and goes on to children alone, which exist:
+        // SAFETY: the traversal begins at the root, if there is one, and continues only to children, which exist:
         // `leads_inside` holds by the contract of this function.
         let tree = unsafe { UncheckedTree::new(&self.nodes) };
         traverse!(
@@ -86,7 +86,7 @@ impl Tree for CwBvh {
         (hit.t < f32::INFINITY).then_some(hit)
     }
 
-    /// Children of a node that hold triangles are its leaves; their boxes are rounded outward to a grid of 256 cells.
+    /// Children of a node with triangles are its leaves; their boxes are rounded outward to a grid of 256 cells.
     fn shape(&self) -> TreeShape {
         let root = (!self.nodes.is_empty()).then(|| (Place::Node(0), aabb(self.total_aabb)));
         TreeShape::of(root, |place, _| match place {
@@ -107,23 +107,23 @@ impl Tree for CwBvh {
     }
 }
 
-/// A node, or a child of one that holds so many triangles.
+/// A node, or a child of one with this number of triangles.
 enum Place {
     Node(usize),
     Leaf(u32),
 }
 
-/// What the macro of obvhs takes for a tree.
+/// The tree for the macro of obvhs.
 struct UncheckedTree<'a> {
     nodes: UncheckedNodes<'a>,
 }
 
-/// Nodes that are found without a check of bounds.
+/// Nodes, accessed without a check of bounds.
 struct UncheckedNodes<'a>(&'a [CwBvhNode]);
 
 impl<'a> UncheckedTree<'a> {
     /// # Safety
-    /// Only numbers of nodes that exist may be looked up.
+    /// Only numbers of existing nodes may be looked up.
     unsafe fn new(nodes: &'a [CwBvhNode]) -> Self {
         Self { nodes: UncheckedNodes(nodes) }
     }
@@ -135,7 +135,7 @@ impl Index<usize> for UncheckedNodes<'_> {
     #[inline(always)]
     fn index(&self, at: usize) -> &CwBvhNode {
         debug_assert!(at < self.0.len());
-        // SAFETY: by the contract of `UncheckedTree::new` only numbers of nodes that exist are looked up.
+        // SAFETY: by the contract of `UncheckedTree::new` only numbers of existing nodes are looked up.
         unsafe { self.0.get_unchecked(at) }
     }
 }

@@ -24,8 +24,8 @@ pub trait LeafTest: Send + Sync + 'static {
     /// Prepares a ray.
     fn prepare(ray: &Ray) -> Self::Ray;
 
-    /// Where the interval of obvhs' ray ends, for a ray that ends before `t_max`: it takes no hit whose rounded `t` is
-    /// that.
+    /// The end of the interval of obvhs' ray, for a ray that ends before `t_max`: obvhs accepts no hit whose rounded
+    /// `t` is this end.
     #[inline(always)]
     fn end(t_max: f32) -> f32 {
         t_max
@@ -35,7 +35,7 @@ pub trait LeafTest: Send + Sync + 'static {
     fn test(triangle: &Self::Triangle, ray: &PreparedRay, prepared: &Self::Ray) -> f32;
 }
 
-/// One of our triangle tests.
+/// A triangle test of this crate.
 pub struct Over<T>(PhantomData<T>);
 
 impl<T: TriangleTest> LeafTest for Over<T> {
@@ -52,7 +52,7 @@ impl<T: TriangleTest> LeafTest for Over<T> {
         (*ray, T::prepare(ray))
     }
 
-    /// Behind the last `t`: a test that decides exactly may round one before `t_max` to `t_max`.
+    /// Behind the last `t`: a test that decides exactly may round a `t` before `t_max` to `t_max`.
     #[inline(always)]
     fn end(t_max: f32) -> f32 {
         T::last(t_max).next_up()

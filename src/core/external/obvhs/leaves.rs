@@ -9,14 +9,14 @@ use super::LeafTest;
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::traversal::pages;
 
-/// Triangles in the order of a tree, ready for the test `T`.
+/// Triangles in the order of a tree, prepared for the test `T`.
 pub(super) struct Leaves<T: LeafTest> {
     pub triangles: Vec<T::Triangle>,
     /// The triangle of the mesh for each of them.
     pub ids: Vec<u32>,
 }
 
-/// What the builders of obvhs take: the triangles with an area, and their numbers.
+/// The input of the builders of obvhs: the triangles with an area, and their numbers.
 pub(super) fn input(mesh: &Mesh) -> (Vec<Triangle>, Vec<u32>) {
     let ids: Vec<u32> = mesh.solid().collect();
     let triangle = |&id: &u32| {
@@ -27,7 +27,7 @@ pub(super) fn input(mesh: &Mesh) -> (Vec<Triangle>, Vec<u32>) {
 }
 
 impl<T: LeafTest> Leaves<T> {
-    /// In the memory and on the threads that our own structures get.
+    /// Uses the memory and the threads that the structures of this crate use.
     pub fn new(mesh: &Arc<Mesh>, solid: &[u32], order: &[u32]) -> Self {
         let mut ids = pages::with_capacity(order.len());
         ids.par_extend(order.par_iter().map(|&i| solid[i as usize]));
@@ -40,7 +40,7 @@ impl<T: LeafTest> Leaves<T> {
         self.triangles.len()
     }
 
-    /// The ray in the form of obvhs and of the test; nothing if it can hit nothing.
+    /// The ray in the formats of obvhs and of the test; `None` if it can hit nothing.
     #[inline(always)]
     pub fn start(&self, ray: &Ray) -> Option<(PreparedRay, T::Ray)> {
         let (t_min, t_max) = ray.interval();
@@ -50,7 +50,7 @@ impl<T: LeafTest> Leaves<T> {
         })
     }
 
-    /// Gives `t` of a triangle of the tree by its number, infinity for a miss.
+    /// Returns `t` of a triangle of the tree by its number, infinity for a miss.
     ///
     /// # Safety
     /// The number must be below [`Leaves::len`].

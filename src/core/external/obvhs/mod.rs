@@ -1,14 +1,15 @@
 //! The baseline: the BVHs of the crate `obvhs`. The adapter does not handicap them. No other module of this crate
 //! imports it.
 //!
-//! Each BVH is offered over our triangle tests and over obvhs' own [`RtTest`], which is its fastest configuration.
-//! Triangles are stored in the order of the tree, so no traversal follows an index; the number of the final hit is
-//! mapped back once. The ray is prepared once with obvhs' own inverse direction, in the timed region like the rays of
-//! our own structures; `rays=loaded` prepares it before the clock starts.
+//! Each BVH is offered over the triangle tests of this crate and over obvhs' own [`RtTest`], which is its fastest
+//! configuration. Triangles are stored in the order of the tree, so no traversal follows an index; the number of the
+//! final hit is mapped back once. The ray is prepared once with obvhs' own inverse direction, in the timed region like
+//! the rays of the structures of this crate; `rays=loaded` prepares it before the clock starts.
 //!
-//! The adapter gives these trees everything that our own trees have: arrays on large pages, triangles converted on all
-//! threads, no bounds checks. The traversals are those of obvhs without its checks: the links that they follow are
-//! checked once, when the tree is built. obvhs itself converts the binary tree to the 8-wide tree, on one thread.
+//! The adapter gives these trees the same advantages as the trees of this crate: arrays on large pages, triangles
+//! converted on all threads, no bounds checks. The traversals are obvhs' own without its checks: the links that they
+//! follow are checked once, when the tree is built. obvhs itself converts the binary tree to the 8-wide tree, on one
+//! thread.
 //!
 //! Known defects of obvhs 0.4.0, which validation shows: `CwBvh` misses every ray with a direction component of -0.0
 //! and loses hits with t < 1e-4; both BVHs lose axis-parallel rays close to a box face, and rays with short directions;
@@ -57,22 +58,22 @@ fn aabb(bounds: obvhs::aabb::Aabb) -> Aabb {
     Aabb { min: bounds.min.into(), max: bounds.max.into() }
 }
 
-/// What the two trees of obvhs have in common. Tests give `t` of a triangle in the order of the tree, infinity for a
-/// miss.
+/// The interface of both trees of obvhs. Tests return `t` of a triangle in the order of the tree, infinity for a miss.
 pub trait Tree: Send + Sync + Sized + 'static {
     /// Builds it.
     fn build(triangles: &[Triangle], params: BvhBuildParams) -> Self;
 
-    /// Moves the nodes to where they stay; gives the triangle for each place in the tree, which is not kept.
+    /// Moves the nodes to their final memory; returns the triangle for each place in the tree, which the tree does not
+    /// keep.
     fn settle(&mut self) -> Vec<u32>;
 
     /// Bytes of its nodes.
     fn node_bytes(&self) -> usize;
 
-    /// Whether all links lead to nodes, and all leaves hold places below `triangles`. What walks rely on.
+    /// Whether all links lead to nodes, and all leaves contain places below `triangles`. Traversals rely on it.
     fn leads_inside(&self, triangles: usize) -> bool;
 
-    /// The nearest hit, or with `ANY` the first that is found.
+    /// The nearest hit; with `ANY` the first one found.
     ///
     /// # Safety
     /// [`Tree::leads_inside`] must hold.
@@ -83,7 +84,7 @@ pub trait Tree: Send + Sync + Sized + 'static {
         observer: &mut impl Observer,
     ) -> Option<RayHit>;
 
-    /// That of its boxes.
+    /// The shape of the tree, with its stored boxes.
     fn shape(&self) -> TreeShape;
 }
 
@@ -97,7 +98,7 @@ impl<B: Tree, T: LeafTest> Prepare for Obvhs<B, T> {
 
     #[inline(always)]
     fn closest<O: Observer>(&self, &(ray, prepared): &Self::Ready, observer: &mut O) -> Option<Hit> {
-        // SAFETY: `build` has asserted `leads_inside`: links lead to nodes, and places in leaves to triangles.
+        // SAFETY: `build` has asserted `leads_inside`: links lead to nodes, and places in leaves lead to triangles.
         let found = unsafe { self.tree.walk::<false>(ray, self.leaves.test(prepared), observer) };
         found.map(|hit| self.leaves.hit(hit))
     }

@@ -10,7 +10,7 @@ use crate::triangle::decided_at_once::decided_at_once;
 
 /// The triangle test of obvhs: Möller-Trumbore on precomputed edges and normal, 64 bytes per triangle.
 ///
-/// Wrapped as one of our tests, so that brute force over it can be the reference of the BVHs that use it. It reads
+/// Wrapped as a test of this crate, which makes brute force over it a reference for the BVHs that use it. It reads
 /// signs from the sign bit of rounded quotients. Therefore it misses hits exactly on an edge if a coordinate is -0.0,
 /// from the back and on the third edge also from the front.
 #[derive(Clone, Copy, Debug, Default)]
@@ -26,7 +26,7 @@ impl TriangleTest for RtTest {
 
     #[inline(always)]
     fn prepare(ray: &Ray) -> PreparedRay {
-        // The whole line, so that the interval is the caller's business.
+        // Use the whole line: the caller checks the interval.
         PreparedRay::new(ray.origin.into(), ray.direction.into(), f32::NEG_INFINITY, f32::MAX)
     }
 

@@ -13,7 +13,7 @@ fn soup(triangles: usize) -> Arc<Mesh> {
     Arc::new(straddling_soup(triangles, 3))
 }
 
-/// Of all directions, along the axes with both zeros, and with intervals that begin or end among the triangles.
+/// Rays in all directions, along the axes with both zeros, and with intervals that begin or end among the triangles.
 fn rays(count: usize) -> Vec<Ray> {
     let mut random = Pcg32::seed_from_u64(4);
     let mut ray = |i: usize| {
@@ -28,7 +28,7 @@ fn rays(count: usize) -> Vec<Ray> {
     (0..count).map(&mut ray).collect()
 }
 
-/// Holds the walk of the adapter against one of obvhs' own, which gives the nearest hit and whether there is any.
+/// Compares the traversal of the adapter with obvhs' own, which returns the nearest hit and whether there is any.
 fn same_answers<B: Tree>(own: impl Fn(&Obvhs<B, Native>, &Ray) -> (Option<Hit>, bool)) {
     for triangles in [1, 2, 3, 3000] {
         let mesh = soup(triangles);
@@ -45,7 +45,7 @@ fn same_answers<B: Tree>(own: impl Fn(&Obvhs<B, Native>, &Ray) -> (Option<Hit>, 
     }
 }
 
-/// What the walks of obvhs itself answer, which have no trait in common.
+/// The hits of obvhs' own traversals, which have no common trait.
 macro_rules! own_walk {
     () => {
         |built, ray| {
@@ -64,7 +64,7 @@ fn the_walk_of_each_tree_gives_the_hits_of_its_own() {
     same_answers::<CwBvh>(own_walk!());
 }
 
-/// The exact `t` is one third, just before the float that it is rounded to.
+/// The exact `t` is one third, just before the float to which it rounds.
 #[test]
 fn a_hit_that_is_rounded_to_the_end_is_found() {
     fn found<B: Tree>(t_max: f32) -> (Option<Hit>, bool) {

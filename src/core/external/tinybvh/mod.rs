@@ -1,12 +1,11 @@
 //! [tinybvh](https://github.com/jbikker/tinybvh) 1.6.8 by the crate `tinybvh-rs` 0.1: an 8-wide BVH with four triangles
-//! a leaf (`BVH8_CPU`), which is its fastest layout on a processor with AVX2.
+//! per leaf (`BVH8_CPU`), which is its fastest layout on a processor with AVX2.
 //!
-//! A C++ compiler builds it, for the instructions of this machine. The crate hands out the closest hit alone, and
-//! declares a ray of 64 bytes where C++ has 128. So only its builders are called through the crate; both queries are
+//! A C++ compiler builds it, for the instructions of this machine. The crate only provides the closest hit, and
+//! declares a ray of 64 bytes instead of C++'s 128. So only its builders are called through the crate; both queries are
 //! called in the library that it links, by their names there, with a ray of the right size ([`query`]). The ray (unit
 //! direction, inverse) is made before the clock starts; for a closest hit it is copied to the stack, because the hit is
-//! written into it. Triangles are copied as corners of 16 bytes, as it wants them; large scenes it builds on threads of
-//! its own.
+//! written into it. Triangles are copied as corners of 16 bytes, its format; it builds large scenes on its own threads.
 //!
 //! # References
 //! Fuetterling, Lojewski, Pfreundt, Ebert: Accelerated single ray tracing for wide vector units. HPG 2017.
@@ -26,14 +25,14 @@ use query::{RayHead, Tree};
 
 /// The 8-wide BVH of tinybvh.
 pub struct TinyBvh {
-    /// Nothing when there is no triangle.
+    /// `None` without triangles.
     tree: Option<Tree>,
-    /// The triangle of the mesh for each of its own.
+    /// The triangle of the mesh for each triangle of the tree.
     ids: Vec<u32>,
     shape: TreeShape,
 }
 
-/// How tinybvh builds.
+/// The build options of tinybvh.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TinyBvhConfig {
@@ -56,22 +55,22 @@ pub enum Quality {
 const NODE_BYTES: usize = 256;
 const LEAF_BYTES: usize = 192;
 
-/// Beyond this it takes a hit for none.
+/// It treats a hit beyond this distance as a miss.
 const FAR: f32 = tinybvh_rs::INFINITE;
 
 /// The mask of a ray that meets all instances.
 const EVERYTHING: u32 = 0xffff;
 
-/// What tinybvh puts for an inverse: nothing infinite.
+/// tinybvh's inverse: never infinite.
 #[inline(always)]
 fn inverse(x: f32) -> f32 {
     if x.abs() > 1e-12 { 1.0 / x } else { FAR.copysign(if x >= 0.0 { 1.0 } else { -1.0 }) }
 }
 
-/// A ray as tinybvh wants it, and what gives `t` back.
+/// A ray in tinybvh's format, and the data for converting `t` back.
 pub(crate) struct Ready {
     ray: RayHead,
-    /// Of the direction.
+    /// Length of the direction.
     length: f32,
     t_min: f32,
 }
@@ -86,13 +85,13 @@ impl Prepare for TinyBvh {
         }
         let (t_min, t_max) = ray.interval();
         let length = ray.direction.length();
-        // tinybvh has no `t_min`: the ray starts where its interval does.
+        // tinybvh has no `t_min`: the ray starts at the start of its interval.
         let origin = if t_min > 0.0 { ray.at(t_min) } else { ray.origin };
         let unit = ray.direction * (1.0 / length);
         let inverse = Vec3::from_array(unit.to_array().map(inverse));
         let end = ((t_max - t_min) * length).min(FAR);
         // A check of tinybvh ends the process if this sum, in this order, is NaN. If the direction or these products
-        // overflow, rays no longer miss the empty children of a node, and tinybvh reads outside of its arrays.
+        // overflow, rays no longer miss the empty children of a node, and tinybvh reads outside its arrays.
         let checked = unit.x + unit.y + unit.z + end + origin.x + origin.y + origin.z;
         if checked.is_nan() || !unit.is_finite() || !(origin * inverse).is_finite() {
             return None;
@@ -124,7 +123,7 @@ impl Prepare for TinyBvh {
     }
 }
 
-/// Builds by way of the two layouts that its own is converted from.
+/// Builds through the two layouts from which its own layout is converted.
 fn built(corners: Positions, quality: Quality) -> Result<(bvh8_cpu::BVH, TreeShape), BuildError> {
     let refusal = |error: tinybvh_rs::Error| BuildError::Mesh(format!("tinybvh refuses: {error}"));
     let mut binary = match quality {
@@ -142,11 +141,12 @@ fn built(corners: Positions, quality: Quality) -> Result<(bvh8_cpu::BVH, TreeSha
     Ok((bvh8_cpu::BVH::new(&wide).map_err(refusal)?, shape))
 }
 
-/// Nodes that its walk and the conversion to its fastest layout keep on a stack without looking at its end.
+/// The size of the stacks of its traversal and of the conversion to its fastest layout, which do not check for
+/// overflow.
 const STACK: usize = 256;
 
-/// The shape, and how many nodes may wait on a stack: in the walk all children but one of every node of a path, and
-/// room for eight; in the conversion two words for each child that is no leaf.
+/// The shape, and the maximum number of nodes on a stack: in the traversal all children except one of every node of a
+/// path, and eight more; in the conversion two words for each inner child.
 fn shape(nodes: &[mbvh::Node]) -> (TreeShape, usize) {
     let (mut shape, mut most) = (TreeShape::default(), 0);
     let mut stack = vec![(0, 0, 0)];
@@ -201,7 +201,7 @@ impl Accel for TinyBvh {
 
     prepared_queries!();
 
-    /// By the sizes of its nodes and of its leaves, which hold the triangles.
+    /// From the sizes of its nodes and of its leaves, which contain the triangles.
     fn footprint(&self) -> Footprint {
         let nodes = self.shape.inner * NODE_BYTES + self.shape.leaves * LEAF_BYTES;
         Footprint { nodes, references: size_of_val(&self.ids[..]), ..Footprint::default() }

@@ -1,15 +1,15 @@
 //! The two queries of `BVH8_CPU`, called in the C++ library that `tinybvh-rs` compiles and links.
 //!
-//! The crate passes a ray of 64 bytes to functions that read 128, and does not pass on `IsOccluded` at all. Both
-//! functions are called here by the names that the C++ compiler gives them (Itanium ABI). What is relied on, the layout
-//! of the ray and of the crate's tree, holds for the version that `Cargo.toml` pins.
+//! The crate passes a ray of 64 bytes to functions that read 128, and does not expose `IsOccluded` at all. Both
+//! functions are called here by the names that the C++ compiler gives them (Itanium ABI). The code relies on the layout
+//! of the ray and of the crate's tree in the version that `Cargo.toml` pins.
 
 use std::ffi::c_void;
 use std::mem;
 
 use tinybvh_rs::bvh8_cpu;
 
-/// `tinybvh::Ray` up to its 64 bytes of custom data: all that a query reads and writes.
+/// `tinybvh::Ray` up to its 64 bytes of custom data: everything that a query reads and writes.
 #[repr(C, align(64))]
 #[derive(Clone, Copy)]
 pub struct RayHead {
@@ -26,7 +26,7 @@ pub struct RayHead {
     pub primitive: u32,
 }
 
-/// `tinybvh::Ray` as large as C++ has it.
+/// `tinybvh::Ray` in its full size in C++.
 #[repr(C, align(64))]
 struct FullRay {
     head: RayHead,
@@ -37,13 +37,13 @@ const _: () = assert!(size_of::<RayHead>() == 64 && size_of::<FullRay>() == 128)
 
 /// A finished tree and the C++ object in it.
 pub struct Tree {
-    /// Frees the object when it is dropped; never looked at otherwise.
+    /// Frees the object when it is dropped; not used otherwise.
     _owner: bvh8_cpu::BVH,
     object: *const c_void,
 }
 
-// SAFETY: the tree owns its nodes and triangles; both queries are `const` in C++, read them and write to the caller's
-// ray alone.
+// SAFETY: the tree owns its nodes and triangles; both queries are `const` in C++, read them and write only to the
+// caller's ray.
 unsafe impl Send for Tree {}
 // SAFETY: as for `Send`.
 unsafe impl Sync for Tree {}
@@ -51,7 +51,7 @@ unsafe impl Sync for Tree {}
 #[cfg(target_env = "msvc")]
 compile_error!("peer-tinybvh calls C++ by the names of the Itanium ABI, which Microsoft's compiler does not follow");
 
-// SAFETY: the names hold the types of the arguments, and the results are those of tinybvh in the version that
+// SAFETY: the names encode the types of the arguments, and the results have the types of tinybvh in the version that
 // `Cargo.toml` pins.
 unsafe extern "C" {
     #[link_name = "_ZNK7tinybvh8BVH8_CPU9IntersectERNS_3RayE"]
@@ -63,8 +63,8 @@ unsafe extern "C" {
 impl Tree {
     pub fn new(owner: bvh8_cpu::BVH) -> Self {
         const { assert!(size_of::<bvh8_cpu::BVH>() == size_of::<*const c_void>()) };
-        // SAFETY: the crate's tree has one field, C++'s `unique_ptr`, which is a pointer; by its size there is nothing
-        // else in it.
+        // SAFETY: the crate's tree has one field, C++'s `unique_ptr`, which is a pointer; by its size it contains
+        // nothing else.
         let object = unsafe { mem::transmute_copy::<bvh8_cpu::BVH, *const c_void>(&owner) };
         assert!(!object.is_null(), "a converted tree has an object");
         Self { _owner: owner, object }
@@ -74,8 +74,8 @@ impl Tree {
     #[inline]
     pub fn closest(&self, ray: &RayHead) -> Option<(f32, u32)> {
         let mut whole = FullRay { head: *ray, custom: [0; 8] };
-        // SAFETY: the object lives as long as `self`, wherever that is moved: it lies on the heap of C++. The ray is as
-        // large and aligned as its type in C++ (asserted at `FullRay`), and nothing else refers to it.
+        // SAFETY: the object lives as long as `self`, even if that is moved: it is on the heap of C++. The ray has the
+        // size and alignment of its type in C++ (asserted at `FullRay`), and nothing else refers to it.
         unsafe { intersect(self.object, &raw mut whole) };
         (whole.head.t < ray.t).then_some((whole.head.t, whole.head.primitive))
     }
@@ -84,7 +84,7 @@ impl Tree {
     #[inline]
     pub fn any(&self, ray: &RayHead) -> bool {
         let whole = FullRay { head: *ray, custom: [0; 8] };
-        // SAFETY: the object lives as long as `self`; the ray is as large and aligned as its type in C++, and this
+        // SAFETY: the object lives as long as `self`; the ray has the size and alignment of its type in C++, and this
         // query writes nothing.
         unsafe { is_occluded(self.object, &raw const whole) }
     }

@@ -6,7 +6,7 @@ use crate::exact;
 use crate::geometry::Ray;
 use crate::simd::{Arithmetic, LaneVec3, Lanes, Portable, each};
 
-/// What `f64` decides about a line and a triangle.
+/// The decision of `f64` about a line and a triangle.
 pub(super) enum Bounds {
     Miss,
     /// The line meets the closed triangle at an exact `t` in [`low`, `high`].
@@ -18,19 +18,20 @@ pub(super) enum Bounds {
     Unclear,
 }
 
-/// 2^-53, by which a difference, a product and a sum are off, relatively.
+/// 2^-53, the relative error of a difference, a product and a sum.
 const UNIT: f64 = f64::EPSILON / 2.0;
 
-/// Looks at the line of `ray` and a triangle, by Möller-Trumbore.
+/// Bounds the intersection of the line of `ray` and a triangle, by Möller-Trumbore.
 ///
 /// **Bounds.** Let s = o - a, e and f the edges from a, u = s . (d x f), v = d . (s x e), det = e . (d x f), h = f . (s
 /// x e); the line meets the closed triangle if u, v, w = det - u - v have no opposite signs and det is not zero, at t =
-/// h / det. With n = 2^-53, E bounding the components of e and f, D those of d, and |s| the sum of those of s:
-/// differences of inputs, products and sums are off by n of themselves, so that the components of d x f are off by 3.1
-/// n 2 D E, the sum of those of s x e by 4.1 n 2 E |s|, and hence u and v by 7.1 n 2 D E |s|, det by 7.1 n 6 D E E, w
-/// by the sum of these and 2 n of its terms, 9.2 n (4 D E |s| + 6 D E E), and h by 8.1 n 2 E E |s|. The constants below
-/// are larger by more than the rounding of the bounds. `f32` inputs neither overflow nor underflow: products of three
-/// differences and a direction are below 2^520 and, if not zero, at least 2^-596.
+/// h / det. Let n = 2^-53, let E bound the components of e and f, D the components of d, and let |s| be the sum of the
+/// magnitudes of the components of s. Differences of inputs, products and sums have a relative error of n. So the error
+/// of the components of d x f is 3.1 n 2 D E, of the sum of the components of s x e 4.1 n 2 E |s|, and hence of u and v
+/// 7.1 n 2 D E |s|, of det 7.1 n 6 D E E, of w the sum of these and 2 n of its terms, 9.2 n (4 D E |s| + 6 D E E), and
+/// of h 8.1 n 2 E E |s|. The constants below are larger by more than the rounding of the bounds. `f32` inputs neither
+/// overflow nor underflow: products of three differences and a direction are below 2^520 and, if not zero, at least
+/// 2^-596.
 #[inline(always)]
 pub(super) fn look(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
@@ -65,8 +66,8 @@ pub(super) fn look(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     Bounds::Hit { low: low.store()[0], high: high.store()[0] }
 }
 
-/// As [`look`] of a line that passes exactly through a corner, and surely not along the plane: it meets the triangle there.
-/// Nothing of others.
+/// Like [`look`], for a line that passes exactly through a corner and certainly not along the plane: it meets the
+/// triangle there. `None` for other lines.
 #[inline(always)]
 pub(super) fn look_at_corners(ray: &Ray, corners: [Vec3; 3]) -> Option<Bounds> {
     let corner = corners.into_iter().find(|&corner| exact::passes_through(ray, corner))?;
@@ -84,9 +85,9 @@ fn determinant(ray: &Ray, corners: [Vec3; 3]) -> (f64, f64) {
     (direction.dot(edge1.cross(edge2)), 48.0 * UNIT * extent * extent * direction.abs().max_element())
 }
 
-/// Bounds of the `t` at which the line, which is not across the axis, has the same coordinate as a point. The difference of
-/// two floats has the right sign, and is zero if and only if they are equal; it and the division are off by a unit of
-/// 2^-53 each.
+/// Bounds of the `t` at which the line, which is not perpendicular to the axis, has the same coordinate as a point. The
+/// difference of two floats has the right sign, and is zero if and only if they are equal; the difference and the
+/// division each have a relative error of a unit of 2^-53.
 #[inline(always)]
 fn at_height(point: Vec3, ray: &Ray, axis: usize) -> Bounds {
     let t = (f64::from(point[axis]) - f64::from(ray.origin[axis])) / f64::from(ray.direction[axis]);
@@ -94,9 +95,9 @@ fn at_height(point: Vec3, ray: &Ray, axis: usize) -> Bounds {
     Bounds::Hit { low: t - error, high: t + error }
 }
 
-/// Whether the line passes the triangle by, from det, the sign of which is certain, and u, v and w with their errors,
-/// in the notation of [`look`]: whether one of these has not the sign of det, which is their sum. A ray through an edge
-/// is not certain of that edge alone.
+/// Whether the line misses the triangle, from det, whose sign is certain, and u, v and w with their errors, in the
+/// notation of [`look`]: whether one of these has not the sign of det, which is their sum. For a ray through an edge
+/// only the value of that edge is uncertain.
 #[inline(always)]
 fn passes_by(ray: &Ray, [a, b, c]: [Vec3; 3], det: f64, [u, v, w]: [(f64, f64); 3]) -> bool {
     let sign = det.total_cmp(&0.0);
@@ -107,11 +108,11 @@ fn passes_by(ray: &Ray, [a, b, c]: [Vec3; 3], det: f64, [u, v, w]: [(f64, f64); 
     is_opposite(u, a, c) || is_opposite(v, b, a) || is_opposite(w, c, b)
 }
 
-/// As [`look`], where lines are known to meet their triangles, one in each lane: the lanes where there are bounds of
-/// the exact `t`, as bits, and these. `t` is that of the plane.
+/// Like [`look`], for lines that are known to meet their triangles, one per lane: the lanes with bounds of the exact
+/// `t`, as bits, and the bounds. `t` is computed at the plane.
 ///
-/// **Bounds.** In the notation of [`look`], the components of the normal e x f are off by 4.1 n 2 E E, so that h = s .
-/// (e x f) is off by 8.1 n 2 E E |s|, and det = -d . (e x f) by 7.1 n 6 D E E.
+/// **Bounds.** In the notation of [`look`], the error of the components of the normal e x f is 4.1 n 2 E E, so the
+/// error of h = s . (e x f) is 8.1 n 2 E E |s|, and of det = -d . (e x f) 7.1 n 6 D E E.
 #[inline(always)]
 pub(super) fn place<const N: usize, L: Lanes<N>>(
     origin: LaneVec3<N, L>,
@@ -132,8 +133,8 @@ pub(super) fn place<const N: usize, L: Lanes<N>>(
     (times(det_error, 1024.0).le(det.flip_sign(det)), low, high)
 }
 
-/// As [`place`] of a line and a triangle in an axis-aligned plane, as floors and walls are; nothing of others, or of a line
-/// along the plane.
+/// Like [`place`], for a line and a triangle in an axis-aligned plane, such as floors and walls; `None` for other
+/// triangles, or a line along the plane.
 #[inline(always)]
 pub(super) fn place_in_axis_plane(ray: &Ray, [a, b, c]: &[Vec3; 3]) -> Option<Bounds> {
     let across = a.cmpeq(*b) & a.cmpeq(*c) & ray.direction.cmpne(Vec3::ZERO);
@@ -141,13 +142,13 @@ pub(super) fn place_in_axis_plane(ray: &Ray, [a, b, c]: &[Vec3; 3]) -> Option<Bo
     Some(at_height(*a, ray, axis))
 }
 
-/// Bounds of the exact `t` where lines pass the planes of triangles that they are known to meet, from how far apart the
-/// bounds are that the filter has found; everything where they are infinitely far.
+/// Bounds of the exact `t` of lines at the planes of triangles that they are known to meet, from the width of the
+/// filter's bounds; everything if these are infinitely far apart.
 ///
-/// **Bounds.** What is computed here is off as in the filter, with 2^-53 in place of 2^-24: for the same N, |s| and D
-/// the height by less than 8.1 units of N |s|, the determinant by less than 7.1 of 3 D N, where the filter has taken 10
-/// and 10 of 6 N for the direction that it has scaled. So 2^-29 of half the distance of its bounds covers both, and the
-/// other half what it rounds itself; 2^-50 of `t` covers the division and what follows.
+/// **Bounds.** The errors here are the filter's errors, with 2^-53 instead of 2^-24: for the same N, |s| and D the
+/// error of the height is less than 8.1 units of N |s|, of the determinant less than 7.1 of 3 D N. The filter has used
+/// 10, and 10 of 6 N for its scaled direction. So 2^-29 of half the width of its bounds covers both, and the other half
+/// the filter's own rounding; 2^-50 of `t` covers the division and later operations.
 #[inline(always)]
 pub(super) fn pass_plane<const N: usize, L: Lanes<N>>(
     origin: LaneVec3<N, L>,
@@ -164,8 +165,8 @@ pub(super) fn pass_plane<const N: usize, L: Lanes<N>>(
     (t.sub(error), t.add(error))
 }
 
-/// As [`place`] of one line and triangle, with the exact height in place of a rounded one: however near to the plane
-/// the origin lies, the bounds are off only as the determinant is, relatively, and in the plane they are zero.
+/// Like [`place`] for one line and triangle, with the exact height instead of a rounded one: at any distance of the
+/// origin from the plane, the bounds have only the relative error of the determinant, and in the plane they are zero.
 pub(super) fn place_closely(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     let (det, det_error) = determinant(ray, corners);
     if det.abs() < 1024.0 * det_error || det == 0.0 {
@@ -177,7 +178,8 @@ pub(super) fn place_closely(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     Bounds::Hit { low: low.store()[0], high: high.store()[0] }
 }
 
-/// |h/d - h'/d'| <= (dh + |h'/d'| dd) / (|d'| - dd), where dd is at most 2^-10 |d'|; the rest rounds within 2^-50.
+/// |h/d - h'/d'| <= (dh + |h'/d'| dd) / (|d'| - dd), where dd is at most 2^-10 |d'|; the remaining rounding is within
+/// 2^-50.
 #[inline(always)]
 fn divide<const N: usize, D: Arithmetic<N, Scalar = f64>>(height: D, height_error: D, det: D, det_error: D) -> (D, D) {
     let abs = |x: D| x.flip_sign(x);

@@ -10,7 +10,7 @@ use crate::simd::{EightLanes, LaneVec3, indexed};
 use crate::triangle::corners::Place;
 use crate::triangle::{BETWEEN_BOUNDS, DIRECTION, Depth, INPUTS, ORIGIN};
 
-/// The exact place where a ray meets a triangle: bounds of its `t` in `f32`, and the triangle, for when these do not
+/// The exact position of a hit along its ray: bounds of its `t` in `f32`, and the triangle, in case these do not
 /// decide.
 #[derive(Clone, Copy, Debug)]
 pub struct ExactDepth<'a> {
@@ -22,19 +22,19 @@ pub struct ExactDepth<'a> {
 }
 
 impl<'a> ExactDepth<'a> {
-    /// A hit at an exact `t` in [`low`, `high`], by the filter.
+    /// A hit at an exact `t` in [`low`, `high`], from the filter.
     #[inline(always)]
     pub(super) fn new(triangle: Place<'a>, low: f32, high: f32) -> Self {
         Self { low, high, width: high - low, triangle }
     }
 
-    /// The same with bounds that are not the filter's, so that their distance says nothing about the error of `f64`.
+    /// The same with bounds that are not the filter's: their width does not determine the error of `f64`.
     #[inline(always)]
     pub(super) fn looked_up(self) -> Self {
         Self { width: f32::INFINITY, ..self }
     }
 
-    /// Whether `t` may be that of a hit between these bounds.
+    /// Whether a hit may have a `t` between these bounds.
     #[inline(always)]
     pub(super) fn overlaps(&self, low: f32, high: f32) -> bool {
         low <= self.high && self.low <= high
@@ -76,8 +76,8 @@ impl<'a> ExactDepth<'a> {
     }
 }
 
-/// A quick test whether two triangles lie in one plane, so that a line meets both at the same `t`: they have the same
-/// corners (one triangle in several leaves, or a sheet with two sides), or lie in the same axis-aligned plane.
+/// A quick test whether two triangles lie in one plane: a line then meets both at the same `t`. They do if they have
+/// the same corners (one triangle in several leaves, or a sheet with two sides), or lie in the same axis-aligned plane.
 #[inline(always)]
 fn surely_coplanar(a: &[Vec3; 3], b: &[Vec3; 3]) -> bool {
     let first = a[0];
@@ -85,13 +85,13 @@ fn surely_coplanar(a: &[Vec3; 3], b: &[Vec3; 3]) -> bool {
     a.iter().all(|p| b.contains(p)) && b.iter().all(|p| a.contains(p)) || (0..3).any(level)
 }
 
-/// Whether a line that is known to meet two triangles meets both in a corner that they share, at the same `t`.
+/// Whether a line that is known to meet two triangles meets both in a shared corner, at the same `t`.
 #[inline(always)]
 fn meet_at_a_corner(ray: &Ray, a: &[Vec3; 3], b: &[Vec3; 3]) -> bool {
     a.iter().any(|corner| b.contains(corner) && exact::passes_through(ray, *corner))
 }
 
-/// The same for an edge.
+/// The same for a shared edge.
 fn meet_at_an_edge(ray: &Ray, a: &[Vec3; 3], b: &[Vec3; 3]) -> bool {
     let shared = |edge: &[Vec3; 2]| b.contains(&edge[0]) && b.contains(&edge[1]);
     [[a[0], a[1]], [a[1], a[2]], [a[2], a[0]]]
@@ -164,7 +164,7 @@ impl Depth for ExactDepth<'_> {
     }
 }
 
-/// The float that all numbers between these bounds round to, if it is one.
+/// The float to which all numbers between these bounds round, if there is a single one.
 #[inline(always)]
 fn rounded(bounds: Bounds) -> Option<f32> {
     match bounds {
@@ -174,7 +174,7 @@ fn rounded(bounds: Bounds) -> Option<f32> {
     }
 }
 
-/// Where the line of `ray` meets a triangle that it is known to meet, rounded once, by exact arithmetic if need be.
+/// The `t` of a line and a triangle that it is known to meet, rounded once, by exact arithmetic if necessary.
 #[cold]
 fn exact_t(ray: &Ray, corners: [Vec3; 3]) -> f32 {
     let exact = || exact::hit(ray, corners).expect("a depth is that of a hit").round();

@@ -91,7 +91,7 @@ impl TriangleTest for Exact {
         bounds: &CandidateBounds<N>,
     ) -> Option<ExactDepth<'a>> {
         if let Some(decided) = Self::decide_at_once(ray, block, lane, bounds) {
-            // The bounds may be those of `look_closer`, and would be taken for those of the filter.
+            // The bounds may come from `look_closer`, and must not be mistaken for the filter's.
             return decided.map(ExactDepth::looked_up);
         }
         let (low, high) = in_f64(&ray.ray, block.place(lane), bounds.sure >> lane & 1 == 1)?;
@@ -144,7 +144,7 @@ impl TriangleTest for Exact {
         active: L::Mask,
     ) -> Option<EightHits<L>> {
         let (rejected, candidates) = filter_eight(rays, block, lane, to);
-        // A branch, for many triangles of a leaf are missed by all rays: that saves the bounds.
+        // Branch, because many triangles of a leaf are missed by all rays: that saves the bounds.
         if L::bits(active) & !L::bits(rejected) == 0 {
             return None;
         }
@@ -163,7 +163,7 @@ impl TriangleTest for Exact {
 
     #[inline(always)]
     fn order_closely(ray: &ExactRay, one: &ExactDepth, other: &ExactDepth) -> Ordering {
-        // Copies, so that depths that are ordered at once need not lie in memory.
+        // Copy them: depths that are ordered at once then need not lie in memory.
         let (one, other) = (*one, *other);
         one.order_closely(&other, &ray.ray)
     }
@@ -194,8 +194,8 @@ fn in_f64(ray: &Ray, triangle: Place, met: bool) -> Option<(f32, f32)> {
         .unwrap_or_else(|| exactly(ray, corners))
 }
 
-/// Refines in `f64` the candidates of a block of which many are too close together, or too close to the origin, for
-/// `f32`: the candidates left, and their bounds.
+/// Refines in `f64` the candidates of a block if many are too close together, or too close to the origin, for `f32`:
+/// returns the remaining candidates and their bounds.
 #[inline(never)]
 fn crowd<const N: usize>(
     ray: &Ray,
@@ -213,21 +213,21 @@ fn crowd<const N: usize>(
     let (mut bounds, mut left) = (*bounds, candidates & known);
     while left != 0 {
         let lane = left.trailing_zeros() as usize % N;
-        // Stored lane by lane: most blocks have none left.
+        // Store lane by lane: most blocks have none left.
         (bounds.low[lane], bounds.high[lane]) = (round_down(low.store()[lane]), round_up(high.store()[lane]));
         left &= left - 1;
     }
     (candidates, bounds)
 }
 
-/// A quick test whether the triangle is axis-aligned, as floors and walls are, and the ray parallel to its plane or in
+/// A quick test whether the triangle is axis-aligned, such as floors and walls, and the ray parallel to its plane or in
 /// it.
 #[inline(always)]
 fn runs_along(ray: &Ray, [a, b, c]: &[Vec3; 3]) -> bool {
     (a.cmpeq(*b) & a.cmpeq(*c) & ray.direction.cmpeq(Vec3::ZERO)).any()
 }
 
-/// As [`look`], where the line is known to meet the triangle.
+/// Like [`look`], for a line that is known to meet the triangle.
 #[inline(always)]
 fn bounds_of_hit(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     if let Some(bounds) = place_in_axis_plane(ray, &corners) {
@@ -240,10 +240,10 @@ fn bounds_of_hit(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     }
 }
 
-/// As [`in_f64`], in exact arithmetic.
+/// Like [`in_f64`], in exact arithmetic.
 #[cold]
 fn exactly(ray: &Ray, corners: [Vec3; 3]) -> Option<(f32, f32)> {
     let t = exact::hit(ray, corners).filter(|t| t.is_within(ray))?.round();
-    // Rounding is off by at most the distance to the next float.
+    // The rounding error is at most the distance to the next float.
     Some((t.next_down(), t.next_up()))
 }

@@ -1,12 +1,12 @@
-//! Which tests let no ray pass between the triangles of a closed mesh.
+//! Checks the tests that let no ray pass between the triangles of a closed mesh.
 
 use super::*;
 
-/// Rays through the edge that two triangles share, or through a vertex that six share, hit one of them; all but the
-/// direction is scaled.
+/// Rays through the edge of two triangles, or through a vertex of six, hit one of them, including rays along an axis;
+/// everything except the direction is scaled.
 fn closed_at<T: TriangleTest>(scale: f32, rounds: usize, vertices: bool) {
     let mut rng = Pcg32::seed_from_u64(8);
-    for _ in 0..rounds {
+    for round in 0..rounds {
         let rim: Vec<Vec3> = (0..6)
             .map(|k| {
                 let (x, y) = [(1.0, 0.0), (0.5, 0.9), (-0.5, 0.9), (-1.0, 0.0), (-0.5, -0.9), (0.5, -0.9)][k];
@@ -14,9 +14,10 @@ fn closed_at<T: TriangleTest>(scale: f32, rounds: usize, vertices: bool) {
             })
             .collect();
         let centre = point(&mut rng, unit) * 0.2;
-        let origin = Vec3::new(0.0, 0.0, 3.0) + point(&mut rng, unit);
         let share = if vertices { 0.0 } else { unit(&mut rng) * 0.4 + 0.5 };
         let target = centre + (rim[0] - centre) * share;
+        let beside = if round % 4 == 0 { Vec3::new(target.x, target.y, 0.0) } else { point(&mut rng, unit) };
+        let origin = Vec3::new(0.0, 0.0, 3.0) + beside;
         let ray = Ray::new(origin * scale, target - origin);
         let fan = |k: usize| [centre, rim[k], rim[(k + 1) % 6]].map(|p| p * scale);
         let hits: Vec<f32> = (0..6).filter_map(|k| scalar_hit::<T>(&ray, fan(k))).collect();

@@ -1,4 +1,4 @@
-//! What holds for every triangle test, and what nearly all promise.
+//! Properties of every triangle test, and of nearly all of them.
 
 use std::marker::PhantomData;
 
@@ -6,7 +6,7 @@ use super::intervals::{a_t_beyond_the_largest_float_is_no_hit, intervals_are_hal
 use super::*;
 use crate::simd::{EightLanes, Kernel, Level, dispatch};
 
-/// Every width gives the bits of the scalar form, and lanes left over hit nothing.
+/// Every width gives the bits of the scalar form, and unused lanes hit nothing.
 fn all_widths_agree<T: TriangleTest>() {
     fn check<T: TriangleTest, const N: usize, L: Lanes<N>>(ray: &Ray, triangles: &[[Vec3; 3]]) -> usize {
         let (t_min, t_max) = ray.interval();
@@ -58,7 +58,7 @@ fn all_widths_agree<T: TriangleTest>() {
     assert!(hits > 5_000, "{}: too few hits to prove anything: {hits}", T::NAME);
 }
 
-/// A triangle a little smaller is hit only where this one is, and this one only where a little larger one is.
+/// Hits a slightly smaller triangle only if it hits this one, and this one only if it hits a slightly larger one.
 fn right_away_from_edges<T: TriangleTest>() {
     let mut rng = Pcg32::seed_from_u64(2);
     let mut hits = 0;
@@ -83,7 +83,7 @@ fn right_away_from_edges<T: TriangleTest>() {
     assert!(hits > 500, "{hits}");
 }
 
-/// Where all arithmetic is exact, the answer is.
+/// If all arithmetic is exact, the result is exact.
 fn exact_on_a_grid<T: TriangleTest>() {
     let mut rng = Pcg32::seed_from_u64(1);
     let mut hits = 0;

@@ -1,9 +1,9 @@
-//! The exact test is held against exact sums and rationals.
+//! Compares the exact test with exact sums and rationals.
 
 use super::*;
 use crate::simd::{Level, Portable};
 
-/// In a scene of 1e-15, the products of three lengths underflow before those of two.
+/// In a scene of 1e-15, the products of three lengths underflow before the products of two.
 #[test]
 fn hits_where_only_the_height_underflows_are_found() {
     let unit = libm::exp2f(-51.0);
@@ -36,7 +36,7 @@ fn the_exact_test_agrees_with_the_judges_everywhere() {
         let ray = windowed(&mut rng, ray, corners);
         let found = scalar_hit::<Exact>(&ray, corners);
         assert_eq!(found.map(f32::to_bits), true_t(&ray, corners).map(f32::to_bits), "{ray:?} {corners:?}");
-        // These sums are those of the test itself: a second judge shares nothing with it, but takes longer.
+        // These sums are also used by the test itself: a second judge shares nothing with it, but is slower.
         if round % 31 == 0 && ray.is_valid() {
             let second = rational::hit_within(&ray, corners);
             assert_eq!(found.map(f32::to_bits), second.map(f32::to_bits), "{ray:?} {corners:?}");
@@ -46,7 +46,7 @@ fn the_exact_test_agrees_with_the_judges_everywhere() {
     assert!(hits > 30_000, "{hits}");
 }
 
-/// Long, narrow or along axes, where the filter knows heights best, and the rays beside them.
+/// Long, narrow or along axes, for which the filter knows heights best, and rays beside them.
 pub(super) fn narrow(rng: &mut Pcg32) -> (Ray, [Vec3; 3]) {
     let mut corners = triangle(rng, unit);
     let width = libm::exp2f(-((rng.next_u32() % 24) as f32));
@@ -91,12 +91,12 @@ fn the_last_bits_of_eight_hits_are_those_of_each() {
                     assert_eq!(ts[lane], t, "{level}, {lane} of {which:b}: {inputs:?}");
                 }
             }
-            // Lanes left over hold nothing, or what is no hit.
+            // Unused lanes contain zeros or NaN, which is not a hit.
             inputs = [[[0.0, f32::NAN][len % 2]; 8]; INPUTS];
             owed.clear();
             len = 1 + rng.next_u32() as usize % 8;
         }
     }
-    // Of cases as hard as these the filter is sure of every fourth.
+    // The filter decides every fourth case of this difficulty.
     assert!(hits > 200_000 && seen > 50_000, "{seen} of {hits}");
 }

@@ -1,4 +1,4 @@
-//! What the tests in `f64` promise, with its constants, held against rationals.
+//! Compares the promises of the tests in `f64`, with their constants, with rationals.
 
 use dashu_ratio::RBig;
 
@@ -27,11 +27,11 @@ impl Sizes {
 
 /// The promises of a test, all three times the determinant.
 struct Bounds {
-    /// What is hit is found if the determinant is larger.
+    /// A hit triangle is found if the determinant is larger.
     found: f64,
-    /// How far a barycentric of a hit may be below zero: those of the first, the second and the third corner.
+    /// How far a barycentric of a hit may be below zero: for the first, the second and the third corner.
     outside: [f64; 3],
-    /// How far `t` may be off before it is rounded.
+    /// The maximum error of `t` before it is rounded.
     t: f64,
 }
 
@@ -56,19 +56,19 @@ fn f64_of(x: &RBig) -> f64 {
     x.to_f64().value()
 }
 
-/// The distance of the floats around `t`.
+/// The distance between floats around `t`.
 fn ulp(t: f64) -> f64 {
     let t = t.abs() as f32;
     f64::from(t.next_up()) - f64::from(t)
 }
 
-/// What a test did with its freedom.
+/// The deviations of a test within its promises.
 #[derive(Debug, Default)]
 struct Freedom {
     hits: u32,
     lost: u32,
     invented: u32,
-    /// `t` off by more than an ulp.
+    /// `t` with an error of more than an ulp.
     off: u32,
 }
 
@@ -96,7 +96,7 @@ fn check<T: TriangleTest>(ray: &Ray, corners: [Vec3; 3], bounds: fn(&Sizes, f64)
             freedom.off += u32::from(error > ulp(t));
         }
         None if is_hit => {
-            // At the very ends of the interval what counts is `t` as computed.
+            // At the very ends of the interval the computed `t` decides.
             let at_an_end = t <= off || t + off >= f64::from(f32::MAX);
             assert!(determinant < sure || at_an_end, "{}: a sure hit is lost: {ray:?} {corners:?}", T::NAME);
             freedom.lost += 1;
@@ -126,7 +126,7 @@ fn hold<T: TriangleTest>(bounds: fn(&Sizes, f64) -> Bounds) {
         }
     }
     let Freedom { hits, lost, invented, off } = freedom;
-    // Without any of these nothing but exact answers would do for a bound.
+    // Without any of these, only an exact test would meet its bound.
     assert!(hits > 2_000 && lost > 0 && invented > 0 && off > 20, "{}: {freedom:?}", T::NAME);
 }
 

@@ -1,12 +1,12 @@
-//! The first stage of the exact test loses nothing, leaves little, and is sure only of what is so.
+//! The first stage of the exact test loses nothing, leaves little, and is certain only of true hits.
 
 use super::super::filter::{FilterBlock, FilterRay, filter_block};
 use super::*;
 use crate::exact::ExactT;
 use crate::simd::{EightLanes, Kernel, Level, dispatch};
 
-/// What the first stage makes of one triangle, the one in lane 3 of 8: whether it is a candidate, and the bounds of `t`
-/// if it is sure of it.
+/// The result of the first stage for one triangle, in lane 3 of 8: whether it is a candidate, and the bounds of `t` if
+/// it is certain of the hit.
 struct Look<'a>(&'a Ray, [Vec3; 3], f32);
 
 impl Kernel for Look<'_> {

@@ -4,8 +4,8 @@ use std::cmp::Ordering;
 
 use super::*;
 
-/// Nothing crashes, and no `t` is out of the interval, whatever the numbers. What is rounded at the end may be rounded
-/// to it.
+/// For any numbers the test does not crash, and returns no `t` outside the interval. A `t` near the end may be rounded
+/// to the end.
 pub(super) fn survives_all_numbers<T: TriangleTest>() {
     let mut rng = Pcg32::seed_from_u64(4);
     for _ in 0..30_000 {
@@ -19,7 +19,7 @@ pub(super) fn survives_all_numbers<T: TriangleTest>() {
     }
 }
 
-/// Where a test gives the true `t`, and that is a float: an interval holds it if it begins there, and not if it ends
+/// If a test gives the true `t`, and that is a float: an interval contains it if it begins there, and not if it ends
 /// there.
 pub(super) fn intervals_are_half_open<T: TriangleTest>() {
     let mut rng = Pcg32::seed_from_u64(13);
@@ -49,7 +49,7 @@ pub(super) fn intervals_are_half_open<T: TriangleTest>() {
     assert!(hits > 1_000, "{}: too few hits to prove anything: {hits}", T::NAME);
 }
 
-/// A ray without end ends where no finite float is the nearest.
+/// A ray without end ends at numbers whose nearest float is not finite.
 pub(super) fn a_t_beyond_the_largest_float_is_no_hit<T: TriangleTest>() {
     let at = |z: f32| [Vec3::new(-1.0, -1.0, z), Vec3::new(3.0, -1.0, z), Vec3::new(-1.0, 3.0, z)];
     let short = |length: f32| Ray::new(Vec3::ZERO, Vec3::new(0.0, 0.0, length));

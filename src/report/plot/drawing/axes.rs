@@ -1,4 +1,4 @@
-//! Axes with round numbers, and the names of what is drawn below them.
+//! Axes with round numbers, and the legend below them.
 
 use std::fmt::Debug;
 
@@ -18,10 +18,10 @@ use crate::report::number::count;
 /// A logarithmic axis with numbers at which it is labelled.
 pub type LogAxis = WithKeyPoints<LogCoord<f64>>;
 
-/// Numbers between a power of ten and the next one that an axis names, dense to sparse.
+/// Numbers between two powers of ten that an axis labels, dense to sparse.
 const FACTORS: [&[f64]; 4] = [&[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0], &[1.0, 2.0, 5.0], &[1.0, 3.0], &[1.0]];
 
-/// A horizontal logarithmic axis of this length, with as many round numbers as fit beside each other.
+/// A horizontal logarithmic axis of this length, with as many round numbers as fit side by side.
 pub fn across(ends: [f64; 2], length: i32) -> LogAxis {
     log_axis(ends, length, |tick| width_of(&tick_text(tick)) + 20)
 }
@@ -31,11 +31,11 @@ pub fn upward(ends: [f64; 2], length: i32) -> LogAxis {
     log_axis(ends, length, |_| 48)
 }
 
-/// As many round numbers as fit, each of which takes some `room`.
+/// As many round numbers as fit; each takes `room` pixels.
 fn log_axis([low, high]: [f64; 2], length: i32, room: impl Fn(f64) -> i32) -> LogAxis {
     let per_decade = f64::from(length) / libm::log10(high / low);
     let exponents = libm::floor(libm::log10(low)) as i32..=libm::floor(libm::log10(high)) as i32;
-    // All decades with numbers between them, then every second, third and so on without.
+    // First all decades with numbers between them, then every second, third and further decade without.
     let between = FACTORS.into_iter().map(|factors| (1, factors));
     let powers = (2..20).map(|step| (step, FACTORS[3]));
     let ticks = |(step, factors): (i32, &[f64])| -> Vec<f64> {
@@ -54,7 +54,7 @@ fn log_axis([low, high]: [f64; 2], length: i32, room: impl Fn(f64) -> i32) -> Lo
     (low..high).log_scale().with_key_points(ticks)
 }
 
-/// A range of positive values with some room at both ends, at least a factor of two.
+/// A range of positive values with a margin at both ends, at least a factor of two.
 pub fn padded(values: impl Iterator<Item = f64>, [below, above]: [f64; 2]) -> [f64; 2] {
     let (low, high) = values.fold((f64::INFINITY, 0.0), |(low, high), v| (v.min(low), v.max(high)));
     if low > high {
@@ -64,16 +64,16 @@ pub fn padded(values: impl Iterator<Item = f64>, [below, above]: [f64; 2]) -> [f
     [low / libm::pow(high / low, below), high * libm::pow(high / low, above)]
 }
 
-/// Height of what is below a horizontal axis: with a title, and without.
+/// Height of the area below a horizontal axis: with a title, and without.
 pub const BOTTOM: i32 = 96;
 pub const BOTTOM_WITHOUT_TITLE: i32 = 52;
 
-/// Between an axis and what is drawn beside it.
+/// Space between an axis and its labels.
 pub const GAP: i32 = 20;
 
 pub type Axes<'a, Y = LogAxis> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<LogAxis, Y>>;
 
-/// What is written on axes, and the room for it: above, to the left and to the right.
+/// The labels of axes and their margins: above, to the left and to the right.
 pub struct AxisLabels<'a, V = f64> {
     pub x_title: &'a str,
     pub y_title: &'a str,
@@ -113,7 +113,7 @@ pub fn log_log<'a>(
     let texts: Vec<String> = y.bold_points().iter().map(|tick| tick_text(*tick)).collect();
     // The title beside the labels is as wide as text is high.
     let left = widest(&texts) + GAP + TEXT;
-    // A number below the end of the axis reaches beyond it by half its width.
+    // A number at the end of the axis extends beyond it by half its width.
     let right = 3 * GAP;
     let x = across(x_ends, width as i32 - left - GAP - right);
     axes(area, x, y, &AxisLabels { x_title, y_title, y_text: &|y| tick_text(*y), top: GAP, left, right })
@@ -127,7 +127,7 @@ pub fn legend_height(names: &[String]) -> i32 {
     if names.is_empty() { 0 } else { names.len() as i32 * LINE + GAP }
 }
 
-/// Draws names with a dot of their colours below the axes. Gives the area that is left.
+/// Draws names with a dot of their colours below the axes. Returns the remaining area.
 pub fn legend<'a>(area: &Area<'a>, names: &[String], colours: &[Colour]) -> DrawResult<Area<'a>> {
     const DOT: i32 = 8;
     let (axes, below) = area.split_vertically(area.dim_in_pixel().1 as i32 - legend_height(names));
@@ -139,9 +139,9 @@ pub fn legend<'a>(area: &Area<'a>, names: &[String], colours: &[Colour]) -> Draw
     Ok(axes)
 }
 
-/// A round number as an axis says it: `0.001`, `20`, `5,000`, `1e6`.
+/// A round number as an axis label: `0.001`, `20`, `5,000`, `1e6`.
 pub fn tick_text(value: f64) -> String {
-    // Without the last digits, which the product of a round number and a power of ten may have.
+    // Drop the last digits, which the product of a round number and a power of ten may have.
     let rounded: f64 = format!("{value:.6e}").parse().expect("a number");
     match rounded {
         0.0 => "0".into(),
@@ -162,7 +162,7 @@ mod tests {
             (90.0, 6000.0, 400, &["100", "200", "500", "1,000", "2,000", "5,000"][..]),
             (140.0, 410.0, 400, &["150", "200", "300", "400"]),
             (1e-5, 0.6, 400, &["1e-5", "1e-4", "0.001", "0.01", "0.1"]),
-            // Thinned evenly where they would touch.
+            // Thinned evenly if they would touch.
             (1.0, 1e12, 200, &["1", "1,000", "1e6", "1e9", "1e12"]),
         ] {
             let axis = upward([low, high], length);

@@ -14,7 +14,7 @@ use crate::report::number::figures;
 use crate::report::plot::bars::{Bar, BarGroup, Bars};
 
 impl Bar {
-    /// Where it begins and ends. Factors below 1 take from the whole: they stand to the left of 1.
+    /// The ends of the bar. Factors below 1 reduce the whole: they are to the left of 1.
     fn reach(&self) -> [f64; 2] {
         let mut reach = self.value().map_or([1.0; 2], |value| [value.estimate.min(1.0), value.estimate.max(1.0)]);
         if let Self::Product(factors, _) = self {
@@ -27,15 +27,15 @@ impl Bar {
 
 const FOOT: i32 = 48;
 
-/// Least width of a group, without the labels.
+/// Minimum width of a group, without the labels.
 const GROUP: i32 = 380;
 
-/// Room for the number at the end of the longest bar.
+/// Space for the number at the end of the longest bar.
 const NUMBER: i32 = 124;
 
-/// Where everything is, in a drawing of some width.
+/// The layout of a drawing of some width.
 struct Layout {
-    /// Room for labels to the left of the bars; none where each stands above its bar.
+    /// Space for labels to the left of the bars; 0 if each label stands above its bar.
     left: i32,
     /// Heights of a bar, of its row, and of the row with the label above it.
     bar: i32,
@@ -66,7 +66,7 @@ fn part_colours(part: usize) -> [Colour; 2] {
 impl Bars {
     fn layout(&self, width: i32) -> Layout {
         let beside = widest(&self.labels) + GAP;
-        // Labels stand above the bars where beside them they would leave the bars less than half of the width.
+        // Place labels above the bars if beside them they would leave the bars less than half of the width.
         let left = if beside > width / 2 { 0 } else { beside };
         let [row, bar] = if self.parts.is_empty() { [54, 30] } else { [88, 48] };
         let step = if left == 0 { row + TEXT + 2 } else { row };
@@ -78,7 +78,7 @@ impl Bars {
         Layout { left, bar, row, step, columns, column: (width - left) / columns as i32, head, group, height }
     }
 
-    /// Height of the drawing where it is `width` wide.
+    /// Height of a drawing of this width.
     pub fn height(&self, width: i32) -> i32 {
         self.layout(width).height + FOOT + legend_height(&self.parts)
     }
@@ -91,11 +91,11 @@ impl Bars {
         let across: Vec<i32> = (1..layout.columns as i32).map(|i| layout.left + i * layout.column).collect();
         let down: Vec<i32> = (1..=layout.height / layout.group).map(|i| i * layout.group).collect();
         for (i, (group, cell)) in self.groups.iter().zip(area.split_by_breakpoints(across, down)).enumerate() {
-            // Labels stand to the left of the first of the groups that are side by side.
+            // Labels stand to the left of the first of the groups in a row.
             let left = if i % layout.columns == 0 { layout.left } else { 0 };
             self.draw_group(whole, group, &layout, &cell, left)?;
         }
-        // In the middle below all groups, unless it would leave the drawing.
+        // Centre it below all groups, unless it would leave the drawing.
         let half = width_of(&self.x_title) / 2;
         let middle = ((width + layout.left) / 2).min(width - half).max(half);
         text(whole, &self.x_title, (middle, layout.height + FOOT / 2), MIDDLE.light, HPos::Center)
@@ -138,7 +138,7 @@ impl Bars {
                     chart.value(row, *value, bar.reach()[1], 0)?;
                 }
                 Bar::Product(factors, product) => {
-                    // The whole below its parts, which it must equal within its interval.
+                    // The whole below its parts, whose product it must equal within its interval.
                     chart.value(row, *product, bar.reach()[1], layout.bar / 2 + 10)?;
                     chart.factors(row, factors)?;
                 }
@@ -147,7 +147,7 @@ impl Bars {
         Ok(())
     }
 
-    /// Ends of the axis. They hold the intervals as well, unless these are so wide that nothing else would be seen.
+    /// Ends of the axis. They include the intervals, unless these are so wide that they would hide everything else.
     fn ends(&self) -> [f64; 2] {
         let bars = || self.groups.iter().flat_map(|group| &group.bars);
         let reach = bars().map(Bar::reach);
@@ -159,7 +159,7 @@ impl Bars {
     }
 }
 
-/// The axes of a group. Their vertical values are pixels from the top of the rows.
+/// The axes of a group. Its vertical values are pixels from the top of the rows.
 struct BarChart<'a, 's> {
     whole: &'a Area<'s>,
     layout: &'a Layout,
@@ -171,7 +171,7 @@ impl BarChart<'_, '_> {
         self.axes.backend_coord(&(x, y))
     }
 
-    /// Draws a bar between two values. Gives its corners.
+    /// Draws a bar between two values. Returns its corners.
     fn bar(&self, row: usize, [from, to]: [f64; 2], colour: Colour) -> DrawResult<[Place; 2]> {
         let (middle, half) = (self.layout.middle(row), self.layout.bar / 2);
         let corners = [self.place(from.min(to), middle - half), self.place(from.max(to), middle + half)];
@@ -179,7 +179,7 @@ impl BarChart<'_, '_> {
         Ok(corners)
     }
 
-    /// Draws the factors of a product as bars, those above 1 to the right and those below it to the left.
+    /// Draws the factors of a product as bars, factors above 1 to the right and factors below 1 to the left.
     fn factors(&self, row: usize, factors: &[f64]) -> DrawResult {
         let (mut up, mut down) = (1.0, 1.0);
         for (part, &factor) in factors.iter().enumerate() {
@@ -197,8 +197,8 @@ impl BarChart<'_, '_> {
         Ok(())
     }
 
-    /// Draws the interval of a value, `below` the middle of its row, and the number behind it and behind `end`, where
-    /// the bar ends.
+    /// Draws the interval of a value, `below` pixels below the middle of its row, and the number to the right of the
+    /// interval and of `end`, the end of the bar.
     fn value(&self, row: usize, value: Estimate, end: f64, below: i32) -> DrawResult {
         let (axis, middle) = (self.axes.x_range(), self.layout.middle(row));
         let high = value.high().unwrap_or(value.estimate);
@@ -209,8 +209,8 @@ impl BarChart<'_, '_> {
         text(self.whole, &figures(value.estimate), (x + 14, y), INK.light, HPos::Left)
     }
 
-    /// An interval as an error bar, on a plate of its own so that it is seen on a bar. An end beyond the axis has no
-    /// mark: the interval goes on.
+    /// Draws an interval as an error bar, on a plate that makes it visible on a bar. An end beyond the axis has no
+    /// mark: the interval continues.
     fn whisker(&self, ends: [f64; 2], y: i32) -> DrawResult {
         let axis = self.axes.x_range();
         let stem = ends.map(|end| self.place(end.clamp(axis.start, axis.end), y));

@@ -1,7 +1,6 @@
-//! What all charts draw with: areas of an SVG file, and text in the one font.
+//! The drawing primitives of all charts: areas of an SVG file, and text in one font.
 //!
-//! Lengths are pixels, two for each unit of width that a chart is asked for: pictures are sharp where they are shown
-//! smaller.
+//! Lengths are pixels, two per unit of the requested width: pictures stay sharp at a smaller size.
 
 use std::io;
 use std::sync::Once;
@@ -25,10 +24,11 @@ pub type Place = (i32, i32);
 /// Size of text, from the top of the highest letter to the bottom of the lowest.
 pub const TEXT: i32 = 32;
 
-/// Name of the font: in an SVG, what the viewer takes for it; elsewhere the font that comes with the program.
+/// Name of the font: a viewer replaces it in an SVG; measuring uses the font in this program.
 const FONT: &str = "sans-serif";
 
-/// The system's fonts are not asked: the same picture everywhere. Ubuntu Light is under the Ubuntu Font Licence.
+/// Registers the font in this program instead of the system's fonts: the same picture everywhere. Ubuntu Light is under
+/// the Ubuntu Font Licence.
 pub fn register() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {
@@ -41,7 +41,7 @@ pub fn text_style(colour: Colour) -> TextStyle<'static> {
     TextStyle { color: colour.to_backend_color(), ..(FONT, TEXT).into_font().into() }
 }
 
-/// Width of a line of text; somewhat more than it takes, since the viewer of an SVG has a font of its own.
+/// Width of a line of text; slightly more than needed, because the viewer of an SVG has its own font.
 pub fn width_of(text: &str) -> i32 {
     register();
     let (width, _) = (FONT, TEXT).into_font().box_size(text).expect("the font is registered");
@@ -52,7 +52,7 @@ pub fn widest<'a>(texts: impl IntoIterator<Item = &'a String>) -> i32 {
     texts.into_iter().map(|text| width_of(text)).max().unwrap_or(0)
 }
 
-/// Draws a line of text, which begins, has its middle or ends at `place`, at half its height.
+/// Draws a line of text that begins, has its middle or ends at `place`, at half its height.
 pub fn text(area: &Area, text: &str, place: Place, colour: Colour, side: HPos) -> DrawResult {
     area.draw_text(text, &text_style(colour).pos(Pos::new(side, VPos::Center)), place)
 }

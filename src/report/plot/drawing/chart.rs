@@ -7,11 +7,11 @@ use super::canvas::{Area, DrawResult, register};
 use super::palette::PAPER;
 use crate::report::plot::chart::Chart;
 
-/// Memory takes every stroke, and the font is there: nothing can fail.
+/// Drawing into memory with a registered font cannot fail.
 const DRAWN: &str = "memory takes every stroke, and the font is registered";
 
 impl Chart {
-    /// Width and height in pixels where it is to be `width` wide.
+    /// Width and height in pixels for the requested `width`.
     pub(super) fn size(&self, width: f64) -> (u32, u32) {
         let width = if matches!(self, Self::Scatter(_)) { 800.0 } else { width };
         let width = (2.0 * width).round() as i32;
@@ -36,7 +36,7 @@ impl Chart {
         area.present()
     }
 
-    /// The text of an SVG file, `width` units wide if it can be; a unit is half as long as one of the file's view box.
+    /// The text of an SVG file, `width` units wide if possible; a unit is two units of the file's view box.
     pub fn svg(&self, width: f64) -> String {
         let mut text = String::new();
         self.draw(&SVGBackend::with_string(&mut text, self.size(width)).into_drawing_area()).expect(DRAWN);

@@ -13,7 +13,7 @@ impl Curves {
         self.lines.iter().map(|line| format!("{} {}", line.label, line.note).trim_end().to_owned()).collect()
     }
 
-    /// Height of the drawing where it is `width` wide.
+    /// Height of a drawing of this width.
     pub fn height(&self, width: i32) -> i32 {
         (4 * width / 5).min(860) + legend_height(&self.names())
     }

@@ -1,4 +1,4 @@
-//! Where labels of points go, so that none covers another or a point; plotters does not place any.
+//! Places labels of points: none covers another label or a point. plotters does not place labels.
 
 use super::canvas::Place;
 
@@ -13,15 +13,15 @@ fn is_inside(a: &Corners, b: &Corners) -> bool {
     a[0].0 >= b[0].0 && a[0].1 >= b[0].1 && a[1].0 <= b[1].0 && a[1].1 <= b[1].1
 }
 
-/// Between a point and its label.
+/// Distance between a point and its label.
 const GAP: i32 = 22;
 
-/// Boxes `height` high for labels of these widths, in order, within `frame`: beside the point where that is free, else
-/// as near as possible. They do not meet each other and the obstacles as long as there is another place.
+/// Boxes `height` high for labels of these widths, in order, within `frame`: beside the point if there is space,
+/// otherwise as near as possible. They avoid each other and the obstacles as long as there is another place.
 pub fn place(points: &[(Place, i32)], height: i32, obstacles: &[Corners], frame: Corners) -> Vec<Corners> {
     let mut taken = obstacles.to_vec();
     for &((x, y), width) in points {
-        // To the right and to the left, then ever higher and lower, by half lines; further away as well.
+        // To the right and to the left, then increasingly higher and lower, by half lines; further away as well.
         let steps = (0..40).flat_map(|i| [-i, i]).map(|i| i * height / 2);
         let lefts = [x + GAP, x - GAP - width, x + GAP + 60, x - GAP - 60 - width, x - width / 2];
         let corners = |left: i32, step: i32| [(left, y + step - height / 2), (left + width, y + step + height / 2)];

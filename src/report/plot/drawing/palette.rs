@@ -1,4 +1,4 @@
-//! Colours: one for each structure, the same in every figure, in light and in dark.
+//! Colours: one per structure, the same in every figure, in light and in dark mode.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,13 +6,13 @@ use plotters::style::RGBColor;
 
 use crate::measure::checksum;
 
-/// A colour of a drawing, by its value on white paper; a page in dark colours shows another in its place.
+/// A colour of a drawing, by its value on white paper; a page in dark mode replaces it.
 pub type Colour = RGBColor;
 
-/// A colour by its role: what a drawing says, what white paper shows, and what dark paper shows.
+/// A colour by its role: its name, its value on white paper, and its value on dark paper.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Role {
-    /// Of the custom property of style sheets.
+    /// Name of the custom property of style sheets.
     pub name: &'static str,
     pub light: Colour,
     pub dark: Colour,
@@ -27,8 +27,8 @@ pub const INK: Role = role("ink", [34, 38, 43], [226, 228, 231]);
 pub const MIDDLE: Role = role("middle", [100, 106, 114], [157, 164, 173]);
 pub const FAINT: Role = role("faint", [222, 225, 229], [52, 57, 64]);
 
-/// Colours of series, told apart by colour-blind eyes as far as the first ten can be (after Okabe, Ito: Color universal
-/// design, 2008), dark or light enough for text.
+/// Colours of series. Colour-blind readers can distinguish the first ten as far as possible (after Okabe, Ito: Color
+/// universal design, 2008). All are dark or light enough for text.
 pub const SERIES: [Role; 24] = [
     role("s0", [106, 110, 116], [160, 166, 174]),
     role("s1", [184, 74, 0], [255, 150, 84]),
@@ -56,7 +56,7 @@ pub const SERIES: [Role; 24] = [
     role("s23", [6, 90, 107], [118, 226, 248]),
 ];
 
-/// Colours of the parts of a whole, which are no structures: shades of one colour, dark to pale.
+/// Colours of the parts of a whole: shades of one colour, dark to pale, that no structure has.
 pub const PARTS: [Role; 3] = [
     role("p0", [44, 62, 84], [204, 216, 230]),
     role("p1", [98, 124, 152], [134, 154, 176]),
@@ -67,7 +67,7 @@ pub fn roles() -> impl Iterator<Item = Role> {
     [PAPER, INK, MIDDLE, FAINT].into_iter().chain(SERIES).chain(PARTS)
 }
 
-/// The structures with a colour of their own, the same in every chart.
+/// The structures with a fixed colour, the same in every chart.
 const STRUCTURES: [&str; 14] = [
     "brute-force",
     "median-kd",
@@ -85,14 +85,14 @@ const STRUCTURES: [&str; 14] = [
     "tinybvh",
 ];
 
-/// As [`roles_of`], on white paper.
+/// Like [`roles_of`], on white paper.
 pub fn colours(labels: &[String]) -> Vec<Colour> {
     roles_of(labels).into_iter().map(|role| role.light).collect()
 }
 
-/// A colour for each label. The bare name of a structure has the colour of its structure, in every chart; other labels,
-/// those with keys among them, have one of the other colours. That is told by their text: it is the same in another
-/// chart, but where two texts of one chart meet.
+/// A colour for each label. The bare name of a structure has the fixed colour of the structure; any other label, such
+/// as one with keys, has one of the remaining colours. Its text decides which: the colour is the same in every chart,
+/// unless two texts of one chart collide.
 pub fn roles_of(labels: &[String]) -> Vec<Role> {
     let own = |label: &str| STRUCTURES.iter().position(|structure| *structure == label);
     let others = labels.iter().map(String::as_str).filter(|label| own(label).is_none());
@@ -101,8 +101,8 @@ pub fn roles_of(labels: &[String]) -> Vec<Role> {
     labels.iter().map(role).collect()
 }
 
-/// For each of `texts` a number below `n`, all different as long as there are enough: the one that the text decides, or
-/// the next that is free. The order of the texts does not matter.
+/// A number below `n` for each of `texts`, all different as long as there are enough: the number from the text, or the
+/// next free one. The order of the texts does not matter.
 fn spread<'a>(texts: impl Iterator<Item = &'a str>, n: usize) -> BTreeMap<&'a str, usize> {
     let mut given: BTreeMap<&str, usize> = BTreeMap::new();
     for text in texts.collect::<BTreeSet<_>>() {
@@ -113,13 +113,13 @@ fn spread<'a>(texts: impl Iterator<Item = &'a str>, n: usize) -> BTreeMap<&'a st
     given
 }
 
-/// A number that depends on nothing but the text.
+/// A number that depends only on the text.
 fn number(text: &str) -> usize {
     let hash = checksum(text.bytes().map(u64::from));
     (hash ^ hash >> 32) as u32 as usize
 }
 
-/// The colour as style sheets and drawings write it.
+/// The colour in the format of style sheets and drawings.
 pub fn hex(colour: Colour) -> String {
     format!("#{:02X}{:02X}{:02X}", colour.0, colour.1, colour.2)
 }

@@ -16,7 +16,7 @@ const RADIUS: i32 = 10;
 
 const ARROW: i32 = 44;
 
-/// A point where it is drawn.
+/// A point with its place in the drawing.
 struct Dot<'a> {
     point: &'a Point,
     place: Place,
@@ -24,13 +24,13 @@ struct Dot<'a> {
 }
 
 impl Scatter {
-    /// Names of the colours; none where the labels say the same.
+    /// Names of the colours; empty if the labels are the same.
     fn names(&self) -> Vec<String> {
         let is_said = self.points.iter().all(|point| point.label == point.group);
         if is_said { vec![] } else { self.groups() }
     }
 
-    /// Height of the drawing where it is `width` wide.
+    /// Height of a drawing of this width.
     pub fn height(&self, width: i32) -> i32 {
         width.min(880) + legend_height(&self.names())
     }
@@ -39,7 +39,7 @@ impl Scatter {
         let (groups, names) = (self.groups(), self.names());
         let colours = colours(&groups);
         let area = legend(whole, &names, &colours)?;
-        // Room on the right for a label, below for the arrows of bounds.
+        // Leave space on the right for a label, below for the arrows of bounds.
         let x_ends = padded(self.points.iter().map(|point| point.x), [0.1, 0.2]);
         let y_ends = padded(self.points.iter().map(|point| point.y), [0.15, 0.1]);
         let axes = log_log(&area, [&self.x_title, &self.y_title], [x_ends, y_ends])?;
@@ -55,17 +55,17 @@ impl Scatter {
         let front = front(&dots, x.end);
         line(whole, &front, MIDDLE.light, 4)?;
         let obstacles: Vec<Corners> = dots.iter().map(Dot::corners).collect();
-        // Among too many points nobody would find what belongs to a label.
+        // Among too many points a reader could not match labels to points.
         let is_shown = |dot: &&Dot| dots.len() <= LABELLED || dot.point.is_front;
         let labelled: Vec<&Dot> = dots.iter().filter(is_shown).collect();
         draw_labels(whole, &labelled, &obstacles, [(x.start + 12, y.start), (x.end - 4, y.end - 8)])?;
-        // What is on the front is drawn last, so that it is on top.
+        // Draw the front last, on top.
         dots.iter().rev().try_for_each(|dot| dot.draw(whole))
     }
 }
 
 impl Dot<'_> {
-    /// What no label covers, with its arrow.
+    /// The area of the point and its arrow, which no label may cover.
     fn corners(&self) -> Corners {
         let ((x, y), around) = (self.place, RADIUS + 4);
         let below = if self.point.is_bound { ARROW + 4 } else { around };
@@ -85,8 +85,8 @@ impl Dot<'_> {
     }
 }
 
-/// The border of what is reached: a stair through the points of the front, from which each step goes on to the next
-/// point, the last one to the `end` of the axis.
+/// The border of the reached region: a staircase through the points of the front. Each step leads to the next point,
+/// the last one to the `end` of the axis.
 fn front(dots: &[Dot], end: i32) -> Vec<Place> {
     let mut front: Vec<Place> = dots.iter().filter(|dot| dot.point.is_front).map(|dot| dot.place).collect();
     front.sort_unstable();
@@ -94,12 +94,12 @@ fn front(dots: &[Dot], end: i32) -> Vec<Place> {
     front.iter().zip(ends).flat_map(|(&(x, y), end)| [(x, y), (end, y)]).collect()
 }
 
-/// Draws the labels of some points, the first of which choose first.
+/// Draws the labels of some points; the first points choose first.
 fn draw_labels(area: &Area, dots: &[&Dot], obstacles: &[Corners], frame: Corners) -> DrawResult {
     let widths = dots.iter().map(|dot| (dot.place, width_of(&dot.point.label)));
     let boxes = place(&widths.collect::<Vec<_>>(), TEXT, obstacles, frame);
     for (dot, [min, max]) in dots.iter().zip(&boxes) {
-        // A label that had to go elsewhere is tied to its point.
+        // Connect a displaced label to its point.
         let (x, y) = dot.place;
         let end = (x.clamp(min.0, max.0), y.clamp(min.1, max.1));
         if (end.0 - x).abs().max((end.1 - y).abs()) > 36 {
@@ -107,7 +107,7 @@ fn draw_labels(area: &Area, dots: &[&Dot], obstacles: &[Corners], frame: Corners
         }
     }
     for (dot, [min, max]) in dots.iter().zip(boxes) {
-        // What is under a label must not cross it.
+        // Hide lines under a label.
         area.draw(&Rectangle::new([min, max], PAPER.light.filled()))?;
         text(area, &dot.point.label, (min.0, (min.1 + max.1) / 2), dot.colour, HPos::Left)?;
     }

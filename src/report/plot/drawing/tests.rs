@@ -66,7 +66,7 @@ fn there_is_room_for_the_name_of_each_line() {
 
 #[test]
 fn long_names_leave_bars_their_room() {
-    // Its interval is drawn within the axis, which must have room: an axis that ends before it begins would panic.
+    // The axis must include the interval: an axis that ends before it begins would panic.
     let value = Estimate::between(2.0, 1.8, 2.2);
     for (bar, parts) in [(Bar::Of(value), vec![]), (Bar::Product(vec![2.0], value), vec!["plane".to_owned()])] {
         let of =

@@ -43,7 +43,7 @@ pub(super) fn check(required: &Value, used: &Value, notes: &mut Notes) -> Result
         return Err(Fault::part("extensionsRequired", problem));
     }
     for (name, is_shading, compression) in others(used) {
-        // What is compressed and not required is there uncompressed as well.
+        // Compressed data that are not required exist uncompressed as well.
         if !is_shading && compression.is_none() {
             notes.add(format!("the extension {} is ignored, with what it changes", quoted(name)));
         }

@@ -22,16 +22,16 @@ use self::shape::{Attribute, Shape, Sizes};
 use super::error::Fault;
 use crate::scene::{Material, Model};
 
-/// A scene may have this many triangles, and vertices, more than its files have bytes. Without shared meshes it cannot
-/// have more than there are bytes.
+/// A scene may have at most as many triangles, and as many vertices, as its files have bytes, plus this number. Only
+/// shared meshes make more triangles than bytes.
 const MOST_REPEATED: usize = 1 << 24;
 
-/// Reads a glTF file and expands its node graph: every mesh once for each node or instance that shows it, in the pose of
-/// its skin if it has one.
+/// Reads a glTF file and expands its node graph: adds one copy of a mesh for each node or instance that shows it. A
+/// skin poses its mesh.
 ///
 /// Transforms are multiplied in f64 and rounded once, when they are applied to vertices. Triangles of mirrored nodes
-/// are reversed, so that they keep their front side. Points, lines, textures and morph targets are left out. Everything
-/// visible is counted before anything is read.
+/// are reversed, which keeps their front side. Points, lines, textures and morph targets are left out. It counts all
+/// visible triangles, vertices, normals, joints and instances before it reads an element.
 pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
     let (text::Document { mut root, instances, textured, mut notes }, chunk) = text::parse(&bytes)?;
     let size = bytes.len();
@@ -68,8 +68,10 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
         let surfaces: usize = shapes.values().map(|shape| shape.parts.len()).sum();
         let others: usize = shapes.values().map(|shape| shape.left_out).sum();
         let (nodes, meshes) = (document.nodes().len(), document.meshes().len());
-        let shown = format!("{surfaces} primitives of triangles, and {others} of points, lines or without positions");
-        let problem = format!("it has no triangles: it shows {shown} from {nodes} nodes and {meshes} meshes");
+        let shown =
+            format!("{surfaces} empty primitives for triangles, and {others} for points or lines or without positions");
+        let problem =
+            format!("it has no visible triangles: it shows {shown}; the file has {nodes} nodes and {meshes} meshes");
         return Err(Fault::file(problem));
     }
     reserve(&mut model, sizes.map(|size| size.0), size)?;
@@ -95,7 +97,10 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
         let mut positions = shapes[&placement.mesh.index()].positions.iter();
         placement.node.skin().is_some() && positions.any(|attribute| attribute.influences.is_empty())
     };
-    let unposed = ["node has a skin without joints: unposed", "nodes have skins without joints: unposed"];
+    let unposed = [
+        "node has a skin, but its mesh lacks joints: unposed",
+        "nodes have skins, but their meshes lack joints: unposed",
+    ];
     notes.count(placements.iter().filter(is_unposed).count(), unposed);
     let texture = [
         "material has a texture: ignored, the base colour is used",
@@ -114,11 +119,13 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
     Ok(model)
 }
 
-/// Allocates the memory for the whole scene before anything is expanded: a small file can show a large mesh very often.
+/// Checks the sizes against the limit and allocates the memory for the whole scene, before anything is expanded: a
+/// small file can show a large mesh many times.
 ///
-/// The sizes are those of vertices, normals and triangles, and of what else is read to place them.
+/// `sizes` are the numbers of vertices, normals, triangles, and other elements to read: parts, influences, joints and
+/// instances.
 fn reserve(model: &mut Model, sizes: [usize; 4], bytes: usize) -> Result<(), Fault> {
-    let [vertices, normals, triangles, _] = sizes;
+    let [vertices, normals, triangles, others] = sizes;
     let most = bytes.saturating_add(MOST_REPEATED).min(u32::MAX as usize - 1);
     let fits = sizes.iter().all(|&size| size <= most)
         && model.positions.try_reserve_exact(vertices).is_ok()
@@ -130,7 +137,11 @@ fn reserve(model: &mut Model, sizes: [usize; 4], bytes: usize) -> Result<(), Fau
         return Ok(());
     }
     let shown = format!("its nodes show {triangles} triangles and {vertices} vertices");
-    Err(Fault::file(format!("{shown}, but the limit for files of {bytes} bytes is {most}: split the scene")))
+    if sizes.iter().all(|&size| size <= most) {
+        return Err(Fault::file(format!("{shown}, which do not fit into memory: split the scene")));
+    }
+    let shown = format!("{shown}, and need {normals} normals and {others} other elements");
+    Err(Fault::file(format!("{shown}, but the limit for files of {bytes} bytes is {most} of each: split the scene")))
 }
 
 /// Adds the triangles of a mesh in a pose.
@@ -178,7 +189,8 @@ fn add<'a>(
     Ok(())
 }
 
-/// The inverse transpose up to a positive factor: the cofactor matrix, which exists even without an inverse.
+/// The transform of normals: the cofactor matrix times the sign of the determinant. It is the inverse transpose times a
+/// positive factor, and it exists for singular matrices too.
 fn to_normal(linear: DMat3) -> DMat3 {
     let DMat3 { x_axis: x, y_axis: y, z_axis: z } = linear;
     let sign = if linear.determinant() < 0.0 { -1.0 } else { 1.0 };

@@ -18,7 +18,7 @@ pub(super) struct Placement<'a> {
     pub instances: [Option<usize>; 3],
 }
 
-/// The transform of a mesh, or those of the joints of its skin.
+/// The transform of a mesh, or the transforms of the joints of its skin.
 pub(super) enum Pose {
     Rigid(DMat4),
     Skinned(Vec<DMat4>),

@@ -25,7 +25,7 @@ pub(super) struct Shape<'a> {
     pub morphed: usize,
 }
 
-/// The accessors of vectors, and of the sets of joints and weights by which a skin moves them; all of one length.
+/// The accessors of vectors, and of the joints and weights with which a skin moves them; all of one length.
 #[derive(PartialEq, Eq, Hash)]
 pub(super) struct Attribute {
     pub vectors: usize,

@@ -29,7 +29,7 @@ const BYTES_AN_OBJECT: usize = 48;
 /// The most entries of lists and objects, per object.
 const ENTRIES_AN_OBJECT: usize = 12;
 
-/// The keys that are read, apart from those of joints and weights.
+/// The keys that are read, without the keys of joints and weights.
 static KEYS: LazyLock<HashSet<&str>> = LazyLock::new(|| {
     "attributes baseColorFactor buffer bufferView byteLength byteOffset byteStride children componentType count indices \
     inverseBindMatrices joints material matrix mesh mode name nodes normalized pbrMetallicRoughness primitives rotation \
@@ -222,7 +222,7 @@ fn validate(root: &Root) -> Result<(), Fault> {
     }
     let mut fault = None;
     root.validate(root, Path::new, &mut |path, error| {
-        // What is missing is optional, or not read. Strides are checked with the accessors.
+        // A missing key is optional, or not read. Strides are checked with the accessors.
         if fault.is_none() && error != Error::Missing && !path().as_str().ends_with("byteStride") {
             let problem = format!("{}: export the file again", error.to_string().to_lowercase());
             fault = Some(Fault::part(path().0, problem));

@@ -1,8 +1,8 @@
-//! What tobj gets to read of an OBJ file, and what it does not tell of it.
+//! The statements of an OBJ file for tobj, and the data that tobj does not return.
 //!
-//! tobj is given one clean statement at a time, so that the place of its errors is known. The text is read twice: first
-//! vertices and normals, then faces, which may refer to later vertices. Comments that begin with "tobj" name what a guard
-//! is for; each has a test that fails without it.
+//! tobj is given one clean statement at a time: the place of its errors is then known. The text is read twice: first
+//! vertices and normals, then faces, which may refer to later vertices. Comments that begin with "tobj" explain a
+//! guard; each has a test that fails without it.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -43,7 +43,7 @@ pub(super) struct Section {
     pub is_smooth: bool,
 }
 
-/// What the filter finds in the statements.
+/// The filter's findings in the statements.
 #[derive(Default)]
 pub(super) struct Contents {
     pub vertices: Vectors,
@@ -94,7 +94,7 @@ impl<'a> Filter<'a> {
         Fault::line(self.line, self.problem.unwrap_or_else(|| error.to_string()))
     }
 
-    /// What the text holds once tobj has read it: triangles, or another format, in which tobj finds nothing wrong.
+    /// The content of the text once tobj has read it: triangles, or another format, in which tobj finds nothing wrong.
     pub fn finish(self, notes: &mut Notes) -> Result<Contents, Fault> {
         let Contents { triangles, small_faces, shapes, weighted, unknown, .. } = self.contents;
         notes.count(small_faces, SMALL_FACES);
@@ -207,7 +207,7 @@ impl Contents {
 
         to_tobj.push(b'f');
         for &[vertex, normal] in &self.corners {
-            // tobj gives a corner without a normal that of another corner: here it is the first of the file.
+            // tobj gives a corner without a normal the normal of another corner: here it is the first of the file.
             let normal = normal.max(1);
             self.vertices.add_use(vertex, self.models);
             self.normals.add_use(normal, self.models);
@@ -246,7 +246,7 @@ impl Contents {
         }
     }
 
-    /// Keeps one library more than are read, so that it can be noted.
+    /// Keeps one library more than are read, for a note.
     fn add_library(&mut self, names: &[u8]) {
         if self.libraries.len() <= MOST_LIBRARIES && !self.libraries.iter().any(|known| known == names) {
             self.libraries.push(names.to_vec());

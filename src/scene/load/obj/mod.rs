@@ -1,6 +1,6 @@
 //! Wavefront OBJ, by tobj behind a filter.
 //!
-//! Vertices and normals keep the order of the file; those that no face uses are left out, because tobj does not tell them.
+//! Vertices and normals keep the order of the file; unused ones are left out, because tobj does not return them.
 
 mod filter;
 mod vectors;

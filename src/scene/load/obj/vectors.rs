@@ -7,15 +7,15 @@ use glam::Vec3;
 use crate::scene::load::error::quoted;
 use crate::scene::load::text::number;
 
-/// tobj numbers the vectors of each model anew, in the order in which faces use them first, and does not tell which they
-/// are in the file: this is that order. Without it a vector of several models would become several.
+/// tobj numbers the vectors of each model again, in the order in which faces use them first, and does not return their
+/// numbers in the file: this is that order. Without it a vector of several models would become several.
 #[derive(Default)]
 pub(super) struct Vectors {
     /// The last model that uses each vector, counted from 1; 0 if none does.
     pub last_model: Vec<u32>,
     /// The vectors of all models, counted from 0.
     order: Vec<u32>,
-    /// Those before the statement being read, in the second reading.
+    /// The vectors before the current statement, in the second reading.
     pub so_far: usize,
 }
 

@@ -23,7 +23,7 @@ pub(super) struct Header {
     elements: Vec<Element>,
     /// The number of the encoding, once its line has been read.
     encoding: Option<usize>,
-    /// The names of elements, and of properties after that of their element.
+    /// The names of elements, and of properties after the name of their element.
     names: HashSet<String>,
 }
 
@@ -105,7 +105,7 @@ pub(super) struct Element {
 }
 
 pub(super) struct Property {
-    /// What is passed on with its numbers; nothing if they are skipped.
+    /// The column of its numbers; `None` if they are skipped.
     pub column: Option<usize>,
     /// The type of the length, if it is a list.
     pub length: Option<Kind>,

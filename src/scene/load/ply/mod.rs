@@ -14,7 +14,7 @@ use crate::scene::{Material, Model};
 /// Reads a PLY file: the positions and, if there are any, normals of its vertices, and the triangles of its faces and
 /// strips.
 ///
-/// Faces are read twice: the first pass checks them and keeps nothing, so that a rejected file takes little memory
+/// Faces are read twice: the first pass checks them and keeps nothing, because a rejected file must take little memory
 /// beyond its own bytes.
 pub(super) fn read(bytes: &[u8]) -> Result<Model, Fault> {
     let (elements, mut rows) = Header::read(bytes)?;
@@ -93,7 +93,7 @@ fn vertices(element: &Element, rows: &mut &[u8], model: &mut Model) -> Result<()
     })
 }
 
-/// Reads faces and passes on the corners of each, or triangle strips and passes on those of each triangle.
+/// Reads faces or triangle strips, and passes on the corners of each face, or of each triangle of a strip.
 fn polygons(element: &Element, rows: &mut &[u8], vertices: usize, mut take: impl FnMut(&[u32])) -> Result<(), Fault> {
     if element.properties.iter().filter(|property| property.column.is_some()).count() != 1 {
         let problem = "it must have one list of corners, with the name `vertex_indices`";

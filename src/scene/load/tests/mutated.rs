@@ -1,4 +1,4 @@
-//! Damaged files: whatever they contain, the result is a model or an error of one line.
+//! Damaged files: for any content, the result is a model or an error of one line.
 
 use std::time::{Duration, Instant};
 
@@ -15,7 +15,7 @@ const OBJ: &str = "mtllib a.mtl\no a\nv 0 0 0\nv 1 0 0\nv 1 1 0 1\nv 0 1 -0.5e0\
 const MTL: &str =
     "newmtl red\nKa 0.1 0 0\nKd 1 0 0\nKs 0.5 0.5 0.5\nNs 20\nmap_Kd red.png\nillum 2\nnewmtl blue\nKd 0 0 1\n";
 
-/// What a file is damaged with: random bytes, and words that parsers are known to mishandle.
+/// Damage to a file: random bytes, and words that parsers are known to mishandle.
 fn patch() -> impl Strategy<Value = Vec<u8>> {
     const WORDS: &[&str] = &[
         "",
@@ -75,7 +75,7 @@ fn damaged(file: &[u8], damages: &[Damage]) -> Vec<u8> {
     let mut file = file.to_vec();
     for damage in damages {
         let pieces: Vec<&[u8]> = file.split_inclusive(|byte| b" \n,:/{}[]".contains(byte)).collect();
-        // Neighbours, so that most of the file stays.
+        // Neighbours: most of the file stays.
         let range = |[start, length]: &[Index; 2]| {
             let start = start.index(pieces.len() + 1);
             start..(start + 1 + length.index(8)).min(pieces.len()).max(start)

@@ -26,7 +26,7 @@ fn indices_may_be_negative_forward_and_continued() {
     assert_eq!(obj(&format!("{SQUARE}f -5 -4 -3\n")).triangles, [[0, 1, 2]]);
     assert_eq!(obj(&format!("f 1 2 3 # first\r\n{SQUARE}")).triangles, [[0, 1, 2]]);
     assert_eq!(obj(&format!("{SQUARE}f 1 2 \\\n3 4 \\")).triangles, [[0, 1, 2], [0, 2, 3]]);
-    // A negative index counts the vertices so far, not those of the file.
+    // A negative index counts the vertices so far, not all vertices of the file.
     assert_eq!(obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nf -3 -2 -1\nv 5 5 5\n").triangles, [[0, 1, 2]]);
 }
 
@@ -163,7 +163,7 @@ fn malformed_files_are_refused_with_their_line() {
 fn what_tobj_misreads_is_read() {
     let plain = obj(&format!("{SQUARE}f 1 2 3\n"));
     for statement in [
-        // Numbers beside the three are neither divisors nor colours, of which tobj wants three for all vertices or none.
+        // Numbers beside the three are neither divisors nor colours; tobj wants three colours for all vertices or none.
         "v 1 1 0 1",
         "v 1 1 0 0.5 0.5 0.5",
         "v 1 1 0 0.5 0.5 0.5 1",
@@ -208,7 +208,7 @@ fn a_face_has_at_most_2_20_corners() {
     assert_refused("a.obj", face((1 << 20) + 1).as_bytes(), &["line 2:", "more than 1048576 corners"]);
 }
 
-/// tobj numbers the vertices of groups and of its models anew, and those without a face not at all.
+/// tobj numbers the vertices of groups and of its models again, and vertices without a face not at all.
 #[test]
 fn vertices_are_the_same_in_all_parts_of_a_large_file() {
     const SIDE: u32 = 200;
@@ -218,7 +218,7 @@ fn vertices_are_the_same_in_all_parts_of_a_large_file() {
     positions.iter().for_each(|p| text += &format!("v {} {} {}\n", p.x, p.y, p.z));
     normals.iter().for_each(|n| text += &format!("vn {} {} {}\n", n.x, n.y, n.z));
     let (mut triangles, mut normal_indices, mut material_of) = (vec![], vec![], vec![]);
-    // Faces alternate between far rows, so that models share vertices.
+    // Faces alternate between far rows, which makes models share vertices.
     for i in 0..(SIDE - 1) * (SIDE - 1) {
         let (row, column) = (i * 7 % (SIDE - 1), i / (SIDE - 1));
         let a = row * SIDE + column;
@@ -242,7 +242,7 @@ fn vertices_are_the_same_in_all_parts_of_a_large_file() {
     }
     let model = obj(&text);
     assert_eq!(model.positions, positions);
-    // Normal 1 stands in for those of flat faces.
+    // Normal 1 replaces the normals of flat faces.
     assert_eq!(model.normals[1..], normals[..SIDE as usize - 1]);
     assert!(model.triangles == triangles && model.normal_indices == normal_indices && model.material_of == material_of);
 }

@@ -129,7 +129,7 @@ fn tail_tuft(sdf: &mut Sdf, tube: &Tube) {
 
 fn legs(sdf: &mut Sdf) {
     let v = Vec3::new;
-    // Hip or shoulder, knee and ankle; thickness; where the foot points.
+    // Hip or shoulder, knee and ankle; thickness; direction of the foot.
     let legs = [
         ([v(0.98, 0.98, 0.24), v(0.86, 0.55, 0.56), v(1.12, 0.17, 0.60)], 0.2, v(0.9, 0.0, 0.35)),
         ([v(0.98, 0.98, -0.20), v(0.92, 0.55, -0.48), v(1.30, 0.17, -0.48)], 0.2, v(1.0, 0.0, -0.2)),

@@ -1,4 +1,4 @@
-//! A dragon, in place of the scanned one that may not be copied: a coiled serpent body on four legs, in one closed
+//! A dragon that replaces the scanned one, which may not be copied: a coiled serpent body on four legs, in one closed
 //! mesh.
 
 mod body;
@@ -11,7 +11,7 @@ use super::{fit::fit, noise};
 use crate::geometry::Aabb;
 use crate::scene::Model;
 
-/// As many as the dragon of the source report has.
+/// The number of triangles of the source report's dragon.
 const TRIANGLES: usize = 130_858;
 
 const BOUNDS: Aabb = Aabb { min: Vec3::new(-0.102, 0.0, -0.046), max: Vec3::new(0.102, 0.144, 0.046) };

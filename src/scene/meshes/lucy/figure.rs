@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use crate::scene::meshes::sdf::{Blend, Frame, Knot, Sdf, cosine, sine};
 
-/// Adds them.
+/// Adds the whole figure.
 pub fn model(sdf: &mut Sdf) {
     let v = Vec3::new;
     sdf.group(Blend::smooth(0.3)).cone(v(0.0, 16.1, -0.05), 0.62, v(0.0, 17.5, 0.05), 0.46);

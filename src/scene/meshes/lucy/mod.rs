@@ -1,4 +1,4 @@
-//! A winged, draped figure that holds up a torch, in place of the scanned Lucy that may not be copied.
+//! A winged, draped figure with a torch that replaces the scanned Lucy, which may not be copied.
 
 mod figure;
 mod gown;
@@ -11,7 +11,7 @@ use super::sdf::{Blend, Sdf, rounded_intersection, split_to};
 use crate::geometry::Aabb;
 use crate::scene::Model;
 
-/// As many as the statue of the source report has.
+/// The number of triangles of the source report's statue.
 const TRIANGLES: usize = 275_690;
 
 const BOUNDS: Aabb = Aabb { min: Vec3::new(-6.74, 0.0, -3.87), max: Vec3::new(6.74, 23.15, 3.87) };

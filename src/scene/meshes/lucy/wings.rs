@@ -77,7 +77,7 @@ fn wing(sdf: &mut Sdf, side: f32) {
     }
 }
 
-/// A blade from `root` to `tip`, turned a little about its shaft so that the feathers lie over one another.
+/// A blade from `root` to `tip`, turned a little about its shaft, which makes the feathers overlap.
 fn feather(sdf: &mut Sdf, side: f32, root: Vec3, tip: Vec3, wide: f32, thick: f32) {
     let frame = Frame::looking(root, tip - root, Vec3::new(0.42 * side, 0.0, 1.0));
     let length = root.distance(tip);

@@ -91,8 +91,8 @@ impl Grid {
         (0..nz - 1).into_par_iter().map(layer).flatten_iter().collect()
     }
 
-    /// Fills corners until the surface passes every cell in one piece, so that one vertex per cell gives a closed
-    /// two-manifold. Only ever turns outside into inside, so it ends.
+    /// Fills corners until the surface passes every cell in one piece: one vertex per cell then gives a closed
+    /// two-manifold. It only turns outside into inside, so it terminates.
     pub fn simplify(&mut self) {
         let simple: Vec<bool> = (0..=255).map(|mask| connected(mask) && connected(!mask)).collect();
         let mut queue = self.cells();

@@ -1,6 +1,6 @@
-//! Solids given by signed distance functions: primitives under smooth union and subtraction, with a fine displacement.
+//! Solids given by signed distance functions: primitives with smooth union and subtraction, and a fine displacement.
 //!
-//! Everything is plain `f32` arithmetic and square roots, so the same solid is the same on every machine.
+//! Everything is plain `f32` arithmetic and square roots: a solid is the same on every machine.
 //!
 //! # References
 //! Quilez: Distance functions; Smooth minimum. iquilezles.org, 2008 to 2024.
@@ -26,7 +26,7 @@ const FAR: f32 = 1e9;
 struct Primitive {
     centre: Vec3,
     radius: f32,
-    /// Signed distance to the surface, negative inside; it may be too small but never grow faster than about 1 per
+    /// Signed distance to the surface, negative inside; it may be too small but must not grow faster than about 1 per
     /// unit.
     distance: Field,
 }
@@ -38,7 +38,7 @@ pub struct Blend {
     pub smoothing: f32,
     /// Subtracts the group instead of adding it.
     pub subtract: bool,
-    /// Share of the displacement that shows on the group.
+    /// Share of the displacement that applies to the group.
     pub displacement: f32,
 }
 
@@ -64,7 +64,7 @@ struct Group {
     primitives: Vec<Primitive>,
 }
 
-/// A solid: groups joined in their order, the primitives of one group by plain union.
+/// A solid: groups joined in order, the primitives of one group by plain union.
 pub struct Sdf {
     groups: Vec<Group>,
     /// Height added to the surface at a point near it, times the share of the group there.

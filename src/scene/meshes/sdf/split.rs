@@ -1,4 +1,4 @@
-//! Bringing a closed mesh to an exact number of triangles.
+//! Refines a closed mesh to an exact number of triangles.
 
 use crate::scene::Model;
 

@@ -1,4 +1,4 @@
-//! From a signed distance function to triangles: surface nets with relaxed vertices.
+//! Converts a signed distance function to triangles: surface nets with relaxed vertices.
 //!
 //! # References
 //! Gibson: Constrained elastic surface nets. 1998.
@@ -36,8 +36,8 @@ impl Sdf {
         largest_piece(Model { positions, triangles, normals, ..Model::default() })
     }
 
-    /// Moves the vertices of `model` onto the surface and takes its normals: for meshes too coarse to have good ones of
-    /// their own.
+    /// Moves the vertices of `model` onto the surface and uses its normals: for meshes that are too coarse for good
+    /// normals.
     pub fn settle(&self, model: &mut Model, step: f32) {
         let settled = |&start: &Vec3| {
             let active = self.near(start, 2.0 * step);
@@ -52,7 +52,7 @@ impl Sdf {
     }
 }
 
-/// Which connected piece each vertex belongs to: the number of one of the vertices in it.
+/// The connected piece of each vertex: the number of one of the vertices in it.
 pub fn pieces(vertices: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
     let mut parent: Vec<u32> = (0..vertices as u32).collect();
     fn root(parent: &mut [u32], mut v: u32) -> u32 {
@@ -71,7 +71,7 @@ pub fn pieces(vertices: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
     (0..vertices as u32).map(|v| root(&mut parent, v)).collect()
 }
 
-/// Drops all but the piece of most vertices: bubbles inside the solid, crumbs beside it.
+/// Drops all pieces except the one with the most vertices: bubbles inside the solid, crumbs beside it.
 fn largest_piece(model: Model) -> Model {
     let pieces = pieces(model.positions.len(), &model.triangles);
     let mut sizes = vec![0u32; pieces.len()];

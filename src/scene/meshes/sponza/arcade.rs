@@ -6,7 +6,7 @@ use crate::scene::meshes::{
     sdf::{cosine, sine},
 };
 
-/// Thickness of the arcade walls, half of it.
+/// Half the thickness of the arcade walls.
 const HALF_WALL: f32 = 26.0;
 
 /// One arch in its wall, in the coordinates of the side.
@@ -15,7 +15,7 @@ struct Arch {
     /// Half of the bay, and of the opening.
     half_bay: f32,
     radius: f32,
-    /// Where the arch begins, and where its wall ends.
+    /// The heights at which the arch begins, and at which its wall ends.
     heights: [f32; 2],
     half_wall: f32,
     /// Pieces of the half circle.

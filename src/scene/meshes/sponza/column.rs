@@ -8,7 +8,7 @@ use crate::scene::meshes::patches::{Finish, Patches, turn};
 /// A column from its foot to the top of its abacus.
 pub struct Column {
     pub height: f32,
-    /// Of the shaft at its foot.
+    /// Radius of the shaft at its foot.
     pub radius: f32,
     pub sides: usize,
     /// Leaves in each of the two rows of the capital.

@@ -1,4 +1,4 @@
-//! A two-storey arcaded court, in place of the Sponza model that may not be copied.
+//! A two-storey arcaded court that replaces the Sponza model, which may not be copied.
 //!
 //! Like real architecture, and unlike a scan, it is tessellated unevenly: huge wall triangles stand next to tiny ones
 //! in capitals, balusters and roof tiles.
@@ -12,7 +12,7 @@ use glam::Vec3;
 use super::{patches::Patches, sdf::Frame};
 use crate::scene::{Material, Model};
 
-/// As many as the Sponza of the source report has.
+/// The number of triangles of the source report's Sponza.
 const TRIANGLES: usize = 174_838;
 
 /// Half length of the court along x, half width along z, and the z of its middle.
@@ -22,7 +22,7 @@ const WALK: f32 = 280.0;
 
 const UPPER: f32 = 470.0;
 
-/// Top of the upper arcade, where the eaves are.
+/// Top of the upper arcade, at the eaves.
 const EAVES: f32 = 900.0;
 
 /// Column spacing below; above, columns stand twice as close.

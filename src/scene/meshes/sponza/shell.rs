@@ -1,4 +1,4 @@
-//! What stands around the arcades: walks with vaults and beams, walls, floors, the outer building and the tiled roofs.
+//! The building around the arcades: walks with vaults and beams, walls, floors, the outer building and the tiled roofs.
 
 use glam::Vec3;
 
@@ -27,7 +27,7 @@ pub fn walk(patches: &mut Patches, frame: &Frame, bays: usize, bay: f32) {
         patches.block(frame, [u - 25.0, 290.0, -WALK], [u + 25.0, 306.0, 19.0 - WALK]);
     }
 
-    // Back wall, floor and ceiling: two triangles each, however long. The corners belong to the long sides.
+    // Back wall, floor and ceiling: two triangles each, at any length. The corners belong to the long sides.
     let over = if bay == BAY { WALK } else { 0.0 };
     let (from, to) = (-over, length + over);
     patches.of(&material("brick", [0.93, 0.84, 0.72]));
@@ -120,10 +120,10 @@ struct Slope {
     up: Vec3,
 }
 
-/// Roofs around the court; their tiles use up what is left of `triangles`.
+/// Roofs around the court; their tiles use the remaining `triangles`.
 ///
 /// # Panics
-/// When more is left than the roofs can take, or nothing.
+/// If no triangles remain, or more than the roofs can take.
 pub fn roofs(patches: &mut Patches, triangles: usize) {
     let [half_length, half_width, middle] = COURT;
     let v = Vec3::new;
@@ -140,7 +140,7 @@ pub fn roofs(patches: &mut Patches, triangles: usize) {
     patches.of(&material("roof", [0.95, 0.60, 0.44]));
     for Slope { from, to, up } in &slopes {
         patches.quad([*from, *to, *to + *up, *from + *up]);
-        // The underside, a hand lower, is what the court sees of the eaves.
+        // The underside, slightly lower, is the part of the eaves visible from the court.
         let down = v(0.0, -4.0, 0.0);
         patches.quad([*to + down, *from + down, *from + *up + down, *to + *up + down]);
         patches.quad([*from + down, *to + down, *to, *from]);

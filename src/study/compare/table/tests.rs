@@ -9,7 +9,7 @@ fn record(scene: &str, label: &str, workload: &str, mrays_per_s: Option<f64>) ->
         mrays_per_s,
         trace_ns: mrays_per_s.map(|speed| 5e5 / speed),
         samples_ns: mrays_per_s.map_or(vec![], |speed| vec![5e5 / speed; 10]),
-        structure_errors: errors,
+        wrong_hits: errors,
         triangle_test: "moller-trumbore".into(),
         ..example(label, workload, &[], 5)
     }
@@ -23,7 +23,7 @@ fn mean_table(all: &[Measurement]) -> Table {
     mean_table_of(all, &Reference::of(all, None))
 }
 
-/// What a cell says, without an interval that holds one number alone: its ends may differ in their last bits.
+/// The text of a cell, without an interval that contains only one number: its ends may differ in their last bits.
 fn cell(table: &Table, row: &str, column: &str) -> String {
     let column = table.columns.iter().position(|c| c == column).unwrap_or_else(|| panic!("no column {column}"));
     let row = table.rows.iter().find(|r| r[0].text() == row).unwrap_or_else(|| panic!("no row {row}"));
@@ -66,7 +66,7 @@ fn ratios_are_geometric_means_against_the_tree_and_the_better_bvh() {
 #[test]
 fn what_is_declined_is_neither_right_nor_wrong() {
     let mut all = cube();
-    all[3] = Measurement { mrays_per_s: None, declined: Some("any hit".into()), structure_errors: 0, ..all[3].clone() };
+    all[3] = Measurement { mrays_per_s: None, declined: Some("any hit".into()), wrong_hits: 0, ..all[3].clone() };
     let table = scene_table(&all, &[]);
     assert_eq!(cell(&table, "sah-kd", "random"), "declined");
     assert_eq!(cell(&table, "sah-kd", "x median"), "8.00 (1 of 2)", "of the workloads that it does not decline");
@@ -80,7 +80,7 @@ fn what_is_declined_is_neither_right_nor_wrong() {
 fn a_wrong_structure_shows_its_errors_and_no_time_and_a_known_defect_is_named() {
     let mut all = cube();
     for place in [2, 4] {
-        (all[place].mrays_per_s, all[place].structure_errors) = (None, 3);
+        (all[place].mrays_per_s, all[place].wrong_hits) = (None, 3);
     }
     let table = scene_table(&all, &[]);
     for (structure, right) in [("sah-kd", "~4.00"), ("obvhs-bvh2", "~1.00")] {
@@ -113,7 +113,7 @@ fn a_triangle_test_that_misses_what_is_hit_is_named() {
 fn what_lies_within_the_noise_is_said_to_be_no_difference() {
     let mut all = cube();
     for (i, record) in all.iter_mut().enumerate() {
-        // A twin that is a hundredth slower, and epochs that differ by as much.
+        // The twin is one percent slower, and the epochs differ by as much.
         let samples = vec![1e6, 1.01e6, 1e6, 1.01e6, 1e6];
         record.twin_samples_ns = (i < 2).then(|| samples.iter().map(|ns| ns * 1.01).collect());
         (record.samples_ns, record.epochs) = (samples, 5);
@@ -125,7 +125,7 @@ fn what_lies_within_the_noise_is_said_to_be_no_difference() {
     let table = scene_table(&all, &[]);
     assert!(cell(&table, "sah-kd", "x obvhs").ends_with(" ="), "{table:?}");
     assert!(table.notes[0].starts_with("A/A noise (median-kd twice): 1.00%; 0 of 2"), "{:?}", table.notes);
-    // A twin that differs from epoch to epoch by more than on the whole.
+    // The twin differs more between epochs than on average.
     for record in &mut all[..2] {
         let by = [1.02, 0.98, 1.03, 0.98, 1.0];
         let twin = record.samples_ns.iter().zip(by).map(|(ns, by)| ns * by);
@@ -161,7 +161,7 @@ fn a_mean_over_fewer_scenes_names_its_count_and_is_not_ranked() {
     let best = |row: &str| table.rows.iter().find(|r| r[0].text() == row).unwrap()[1].tone;
     assert_eq!((best("sah-kd"), best("sah-bvh")), (Tone::Best, Tone::Plain));
     assert!(table.notes.iter().any(|note| note.starts_with("(n of m)")), "{:?}", table.notes);
-    // Where the reference has no time nobody is compared, and nobody lacks anything.
+    // If the reference has no time, no structure is compared and none lacks a time.
     all[0].mrays_per_s = None;
     assert_eq!(cell(&mean_table(&all), "sah-bvh", "primary"), "9.00 (1 of 2)");
     assert!(!mean_table(&all[..1]).says_something());

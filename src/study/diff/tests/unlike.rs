@@ -4,7 +4,7 @@ use super::*;
 
 type Edit = dyn Fn(&mut Side);
 
-/// A run, edited.
+/// A run, edited by `edit`.
 fn edited(slow: f64, sah: f64, edit: &dyn Fn(&mut Side)) -> Side {
     let mut side = side(run(slow, sah));
     edit(&mut side);
@@ -20,7 +20,7 @@ fn runs_that_differ_in_more_than_their_code_are_unlike() {
     assert_eq!(with(&|side| side.provenance.threads = 2), Ok(()), "the heading names it");
     let refusals: [(&str, &Edit); 11] = [
         ("the reference is obvhs-bvh2 and obvhs-cwbvh in the old run and missing in the new", &|side| {
-            side.all.iter_mut().filter(|own| is_reference(own)).for_each(|own| own.trace_ns = None);
+            side.all.iter_mut().filter(|own| has_reference_role(own)).for_each(|own| own.trace_ns = None);
         }),
         ("the key threshold of obvhs-bvh2", &|side| {
             side.all[2].config = serde_json::json!({ "leaf": 8, "threshold": 0.8 });
@@ -39,7 +39,7 @@ fn runs_that_differ_in_more_than_their_code_are_unlike() {
         let refused = with(edit).unwrap_err();
         assert!(refused.contains(part), "{part:?} is not in {refused:?}");
     }
-    // A program of another build is what is to be judged, and without a gate parts of the rays may be compared.
+    // Another build of a program is the purpose of a comparison, and without a gate subsets of the rays are comparable.
     let build = |side: &mut Side| side.all[0].config = serde_json::json!({ "leaf": 8, "threshold": 0.7, "build": "x" });
     assert_eq!(with(&build), Ok(()));
     assert_eq!(unlike(&old, &edited(1.0, 1.0, &|side| side.all[1].rays = 250), false), Ok(()));
@@ -94,16 +94,16 @@ fn on_two_machines_ratios_to_obvhs_are_compared_and_nothing_else() {
     let has_note = |comparison: &Comparison, part: &str| cautions(comparison).iter().any(|n| n.contains(part));
     assert!(has_note(&comparison, "Two machines, ") && has_note(&comparison, "Other (avx2)"));
     assert_eq!(compare(&old.all, &run(3.0, 1.1), None, 1).machines, None);
-    // Another set of lanes on one machine is no other machine.
+    // Another SIMD level on one machine is not another machine.
     let lanes = edited(1.0, 1.1, &|side| side.provenance.simd = "others".into());
     assert!(has_note(&Comparison::new(&old, &lanes, None, 1), "Two instruction sets, "));
 
-    // Other rays are refused there as well, and so are times without a unit.
+    // Other rays are rejected there as well, and so are times without a reference.
     let refused = |edit: &Edit| unlike(&old, &elsewhere(edit), false).unwrap_err().to_string();
     assert!(refused(&|side| side.all[0].workload_hash = "ff".into()).contains("the primary rays of Cube"));
     assert!(refused(&|side| side.provenance.obvhs = "0.5.0".into()).contains("the version of obvhs"));
     let untimed = refused(&|side| {
-        side.all.iter_mut().filter(|own| is_reference(own)).for_each(|own| own.trace_ns = None);
+        side.all.iter_mut().filter(|own| has_reference_role(own)).for_each(|own| own.trace_ns = None);
     });
     assert!(untimed.contains("the processor is") && untimed.contains("ratios to an obvhs structure"), "{untimed}");
 }

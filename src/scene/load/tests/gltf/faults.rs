@@ -8,8 +8,9 @@ use super::{binary, changed, data, document, gltf, loaded, refused};
 #[test]
 fn files_that_show_nothing_are_refused_with_a_reason() {
     let shown = |nodes, meshes, surfaces, others| {
-        let shown = format!("{surfaces} primitives of triangles, and {others} of points, lines or without positions");
-        format!("it has no triangles: it shows {shown} from {nodes} nodes and {meshes} meshes")
+        let shown =
+            format!("{surfaces} empty primitives for triangles, and {others} for points or lines or without positions");
+        format!("it has no visible triangles: it shows {shown}; the file has {nodes} nodes and {meshes} meshes")
     };
     let plain = |changes: &[(&str, Value)], shown: String| refused(changes, &[&shown]);
     plain(&[("/scenes/0/nodes", json!([]))], shown(1, 1, 0, 0));
@@ -238,7 +239,7 @@ fn a_mesh_shown_too_often_is_refused_before_it_is_expanded() {
     assert!(error.to_string().contains("for files of"), "{error}");
 }
 
-/// Nothing of it makes the scene larger, but all of it would be visited.
+/// It does not make the scene larger, but all of it would be visited.
 #[test]
 fn many_empty_primitives_shown_often_are_refused() {
     let mut document = document();

@@ -1,0 +1,69 @@
+//! Prepares an epoch before it is measured, and builds its structures.
+
+use super::BuildWatch;
+use super::built::Built;
+use crate::measure::{Clock, RandomOrder, Threads};
+use crate::registry::{Choice, Registry};
+use crate::scene::Scene;
+use crate::study::{Case, Stage, StudyError};
+
+/// A case with everything that it names, loaded before the measuring.
+pub struct Prepared {
+    pub scene: Scene,
+    /// In the order of the case.
+    pub choices: Vec<Choice>,
+    pub guide: Choice,
+    pub threads: Threads,
+}
+
+impl Prepared {
+    /// Resolves the names in the case. `scene` is the scene, if it is already loaded.
+    ///
+    /// # Errors
+    /// If something does not exist, or the scene has changed since the plan.
+    pub fn new(case: &Case, registry: &Registry, scene: Option<Scene>) -> anyhow::Result<Self> {
+        let scene = scene.map_or_else(|| case.scene.load(registry), Ok)?;
+        let choices = case.structures.iter().map(|own| own.choose(registry)).collect::<anyhow::Result<_>>()?;
+        let threads = Threads::pinned(case.settings.threads).map_err(StudyError::Threads)?;
+        Ok(Self { scene, choices, guide: registry.choose(&case.settings.guide)?, threads })
+    }
+}
+
+/// Structures built in a random order, and between random blocks of memory, in each epoch. The address of a structure
+/// can change its speed by some percent, and only samples at several addresses show the size of this effect.
+pub struct Placed {
+    /// One per choice, in the same order, or the reason why it is refused.
+    pub built: Vec<Result<Built, String>>,
+    /// Lives as long as the structures.
+    _blocks: Vec<Vec<u8>>,
+}
+
+impl Placed {
+    /// Builds every structure of the case that is not skipped; epoch 0 also counts the peak memory of builds.
+    pub fn new(
+        case: &Case,
+        prepared: &Prepared,
+        clock: &dyn Clock,
+        watch: &BuildWatch,
+        progress: &mut dyn FnMut(Stage),
+    ) -> Self {
+        let Prepared { scene, choices, threads, .. } = prepared;
+        let mut random = RandomOrder::new(case.settings.seed.wrapping_add(case.epoch as u64));
+        let mut built: Vec<Option<Result<Built, String>>> = choices.iter().map(|_| None).collect();
+        let mut blocks = vec![];
+        for i in random.shuffled(choices.len()) {
+            progress(Stage::Build((&choices[i].label).into()));
+            // Small blocks shift later blocks on the heap, large ones shift mapped pages.
+            blocks.push(vec![0; 16 * (1 + random.below(1 << 12))]);
+            blocks.push(vec![0; (256 << 10) + 4096 * random.below(64)]);
+            let build = if case.epoch == 0 { Built::counted } else { Built::new };
+            built[i] = Some(match &case.structures[i].skipped {
+                Some(reason) => Err(reason.clone()),
+                None => {
+                    watch.during(i, || build(&choices[i], scene, threads, clock)).map_err(|cause| cause.to_string())
+                }
+            });
+        }
+        Self { built: built.into_iter().map(|one| one.expect("all are built")).collect(), _blocks: blocks }
+    }
+}
