@@ -6,6 +6,7 @@ mod filter;
 mod vectors;
 
 use std::io::BufReader;
+use std::iter::repeat_n;
 use std::mem;
 use std::path::Path;
 
@@ -26,14 +27,12 @@ pub(super) fn read(bytes: &[u8], folder: &Path) -> Result<Model, Fault> {
     // tobj takes a byte order mark for a part of the first keyword, and finds nothing in UTF-16.
     let mut filter = BufReader::new(Filter::new(plain(bytes)?));
     let read = load_obj_buf(&mut filter, &LoadOptions::default(), |_| Ok(Default::default()));
-    let filter = filter.into_inner();
+    let Filter { mut contents, fault, .. } = filter.into_inner();
+    let (parts, _) = read.map_err(|error| fault.unwrap_or_else(|| Fault::file(error.to_string())))?;
     let mut notes = Notes::default();
-    let (parts, mut contents) = match read {
-        Ok((parts, _)) => (parts, filter.finish(&mut notes)?),
-        Err(error) => return Err(filter.fault(error)),
-    };
+    contents.check(&mut notes)?;
     let mut model = triangles(parts, &mut contents, &mut notes);
-    model.materials = mtl::read(&contents.libraries, contents.materials, folder, &mut notes);
+    model.materials = mtl::read(contents.libraries, contents.materials, folder, &mut notes);
     model.notes = notes.into_vec();
     Ok(model)
 }
@@ -58,16 +57,14 @@ fn triangles(parts: Vec<tobj::Model>, contents: &mut Contents, notes: &mut Notes
 
     let (mut splitter, mut points) = (Splitter::default(), vec![]);
     let (mut vertices, mut normals) = (&vertices[..], &normal_numbers[..]);
-    let (mut sections, mut face) = (contents.sections.iter().peekable(), 0);
-    let mut section = contents.sections[0];
+    let mut sections = contents.sections.iter().flat_map(|section| repeat_n(section, section.faces));
     for mesh in parts.into_iter().map(|part| part.mesh) {
         // tobj leaves the sizes out where all faces are triangles.
         let (mut sizes, mut start) = (mesh.face_arities.iter(), 0);
-        while start < mesh.indices.len() {
+        while start < mesh.indices.len()
+            && let Some(section) = sections.next()
+        {
             let size = sizes.next().map_or(3, |&size| size as usize);
-            while let Some(next) = sections.next_if(|next| next.first <= face) {
-                section = *next;
-            }
             let vertex = |i: usize| vertices[mesh.indices[start + i] as usize];
             points.clear();
             points.extend((0..size).map(|i| model.positions[vertex(i) as usize]));
@@ -83,7 +80,7 @@ fn triangles(parts: Vec<tobj::Model>, contents: &mut Contents, notes: &mut Notes
                     model.material_of.push(section.material);
                 }
             }
-            (start, face) = (start + size, face + 1);
+            start += size;
         }
         vertices = &vertices[mesh.positions.len() / 3..];
         normals = &normals[mesh.normals.len() / 3..];
