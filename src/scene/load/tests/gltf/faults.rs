@@ -56,7 +56,7 @@ fn an_unsupported_version_is_reported_before_its_syntax() {
     // A list for an object, and nodes that are no list.
     for (text, words) in [
         (r#"[{"version": "2.0"}]"#, ["it is not a glTF 2.0 file", "not a JSON object"]),
-        (r#"{"asset": {"version": "2.0"}, "nodes": {}}"#, ["it is not a glTF 2.0 file", "invalid type: map"]),
+        (r#"{"asset": {"version": "2.0"}, "nodes": {}}"#, ["nodes:", "invalid type: map"]),
         (r#"{"asset": {"version": "1.0"}, "nodes": {}}"#, ["asset", "it is glTF `1.0`"]),
         (r#"{"asset": {"version": "2.0"}, "nodes": [{"mesh": 1e999}]}"#, ["nodes[0]:", "number out of range"]),
     ] {
@@ -136,11 +136,7 @@ fn malformed_files_are_refused_with_their_part() {
             ["accessor 0: it must be Scalar of unsigned", "not Vec3 of F32"],
         ),
         ("/meshes/0/primitives/0/material", json!(9), ["meshes[0].primitives[0].material:", "index out of bounds"]),
-        (
-            "/meshes/0/primitives/0/material",
-            json!(u64::MAX),
-            ["primitives[0].material:", "index 18446744073709551615 is out of bounds"],
-        ),
+        ("/meshes/0/primitives/0/material", json!(u64::MAX), ["primitives[0].material:", "index out of bounds"]),
         ("/meshes/0/primitives/0/mode", json!(9), ["meshes[0].primitives[0].mode:", "invalid value"]),
         ("/accessors/0/count", json!(5), ["accessor 0:", "5 elements reach beyond the 48 bytes"]),
         ("/accessors/0/count", json!(u64::MAX), ["accessor 0:", "reach beyond"]),
@@ -166,15 +162,11 @@ fn malformed_files_are_refused_with_their_part() {
             json!([{"scale": [1e30, 1, 1], "children": [1]}, {"mesh": 0, "scale": [1e30, 1, 1]}]),
             ["node 1: it places vertex 1 of mesh 0", "not finite"],
         ),
-        ("/nodes/0/mesh", json!(1_u64 << 32), ["nodes[0].mesh:", "index 4294967296 is out of bounds"]),
-        ("/scenes/0/nodes/0", json!(1_u64 << 32), ["scenes[0].nodes[0]:", "index 4294967296 is out of bounds"]),
-        (
-            "/meshes/0/primitives/0/attributes/POSITION",
-            json!(1_u64 << 32),
-            ["attributes.POSITION:", "is out of bounds"],
-        ),
-        ("/meshes/0/primitives/0/mode", json!((1_u64 << 32) + 4), ["primitives[0].mode:", "is out of bounds"]),
-        ("/accessors/0/componentType", json!((1_u64 << 32) + 5126), ["componentType:", "is out of bounds"]),
+        ("/nodes/0/mesh", json!(1_u64 << 32), ["nodes[0].mesh:", "index out of bounds"]),
+        ("/scenes/0/nodes/0", json!(1_u64 << 32), ["scenes[0].nodes[0]:", "index out of bounds"]),
+        ("/meshes/0/primitives/0/attributes/POSITION", json!(1_u64 << 32), ["attributes:", "is out of bounds"]),
+        ("/meshes/0/primitives/0/mode", json!((1_u64 << 32) + 4), ["primitives[0].mode:", "invalid value"]),
+        ("/accessors/0/componentType", json!((1_u64 << 32) + 5126), ["componentType:", "invalid value"]),
         ("/accessors/0/componentType", json!(5125), ["accessor 0: it must be Vec3", "not Vec3 of U32"]),
         ("/accessors/0/componentType", json!(5124), ["accessors[0].componentType:", "invalid value"]),
         ("/accessors/0/type", json!("VEC2"), ["accessor 0: it must be Vec3", "not Vec2 of F32"]),
