@@ -12,16 +12,13 @@ pub(super) fn named_below(folder: &Path, name: &[u8]) -> Option<PathBuf> {
     #[cfg(not(unix))]
     let name = &*String::from_utf8_lossy(name);
 
-    let mut depth = 0_usize;
-    for component in Path::new(name).components() {
-        match component {
-            Component::Normal(_) => depth += 1,
-            Component::CurDir => {}
-            Component::ParentDir => depth = depth.checked_sub(1)?,
-            Component::RootDir | Component::Prefix(_) => return None,
-        }
-    }
-    Some(folder.join(name))
+    let depth = Path::new(name).components().try_fold(0_usize, |depth, component| match component {
+        Component::Normal(_) => Some(depth + 1),
+        Component::CurDir => Some(depth),
+        Component::ParentDir => depth.checked_sub(1),
+        Component::RootDir | Component::Prefix(_) => None,
+    });
+    depth.map(|_| folder.join(name))
 }
 
 /// The same file may have several names.

@@ -50,13 +50,14 @@ impl Splitter {
     /// One note for each kind of polygon that has no correct triangulation or was not examined.
     pub fn note(&self, notes: &mut Notes) {
         for (count, what) in [
-            (self.crossing, "cross themselves: split into fans around their first corner, perhaps not as intended"),
-            (self.bent, "are neither convex nor flat: their surface is ambiguous"),
-            (self.large, "have very many corners and are not convex: split into fans, which may overlap"),
+            (
+                self.crossing,
+                "polygons cross themselves: split into fans around their first corner, perhaps not as intended",
+            ),
+            (self.bent, "polygons are neither convex nor flat: their surface is ambiguous"),
+            (self.large, "polygons have very many corners and are not convex: split into fans, which may overlap"),
         ] {
-            if count > 0 {
-                notes.add(format!("{count} polygons {what}"));
-            }
+            notes.count(count, [what; 2]);
         }
     }
 
