@@ -1,6 +1,6 @@
 //! Why a file cannot be loaded.
 
-use std::fmt;
+use std::fmt::Display;
 use std::path::PathBuf;
 
 use crate::escaped::Escaped as _;
@@ -40,7 +40,7 @@ impl Fault {
     }
 
     /// A part has its name in the format, such as `accessor 3`, counted from 0.
-    pub fn part(part: impl fmt::Display, problem: impl Into<String>) -> Self {
+    pub fn part(part: impl Display, problem: impl Into<String>) -> Self {
         Self { place: format!(", {part}"), problem: problem.into() }
     }
 }
@@ -54,9 +54,4 @@ pub(super) fn quoted(text: impl AsRef<[u8]>) -> String {
     let escaped: String = start.chars().take(LONGEST).flat_map(char::escape_debug).collect();
     let more = if start.chars().nth(LONGEST).is_some() { "..." } else { "" };
     format!("`{escaped}{more}`")
-}
-
-/// The message of a library, in one line.
-pub(super) fn message(error: impl fmt::Display) -> String {
-    error.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -9,7 +9,7 @@ use glam::Vec3;
 use indexmap::{IndexMap, IndexSet};
 
 use super::error::quoted;
-use super::files::{canonical, named_below, read_start};
+use super::files::{named_below, read_start};
 use super::notes::Notes;
 use super::text::{lines, name, number, plain, words};
 use crate::escaped::Escaped as _;
@@ -39,7 +39,7 @@ pub(super) fn read(
     let mut files: HashSet<PathBuf> = HashSet::new();
     for path in paths {
         match path {
-            Ok(path) if !files.insert(canonical(path.clone())) => {}
+            Ok(path) if !files.insert(path.clone()) => {}
             Ok(path) => read_library(&path, &mut materials, notes).unwrap_or_else(|problem| notes.add(problem)),
             Err(problem) => notes.add(problem),
         }

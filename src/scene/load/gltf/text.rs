@@ -15,7 +15,7 @@ use serde_json::value::RawValue;
 use serde_json::{Value, json};
 
 use super::extensions;
-use crate::scene::load::error::{Fault, message, quoted};
+use crate::scene::load::error::{Fault, quoted};
 use crate::scene::load::notes::Notes;
 use crate::scene::load::text::{is_among, plain};
 
@@ -54,7 +54,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fa
     if !text.trim_ascii_start().starts_with(b"{") {
         return Err(no_gltf("it is not a JSON object"));
     }
-    let members: Members = serde_json::from_slice(text).map_err(|error| no_gltf(&message(&error)))?;
+    let members: Members = serde_json::from_slice(text).map_err(|error| no_gltf(&error.to_string()))?;
     // Other versions and extensions first: they explain what is wrong with the rest.
     check_version(&members.asset)?;
     let mut notes = Notes::default();
@@ -89,8 +89,16 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fa
     root.meshes = typed_list("meshes", without(&read, members.meshes, &json!({"primitives": []})))?;
     let mut read = numbers(root.skins.iter().filter_map(|skin| skin.inverse_bind_matrices));
     read.extend(instances.values().flatten().flatten());
-    for primitive in root.meshes.iter().flat_map(|mesh| &mesh.primitives) {
-        read.extend(numbers(primitive.attributes.values().copied().chain(primitive.indices)));
+    let accessors = members.accessors.as_array().map_or(0, Vec::len);
+    for (m, mesh) in root.meshes.iter().enumerate() {
+        for (p, primitive) in mesh.primitives.iter().enumerate() {
+            // The crate panics at an accessor of positions that is out of bounds.
+            if let Some(index) = primitive.attributes.values().find(|index| index.value() >= accessors) {
+                let problem = format!("index {index} is out of bounds: export the file again");
+                return Err(Fault::part(format!("meshes[{m}].primitives[{p}].attributes"), problem));
+            }
+            read.extend(numbers(primitive.attributes.values().copied().chain(primitive.indices)));
+        }
     }
     let empty = json!({"componentType": 5126, "count": 0, "type": "SCALAR"});
     root.accessors = typed_list("accessors", without(&read, members.accessors, &empty))?;
@@ -149,7 +157,7 @@ fn plain_node(text: &str) -> Option<Node> {
 }
 
 fn parsed<'a, T: Deserialize<'a>>(place: &str, text: &'a str) -> Result<T, Fault> {
-    serde_json::from_str(text).map_err(|error| Fault::part(place, message(error)))
+    serde_json::from_str(text).map_err(|error| Fault::part(place, error.to_string()))
 }
 
 /// A list of items of the crate; a missing one is empty.
@@ -162,7 +170,7 @@ fn typed<T: DeserializeOwned>(place: &str, mut value: Value) -> Result<T, Fault>
     prune("", &mut value).map_err(|problem| Fault::part(place, problem))?;
     serde_path_to_error::deserialize(value).map_err(|error| {
         let place = format!("{place}.{}", error.path()).replace(".[", "[");
-        Fault::part(place.trim_end_matches('.'), message(error.inner()))
+        Fault::part(place.trim_end_matches('.'), error.inner().to_string())
     })
 }
 
@@ -171,8 +179,8 @@ fn typed<T: DeserializeOwned>(place: &str, mut value: Value) -> Result<T, Fault>
 fn prune(key: &str, value: &mut Value) -> Result<(), &'static str> {
     match value {
         Value::Object(members) => {
-            let is_skin = |key: &str| key.starts_with("JOINTS_") || key.starts_with("WEIGHTS_");
-            members.retain(|key, _| is_among(KEYS, key.as_bytes()) || is_skin(key));
+            let set = |key: &str| key.strip_prefix("JOINTS_").or(key.strip_prefix("WEIGHTS_"))?.parse::<u8>().ok();
+            members.retain(|key, _| is_among(KEYS, key.as_bytes()) || set(key).is_some());
             return members.iter_mut().try_for_each(|(key, value)| prune(key, value));
         }
         Value::Array(list) if list.iter().any(Value::is_array) => return Err("unexpected list: export the file again"),
@@ -187,15 +195,6 @@ fn prune(key: &str, value: &mut Value) -> Result<(), &'static str> {
 
 /// Checks the indices, types and modes of a document.
 fn validate(root: &Root) -> Result<(), Fault> {
-    // The crate panics at an accessor of positions that is out of bounds.
-    for (m, mesh) in root.meshes.iter().enumerate() {
-        for (p, primitive) in mesh.primitives.iter().enumerate() {
-            if let Some(index) = primitive.attributes.values().find(|accessor| root.get(**accessor).is_none()) {
-                let problem = format!("index {index} is out of bounds: export the file again");
-                return Err(Fault::part(format!("meshes[{m}].primitives[{p}].attributes"), problem));
-            }
-        }
-    }
     let mut fault = None;
     root.validate(root, Path::new, &mut |path, error| {
         // What is missing is optional, or not read. Strides are checked with the accessors.
