@@ -5,7 +5,6 @@
 //! is for; each has a test that fails without it.
 
 use std::borrow::Cow;
-use std::collections::VecDeque;
 use std::io::{self, Read, Write as _};
 
 use indexmap::IndexSet;
@@ -35,9 +34,10 @@ enum Reading {
     Faces,
 }
 
-/// Faces that follow each other.
+/// The faces from `first` on, up to the next section.
+#[derive(Clone, Copy)]
 pub(super) struct Section {
-    pub faces: usize,
+    pub first: usize,
     pub material: u32,
     /// Whether all corners have normals.
     pub is_smooth: bool,
@@ -57,6 +57,7 @@ pub(super) struct Contents {
     material: u32,
     /// The name of the next face's material, if it may be another one.
     next_material: Option<Vec<u8>>,
+    faces: usize,
     /// Corners of the face being read: vertex and normal counted from 1, or normal 0 for none.
     corners: Vec<[u32; 2]>,
     models: u32,
@@ -67,12 +68,15 @@ pub(super) struct Contents {
     unknown: usize,
     /// The first unknown statement, with its line.
     first_unknown: Option<(usize, String)>,
-    to_tobj: VecDeque<u8>,
+    /// A statement.
+    to_tobj: Vec<u8>,
 }
 
 pub(super) struct Filter<'a> {
     statements: Box<dyn Iterator<Item = (Reading, usize, Cow<'a, [u8]>)> + 'a>,
     pub contents: Contents,
+    /// How much of the statement tobj has taken.
+    taken: usize,
     /// What is wrong with a statement. tobj by itself finds nothing wrong in what it is given.
     pub fault: Option<Fault>,
 }
@@ -80,15 +84,19 @@ pub(super) struct Filter<'a> {
 impl<'a> Filter<'a> {
     pub fn new(text: &'a [u8]) -> Self {
         let read = move |reading| statements(text).map(move |(line, statement)| (reading, line, statement));
-        let statements = Box::new([Reading::Vectors, Reading::Faces].into_iter().flat_map(read));
+        let statements = Box::new(read(Reading::Vectors).chain(read(Reading::Faces)));
         let contents = Contents { next_material: Some(b"default".to_vec()), models: 1, ..Contents::default() };
-        Self { statements, contents, fault: None }
+        Self { statements, contents, taken: 0, fault: None }
     }
 }
 
 /// Gives one statement at a time.
 impl Read for Filter<'_> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        if self.taken == self.contents.to_tobj.len() {
+            self.contents.to_tobj.clear();
+            self.taken = 0;
+        }
         while self.contents.to_tobj.is_empty()
             && let Some((reading, line, statement)) = self.statements.next()
         {
@@ -97,7 +105,9 @@ impl Read for Filter<'_> {
                 return Err(io::ErrorKind::InvalidData.into());
             }
         }
-        self.contents.to_tobj.read(buffer)
+        let taken = (&self.contents.to_tobj[self.taken..]).read(buffer)?;
+        self.taken += taken;
+        Ok(taken)
     }
 }
 
@@ -157,14 +167,14 @@ impl Contents {
         let is_vertex = keyword == b"v";
         let vectors = if is_vertex { &mut self.vertices } else { &mut self.normals };
         vectors.last_model.push(0);
-        self.to_tobj.extend(keyword);
+        self.to_tobj.extend_from_slice(keyword);
         for _ in 0..3 {
             let word = words.next()?;
             number(word).filter(|number: &f32| number.is_finite() || !is_vertex)?;
-            self.to_tobj.push_back(b' ');
-            self.to_tobj.extend(word);
+            self.to_tobj.push(b' ');
+            self.to_tobj.extend_from_slice(word);
         }
-        self.to_tobj.push_back(b'\n');
+        self.to_tobj.push(b'\n');
         // tobj divides by a fourth number. More are colours, which tobj wants for every vertex or none.
         if is_vertex && let (Some(weight), None) = (words.next(), words.next()) {
             self.weighted += usize::from(number::<f32>(weight) != Some(1.0));
@@ -189,18 +199,18 @@ impl Contents {
             self.material = self.materials.insert_full(name).0 as u32;
         }
         let (material, is_smooth) = (self.material, self.corners.iter().all(|&[_, normal]| normal > 0));
-        match self.sections.last_mut() {
-            Some(last) if (last.material, last.is_smooth) == (material, is_smooth) => last.faces += 1,
-            _ => self.sections.push(Section { faces: 1, material, is_smooth }),
+        if self.sections.last().is_none_or(|last| (last.material, last.is_smooth) != (material, is_smooth)) {
+            self.sections.push(Section { first: self.faces, material, is_smooth });
         }
+        self.faces += 1;
 
         if self.corners_in_model >= CORNERS_IN_MODEL {
-            self.to_tobj.extend(b"g\n");
+            self.to_tobj.extend_from_slice(b"g\n");
             self.models += 1;
             self.corners_in_model = 0;
         }
         self.corners_in_model += self.corners.len();
-        self.to_tobj.push_back(b'f');
+        self.to_tobj.push(b'f');
         for &[vertex, normal] in &self.corners {
             // tobj gives a corner without a normal that of another corner: here it is the first of the file.
             let normal = normal.max(1);
@@ -208,7 +218,7 @@ impl Contents {
             self.normals.add_use(normal, self.models);
             write!(self.to_tobj, " {vertex}//{normal}").expect("a list takes all bytes");
         }
-        self.to_tobj.push_back(b'\n');
+        self.to_tobj.push(b'\n');
         Ok(())
     }
 
