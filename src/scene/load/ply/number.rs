@@ -2,12 +2,14 @@
 
 pub(super) const ENCODINGS: [&str; 3] = ["ascii", "binary_little_endian", "binary_big_endian"];
 
+type Readers = [fn(&mut &[u8]) -> Result<f64, &'static str>; ENCODINGS.len()];
+
 /// A number type. `f64` holds each value of each of them exactly.
 #[derive(Clone, Copy)]
 pub(super) struct Kind {
     pub is_integer: bool,
     /// For each of the encodings, what takes a number from the front of the rows.
-    pub readers: [fn(&mut &[u8]) -> Result<f64, &'static str>; ENCODINGS.len()],
+    pub readers: Readers,
 }
 
 macro_rules! kind {
