@@ -54,7 +54,12 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fa
     if !text.trim_ascii_start().starts_with(b"{") {
         return Err(no_gltf("it is not a JSON object"));
     }
-    let members: Members = serde_json::from_slice(text).map_err(|error| no_gltf(&error.to_string()))?;
+    let members = serde_json::from_slice::<Members>(text).or_else(|error| {
+        // The nodes of glTF 1.0 are no list.
+        let versioned: Versioned = serde_json::from_slice(text).map_err(|_| no_gltf(&error.to_string()))?;
+        check_version(&versioned.asset)?;
+        Err(no_gltf(&error.to_string()))
+    })?;
     // Other versions and extensions first: they explain what is wrong with the rest.
     check_version(&members.asset)?;
     let mut notes = Notes::default();
@@ -62,13 +67,12 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fa
 
     let mut instances = HashMap::new();
     let mut root = Root { scene: typed("scene", members.scene)?, ..Root::default() };
-    let nodes: Vec<&RawValue> = members.nodes.map_or(Ok(vec![]), |nodes| parsed("nodes", nodes.get()))?;
-    for (number, text) in nodes.into_iter().map(RawValue::get).enumerate() {
+    for (number, text) in members.nodes.into_iter().map(RawValue::get).enumerate() {
         root.nodes.push(match plain_node(text) {
             Some(node) => node,
             None => {
                 let place = format!("nodes[{number}]");
-                let node = parsed(&place, text)?;
+                let node = serde_json::from_str(text).map_err(|error| Fault::part(&place, error.to_string()))?;
                 instances.insert(number, extensions::instances(&node));
                 typed(&place, node)?
             }
@@ -114,6 +118,13 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fa
     Ok((Document { root, instances, textured, notes }, chunk))
 }
 
+/// The version of a document in any version.
+#[derive(Deserialize)]
+struct Versioned {
+    #[serde(default)]
+    asset: Value,
+}
+
 /// A document. Nodes are text, for as values they would take twenty times as much memory, and there may be very many.
 #[derive(Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
@@ -124,7 +135,7 @@ struct Members<'a> {
     scene: Value,
     scenes: Value,
     #[serde(borrow)]
-    nodes: Option<&'a RawValue>,
+    nodes: Vec<&'a RawValue>,
     materials: Value,
     skins: Value,
     meshes: Value,
@@ -154,10 +165,6 @@ fn plain_node(text: &str) -> Option<Node> {
     let may_be_cut_off = numbers.any(|number| number.len() > 9 && !number.contains(&b'.'));
     let is_plain = text.starts_with('{') && node.extensions.is_none() && !may_be_cut_off;
     is_plain.then_some(Node { camera: None, extras: None, weights: None, ..node })
-}
-
-fn parsed<'a, T: Deserialize<'a>>(place: &str, text: &'a str) -> Result<T, Fault> {
-    serde_json::from_str(text).map_err(|error| Fault::part(place, error.to_string()))
 }
 
 /// A list of items of the crate; a missing one is empty.
