@@ -50,14 +50,13 @@ impl Splitter {
     /// One note for each kind of polygon that has no correct triangulation or was not examined.
     pub fn note(&self, notes: &mut Notes) {
         for (count, what) in [
-            (
-                self.crossing,
-                "polygons cross themselves: split into fans around their first corner, perhaps not as intended",
-            ),
-            (self.bent, "polygons are neither convex nor flat: their surface is ambiguous"),
-            (self.large, "polygons have very many corners and are not convex: split into fans, which may overlap"),
+            (self.crossing, "cross themselves: split into fans around their first corner, perhaps not as intended"),
+            (self.bent, "are neither convex nor flat: their surface is ambiguous"),
+            (self.large, "have very many corners and are not convex: split into fans, which may overlap"),
         ] {
-            notes.count(count, [what; 2]);
+            if count > 0 {
+                notes.add(format!("{count} polygons {what}"));
+            }
         }
     }
 
