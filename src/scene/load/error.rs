@@ -1,6 +1,6 @@
 //! Why a file cannot be loaded.
 
-use std::fmt;
+use std::fmt::Display;
 use std::path::PathBuf;
 
 use crate::escaped::Escaped as _;
@@ -15,52 +15,33 @@ pub enum LoadError {
     Folder { file: PathBuf },
     #[error("{}: cannot read the file ({cause}): check that it exists and its permissions", file.escaped())]
     Unreadable { file: PathBuf, cause: std::io::Error },
-    #[error("{}{location}: {problem}", file.escaped())]
-    Malformed { file: PathBuf, location: Location, problem: String },
+    /// The place is that of the problem in the file, such as `, line 3`; empty for the file as a whole.
+    #[error("{}{place}: {problem}", file.escaped())]
+    Malformed { file: PathBuf, place: String, problem: String },
     /// The arrays of the file are no mesh; numbers count from 0.
     #[error("{}: {cause}", file.escaped())]
     Mesh { file: PathBuf, cause: MeshError },
 }
 
-/// The location of a problem in a file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Location {
-    /// The file as a whole.
-    File,
-    /// A line, counted from 1.
-    Line(usize),
-    /// A part by its name in the format, such as `accessor 3`, counted from 0.
-    Part(String),
-}
-
-impl fmt::Display for Location {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::File => Ok(()),
-            Self::Line(line) => write!(f, ", line {line}"),
-            Self::Part(part) => write!(f, ", {part}"),
-        }
-    }
-}
-
 /// A problem found by a reader, which does not know the name of its file.
 #[derive(Debug)]
 pub(super) struct Fault {
-    pub location: Location,
+    pub place: String,
     pub problem: String,
 }
 
 impl Fault {
     pub fn file(problem: impl Into<String>) -> Self {
-        Self { location: Location::File, problem: problem.into() }
+        Self { place: String::new(), problem: problem.into() }
     }
 
     pub fn line(line: usize, problem: impl Into<String>) -> Self {
-        Self { location: Location::Line(line), problem: problem.into() }
+        Self::part(format!("line {line}"), problem)
     }
 
-    pub fn part(part: impl Into<String>, problem: impl Into<String>) -> Self {
-        Self { location: Location::Part(part.into()), problem: problem.into() }
+    /// A part has its name in the format, such as `accessor 3`, counted from 0.
+    pub fn part(part: impl Display, problem: impl Into<String>) -> Self {
+        Self { place: format!(", {part}"), problem: problem.into() }
     }
 }
 
@@ -73,9 +54,4 @@ pub(super) fn quoted(text: impl AsRef<[u8]>) -> String {
     let escaped: String = start.chars().take(LONGEST).flat_map(char::escape_debug).collect();
     let more = if start.chars().nth(LONGEST).is_some() { "..." } else { "" };
     format!("`{escaped}{more}`")
-}
-
-/// The message of a library, in one line.
-pub(super) fn message(error: impl fmt::Display) -> String {
-    error.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
 }

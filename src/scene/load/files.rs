@@ -4,29 +4,21 @@ use std::fs::{self, File};
 use std::io::{self, Read as _};
 use std::path::{Component, Path, PathBuf};
 
-/// The path of a file in `folder` or below it; none if it leads out of it. The file has these bytes as its name, which need
-/// not be text.
+/// The path of a file in `folder` or below it, without `.` and `..`; none if it leads out of it. The file has these bytes as
+/// its name, which need not be text.
 pub(super) fn named_below(folder: &Path, name: &[u8]) -> Option<PathBuf> {
     #[cfg(unix)]
     let name: &std::ffi::OsStr = std::os::unix::ffi::OsStrExt::from_bytes(name);
     #[cfg(not(unix))]
     let name = &*String::from_utf8_lossy(name);
 
-    let mut depth = 0_usize;
-    for component in Path::new(name).components() {
-        match component {
-            Component::Normal(_) => depth += 1,
-            Component::CurDir => {}
-            Component::ParentDir => depth = depth.checked_sub(1)?,
-            Component::RootDir | Component::Prefix(_) => return None,
-        }
-    }
-    Some(folder.join(name))
-}
-
-/// The same file may have several names.
-pub(super) fn canonical(path: PathBuf) -> PathBuf {
-    fs::canonicalize(&path).unwrap_or(path)
+    let below = Path::new(name).components().try_fold(PathBuf::new(), |mut below, component| match component {
+        Component::Normal(part) => Some(below.join(part)),
+        Component::CurDir => Some(below),
+        Component::ParentDir => below.pop().then_some(below),
+        Component::RootDir | Component::Prefix(_) => None,
+    });
+    below.map(|below| folder.join(below))
 }
 
 /// Reads at most `longest` bytes of a regular file: a pipe or a device might never end.

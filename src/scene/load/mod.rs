@@ -19,7 +19,7 @@ use self::files::read_start;
 use super::Model;
 use crate::geometry::Mesh;
 
-pub use error::{LoadError, Location};
+pub use error::LoadError;
 
 /// Reads a mesh file. Its extension, in any case, determines the format: `.obj`, `.ply`, `.gltf` or `.glb`.
 ///
@@ -48,10 +48,10 @@ pub fn load(path: &Path) -> Result<Model, LoadError> {
 
     let bytes = read_start(path, u64::MAX).map_err(|cause| LoadError::Unreadable { file: path.into(), cause })?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    let mut model = read(bytes, folder).map_err(|fault| LoadError::Malformed {
+    let mut model = read(bytes, folder).map_err(|Fault { place, problem }| LoadError::Malformed {
         file: path.into(),
-        location: fault.location,
-        problem: fault.problem,
+        place,
+        problem,
     })?;
     Mesh::check(&model.positions, &model.triangles).map_err(|cause| LoadError::Mesh { file: path.into(), cause })?;
     flatten_bad_normals(&mut model);

@@ -1,33 +1,29 @@
 //! Wavefront MTL, the materials of OBJ files, by tobj.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use glam::Vec3;
+use indexmap::{IndexMap, IndexSet};
 
 use super::error::quoted;
-use super::files::{canonical, named_below, read_start};
+use super::files::{named_below, read_start};
 use super::notes::Notes;
 use super::text::{lines, name, plain, words};
 use crate::escaped::Escaped as _;
 use crate::scene::Material;
 
 /// The most libraries that are read, more than any exporter writes.
-pub(super) const MOST_LIBRARIES: usize = 64;
+const MOST_LIBRARIES: usize = 64;
 
-/// The materials of an OBJ file.
-struct Materials {
-    /// The numbers of their names.
-    numbers: HashMap<Vec<u8>, u32>,
-    /// By their numbers, those that a library defines, and whether they have a texture.
-    known: Vec<Option<(Material, bool)>>,
-}
+/// By their names, the materials that a library defines, and whether they have a texture.
+type Materials = IndexMap<Vec<u8>, Option<(Material, bool)>>;
 
-/// Reads the materials with these names in the order of their numbers, each library once. A library that cannot be read
-/// gives a note and not an error, because the mesh is complete without it. Of two materials with one name the later counts.
+/// Reads the materials with these names, each library once. A library that cannot be read gives a note and not an error,
+/// because the mesh is complete without it. Of two materials with one name the later counts.
 pub(super) fn read(
-    libraries: &[Vec<u8>],
-    numbers: HashMap<Vec<u8>, u32>,
+    libraries: IndexSet<Vec<u8>>,
+    names: IndexSet<Vec<u8>>,
     folder: &Path,
     notes: &mut Notes,
 ) -> Vec<Material> {
@@ -37,28 +33,23 @@ pub(super) fn read(
         paths.pop();
         notes.add(format!("only the first {MOST_LIBRARIES} material files are read"));
     }
-    let mut materials = Materials { known: vec![None; numbers.len()], numbers };
+    let mut materials: Materials = names.into_iter().map(|name| (name, None)).collect();
     let mut files: HashSet<PathBuf> = HashSet::new();
     for path in paths {
         match path {
-            Ok(path) if !files.insert(canonical(path.clone())) => {}
-            Ok(path) => match read_start(&path, u64::MAX) {
-                Ok(bytes) => materials.read_library(&bytes, &path, notes),
-                Err(cause) => notes.add(format!("cannot read the materials in {} ({cause})", path.escaped())),
-            },
+            Ok(path) if !files.insert(path.clone()) => {}
+            Ok(path) => read_library(&path, &mut materials, notes).unwrap_or_else(|problem| notes.add(problem)),
             Err(problem) => notes.add(problem),
         }
     }
     let textured = ["material has a texture: ignored, Kd is used", "materials have textures: ignored, Kd is used"];
-    notes.count(materials.known.iter().flatten().filter(|(_, has_texture)| *has_texture).count(), textured);
+    notes.count(materials.values().flatten().filter(|(_, has_texture)| *has_texture).count(), textured);
 
-    let mut names: Vec<_> = materials.numbers.into_iter().collect();
-    names.sort_unstable_by_key(|(_, number)| *number);
-    let all = names.into_iter().zip(materials.known).map(|((name, _), known)| {
-        if known.is_none() && name != b"default" {
+    let all = materials.into_iter().map(|(name, defined)| {
+        if defined.is_none() && name != b"default" {
             notes.add(format!("material {} is in no .mtl file: shaded light grey", quoted(&name)));
         }
-        known.map_or_else(|| Material::named(String::from_utf8_lossy(&name)), |(material, _)| material)
+        defined.map_or_else(|| Material::named(String::from_utf8_lossy(&name)), |(material, _)| material)
     });
     all.collect()
 }
@@ -76,27 +67,26 @@ fn paths<'a>(names: &'a [u8], folder: &'a Path) -> Box<dyn Iterator<Item = Resul
     }
 }
 
-impl Materials {
-    fn read_library(&mut self, bytes: &[u8], path: &Path, notes: &mut Notes) {
-        let text = match plain(bytes) {
-            Ok(text) => text,
-            Err(fault) => return notes.add(format!("{}: {}", path.escaped(), fault.problem)),
-        };
-        // The current material; none if no face uses it.
-        let mut current = None;
-        for (number, line) in lines(text) {
-            // tobj refuses the empty name, to which `usemtl` alone refers, and keeps a comment after a name.
-            if words(line).next() == Some(b"newmtl") {
-                let name = name(line);
-                let known = self.numbers.get(name).map(|&number| &mut self.known[number as usize]);
-                current = known.map(|known| known.insert((Material::named(String::from_utf8_lossy(name)), false)));
-            } else if let Some(material) = &mut current
-                && read_value(line, material).is_none()
-            {
-                notes.add(format!("{}, line {number}: {} is ignored", path.escaped(), quoted(line)));
-            }
+fn read_library(path: &Path, materials: &mut Materials, notes: &mut Notes) -> Result<(), String> {
+    let shown = path.escaped();
+    let unread = |cause| format!("cannot read the materials in {shown} ({cause})");
+    let bytes = read_start(path, u64::MAX).map_err(unread)?;
+    let text = plain(&bytes).map_err(|fault| format!("{shown}: {}", fault.problem))?;
+    // The current material; none if no face uses it.
+    let mut current = None;
+    for (number, line) in lines(text) {
+        // tobj refuses the empty name, to which `usemtl` alone refers, and keeps a comment after a name.
+        if words(line).next() == Some(b"newmtl") {
+            let name = name(line);
+            let defined = materials.get_mut(name);
+            current = defined.map(|defined| defined.insert((Material::named(String::from_utf8_lossy(name)), false)));
+        } else if let Some(material) = &mut current
+            && read_value(line, material).is_none()
+        {
+            notes.add(format!("{shown}, line {number}: {} is ignored", quoted(line)));
         }
     }
+    Ok(())
 }
 
 /// Reads a line about a material; none if its numbers are wrong.

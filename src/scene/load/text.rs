@@ -81,6 +81,10 @@ pub(super) fn name(line: &[u8]) -> &[u8] {
     name[..end].trim_ascii()
 }
 
+pub(super) fn is_among(keywords: &str, keyword: &[u8]) -> bool {
+    keywords.split(' ').any(|known| known.as_bytes() == keyword)
+}
+
 pub(super) fn number<N: std::str::FromStr>(word: &[u8]) -> Option<N> {
     std::str::from_utf8(word).ok()?.parse().ok()
 }

@@ -4,11 +4,10 @@
 //! of this is checked before.
 
 use std::array;
+use std::iter::repeat_with;
 
-use gltf::accessor::sparse::IndexType;
-use gltf::accessor::util::{ItemIter, SparseIndicesIter, SparseIter};
-use gltf::accessor::{DataType, Dimensions, Item};
-use gltf::buffer::View;
+use gltf::accessor::{DataType, Dimensions, Item, Iter};
+use gltf::buffer::{Buffer, View};
 use gltf::{Accessor, Document};
 
 use super::buffers::Bytes;
@@ -23,16 +22,6 @@ pub(super) struct Accessors<'a> {
 
 /// Elements, or other things that are read from them.
 pub(super) type Elements<'a, T> = Result<Box<dyn Iterator<Item = T> + 'a>, Fault>;
-
-/// Bytes of elements, and the distance of two of them.
-type Strided<'a> = (&'a [u8], usize);
-
-/// The elements of an accessor: those without a place are zero, and the sparse ones take the place of others.
-struct Stored<'a> {
-    all: Option<Strided<'a>>,
-    indices: SparseIndicesIter<'a>,
-    sparse: Strided<'a>,
-}
 
 /// The crate has items of up to four components.
 struct Vector<T, const N: usize>([T; N]);
@@ -50,7 +39,7 @@ impl<T: Item, const N: usize> Item for Vector<T, N> {
 impl<'a> Accessors<'a> {
     pub fn new(document: &'a Document, buffers: &'a [Bytes]) -> Result<Self, Fault> {
         let accessors = Self { document, buffers };
-        document.accessors().try_for_each(|accessor| accessors.stored(&accessor).map(drop))?;
+        document.accessors().try_for_each(|accessor| accessors.check(&accessor))?;
         Ok(accessors)
     }
 
@@ -86,48 +75,49 @@ impl<'a> Accessors<'a> {
 
     /// The elements of an accessor; where it is normalised, as shares of `one`, which is 1 for types that cannot be.
     fn scaled<T: Item + Into<f64> + 'a, const N: usize>(self, from: Accessor<'a>, one: f64) -> Elements<'a, [f64; N]> {
-        let Stored { all, indices, sparse } = self.stored(&from)?;
-        let items = |(bytes, stride)| ItemIter::<Vector<T, N>>::new(bytes, stride);
-        let elements = SparseIter::with_base_count(all.map(items), from.count(), indices, items(sparse));
-        let is_scaled = from.normalized() && one != 1.0;
+        let (count, is_scaled) = (from.count(), from.normalized() && one != 1.0);
         let scaled = move |c: f64| if is_scaled { f64::from((c / one) as f32).max(-1.0) } else { c };
-        Ok(Box::new(elements.map(move |Vector(components)| components.map(|c| scaled(c.into())))))
+        let components = move |Vector(components): Vector<T, N>| components.map(|c| scaled(c.into()));
+        // The crate panics at an empty accessor, and has nothing for one without a place, which is all zeros.
+        let bytes = move |buffer: Buffer<'a>| Some(&self.buffers[buffer.index()][..]);
+        match (count > 0).then(|| Iter::new(from, bytes)).flatten() {
+            Some(elements) => Ok(Box::new(elements.map(components))),
+            None => Ok(Box::new(repeat_with(Vector::zero).take(count).map(components))),
+        }
     }
 
-    /// Where the elements of an accessor lie. Sparse ones ascend, for the crate leaves out those that do not.
-    fn stored(self, accessor: &Accessor<'a>) -> Result<Stored<'a>, Fault> {
+    /// Checks where the elements of an accessor lie. Sparse ones ascend, for the crate leaves out those that do not.
+    fn check(self, accessor: &Accessor<'a>) -> Result<(), Fault> {
         let fault = |problem| fault(accessor.index(), problem);
         let bytes = |view, offset, count, size| self.bytes(&view, offset, count, size).map_err(fault);
         let (count, size) = (accessor.count(), accessor.size());
-        let all = accessor.view().filter(|_| count > 0);
-        let all = all.map(|view| bytes(view, accessor.offset(), count, size)).transpose()?;
-        let Some(sparse) = accessor.sparse().filter(|_| count > 0) else {
-            return Ok(Stored { all, indices: SparseIndicesIter::U8(ItemIter::new(&[], 1)), sparse: (&[], 1) });
-        };
+        if count == 0 {
+            return Ok(());
+        }
+        if let Some(view) = accessor.view() {
+            bytes(view, accessor.offset(), count, size)?;
+        }
+        let Some(sparse) = accessor.sparse() else { return Ok(()) };
         if sparse.count() == 0 || sparse.count() > count {
             return Err(fault(format!("{} of its {count} elements are sparse", sparse.count())));
         }
         let (indices, values) = (sparse.indices(), sparse.values());
-        let values = bytes(values.view(), values.offset(), sparse.count(), size)?;
-        let kind = indices.index_type();
-        let (data, stride) = bytes(indices.view(), indices.offset(), sparse.count(), kind.size())?;
-        let indices = match kind {
-            IndexType::U8 => SparseIndicesIter::U8(ItemIter::new(data, stride)),
-            IndexType::U16 => SparseIndicesIter::U16(ItemIter::new(data, stride)),
-            IndexType::U32 => SparseIndicesIter::U32(ItemIter::new(data, stride)),
-        };
+        bytes(values.view(), values.offset(), sparse.count(), size)?;
+        let index_size = indices.index_type().size();
+        let (data, stride) = bytes(indices.view(), indices.offset(), sparse.count(), index_size)?;
         let mut least = 0;
-        for index in indices.clone().map(|index| index as usize) {
+        for bytes in data.chunks(stride) {
+            let index = bytes[..index_size].iter().rev().fold(0, |index, byte| (index << 8) | usize::from(*byte));
             if index < least || index >= count {
                 return Err(fault(format!("its sparse element {index} does not ascend or is not below {count}")));
             }
             least = index + 1;
         }
-        Ok(Stored { all, indices, sparse: values })
+        Ok(())
     }
 
-    /// The bytes of `count` elements, at least one, of `size` bytes from `offset` in a buffer view.
-    fn bytes(self, view: &View<'a>, offset: usize, count: usize, size: usize) -> Result<Strided<'a>, String> {
+    /// The bytes of `count` elements, at least one, of `size` bytes from `offset` in a buffer view; and their distance.
+    fn bytes(self, view: &View<'a>, offset: usize, count: usize, size: usize) -> Result<(&'a [u8], usize), String> {
         let number = view.index();
         let stride = view.stride().unwrap_or(size);
         if stride < size {

@@ -7,8 +7,8 @@ use std::rc::Rc;
 use gltf::json::Buffer;
 use percent_encoding::percent_decode_str;
 
-use crate::scene::load::error::{Fault, message, quoted};
-use crate::scene::load::files::{canonical, named_below, read_start};
+use crate::scene::load::error::{Fault, quoted};
+use crate::scene::load::files::{named_below, read_start};
 
 /// The bytes of a buffer; buffers of one file share them.
 pub(super) type Bytes = Rc<Vec<u8>>;
@@ -25,11 +25,9 @@ pub(super) fn read(list: &mut [Buffer], mut chunk: Option<Vec<u8>>, folder: &Pat
     let mut files: HashMap<PathBuf, Bytes> = HashMap::new();
     let mut read = |number: usize, uri: Option<String>| {
         let Some(uri) = uri else {
-            let none = "it has no URI and the file has no binary chunk for it: export the file again";
-            return match number {
-                0 => chunk.take().map(Rc::new).ok_or_else(|| none.to_owned()),
-                _ => Err("it has no URI, and only buffer 0 may lie in a binary chunk".to_owned()),
-            };
+            let none =
+                "it has no URI and the file has no binary chunk for it, as buffer 0 may have: export the file again";
+            return chunk.take_if(|_| number == 0).map(Rc::new).ok_or_else(|| none.to_owned());
         };
         if uri.starts_with("data:") {
             return embedded(&uri).map(Rc::new);
@@ -39,7 +37,7 @@ pub(super) fn read(list: &mut [Buffer], mut chunk: Option<Vec<u8>>, folder: &Pat
         }
         let name: Vec<u8> = percent_decode_str(&uri).collect();
         let outside = || format!("its file {} is outside the folder of this file: move it there", quoted(&name));
-        let path = canonical(named_below(folder, &name).ok_or_else(outside)?);
+        let path = named_below(folder, &name).ok_or_else(outside)?;
         if !files.contains_key(&path) {
             let unread =
                 |cause| format!("its file {} cannot be read ({cause}): put it next to this file", quoted(&name));
@@ -62,5 +60,5 @@ pub(super) fn read(list: &mut [Buffer], mut chunk: Option<Vec<u8>>, folder: &Pat
 
 fn embedded(uri: &str) -> Result<Vec<u8>, String> {
     let (_, data) = uri.split_once(";base64,").ok_or("its data URI is not base64")?;
-    base64::decode(data).map_err(|error| format!("its data URI cannot be read: {}", message(error)))
+    base64::decode(data).map_err(|error| format!("its data URI cannot be read: {}", error))
 }

@@ -109,7 +109,8 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
     let textured = (0..).zip(&textured).filter(|(number, is_textured)| **is_textured && used.contains(number)).count();
     notes.count(textured, texture);
     let morph = ["primitive has morph targets: ignored", "primitives have morph targets: ignored"];
-    notes.count(shapes.values().map(|shape| shape.morphed).sum(), morph);
+    let parts = shapes.values().flat_map(|shape| &shape.parts);
+    notes.count(parts.filter(|part| part.primitive.morph_targets().len() > 0).count(), morph);
     let left_out = [
         "primitive is points or lines, or has no positions: ignored",
         "primitives are points or lines, or have no positions: ignored",

@@ -21,8 +21,6 @@ pub(super) struct Shape<'a> {
     pub sizes: Sizes,
     /// Primitives that are points or lines, or have no positions.
     pub left_out: usize,
-    /// Primitives with morph targets.
-    pub morphed: usize,
 }
 
 /// The accessors of vectors, and of the joints and weights with which a skin moves them; all of one length.
@@ -92,7 +90,6 @@ impl<'a> Shape<'a> {
         };
         let positions = add(positions, 0);
         let normals = normals.map(|normals| add(normals, 1));
-        self.morphed += usize::from(primitive.morph_targets().len() > 0);
         self.parts.push(Part { primitive, mesh, vertices, positions, normals });
         Ok(())
     }

@@ -6,7 +6,6 @@
 
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
-use std::sync::LazyLock;
 
 use gltf::json::validation::{Error, Validate as _};
 use gltf::json::{Index, Node, Path, Root};
@@ -16,9 +15,9 @@ use serde_json::value::RawValue;
 use serde_json::{Value, json};
 
 use super::extensions;
-use crate::scene::load::error::{Fault, message, quoted};
+use crate::scene::load::error::{Fault, quoted};
 use crate::scene::load::notes::Notes;
-use crate::scene::load::text::plain;
+use crate::scene::load::text::{is_among, plain};
 
 /// The most objects in a small document: each takes some hundred bytes of memory, and may be as short as `{}`.
 const MOST_OBJECTS: usize = 1 << 16;
@@ -29,21 +28,13 @@ const BYTES_AN_OBJECT: usize = 48;
 /// The most entries of lists and objects, per object.
 const ENTRIES_AN_OBJECT: usize = 12;
 
-/// The keys that are read, without the keys of joints and weights.
-static KEYS: LazyLock<HashSet<&str>> = LazyLock::new(|| {
-    "attributes baseColorFactor buffer bufferView byteLength byteOffset byteStride children componentType count indices \
-    inverseBindMatrices joints material matrix mesh mode name nodes normalized pbrMetallicRoughness primitives rotation \
-    scale skin sparse targets translation type uri values NORMAL POSITION"
-        .split_whitespace()
-        .collect()
-});
-
-/// The keys of objects; serde takes a list for an object as well.
-const OBJECTS: [&str; 4] = ["indices", "pbrMetallicRoughness", "sparse", "values"];
+/// The keys that are read, apart from those of joints and weights.
+const KEYS: &str = "attributes baseColorFactor buffer bufferView byteLength byteOffset byteStride children componentType \
+    count indices inverseBindMatrices joints material matrix mesh mode name nodes normalized pbrMetallicRoughness \
+    primitives rotation scale skin sparse targets translation type uri values NORMAL POSITION";
 
 /// The keys of numbers that may be 2^32 or more. Indices may not: the crate would cut them off.
-const LARGE: [&str; 8] =
-    ["baseColorFactor", "byteLength", "byteOffset", "count", "matrix", "rotation", "scale", "translation"];
+const LARGE: &str = "baseColorFactor byteLength byteOffset count matrix rotation scale translation";
 
 pub(super) struct Document {
     /// All indices are in range; accessors are not checked against their buffers.
@@ -65,9 +56,9 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fa
     }
     let members = serde_json::from_slice::<Members>(text).or_else(|error| {
         // The nodes of glTF 1.0 are no list.
-        let versioned: Versioned = serde_json::from_slice(text).map_err(|_| no_gltf(&message(&error)))?;
+        let versioned: Versioned = serde_json::from_slice(text).map_err(|_| no_gltf(&error.to_string()))?;
         check_version(&versioned.asset)?;
-        Err(no_gltf(&message(&error)))
+        Err(no_gltf(&error.to_string()))
     })?;
     // Other versions and extensions first: they explain what is wrong with the rest.
     check_version(&members.asset)?;
@@ -76,12 +67,12 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fa
 
     let mut instances = HashMap::new();
     let mut root = Root { scene: typed("scene", members.scene)?, ..Root::default() };
-    for (number, text) in members.nodes.into_iter().enumerate() {
-        root.nodes.push(match plain_node(text.get()) {
+    for (number, text) in members.nodes.into_iter().map(RawValue::get).enumerate() {
+        root.nodes.push(match plain_node(text) {
             Some(node) => node,
             None => {
                 let place = format!("nodes[{number}]");
-                let node = serde_json::from_str(text.get()).map_err(|error| Fault::part(&place, message(&error)))?;
+                let node = serde_json::from_str(text).map_err(|error| Fault::part(&place, error.to_string()))?;
                 instances.insert(number, extensions::instances(&node));
                 typed(&place, node)?
             }
@@ -93,9 +84,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fa
         scene.entry("nodes").or_insert_with(|| json!([]));
     }
     root.scenes = typed_list("scenes", scenes)?;
-    let materials = members.materials;
-    let textured = materials.as_array().into_iter().flatten().map(is_textured).collect();
-    root.materials = typed_list("materials", materials)?;
+    let textured = members.materials.as_array().into_iter().flatten().map(is_textured).collect();
+    root.materials = typed_list("materials", members.materials)?;
     root.skins = typed_list("skins", members.skins)?;
 
     // What nothing refers to may be anything.
@@ -103,8 +93,16 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fa
     root.meshes = typed_list("meshes", without(&read, members.meshes, &json!({"primitives": []})))?;
     let mut read = numbers(root.skins.iter().filter_map(|skin| skin.inverse_bind_matrices));
     read.extend(instances.values().flatten().flatten());
-    for primitive in root.meshes.iter().flat_map(|mesh| &mesh.primitives) {
-        read.extend(numbers(primitive.attributes.values().copied().chain(primitive.indices)));
+    let accessors = members.accessors.as_array().map_or(0, Vec::len);
+    for (m, mesh) in root.meshes.iter().enumerate() {
+        for (p, primitive) in mesh.primitives.iter().enumerate() {
+            // The crate panics at an accessor of positions that is out of bounds.
+            if let Some(index) = primitive.attributes.values().find(|index| index.value() >= accessors) {
+                let problem = format!("index {index} is out of bounds: export the file again");
+                return Err(Fault::part(format!("meshes[{m}].primitives[{p}].attributes"), problem));
+            }
+            read.extend(numbers(primitive.attributes.values().copied().chain(primitive.indices)));
+        }
     }
     let empty = json!({"componentType": 5126, "count": 0, "type": "SCALAR"});
     root.accessors = typed_list("accessors", without(&read, members.accessors, &empty))?;
@@ -160,11 +158,6 @@ fn without(read: &HashSet<usize>, mut list: Value, empty: &Value) -> Value {
     list
 }
 
-/// A list of items of the crate; a missing one is empty.
-fn typed_list<T: DeserializeOwned>(key: &str, list: Value) -> Result<Vec<T>, Fault> {
-    if list.is_null() { Ok(vec![]) } else { typed(key, list) }
-}
-
 /// A node without extensions and without anything wrong, as most are. It is read at once, for there may be very many.
 fn plain_node(text: &str) -> Option<Node> {
     let node: Node = serde_json::from_str(text).ok()?;
@@ -174,52 +167,41 @@ fn plain_node(text: &str) -> Option<Node> {
     is_plain.then_some(Node { camera: None, extras: None, weights: None, ..node })
 }
 
+/// A list of items of the crate; a missing one is empty.
+fn typed_list<T: DeserializeOwned>(key: &str, list: Value) -> Result<Vec<T>, Fault> {
+    if list.is_null() { Ok(vec![]) } else { typed(key, list) }
+}
+
 /// A value of a type of the crate, without what is not read.
 fn typed<T: DeserializeOwned>(place: &str, mut value: Value) -> Result<T, Fault> {
-    prune("", &mut value).map_err(|(below, problem)| Fault::part(format!("{place}{below}"), problem))?;
+    prune("", &mut value).map_err(|problem| Fault::part(place, problem))?;
     serde_path_to_error::deserialize(value).map_err(|error| {
         let place = format!("{place}.{}", error.path()).replace(".[", "[");
-        Fault::part(place.trim_end_matches('.'), message(error.inner()))
+        Fault::part(place.trim_end_matches('.'), error.inner().to_string())
     })
 }
 
-/// Cuts out what is not read. An error is the place in the value, and the problem there.
-fn prune(key: &str, value: &mut Value) -> Result<(), (String, String)> {
-    let problem = match value {
+/// Cuts out what is not read. Indices of 2^32 or more become the largest, which is out of bounds. serde takes a list for an
+/// object as well.
+fn prune(key: &str, value: &mut Value) -> Result<(), &'static str> {
+    match value {
         Value::Object(members) => {
-            let is_skin = |key: &str| key.starts_with("JOINTS_") || key.starts_with("WEIGHTS_");
-            members.retain(|key, _| KEYS.contains(&key.as_str()) || is_skin(key));
-            return members.iter_mut().try_for_each(|(key, value)| {
-                prune(key, value).map_err(|(below, problem)| (format!(".{key}{below}"), problem))
-            });
+            let set = |key: &str| key.strip_prefix("JOINTS_").or(key.strip_prefix("WEIGHTS_"))?.parse::<u8>().ok();
+            members.retain(|key, _| is_among(KEYS, key.as_bytes()) || set(key).is_some());
+            return members.iter_mut().try_for_each(|(key, value)| prune(key, value));
         }
-        Value::Array(list) if OBJECTS.contains(&key) || list.iter().any(Value::is_array) => {
-            "unexpected list".to_owned()
+        Value::Array(list) if list.iter().any(Value::is_array) => return Err("unexpected list: export the file again"),
+        Value::Array(list) => return list.iter_mut().try_for_each(|value| prune(key, value)),
+        Value::Number(number) if number.as_u64() > Some(u32::MAX.into()) && !is_among(LARGE, key.as_bytes()) => {
+            *value = u32::MAX.into();
         }
-        Value::Array(list) => {
-            return list.iter_mut().enumerate().try_for_each(|(i, value)| {
-                prune(key, value).map_err(|(below, problem)| (format!("[{i}]{below}"), problem))
-            });
-        }
-        Value::Number(index) if index.as_u64() > Some(u32::MAX.into()) && !LARGE.contains(&key) => {
-            format!("index {index} is out of bounds")
-        }
-        _ => return Ok(()),
-    };
-    Err((String::new(), problem + ": export the file again"))
+        _ => {}
+    }
+    Ok(())
 }
 
 /// Checks the indices, types and modes of a document.
 fn validate(root: &Root) -> Result<(), Fault> {
-    // The crate panics at an accessor of positions that is out of bounds.
-    for (m, mesh) in root.meshes.iter().enumerate() {
-        for (p, primitive) in mesh.primitives.iter().enumerate() {
-            if let Some(index) = primitive.attributes.values().find(|accessor| root.get(**accessor).is_none()) {
-                let problem = format!("index {index} is out of bounds: export the file again");
-                return Err(Fault::part(format!("meshes[{m}].primitives[{p}].attributes"), problem));
-            }
-        }
-    }
     let mut fault = None;
     root.validate(root, Path::new, &mut |path, error| {
         // A missing key is optional, or not read. Strides are checked with the accessors.

@@ -26,14 +26,12 @@ pub(super) fn read(bytes: &[u8], folder: &Path) -> Result<Model, Fault> {
     // tobj takes a byte order mark for a part of the first keyword, and finds nothing in UTF-16.
     let mut filter = BufReader::new(Filter::new(plain(bytes)?));
     let read = load_obj_buf(&mut filter, &LoadOptions::default(), |_| Ok(Default::default()));
-    let filter = filter.into_inner();
+    let Filter { mut contents, fault, .. } = filter.into_inner();
+    let (parts, _) = read.map_err(|error| fault.unwrap_or_else(|| Fault::file(error.to_string())))?;
     let mut notes = Notes::default();
-    let (parts, mut contents) = match read {
-        Ok((parts, _)) => (parts, filter.finish(&mut notes)?),
-        Err(error) => return Err(filter.fault(error)),
-    };
+    contents.check(&mut notes)?;
     let mut model = triangles(parts, &mut contents, &mut notes);
-    model.materials = mtl::read(&contents.libraries, contents.materials, folder, &mut notes);
+    model.materials = mtl::read(contents.libraries, contents.materials, folder, &mut notes);
     model.notes = notes.into_vec();
     Ok(model)
 }

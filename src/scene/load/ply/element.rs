@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use super::number::{ENCODINGS, Kind, word};
 use crate::scene::load::error::{Fault, quoted};
-use crate::scene::load::text::plain;
+use crate::scene::load::text::{lines, plain};
 
 pub(super) const STRIPS: &str = "tristrips";
 
@@ -128,8 +128,8 @@ impl Element {
             let start = if *encoding == 0 { rows.trim_ascii_start() } else { *rows };
             *rows = start;
             self.row(rows, &mut take).map_err(|problem| {
-                let line = start.split(|byte| matches!(byte, b'\n' | b'\r')).next().filter(|_| *encoding == 0);
-                let line = line.map(|line| format!(": {}", quoted(line))).unwrap_or_default();
+                let line = lines(start).next().filter(|_| *encoding == 0);
+                let line = line.map(|(_, line)| format!(": {}", quoted(line))).unwrap_or_default();
                 Fault::part(format!("{name} {number}"), problem + &line)
             })?;
         }

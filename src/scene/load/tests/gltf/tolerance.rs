@@ -16,6 +16,7 @@ fn what_is_not_read_is_no_reason_to_refuse() {
         ("/bufferViews/2/target", json!(7)),
         ("/meshes/0/primitives/0/attributes/_FOO", json!(99)),
         ("/meshes/0/primitives/0/attributes/COLOR_RED", json!(0)),
+        ("/meshes/0/primitives/0/attributes/JOINTS_\n", json!("x")),
         ("/meshes/0/weights", json!({})),
         ("/accessors/-", json!({"componentType": 5126, "type": "VEC3", "count": 4})),
         ("/animations", json!([{"channels": 3}])),
