@@ -91,7 +91,7 @@ fn subject(fault: Fault) -> Subject {
 
 #[test]
 fn the_grid_that_the_broken_ones_are_made_from_is_right_and_what_is_declined_is_not_asked() {
-    answers(&subject(Fault::None), &meshes(), 200).unwrap();
+    answers(&Subject::of::<Broken>("broken", BrokenConfig::default()), &meshes(), 200).unwrap();
     let modest = Subject::of::<Modest>("modest", GridConfig::default());
     answers(&modest, &meshes(), 60).unwrap();
     counting(&modest, &meshes(), 10).unwrap();

@@ -15,7 +15,7 @@ pub enum LoadError {
     Folder { file: PathBuf },
     #[error("{}: cannot read the file ({cause}): check that it exists and its permissions", file.escaped())]
     Unreadable { file: PathBuf, cause: std::io::Error },
-    /// The place is that of the problem in the file, such as `, line 3`; empty for the file as a whole.
+    /// The place of the problem in the file, such as `, line 3`, is empty for the file as a whole.
     #[error("{}{place}: {problem}", file.escaped())]
     Malformed { file: PathBuf, place: String, problem: String },
     /// The arrays of the file are no mesh; numbers count from 0.

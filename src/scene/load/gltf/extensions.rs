@@ -25,7 +25,7 @@ pub(super) fn check(required: &Value, used: &Value, notes: &mut Notes) -> Result
         }
         notes.add(format!("the required extension {} changes no triangle and is ignored", quoted(name)));
     }
-    // What is compressed and not required is there uncompressed as well.
+    // Compressed data that are not required exist uncompressed as well.
     for name in others(used).filter(|name| !is_shading(name) && decompression(name).is_none()) {
         notes.add(format!("the extension {} is ignored, with what it changes", quoted(name)));
     }
@@ -36,7 +36,7 @@ fn others(list: &Value) -> impl Iterator<Item = &str> {
     list.as_array().into_iter().flatten().filter_map(Value::as_str).filter(|name| !READ.contains(name))
 }
 
-/// What removes an extension without which there may be no triangles.
+/// How to remove an extension without which there may be no triangles.
 fn decompression(name: &str) -> Option<&'static str> {
     match name {
         "EXT_meshopt_compression" | "KHR_meshopt_compression" => {

@@ -28,7 +28,7 @@ const BYTES_AN_OBJECT: usize = 48;
 /// The most entries of lists and objects, per object.
 const ENTRIES_AN_OBJECT: usize = 12;
 
-/// The keys that are read, apart from those of joints and weights.
+/// The keys that are read, without the keys of joints and weights.
 const KEYS: &str = "attributes baseColorFactor buffer bufferView byteLength byteOffset byteStride children componentType \
     count indices inverseBindMatrices joints material matrix mesh mode name nodes normalized pbrMetallicRoughness \
     primitives rotation scale skin sparse targets translation type uri values NORMAL POSITION";

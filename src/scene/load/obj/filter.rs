@@ -50,7 +50,7 @@ pub(super) struct Contents {
     pub normals: Vectors,
     pub triangles: usize,
     pub sections: Vec<Section>,
-    /// What follows each `mtllib`.
+    /// The words after each `mtllib`.
     pub libraries: IndexSet<Vec<u8>>,
     /// Names in the order of their first use. tobj forgets those that no library defines.
     pub materials: IndexSet<Vec<u8>>,
@@ -77,7 +77,7 @@ pub(super) struct Filter<'a> {
     pub contents: Contents,
     /// How much of the statement tobj has taken.
     taken: usize,
-    /// What is wrong with a statement. tobj by itself finds nothing wrong in what it is given.
+    /// The fault of a statement. tobj itself finds no fault in the statements that it is given.
     pub fault: Option<Fault>,
 }
 
