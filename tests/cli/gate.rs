@@ -12,14 +12,13 @@ use super::runner::NOTHING;
 
 const DOCUMENT: &str = include_str!("../../src/study/diff/GATE.md");
 
-/// The script of the document over rays that miss everything, with runners instead of the structure and the reference,
-/// and with fewer epochs.
-fn script(rays: &str, own: &str, yardstick: &str) -> String {
+/// The script of the document with fewer epochs, over rays that miss everything, with these runners and the reference
+/// `steady`.
+fn script(rays: &str, runners: &str) -> String {
     let script = DOCUMENT.split("```sh\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
-    let runners = format!("--only $name --reference steady --runner $name={own} --runner steady={yardstick} --quiet");
     let replaced = [
         ("teapot starters cornellbox", format!("--rays {rays}")),
-        ("--only $name", runners),
+        ("--only $name", format!("--only $name --reference steady {runners} --quiet")),
         ("4 8 16", "3 6".into()),
         ("--looks 3", "--looks 3 --reference steady".into()),
     ];
@@ -29,20 +28,33 @@ fn script(rays: &str, own: &str, yardstick: &str) -> String {
     })
 }
 
+/// The arguments of the script in the workflows of the document.
+fn arguments(nth: usize) -> &'static str {
+    DOCUMENT.lines().filter_map(|line| line.trim().strip_prefix("- run: sh gate.sh ")).nth(nth).unwrap()
+}
+
+/// Writes an executable file into a folder.
+fn program(folder: &TempDir, name: &str, text: &str) -> String {
+    fs::create_dir_all(folder.path().join(name).parent().unwrap()).unwrap();
+    let path = write(folder, name, text);
+    fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
+    path
+}
+
+/// Makes a file of 64 rays that miss the cube.
+fn misses(folder: &TempDir) -> String {
+    let (text, rays) =
+        (write(folder, "away.txt", &"9,9,9 0,0,1\n".repeat(64)), path_text(&folder.path().join("away.rays")));
+    prints(&["rays", "import", &text, "-o", &rays, "--scene", "cube"]);
+    rays
+}
+
 /// Runs the `nth` command of the document that runs the script, with prescribed seconds per pass on both sides, for
 /// even and for odd epochs. Returns its output, and the number of measured epochs of the branch.
 fn gate(nth: usize, base: [f64; 2], branch: [f64; 2]) -> (Output, usize) {
-    let command = DOCUMENT.lines().filter_map(|line| line.trim().strip_prefix("- run: sh gate.sh ")).nth(nth).unwrap();
+    let command = arguments(nth);
     let folder = TempDir::new().unwrap();
-    let program = |name: &str, text: &str| {
-        fs::create_dir_all(folder.path().join(name).parent().unwrap()).unwrap();
-        let path = write(&folder, name, text);
-        fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
-        path
-    };
-    let (text, rays) =
-        (write(&folder, "away.txt", &"9,9,9 0,0,1\n".repeat(64)), path_text(&folder.path().join("away.rays")));
-    prints(&["rays", "import", &text, "-o", &rays, "--scene", "cube"]);
+    let program = |name: &str, text: &str| program(&folder, name, text);
     // Each epoch is a process that starts the runner and its twin: the runners of every second process have the same
     // seconds.
     let starts = "grep -qx $PPID \"$STARTS\" 2>/dev/null || echo $PPID >> \"$STARTS\"\n\
@@ -51,7 +63,8 @@ fn gate(nth: usize, base: [f64; 2], branch: [f64; 2]) -> (Output, usize) {
     let runner = NOTHING.replacen("#!/bin/sh\n", &format!("#!/bin/sh\n{starts}"), 1);
     let runner = program("told.sh", &runner.replace("*) echo \"passed 0.001\"", "*) echo \"passed $own\""));
     let yardstick = program("steady.sh", NOTHING);
-    program("gate.sh", &script(&rays, &runner, &yardstick));
+    let runners = format!("--runner $name={runner} --runner steady={yardstick}");
+    program("gate.sh", &script(&misses(&folder), &runners));
     let sahara = env!("CARGO_BIN_EXE_sahara");
     // The programs of both sides, at the place of the workflow's builds.
     let sides = command.split_whitespace().take(2).map(|word| word.trim_matches('"').replace("$RUNNER_TEMP/", ""));
@@ -79,5 +92,23 @@ fn the_gate_passes_what_is_unchanged_fails_what_is_slower_and_ends_where_it_cann
         let said = stdout(&output) + &stderr(&output);
         assert_eq!((output.status.code(), measured), (Some(status), epochs), "{base:?} {branch:?}: {said}");
         assert!(said.contains(verdict), "{verdict:?} is not in {said}");
+    }
+}
+
+#[test]
+fn one_sahara_gates_a_program() {
+    for (seconds, status, verdict) in [("0.001", RIGHT, "no change"), ("0.0012", REGRESSION, "over the limit of 10 %")]
+    {
+        let folder = TempDir::new().unwrap();
+        let steady = program(&folder, "steady.sh", NOTHING);
+        program(&folder, "gate.sh", &script(&misses(&folder), &format!("--runner steady={steady}")));
+        program(&folder, "bvh-base", NOTHING);
+        program(&folder, "bvh", &NOTHING.replace("passed 0.001", &format!("passed {seconds}")));
+        program(&folder, "bin/sahara", &format!("#!/bin/sh\nexec {} \"$@\"\n", env!("CARGO_BIN_EXE_sahara")));
+        let mut shell = Command::new("sh");
+        shell.args(["-c", &format!("PATH=$PWD/bin:$PATH sh gate.sh {}", arguments(2))]);
+        let output = shell.env("RUNNER_TEMP", folder.path()).current_dir(folder.path()).output().unwrap();
+        let said = stdout(&output) + &stderr(&output);
+        assert!(output.status.code() == Some(status) && said.contains(verdict), "{seconds}: {said}");
     }
 }

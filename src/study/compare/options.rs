@@ -117,7 +117,10 @@ impl CompareArgs {
         }
         if let Some(name) = &self.only {
             if !structures.iter().any(|own| is_named(&own.spec, name)) {
-                structures.insert(0, (&structures_at(registry, std::slice::from_ref(name), quality)?.remove(0)).into());
+                let mut chosen = structures_at(registry, std::slice::from_ref(name), quality).map_err(|error| {
+                    anyhow::anyhow!("{error}; for a program of that name, add --runner {name}=COMMAND")
+                })?;
+                structures.insert(0, (&chosen.remove(0)).into());
             }
             let asked = || [Some(name), self.reference.as_ref()].into_iter().flatten();
             let other =

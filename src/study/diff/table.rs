@@ -34,7 +34,7 @@ pub fn cautions(comparison: &Comparison) -> Vec<String> {
 
 /// One sentence of a gate per structure: whether it is right, and how its time has changed.
 pub fn sentences(comparison: &Comparison) -> Vec<String> {
-    let Some(threshold) = comparison.threshold_percent.map(figures) else { return vec![] };
+    let Some(threshold) = comparison.threshold_percent else { return vec![] };
     let sentence = |change: &Change| {
         let wrong = comparison.wrong.iter().filter(|wrong| wrong.structure == change.structure).count();
         let right = match wrong {
@@ -43,7 +43,9 @@ pub fn sentences(comparison: &Comparison) -> Vec<String> {
         };
         let slower = || change.time.map_or(String::new(), slower);
         let speed = match change.finding {
-            Finding::Faster | Finding::Slower | Finding::Regression => slower(),
+            Finding::Faster => slower(),
+            Finding::Slower => format!("{}: within the limit of {threshold} %", slower()),
+            Finding::Regression => format!("{}: over the limit of {threshold} %", slower()),
             Finding::NoDifference => format!("no change beyond noise, {}", slower()),
             Finding::Inconclusive => format!("inconclusive, the interval contains {threshold} %: {}", slower()),
             Finding::Unknown if change.time.is_some() => {

@@ -177,7 +177,8 @@ fn a_structure_is_compared_with_itself_whatever_its_keys_and_its_test() {
 #[test]
 fn a_gate_ends_in_a_sentence_a_structure() {
     let said = |sah: f64| sentences(&compare(&run(1.0, 1.0), &run(1.0, sah), Some(10.0), 1))[1].clone();
-    assert_eq!(said(1.2), "sah-kd: right on 200 checked rays; 20.0 % slower [20.0, 20.0].");
+    assert_eq!(said(1.2), "sah-kd: right on 200 checked rays; 20.0 % slower [20.0, 20.0]: over the limit of 10 %.");
+    assert_eq!(said(1.05), "sah-kd: right on 200 checked rays; 5.0 % slower [5.0, 5.0]: within the limit of 10 %.");
     assert_eq!(said(0.8), "sah-kd: right on 200 checked rays; 20.0 % less time [20.0, 20.0].");
     let mut wrong = run(1.0, 1.0);
     wrong[1].wrong_hits = 3;
