@@ -22,10 +22,12 @@ const SAME_MACHINE: &str = "measure both on the same machine, with the same opti
 const SAME_UNIT: &str = "two machines are compared by ratios to an obvhs structure over its own triangle test: measure such a \
                          structure in both runs";
 const SAME_INPUT: &str = "measure the old run again on the same scenes and rays";
+const SAME_SCENE: &str = "the hash covers the mesh, camera, lights and picture size: measure the old run again with the same scene \
+                          and --size";
 const SAME_BUILD: &str = "build both in the same way";
 const SAME_RAYS: &str = "measure both with --budget none, which times all rays";
-const YARDSTICK: &str = "a gate needs a reference that both runs time in the same rounds: measure both with --budget none, which \
-                         includes obvhs-bvh2, or name another structure with --reference";
+const YARDSTICK: &str = "a gate needs a reference that both runs time in the same rounds: name such a structure with --reference, or \
+                         measure both with --budget none, which includes obvhs-bvh2";
 
 fn differ(what: &str, old: &str, new: &str, advice: &'static str) -> Result<(), Unlike> {
     if old == new { Ok(()) } else { Err(Unlike { what: what.into(), old: old.into(), new: new.into(), advice }) }
@@ -60,7 +62,7 @@ pub fn unlike(old: &Side, new: &Side, gate: bool) -> Result<(), Unlike> {
     for (before, after) in &pairs {
         let name = |what: &str| format!("{what} of {}", cell_title(before));
         let scene = format!("the hash of the scene {}", before.scene);
-        differ(&scene, &before.scene_hash, &after.scene_hash, SAME_INPUT)?;
+        differ(&scene, &before.scene_hash, &after.scene_hash, SAME_SCENE)?;
         let rays = format!("the hash of the {} rays of {}", before.workload, before.scene);
         differ(&rays, &before.workload_hash, &after.workload_hash, SAME_INPUT)?;
         differ(&name("the query"), before.query.name(), after.query.name(), SAME_INPUT)?;
@@ -106,7 +108,7 @@ pub fn unlike_plan(old: &Dataset, cases: &[Case], here: &Provenance) -> Result<(
         let Some(old) = old.measured.iter().map(|own| &own.case).find(|old| old.scene_title() == title) else {
             return differ(&format!("the scene {title}"), "missing", "measured", SAME_INPUT);
         };
-        differ(&format!("the hash of the scene {title}"), &old.scene.hash, &new.scene.hash, SAME_INPUT)?;
+        differ(&format!("the hash of the scene {title}"), &old.scene.hash, &new.scene.hash, SAME_SCENE)?;
         let rays = |case: &Case| serde_json::to_string(&case.workloads).expect("workloads are text");
         differ(&format!("the ray selection of {title}"), &rays(old), &rays(new), SAME_INPUT)?;
         differ("the seed", &old.settings.seed.to_string(), &new.settings.seed.to_string(), SAME_INPUT)?;
