@@ -36,7 +36,7 @@ impl Session {
         command.args(&words[1..]).stdin(Stdio::piped()).stdout(Stdio::piped());
         process_group::set_apart(&mut command);
         let child = if threads > 1 { on_all_cores(|| command.spawn()) } else { command.spawn() };
-        let mut child = child.map_err(|cause| format!("it cannot be started: {cause}"))?;
+        let mut child = child.map_err(|cause| format!("the program {:?} cannot be started: {cause}", words[0]))?;
         let (input, output) = (child.stdin.take(), child.stdout.take().expect("its output is a pipe"));
         // Unrequested output fills the pipe and blocks the program: it takes no memory here.
         let (sender, lines) = sync_channel(1);
