@@ -16,7 +16,9 @@ const DOCUMENT: &str = include_str!("../../src/study/diff/GATE.md");
 /// and with fewer epochs.
 fn script(rays: &str, own: &str, yardstick: &str) -> String {
     let script = DOCUMENT.split("```sh\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
-    let runners = format!("--only $name --reference steady --runner $name={own} --runner steady={yardstick} --quiet");
+    // A runner must not have the name of a structure.
+    let runners = "--only my-$name --reference steady --runner";
+    let runners = format!("{runners} my-$name={own} --runner steady={yardstick} --quiet");
     let replaced = [
         ("teapot starters cornellbox", format!("--rays {rays}")),
         ("--only $name", runners),
@@ -69,11 +71,11 @@ fn gate(nth: usize, base: [f64; 2], branch: [f64; 2]) -> (Output, usize) {
 #[test]
 fn the_gate_passes_what_is_unchanged_fails_what_is_slower_and_ends_where_it_cannot_tell() {
     for (nth, base, branch, status, epochs, verdict) in [
-        (0, [0.001; 2], [0.001; 2], RIGHT, 3, "sah-hybrid (own clock): right on 64 checked rays; no change"),
+        (0, [0.001; 2], [0.001; 2], RIGHT, 3, "my-sah-hybrid (own clock): right on 64 checked rays; no change"),
         (0, [0.001; 2], [0.0012; 2], REGRESSION, 3, "% slower"),
         // Every second epoch is much slower: more epochs do not decide either.
         (0, [0.001; 2], [0.0004, 0.0025], RIGHT, 6, "inconclusive"),
-        (1, [0.001; 2], [0.0012; 2], REGRESSION, 3, "mybvh (own clock): right on 64 checked rays;"),
+        (1, [0.001; 2], [0.0012; 2], REGRESSION, 3, "my-mybvh (own clock): right on 64 checked rays;"),
     ] {
         let (output, measured) = gate(nth, base, branch);
         let said = stdout(&output) + &stderr(&output);

@@ -8,10 +8,9 @@ use crate::accel::BuildError;
 use crate::measure::subprocess::{output_within, same_program};
 use crate::measure::{SystemClock, process_group};
 use crate::registry::{Choice, Registry};
-use crate::request;
+use crate::request::{self, RUNNER_LIMIT, Seconds};
 use crate::simd::Level;
 use crate::study::Status;
-use crate::validate::LIMIT;
 use crate::validate::hard_cases::{Answers, Failure, HardCase, find, run};
 
 /// The hidden command of a child.
@@ -27,9 +26,9 @@ pub struct Args {
     /// A program in its place
     #[arg(long, allow_hyphen_values = true)]
     runner: Option<String>,
-    /// Seconds that the program may take for an answer
-    #[arg(long, default_value_t = LIMIT.as_secs_f64())]
-    limit: f64,
+    /// Timeout in seconds for each reply of the program
+    #[arg(long, default_value_t = RUNNER_LIMIT)]
+    runner_limit: Seconds,
     /// Rays at most
     #[arg(long)]
     rays: u32,
@@ -42,7 +41,7 @@ pub fn run_child(registry: &Registry, args: &Args) -> anyhow::Result<Status> {
     process_group::end_with_parent();
     let case = find(&args.name)?;
     let choice = match (&args.runner, &args.structure) {
-        (Some(command), _) => request::runner(command, args.limit)?,
+        (Some(command), _) => request::runner(command, args.runner_limit.seconds())?,
         (None, Some(structure)) => registry.choose(structure)?,
         (None, None) => anyhow::bail!("a structure or a runner is needed"),
     };
