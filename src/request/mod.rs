@@ -22,8 +22,7 @@ pub use scenes::{
 };
 pub use seconds::Seconds;
 pub use structures::{
-    ALL, BRUTE_FORCE, QUALITIES, REPORT_TREE, SAH_TREE, StructureRequest, Structures, TWIN, guide,
-    is_brought, is_large, is_obvhs, known_defect, known_tests, left_out, specs, structure, structures,
-    structures_at, with_twin,
+    ALL, BRUTE_FORCE, QUALITIES, REPORT_TREE, SAH_TREE, StructureRequest, Structures, TWIN, guide, is_brought,
+    is_large, is_obvhs, known_defect, known_tests, left_out, specs, structure, structures, structures_at, with_twin,
 };
 pub use view::ViewArgs;

@@ -116,9 +116,11 @@ fn text(line: &[u8]) -> String {
     text.trim_end_matches(['\r', '\n']).chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }
 
-/// The error for a reply that is not of the form `form`.
+/// The error for a reply that is not of the form `form`. One that begins with another word may be a message.
 pub(super) fn unexpected(request: &str, reply: &str, form: &str) -> String {
-    format!("it replies {reply:?} to {request:?}, not {form:?}: write messages to standard error")
+    let word = |line: &str| line.split(' ').next().map(String::from);
+    let advice = if word(reply) == word(form) { "" } else { ": write messages to standard error" };
+    format!("it replies {reply:?} to {request:?}, not {form:?}{advice}")
 }
 
 /// Nanoseconds from the seconds that a runner reports, which must be finite and not negative.

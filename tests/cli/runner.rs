@@ -162,7 +162,10 @@ fn what_is_no_runner_is_refused_before_anything_is_measured() {
     for command in ["compare", "validate"] {
         let both = [command, "cube", "--runner", &one, "--runner", &other];
         refuses_in_a_line(&both, &["another runner share the name nothing.sh: rename the runner with NAME=COMMAND"]);
-        refuses_in_a_line(&[command, "cube", "--runner", &suites], &["another structure share the name SAH-kd: rename"]);
+        refuses_in_a_line(
+            &[command, "cube", "--runner", &suites],
+            &["another structure share the name SAH-kd: rename"],
+        );
     }
 }
 

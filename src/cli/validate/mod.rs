@@ -11,6 +11,7 @@ mod table;
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::Duration;
 
 use anyhow::Context;
 use indicatif::ProgressBar;
@@ -20,7 +21,9 @@ use super::terminal::Terminal;
 use crate::accel::DynAccel;
 use crate::geometry::Ray;
 use crate::registry::{Choice, Registry};
-use crate::request::{self, BRUTE_FORCE, OUTPUT, RAYS, RUNNER_LIMIT, RaySource, SCENES, STRUCTURES, Seconds, ViewArgs, recorded};
+use crate::request::{
+    self, BRUTE_FORCE, OUTPUT, RAYS, RUNNER_LIMIT, RaySource, SCENES, STRUCTURES, Seconds, ViewArgs, recorded,
+};
 use crate::scene::Scene;
 use crate::study::Status;
 use crate::validate::{LIMIT, watched};
@@ -182,6 +185,11 @@ impl Args {
         }
         structures.extend(request::runners(registry, &self.runner, self.runner_limit.seconds())?);
         Ok(structures)
+    }
+
+    /// Time limit of a query. A program has a limit for each of its replies instead.
+    fn query_limit(&self, accel: &dyn DynAccel) -> Duration {
+        if accel.remote().is_some() { Duration::MAX } else { self.limit.duration() }
     }
 
     fn build(&self, choice: &Choice, scene: &Scene, waiting: &ProgressBar) -> Result<Arc<dyn DynAccel>, BuildFailure> {

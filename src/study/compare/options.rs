@@ -9,9 +9,9 @@ use crate::measure::{Provenance, Threads};
 use crate::registry::{Registry, is_named};
 use crate::report::words::each_once_by;
 use crate::request::{
-    BRUTE_FORCE, Limit, MEASURING, Measuring, OUTPUT, RAYS, RUNNER_LIMIT, RaySource, STRUCTURES, SceneRequest, Scenes, Seconds,
-    StructureRequest, Structures, ViewArgs, WORKLOADS, WorkloadRequest, each_kind, is_obvhs, left_out, replayed, runners,
-    scene_files, structures_at, with_twin,
+    BRUTE_FORCE, Limit, MEASURING, Measuring, OUTPUT, RAYS, RUNNER_LIMIT, RaySource, STRUCTURES, SceneRequest, Scenes,
+    Seconds, StructureRequest, Structures, ViewArgs, WORKLOADS, WorkloadRequest, each_kind, is_obvhs, left_out,
+    replayed, runners, scene_files, structures_at, with_twin,
 };
 use crate::scene::{Scene, WorkloadKind};
 use crate::study::case::SLOWEST;

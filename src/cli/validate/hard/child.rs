@@ -56,13 +56,21 @@ pub fn run_child(registry: &Registry, args: &Args) -> anyhow::Result<Status> {
     }
 }
 
+/// The time limits of a case.
+#[derive(Clone, Copy)]
+pub struct Limits {
+    pub structure: Duration,
+    pub reply: Seconds,
+}
+
 /// The parent's side: runs a case of at most `rays` rays in a child. The outer error: no child can be started.
-pub fn answers(case: &HardCase, choice: &Choice, rays: u32, limit: Duration) -> io::Result<Result<Answers, Failure>> {
+/// A structure has `limits.structure` for the case, a program `limits.reply` for each reply.
+pub fn answers(case: &HardCase, choice: &Choice, rays: u32, limits: Limits) -> io::Result<Result<Answers, Failure>> {
     let (rays, level) = (rays.to_string(), Level::current().name());
-    let limit_s = limit.as_secs_f64().to_string();
-    let structure = match choice.command() {
-        Some(command) => vec!["--runner", command, "--limit", &limit_s],
-        None => vec![&*choice.label],
+    let reply = limits.reply.to_string();
+    let (structure, limit) = match choice.command() {
+        Some(command) => (vec!["--runner", command, "--runner-limit", &reply], Duration::MAX),
+        None => (vec![&*choice.label], limits.structure),
     };
     let mut command = same_program([&[COMMAND, case.name, "--rays", &rays, "--level", level], &*structure].concat());
     Ok(outcome(output_within(&mut command, limit)?))
@@ -74,7 +82,9 @@ fn outcome(output: Option<Output>) -> Result<Answers, Failure> {
         Some(0) => serde_json::from_slice(&output.stdout).map_err(|_| Failure::Crash),
         Some(1) => {
             let sentence = String::from_utf8_lossy(&output.stderr);
-            let sentence = sentence.trim().trim_start_matches("error: ").to_owned();
+            // A program writes messages to the same place.
+            let error = sentence.lines().rev().find_map(|line| line.strip_prefix("error: "));
+            let sentence = error.unwrap_or_else(|| sentence.trim()).to_owned();
             let declined = sentence.starts_with("declined: ");
             Err(if declined { Failure::Declined(sentence) } else { Failure::Refused(sentence) })
         }
@@ -101,6 +111,7 @@ mod tests {
             ("echo nonsense", Err(Failure::Crash)),
             ("exit 3", Err(Failure::Crash)),
             ("echo 'error: too large' >&2; exit 1", Err(Failure::Refused("too large".into()))),
+            ("echo 'I start' >&2; echo 'error: too large' >&2; exit 1", Err(Failure::Refused("too large".into()))),
             ("echo 'declined: any hit' >&2; exit 1", Err(Failure::Declined("declined: any hit".into()))),
         ] {
             let limit = Duration::from_secs(if script.contains("sleep") { 1 } else { 60 });
