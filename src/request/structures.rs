@@ -1,14 +1,12 @@
 //! Structures, as the command line and cases name them.
 
-use std::time::Duration;
-
 use anyhow::Context;
 use serde::{Deserialize, Serialize};
 
+use super::runners::{RunnerRequest, runner};
 use crate::names::suggestion;
 use crate::registry::{Choice, Registry};
 use crate::report::words::{bare, each_once_by};
-use crate::runner::Program;
 use crate::scene::Scene;
 
 /// Tests every ray against every triangle.
@@ -45,17 +43,6 @@ pub struct StructureRequest {
     pub skipped: Option<String>,
 }
 
-/// A runner in a case.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct RunnerRequest {
-    /// The command line.
-    pub command: String,
-    /// Timeout of a reply, seconds.
-    pub limit_s: f64,
-    /// Its configuration, including the digest of its file: another program is another structure.
-    pub config: serde_json::Value,
-}
-
 impl StructureRequest {
     /// A structure with this spec and role.
     pub fn new(spec: impl Into<String>, role: impl Into<String>) -> Self {
@@ -63,13 +50,10 @@ impl StructureRequest {
     }
 
     /// A runner, with its label.
-    ///
-    /// # Errors
-    /// If there is no such program.
-    pub fn of_runner(command: &str, limit_s: f64) -> anyhow::Result<Self> {
-        let choice = runner(command, limit_s)?;
-        let runner = RunnerRequest { command: command.into(), limit_s, config: choice.config.clone() };
-        Ok(Self { runner: Some(runner), ..Self::new(choice.label, "") })
+    pub fn of_runner(choice: &Choice, limit_s: f64) -> Self {
+        let command = choice.command().unwrap_or_default().into();
+        let runner = RunnerRequest { command, limit_s, config: choice.config.clone() };
+        Self { runner: Some(runner), ..Self::from(choice) }
     }
 
     /// The structure to build.
@@ -93,16 +77,6 @@ impl From<&Choice> for StructureRequest {
     fn from(choice: &Choice) -> Self {
         Self::new(choice.label.clone(), "")
     }
-}
-
-/// The structure of a runner, `[NAME=]COMMAND`, with the timeout `limit_s` of a reply.
-///
-/// # Errors
-/// If there is no such program, or it does not follow the protocol.
-pub fn runner(command: &str, limit_s: f64) -> anyhow::Result<Choice> {
-    let program = Program::new(command, Duration::from_secs_f64(limit_s));
-    let program = program.map_err(|problem| anyhow::anyhow!("--runner {command:?}: {problem}"))?;
-    Ok(Choice::of_program(program))
 }
 
 /// Whether a structure is not from this suite: it comes from another crate or is a runner.

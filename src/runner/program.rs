@@ -24,8 +24,7 @@ impl Program {
     /// # Errors
     /// A sentence, if the command is empty, cannot be started or does not implement the protocol.
     pub fn new(command: &str, limit: Duration) -> Result<Self, String> {
-        let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-        let named = command.split_once('=').filter(|(name, _)| !name.is_empty() && name.chars().all(is_plain));
+        let named = command.split_once('=').filter(|(name, _)| is_name(name));
         let (name, line) = named.map_or((None, command), |(name, line)| (Some(name.to_owned()), line));
         let words = shlex::split(line).filter(|words| !words.is_empty());
         let words = words.ok_or("a runner is a program with its arguments: quote arguments that contain spaces")?;
@@ -54,9 +53,18 @@ impl Program {
         (!ids.is_empty()).then(|| ids.join(" "))
     }
 
+    /// For a program that cannot be started: the command may begin with a text that was meant as its name.
+    fn advice_on_name(&self) -> String {
+        let unfit = self.command.split_once('=').map(|(text, _)| text).filter(|text| !is_name(text));
+        unfit.map_or_else(String::new, |text| {
+            format!("; {text:?}, before the first \"=\", is no NAME: a NAME has only letters, digits, \"-\" and \"_\"")
+        })
+    }
+
     /// Starts the program and learns which queries it supports.
     pub(super) fn start(&self, threads: usize) -> Result<(Session, Capabilities), String> {
-        let mut session = Session::start(&self.words, threads, self.limit)?;
+        let session = Session::start(&self.words, threads, self.limit);
+        let mut session = session.map_err(|problem| problem + &self.advice_on_name())?;
         let request = format!("sahara {VERSION} {threads}");
         let reply = session.request(&request)?.text;
         match reply.strip_prefix(&format!("runner {VERSION} ")) {
@@ -65,6 +73,12 @@ impl Program {
             _ => Err(unexpected(&request, &reply, "runner 1 closest any")),
         }
     }
+}
+
+/// Whether `text` is the NAME of `NAME=COMMAND`.
+fn is_name(text: &str) -> bool {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    !text.is_empty() && text.chars().all(is_plain)
 }
 
 /// Version of the protocol.

@@ -36,7 +36,7 @@ impl Session {
         command.args(&words[1..]).stdin(Stdio::piped()).stdout(Stdio::piped());
         process_group::set_apart(&mut command);
         let child = if threads > 1 { on_all_cores(|| command.spawn()) } else { command.spawn() };
-        let mut child = child.map_err(|cause| format!("it cannot be started: {cause}"))?;
+        let mut child = child.map_err(|cause| format!("the program {:?} cannot be started: {cause}", words[0]))?;
         let (input, output) = (child.stdin.take(), child.stdout.take().expect("its output is a pipe"));
         // Unrequested output fills the pipe and blocks the program: it takes no memory here.
         let (sender, lines) = sync_channel(1);
@@ -116,9 +116,11 @@ fn text(line: &[u8]) -> String {
     text.trim_end_matches(['\r', '\n']).chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }
 
-/// The error for a reply that is not of the form `form`.
+/// The error for a reply that is not of the form `form`. One that begins with another word may be a message.
 pub(super) fn unexpected(request: &str, reply: &str, form: &str) -> String {
-    format!("it replies {reply:?} to {request:?}, not {form:?}: write messages to standard error")
+    let word = |line: &str| line.split(' ').next().map(String::from);
+    let advice = if word(reply) == word(form) { "" } else { ": write messages to standard error" };
+    format!("it replies {reply:?} to {request:?}, not {form:?}{advice}")
 }
 
 /// Nanoseconds from the seconds that a runner reports, which must be finite and not negative.

@@ -29,7 +29,7 @@ pub use error_counts::{DepthRule, ErrorCounts, Outcome, Ulps, count_errors, outc
 pub use rate::Rate;
 pub(crate) use reference::HasReference;
 pub use reference::{Reference, ScalarTest};
-pub use remote::validate_remote;
+pub use remote::{has_replied, validate_remote};
 pub use rounding::Precision;
 pub use sampler::Sampler;
 pub use validation::{Kind, Validation, WorstRay};

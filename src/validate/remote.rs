@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::compare::same;
 use super::{Kind, Reference, Validation, WorstRay, validate_hits};
-use crate::accel::DynAccel;
+use crate::accel::{BuildError, DynAccel};
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::measure::spread;
 
@@ -13,24 +13,21 @@ const AGAIN: usize = 256;
 
 /// Like [`validate_known`](super::validate_known), for a structure that takes long to receive a ray: each query runs
 /// once for all rays, and once more for some of them.
+///
+/// # Errors
+/// If its program has failed: then no ray is checked.
 pub fn validate_remote(
     subject: &dyn DynAccel,
     reference: &Reference,
     expected: &[Option<Hit>],
     mesh: &Arc<Mesh>,
     rays: &[Ray],
-) -> Validation {
+) -> Result<Validation, BuildError> {
     let found = subject.closest(rays);
     let any = if subject.capabilities().any_hit { Some(subject.any(rays)) } else { None };
     let some: Vec<usize> = spread(&(0..rays.len()).collect::<Vec<_>>(), AGAIN);
     let again = subject.closest(&some.iter().map(|&index| rays[index]).collect::<Vec<_>>());
-    if let Some(why) = subject.remote().and_then(|remote| remote.failure()) {
-        let mut ended = Validation { rays: rays.len() as u64, panics: 1, ..Validation::default() };
-        if let Some(ray) = rays.first() {
-            ended.worst.push(worst(0, ray, expected[0], None, Kind::Panicked, why));
-        }
-        return ended;
-    }
+    has_replied(subject)?;
 
     let mut sums = validate_hits(reference, expected, mesh, rays, &found);
     for (index, ray) in rays.iter().enumerate() {
@@ -49,7 +46,16 @@ pub fn validate_remote(
         sums.unrepeatable += 1;
     }
     sums.keep_worst();
-    sums
+    Ok(sums)
+}
+
+/// Checks that the program of a structure, if it has one, has replied to all requests.
+///
+/// # Errors
+/// If it has failed: its hits have no meaning.
+pub fn has_replied(subject: &dyn DynAccel) -> Result<(), BuildError> {
+    let failure = subject.remote().and_then(|remote| remote.failure());
+    failure.map_or(Ok(()), |why| Err(BuildError::Remote(why)))
 }
 
 fn worst(index: usize, ray: &Ray, expected: Option<Hit>, found: Option<Hit>, kind: Kind, verdict: String) -> WorstRay {

@@ -12,13 +12,13 @@ use super::runner::NOTHING;
 
 const DOCUMENT: &str = include_str!("../../src/study/diff/GATE.md");
 
-/// The script of the document with fewer epochs, over rays that miss everything, with these runners and the reference
-/// `steady`.
-fn script(rays: &str, runners: &str) -> String {
+/// The script of the document with fewer epochs, over rays that miss everything, with the runner `only`, further options
+/// and the reference `steady`.
+fn script(rays: &str, only: &str, runners: &str) -> String {
     let script = DOCUMENT.split("```sh\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
     let replaced = [
         ("teapot starters cornellbox", format!("--rays {rays}")),
-        ("--only $name", format!("--only $name --reference steady {runners} --quiet")),
+        ("--only $name", format!("--only {only} --reference steady {runners} --quiet")),
         ("4 8 16", "3 6".into()),
         ("--looks 3", "--looks 3 --reference steady".into()),
     ];
@@ -63,8 +63,9 @@ fn gate(nth: usize, base: [f64; 2], branch: [f64; 2]) -> (Output, usize) {
     let runner = NOTHING.replacen("#!/bin/sh\n", &format!("#!/bin/sh\n{starts}"), 1);
     let runner = program("told.sh", &runner.replace("*) echo \"passed 0.001\"", "*) echo \"passed $own\""));
     let yardstick = program("steady.sh", NOTHING);
-    let runners = format!("--runner $name={runner} --runner steady={yardstick}");
-    program("gate.sh", &script(&misses(&folder), &runners));
+    // A runner must not have the name of a structure.
+    let runners = format!("--runner my-$name={runner} --runner steady={yardstick}");
+    program("gate.sh", &script(&misses(&folder), "my-$name", &runners));
     let sahara = env!("CARGO_BIN_EXE_sahara");
     // The programs of both sides, at the place of the workflow's builds.
     let sides = command.split_whitespace().take(2).map(|word| word.trim_matches('"').replace("$RUNNER_TEMP/", ""));
@@ -82,11 +83,11 @@ fn gate(nth: usize, base: [f64; 2], branch: [f64; 2]) -> (Output, usize) {
 #[test]
 fn the_gate_passes_what_is_unchanged_fails_what_is_slower_and_ends_where_it_cannot_tell() {
     for (nth, base, branch, status, epochs, verdict) in [
-        (0, [0.001; 2], [0.001; 2], RIGHT, 3, "sah-hybrid (own clock): right on 64 checked rays; no change"),
+        (0, [0.001; 2], [0.001; 2], RIGHT, 3, "my-sah-hybrid (own clock): right on 64 checked rays; no change"),
         (0, [0.001; 2], [0.0012; 2], REGRESSION, 3, "% slower"),
         // Every second epoch is much slower: more epochs do not decide either.
         (0, [0.001; 2], [0.0004, 0.0025], RIGHT, 6, "inconclusive"),
-        (1, [0.001; 2], [0.0012; 2], REGRESSION, 3, "mybvh (own clock): right on 64 checked rays;"),
+        (1, [0.001; 2], [0.0012; 2], REGRESSION, 3, "my-mybvh (own clock): right on 64 checked rays;"),
     ] {
         let (output, measured) = gate(nth, base, branch);
         let said = stdout(&output) + &stderr(&output);
@@ -101,7 +102,7 @@ fn one_sahara_gates_a_program() {
     {
         let folder = TempDir::new().unwrap();
         let steady = program(&folder, "steady.sh", NOTHING);
-        program(&folder, "gate.sh", &script(&misses(&folder), &format!("--runner steady={steady}")));
+        program(&folder, "gate.sh", &script(&misses(&folder), "$name", &format!("--runner steady={steady}")));
         program(&folder, "bvh-base", NOTHING);
         program(&folder, "bvh", &NOTHING.replace("passed 0.001", &format!("passed {seconds}")));
         program(&folder, "bin/sahara", &format!("#!/bin/sh\nexec {} \"$@\"\n", env!("CARGO_BIN_EXE_sahara")));

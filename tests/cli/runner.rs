@@ -141,7 +141,10 @@ fn a_clock_that_disagrees_with_ours_is_told_and_what_it_declines_is_not_asked() 
 #[test]
 fn what_is_no_runner_is_refused_before_anything_is_measured() {
     for (command, parts) in [
-        ("./no-such-program -x", &["./no-such-program -x", "cannot be started"][..]),
+        ("./no-such-program -x", &["./no-such-program -x", "the program \"./no-such-program\" cannot be started"][..]),
+        ("my bvh=./bvh", &["the program \"my\" cannot be started", "\"my bvh\", before the first \"=\", is no NAME"]),
+        ("=./bvh", &["the program \"=./bvh\" cannot be started", "\"\", before the first \"=\", is no NAME"]),
+        ("my=bvh=./bvh", &["the program \"bvh=./bvh\" cannot be started"]),
         ("true", &["\"true\"", "it ended instead of replying to \"sahara 1 1\""]),
         ("cat", &["it replies \"sahara 1 1\"", "runner 1 closest any"]),
         ("yes", &["\"yes\"", "\"y\"", "\"sahara 1 1\""]),
@@ -155,8 +158,15 @@ fn what_is_no_runner_is_refused_before_anything_is_measured() {
     fs::create_dir(folder.path().join("b")).unwrap();
     let other = path_text(&folder.path().join("b/nothing.sh"));
     fs::copy(Path::new(&one), &other).unwrap();
-    let both = ["compare", "cube", "--runner", &one, "--runner", &other];
-    refuses_in_a_line(&both, &["share the name nothing.sh"]);
+    let suites = format!("SAH-kd={one}");
+    for command in ["compare", "validate"] {
+        let both = [command, "cube", "--runner", &one, "--runner", &other];
+        refuses_in_a_line(&both, &["another runner share the name nothing.sh: rename the runner with NAME=COMMAND"]);
+        refuses_in_a_line(
+            &[command, "cube", "--runner", &suites],
+            &["another structure share the name SAH-kd: rename"],
+        );
+    }
 }
 
 #[test]

@@ -23,7 +23,8 @@ impl Export {
     const SCHEMA: u32 = 3;
 
     pub fn new(verdicts: &[Verdicts], results: Vec<Value>) -> Self {
-        let verdict = |own: &Verdicts| json!({ "label": own.label, "verdict": own.verdict, "sentence": own.verdict.sentence(&own.label) });
+        let verdict =
+            |own: &Verdicts| json!({ "label": own.label, "verdict": own.verdict, "sentence": own.sentence() });
         // Every structure traces on one thread.
         let provenance = Provenance::capture(1);
         Self { schema: Self::SCHEMA, provenance, verdicts: verdicts.iter().map(verdict).collect(), results }

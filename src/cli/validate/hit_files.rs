@@ -19,7 +19,7 @@ use crate::request;
 use crate::scene::Scene;
 use crate::scene::files::{HitFile, RayFile};
 use crate::study::Status;
-use crate::validate::{validate_any_hits, validate_hits, watched};
+use crate::validate::{has_replied, validate_any_hits, validate_hits, watched};
 
 /// Rays per batch, which share one time limit.
 const BATCH: usize = 256;
@@ -46,13 +46,14 @@ impl Run<'_> {
         }
         let rays = workload.rays.len();
         waiting.set_message(format!("{}: tracing {} with {label}", scene.name, plural(rays, "ray")));
-        let mut hits = vec![];
+        let (mut hits, limit) = (vec![], args.query_limit(accel.as_ref()));
         for batch in workload.rays.chunks(BATCH) {
             let (accel, query, batch) = (Arc::clone(&accel), workload.query, batch.to_vec());
-            let traced = watched(args.limit.duration(), move || traced(accel.as_ref(), query, &batch));
+            let traced = watched(limit, move || traced(accel.as_ref(), query, &batch));
             let advice = || format!("{label}: run the same command without --export-hits to find the ray");
             hits.extend(traced.with_context(advice)?);
         }
+        has_replied(accel.as_ref()).with_context(|| label.clone())?;
         HitFile::new(workload, hits).write(&output)?;
         drop(waiting);
         let (path, results, hash) = (output.path.escaped(), plural(rays, "result"), workload.hash());

@@ -11,6 +11,7 @@ mod table;
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::Duration;
 
 use anyhow::Context;
 use indicatif::ProgressBar;
@@ -20,7 +21,9 @@ use super::terminal::Terminal;
 use crate::accel::DynAccel;
 use crate::geometry::Ray;
 use crate::registry::{Choice, Registry};
-use crate::request::{self, BRUTE_FORCE, OUTPUT, RAYS, RaySource, SCENES, STRUCTURES, Seconds, ViewArgs, recorded};
+use crate::request::{
+    self, BRUTE_FORCE, OUTPUT, RAYS, RUNNER_LIMIT, RaySource, SCENES, STRUCTURES, Seconds, ViewArgs, recorded,
+};
 use crate::scene::Scene;
 use crate::study::Status;
 use crate::validate::{LIMIT, watched};
@@ -45,6 +48,9 @@ pub struct Args {
     /// External program, with arguments, to check as a structure; NAME is its name in tables; may be repeated
     #[arg(long, help_heading = STRUCTURES, value_name = "[NAME=]COMMAND", allow_hyphen_values = true)]
     runner: Vec<String>,
+    /// Timeout in seconds for each reply of an external program, including builds
+    #[arg(long, help_heading = STRUCTURES, value_name = "SECONDS", requires = "runner", default_value_t = RUNNER_LIMIT, allow_negative_numbers = true)]
+    runner_limit: Seconds,
     /// Default build quality of eight-wide trees
     #[arg(long, help_heading = STRUCTURES, value_parser = request::QUALITIES)]
     quality: Option<String>,
@@ -86,7 +92,7 @@ pub struct Args {
     #[arg(long, help_heading = OUTPUT, value_name = "F.hits", conflicts_with = "against")]
     export_hits: Option<PathBuf>,
     /// Time limit in seconds for 256 rays and for a build (again for each million triangles): a structure that exceeds it
-    /// hangs
+    /// hangs. A program has --runner-limit
     #[arg(long, help_heading = STRUCTURES, value_name = "SECONDS", default_value_t = Seconds::whole(LIMIT.as_secs() as u32), allow_negative_numbers = true)]
     limit: Seconds,
     /// Seed of the rays [default: 1]
@@ -177,14 +183,21 @@ impl Args {
         if self.runner.is_empty() || !self.structure.is_empty() {
             structures = request::structures_at(registry, &self.structure, self.quality.as_deref())?;
         }
-        for command in &self.runner {
-            structures.push(request::runner(command, self.limit.seconds())?);
-        }
+        structures.extend(request::runners(registry, &self.runner, self.runner_limit.seconds())?);
         Ok(structures)
+    }
+
+    /// Time limit of a query. A program has a limit for each of its replies instead.
+    fn query_limit(&self, accel: &dyn DynAccel) -> Duration {
+        if accel.remote().is_some() { Duration::MAX } else { self.limit.duration() }
     }
 
     fn build(&self, choice: &Choice, scene: &Scene, waiting: &ProgressBar) -> Result<Arc<dyn DynAccel>, BuildFailure> {
         waiting.set_message(format!("{}: building {}", scene.name, choice.label));
+        if choice.command().is_some() {
+            // Its replies have a time limit.
+            return Ok(Arc::from(choice.build(&scene.mesh)?));
+        }
         let (own, mesh) = (choice.clone(), Arc::clone(&scene.mesh));
         let limit = self.limit.duration() * u32::try_from(1 + mesh.len() / 1_000_000).unwrap_or(u32::MAX);
         // The registry catches a panic of the builder: without a result it hangs.

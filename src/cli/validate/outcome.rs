@@ -111,6 +111,20 @@ pub struct Verdicts {
     pub label: String,
     pub is_brought: bool,
     pub verdict: Verdict,
+    /// The first scene in which it was not checked, and the reason.
+    pub unchecked: Option<(String, String)>,
+}
+
+impl Verdicts {
+    /// One sentence, and another about the scene in which it was not checked.
+    pub fn sentence(&self) -> String {
+        let Self { label, verdict, .. } = self;
+        match &self.unchecked {
+            None => verdict.sentence(label),
+            Some((_, why)) if verdict.rays == 0 => format!("{label} was not checked: {why}."),
+            Some((scene, why)) => format!("{} It was not checked in {scene}: {why}.", verdict.sentence(label)),
+        }
+    }
 }
 
 /// One verdict per structure, over all scenes.
@@ -118,9 +132,19 @@ pub fn verdicts(outcomes: &[Outcome]) -> Vec<Verdicts> {
     let mut all: Vec<Verdicts> = vec![];
     for outcome in outcomes {
         let verdict = outcome.verdict();
+        let unchecked = match &outcome.found {
+            Err(BuildFailure::Refused(why)) => Some((outcome.scene.clone(), why.to_string())),
+            _ => None,
+        };
         match named(&mut all, &outcome.label, |own| &own.label) {
-            Some(own) => own.verdict = own.verdict.and(verdict),
-            None => all.push(Verdicts { label: outcome.label.clone(), is_brought: outcome.is_brought, verdict }),
+            Some(own) => {
+                own.verdict = own.verdict.and(verdict);
+                own.unchecked = own.unchecked.take().or(unchecked);
+            }
+            None => {
+                let (label, is_brought) = (outcome.label.clone(), outcome.is_brought);
+                all.push(Verdicts { label, is_brought, verdict, unchecked });
+            }
         }
     }
     all
@@ -128,5 +152,5 @@ pub fn verdicts(outcomes: &[Outcome]) -> Vec<Verdicts> {
 
 /// One sentence about each structure that a user brings.
 pub fn sentences(verdicts: &[Verdicts]) -> Vec<String> {
-    verdicts.iter().filter(|own| own.is_brought).map(|own| own.verdict.sentence(&own.label)).collect()
+    verdicts.iter().filter(|own| own.is_brought).map(Verdicts::sentence).collect()
 }

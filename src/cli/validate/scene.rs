@@ -31,15 +31,15 @@ impl Run<'_> {
             }
             let waiting = spinner(String::new(), terminal);
             let (reference, expected) = references.get(choice.triangle_test(), &waiting)?;
-            let found = args.build(choice, scene, &waiting).map(|accel| {
+            let found = args.build(choice, scene, &waiting).and_then(|accel| {
                 waiting.set_message(format!("{}: checking {}", scene.name, choice.label));
-                let limit = args.limit.duration();
+                let limit = args.query_limit(accel.as_ref());
                 if !args.ray.is_empty() {
                     of_structures.push(answers(&choice.label, &accel, &rays, &scene.mesh, limit));
                 }
                 match accel.remote() {
-                    Some(_) => validate_remote(accel.as_ref(), reference, expected, &scene.mesh, &rays),
-                    None => validate_watched(&accel, reference, expected, &scene.mesh, &rays, limit),
+                    Some(_) => Ok(validate_remote(accel.as_ref(), reference, expected, &scene.mesh, &rays)?),
+                    None => Ok(validate_watched(&accel, reference, expected, &scene.mesh, &rays, limit)),
                 }
             });
             let outcome = Outcome::new(&scene.name, choice, found);

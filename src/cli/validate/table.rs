@@ -12,7 +12,7 @@ use crate::report::{Cell, Table, Tone};
 use crate::scene::Scene;
 use crate::scene::offset::barycentrics;
 use crate::study::Verdict;
-use crate::validate::{Validation, watched};
+use crate::validate::{Validation, has_replied, watched};
 
 pub fn scene_table(
     scene: &Scene,
@@ -100,7 +100,8 @@ fn answer(accel: &Arc<dyn DynAccel>, ray: &Ray, mesh: &Mesh, limit: Duration) ->
     }
     let (own, ray) = (Arc::clone(accel), *ray);
     match watched(limit, move || own.closest(&[ray])[0]) {
-        Err(_) => vec![Cell::from("no answer").with(Tone::Wrong)],
+        Ok(_) if has_replied(accel.as_ref()).is_err() => no_answer(),
+        Err(_) => no_answer(),
         Ok(None) => vec!["no hit".into()],
         Ok(Some(hit)) => {
             let index = hit.prim.index();
@@ -109,6 +110,10 @@ fn answer(accel: &Arc<dyn DynAccel>, ray: &Ray, mesh: &Mesh, limit: Duration) ->
             vec![hit.t.to_string().into(), index.to_string().into(), u, v]
         }
     }
+}
+
+fn no_answer() -> Vec<Cell> {
+    vec![Cell::from("no answer").with(Tone::Wrong)]
 }
 
 const ANSWERS: [&str; 6] = ["structure", "ray", "t", "triangle", "u", "v"];

@@ -9,9 +9,9 @@ use crate::measure::{Provenance, Threads};
 use crate::registry::{Registry, is_named};
 use crate::report::words::each_once_by;
 use crate::request::{
-    BRUTE_FORCE, Limit, MEASURING, Measuring, OUTPUT, RAYS, RaySource, STRUCTURES, SceneRequest, Scenes, Seconds,
-    StructureRequest, Structures, ViewArgs, WORKLOADS, WorkloadRequest, each_kind, is_obvhs, left_out, replayed,
-    scene_files, structures_at, with_twin,
+    BRUTE_FORCE, Limit, MEASURING, Measuring, OUTPUT, RAYS, RUNNER_LIMIT, RaySource, STRUCTURES, SceneRequest, Scenes,
+    Seconds, StructureRequest, Structures, ViewArgs, WORKLOADS, WorkloadRequest, each_kind, is_obvhs, left_out,
+    replayed, runners, scene_files, structures_at, with_twin,
 };
 use crate::scene::{Scene, WorkloadKind};
 use crate::study::case::SLOWEST;
@@ -66,9 +66,6 @@ pub struct CompareArgs {
     pub wide: bool,
 }
 
-/// Default timeout of a reply of a runner.
-const RUNNER_LIMIT: Seconds = Seconds::whole(120);
-
 /// Limits of a quick run: epochs, rays, the time of all epochs of a scene, the time of the samples of one epoch, and
 /// the triangle tests and time of all checks together. They are totals for any number of structures.
 const QUICK_EPOCHS: u16 = 3;
@@ -100,15 +97,9 @@ impl CompareArgs {
             structures.insert(place, (&packets).into());
         }
         let quality = self.structures.quality.as_deref();
-        for command in &self.runner {
-            let runner = StructureRequest::of_runner(command, self.runner_limit.seconds())?;
-            anyhow::ensure!(
-                structures.iter().all(|other| other.spec != runner.spec || *other == runner),
-                "--runner {command:?} and another runner share the name {}: rename one with NAME=COMMAND",
-                runner.spec
-            );
-            structures.push(runner);
-        }
+        let limit_s = self.runner_limit.seconds();
+        let runners = runners(registry, &self.runner, limit_s)?;
+        structures.extend(runners.iter().map(|choice| StructureRequest::of_runner(choice, limit_s)));
         if let Some(spec) = &self.reference
             && !structures.iter().any(|own| is_named(&own.spec, spec))
         {

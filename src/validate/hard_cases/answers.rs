@@ -12,6 +12,7 @@ use crate::measure::{Clock, median};
 use crate::scene::files::{hits_from_bytes, hits_to_bytes};
 use crate::validate::compare::same;
 use crate::validate::conformance::Subject;
+use crate::validate::has_replied;
 
 /// The results of a structure on a case. One process sends them to another as JSON.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -42,7 +43,7 @@ fn hits_of_bytes<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Optio
 /// Builds `subject` over the mesh of `case` and traces at most `rays` of its rays.
 ///
 /// # Errors
-/// If the structure cannot be built.
+/// If the structure cannot be built, or its program fails.
 pub fn run(case: &HardCase, subject: &Subject, rays: usize, clock: &dyn Clock) -> Result<Answers, BuildError> {
     match case.content {
         Content::Rays { rays: most, make, .. } => {
@@ -53,12 +54,20 @@ pub fn run(case: &HardCase, subject: &Subject, rays: usize, clock: &dyn Clock) -
             if let Some(what) = set.rays.iter().find_map(|ray| accel.capabilities().declines(ray)) {
                 return Err(BuildError::Declined(what));
             }
-            Ok(Answers { build_ns, ..traced(&*accel, &set, clock) })
+            let answers = Answers { build_ns, ..traced(&*accel, &set, clock) };
+            has_replied(&*accel)?;
+            Ok(answers)
         }
         Content::Property(check) => {
-            let refused = |why| Property { checked: 1, broken: 1, example: Some(why) };
-            let property = Some(check(subject, rays).unwrap_or_else(refused));
-            Ok(Answers { property, ..Answers::default() })
+            let property = match check(subject, rays) {
+                Ok(property) => property,
+                Err(failure @ BuildError::Remote(_)) => return Err(failure),
+                Err(error) => {
+                    let example = Some(format!("{} does not build: {error}", subject.name));
+                    Property { checked: 1, broken: 1, example }
+                }
+            };
+            Ok(Answers { property: Some(property), ..Answers::default() })
         }
     }
 }

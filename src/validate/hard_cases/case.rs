@@ -1,6 +1,7 @@
 //! A case, and the macro of the catalogue.
 
 use super::set::Set;
+use crate::accel::BuildError;
 use crate::validate::conformance::Subject;
 
 /// One entry of the catalogue.
@@ -58,7 +59,7 @@ pub enum Content {
         make: fn(usize) -> Set,
     },
     /// A property of hits, or the reason why it cannot be checked.
-    Property(fn(&Subject, usize) -> Result<Property, String>),
+    Property(fn(&Subject, usize) -> Result<Property, BuildError>),
 }
 
 /// The right hits, as far as they are known without the oracle.

@@ -4,12 +4,13 @@ use glam::Vec3;
 
 use super::case::Property;
 use super::meshes::sheet;
-use super::properties::{built, shared};
+use super::properties::shared;
+use crate::accel::BuildError;
 use crate::geometry::Ray;
 use crate::triangle::{Exact, TriangleTest};
-use crate::validate::Sampler;
 use crate::validate::conformance::Subject;
 use crate::validate::degenerate::mesh;
+use crate::validate::{Sampler, has_replied};
 
 /// A change of a scene that keeps every `t`, or multiplies it by a power of two.
 struct Change {
@@ -63,7 +64,7 @@ fn halves(&[a, b, c]: &[Vec3; 3]) -> [[Vec3; 3]; 2] {
 }
 
 /// Compares the hits in a scene with those in its changes.
-pub(super) fn metamorphic(subject: &Subject, rays: usize) -> Result<Property, String> {
+pub(super) fn metamorphic(subject: &Subject, rays: usize) -> Result<Property, BuildError> {
     let mut sampler = Sampler::new(75);
     let mut grid = |reach: f32| (sampler.cube() * (reach * 1024.0)).round() / 1024.0;
     let triangles: Vec<[Vec3; 3]> = (0..400)
@@ -79,11 +80,11 @@ pub(super) fn metamorphic(subject: &Subject, rays: usize) -> Result<Property, St
         })
         .collect();
 
-    let plain = built(subject, &mesh(triangles.iter().copied()))?;
+    let plain = (subject.build)(&mesh(triangles.iter().copied()))?;
     let mut property = Property::default();
     for change in CHANGES.iter().filter(|change| change.same_rounding || subject.triangle_test == Exact::NAME) {
         let of_change = (change.triangles)(&triangles).into_iter().map(|corners| corners.map(change.point));
-        let changed = built(subject, &mesh(of_change))?;
+        let changed = (subject.build)(&mesh(of_change))?;
         for &ray in &rays {
             let moved = Ray { origin: (change.point)(ray.origin), direction: (change.direction)(ray.direction), ..ray };
             let expected = plain.closest(&[ray])[0].map(|hit| hit.t * change.factor);
@@ -92,14 +93,16 @@ pub(super) fn metamorphic(subject: &Subject, rays: usize) -> Result<Property, St
                 format!("{}: t is {found:?} and not {expected:?} on the ray \"{ray}\"", change.name)
             });
         }
+        has_replied(&*changed)?;
     }
+    has_replied(&*plain)?;
     Ok(property)
 }
 
 /// Rays straight down through the inner corners of a sheet, each in the plane of many boxes. A structure must hit
 /// everything that it hits with an almost equal direction, under any rounding of its triangle test.
-pub(super) fn straight_down(subject: &Subject, rays: usize) -> Result<Property, String> {
-    let accel = built(subject, &sheet(32))?;
+pub(super) fn straight_down(subject: &Subject, rays: usize) -> Result<Property, BuildError> {
+    let accel = (subject.build)(&sheet(32))?;
     let (mut sampler, mut property) = (Sampler::new(77), Property::default());
     for _ in 0..shared(rays, 4) {
         let inner = |x: usize| (x + 1) as f32 / 16.0 - 1.0;
@@ -110,5 +113,6 @@ pub(super) fn straight_down(subject: &Subject, rays: usize) -> Result<Property, 
             format!("(1e-30, 1e-30, -1) from {:?} hits the sheet, ({zero:?}, {zero:?}, -1) does not", corner + Vec3::Z)
         });
     }
+    has_replied(&*accel)?;
     Ok(property)
 }

@@ -4,39 +4,33 @@ use std::sync::Arc;
 
 use super::case::Property;
 use super::meshes::star;
-use crate::accel::DynAccel;
+use crate::accel::{BuildError, DynAccel};
 use crate::geometry::{Mesh, Ray};
 use crate::validate::conformance::Subject;
 use crate::validate::degenerate::{exponential, huge_and_small, needles, soup};
-use crate::validate::{Reference, Sampler, Stratum, Validation, validate};
+use crate::validate::{Reference, Sampler, Stratum, Validation, has_replied, validate};
 
 /// Rays of one property, divided among strata and meshes.
 pub(super) fn shared(rays: usize, among: usize) -> usize {
     rays.div_ceil(among).max(4)
 }
 
-/// Builds, or returns the reason why it cannot be built.
-pub(super) fn built(subject: &Subject, mesh: &Arc<Mesh>) -> Result<Box<dyn DynAccel>, String> {
-    (subject.build)(mesh).map_err(|error| format!("{} does not build: {error}", subject.name))
-}
-
 /// The structure and brute force with its triangle test.
-fn with_reference(subject: &Subject, mesh: &Arc<Mesh>) -> Result<(Box<dyn DynAccel>, Reference), String> {
-    let reference = Reference::of_test(subject.triangle_test, mesh).map_err(|error| error.to_string());
-    Ok((built(subject, mesh)?, reference?))
+fn with_reference(subject: &Subject, mesh: &Arc<Mesh>) -> Result<(Box<dyn DynAccel>, Reference), BuildError> {
+    Ok(((subject.build)(mesh)?, Reference::of_test(subject.triangle_test, mesh)?))
 }
 
-pub(super) fn any_equals_closest(subject: &Subject, rays: usize) -> Result<Property, String> {
+pub(super) fn any_equals_closest(subject: &Subject, rays: usize) -> Result<Property, BuildError> {
     let errors = |found: &Validation| (found.any_hit_errors, "any hit contradicts closest hit");
     validated(subject, &[star(), soup(500, 1)], rays, errors)
 }
 
-pub(super) fn batch_equals_single(subject: &Subject, rays: usize) -> Result<Property, String> {
+pub(super) fn batch_equals_single(subject: &Subject, rays: usize) -> Result<Property, BuildError> {
     let errors = |found: &Validation| (found.unrepeatable, "the single ray has another hit");
     validated(subject, &[star(), soup(500, 1)], rays, errors)
 }
 
-pub(super) fn sizes(subject: &Subject, rays: usize) -> Result<Property, String> {
+pub(super) fn sizes(subject: &Subject, rays: usize) -> Result<Property, BuildError> {
     let meshes: Vec<Arc<Mesh>> = (0..=40).map(|n| soup(n, 100 + n as u64)).collect();
     validated(subject, &meshes, rays, |found| (found.errors(), "a hit is wrong"))
 }
@@ -47,13 +41,14 @@ fn validated(
     meshes: &[Arc<Mesh>],
     rays: usize,
     errors: fn(&Validation) -> (u64, &'static str),
-) -> Result<Property, String> {
+) -> Result<Property, BuildError> {
     let mut property = Property::default();
     let each = shared(rays, meshes.len() * Stratum::ALL.len());
     for mesh in meshes {
         let (accel, reference) = with_reference(subject, mesh)?;
         for stratum in Stratum::ALL {
             let validation = validate(&*accel, &reference, mesh, &stratum.rays(mesh, each, 76));
+            has_replied(&*accel)?;
             let (broken, what) = errors(&validation);
             property.checked += validation.rays;
             property.broken += broken;
@@ -91,23 +86,25 @@ fn through_star(count: usize, seed: u64) -> Vec<Ray> {
 }
 
 /// Compares each continued ray with brute force, whose hits are the next origins.
-pub(super) fn continuation(subject: &Subject, rays: usize) -> Result<Property, String> {
+pub(super) fn continuation(subject: &Subject, rays: usize) -> Result<Property, BuildError> {
     let mesh = star();
     let (accel, reference) = with_reference(subject, &mesh)?;
     let through = through_star(shared(rays, 10), 73);
     let steps: Vec<Ray> = through.into_iter().flat_map(|ray| continued(&*reference.accel, ray)).collect();
     let found = validate(&*accel, &reference, &mesh, &steps);
+    has_replied(&*accel)?;
     let example = found.worst_error().map(ToString::to_string);
     Ok(Property { checked: found.rays, broken: found.errors(), example })
 }
 
 /// If brute force with the same test also counts an odd number, the test is to blame.
-pub(super) fn parity(subject: &Subject, rays: usize) -> Result<Property, String> {
+pub(super) fn parity(subject: &Subject, rays: usize) -> Result<Property, BuildError> {
     let (accel, reference) = with_reference(subject, &star())?;
     let mut property = Property::default();
     for ray in through_star(shared(rays, 10), 74) {
         let crossings = |accel: &dyn DynAccel| continued(accel, ray).len() - 1;
         let own = crossings(&*accel);
+        has_replied(&*accel)?;
         let holds = own.is_multiple_of(2) || crossings(&*reference.accel) == own;
         property.note(holds, || format!("{own} crossings of a closed mesh by the ray \"{ray}\""));
     }
@@ -119,11 +116,11 @@ const REFERENCES: usize = 64;
 /// A tree with more edges from root to leaf is out of control.
 const DEPTH: usize = 1024;
 
-pub(super) fn limits(subject: &Subject, _rays: usize) -> Result<Property, String> {
+pub(super) fn limits(subject: &Subject, _rays: usize) -> Result<Property, BuildError> {
     let mut property = Property::default();
     let meshes = [("needles", needles(2200)), ("a sequence", exponential(300)), ("a huge triangle", huge_and_small())];
     for (name, mesh) in meshes {
-        let (shape, triangles) = (built(subject, &mesh)?.shape(), mesh.len());
+        let (shape, triangles) = ((subject.build)(&mesh)?.shape(), mesh.len());
         property.note(shape.references <= REFERENCES * triangles, || {
             format!("{} references to {triangles} triangles over {name}: at most {REFERENCES} each", shape.references)
         });

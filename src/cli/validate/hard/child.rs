@@ -8,10 +8,9 @@ use crate::accel::BuildError;
 use crate::measure::subprocess::{output_within, same_program};
 use crate::measure::{SystemClock, process_group};
 use crate::registry::{Choice, Registry};
-use crate::request;
+use crate::request::{self, RUNNER_LIMIT, Seconds};
 use crate::simd::Level;
 use crate::study::Status;
-use crate::validate::LIMIT;
 use crate::validate::hard_cases::{Answers, Failure, HardCase, find, run};
 
 /// The hidden command of a child.
@@ -27,9 +26,9 @@ pub struct Args {
     /// A program in its place
     #[arg(long, allow_hyphen_values = true)]
     runner: Option<String>,
-    /// Seconds that the program may take for an answer
-    #[arg(long, default_value_t = LIMIT.as_secs_f64())]
-    limit: f64,
+    /// Timeout in seconds for each reply of the program
+    #[arg(long, default_value_t = RUNNER_LIMIT)]
+    runner_limit: Seconds,
     /// Rays at most
     #[arg(long)]
     rays: u32,
@@ -42,7 +41,7 @@ pub fn run_child(registry: &Registry, args: &Args) -> anyhow::Result<Status> {
     process_group::end_with_parent();
     let case = find(&args.name)?;
     let choice = match (&args.runner, &args.structure) {
-        (Some(command), _) => request::runner(command, args.limit)?,
+        (Some(command), _) => request::runner(command, args.runner_limit.seconds())?,
         (None, Some(structure)) => registry.choose(structure)?,
         (None, None) => anyhow::bail!("a structure or a runner is needed"),
     };
@@ -57,13 +56,21 @@ pub fn run_child(registry: &Registry, args: &Args) -> anyhow::Result<Status> {
     }
 }
 
+/// The time limits of a case.
+#[derive(Clone, Copy)]
+pub struct Limits {
+    pub structure: Duration,
+    pub reply: Seconds,
+}
+
 /// The parent's side: runs a case of at most `rays` rays in a child. The outer error: no child can be started.
-pub fn answers(case: &HardCase, choice: &Choice, rays: u32, limit: Duration) -> io::Result<Result<Answers, Failure>> {
+/// A structure has `limits.structure` for the case, a program `limits.reply` for each reply.
+pub fn answers(case: &HardCase, choice: &Choice, rays: u32, limits: Limits) -> io::Result<Result<Answers, Failure>> {
     let (rays, level) = (rays.to_string(), Level::current().name());
-    let limit_s = limit.as_secs_f64().to_string();
-    let structure = match choice.command() {
-        Some(command) => vec!["--runner", command, "--limit", &limit_s],
-        None => vec![&*choice.label],
+    let reply = limits.reply.to_string();
+    let (structure, limit) = match choice.command() {
+        Some(command) => (vec!["--runner", command, "--runner-limit", &reply], Duration::MAX),
+        None => (vec![&*choice.label], limits.structure),
     };
     let mut command = same_program([&[COMMAND, case.name, "--rays", &rays, "--level", level], &*structure].concat());
     Ok(outcome(output_within(&mut command, limit)?))
@@ -75,7 +82,9 @@ fn outcome(output: Option<Output>) -> Result<Answers, Failure> {
         Some(0) => serde_json::from_slice(&output.stdout).map_err(|_| Failure::Crash),
         Some(1) => {
             let sentence = String::from_utf8_lossy(&output.stderr);
-            let sentence = sentence.trim().trim_start_matches("error: ").to_owned();
+            // A program writes messages to the same place.
+            let error = sentence.lines().rev().find_map(|line| line.strip_prefix("error: "));
+            let sentence = error.unwrap_or_else(|| sentence.trim()).to_owned();
             let declined = sentence.starts_with("declined: ");
             Err(if declined { Failure::Declined(sentence) } else { Failure::Refused(sentence) })
         }
@@ -102,6 +111,7 @@ mod tests {
             ("echo nonsense", Err(Failure::Crash)),
             ("exit 3", Err(Failure::Crash)),
             ("echo 'error: too large' >&2; exit 1", Err(Failure::Refused("too large".into()))),
+            ("echo 'I start' >&2; echo 'error: too large' >&2; exit 1", Err(Failure::Refused("too large".into()))),
             ("echo 'declined: any hit' >&2; exit 1", Err(Failure::Declined("declined: any hit".into()))),
         ] {
             let limit = Duration::from_secs(if script.contains("sleep") { 1 } else { 60 });

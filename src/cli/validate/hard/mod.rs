@@ -8,7 +8,6 @@ mod verdict;
 use std::io;
 use std::sync::Mutex;
 use std::thread;
-use std::time::Duration;
 
 use anyhow::Context;
 
@@ -25,6 +24,7 @@ use crate::request::{self, known_defect};
 use crate::study::{Status, Verdict};
 use crate::triangle::{Exact, TriangleTest};
 use crate::validate::hard_cases::{Answers, CaseTruth, Content, Failure, HardCase, Score, catalogue, find_all};
+use child::Limits;
 use record::record;
 use table::{Column, LEGEND, summary, tables};
 use verdict::verdict;
@@ -51,12 +51,13 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
 
     let mut columns: Vec<Column> = choices.iter().map(|choice| Column { choice, scores: vec![] }).collect();
     let (waiting, mut log) = (spinner(String::new(), terminal), LogLines::new(terminal));
+    let limits = Limits { structure: args.limit.duration(), reply: args.runner_limit };
     let mut records = vec![];
     for (i, case) in cases.iter().enumerate() {
         let message = format!("{} of {}: {}", i + 1, cases.len(), case.name);
         log.tell(&message);
         waiting.set_message(message);
-        let scores = scores(case, &choices, rays, args.limit.duration())?;
+        let scores = scores(case, &choices, rays, limits)?;
         for (column, score) in columns.iter_mut().zip(scores) {
             records.push(record(case, column.choice, &score));
             column.scores.push(score);
@@ -70,28 +71,48 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
         summary(&cases, &columns).iter().for_each(|table| terminal.print_table(table));
     }
     terminal.print_notes(LEGEND.map(String::from));
-    let verdicts: Vec<Verdicts> = columns.iter().map(verdicts).collect();
+    let verdicts: Vec<Verdicts> = columns.iter().map(|column| verdicts(&cases, column)).collect();
     terminal.print_lines(&sentences(&verdicts));
     if let Some(file) = json {
         file.write(&serde_json::to_vec_pretty(&Export::new(&verdicts, records))?)?;
     }
-    let wrong =
-        columns.iter().any(|column| column.scores.iter().any(|score| is_wrong(column.choice, score, args.strict)));
-    Ok(if wrong { Status::Wrong } else { Status::Right })
+    let all = columns.iter().flat_map(|own| own.scores.iter().map(|score| status(own.choice, score, args.strict)));
+    Ok(all.fold(Status::Right, Status::and))
 }
 
 /// The verdict on a structure over all cases.
-fn verdicts(column: &Column) -> Verdicts {
+fn verdicts(cases: &[&HardCase], column: &Column) -> Verdicts {
     let all = column.scores.iter().map(verdict).fold(Verdict::default(), Verdict::and);
+    let unchecked = |(case, score): (&&HardCase, &Score)| Some((case.name.to_owned(), refusal(score)?.to_owned()));
     Verdicts {
         label: plain_name(&column.choice.label).into(),
         is_brought: !column.choice.entry.is_builtin,
         verdict: all,
+        unchecked: cases.iter().zip(&column.scores).find_map(unchecked),
     }
 }
 
-/// Whether a score changes the exit status: hits that no rounding explains and failures do, inexact hits of the exact
-/// test, and rounding of other tests if `strict`; known defects of the baselines do not.
+/// The reason why a structure was not checked on a case.
+fn refusal(score: &Score) -> Option<&str> {
+    match score {
+        Score::Failed(Failure::Refused(why)) => Some(why),
+        _ => None,
+    }
+}
+
+/// The exit status of a score. A program that fails was not checked; a structure of Rust builds over every mesh.
+fn status(choice: &Choice, score: &Score, strict: bool) -> Status {
+    if choice.command().is_some() && refusal(score).is_some() {
+        Status::Refused
+    } else if is_wrong(choice, score, strict) {
+        Status::Wrong
+    } else {
+        Status::Right
+    }
+}
+
+/// Whether a score is a failure: hits that no rounding explains and failures are, inexact hits of the exact test, and
+/// rounding of other tests if `strict`; known defects of the baselines are not.
 fn is_wrong(choice: &Choice, score: &Score, strict: bool) -> bool {
     let is_inexact = choice.triangle_test() == Exact::NAME && score.rays().is_some_and(|rays| rays.inexact > 0);
     let rounds = strict && verdict(score).rounded > 0;
@@ -120,14 +141,14 @@ fn choices(registry: &Registry, structures: Vec<Choice>, tests: &[String]) -> an
 }
 
 /// Runs a case on all structures, several at a time, and computes the exact hits meanwhile.
-fn scores(case: &HardCase, choices: &[Choice], rays: u32, limit: Duration) -> anyhow::Result<Vec<Score>> {
+fn scores(case: &HardCase, choices: &[Choice], rays: u32, limits: Limits) -> anyhow::Result<Vec<Score>> {
     let waiting = Mutex::new(choices.iter().enumerate());
     let worker = || -> io::Result<Vec<(usize, Result<Answers, Failure>)>> {
         let mut done = vec![];
         loop {
             let next = waiting.lock().expect("no worker panics").next();
             let Some((index, choice)) = next else { return Ok(done) };
-            done.push((index, child::answers(case, choice, rays, limit)?));
+            done.push((index, child::answers(case, choice, rays, limits)?));
         }
     };
     let (mut truth, mut answers) = thread::scope(|scope| -> anyhow::Result<_> {
