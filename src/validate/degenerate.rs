@@ -37,11 +37,13 @@ pub fn degenerate_meshes() -> Vec<(String, Arc<Mesh>)> {
 
 const FAR: Vec3 = Vec3::new(148_376.0, 1234.0, -223_423.0);
 
-/// A mesh that a ray may cross in 8192 sheets, and so in all nodes of a tree, whose stack must be as deep as the tree.
+/// The mesh whose trees need the deepest stacks: a ray may cross all sheets, and so all nodes.
 pub fn stacked_sheets() -> Vec<(String, Arc<Mesh>)> {
-    const SHEETS: u16 = 8192;
-    let sheets = (0..SHEETS).map(|i| TRIANGLE.map(|p| p + Vec3::Z * (2.0 * f32::from(i) / f32::from(SHEETS))));
-    vec![(format!("{SHEETS} stacked sheets"), mesh(sheets))]
+    vec![("8192 stacked sheets".into(), sheets(8192))]
+}
+
+pub(crate) fn sheets(count: u16) -> Arc<Mesh> {
+    mesh((0..count).map(|i| TRIANGLE.map(|p| p + Vec3::Z * (2.0 * f32::from(i) / f32::from(count)))))
 }
 
 pub(crate) const TRIANGLE: [Vec3; 3] =

@@ -10,7 +10,7 @@ use super::rays::*;
 use super::set::{Set, on_edge, on_surface, ray_to, vertex};
 use crate::geometry::Ray;
 use crate::validate::degenerate::{box_grid, exponential, half_without_area, huge_and_small, mesh, needles};
-use crate::validate::degenerate::{same_centroid, shells, soup};
+use crate::validate::degenerate::{same_centroid, sheets, shells, soup};
 
 const EPSILON: &str = "obvhs, CwBvh node.rs EPSILON = 1e-4";
 const EPSILONS: &str = "tinybvh pull request 283; obvhs, CwBvh node.rs EPSILON";
@@ -325,4 +325,9 @@ cases! {
         "a user's ray: both KD-trees lost a hit just before t_max = 3.4028235e38";
     Added 91 "straight_down", Property => straight_down,
         "Rays in the planes of many boxes, through shared corners: a slab distance of 0 x infinity is not a number.", "a user's BVH";
+    Added 92 "stacked_sheets", Oracle => |n| {
+        Set::new(sheets(8192), n, 66, |_, s| ray_to(s.direction() * 12.0, s.cube()))
+    },
+        "A ray crosses the boxes of thousands of sheets: the stack must hold a node for each level of the tree.",
+        "a user's BVH, with a stack of ten";
 }
