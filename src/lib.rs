@@ -28,6 +28,7 @@ pub mod output;
 #[cfg(feature = "page")]
 pub mod page;
 mod panics;
+mod plural;
 pub mod registry;
 pub mod render;
 pub mod report;

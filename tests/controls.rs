@@ -21,7 +21,7 @@ fn draw(scene: &Scene, offset: Vec2) -> DynamicImage {
 }
 
 /// The picture of a scene, and copies with one fault each.
-pub fn pictures() -> (DynamicImage, [(&'static str, DynamicImage); 5]) {
+pub fn pictures() -> (DynamicImage, [(&'static str, DynamicImage); 6]) {
     let scene = Builtin::find("starters").unwrap().scene(None).unwrap();
     let right = draw(&scene, View::CENTRE);
 
@@ -31,6 +31,8 @@ pub fn pictures() -> (DynamicImage, [(&'static str, DynamicImage); 5]) {
     for pixel in noisy.pixels_mut().step_by(10) {
         pixel.0.iter_mut().for_each(|value| *value = value.checked_add(1).unwrap_or(254));
     }
+    let mut brighter = right.to_rgb8();
+    brighter.iter_mut().for_each(|value| *value = value.saturating_add(1));
     let mut material = scene.clone();
     material.materials.iter_mut().for_each(|own| own.diffuse *= 0.98);
     // A visible triangle in the middle of the picture becomes a point.
@@ -50,6 +52,7 @@ pub fn pictures() -> (DynamicImage, [(&'static str, DynamicImage); 5]) {
         ("materials 2 % darker", draw(&material, View::CENTRE)),
         ("a lost triangle", draw(&holed, View::CENTRE)),
         ("noise of 1 on every tenth pixel", noisy.into()),
+        ("everything 1 of 255 brighter", brighter.into()),
     ];
     (right, others)
 }
@@ -83,7 +86,7 @@ fn table() -> String {
         .map(|(name, other)| compare(name, [&right, other], CHECKS[2].1, None).0.measures.expect("it differs"))
         .collect();
     let mut table = row([vec!["fault".into()], others.iter().map(|(name, _)| name.to_string()).collect()].concat());
-    table += &row(vec!["---".into(); 6]);
+    table += &row(vec!["---".into(); 1 + others.len()]);
     for (name, of) in measures {
         table += &row([vec![name.into()], found.iter().map(of).collect()].concat());
     }

@@ -8,7 +8,7 @@ use std::path::Path;
 /// The modules of the crate by layer, as ARCHITECTURE.md draws them. Within a layer a module may import those before it,
 /// unless they are structures.
 const LAYERS: [&[&str]; 9] = [
-    &["escaped", "geometry", "names", "output", "panics", "simd"],
+    &["escaped", "geometry", "names", "output", "panics", "plural", "simd"],
     &["exact", "triangle", "accel"],
     &["traversal", "build"],
     &["brute_force", "bvh8", "kdtree", "external"],

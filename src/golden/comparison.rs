@@ -4,8 +4,10 @@ use image::{DynamicImage, RgbImage};
 use serde::Serialize;
 
 use super::judgement::{Judgement, Match, Verdict};
+use super::limit::{Limit, differ};
 use super::measures::{FlipMap, Measures};
 use super::{Difference, Layout, Mask, difference_picture};
+use crate::plural::{count, plural};
 
 /// Two pictures of one name, or one picture without a partner.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -17,6 +19,9 @@ pub struct Comparison {
     /// A command that investigates the difference.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub command: Option<String>,
+    /// The number that decided, unless all values must be equal.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limit: Option<Limit>,
     /// Measures of two pictures of one layout that differ.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measures: Option<Measures>,
@@ -31,7 +36,7 @@ pub struct Maps {
 impl Comparison {
     /// A comparison without measures.
     pub fn said(name: impl Into<String>, verdict: Verdict, sentence: impl Into<String>) -> Self {
-        Self { name: name.into(), verdict, said: vec![sentence.into()], command: None, measures: None }
+        Self { name: name.into(), verdict, said: vec![sentence.into()], command: None, limit: None, measures: None }
     }
 
     /// See [`Measures::of_names`].
@@ -57,7 +62,13 @@ pub fn compare(
     let said = |verdict, sentence: String| (Comparison::said(name, verdict, sentence), None);
     let [wanted, found] = [expected, actual].map(Layout::of);
     if wanted != found {
-        return said(Verdict::Differs, format!("expected {wanted}, found {found}"));
+        let advice = if wanted.size == found.size {
+            "convert one of the pictures"
+        } else {
+            "render the picture at the size of the golden image"
+        };
+        let sentence = format!("expected {wanted}, found {found}: {advice}, or replace the golden image");
+        return said(Verdict::Differs, sentence);
     }
     if let Some(mask) = mask.filter(|mask| mask.size != wanted.size) {
         let [width, height] = mask.size;
@@ -77,8 +88,9 @@ pub fn compare(
     let comparison = Comparison {
         name: name.into(),
         verdict: if judged.accepted { Verdict::Accepted } else { Verdict::Differs },
-        said: vec![judged.difference.sentence(wanted.size)],
+        said: judged.said(),
         command: None,
+        limit: judged.limit,
         measures: Some(judged.measures()),
     };
     let flip = judged.flip().cloned();
@@ -89,15 +101,17 @@ impl Difference {
     /// The number of differing pixels of a picture of this size, with the largest difference and its place.
     pub fn sentence(&self, [width, height]: [u32; 2]) -> String {
         let Self { pixels, first, worst, largest, full_scale } = *self;
-        let all = u64::from(width) * u64::from(height);
+        let all = plural(width as usize * height as usize, "pixel");
         let most =
             if worst == first { String::new() } else { format!(", most at column {}, row {}", worst[0], worst[1]) };
         let size = match full_scale {
             _ if largest.is_nan() => String::new(),
             1.0 => format!(", by up to {largest}"),
-            _ => format!(", by up to {largest} of {full_scale}"),
+            _ => format!(", by up to {} of {}", count(largest as u64), count(full_scale as u64)),
         };
-        format!("{pixels} of {all} pixels differ, first at column {}, row {}{size}{most}", first[0], first[1])
+        let [column, row] = first;
+        let (number, differ) = (count(pixels as u64), differ(pixels));
+        format!("{number} of {all} {differ}, first at column {column}, row {row}{size}{most}")
     }
 }
 

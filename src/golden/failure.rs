@@ -27,8 +27,8 @@ pub fn check(
     let refusal = if found == wanted {
         match Judgement::new([expected, actual], how, None)? {
             Some(judged) if !judged.accepted => {
-                let (label, difference, shown) = (label.into(), Box::new(judged.difference), page::index(shown));
-                GoldenError::Differs { label, path, difference, size: found.size, shown }
+                let (said, difference) = (judged.said().join("; "), Box::new(judged.difference));
+                GoldenError::Differs { label: label.into(), path, said, difference, shown: page::index(shown) }
             }
             _ => return Ok(()),
         }

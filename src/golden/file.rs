@@ -33,7 +33,10 @@ fn reason(cause: &ImageError) -> String {
     match cause {
         ImageError::Limits(_) => format!("which takes more than {LARGEST} MiB"),
         ImageError::Unsupported(_) if cfg!(feature = "pictures") => "which is not PNG, JPEG, WebP or EXR".into(),
-        ImageError::Unsupported(_) => "which is not PNG (JPEG, WebP and EXR need the feature `pictures`)".into(),
+        ImageError::Unsupported(_) => {
+            "which is not PNG (for JPEG, WebP and EXR, install with `cargo install --path . --features pictures`)"
+                .into()
+        }
         _ => "which is damaged or truncated".into(),
     }
 }
@@ -248,7 +251,7 @@ mod tests {
                 refusal("damaged or truncated");
             }
         }
-        let other = if cfg!(feature = "pictures") { "not PNG, JPEG, WebP or EXR" } else { "feature `pictures`" };
+        let other = if cfg!(feature = "pictures") { "not PNG, JPEG, WebP or EXR" } else { "--features pictures" };
         for bytes in
             [&good[..7], b"", b"not a picture", b"<html>", &[0; 4096], b"GIF89a\x01\0\x01\0\0\0\0", b"BM\0\0\0\0"]
         {

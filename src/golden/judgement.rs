@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use super::difference::{Difference, pixels_over};
 use super::layout::Layout;
+use super::limit::Limit;
 use super::mask::Mask;
 use super::measures::{FlipMap, Measures, PIXELS_PER_DEGREE};
 
@@ -50,10 +51,11 @@ impl Match {
 }
 
 impl Allowed {
-    fn of(self, compared: usize) -> f64 {
+    fn of(self, compared: usize) -> usize {
         match self {
-            Self::Pixels(pixels) => pixels as f64,
-            Self::Percent(percent) => percent * compared as f64 / 100.0,
+            Self::Pixels(pixels) => pixels,
+            // Only whole pixels differ: the fraction has no effect.
+            Self::Percent(percent) => (percent * compared as f64 / 100.0) as usize,
         }
     }
 }
@@ -76,6 +78,8 @@ pub enum Verdict {
 pub struct Judgement<'a> {
     pub accepted: bool,
     pub difference: Difference,
+    /// The number that decided; `None` for [`Match::Exact`].
+    pub limit: Option<Limit>,
     how: Match,
     flip: Option<FlipMap>,
     expected: &'a DynamicImage,
@@ -105,15 +109,27 @@ impl<'a> Judgement<'a> {
         }
         let Some(difference) = Difference::between(expected, actual) else { return Ok(None) };
         let compared = layout.pixels() - mask.map_or(0, Mask::masked);
-        let mut judged = Self { accepted: false, difference, how, flip: None, expected, actual, mask };
-        judged.accepted = match how {
-            Match::Exact => false,
-            Match::Tolerance { difference, pixels } => {
-                pixels_over(expected, actual, difference) as f64 <= pixels.of(compared)
+        let mut judged = Self { accepted: false, difference, limit: None, how, flip: None, expected, actual, mask };
+        judged.limit = match how {
+            Match::Exact => None,
+            Match::Tolerance { difference, pixels } => Some(Limit::Pixels {
+                max_difference: difference,
+                pixels_over: pixels_over(expected, actual, difference),
+                allow_pixels: pixels.of(compared),
+            }),
+            Match::Flip { mean, .. } => {
+                judged.flip().map(|flip| Limit::Flip { flip_mean: flip.summary(mask).mean, max_flip: mean })
             }
-            Match::Flip { mean, .. } => judged.flip().is_some_and(|flip| flip.summary(mask).mean <= mean),
         };
+        judged.accepted = judged.limit.is_some_and(|limit| limit.is_met());
         Ok(Some(judged))
+    }
+
+    /// The difference, and the number that decided with its limit.
+    pub fn said(&self) -> Vec<String> {
+        let layout = Layout::of(self.expected);
+        let limit = self.limit.map(|limit| limit.sentence(&layout));
+        [self.difference.sentence(layout.size)].into_iter().chain(limit).collect()
     }
 
     /// FLIP of all pixels; `None` for floats.

@@ -11,6 +11,7 @@ mod file;
 mod folders;
 mod judgement;
 mod layout;
+mod limit;
 mod mask;
 pub mod measures;
 pub mod numbers;
@@ -28,6 +29,7 @@ pub use file::{PictureError, read, write};
 pub use folders::{Pair, pairs};
 pub use judgement::{Allowed, Match, NoFlip, Verdict};
 pub use layout::Layout;
+pub use limit::Limit;
 pub use mask::Mask;
 pub use scene::{Overwrite, SIZE, SceneGolden, TRIANGLE_TEST, Update, VIEWS};
 
@@ -63,8 +65,8 @@ pub enum GoldenError {
          to use a folder"
     )]
     NoSources,
-    #[error("{label}: {}: see {}; the golden image is {}", difference.sentence(*size), shown.escaped(), path.escaped())]
-    Differs { label: String, path: PathBuf, difference: Box<Difference>, size: [u32; 2], shown: PathBuf },
+    #[error("{label}: {said}: see {}; the golden image is {}", shown.escaped(), path.escaped())]
+    Differs { label: String, path: PathBuf, said: String, difference: Box<Difference>, shown: PathBuf },
     #[error("{refusal}; but the pictures could not be written: {cause}")]
     NotShown { refusal: Box<GoldenError>, cause: Box<GoldenError> },
     #[error(transparent)]

@@ -1,5 +1,7 @@
 //! Numbers for people: three significant digits and a unit.
 
+pub use crate::plural::{count, plural};
+
 /// Three significant digits, without an exponent if that stays short: `0.00123`, `1.23`, `12.3`, `1230`, `4.96e-9`.
 pub fn figures(x: f64) -> String {
     let size = x.abs();
@@ -36,24 +38,6 @@ pub fn bytes(bytes: usize) -> String {
     format!("{} {unit}", figures(bytes as f64 / f64::from(1u32 << scale)))
 }
 
-/// A whole number in groups of three digits: `130,858`.
-pub fn count(n: u64) -> String {
-    let digits = n.to_string();
-    let mut text = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
-}
-
-/// `1 scene`, `2 scenes`.
-pub fn plural(n: usize, noun: &str) -> String {
-    format!("{} {noun}{}", count(n as u64), if n == 1 { "" } else { "s" })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -86,11 +70,5 @@ mod tests {
             ["12.0 ns", "1.00 us", "2.50 ms", "15.0 s"]
         );
         assert_eq!([bytes(0), bytes(1023), bytes(1536), bytes(5 << 20)], ["0 B", "1023 B", "1.50 KiB", "5.00 MiB"]);
-    }
-
-    #[test]
-    fn counts_are_grouped() {
-        assert_eq!([count(7), count(1000), count(130_858), count(1_234_567)], ["7", "1,000", "130,858", "1,234,567"]);
-        assert_eq!([plural(1, "ray"), plural(2000, "ray")], ["1 ray", "2,000 rays"]);
     }
 }

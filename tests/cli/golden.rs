@@ -59,7 +59,7 @@ fn folders_of_pictures_are_compared_by_name() {
     let (status, text) = folders.compare("");
     assert_eq!(status, Some(WRONG), "{text}");
     assert!(
-        text.contains("deep/er.png: 9 of 1200 pixels differ, first at column 0, row 0, by up to 2 of 255"),
+        text.contains("deep/er.png: 9 of 1,200 pixels differ, first at column 0, row 0, by up to 2 of 255"),
         "{text}"
     );
     assert!(text.contains("1 different, 1 identical") && !text.contains("notes"), "{text}");
@@ -79,10 +79,30 @@ fn folders_of_pictures_are_compared_by_name() {
         assert_eq!(text.contains("1 accepted, 1 identical"), accepted, "{options}: {text}");
     }
 
+    // A failing picture names the number that is compared, and its limit.
+    let json_file = folders.path("run.json");
+    for (options, sentence, limit) in [
+        (
+            "--max-difference 1 --allow-pixels 0.7%",
+            "9 pixels differ by more than 1 of 255, and 8 are allowed",
+            serde_json::json!({ "max_difference": 1.0, "pixels_over": 9, "allow_pixels": 8 }),
+        ),
+        ("--max-flip 0", "the mean of FLIP is 0.00", serde_json::json!({ "max_flip": 0.0 })),
+    ] {
+        let (status, text) = folders.compare(&format!("{options} --export-json {json_file}"));
+        assert_eq!(status, Some(WRONG), "{text}");
+        // The terminal breaks lines.
+        let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(line.contains(&format!("; {sentence}")), "{text}");
+        let own = &json(&json_file)["comparisons"][0];
+        assert!(own["said"][1].as_str().unwrap().starts_with(sentence), "{own}");
+        let is_equal = |(name, value): (&String, &serde_json::Value)| own["limit"][name] == *value;
+        assert!(limit.as_object().unwrap().iter().all(is_equal), "{own}");
+    }
+
     // A picture that is missing in one folder is a failure, and less severe than a difference.
     folders.add("expected/gone.png", picture());
     folders.add("actual/new.png", picture());
-    let json_file = folders.path("run.json");
     let (status, text) = folders.compare(&format!("--max-difference 2 --export-json {json_file}"));
     assert_eq!(status, Some(USAGE), "{text}");
     assert!(text.contains("gone.png: exists in") && text.contains("new.png: exists in"), "{text}");
@@ -100,7 +120,7 @@ fn folders_of_pictures_are_compared_by_name() {
     fs::write(folders.path("actual/same.png"), "no picture").unwrap();
     let (status, text) = folders.compare("--max-difference 2");
     assert_eq!(status, Some(USAGE));
-    assert!(text.contains("same.png: cannot read") && text.contains("1 not comparable"), "{text}");
+    assert!(text.contains("same.png: cannot read") && text.contains("1 failed"), "{text}");
     assert_eq!(folders.compare("").0, Some(WRONG), "a difference weighs more");
 }
 
@@ -111,11 +131,16 @@ fn pictures_of_another_layout_and_what_cannot_be_compared_are_told() {
     folders.add("rgba.png", DynamicImage::from(picture()).to_rgba8());
     folders.add("deep.png", DynamicImage::from(picture()).to_rgb16());
     folders.add("small.png", RgbImage::new(4, 4));
-    for (other, words) in [("rgba", "RGBA with 8"), ("deep", "RGB with 16"), ("small", "4 x 4 pixels")] {
+    for (other, words, advice) in [
+        ("rgba", "RGBA with 8", "convert one of the pictures, or replace"),
+        ("deep", "RGB with 16", "convert one of the pictures, or replace"),
+        ("small", "4 x 4 pixels", "at the size of the golden image, or replace"),
+    ] {
         let paths = [folders.path("a.png"), folders.path(&format!("{other}.png"))];
         let output = sahara(&["golden", "compare", &paths[0], &paths[1], "--max-difference", "255"]);
         assert_eq!(output.status.code(), Some(WRONG));
-        assert!(stdout(&output).contains("40 x 30 pixels of RGB with 8 bits") && stdout(&output).contains(words));
+        let text = stdout(&output);
+        assert!(["40 x 30 pixels of RGB with 8 bits", words, advice].iter().all(|part| text.contains(part)), "{text}");
     }
     // The same picture in other bytes is identical.
     let file = fs::File::create(folders.path("again.png")).unwrap();
@@ -131,6 +156,7 @@ fn pictures_of_another_layout_and_what_cannot_be_compared_are_told() {
     let empty = folders.path("empty");
     refuses_in_a_line(&["golden", "compare", &empty, &empty], &["no pictures"]);
     refuses(&["golden", "compare", &a, &a, "--max-flip", "1", "--allow-pixels", "1"], &["cannot be used with"]);
+    refuses(&["golden", "compare", &a, &a, "--max-flip", "5"], &["--max-flip", "give a number from 0 to 1"]);
     refuses(&["golden", "compare", &a, &a, "--allow-pixels", "101%"], &["0.1%"]);
     refuses(&["golden", "compare", &a, &a, "--max-difference", "-1"], &["at least 0"]);
     // Neither result may replace a compared picture.
@@ -183,7 +209,7 @@ fn depths_and_triangles_are_compared_as_numbers() {
             sahara(&[&["golden", "check", &scene, "-s", "sah-kd", "--export-json", &export], &own[..]].concat());
         let text = stdout(&output);
         assert_eq!(output.status.code(), Some(WRONG), "{text}");
-        assert!(text.contains("1 of 768 pixels differ, first at column 16, row 12") && text.contains(words), "{text}");
+        assert!(text.contains("1 of 768 pixels differs, first at column 16, row 12") && text.contains(words), "{text}");
         let measures = &json(&export)["comparisons"][0]["measures"];
         assert!(measures["flip"].is_null() && measures["pixels"] == 1, "{measures}");
         assert_eq!(measures["largest"].as_f64().is_some(), changed == 100f32.to_bits(), "{measures}");
@@ -259,7 +285,7 @@ fn a_wrong_pixel_is_named_with_its_ray_and_who_is_right() {
     assert_eq!(output.status.code(), Some(WRONG), "{text}");
     assert!(
         text.contains("Mine with sah-kd: differs from")
-            && text.contains("1 of 768 pixels differ, first at column 16, row 12"),
+            && text.contains("1 of 768 pixels differs, first at column 16, row 12"),
         "{text}"
     );
     assert!(text.contains("the golden image has 1, 2, 3, and sah-kd gives"), "{text}");

@@ -13,7 +13,7 @@ use crate::escaped::Escaped as _;
 use crate::golden::measures::PIXELS_PER_DEGREE;
 use crate::golden::page::{Page, Sides, Values};
 use crate::golden::{self, Allowed, Comparison, Mask, Match, Pair, Verdict, pairs, read};
-use crate::report::number::count;
+use crate::report::number::{count, plural};
 use crate::report::{Cell, Table, Tone};
 use crate::study::Status;
 
@@ -27,7 +27,7 @@ const STATUSES: &str = "Exit status: 0, all are accepted; 2, a picture differs; 
 #[derive(Debug, clap::Args)]
 #[command(after_help = STATUSES)]
 pub struct Args {
-    /// Reference picture (PNG; JPEG, WebP and EXR with the feature `pictures`), or a folder of pictures
+    /// Reference picture (PNG; after `cargo install --features pictures` also JPEG, WebP and EXR), or a folder of pictures
     expected: PathBuf,
     /// Picture to compare with it, or a folder of pictures with the same names
     actual: PathBuf,
@@ -38,8 +38,8 @@ pub struct Args {
     /// Accept N pixels, or P percent of them, that differ by more
     #[arg(long, help_heading = TOLERANCE, value_name = "N|P%", value_parser = allowed)]
     allow_pixels: Option<Allowed>,
-    /// Accept a mean FLIP error of at most X, from 0 to 1 (visible differences)
-    #[arg(long, help_heading = TOLERANCE, value_name = "X", value_parser = at_least_0, conflicts_with_all = ["max_difference", "allow_pixels"],
+    /// Instead, accept a mean FLIP error of at most X, from 0 to 1 (visible differences)
+    #[arg(long, help_heading = TOLERANCE, value_name = "X", value_parser = from_0_to_1, conflicts_with_all = ["max_difference", "allow_pixels"],
         allow_negative_numbers = true)]
     max_flip: Option<f64>,
     /// Pixels per degree of visual angle for --max-flip [default: 67, a 0.7 m screen of 3840 pixels seen from 0.7 m]
@@ -54,6 +54,10 @@ pub struct Args {
 
 fn at_least_0(text: &str) -> Result<f64, &'static str> {
     text.parse().ok().filter(|&number: &f64| number >= 0.0 && number.is_finite()).ok_or("give a number of at least 0")
+}
+
+fn from_0_to_1(text: &str) -> Result<f64, &'static str> {
+    text.parse().ok().filter(|number| (0.0..=1.0).contains(number)).ok_or("give a number from 0 to 1")
 }
 
 fn pixels_per_degree(text: &str) -> Result<f64, &'static str> {
@@ -151,13 +155,14 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
 
 fn read_mask(path: &Path, terminal: &Terminal) -> anyhow::Result<Mask> {
     let mask = Mask::new(&read(path)?);
-    let [masked, all] = [mask.masked() as u64, mask.size.map(u64::from).iter().product()];
+    let [masked, all] = [mask.masked(), mask.size.map(|side| side as usize).iter().product()];
     anyhow::ensure!(
         masked < all,
         "the mask {} is all black, so nothing would be compared: use another mask",
         path.escaped()
     );
-    terminal.print(&format!("{}: {} of {} pixels are masked\n", path.escaped(), count(masked), count(all)));
+    let are = if masked == 1 { "is" } else { "are" };
+    terminal.print(&format!("{}: {} of {} {are} masked\n", path.escaped(), count(masked as u64), plural(all, "pixel")));
     Ok(mask)
 }
 
@@ -227,7 +232,7 @@ fn table(comparisons: &[Comparison]) -> Table {
 fn verdict(verdict: Verdict) -> Cell {
     let text = match verdict {
         Verdict::Differs => "differs",
-        Verdict::Failed => "not comparable",
+        Verdict::Failed => "failed",
         Verdict::Missing => "missing",
         Verdict::Additional => "additional",
         Verdict::Accepted => "accepted",

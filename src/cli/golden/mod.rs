@@ -110,7 +110,7 @@ impl CheckedOutputs {
 fn tally(comparisons: &[Comparison]) -> String {
     let said = [
         (Verdict::Differs, "different"),
-        (Verdict::Failed, "not comparable"),
+        (Verdict::Failed, "failed"),
         (Verdict::Missing, "missing"),
         (Verdict::Additional, "additional"),
         (Verdict::Accepted, "accepted"),

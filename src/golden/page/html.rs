@@ -5,15 +5,17 @@ use minijinja::{AutoEscape, Environment, UndefinedBehavior, Value, context};
 
 use super::Entry;
 use crate::golden::measures::Measures;
+use crate::plural::count;
 
 /// The measures that are numbers, with their names.
 fn numbers(measures: &Measures) -> Vec<(&'static str, String)> {
     let Measures { compared, masked, difference, pixels_over, mean, psnr, ssim, flip } = measures;
+    let whole = |pixels: usize| count(pixels as u64);
     let mut numbers = vec![
-        ("pixels that differ", format!("{} of {compared}", difference.pixels)),
-        ("pixels over the tolerance", pixels_over.to_string()),
+        ("pixels that differ", format!("{} of {}", whole(difference.pixels), whole(*compared))),
+        ("pixels over the tolerance", whole(*pixels_over)),
     ];
-    numbers.extend((*masked > 0).then(|| ("masked pixels", masked.to_string())));
+    numbers.extend((*masked > 0).then(|| ("masked pixels", whole(*masked))));
     let four = |x: f64| format!("{x:.4}");
     let mut add = |name, x: f64, said: String| numbers.extend(x.is_finite().then_some((name, said)));
     add("largest difference", difference.largest, format!("{} of {}", difference.largest, difference.full_scale));

@@ -1,0 +1,88 @@
+//! The number that decides whether a picture is accepted, with its limit.
+
+use serde::Serialize;
+
+use super::layout::Layout;
+use crate::plural::{count, plural};
+
+/// A number of a picture and the largest accepted one. JSON has the names of the measures and of the options.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Limit {
+    Pixels {
+        max_difference: f64,
+        /// Pixels that differ by more than `max_difference`.
+        pixels_over: usize,
+        allow_pixels: usize,
+    },
+    Flip {
+        flip_mean: f64,
+        max_flip: f64,
+    },
+}
+
+impl Limit {
+    pub fn is_met(&self) -> bool {
+        match *self {
+            Self::Pixels { pixels_over, allow_pixels, .. } => pixels_over <= allow_pixels,
+            Self::Flip { flip_mean, max_flip } => flip_mean <= max_flip,
+        }
+    }
+
+    /// The number and its limit for pictures of this layout.
+    pub fn sentence(&self, layout: &Layout) -> String {
+        match *self {
+            Self::Pixels { max_difference, pixels_over, allow_pixels } => {
+                let unit = if layout.is_float() { "" } else { " of 255" };
+                let more =
+                    if max_difference > 0.0 { format!(" by more than {max_difference}{unit}") } else { String::new() };
+                let are = if allow_pixels == 1 { "is" } else { "are" };
+                let pixels = plural(pixels_over, "pixel");
+                format!("{pixels} {}{more}, and {} {are} allowed", differ(pixels_over), count(allow_pixels as u64))
+            }
+            Self::Flip { flip_mean, max_flip } => {
+                // Decimals are added until the rounded mean is on the same side of the limit.
+                let is_true = |text: &String| {
+                    text.parse::<f64>().is_ok_and(|rounded| (rounded <= max_flip) == (flip_mean <= max_flip))
+                };
+                let rounded = (4..20).map(|decimals| format!("{flip_mean:.decimals$}")).find(is_true);
+                let mean = rounded.unwrap_or_else(|| flip_mean.to_string());
+                format!("the mean of FLIP is {mean}, and {max_flip} is allowed")
+            }
+        }
+    }
+}
+
+/// The verb for a number of pixels.
+pub(super) fn differ(pixels: usize) -> &'static str {
+    if pixels == 1 { "differs" } else { "differ" }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sentence_has_the_number_that_is_compared_with_the_limit() {
+        let layout = |bits| Layout { size: [160, 120], channels: 3, bits };
+        let pixels =
+            |max_difference, pixels_over, allow_pixels| Limit::Pixels { max_difference, pixels_over, allow_pixels };
+        for (limit, bits, text) in [
+            (pixels(2.0, 2258, 1000), 8, "2,258 pixels differ by more than 2 of 255, and 1,000 are allowed"),
+            (pixels(0.5, 1, 0), 32, "1 pixel differs by more than 0.5, and 0 are allowed"),
+            (pixels(0.0, 1, 1), 16, "1 pixel differs, and 1 is allowed"),
+        ] {
+            assert_eq!((limit.sentence(&layout(bits)), limit.is_met()), (text.into(), text.contains("1 is")));
+        }
+        for (flip_mean, mean, is_met) in [
+            (0.034_21, "0.0342", false),
+            (0.010_000_04, "0.01000004", false),
+            (0.01, "0.0100", true),
+            (0.0, "0.0000", true),
+        ] {
+            let limit = Limit::Flip { flip_mean, max_flip: 0.01 };
+            let text = format!("the mean of FLIP is {mean}, and 0.01 is allowed");
+            assert_eq!((limit.sentence(&layout(8)), limit.is_met()), (text, is_met));
+        }
+    }
+}
