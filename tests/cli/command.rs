@@ -11,6 +11,7 @@ pub const RIGHT: i32 = 0;
 pub const USAGE: i32 = 1;
 pub const WRONG: i32 = 2;
 pub const REGRESSION: i32 = 3;
+pub const NOT_BUILT: i32 = 5;
 
 /// The words of a command line without quotes.
 pub fn words(line: &str) -> Vec<&str> {

@@ -8,7 +8,9 @@ use std::process::Command;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use super::command::{RIGHT, WRONG, path_text, prints, refuses_in_a_line, sahara, stderr, stdout, words, write};
+use super::command::{
+    NOT_BUILT, RIGHT, WRONG, path_text, prints, refuses_in_a_line, sahara, stderr, stdout, words, write,
+};
 
 const EXAMPLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/runner/brute_force.cpp");
 
@@ -116,6 +118,42 @@ fn a_program_that_fails_is_refused_in_a_sentence_and_the_others_go_on() {
     assert_eq!(records.len(), 1, "{text}");
     assert_eq!(records[0]["label"], "sah-kd");
     assert!(records[0]["ns"][0].as_u64() > Some(0), "{text}");
+}
+
+#[test]
+fn a_program_that_fails_is_not_checked_and_not_wrong() {
+    let folder = TempDir::new().unwrap();
+    let program = nothing(&folder);
+    let scene = ["cube", "--rays", "8"];
+    let cases = ["--hard", "flat_inplane", "parity", "straight_down", "--rays", "8"];
+    for (how, sentence) in [
+        ("refuses", "it says: it holds no more than two triangles."),
+        ("objects", "it says: no ray fits."),
+        ("miscounts", "it replies \"loaded 7\" to \"rays 0 "),
+        ("dies", "it ended instead of replying to \"pass 0\" (exit status: 3)."),
+        ("hangs", "it does not reply to \"pass 0\" within 0.5 s: raise --runner-limit."),
+    ] {
+        let command = format!("{program} {how}");
+        for what in [&scene[..], &cases] {
+            let args = [&["validate", "--runner", &command, "--runner-limit", "0.5"], what].concat();
+            let output = sahara(&args);
+            let said = stdout(&output);
+            assert_eq!(output.status.code(), Some(NOT_BUILT), "{args:?}: {said}");
+            let last = said.split("was not checked: ").nth(1).unwrap_or_else(|| panic!("{args:?}: {said}"));
+            assert!(last.starts_with(sentence) && !last.contains("write messages"), "{args:?}: {said}");
+        }
+    }
+}
+
+#[test]
+fn a_slow_program_has_time_for_each_reply() {
+    let folder = TempDir::new().unwrap();
+    // All its passes together take longer than any of the limits.
+    let slow = format!("{} slow", nothing(&folder));
+    let limits = ["--limit", "0.5", "--runner-limit", "1"];
+    let hard = ["validate", "--hard", "flat_inplane", "--rays", "16", "--runner", &slow];
+    let said = prints(&[&hard[..], &limits].concat());
+    assert!(said.contains("is right on 16 rays"), "{said}");
 }
 
 #[test]
