@@ -19,10 +19,10 @@ fn sets(count: usize) -> impl Iterator<Item = (&'static HardCase, Expected, Set)
 }
 
 #[test]
-fn there_are_91_numbers_and_every_case_has_a_name_of_its_own() {
+fn there_are_92_numbers_and_every_case_has_a_name_of_its_own() {
     let cases = catalogue();
     // Number 23 has two scales.
-    let numbers = (1..=91).flat_map(|number| vec![number; if number == 23 { 2 } else { 1 }]);
+    let numbers = (1..=92).flat_map(|number| vec![number; if number == 23 { 2 } else { 1 }]);
     assert!(cases.iter().map(|case| case.number).eq(numbers));
     let ranked = |rank: Rank| cases.iter().filter(|case| case.rank == rank).count();
     assert_eq!((ranked(Rank::Moderate), ranked(Rank::Extreme)), (49, 10), "what totals are over");
@@ -69,7 +69,7 @@ fn every_machine_makes_the_same_cases() {
         let number = |x: u32| if f32::from_bits(x).is_nan() { u32::MAX } else { x };
         bits(&set.rays).into_iter().for_each(|x| hasher.update(number(x).to_le_bytes()));
     }
-    assert_eq!(&format!("{:x}", hasher.finalize())[..16], "fc041eda6dee462d");
+    assert_eq!(&format!("{:x}", hasher.finalize())[..16], "c70c3e700e9cc34b");
 }
 
 #[test]
