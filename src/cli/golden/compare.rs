@@ -27,7 +27,7 @@ const STATUSES: &str = "Exit status: 0, all are accepted; 2, a picture differs; 
 #[derive(Debug, clap::Args)]
 #[command(after_help = STATUSES)]
 pub struct Args {
-    /// Reference picture (PNG; after `cargo install --features pictures` also JPEG, WebP and EXR), or a folder of pictures
+    /// Reference picture (PNG; also JPEG, WebP and EXR if installed with `--features pictures`), or a folder
     expected: PathBuf,
     /// Picture to compare with it, or a folder of pictures with the same names
     actual: PathBuf,
