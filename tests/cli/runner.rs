@@ -64,6 +64,9 @@ fn the_example_of_the_document_is_timed_beside_ours() {
         let hits = |record: &Value| record["counts"]["hits"].as_f64().unwrap();
         assert!((hits(ours) - hits(theirs)).abs() <= 0.001 * hits(ours), "{ours} {theirs}");
     }
+    // It misses the rays that are not valid, as the document demands.
+    let invalid = ["validate", "--hard", "rays_nan_dir", "rays_inf_dir", "--rays", "50", "--runner", &program];
+    assert!(prints(&invalid).contains("brute_force is right on 100 rays"));
 }
 
 #[test]

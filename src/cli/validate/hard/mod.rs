@@ -24,7 +24,6 @@ use crate::request::{self, known_defect};
 use crate::study::{Status, Verdict};
 use crate::triangle::{Exact, TriangleTest};
 use crate::validate::hard_cases::{Answers, CaseTruth, Content, Failure, HardCase, Score, catalogue, find_all};
-use child::Limits;
 use record::record;
 use table::{Column, LEGEND, summary, tables};
 use verdict::verdict;
@@ -51,7 +50,7 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
 
     let mut columns: Vec<Column> = choices.iter().map(|choice| Column { choice, scores: vec![] }).collect();
     let (waiting, mut log) = (spinner(String::new(), terminal), LogLines::new(terminal));
-    let limits = Limits { structure: args.limit.duration(), reply: args.runner_limit };
+    let limits = child::Limits { structure: args.limit.duration(), reply: args.runner_limit };
     let mut records = vec![];
     for (i, case) in cases.iter().enumerate() {
         let message = format!("{} of {}: {}", i + 1, cases.len(), case.name);
@@ -141,7 +140,7 @@ fn choices(registry: &Registry, structures: Vec<Choice>, tests: &[String]) -> an
 }
 
 /// Runs a case on all structures, several at a time, and computes the exact hits meanwhile.
-fn scores(case: &HardCase, choices: &[Choice], rays: u32, limits: Limits) -> anyhow::Result<Vec<Score>> {
+fn scores(case: &HardCase, choices: &[Choice], rays: u32, limits: child::Limits) -> anyhow::Result<Vec<Score>> {
     let waiting = Mutex::new(choices.iter().enumerate());
     let worker = || -> io::Result<Vec<(usize, Result<Answers, Failure>)>> {
         let mut done = vec![];
