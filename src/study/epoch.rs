@@ -377,11 +377,7 @@ pub(crate) mod tests {
     pub fn example(scene: &str, triangles: usize, epoch: usize, structures: &[(&str, u64, &[u64])]) -> Epoch {
         let structure = |(place, &(label, build_ns, ns)): (usize, &(&str, u64, &[u64]))| Structure {
             label: label.into(),
-            role: if structures[..place].iter().any(|(other, ..)| *other == label) {
-                TWIN.into()
-            } else {
-                String::new()
-            },
+            role: structures[..place].iter().find(|own| own.0 == label).map_or(String::new(), |_| TWIN.into()),
             name: label.split(':').next().unwrap().into(),
             config: Value::Object(Default::default()),
             triangle_test: if label.starts_with("obvhs") { "native".into() } else { Exact::NAME.into() },
