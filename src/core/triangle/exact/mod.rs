@@ -110,12 +110,15 @@ impl TriangleTest for Exact {
         }
         let (low, high, (start, end)) = (bounds.low[lane], bounds.high[lane], ray.ray.interval());
         if start <= low && high < end {
-            Some(Some(ExactDepth::new(block.place(lane), low, high)))
-        } else if high < start || end <= low {
-            Some(None)
-        } else {
-            None
+            return Some(Some(ExactDepth::new(block.place(lane), low, high)));
         }
+        if high < start || end <= low {
+            return Some(None);
+        }
+        // Rays that leave a floor or a wall come here for each of its triangles that their lines meet.
+        let bounds = place_in_axis_plane(&ray.ray, &block.place(lane).corners())?;
+        let inside = within(&ray.ray, bounds)?;
+        Some(inside.map(|(low, high)| ExactDepth::new(block.place(lane), low, high).looked_up()))
     }
 
     #[inline(always)]
@@ -177,21 +180,27 @@ fn in_f64(ray: &Ray, triangle: Place, met: bool) -> Option<(f32, f32)> {
     if !met && runs_along(ray, &corners) {
         return None;
     }
-    let (start, end) = (f64::from(ray.interval().0), ray.end());
-    let within = |bounds: Bounds| match bounds {
-        Bounds::Miss => Some(None),
-        Bounds::Hit { low, high } if start <= low && high < end => Some(Some((round_down(low), round_up(high)))),
-        Bounds::Hit { low, high } if high < start || end <= low => Some(None),
-        Bounds::Hit { .. } | Bounds::Unclear => None,
-    };
     let bounds = match met {
         true => bounds_of_hit(ray, corners),
         false => look_at_corners(ray, corners).unwrap_or_else(|| look(ray, corners)),
     };
     let met = matches!(bounds, Bounds::Hit { .. });
-    within(bounds)
-        .or_else(|| met.then(|| within(place_closely(ray, corners)))?)
+    within(ray, bounds)
+        .or_else(|| met.then(|| within(ray, place_closely(ray, corners)))?)
         .unwrap_or_else(|| exactly(ray, corners))
+}
+
+/// Whether a hit with these bounds lies in the interval of `ray`, and if it does, its bounds in `f32`; `None` if the
+/// bounds do not decide it.
+#[inline(always)]
+fn within(ray: &Ray, bounds: Bounds) -> Option<Option<(f32, f32)>> {
+    let (start, end) = (f64::from(ray.interval().0), ray.end());
+    match bounds {
+        Bounds::Miss => Some(None),
+        Bounds::Hit { low, high } if start <= low && high < end => Some(Some((round_down(low), round_up(high)))),
+        Bounds::Hit { low, high } if high < start || end <= low => Some(None),
+        Bounds::Hit { .. } | Bounds::Unclear => None,
+    }
 }
 
 /// Refines in `f64` the candidates of a block if many are too close together, or too close to the origin, for `f32`:
