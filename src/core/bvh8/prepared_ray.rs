@@ -3,7 +3,7 @@
 use glam::Vec3A;
 
 use super::node::{Node, WIDTH};
-use crate::geometry::{Aabb, Ray};
+use crate::geometry::Ray;
 use crate::simd::{Lanes, each, indexed};
 use crate::traversal::line::inverses;
 
@@ -43,11 +43,11 @@ pub(super) fn rows(octant: usize) -> ([usize; 3], [usize; 3]) {
 }
 
 impl<L: Lanes<WIDTH>> PreparedRay<L> {
-    /// Prepares `ray` for boxes in `bounds`.
+    /// Prepares `ray` for boxes whose coordinates have at most the magnitudes `farthest`.
     #[inline(always)]
-    pub fn new(ray: &Ray, bounds: &Aabb, t_min: f32) -> Self {
-        let octant = Vec3A::from(ray.direction).is_negative_bitmask();
-        Self::of(ray.origin.to_array(), inverses(ray, bounds), t_min, octant as usize)
+    pub fn new(ray: &Ray, farthest: Vec3A, t_min: f32) -> Self {
+        let octant = ray.vectors().1.is_negative_bitmask();
+        Self::of(ray.origin.to_array(), inverses(ray, farthest), t_min, octant as usize)
     }
 
     /// From its parts.

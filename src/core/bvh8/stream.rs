@@ -130,7 +130,7 @@ impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
         // `SLOTS`.
         unsafe {
             let slot = self.free.get(self.freed);
-            (&raw mut (*slot).prepared_ray).write(PreparedRay::new(ray, &self.tree.bounds, t_min));
+            (&raw mut (*slot).prepared_ray).write(PreparedRay::new(ray, self.tree.farthest, t_min));
             (&raw mut (*slot).original).write(ray);
             (&raw mut (*slot).ray).write(T::prepare(ray));
             (&raw mut (*slot).t_min).write(t_min);

@@ -50,7 +50,7 @@ impl<T: TriangleTest> Bvh8<T> {
             let blocks = unsafe { self.blocks.get_unchecked(first..first + count) };
             return search::<ANY, WIDTH, L, T, O>(blocks, u32::MAX, &prepared, t_min, nearest, &mut None, observer);
         }
-        let prepared_ray = PreparedRay::<L>::new(ray, &self.bounds, t_min);
+        let prepared_ray = PreparedRay::<L>::new(ray, self.farthest, t_min);
         self.descend::<ANY, L, O>(self.root, &prepared_ray, &prepared, t_min, nearest, observer);
     }
 

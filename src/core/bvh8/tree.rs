@@ -1,3 +1,5 @@
+use glam::Vec3A;
+
 use super::collapse::Collapse;
 use super::config::{Batch, Bvh8Config};
 use super::layout::Layout;
@@ -7,6 +9,7 @@ use crate::accel::BuildError;
 use crate::build::sah_cost::CostModel;
 use crate::geometry::{Aabb, Mesh};
 use crate::traversal::leaf::LeafBlock;
+use crate::traversal::line::farthest;
 use crate::triangle::TriangleTest;
 
 /// A tree of nodes with eight tight boxes, and leaves of blocks of eight triangles.
@@ -31,6 +34,8 @@ pub struct Bvh8<T: TriangleTest> {
     pub(super) nodes: Vec<Node>,
     pub(super) blocks: Vec<LeafBlock<T, WIDTH>>,
     pub(super) bounds: Aabb,
+    /// See [`farthest`].
+    pub(super) farthest: Vec3A,
     pub(super) batch: Batch,
     /// The strategy for rays that form no packet, for closest-hit and any-hit queries. Boxed: writes to it must not
     /// share a cache line with data that all threads read.
@@ -44,6 +49,7 @@ impl<T: TriangleTest> Bvh8<T> {
         let tree = config.partition(mesh);
         let collapse = Collapse::new(&tree, &CostModel::new(1.0, config.block_cost, 0.0));
         let Layout { root, nodes, blocks } = Layout::new(mesh, &collapse, limits)?;
-        Ok(Self { root, nodes, blocks, bounds: mesh.bounds(), batch: config.batch, apart: Default::default() })
+        let (bounds, batch) = (mesh.bounds(), config.batch);
+        Ok(Self { root, nodes, blocks, bounds, farthest: farthest(&bounds), batch, apart: Default::default() })
     }
 }

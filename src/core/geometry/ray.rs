@@ -2,7 +2,7 @@
 
 use std::num::NonZeroU32;
 
-use glam::{Vec3, Vec3A};
+use glam::{Vec3, Vec3A, Vec4};
 
 /// The points `origin + t * direction` with `t_min <= t < t_max`.
 ///
@@ -54,10 +54,18 @@ impl Ray {
     /// Whether the ray can hit anything. Every structure returns a miss for an invalid ray without a traversal.
     #[inline(always)]
     pub fn is_valid(&self) -> bool {
-        let (t_min, t_max) = self.interval();
-        let (origin, direction) = (Vec3A::from(self.origin), Vec3A::from(self.direction));
+        let (origin, direction) = self.vectors();
         let finite = (origin.is_finite_mask() & direction.is_finite_mask()).all();
-        finite && direction != Vec3A::ZERO && !self.t_min.is_nan() && t_min < t_max
+        // False if one is NaN.
+        let lasts = (0.0 < self.t_max) & (self.t_min < self.t_max);
+        finite & direction.cmpne(Vec3A::ZERO).any() & lasts
+    }
+
+    /// The origin and the direction; each is one load from memory, unlike a conversion of the three components.
+    #[inline(always)]
+    pub(crate) fn vectors(&self) -> (Vec3A, Vec3A) {
+        let Self { origin: o, t_min, direction: d, t_max } = *self;
+        (Vec3A::from_vec4(Vec4::new(o.x, o.y, o.z, t_min)), Vec3A::from_vec4(Vec4::new(d.x, d.y, d.z, t_max)))
     }
 
     /// The rounded point at `t`.

@@ -79,10 +79,12 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// If there are more than `N` triangles.
     fn block<const N: usize>(triangles: &[[Vec3; 3]]) -> Self::Block<N>;
 
-    /// The last `t` of a hit for a ray that ends before `t_max`: the preceding float, if hits are ordered as floats.
+    /// The last `t` of a hit for a valid ray that ends before `t_max`: the preceding float, if hits are ordered as
+    /// floats.
     #[inline(always)]
     fn last(t_max: f32) -> f32 {
-        t_max.next_down()
+        // A valid ray ends after 0, so this is `next_down`, without the cases that cost each ray a dozen instructions.
+        f32::from_bits(t_max.to_bits().wrapping_sub(1))
     }
 
     /// The first stage: the lanes that the ray may hit at a `t` in [`from`, `to`], as bits, and the input of
