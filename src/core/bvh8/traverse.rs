@@ -79,7 +79,7 @@ impl<T: TriangleTest> Bvh8<T> {
                     held = blocks.iter().map(|block| block.len()).sum();
                     observer.leaf(held);
                 }
-                search::<ANY, WIDTH, L, T, O>(blocks, held, prepared, t_min, nearest, &mut None, observer);
+                search::<ANY, WIDTH, L, T, O>(blocks, held, std::hint::black_box(prepared), t_min, nearest, &mut None, observer);
                 if ANY && nearest.found() {
                     return;
                 }
