@@ -207,7 +207,7 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
         }
         let mut slots = Slots::EMPTY;
         let which = which.places(rays.len()).flatten().map(|i| (i, &rays[i]));
-        Stream::<L, T>::new(tree, &mut slots).run::<ANY>(which, |i, hit| answers[i] = form(hit));
+        Stream::<T>::new(tree, &mut slots).run::<ANY, L>(which, |i, hit| answers[i] = form(hit));
     }
 }
 

@@ -20,14 +20,14 @@ use crate::traversal::line::inverses;
 /// and undefined ones are NaN (see [`inverses`]), which leaves the interval unchanged. Nothing is fused: all levels
 /// visit the same boxes for the same `end`.
 #[derive(Clone, Copy)]
-pub(super) struct PreparedRay<L> {
-    origin: [L; 3],
-    inverse: [L; 3],
-    enlarged: [L; 3],
+pub(super) struct PreparedRay {
+    origin: [f32; 3],
+    inverse: [f32; 3],
+    enlarged: [f32; 3],
     /// By axis, the byte offsets of the near and of the far planes.
     near: [usize; 3],
     far: [usize; 3],
-    t_min: L,
+    t_min: f32,
     /// Bit 0 is set for a negative x.
     pub octant: usize,
 }
@@ -42,7 +42,7 @@ pub(super) fn rows(octant: usize) -> ([usize; 3], [usize; 3]) {
     ([x, 2 + y, 4 + z], [1 - x, 3 - y, 5 - z])
 }
 
-impl<L: Lanes<WIDTH>> PreparedRay<L> {
+impl PreparedRay {
     /// Prepares `ray` for boxes whose coordinates have at most the magnitudes `farthest`.
     #[inline(always)]
     pub fn new(ray: &Ray, farthest: Vec3A, t_min: f32) -> Self {
@@ -56,12 +56,12 @@ impl<L: Lanes<WIDTH>> PreparedRay<L> {
         let (near, far) = rows(octant);
         let bytes = |&row: &usize| row * size_of::<[f32; WIDTH]>();
         Self {
-            origin: each(&origin, |&o| L::splat(o)),
-            inverse: each(&inverse, |&i| L::splat(i)),
-            enlarged: each(&inverse, |&i| L::splat(i * ENLARGED)),
+            origin,
+            inverse,
+            enlarged: each(&inverse, |&i| i * ENLARGED),
             near: each(&near, bytes),
             far: each(&far, bytes),
-            t_min: L::splat(t_min),
+            t_min,
             octant,
         }
     }
@@ -69,15 +69,15 @@ impl<L: Lanes<WIDTH>> PreparedRay<L> {
     /// The parameters at which the ray enters and leaves the boxes, both within the interval: it misses a box that it
     /// leaves before it enters.
     #[inline(always)]
-    pub fn cross(&self, node: &Node, end: L) -> (L, L) {
+    pub fn cross<L: Lanes<WIDTH>>(&self, node: &Node, end: f32) -> (L, L) {
         let planes = (&raw const node.planes).cast::<u8>();
-        let (mut enter, mut leave) = (self.t_min, end);
+        let (mut enter, mut leave) = (L::splat(self.t_min), L::splat(end));
         for axis in 0..3 {
             // SAFETY: `near` and `far` are the offsets that `of` has computed from numbers of `rows`, all below the six
             // rows of `planes`; a row of floats has the alignment of the node.
             let (near, far) = unsafe { (&*planes.add(self.near[axis]).cast(), &*planes.add(self.far[axis]).cast()) };
-            enter = L::load(near).sub(self.origin[axis]).mul(self.inverse[axis]).max(enter);
-            leave = L::load(far).sub(self.origin[axis]).mul(self.enlarged[axis]).min(leave);
+            enter = L::load(near).sub(L::splat(self.origin[axis])).mul(L::splat(self.inverse[axis])).max(enter);
+            leave = L::load(far).sub(L::splat(self.origin[axis])).mul(L::splat(self.enlarged[axis])).min(leave);
         }
         (enter, leave)
     }

@@ -112,7 +112,7 @@ impl<L: EightLanes> RayPacket<L> {
 
     /// One of the rays.
     #[inline(always)]
-    pub fn single(&self, i: usize) -> PreparedRay<L> {
+    pub fn single(&self, i: usize) -> PreparedRay {
         let pick = |row: &[L; HALVES]| row[i / WIDTH].store()[i % WIDTH];
         PreparedRay::of(each(&self.origin, pick), each(&self.inverse, pick), pick(&self.t_min), self.octant)
     }

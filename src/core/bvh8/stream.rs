@@ -23,8 +23,8 @@ use crate::triangle::TriangleTest;
 const SLOTS: usize = 8;
 
 /// An active ray.
-struct StreamRay<'a, L, T: TriangleTest> {
-    prepared_ray: PreparedRay<L>,
+struct StreamRay<'a, T: TriangleTest> {
+    prepared_ray: PreparedRay,
     original: &'a Ray,
     ray: T::Ray,
     t_min: f32,
@@ -41,22 +41,22 @@ struct StreamRay<'a, L, T: TriangleTest> {
 }
 
 /// Memory for the active rays.
-pub(super) struct Slots<'a, L, T: TriangleTest>([MaybeUninit<StreamRay<'a, L, T>>; SLOTS]);
+pub(super) struct Slots<'a, T: TriangleTest>([MaybeUninit<StreamRay<'a, T>>; SLOTS]);
 
-impl<L, T: TriangleTest> Slots<'_, L, T> {
+impl<T: TriangleTest> Slots<'_, T> {
     pub const EMPTY: Self = Self([const { MaybeUninit::uninit() }; SLOTS]);
 }
 
 /// Some of the slots.
-struct List<'a, L, T: TriangleTest>([*mut StreamRay<'a, L, T>; SLOTS]);
+struct List<'a, T: TriangleTest>([*mut StreamRay<'a, T>; SLOTS]);
 
-impl<'a, L, T: TriangleTest> List<'a, L, T> {
+impl<'a, T: TriangleTest> List<'a, T> {
     const EMPTY: Self = Self([std::ptr::null_mut(); SLOTS]);
 
     /// # Safety
     /// `i` is below [`SLOTS`].
     #[inline(always)]
-    unsafe fn put(&mut self, i: usize, slot: *mut StreamRay<'a, L, T>) {
+    unsafe fn put(&mut self, i: usize, slot: *mut StreamRay<'a, T>) {
         debug_assert!(i < SLOTS);
         // SAFETY: by the contract of this function `i` is in bounds.
         unsafe { *self.0.get_unchecked_mut(i) = slot };
@@ -65,7 +65,7 @@ impl<'a, L, T: TriangleTest> List<'a, L, T> {
     /// # Safety
     /// `i` is below [`SLOTS`].
     #[inline(always)]
-    unsafe fn get(&self, i: usize) -> *mut StreamRay<'a, L, T> {
+    unsafe fn get(&self, i: usize) -> *mut StreamRay<'a, T> {
         debug_assert!(i < SLOTS);
         // SAFETY: by the contract of this function `i` is in bounds.
         unsafe { *self.0.get_unchecked(i) }
@@ -73,24 +73,24 @@ impl<'a, L, T: TriangleTest> List<'a, L, T> {
 }
 
 /// Active rays in a tree. Each slot is in exactly one of the lists.
-pub(super) struct Stream<'a, L, T: TriangleTest> {
+pub(super) struct Stream<'a, T: TriangleTest> {
     tree: &'a Bvh8<T>,
-    slots: PhantomData<&'a mut Slots<'a, L, T>>,
+    slots: PhantomData<&'a mut Slots<'a, T>>,
     /// Slots with a ray at a node.
-    nodes: List<'a, L, T>,
+    nodes: List<'a, T>,
     /// Slots with a ray at a leaf.
-    leaves: List<'a, L, T>,
+    leaves: List<'a, T>,
     /// Slots without a ray.
-    free: List<'a, L, T>,
+    free: List<'a, T>,
     /// The lengths of the three lists.
     at_nodes: usize,
     at_leaves: usize,
     freed: usize,
 }
 
-impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
+impl<'a, T: TriangleTest> Stream<'a, T> {
     #[inline(always)]
-    pub fn new(tree: &'a Bvh8<T>, slots: &'a mut Slots<'a, L, T>) -> Self {
+    pub fn new(tree: &'a Bvh8<T>, slots: &'a mut Slots<'a, T>) -> Self {
         let mut free = List::EMPTY;
         for (place, slot) in free.0.iter_mut().zip(&mut slots.0) {
             *place = slot.as_mut_ptr();
@@ -101,7 +101,7 @@ impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
 
     /// Traces all of `rays`; `done` receives the number and the hit of each.
     #[inline(always)]
-    pub fn run<const ANY: bool>(
+    pub fn run<const ANY: bool, L: EightLanes>(
         &mut self,
         mut rays: impl Iterator<Item = (usize, &'a Ray)>,
         mut done: impl FnMut(usize, Option<Hit>),
@@ -114,7 +114,7 @@ impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
             if self.freed == SLOTS {
                 return;
             }
-            self.round::<ANY>(&mut done);
+            self.round::<ANY, L>(&mut done);
         }
     }
 
@@ -152,7 +152,7 @@ impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
 
     /// A step of each ray.
     #[inline(always)]
-    fn round<const ANY: bool>(&mut self, done: &mut impl FnMut(usize, Option<Hit>)) {
+    fn round<const ANY: bool, L: EightLanes>(&mut self, done: &mut impl FnMut(usize, Option<Hit>)) {
         let tree = self.tree;
         // Each list is rewritten in place while it is read. A slot is written to both lists, and counted in one of
         // them.
@@ -167,7 +167,7 @@ impl<'a, L: EightLanes, T: TriangleTest> Stream<'a, L, T> {
                 let at = &mut *slot;
                 let node = tree.nodes.get_unchecked(at.child.index());
                 let mut stack = Stack::<ANY>::of(&mut at.entries, at.left);
-                stack.push_all::<L>(node, at.prepared_ray.octant, at.prepared_ray.cross(node, L::splat(at.end)));
+                stack.push_all::<L>(node, at.prepared_ray.octant, at.prepared_ray.cross(node, at.end));
                 at.child = stack.pop_down(at.end);
                 at.left = stack.len();
                 tree.fetch(at.child);

@@ -50,7 +50,7 @@ impl<T: TriangleTest> Bvh8<T> {
             let blocks = unsafe { self.blocks.get_unchecked(first..first + count) };
             return search::<ANY, WIDTH, L, T, O>(blocks, u32::MAX, &prepared, t_min, nearest, &mut None, observer);
         }
-        let prepared_ray = PreparedRay::<L>::new(ray, self.farthest, t_min);
+        let prepared_ray = PreparedRay::new(ray, self.farthest, t_min);
         self.descend::<ANY, L, O>(self.root, &prepared_ray, &prepared, t_min, nearest, observer);
     }
 
@@ -59,7 +59,7 @@ impl<T: TriangleTest> Bvh8<T> {
     pub(super) fn descend<'a, const ANY: bool, L: EightLanes, O: Observer>(
         &'a self,
         mut child: Child,
-        prepared_ray: &PreparedRay<L>,
+        prepared_ray: &PreparedRay,
         prepared: &T::Ray,
         t_min: f32,
         nearest: &mut Nearest<T::Depth<'a>>,
@@ -91,7 +91,7 @@ impl<T: TriangleTest> Bvh8<T> {
                 // (invariants of `Bvh8`). This traversal pushes each of them once.
                 unsafe {
                     let node = self.nodes.get_unchecked(child.index());
-                    stack.push::<L>(node, prepared_ray.octant, prepared_ray.cross(node, L::splat(end)))
+                    stack.push::<L>(node, prepared_ray.octant, prepared_ray.cross(node, end))
                 }
             };
             match next.or_else(|| stack.pop(end)) {
