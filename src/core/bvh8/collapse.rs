@@ -152,8 +152,8 @@ impl<'a> Collapse<'a> {
         if let Some(root) = tree.nodes.first() {
             let whole = Some(root.bounds.half_area()).filter(|&whole| whole > 0.0).unwrap_or(1.0);
             Chooser { tree, costs, whole }.choose(0, &mut best, &mut vec![]);
-            // A root with several blocks stays below a box: rays that miss it test nothing.
-            best[0].leaf &= best[0].triangles as usize <= WIDTH;
+            // The root stays below a box even if it is a leaf: rays that miss it test nothing.
+            best[0].leaf = false;
         }
         Self { tree, best }
     }

@@ -42,14 +42,6 @@ impl<T: TriangleTest> Bvh8<T> {
         let Some((t_min, unfound)) = start::<T>(ray) else { return *nearest = Nearest::NOTHING };
         *nearest = unfound;
         let prepared = T::prepare(ray);
-        // Without a node, no box is tested.
-        if let Some((first, count)) = self.root.blocks()
-            && !O::ACTIVE
-        {
-            // SAFETY: a leaf names a range of `blocks` (invariants of `Bvh8`).
-            let blocks = unsafe { self.blocks.get_unchecked(first..first + count) };
-            return search::<ANY, WIDTH, L, T, O>(blocks, u32::MAX, &prepared, t_min, nearest, &mut None, observer);
-        }
         let prepared_ray = PreparedRay::new(ray, self.farthest, t_min);
         self.descend::<ANY, L, O>(self.root, &prepared_ray, &prepared, t_min, nearest, observer);
     }

@@ -104,7 +104,8 @@ fn choose(
     slots: &mut Slots,
 ) -> Option<(Split, [usize; 2])> {
     let (count, config) = (references.len(), context.config);
-    if count <= BLOCK {
+    // The root of a tiny mesh may be split: rays test its box and those of its children at once.
+    if count <= BLOCK && place.depth > 0 {
         return None;
     }
     let leaf_cost = context.costs.box_leaf(extent.half_area(), count);
