@@ -17,7 +17,7 @@ use super::node::{Child, WIDTH};
 use super::packet_hits::RAYS;
 use super::packet_state::PacketState;
 use super::ray_packet::RayPacket;
-use super::stack::SIZE;
+use super::stack::{Entries, OnePage, SIZE, Stack};
 use super::tree::Bvh8;
 use crate::geometry::{Hit, Ray};
 use crate::simd::{EightLanes, Level};
@@ -120,7 +120,10 @@ impl<T: TriangleTest> Bvh8<T> {
             active &= active - 1;
             let prepared_ray = packet.single(i);
             let (ray, t_min, mut nearest) = state.single(i);
-            self.descend::<ANY, L, ()>(child, &prepared_ray, ray, t_min, &mut nearest, &mut ());
+            let OnePage(_, entries) = &mut OnePage::new(Entries::new());
+            // SAFETY: a stack of length 0 has no entries to read; `push` writes entries before it counts them.
+            let mut stack = unsafe { Stack::<ANY>::of(entries, 0) };
+            self.descend::<ANY, L, ()>(child, &mut stack, &prepared_ray, ray, t_min, &mut nearest, &mut ());
             state.put_back::<ANY, L>(i, nearest, packet);
         }
     }

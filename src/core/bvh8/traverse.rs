@@ -41,25 +41,55 @@ impl<T: TriangleTest> Bvh8<T> {
     ) {
         let Some((t_min, unfound)) = start::<T>(ray) else { return *nearest = Nearest::NOTHING };
         *nearest = unfound;
-        let prepared = T::prepare(ray);
+        if self.nodes.is_empty() {
+            return;
+        }
         let prepared_ray = PreparedRay::new(ray, self.farthest, t_min);
-        self.descend::<ANY, L, O>(self.root, &prepared_ray, &prepared, t_min, nearest, observer);
+        let OnePage(_, entries) = &mut OnePage::new(Entries::new());
+        // SAFETY: a stack of length 0 has no entries to read; `push` writes entries before it counts them.
+        let mut stack = unsafe { Stack::<ANY>::of(entries, 0) };
+        // SAFETY: the root is a node if there are nodes (invariants of `Bvh8`), and it is the first of the path.
+        let first = unsafe { self.enter::<ANY, L, O>(self.root, &prepared_ray, after(nearest.t), &mut stack, observer) };
+        // Prepare the rest only now, because many rays miss all boxes of the root.
+        let Some(first) = first else { return };
+        self.descend::<ANY, L, O>(first, &mut stack, &prepared_ray, &T::prepare(ray), t_min, nearest, observer);
     }
 
-    /// Searches the subtree at `child`.
+    /// Pushes the children of a node that the ray meets before `end`; returns the first one instead.
+    ///
+    /// # Safety
+    /// `node` is a node of the tree, and no node of the path was entered twice since the stack was empty.
     #[inline(always)]
+    unsafe fn enter<const ANY: bool, L: EightLanes, O: Observer>(
+        &self,
+        node: Child,
+        prepared_ray: &PreparedRay,
+        end: f32,
+        stack: &mut Stack<ANY>,
+        observer: &mut O,
+    ) -> Option<Child> {
+        observer.inner();
+        // SAFETY: a path has at most `DEPTH` nodes (invariants of `Bvh8`), and by the contract of this function each is
+        // pushed once.
+        unsafe {
+            let node = self.nodes.get_unchecked(node.index());
+            stack.push::<L>(node, prepared_ray.octant, prepared_ray.cross(node, end))
+        }
+    }
+
+    /// Searches the subtree at `child`, then those on the stack.
+    #[inline(always)]
+    #[allow(clippy::too_many_arguments)]
     pub(super) fn descend<'a, const ANY: bool, L: EightLanes, O: Observer>(
         &'a self,
         mut child: Child,
+        stack: &mut Stack<ANY>,
         prepared_ray: &PreparedRay,
         prepared: &T::Ray,
         t_min: f32,
         nearest: &mut Nearest<T::Depth<'a>>,
         observer: &mut O,
     ) {
-        let OnePage(_, entries) = &mut OnePage::new(Entries::new());
-        // SAFETY: a stack of length 0 has no entries to read; `push` writes entries before it counts them.
-        let mut stack = unsafe { Stack::<ANY>::of(entries, 0) };
         let mut end = after(nearest.t);
         loop {
             let next = if let Some((first, count)) = child.blocks() {
@@ -71,20 +101,19 @@ impl<T: TriangleTest> Bvh8<T> {
                     held = blocks.iter().map(|block| block.len()).sum();
                     observer.leaf(held);
                 }
-                search::<ANY, WIDTH, L, T, O>(blocks, held, std::hint::black_box(prepared), t_min, nearest, &mut None, observer);
+                // The black box keeps the compiler from preparing registers for the tests of all leaves before the
+                // first node: many rays test no leaf, and each test that needs a call spoils the registers.
+                let prepared = std::hint::black_box(prepared);
+                search::<ANY, WIDTH, L, T, O>(blocks, held, prepared, t_min, nearest, &mut None, observer);
                 if ANY && nearest.found() {
                     return;
                 }
                 end = after(nearest.t);
                 None
             } else {
-                observer.inner();
-                // SAFETY: a child that is no leaf names one of `nodes`, and a path has at most `DEPTH` of them
-                // (invariants of `Bvh8`). This traversal pushes each of them once.
-                unsafe {
-                    let node = self.nodes.get_unchecked(child.index());
-                    stack.push::<L>(node, prepared_ray.octant, prepared_ray.cross(node, end))
-                }
+                // SAFETY: a child that is no leaf names one of `nodes` (invariants of `Bvh8`), and this traversal
+                // enters each of them once.
+                unsafe { self.enter::<ANY, L, O>(child, prepared_ray, end, stack, observer) }
             };
             match next.or_else(|| stack.pop(end)) {
                 Some(next) => child = next,
