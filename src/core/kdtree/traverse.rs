@@ -93,7 +93,8 @@ impl Leaves {
     fn enter<T: TriangleTest>(tree: &KdTree<T>, line: &Line, t_min: f32, t_max: f32) -> Option<Self> {
         Some(match tree.config.traversal {
             Traversal::PlaneIntervals => {
-                let (t0, t1) = line.clip(&tree.bounds, before(t_min), after(t_max))?;
+                // A crossing before 0 needs no slack, because its sign is exact.
+                let (t0, t1) = line.clip(&tree.bounds, before(t_min).max(0.0), after(t_max))?;
                 Self::Intervals(Stack::with((0, t0, t1)))
             }
             Traversal::ChildBoxes => {

@@ -125,8 +125,9 @@ impl Line {
         for axis in 0..3 {
             let (low, high) = (self.crossing(axis, cell.min[axis]), self.crossing(axis, cell.max[axis]));
             let (near, far) = if self.backward[axis] { (high, low) } else { (low, high) };
-            // A negative entry lies before t0, a negative exit misses: the direction of their slack does not matter.
-            let (near, far) = (before(near), after(far));
+            // A negative entry lies before t0, so the direction of its slack does not matter. A negative exit misses, and
+            // needs no slack, because the sign of a crossing is exact: a ray that leaves a floor tests nothing in it.
+            let (near, far) = (before(near), if far < 0.0 { far } else { after(far) });
             t0 = if near > t0 { near } else { t0 };
             t1 = if far < t1 { far } else { t1 };
         }
