@@ -119,11 +119,11 @@ impl<T: TriangleTest> Bvh8<T> {
             let i = active.trailing_zeros() as usize % RAYS;
             active &= active - 1;
             let prepared_ray = packet.single(i);
-            let (ray, t_min, mut nearest) = state.single(i);
+            let (ray, mut nearest) = state.single(i);
             let OnePage(_, entries) = &mut OnePage::new(Entries::new());
             // SAFETY: a stack of length 0 has no entries to read; `push` writes entries before it counts them.
             let mut stack = unsafe { Stack::<ANY>::of(entries, 0) };
-            self.descend::<ANY, L, ()>(child, &mut stack, &prepared_ray, ray, t_min, &mut nearest, &mut ());
+            self.descend::<ANY, L, ()>(child, &mut stack, &prepared_ray, ray, &mut nearest, &mut ());
             state.put_back::<ANY, L>(i, nearest, packet);
         }
     }

@@ -91,12 +91,12 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         }
     }
 
-    /// Ray `i` for a separate search: in the format of the test, its `t_min`, and its nearest hit so far.
+    /// Ray `i` for a separate search: in the format of the test, and its nearest hit so far.
     #[inline(always)]
-    pub fn single(&mut self, i: usize) -> (&T::Ray, f32, Nearest<T::Depth<'a>>) {
+    pub fn single(&mut self, i: usize) -> (&T::Ray, Nearest<T::Depth<'a>>) {
         self.prepare(1 << i);
         // SAFETY: the line above has prepared ray `i`.
-        (unsafe { self.prepared(i) }, self.t_min[i], self.nearest.get(i))
+        (unsafe { self.prepared(i) }, self.nearest.get(i))
     }
 
     /// Stores the nearest hit that a separate search has found for ray `i`.

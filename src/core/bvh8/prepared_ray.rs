@@ -27,7 +27,7 @@ pub(super) struct PreparedRay {
     /// By axis, the byte offsets of the near and of the far planes.
     near: [usize; 3],
     far: [usize; 3],
-    t_min: f32,
+    pub t_min: f32,
     /// Bit 0 is set for a negative x.
     pub octant: usize,
 }

@@ -41,18 +41,20 @@ impl<T: TriangleTest> Bvh8<T> {
     ) {
         let Some((t_min, unfound)) = start::<T>(ray) else { return *nearest = Nearest::NOTHING };
         *nearest = unfound;
-        if self.nodes.is_empty() {
+        if self.root.is_leaf() {
+            // A tree without triangles.
             return;
         }
         let prepared_ray = PreparedRay::new(ray, self.farthest, t_min);
         let OnePage(_, entries) = &mut OnePage::new(Entries::new());
         // SAFETY: a stack of length 0 has no entries to read; `push` writes entries before it counts them.
         let mut stack = unsafe { Stack::<ANY>::of(entries, 0) };
-        // SAFETY: the root is a node if there are nodes (invariants of `Bvh8`), and it is the first of the path.
-        let first = unsafe { self.enter::<ANY, L, O>(self.root, &prepared_ray, after(nearest.t), &mut stack, observer) };
-        // Prepare the rest only now, because many rays miss all boxes of the root.
+        // SAFETY: a root that is no leaf is a node (invariants of `Bvh8`), the first of every path.
+        let first =
+            unsafe { self.enter::<ANY, L, O>(self.root, &prepared_ray, after(nearest.t), &mut stack, observer) };
+        // Prepare the ray for triangles only now, because many rays meet none of these boxes.
         let Some(first) = first else { return };
-        self.descend::<ANY, L, O>(first, &mut stack, &prepared_ray, &T::prepare(ray), t_min, nearest, observer);
+        self.descend::<ANY, L, O>(first, &mut stack, &prepared_ray, &T::prepare(ray), nearest, observer);
     }
 
     /// Pushes the children of a node that the ray meets before `end`; returns the first one instead.
@@ -79,18 +81,16 @@ impl<T: TriangleTest> Bvh8<T> {
 
     /// Searches the subtree at `child`, then those on the stack.
     #[inline(always)]
-    #[allow(clippy::too_many_arguments)]
     pub(super) fn descend<'a, const ANY: bool, L: EightLanes, O: Observer>(
         &'a self,
         mut child: Child,
         stack: &mut Stack<ANY>,
         prepared_ray: &PreparedRay,
         prepared: &T::Ray,
-        t_min: f32,
         nearest: &mut Nearest<T::Depth<'a>>,
         observer: &mut O,
     ) {
-        let mut end = after(nearest.t);
+        let (t_min, mut end) = (prepared_ray.t_min, after(nearest.t));
         loop {
             let next = if let Some((first, count)) = child.blocks() {
                 // SAFETY: a leaf names a range of `blocks` (invariants of `Bvh8`).
@@ -101,8 +101,8 @@ impl<T: TriangleTest> Bvh8<T> {
                     held = blocks.iter().map(|block| block.len()).sum();
                     observer.leaf(held);
                 }
-                // The black box keeps the compiler from preparing registers for the tests of all leaves before the
-                // first node: many rays test no leaf, and each test that needs a call spoils the registers.
+                // The black box keeps the compiler from filling registers for the triangle tests before the first node:
+                // many rays meet no leaf, and a call spills these registers anyway.
                 let prepared = std::hint::black_box(prepared);
                 search::<ANY, WIDTH, L, T, O>(blocks, held, prepared, t_min, nearest, &mut None, observer);
                 if ANY && nearest.found() {

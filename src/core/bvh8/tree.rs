@@ -27,9 +27,9 @@ use crate::triangle::TriangleTest;
 /// Spatial splits in bounding volume hierarchies, 2009.
 pub struct Bvh8<T: TriangleTest> {
     // Invariants, on which the `unsafe` blocks of the traversals rely. `Layout` establishes them, and a tree is never
-    // changed: the root and all children of nodes name nodes in `nodes` or ranges of `blocks`; each node is the child
-    // of at most one other; and no path from the root has more than `DEPTH` nodes, because `Limits::check` refuses
-    // longer ones.
+    // changed: the root and all children of nodes name nodes in `nodes` or ranges of `blocks`; the root is a leaf only
+    // if there are no triangles; each node is the child of at most one other; and no path from the root has more than
+    // `DEPTH` nodes, because `Limits::check` refuses longer ones.
     pub(super) root: Child,
     pub(super) nodes: Vec<Node>,
     pub(super) blocks: Vec<LeafBlock<T, WIDTH>>,

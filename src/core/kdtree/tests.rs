@@ -44,6 +44,32 @@ fn configs() -> Vec<KdConfig> {
     ]
 }
 
+/// A floor of small triangles at y = 0, whose cells are flat: the crossing of such a cell lies before the ray by less
+/// than any slack.
+#[test]
+fn rays_that_leave_a_flat_floor_test_none_of_its_triangles() {
+    let corner = |i: usize, j: usize| Vec3::new(i as f32, 0.0, j as f32);
+    let halves = |i, j| {
+        let [a, b, c, d] = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
+        [[a, b, c], [a, c, d]]
+    };
+    let floor: Vec<[Vec3; 3]> = (0..16).flat_map(|i| (0..16).flat_map(move |j| halves(i, j))).collect();
+    let mesh = Arc::new(Mesh::from_triangles(&floor).unwrap());
+    for config in configs() {
+        let tree = Tree::build(&mesh, &config).unwrap();
+        for height in [1e-45, 1e-40, f32::MIN_POSITIVE, 1e-20, 1.0] {
+            for direction in [Vec3::Y, Vec3::new(0.3, 0.01, -0.7)] {
+                let (mut leaving, mut meeting) = (Counts::default(), Counts::default());
+                let ray = Ray::new(Vec3::new(7.3, height, 7.6), direction);
+                assert_eq!(tree.closest_hit(&ray, &mut leaving), None);
+                assert_eq!(leaving.tests, 0, "{config:?} {ray}");
+                let back = Ray { direction: -direction, ..ray };
+                assert!(height == 1.0 || tree.closest_hit(&back, &mut meeting).is_some(), "{config:?} {back}");
+            }
+        }
+    }
+}
+
 /// Sheets an ulp apart that rays hit at `t` near 2^128: some crossings overflow although there are hits.
 #[test]
 fn hits_near_the_largest_t_are_found() {

@@ -165,6 +165,10 @@ mod tests {
         }
         assert!(clip([-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]).is_some(), "through the corners");
         assert_eq!(clip([2.0, 0.5, 0.5], [1.0, 0.0, 0.0]), None, "the box lies behind");
+        for least in [1e-45, 1e-40, 1e-30] {
+            assert_eq!(clip([-least, 0.5, 0.5], [-1.0, 0.0, 0.0]), None, "it lies behind by {least}");
+            assert!(clip([-least, 0.5, 0.5], [1.0, 0.0, 0.0]).is_some(), "it begins in {least}");
+        }
     }
 
     /// The naive twin: each axis separately.
@@ -188,7 +192,11 @@ mod tests {
                     for bounds in &boxes {
                         for ray in [Ray::new(origin, Vec3::new(x, y, z)), Ray::new(origin, Vec3::new(z, y, x))] {
                             let bits = |inverses: [f32; 3]| inverses.map(|i| if i.is_nan() { 0 } else { i.to_bits() });
-                            assert_eq!(bits(inverses(&ray, farthest(bounds))), bits(naive(&ray, bounds)), "{ray:?} {bounds:?}");
+                            assert_eq!(
+                                bits(inverses(&ray, farthest(bounds))),
+                                bits(naive(&ray, bounds)),
+                                "{ray:?} {bounds:?}"
+                            );
                         }
                     }
                 }
