@@ -104,7 +104,7 @@ fn choose(
     slots: &mut Slots,
 ) -> Option<(Split, [usize; 2])> {
     let (count, config) = (references.len(), context.config);
-    // The root of a tiny mesh may be split: rays test its box and those of its children at once.
+    // The root of a tiny mesh may be split: it is a node anyway, and a ray tests the boxes of all children at once.
     if count <= BLOCK && place.depth > 0 {
         return None;
     }
