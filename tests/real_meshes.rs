@@ -93,6 +93,13 @@ fn the_views_look_at_their_meshes() {
     }
 }
 
+/// The one view without a file: a built-in mesh stands on a floor at y = 0.
+#[test]
+fn the_view_of_an_object_on_a_floor_needs_no_file() {
+    let scene = Scene::read(Path::new("scenes/views/on-floor.toml"), Some(Path::new("/nowhere"))).unwrap();
+    assert!(scene.name == "on-floor" && scene.mesh.bounds().min.y == 0.0 && !scene.shadow_terminator_fix);
+}
+
 /// The Dragon, Lucy and Sponza of the built-in scenes are the same files.
 #[test]
 fn the_views_name_the_meshes_of_the_built_in_scenes() {
