@@ -11,6 +11,8 @@ use nix::sys::signal::{SigSet, Signal, raise};
 /// Whether a run stops by itself on a signal.
 static LISTENS: AtomicBool = AtomicBool::new(false);
 static ASKED: AtomicBool = AtomicBool::new(false);
+/// Whether a signal is ending this process.
+static ENDING: AtomicBool = AtomicBool::new(false);
 
 /// Waits for both signals in a separate thread. Call it before other threads start: they must not receive the signals
 /// instead.
@@ -40,6 +42,7 @@ pub fn watch() {
 /// continues with the next line of its script.
 #[cfg(target_os = "linux")]
 fn end_by(signal: Signal, caught: SigSet) -> ! {
+    ENDING.store(true, Ordering::SeqCst);
     crate::measure::process_group::end_started_by(std::process::id());
     let _ = caught.thread_unblock().and_then(|()| raise(signal));
     // A signal does not end the first process of a container.
@@ -62,6 +65,14 @@ pub fn end() -> ExitCode {
     end_by(Signal::SIGINT, SigSet::from_iter([Signal::SIGINT]));
     #[cfg(not(target_os = "linux"))]
     ExitCode::from(130)
+}
+
+/// If a signal is ending this process, waits for that: its programs end first, and the error about them must not end
+/// this process with another status.
+pub fn wait_for_end() {
+    while ENDING.load(Ordering::SeqCst) {
+        std::thread::park();
+    }
 }
 
 pub fn is_asked() -> bool {

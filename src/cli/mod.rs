@@ -245,6 +245,7 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, starts_proc
     };
     // A structure of another crate may panic in a command that cannot continue without it.
     let found = if may_panic { Ok(run()) } else { catch_unwind(AssertUnwindSafe(run)) };
+    interrupt::wait_for_end();
     exit_status::of(found.unwrap_or_else(|_| {
         panics::uncaught().iter().for_each(crate::output::tell);
         Err(anyhow::anyhow!(PANIC))
