@@ -5,7 +5,9 @@ mod common;
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 
 fn build(criterion: &mut Criterion) {
-    for scene in common::scenes() {
+    let scenes = common::scenes();
+    common::announce("build", &scenes);
+    for scene in scenes {
         let mut group = criterion.benchmark_group(format!("build/{}", scene.name.to_lowercase()));
         group.sample_size(10).throughput(Throughput::Elements(scene.mesh.len() as u64));
         for choice in common::structures(&scene.mesh) {

@@ -8,17 +8,14 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use sahara::accel::DynAccel;
 use sahara::measure::{CpuClock, Pass, Stopwatch, SystemClock, Threads, Timed};
 use sahara::registry::Registry;
-use sahara::scene::{Sampling, Scene, Workload, WorkloadKind};
-
-const KINDS: [WorkloadKind; 4] =
-    [WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse, WorkloadKind::Random];
+use sahara::scene::{Sampling, Scene, Workload};
 
 /// The rays of the whole picture, as in `sahara compare`.
 fn workloads(scene: &Scene) -> Vec<Workload> {
     let caster =
         Registry::builtin().choose("sah-kd").expect("a registered name").build(&scene.mesh).expect("it builds");
     let sampling = Sampling { seed: 1, ..Sampling::of(scene) };
-    let workloads = KINDS.iter().map(|&kind| Workload::new(scene, kind, &sampling, &*caster));
+    let workloads = common::KINDS.iter().map(|&kind| Workload::new(scene, kind, &sampling, &*caster));
     workloads.filter(|workload| !workload.rays.is_empty()).collect()
 }
 
@@ -46,7 +43,9 @@ fn bench(criterion: &mut Criterion, group: &str, name: &str, accel: &dyn DynAcce
 }
 
 fn traverse(criterion: &mut Criterion) {
-    for scene in common::scenes() {
+    let scenes = common::scenes();
+    common::announce("traverse", &scenes);
+    for scene in scenes {
         let workloads = workloads(&scene);
         for choice in common::structures(&scene.mesh) {
             let accel = choice.build(&scene.mesh).expect("a valid mesh builds");
@@ -60,10 +59,10 @@ fn traverse(criterion: &mut Criterion) {
 
 /// The batch strategies: `cargo bench --bench traverse -- slices/lucy`.
 fn slices(criterion: &mut Criterion) {
-    for name in ["dragon", "lucy"] {
+    for name in common::SLICED {
         let scene = common::scene(name);
         let workloads = workloads(&scene);
-        for batch in ["single", "packets"] {
+        for batch in common::BATCHES {
             let spec = format!("sah-hybrid:test=moller-trumbore,batch={batch}");
             let choice = Registry::builtin().choose(&spec).expect("registered names");
             let accel = choice.build(&scene.mesh).expect("a valid mesh builds");

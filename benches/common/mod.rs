@@ -4,7 +4,15 @@ use std::sync::Arc;
 
 use sahara::geometry::Mesh;
 use sahara::registry::{Choice, Registry};
-use sahara::scene::{Builtin, Scene};
+use sahara::scene::{Builtin, Scene, WorkloadKind};
+
+/// The rays of `traverse`.
+pub const KINDS: [WorkloadKind; 4] =
+    [WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse, WorkloadKind::Random];
+
+/// The scenes and the batch strategies of `slices`, a part of `traverse`.
+pub const SLICED: [&str; 2] = ["dragon", "lucy"];
+pub const BATCHES: [&str; 2] = ["single", "packets"];
 
 /// Two easy scenes and the three hard ones, with their procedural meshes.
 pub fn scenes() -> Vec<Scene> {
@@ -14,6 +22,26 @@ pub fn scenes() -> Vec<Scene> {
 /// A built-in scene with its procedural mesh.
 pub fn scene(name: &str) -> Scene {
     Builtin::find(name).and_then(|builtin| builtin.scene(None)).expect("a built-in scene is whole")
+}
+
+/// Before all benches of `build` or `traverse` run, prints how long they take at least. Prints nothing in a test, or if a
+/// filter or another option chooses some of them.
+pub fn announce(target: &str, scenes: &[Scene]) {
+    let mut arguments = std::env::args().skip(1);
+    if arguments.next().as_deref() != Some("--bench") || arguments.next().is_some() {
+        return;
+    }
+    let structures: usize = scenes.iter().map(|scene| structures(&scene.mesh).len()).sum();
+    let slices = SLICED.len() * BATCHES.len() * KINDS.len();
+    // Criterion warms up for three seconds and measures for five; slow benches take longer.
+    let minutes = |benches: usize| (8 * benches).div_ceil(60);
+    let [build, traverse] = [structures, structures * KINDS.len() + slices].map(minutes);
+    let own = if target == "build" { build } else { traverse };
+    eprintln!(
+        "{target}: at least {own} minutes; all benches, with kernels and load: more than {}. This takes two:\n    \
+         cargo bench --bench traverse -- traverse/dragon/primary\n",
+        build + traverse
+    );
 }
 
 /// Every structure over its first triangle test. Brute force only if it finishes within seconds.
