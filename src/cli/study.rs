@@ -20,15 +20,15 @@ pub const RUNS: &str = "runs";
 #[derive(Clone, Debug, Default, clap::Args)]
 #[command(next_help_heading = OUTPUT)]
 pub struct Common {
-    /// Folder of journals: the same command resumes there; other scenes and settings add to it [default: runs; `compare`
-    /// keeps none without it]
+    /// Folder of journals: the same command resumes there; other scenes and settings add to it [default: runs;
+    /// `compare` keeps no journal without --dir]
     #[arg(long, value_name = "DIR")]
     pub dir: Option<PathBuf>,
     /// Measure these cases again; earlier results stay, and the newest count
     #[arg(long, help_heading = MEASURING)]
     pub fresh: bool,
-    /// Run everything in one process: faster, but the intervals no longer cover memory-layout effects, and builds have no
-    /// time limit
+    /// Run everything in one process: faster, but the intervals no longer cover memory-layout effects, and builds have
+    /// no time limit
     #[arg(long, help_heading = MEASURING)]
     pub in_process: bool,
     /// Write the results as JSON, for `report` and `diff`
@@ -54,8 +54,8 @@ struct Files {
 }
 
 impl Common {
-    /// Rejects files that cannot be written, before scenes are loaded, which takes seconds. Only afterwards the input
-    /// files are known.
+    /// Rejects files that cannot be written. It runs before scenes are loaded, which takes seconds, and before the
+    /// input files are known.
     fn check_places(&self) -> anyhow::Result<()> {
         let exports = [&self.export_json, &self.export_csv, &self.export_markdown].into_iter().flatten();
         for path in exports.chain(&self.plot) {
@@ -109,7 +109,7 @@ const RARE: [&str; 18] = [
 
 pub fn command(study: &Study) -> clap::Command {
     let command = Common::augment_args((study.options)().name(study.name));
-    // The options bring their own description: set it again.
+    // The doc comments of the options have replaced the description: set it again.
     let command = command.about(study.question).long_about(None);
     command.mut_args(|option| {
         let is_rare = RARE.contains(&option.get_id().as_str());

@@ -12,14 +12,14 @@ use crate::request::BRUTE_FORCE;
 use crate::scene::Scene;
 use crate::validate::{DepthRule, outcome};
 
-/// A scene with the judge of its pixels.
+/// Judges the pixels of a scene.
 pub struct Judge<'a> {
     scene: &'a Scene,
     golden: &'a SceneGolden,
     /// Brute force over the exact triangle test.
     exact: Box<dyn DynAccel>,
     oracle: Oracle,
-    /// The scene on the command line.
+    /// The scene as given on the command line.
     word: &'a str,
 }
 
@@ -29,8 +29,8 @@ impl<'a> Judge<'a> {
         Ok(Self { scene, golden, exact, oracle: Oracle::new(&scene.mesh), word })
     }
 
-    /// The values that a structure paints at a pixel, the side that is right, and a command that traces the pixel's
-    /// primary ray.
+    /// Two texts: a sentence with the values of a pixel in both pictures and the picture that exact arithmetic
+    /// confirms, and a command that traces the pixel's primary ray.
     pub fn blame(
         &self,
         structure: &str,
@@ -60,8 +60,8 @@ impl<'a> Judge<'a> {
         };
         let [wanted, painted] = [&wanted, &painted].map(|pixel| self.values(pixel));
         let sentence = format!(
-            "at column {column}, row {row} the golden image has {wanted}, and {structure} gives {painted}; {side}; its primary \
-             ray is {primary}"
+            "at column {column}, row {row} the golden image has {wanted}, and {structure} gives {painted}; {side}; \
+             result of its primary ray: {primary}"
         );
         (sentence, format!("sahara validate {} -s {} --ray \"{ray}\"", self.word, quoted(structure)))
     }

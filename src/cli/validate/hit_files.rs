@@ -21,7 +21,7 @@ use crate::scene::files::{HitFile, RayFile};
 use crate::study::Status;
 use crate::validate::{has_replied, validate_any_hits, validate_hits, watched};
 
-/// Rays per batch, which share one time limit.
+/// Rays per batch. The rays of a batch share one time limit.
 const BATCH: usize = 256;
 
 impl Run<'_> {
@@ -63,7 +63,7 @@ impl Run<'_> {
 
     pub fn check_hits(&self, scene: &Scene, file: &RayFile, waiting: ProgressBar) -> anyhow::Result<Outcome> {
         let (args, choice) = (self.args, &self.reference);
-        let path = args.hits.as_deref().context("the caller has seen it")?;
+        let path = args.hits.as_deref().context("--hits is missing")?;
         anyhow::ensure!(args.test.len() < 2, "a hit file has one triangle test: name one");
         let test = args.test.first().map_or("own", String::as_str);
         request::known_tests(self.registry, &args.test)?;

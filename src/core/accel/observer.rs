@@ -1,9 +1,9 @@
-//! Observers of a traversal; without an observer they cost nothing.
+//! Observers of a traversal. The observer `()` costs nothing.
 
 /// Receives the events of a traversal. Every method does nothing by default, so `()` compiles to nothing.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` cannot watch a traversal",
-    label = "this is no `Observer`",
+    label = "does not implement `Observer`",
     note = "pass `&mut ()` to watch nothing, or `&mut Counts::default()` to count steps and tests"
 )]
 pub trait Observer {

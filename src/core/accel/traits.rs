@@ -47,7 +47,7 @@ pub enum BuildError {
 /// 5. Every [`Mesh`] builds, including the empty mesh.
 ///
 /// A ray hits nothing if [`Ray::is_valid`] is false. A structure declares unsupported features with
-/// [`CAPABILITIES`](Accel::CAPABILITIES), [`OBSERVED`](Accel::OBSERVED) and [`TRIANGLE_TEST`](Accel::TRIANGLE_TEST).
+/// [`CAPABILITIES`](Accel::CAPABILITIES) and unreported events with [`OBSERVED`](Accel::OBSERVED).
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not an acceleration structure",
     label = "does not implement `sahara::accel::Accel`",
@@ -98,7 +98,7 @@ pub trait Accel: Sized + Send + Sync + 'static {
     /// If the slices differ in length.
     #[inline]
     fn closest_hits<O: Observer>(&self, rays: &[Ray], hits: &mut [Option<Hit>], observer: &mut O) {
-        assert_eq!(rays.len(), hits.len(), "one answer a ray");
+        assert_eq!(rays.len(), hits.len(), "one result per ray");
         for (ray, hit) in rays.iter().zip(hits) {
             *hit = self.closest_hit(ray, observer);
         }
@@ -110,7 +110,7 @@ pub trait Accel: Sized + Send + Sync + 'static {
     /// If the slices differ in length.
     #[inline]
     fn any_hits<O: Observer>(&self, rays: &[Ray], hits: &mut [bool], observer: &mut O) {
-        assert_eq!(rays.len(), hits.len(), "one answer a ray");
+        assert_eq!(rays.len(), hits.len(), "one result per ray");
         for (ray, hit) in rays.iter().zip(hits) {
             *hit = self.any_hit(ray, observer);
         }

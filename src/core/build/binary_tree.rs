@@ -1,11 +1,11 @@
-//! The binary tree of tight boxes, from which all wide trees are collapsed, for all partitions.
+//! The binary tree of tight boxes: every partition builds one, and collapsing it gives a wide tree.
 
 use crate::geometry::Aabb;
 
-/// Leaves of a partition and the splits above them, depth first: a node, then all nodes below its first child, then all
-/// below its second. So the subtree of a node is a range of nodes and a range of references.
+/// Leaves of a partition and the splits above them, depth first: a node, then the subtree of its first child, then the
+/// subtree of its second child. So the subtree of a node is a range of nodes and a range of references.
 ///
-/// Without triangles there are no nodes.
+/// A tree without triangles has no nodes.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BinaryTree {
     pub nodes: Vec<BinaryNode>,
@@ -13,18 +13,18 @@ pub(crate) struct BinaryTree {
     pub references: Vec<u32>,
 }
 
-/// A part of the scene.
+/// An inner node or a leaf.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BinaryNode {
-    /// Contains the parts of the triangles inside this part of space, rounded outward; never empty.
+    /// The box of the node's triangles, clipped to its part of space if they were split; rounded outward, never empty.
     pub bounds: Aabb,
     pub content: Content,
 }
 
-/// The content of a part.
+/// The content of a node.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Content {
-    /// Two nodes, by number.
+    /// The numbers of the two children.
     Inner([u32; 2]),
     /// A range of references, not empty.
     Leaf { first: u32, count: u32 },

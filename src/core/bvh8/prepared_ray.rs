@@ -9,33 +9,38 @@ use crate::traversal::line::inverses;
 
 /// A ray, prepared for the boxes of nodes.
 ///
-/// **No box is lost.** Let the ray be in a closed box at the exact parameter t* in [`t_min`, `end`]. On each axis it
-/// crosses the near plane at n <= t* and the far plane at f >= t*. The near crossing is computed as N = fl(p - o) i,
-/// rounded, where i = fl(1 / d); the far one as F = fl(p - o) g, rounded, where g is i enlarged by 8 units of 2^-23.
-/// Two roundings move N away from n by less than 2.1 units of 2^-24, relatively, and three move F by less than 3.1 from
-/// 16 units beyond f. So N <= F for the planes of any two axes if n is not negative, and t_min <= F; because the last
-/// rounding is monotonic, the rounded ones have the same order, even if the products underflow. If n is negative, t_min
-/// replaces it. `end` is 8 units beyond the last parameter of interest, which n does not exceed; if N overflows, `end`
-/// is infinite (see [`Line`](crate::traversal::line::Line)), and so is F. Infinite crossings (`d` = 0) order correctly,
-/// and undefined ones are NaN (see [`inverses`]), which leaves the interval unchanged. Nothing is fused: all levels
-/// visit the same boxes for the same `end`.
+/// **No box is lost.** Units are 2^-24, relative to a parameter. Let the ray be in a closed box at the exact parameter
+/// t* >= `t_min`, which is at most one unit beyond the last parameter of interest (see
+/// [`Line`](crate::traversal::line::Line)). On each axis the ray crosses the near plane at n <= t* and the far plane at
+/// f >= t*. The computed near crossing is the rounded product N = fl(p - o) * i, where i = fl(1 / d). The computed far
+/// crossing is the rounded product F = fl(p - o) * g, where g is i enlarged by 16 units. Before the products are
+/// rounded, N is less than 2.1 units from n because of two roundings. F is less than 3.1 units from a point 16 units
+/// beyond f because of three roundings. So N <= F for the planes of any two axes if n is not negative, and `t_min` <=
+/// F. Rounding is monotonic, so the rounded products have the same order, even if they underflow. If n is negative,
+/// `t_min` replaces N. Callers move `end` beyond the last parameter of interest with
+/// [`after`](crate::traversal::line::after), by more than 6.9 units: the rounded N does not exceed it. If N overflows,
+/// `end` is infinite, and so is F. Infinite crossings (`d` = 0) order correctly. Undefined crossings are NaN (see
+/// [`inverses`]), which leaves the interval unchanged. No multiplication is fused with an addition: all instruction
+/// levels visit the same boxes for the same `end`.
 #[derive(Clone, Copy)]
 pub(super) struct PreparedRay {
     origin: [f32; 3],
     inverse: [f32; 3],
     enlarged: [f32; 3],
-    /// By axis, the byte offsets of the near and of the far planes.
+    /// The byte offsets of the near planes in a node, by axis.
     near: [usize; 3],
+    /// The byte offsets of the far planes.
     far: [usize; 3],
     pub t_min: f32,
-    /// Bit 0 is set for a negative x.
+    /// The octant of the direction: bits 0, 1 and 2 are set for a negative x, y and z.
     pub octant: usize,
 }
 
 /// The factor that enlarges the crossings of far planes.
 pub(super) const ENLARGED: f32 = 1.0 + 8.0 * f32::EPSILON;
 
-/// By axis, the rows of planes, among six, that are near and that are far for rays of an octant.
+/// The rows of the near planes and the rows of the far planes for rays of an octant, by axis. A node has six rows of
+/// planes.
 #[inline(always)]
 pub(super) fn rows(octant: usize) -> ([usize; 3], [usize; 3]) {
     let [x, y, z] = indexed(|axis| octant >> axis & 1);
@@ -50,7 +55,7 @@ impl PreparedRay {
         Self::of(ray.origin.to_array(), inverses(ray, farthest), t_min, octant as usize)
     }
 
-    /// From its parts.
+    /// Prepares a ray that is given by its parts.
     #[inline(always)]
     pub fn of(origin: [f32; 3], inverse: [f32; 3], t_min: f32, octant: usize) -> Self {
         let (near, far) = rows(octant);
@@ -66,15 +71,15 @@ impl PreparedRay {
         }
     }
 
-    /// The parameters at which the ray enters and leaves the boxes, both within the interval: it misses a box that it
-    /// leaves before it enters.
+    /// For each box, the parameter at which the ray enters it, at least `t_min`, and the parameter at which the ray
+    /// leaves it, at most `end`. The ray misses a box if it leaves before it enters.
     #[inline(always)]
     pub fn cross<L: Lanes<WIDTH>>(&self, node: &Node, end: f32) -> (L, L) {
         let planes = (&raw const node.planes).cast::<u8>();
         let (mut enter, mut leave) = (L::splat(self.t_min), L::splat(end));
         for axis in 0..3 {
-            // SAFETY: `near` and `far` are the offsets that `of` has computed from numbers of `rows`, all below the six
-            // rows of `planes`; a row of floats has the alignment of the node.
+            // SAFETY: `of` computes the offsets `near` and `far` from the results of `rows`, which are below 6, the
+            // number of rows of `planes`; each row is an aligned array of floats.
             let (near, far) = unsafe { (&*planes.add(self.near[axis]).cast(), &*planes.add(self.far[axis]).cast()) };
             enter = L::load(near).sub(L::splat(self.origin[axis])).mul(L::splat(self.inverse[axis])).max(enter);
             leave = L::load(far).sub(L::splat(self.origin[axis])).mul(L::splat(self.enlarged[axis])).min(leave);

@@ -1,9 +1,10 @@
 //! One traversal for both queries.
 //!
-//! **No hit is lost.** A triangle that the ray hits at the exact t* in its interval has a reference in a leaf. The box
-//! of this leaf and the boxes of all nodes above it contain the hit point, because partitions round the boxes of
-//! clipped parts outward. The traversal loses no such box (see [`PreparedRay`]) unless it has found a hit with a
-//! computed t before t*; then the argument in [`kdtree`](crate::kdtree) about this case applies.
+//! **No hit is lost.** Let the ray hit a triangle at the exact t* in its interval. Partitions round the boxes of
+//! clipped parts outward, so some leaf has a reference to the triangle and a box that contains the hit point, and the
+//! boxes of all nodes above this leaf contain it as well. The traversal loses none of these boxes (see
+//! [`PreparedRay`]), unless it has found a hit with a computed t before t*; `kdtree/traverse.rs` explains why this case
+//! is correct.
 //!
 //! The closest-hit query visits children from front to back, in an order stored for the octant of the direction. The
 //! any-hit query visits lanes from the highest to the lowest: leaves before nodes and large boxes before small ones,
@@ -57,7 +58,8 @@ impl<T: TriangleTest> Bvh8<T> {
         self.descend::<ANY, L, O>(first, &mut stack, &prepared_ray, &T::prepare(ray), nearest, observer);
     }
 
-    /// Pushes the children of a node that the ray meets before `end`; returns the first one instead.
+    /// Pushes the children whose boxes the ray enters at or before `end`, except the first child to visit, which it
+    /// returns.
     ///
     /// # Safety
     /// `node` is a node of the tree, and no node of the path was entered twice since the stack was empty.
@@ -79,7 +81,7 @@ impl<T: TriangleTest> Bvh8<T> {
         }
     }
 
-    /// Searches the subtree at `child`, then those on the stack.
+    /// Searches the subtree at `child`, then the subtrees on the stack.
     #[inline(always)]
     pub(super) fn descend<'a, const ANY: bool, L: EightLanes, O: Observer>(
         &'a self,
@@ -95,14 +97,14 @@ impl<T: TriangleTest> Bvh8<T> {
             let next = if let Some((first, count)) = child.blocks() {
                 // SAFETY: a leaf names a range of `blocks` (invariants of `Bvh8`).
                 let blocks = unsafe { self.blocks.get_unchecked(first..first + count) };
-                // Counting triangles takes a loop over the used lanes, so only counting observers pay for it.
+                // Counting triangles takes a loop over all lanes of the leaf, so only active observers pay for it.
                 let mut held = u32::MAX;
                 if O::ACTIVE {
                     held = blocks.iter().map(|block| block.len()).sum();
                     observer.leaf(held);
                 }
-                // The black box keeps the compiler from filling registers for the triangle tests before the first node:
-                // many rays meet no leaf, and a call spills these registers anyway.
+                // Without the black box, the compiler loads the prepared ray into registers before the first node. This
+                // is wasted work: many rays meet no leaf, and a call spills these registers anyway.
                 let prepared = std::hint::black_box(prepared);
                 search::<ANY, WIDTH, L, T, O>(blocks, held, prepared, t_min, nearest, &mut None, observer);
                 if ANY && nearest.found() {

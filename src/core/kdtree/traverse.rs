@@ -1,15 +1,16 @@
 //! One traversal for both queries, in two variants: plane intervals and child boxes.
 //!
 //! **No hit is lost.** Let a ray hit a triangle at the exact parameter t* in its interval, at the point p. The
-//! references of the triangle were clipped outward, so some leaf whose closed cell contains p contains the triangle.
-//! Both variants visit every leaf whose closed cell contains a point of the ray in [t_min, nearest t]: they skip a
-//! child only if its interval, moved outward by more than the rounding of plane crossings (see [`Line`]), is empty or
-//! begins after the nearest hit so far. If a crossing overflows, plane intervals begin at a finite parameter before it,
-//! and child boxes are clipped to an interval without end. So they visit the leaf of p, unless a hit with a computed t
-//! before t* has been found. If t* exceeds the computed t of another triangle, that triangle is the result up to the
-//! error of the triangle test, which is not an error of the traversal. The exact test has no such error: nearest t is a
-//! float that is not before the nearest exact hit so far. So the traversal reaches every hit that is nearer or equally
-//! near, and the result is the exact hit with the lowest number.
+//! references of the triangle were clipped outward, so some leaf whose closed cell contains p has a reference to the
+//! triangle. Both variants visit every leaf whose closed cell contains a point of the ray in [t_min, nearest t]: they
+//! skip a child only if its interval, moved outward by more than the rounding of plane crossings (see [`Line`]), is
+//! empty or begins after the nearest hit so far. If a crossing overflows, plane intervals begin at a finite parameter
+//! before it, and child boxes are clipped to an interval without end. So they visit the leaf of p, unless they have
+//! found another hit with a computed t before t*. Then the other hit is nearer, up to the error of its triangle test,
+//! which is not an error of the traversal. The exact test has no such error: nearest t is a float that is not before
+//! the nearest exact hit so far. So the traversal reaches every hit that is nearer or equally near, and the result is
+//! the nearest exact hit, and among equally near hits the hit with the lowest number. Only [`Exit::FirstLeaf`] may lose
+//! nearer hits: it ends at the first leaf with a hit.
 
 use std::mem::MaybeUninit;
 
@@ -26,7 +27,7 @@ use crate::traversal::line::{Line, after, before, finite_entry, open_end};
 use crate::traversal::walk::Walk;
 use crate::triangle::TriangleTest;
 
-/// A traversal pushes at most one node per level.
+/// The stack contains at most one node per level, from the root to [`DEEPEST`].
 const STACK: usize = 64;
 const _: () = assert!(STACK > DEEPEST as usize);
 
@@ -52,14 +53,14 @@ impl<T: TriangleTest> Walk for KdTree<T> {
 
 /// The leaves that a ray still has to search, in traversal order.
 ///
-/// Both variants share the search of leaves, which is most of the code of a traversal.
-#[expect(clippy::large_enum_variant, reason = "one for each walk, on the stack, and neither is initialised")]
+/// Both variants share the code that searches leaves, which is most of the code of a traversal.
+#[expect(clippy::large_enum_variant, reason = "one for each walk, on the stack, with entries that are not initialised")]
 enum Leaves {
     Intervals(Stack<(u32, f32, f32)>),
     Boxes(Stack<(u32, Aabb, f32)>),
 }
 
-/// Nodes to visit later. Not initialised, because initialisation would cost as much as a short traversal.
+/// Nodes to visit later. The entries are not initialised, because that would cost as much as a short traversal.
 struct Stack<E> {
     entries: [MaybeUninit<E>; STACK],
     len: usize,
@@ -93,7 +94,7 @@ impl Leaves {
     fn enter<T: TriangleTest>(tree: &KdTree<T>, line: &Line, t_min: f32, t_max: f32) -> Option<Self> {
         Some(match tree.config.traversal {
             Traversal::PlaneIntervals => {
-                // A crossing before 0 needs no slack, because its sign is exact.
+                // The interval needs no slack before 0, because the sign of a crossing is exact.
                 let (t0, t1) = line.clip(&tree.bounds, before(t_min).max(0.0), after(t_max))?;
                 Self::Intervals(Stack::with((0, t0, t1)))
             }
@@ -104,7 +105,7 @@ impl Leaves {
         })
     }
 
-    /// The next leaf that the ray enters at or before `end`, the nearest hit so far.
+    /// The next leaf that the ray enters at or before `end`, the `t` of the nearest hit so far or the end of the ray.
     #[inline(always)]
     fn next<T: TriangleTest, O: Observer>(
         &mut self,
@@ -147,8 +148,8 @@ fn by_intervals<O: Observer>(
         let t = line.crossing(axis, node.split());
         let (first, second) = if line.backward(axis) { (node.above(), at + 1) } else { (at + 1, node.above()) };
 
-        // The ends of the interval have twice the slack of a crossing, so the crossing needs none here. Comparisons
-        // with NaN are false: then both children get the whole interval.
+        // The slack of the ends of the interval is more than twice the error of a crossing, so the crossing needs none
+        // here. Comparisons with NaN are false: then both children get the whole interval.
         if t > t1 {
             at = first;
         } else if t < t0 {
@@ -182,8 +183,8 @@ fn by_boxes<O: Observer>(
             return Some(node);
         }
 
-        // The child that is entered first comes off the stack first; of two entered at once, the child that is left
-        // first.
+        // The child that the ray enters first comes off the stack first. If the ray enters both at once, the child that
+        // it leaves first comes off first.
         observer.inner();
         let (below, above) = cell.cut(node.axis(), node.split());
         let (in_below, in_above) = (line.clip(&below, t_min, end), line.clip(&above, t_min, end));

@@ -9,27 +9,29 @@ use crate::simd::{Lanes, each};
 /// The line of a ray, prepared for crossing axis-aligned planes.
 ///
 /// **Slack.** The crossing of the plane `axis = s` is computed as `(s - o) * (1 / d)`: three roundings, each by at most
-/// 2^-24 of the result, so it is within 3.01 * 2^-24 of the exact parameter, relatively, and within 2^-148 absolutely
-/// if the product underflows. [`before`] and [`after`] move it outward by 4 * 2^-23 = 8 * 2^-24 and then by 2^-126.
-/// Rounding of the product takes back at most 1.01 * 2^-24, rounding of the sum nothing: more than twice the error of a
-/// crossing remains, so a moved crossing compares correctly with one that is not moved. The sign of the crossing is
-/// exact, because a difference of floats has the exact sign; an infinite one (`d` = 0, plane aside) orders correctly.
-/// Three cases are undefined, and all give NaN, which every user reads as "may cross anywhere": the ray lies in the
-/// plane (0 * inf), 1 / d overflows or is too small for full precision, and the difference to some plane may overflow.
+/// 2^-24 of the result, so its relative error is at most 3.01 * 2^-24, or its absolute error at most 2^-148 if the
+/// product underflows. [`before`] and [`after`] move it outward by 4 * 2^-23 = 8 * 2^-24 of itself and then by 2^-126.
+/// The rounding of their product takes back at most 1.01 * 2^-24, the rounding of their sum nothing: more than twice
+/// the error of a crossing remains, so a moved crossing compares correctly with a crossing that is not moved. The sign
+/// of a crossing is exact, because a difference of floats has the exact sign. An infinite crossing (`d` = 0, the ray
+/// beside the plane) orders correctly. A crossing is undefined in three cases: the ray lies in the plane (0 * inf), the
+/// inverse of `d` overflows or is too small for full precision, or the difference to some plane may overflow. It is NaN
+/// then, which every user reads as "may cross anywhere".
 ///
 /// **Ends of the interval.** Let t* be the exact parameter of a hit in [`t_min`, `t_max`). It may lie beyond the last
-/// float before `t_max` and be reported as `t_max`. So crossings are compared with `t_min` itself and with
-/// [`TriangleTest::last`](crate::triangle::TriangleTest::last), later with the bound of the nearest hit: a float that
-/// t* does not exceed if the test is exact, and that the rounded t* does not exceed if the test rounds it to the
-/// nearest float. Then t* exceeds it by at most 2^-24 of itself. A box that contains the hit is entered at an exact
+/// float before `t_max` and be reported as `t_max`. So moved crossings are compared with `t_min` itself and with an
+/// end: first [`TriangleTest::last`](crate::triangle::TriangleTest::last), later the bound of the nearest hit. If the
+/// test is exact, t* does not exceed this end. If the test rounds t* to the nearest float, the rounded t* does not
+/// exceed it, and t* exceeds it by at most 2^-24 of itself. A box that contains the hit is entered at an exact
 /// parameter e <= t* and left at f >= t*. The computed entry, moved by `before`, is at least 3.9 * 2^-24 of e before e,
 /// hence not beyond the end; the computed exit, moved by `after`, is not before f, hence not before `t_min`.
 ///
-/// **Overflow.** A crossing at or after 2.6 * 2^-24 before the largest float may be computed as infinity, and `before`
-/// leaves it unchanged: beyond every finite end, and beyond the computed crossings of planes that the ray meets later.
-/// So either an entry is made finite by [`finite_entry`], or the end is made infinite: by [`open_end`], or by `after`,
-/// which does so at or after 7.5 * 2^-24 before the largest float. Before an end that stays finite, no box is entered
-/// at an infinite crossing. An infinite exit is correct.
+/// **Overflow.** Only a crossing that is beyond the largest float, or before it by at most 2.6 * 2^-24 of it, may be
+/// computed as infinity. `before` leaves infinity unchanged: such an entry is beyond every finite end, and beyond the
+/// computed crossings of planes that the ray meets later. So either the entry is made finite, by [`finite_entry`], or
+/// the end is made infinite: by [`open_end`], or by `after`, if the end is before the largest float by at most 7.5 *
+/// 2^-24 of it. If the end stays finite, no box that the ray enters before it has an infinite entry. An infinite exit
+/// is correct.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Line {
     origin: [f32; 3],
@@ -41,22 +43,23 @@ const TINY: f32 = f32::MIN_POSITIVE;
 const AFTER: f32 = 1.0 + 4.0 * f32::EPSILON;
 const BEFORE: f32 = 1.0 - 4.0 * f32::EPSILON;
 
-/// Not after the exact parameter, for a computed one that is not negative.
+/// Moves a computed parameter backward: the result is not after the exact parameter if `t` is not negative.
 #[inline(always)]
 pub(crate) fn before(t: f32) -> f32 {
     t * BEFORE - TINY
 }
 
-/// Not before the exact parameter, for a computed one that is not negative.
+/// Moves a computed parameter forward: the result is not before the exact parameter if `t` is not negative.
 #[inline(always)]
 pub(crate) fn after(t: f32) -> f32 {
     t * AFTER + TINY
 }
 
-/// The largest finite float, moved before: no finite crossing that is moved before lies beyond it.
+/// [`before`] of the largest finite float: `before` moves no finite crossing beyond it.
 const LATEST: f32 = f32::MAX * BEFORE - TINY;
 
-/// A crossing that was moved [`before`], not after the exact parameter even if it overflowed.
+/// `t`, a crossing that [`before`] has moved, or [`LATEST`] if it overflowed. The result is not after the exact
+/// parameter.
 #[inline(always)]
 pub(crate) fn finite_entry(t: f32) -> f32 {
     if t < LATEST { t } else { LATEST }
@@ -79,8 +82,8 @@ pub(crate) fn farthest(bounds: &Aabb) -> Vec3A {
     Vec3A::from(bounds.min.abs().max(bounds.max.abs()))
 }
 
-/// 1 / d for each component of the direction, for planes whose coordinates have at most the magnitudes `farthest`; NaN
-/// if a crossing computed with it is undefined.
+/// 1 / d for each component of the direction, for planes whose coordinates have at most the magnitudes `farthest`. NaN
+/// for an inverse that overflows or lacks full precision; all NaN if the difference to some plane may overflow.
 #[inline(always)]
 pub(crate) fn inverses(ray: &Ray, farthest: Vec3A) -> [f32; 3] {
     // Compute all three axes at once: the preparation is a large part of the cost of a ray.
@@ -115,18 +118,20 @@ impl Line {
         self.backward[axis]
     }
 
-    /// The part of [`t0`, `t1`] in the closed box, with slack; `None` if the line certainly misses the box. It may
-    /// begin at infinity if a crossing overflows, so `t1` must be an [`open_end`] or moved [`after`].
+    /// The part of [`t0`, `t1`] in the closed box, with slack; `None` if the line certainly misses the box in this
+    /// interval. The part may begin at infinity if a crossing overflows, so `t1` must be the result of [`open_end`] or
+    /// [`after`].
     ///
-    /// A parallel line inside the slab crosses at -inf and +inf in the order of travel; a parallel line in a face
-    /// crosses this face at NaN, which leaves the interval unchanged.
+    /// A line that is parallel to two faces and between their planes enters at -inf and leaves at +inf. A line in the
+    /// plane of a face crosses it at NaN, which leaves the interval unchanged.
     #[inline(always)]
     pub fn clip(&self, cell: &Aabb, mut t0: f32, mut t1: f32) -> Option<(f32, f32)> {
         for axis in 0..3 {
             let (low, high) = (self.crossing(axis, cell.min[axis]), self.crossing(axis, cell.max[axis]));
             let (near, far) = if self.backward[axis] { (high, low) } else { (low, high) };
-            // A negative entry lies before t0, so the direction of its slack does not matter. A negative exit misses, and
-            // needs no slack, because the sign of a crossing is exact: a ray that leaves a floor tests nothing in it.
+            // A negative entry lies before t0, so the direction of its slack does not matter. A box with a negative
+            // exit is missed. This exit needs no slack, because the sign of a crossing is exact: a ray that starts just
+            // above a flat floor and moves away does not enter the floor's box.
             let (near, far) = (before(near), if far < 0.0 { far } else { after(far) });
             t0 = if near > t0 { near } else { t0 };
             t1 = if far < t1 { far } else { t1 };
@@ -166,12 +171,12 @@ mod tests {
         assert!(clip([-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]).is_some(), "through the corners");
         assert_eq!(clip([2.0, 0.5, 0.5], [1.0, 0.0, 0.0]), None, "the box lies behind");
         for least in [1e-45, 1e-40, 1e-30] {
-            assert_eq!(clip([-least, 0.5, 0.5], [-1.0, 0.0, 0.0]), None, "it lies behind by {least}");
-            assert!(clip([-least, 0.5, 0.5], [1.0, 0.0, 0.0]).is_some(), "it begins in {least}");
+            assert_eq!(clip([-least, 0.5, 0.5], [-1.0, 0.0, 0.0]), None, "the box lies {least} behind");
+            assert!(clip([-least, 0.5, 0.5], [1.0, 0.0, 0.0]).is_some(), "the box begins {least} ahead");
         }
     }
 
-    /// The naive twin: each axis separately.
+    /// A naive version: each axis separately.
     #[test]
     fn inverses_are_those_of_each_axis() {
         let numbers =
@@ -244,7 +249,7 @@ mod tests {
 
     #[test]
     fn directions_too_short_to_invert_are_kept() {
-        let (t0, t1) = clip([-2.0, 0.5, 0.5], [1e-40, 0.0, 0.0]).expect("the crossing is unknown, so it is kept");
+        let (t0, t1) = clip([-2.0, 0.5, 0.5], [1e-40, 0.0, 0.0]).expect("undefined crossings keep the interval");
         assert_eq!((t0, t1), (0.0, f32::MAX));
         assert!(clip([0.5, 0.5, 0.5], [1e-40, 1e-42, -1e-41]).is_some());
     }

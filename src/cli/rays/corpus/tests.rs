@@ -13,7 +13,7 @@ const DOCUMENT: &str = include_str!("../../../scene/files/FORMAT.md");
 fn the_document_states_the_hash_of_the_corpus() {
     assert!(
         DOCUMENT.lines().any(|line| line == format!("`{CORPUS_SHA256}`")),
-        "FORMAT.md does not say {CORPUS_SHA256}"
+        "FORMAT.md does not contain {CORPUS_SHA256}"
     );
     let defaults = Args { scenes: vec![], output: "d".into(), rays: RAYS, seed: SEED };
     let others = [
@@ -24,7 +24,7 @@ fn the_document_states_the_hash_of_the_corpus() {
     assert!(defaults.is_default() && !others.iter().any(Args::is_default));
 }
 
-/// Runs the judge in the document.
+/// Runs the Python program of the document that counts errors.
 #[test]
 fn the_python_of_the_document_counts_the_errors_that_we_count() {
     if Command::new("python3").arg("--version").output().is_err() {
@@ -64,7 +64,7 @@ fn the_python_of_the_document_counts_the_errors_that_we_count() {
         assert_eq!(String::from_utf8_lossy(&judged.stdout).replace('\r', ""), expected, "{}", kind.name());
         wrong += ours.errors();
     }
-    assert!(wrong > 0, "these rays do not tell a right judge from one that finds nothing");
+    assert!(wrong > 0, "without wrong hits, a program that finds no errors would pass");
 
     let other = answered(&scene, RayKind::Uniform, 10, 3, &oracle).unwrap().1;
     let args = [&script, &write("f.truth", &other.to_bytes()), &folder.path().join("f.hits")];

@@ -1,4 +1,4 @@
-//! A hard case in a separate process: neither a panic nor an endless loop of a structure ends the run.
+//! Runs a hard case in a separate process: a structure that panics or never returns does not end the whole run.
 
 use std::io;
 use std::process::Output;
@@ -23,13 +23,13 @@ pub struct Args {
     /// A structure, with keys that differ from their defaults
     #[arg(required_unless_present = "runner")]
     structure: Option<String>,
-    /// A program in its place
+    /// Command of a runner, instead of a structure
     #[arg(long, allow_hyphen_values = true)]
     runner: Option<String>,
     /// Timeout in seconds for each reply of the program
     #[arg(long, default_value_t = RUNNER_LIMIT)]
     runner_limit: Seconds,
-    /// Rays at most
+    /// Maximum number of rays
     #[arg(long)]
     rays: u32,
 }
@@ -50,7 +50,7 @@ pub fn run_child(registry: &Registry, args: &Args) -> anyhow::Result<Status> {
             crate::output::print(&serde_json::to_vec(&answers)?);
             Ok(Status::Right)
         }
-        // The registry has caught it; the parent recognises the exit status of a panic.
+        // The registry has caught the panic; the parent recognises the exit status of a panic.
         Err(BuildError::Panic) => std::panic::resume_unwind(Box::new("a builder panicked")),
         Err(refused) => Err(refused.into()),
     }
@@ -63,8 +63,9 @@ pub struct Limits {
     pub reply: Seconds,
 }
 
-/// The parent's side: runs a case of at most `rays` rays in a child. The outer error: no child can be started.
-/// A structure has `limits.structure` for the case, a program `limits.reply` for each reply.
+/// The parent's side: runs a case with at most `rays` rays in a child. The time limit of a structure is
+/// `limits.structure` for the whole case, and of a runner `limits.reply` for each reply. The outer result is an error
+/// if no child can be started.
 pub fn answers(case: &HardCase, choice: &Choice, rays: u32, limits: Limits) -> io::Result<Result<Answers, Failure>> {
     let (rays, level) = (rays.to_string(), Level::current().name());
     let reply = limits.reply.to_string();
@@ -82,7 +83,7 @@ fn outcome(output: Option<Output>) -> Result<Answers, Failure> {
         Some(0) => serde_json::from_slice(&output.stdout).map_err(|_| Failure::Crash),
         Some(1) => {
             let sentence = String::from_utf8_lossy(&output.stderr);
-            // A program writes messages to the same place.
+            // A runner may write messages to standard error as well: take the last error.
             let error = sentence.lines().rev().find_map(|line| line.strip_prefix("error: "));
             let sentence = error.unwrap_or_else(|| sentence.trim()).to_owned();
             let declined = sentence.starts_with("declined: ");

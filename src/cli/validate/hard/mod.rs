@@ -41,7 +41,7 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
     } else {
         named.iter().map(|name| find_all(name)).collect::<Result<Vec<_>, _>>()?.concat()
     };
-    // A case with both its name and its number counts once.
+    // A case that is given by its name and by its number counts once.
     let cases = each_once_by(cases, |one, other| one.name == other.name);
     let structures = args.structures(registry)?;
     let choices = choices(registry, structures, &args.test)?;
@@ -99,7 +99,8 @@ fn refusal(score: &Score) -> Option<&str> {
     }
 }
 
-/// The exit status of a score. A program that fails was not checked; a structure of Rust builds over every mesh.
+/// The exit status of a score. A runner that refuses a case was not checked. A structure in Rust must build over every
+/// mesh, so its refusal is an error.
 fn status(choice: &Choice, score: &Score, strict: bool) -> Status {
     if choice.command().is_some() && refusal(score).is_some() {
         Status::Refused
@@ -110,8 +111,9 @@ fn status(choice: &Choice, score: &Score, strict: bool) -> Status {
     }
 }
 
-/// Whether a score is a failure: hits that no rounding explains and failures are, inexact hits of the exact test, and
-/// rounding of other tests if `strict`; known defects of the baselines are not.
+/// Whether a score is wrong: the structure has wrong hits, broke a property or failed in another way than by declining;
+/// its test is exact and it has inexact hits; or `strict` is set and it has rounded hits. A structure with a known
+/// defect has no wrong scores.
 fn is_wrong(choice: &Choice, score: &Score, strict: bool) -> bool {
     let is_inexact = choice.triangle_test() == Exact::NAME && score.rays().is_some_and(|rays| rays.inexact > 0);
     let rounds = strict && verdict(score).rounded > 0;
@@ -135,7 +137,7 @@ fn choices(registry: &Registry, structures: Vec<Choice>, tests: &[String]) -> an
             choices.push(request::structure(registry, &format!("{}{separator}test={test}", choice.label))?);
         }
     }
-    // Tests may be repeated, and so may a structure over the test of its name.
+    // Repeated tests, or a structure given with and without its test, lead to equal choices.
     Ok(each_once_by(choices, |one, other| one.label == other.label))
 }
 
@@ -172,7 +174,7 @@ fn scores(case: &HardCase, choices: &[Choice], rays: u32, limits: child::Limits)
     Ok(scores)
 }
 
-/// The cases, and the reasons why systems fail on them.
+/// The cases, and the reasons why ray tracers fail on them.
 pub fn described() -> Vec<String> {
     let lines = |case: &&HardCase| {
         let what = match case.content {

@@ -2,8 +2,10 @@
 //!
 //! # References
 //! Wald, Havran: On building fast kd-trees for ray tracing, and on doing that in O(N log N). IEEE Symposium on
-//! Interactive Ray Tracing 2006. Two departures from the paper: a triangle in the plane goes only to the cheaper side
-//! (the traversal visits both sides of a plane that it crosses), and the guard against duplication.
+//! Interactive Ray Tracing 2006.
+//!
+//! As in the paper, a triangle in the plane goes only to the cheaper side: the traversal visits both sides of a plane
+//! that it crosses. The guard against duplication is not in the paper.
 
 use rayon::prelude::*;
 
@@ -17,12 +19,12 @@ use crate::build::reference::Reference;
 use crate::build::sah_cost::{CostModel, SideAreas};
 use crate::geometry::Aabb;
 
-/// The beginning or end of a reference on an axis: coordinate, kind and number of the reference, in this order from the
-/// highest bit, which makes the numeric order the order of the sweep.
+/// The start or end of a reference on an axis, or its plane if it is flat: coordinate, kind and number of the
+/// reference, from the highest bit to the lowest. So the numeric order is the order of the sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Event(u64);
 
-/// In the order of the sweep at one coordinate.
+/// The kinds of events, in the order of the sweep at one coordinate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 enum Kind {
@@ -65,11 +67,11 @@ pub(crate) struct Events {
     axes: [Vec<Event>; 3],
 }
 
-/// Below this many references a node is swept by one thread.
+/// One thread sweeps a node with fewer references than this.
 pub(super) const PARALLEL: usize = 8192;
 
 impl Events {
-    /// References in ascending order of triangles.
+    /// The events of `references`, which are in ascending order of triangles.
     pub fn new(references: Vec<Reference>) -> Self {
         let axes = [0, 1, 2].map(|axis| {
             let mut events = Vec::with_capacity(2 * references.len());
@@ -95,7 +97,7 @@ impl Events {
 
         let mut i = 0;
         while i < events.len() {
-            // Count the references that end, lie and begin at this coordinate.
+            // Count the references that end at, lie in and start at this plane.
             let plane = events[i].coordinate();
             let mut counts = [0; 3];
             while i < events.len() && events[i].0 >> 32 == Event::new(plane, Kind::End, 0).0 >> 32 {
@@ -124,7 +126,8 @@ impl Events {
         best
     }
 
-    /// The part on the side `here` (0: below, 1: above), in `cell`. `sides` contains the sides of each reference.
+    /// The references on the side `here` (0: below, 1: above), whose cell is `cell`, with their events. `sides`
+    /// contains the sides of each reference.
     fn part(&self, context: &Context<CellConfig>, sides: &[[bool; 2]], here: usize, cell: &Aabb) -> Self {
         let count = sides.iter().filter(|side| side[here]).count();
         let mut references = Vec::with_capacity(count);
@@ -157,7 +160,7 @@ impl Events {
     }
 }
 
-/// The events of `references`, numbered from `first`.
+/// Appends the events of `references`, whose numbers begin at `first`.
 fn push_events(references: &[Reference], first: u32, axis: usize, events: &mut Vec<Event>) {
     for (name, reference) in (first..).zip(references) {
         let (lo, hi) = (reference.min(axis), reference.max(axis));

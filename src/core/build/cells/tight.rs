@@ -8,15 +8,15 @@ use crate::build::cut::Cut;
 use crate::build::part::{Part, halves};
 use crate::geometry::{Aabb, Mesh};
 
-/// Maximum number of references of a leaf; fuller ones are divided among several.
+/// Maximum number of references of a leaf. The references of a cell with more are divided among several leaves.
 const MOST: usize = 64;
 
-/// Nonempty cells, each as the tight box of its parts of triangles, and the inner nodes that are still needed.
+/// Nonempty cells, each as the tight box of its clipped triangles, and the inner nodes with two nonempty children.
 #[derive(Default)]
 struct Cells(BinaryTree);
 
-/// The nonempty cells of `mesh` as tight boxes, with at most `duplication` references per triangle. The tree does not
-/// depend on the number of threads.
+/// The nonempty cells of `mesh` as tight boxes, with on average at most `duplication` references per triangle. The tree
+/// does not depend on the number of threads.
 pub(crate) fn build(mesh: &Mesh, config: &CellConfig, duplication: f32) -> BinaryTree {
     let context = Context::new(mesh, Rules::sah(duplication), config);
     let Cells(tree) = grow(&context, Binned::all(&context));
@@ -44,7 +44,7 @@ impl Cells {
         self.0.nodes.push(BinaryNode { bounds, content });
     }
 
-    /// Makes the node after `inner` and the node `second` its children.
+    /// Makes the node after `inner` and the node `second` the children of `inner`.
     fn join(&mut self, inner: usize, second: usize) {
         let nodes = &mut self.0.nodes;
         let bounds = nodes[inner + 1].bounds.union(nodes[second].bounds);
