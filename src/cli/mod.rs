@@ -91,8 +91,8 @@ struct Global {
     #[arg(long, global = true, hide_short_help = true, help_heading = OUTPUT, display_order = GLOBAL)]
     #[arg(value_enum, default_value_t, value_name = "WHEN", hide_possible_values = true)]
     color: Colour,
-    /// Instruction set: portable, avx2 or avx512, as far as this build and processor have them; hits are the same on all
-    /// [default: the best one]
+    /// Instruction set: portable, avx2 or avx512, if this build and the processor support it; hits are the same with
+    /// each [default: the best one]
     #[arg(long, global = true, hide_short_help = true, help_heading = MEASURING, display_order = GLOBAL)]
     level: Option<Level>,
 }

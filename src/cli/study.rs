@@ -21,7 +21,7 @@ pub const RUNS: &str = "runs";
 #[command(next_help_heading = OUTPUT)]
 pub struct Common {
     /// Folder of journals: the same command resumes there; other scenes and settings add to it [default: runs;
-    /// `compare` keeps no journal without --dir]
+    /// `compare` writes no journal without --dir]
     #[arg(long, value_name = "DIR")]
     pub dir: Option<PathBuf>,
     /// Measure these cases again; earlier results stay, and the newest count
@@ -34,7 +34,7 @@ pub struct Common {
     /// Write the results as JSON, for `report` and `diff`
     #[arg(long, value_name = "FILE")]
     pub export_json: Option<PathBuf>,
-    /// Write the results as CSV, one row per case
+    /// Write the results as CSV, one row per measurement
     #[arg(long, value_name = "FILE")]
     pub export_csv: Option<PathBuf>,
     /// Write the tables as Markdown

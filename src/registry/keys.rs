@@ -24,7 +24,7 @@ const MEANINGS: [(&str, &str); 24] = [
     ("leaf", "L: nodes with fewer triangles become leaves (stop=report, stop=leaf)"),
     ("limit", "whether to split a node of exactly L triangles"),
     ("threshold", "T: a split is discarded at this share of triangles on both sides (stop=report); in (0, 1]"),
-    ("count", "the triangles that T is a share of"),
+    ("count", "which triangles the share T refers to"),
     ("median", "which vertex coordinate is the median"),
     ("equal", "the side of a triangle with a vertex in the plane"),
     ("exit", "when a ray stops traversal"),

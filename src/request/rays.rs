@@ -123,9 +123,9 @@ pub fn each_kind<K: Copy + PartialEq>(named: &[K], own: &[K]) -> Vec<K> {
 #[command(next_help_heading = super::RAYS)]
 pub struct Rays {
     /// Workload; may be repeated [default: the study's]
-    #[arg(long, short, value_name = "KIND")]
+    #[arg(long, short, value_name = "WORKLOAD")]
     pub workload: Vec<WorkloadKind>,
-    /// Rays to time per workload at most, in whole tiles of the scene's picture
+    /// Maximum number of rays to time per workload, in whole tiles of the scene's picture
     #[arg(long, value_name = "N|all", default_value = "all", value_parser = rays_or_all)]
     pub rays: usize,
 }

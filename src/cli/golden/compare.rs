@@ -21,8 +21,8 @@ use crate::study::Status;
 const TOLERANCE: &str = "Tolerance";
 
 /// The meaning of the common exit statuses here.
-const STATUSES: &str = "Exit status: 0, all are accepted; 2, a picture differs; 1, one is missing, additional or cannot \
-                        be read.";
+const STATUSES: &str = "Exit status: 0 if all pictures are accepted; 2 if a picture differs; 1 if a picture is missing, \
+                        additional or unreadable.";
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = STATUSES)]
@@ -35,10 +35,10 @@ pub struct Args {
     /// [default: 0]
     #[arg(long, help_heading = TOLERANCE, value_name = "N", value_parser = at_least_0, allow_negative_numbers = true)]
     max_difference: Option<f64>,
-    /// Accept N pixels, or P percent of them, that differ by more
+    /// Accept N pixels, or P percent of the pixels, that differ by more than --max-difference
     #[arg(long, help_heading = TOLERANCE, value_name = "N|P%", value_parser = allowed)]
     allow_pixels: Option<Allowed>,
-    /// Instead, accept a mean FLIP error of at most X, from 0 to 1 (visible differences)
+    /// Instead of these two options: accept a mean FLIP error (visible differences) of at most X, from 0 to 1
     #[arg(long, help_heading = TOLERANCE, value_name = "X", value_parser = from_0_to_1, conflicts_with_all = ["max_difference", "allow_pixels"],
         allow_negative_numbers = true)]
     max_flip: Option<f64>,

@@ -45,12 +45,12 @@ struct Record {
     #[arg(value_name = "SCENE|FILE")]
     scene: OsString,
     /// Workload
-    #[arg(long, short, help_heading = RAYS, value_name = "KIND", default_value = "primary")]
+    #[arg(long, short, help_heading = RAYS, value_name = "WORKLOAD", default_value = "primary")]
     workload: WorkloadKind,
     /// Ray file to write
     #[arg(long, short, help_heading = OUTPUT, value_name = "F.rays")]
     output: PathBuf,
-    /// Number of rays at most, evenly spread over the workload
+    /// Maximum number of rays, evenly spread over the workload
     #[arg(long, help_heading = RAYS, value_name = "N|all", default_value = "all", value_parser = rays_or_all)]
     rays: usize,
     /// Seed of the rays

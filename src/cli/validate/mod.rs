@@ -54,8 +54,8 @@ pub struct Args {
     /// Default build quality of eight-wide trees
     #[arg(long, help_heading = STRUCTURES, value_parser = request::QUALITIES)]
     quality: Option<String>,
-    /// Rays per scene, divided among the workloads, or a ray file to replay; fewer if brute force would take minutes, unless
-    /// N is given [default: 10000]
+    /// Rays per scene, divided among the workloads, or a ray file to replay; without N, fewer rays if brute force would
+    /// take minutes [default: 10000]
     #[arg(long, help_heading = RAYS, value_name = "N|F.rays")]
     rays: Option<RaySource>,
     /// Reference: `brute-force` with each structure's own triangle test, or another structure, e.g. `brute-force:test=exact`;
@@ -65,8 +65,8 @@ pub struct Args {
     /// Trace rays that break traversals instead of the workloads
     #[arg(long, help_heading = RAYS, conflicts_with_all = ["ray", "camera", "inside", "size"])]
     adversarial: bool,
-    /// Run hard cases instead of scenes, by name or number (see `sahara list hard`): known failures of ray tracers, each
-    /// structure in its own process [default: all cases]
+    /// Instead of scenes, run hard cases, which ray tracers are known to get wrong, by name or number (see
+    /// `sahara list hard`); each structure runs in its own process [default: all cases]
     #[arg(long, help_heading = SCENES, value_name = "CASE", num_args = 0.., conflicts_with_all = [
         "scenes", "ray", "adversarial", "hits", "export_hits", "against", "seed", "camera", "inside", "size",
     ])]
@@ -75,7 +75,7 @@ pub struct Args {
     #[arg(long, help_heading = RAYS, value_name = "ox,oy,oz dx,dy,dz", allow_hyphen_values = true, value_parser = Ray::parse_valid,
         conflicts_with_all = ["rays", "seed", "camera", "inside", "size"])]
     ray: Vec<Ray>,
-    /// Check the hits in this file, for the ray file of --rays, instead of structures
+    /// Instead of structures, check the hits in this file, which belong to the ray file of --rays
     #[arg(long, help_heading = STRUCTURES, value_name = "F.hits", conflicts_with_all = ["structure", "runner", "quality", "export_hits", "limit"])]
     hits: Option<PathBuf>,
     /// With --hits: the triangle test of these hits [default: unknown; exact arithmetic decides]. With --hard: the test of
@@ -91,8 +91,8 @@ pub struct Args {
     /// Write the hits of one structure for the ray file of --rays
     #[arg(long, help_heading = OUTPUT, value_name = "F.hits", conflicts_with = "against")]
     export_hits: Option<PathBuf>,
-    /// Time limit in seconds for 256 rays and for a build (again for each million triangles): a structure that exceeds it
-    /// hangs. A program has --runner-limit
+    /// Time limit in seconds for 256 rays, and for a build (as much again per million triangles); with --hard, for a
+    /// whole case. A structure that exceeds it counts as hanging. External programs have --runner-limit instead
     #[arg(long, help_heading = STRUCTURES, value_name = "SECONDS", default_value_t = Seconds::whole(LIMIT.as_secs() as u32), allow_negative_numbers = true)]
     limit: Seconds,
     /// Seed of the rays [default: 1]

@@ -23,7 +23,7 @@ pub fn path(id: &str) -> String {
 }
 
 pub fn text(document: &Document, runs: &Runs, run: &RunFacts) -> String {
-    let compiler = format!("Compiler: {}, {}. obvhs {}, by its default preset.", run.rustc, run.target, run.obvhs);
+    let compiler = format!("Compiler: {}, {}. obvhs {} with its default preset.", run.rustc, run.target, run.obvhs);
     let filled = [
         ("command", COMMAND.to_owned()),
         ("machine", paragraph(&run.sentence())),

@@ -42,15 +42,15 @@ pub const STUDY: Study = Study {
 struct AccuracyArgs {
     #[command(flatten)]
     scenes: Scenes,
-    /// Structure, over every triangle test unless it names one; may be repeated [default: all; brute-force only on meshes
-    /// of at most 5,000 triangles]
+    /// Structure with options, over every triangle test unless `test=` is given; may be repeated [default: all;
+    /// brute-force only on meshes of at most 5,000 triangles]
     #[arg(long, short, help_heading = STRUCTURES, value_name = "NAME[:key=value,..]")]
     structure: Vec<String>,
     /// Triangle test; may be repeated [default: all]
     #[arg(long, short, help_heading = STRUCTURES, value_name = "NAME")]
     test: Vec<String>,
     /// Workload: uniform, edge, vertex, axis, grazing, scale, offset or surface; may be repeated [default: all]
-    #[arg(long, short, help_heading = RAYS, value_name = "KIND")]
+    #[arg(long, short, help_heading = RAYS, value_name = "WORKLOAD")]
     workload: Vec<RayKind>,
     /// Rays per workload (0 errors in n rays: error rate below about 3/n with 95 % confidence), or a ray file to replay
     #[arg(long, help_heading = RAYS, value_name = "N|F.rays", default_value = "20000")]
@@ -58,7 +58,7 @@ struct AccuracyArgs {
     /// Samples per structure and workload
     #[arg(long, help_heading = MEASURING, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..))]
     runs: u16,
-    /// Seconds of samples per scene: slow cases are timed on fewer rays
+    /// Seconds of samples per scene: slow structures are timed on fewer rays
     #[arg(long, help_heading = MEASURING, value_name = "SECONDS", default_value_t = BUDGET, allow_negative_numbers = true)]
     budget: Seconds,
     /// Seed of the rays and of the sample order

@@ -40,9 +40,9 @@ struct AttributionArgs {
     #[command(flatten)]
     scenes: ScenesAndMeshes,
     /// Workload
-    #[arg(long, short, help_heading = RAYS, value_name = "KIND", default_value = "primary")]
+    #[arg(long, short, help_heading = RAYS, value_name = "WORKLOAD", default_value = "primary")]
     workload: WorkloadKind,
-    /// Rays to time at most, in whole tiles of the scene's picture
+    /// Maximum number of rays to time, in whole tiles of the scene's picture
     #[arg(long, help_heading = RAYS, value_name = "N|all", default_value = "all", value_parser = rays_or_all)]
     rays: usize,
     /// Triangle test of all trees

@@ -39,13 +39,13 @@ pub struct CompareArgs {
     /// else the first structure]
     #[arg(long, help_heading = STRUCTURES, value_name = "NAME[:key=value,..]")]
     pub reference: Option<String>,
-    /// Measure only this structure, or the --runner of this name, and the reference (default: obvhs-bvh2), for a gate
+    /// For a gate: measure only this structure, or the --runner with this name, and the reference (default: obvhs-bvh2)
     #[arg(long, help_heading = STRUCTURES, value_name = "NAME[:key=value,..]", conflicts_with_all = ["structure", "quick"])]
     pub only: Option<String>,
     /// Workload; may be repeated [default: primary, shadow, diffuse, random]
-    #[arg(long, short, help_heading = RAYS, value_name = "KIND")]
+    #[arg(long, short, help_heading = RAYS, value_name = "WORKLOAD")]
     pub workload: Vec<WorkloadKind>,
-    /// Rays to time per workload at most, or a ray file to replay
+    /// Maximum number of rays to time per workload, or a ray file to replay
     #[arg(long, help_heading = RAYS, value_name = "N|all|F.rays", default_value = "all")]
     pub rays: RaySource,
     #[command(flatten)]

@@ -81,7 +81,7 @@ fn structures(comparison: &Comparison) -> Table {
     let looked_for = comparison.threshold_percent.map(|percent| {
         let percent = figures(percent);
         format!(
-            "Regression: {percent}% slower or more, with an interval above 0. Inconclusive: the interval contains {percent}%."
+            "Regression: {percent}% slower or more, with an interval above 0. Inconclusive: otherwise, if the interval contains {percent}%."
         )
     });
     let mut notes = vec![];

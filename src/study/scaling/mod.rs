@@ -47,8 +47,8 @@ struct ScalingArgs {
     // In addition to the icospheres.
     #[command(flatten)]
     scenes: Scenes,
-    /// Finest icosphere: level 0 has 20 triangles, each level four times as many, level 10 has 16 million [default: the
-    /// finest level whose trees fit into memory together]
+    /// Finest icosphere: level 0 has 20 triangles, each further level four times as many, except level 10, which has 16
+    /// million [default: the finest level whose trees fit into memory together]
     #[arg(long, help_heading = SCENES, value_name = "LEVEL", value_parser = clap::value_parser!(u32).range(0..=i64::from(FINEST)))]
     finest: Option<u32>,
     #[command(flatten)]
