@@ -17,7 +17,7 @@ Exit status:
   1    bad usage, unreadable input, unwritable output, or a failed scene
   2    wrong hits, or a query that never returned
   3    regression (diff --fail-on-regression)
-  4    inconclusive: the interval contains the threshold
+  4    inconclusive: measure more to tell whether the threshold is exceeded
   5    correct, but a structure failed to build, panicked or was skipped
   130  interrupted by Ctrl-C; with a journal the same command resumes
 

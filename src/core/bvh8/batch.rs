@@ -231,7 +231,7 @@ pub(super) fn answer<const ANY: bool, T: TriangleTest, A, O: Observer>(
     observer: &mut O,
     form: impl Fn(Option<Hit>) -> A,
 ) {
-    assert_eq!(rays.len(), answers.len(), "one answer a ray");
+    assert_eq!(rays.len(), answers.len(), "one result per ray");
     if O::ACTIVE {
         // Count the steps of single rays.
         for (answer, ray) in answers.iter_mut().zip(rays) {

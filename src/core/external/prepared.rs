@@ -74,14 +74,14 @@ impl<'a, S: Prepare> PreparedBatch<'a, S> {
 
 impl<S: Prepare> Loaded for PreparedBatch<'_, S> {
     fn closest_hits(&self, hits: &mut [Option<Hit>]) {
-        assert_eq!(self.rays.len(), hits.len(), "one answer a ray");
+        assert_eq!(self.rays.len(), hits.len(), "one result per ray");
         for (ray, hit) in self.rays.iter().zip(hits) {
             *hit = ray.as_ref().and_then(|ray| self.structure.closest(ray, &mut ()));
         }
     }
 
     fn any_hits(&self, hits: &mut [bool]) {
-        assert_eq!(self.rays.len(), hits.len(), "one answer a ray");
+        assert_eq!(self.rays.len(), hits.len(), "one result per ray");
         for (ray, hit) in self.rays.iter().zip(hits) {
             *hit = ray.as_ref().is_some_and(|ray| self.structure.any(ray, &mut ()));
         }

@@ -207,13 +207,13 @@ struct Packets<'a, const LANES: usize, M: Mode> {
 
 impl<const LANES: usize, M: Mode> Loaded for Packets<'_, LANES, M> {
     fn closest_hits(&self, hits: &mut [Option<Hit>]) {
-        assert_eq!(self.rays, hits.len(), "one answer a ray");
+        assert_eq!(self.rays, hits.len(), "one result per ray");
         let blocks = self.packets.iter().zip(hits.chunks_mut(LANES));
         blocks.for_each(|(packet, hits)| self.structure.closest_of_packet(packet, hits));
     }
 
     fn any_hits(&self, hits: &mut [bool]) {
-        assert_eq!(self.rays, hits.len(), "one answer a ray");
+        assert_eq!(self.rays, hits.len(), "one result per ray");
         let blocks = self.packets.iter().zip(hits.chunks_mut(LANES));
         blocks.for_each(|(packet, hits)| self.structure.any_of_packet(packet, hits));
     }
@@ -257,7 +257,7 @@ impl<M: Mode> Accel for Embree<M> {
     }
 
     fn closest_hits<O: Observer>(&self, rays: &[Ray], hits: &mut [Option<Hit>], _: &mut O) {
-        assert_eq!(rays.len(), hits.len(), "one answer a ray");
+        assert_eq!(rays.len(), hits.len(), "one result per ray");
         match self.packet {
             Lanes::One => {}
             Lanes::Eight => return self.closest_in_packets::<8>(rays, hits),
@@ -268,7 +268,7 @@ impl<M: Mode> Accel for Embree<M> {
     }
 
     fn any_hits<O: Observer>(&self, rays: &[Ray], hits: &mut [bool], _: &mut O) {
-        assert_eq!(rays.len(), hits.len(), "one answer a ray");
+        assert_eq!(rays.len(), hits.len(), "one result per ray");
         match self.packet {
             Lanes::One => {}
             Lanes::Eight => return self.any_in_packets::<8>(rays, hits),
