@@ -22,8 +22,8 @@ pub struct Args {
     /// Folder for the page, Markdown, figures and data; replaces an older report there
     #[arg(long, short, help_heading = OUTPUT, value_name = "DIR", required_unless_present = "results")]
     output: Option<PathBuf>,
-    /// Write the findings of one run into this folder as a short paper (RESULTS.md, figures, results.json), and update the
-    /// marked numbers in the README.md next to the folder
+    /// Write the findings of one run into this folder as a short paper (RESULTS.md, figures, tables, results.json), and
+    /// update the marked numbers in the README.md next to the folder
     #[arg(long, help_heading = OUTPUT, value_name = "DIR", num_args = 0..=1, require_equals = true, default_missing_value = "papers")]
     results: Option<PathBuf>,
     /// Omit pictures of the scenes, heat maps and error maps, which take time to render
@@ -82,6 +82,7 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
 /// The folder of the paper, with the README beside it.
 struct ResultsFolder {
     figures: OutputFolder,
+    tables: OutputFolder,
     paper: OutputFile,
     data: OutputFile,
     /// README with its text.
@@ -100,6 +101,7 @@ impl ResultsFolder {
         let readme = readme.filter(|(text, _)| text.contains(results::OPEN));
         Ok(Self {
             figures: OutputFolder::check(&folder.join(results::FIGURES))?,
+            tables: OutputFolder::check(&folder.join(results::TABLES))?,
             paper: OutputFile::check(&folder.join(results::PAPER))?,
             data: OutputFile::check(&folder.join(results::DATA))?,
             readme: readme.map(|(text, path)| anyhow::Ok((OutputFile::check(&path)?, text))).transpose()?,
@@ -110,6 +112,7 @@ impl ResultsFolder {
     fn write(&self, mut results: Results, studies: &Studies) -> anyhow::Result<()> {
         let filled = self.readme.as_ref().map(|(_, text)| results.fill(text, studies)).transpose()?;
         self.figures.write(&results.figures)?;
+        self.tables.write(&results.tables)?;
         self.paper.write(results.paper.as_bytes())?;
         self.data.write(&results.json())?;
         if let (Some((file, _)), Some(text)) = (&self.readme, filled) {

@@ -15,6 +15,7 @@ use anyhow::Context;
 use serde::{Deserialize, Serialize};
 
 pub use marks::{OPEN, fill, marked};
+use paper::Files;
 pub use run_facts::RunFacts;
 
 use super::document::Document;
@@ -28,16 +29,18 @@ use crate::study::Studies;
 /// The command that makes all files.
 pub const COMMAND: &str = "sahara report RUN.. --results";
 
-/// The paper, the data file and the folder of figures, in the folder of results.
+/// The paper, the data file and the folders of figures and of long tables, in the folder of results.
 pub const PAPER: &str = "RESULTS.md";
 pub const DATA: &str = "results.json";
 pub const FIGURES: &str = "figures";
+pub const TABLES: &str = "results";
 
 pub struct Results {
     pub data: ResultsData,
     pub paper: String,
-    /// Names and bytes of the files in the folder of figures.
-    pub figures: Vec<(String, Vec<u8>)>,
+    /// The files in the folders of figures and of tables.
+    pub figures: Files,
+    pub tables: Files,
 }
 
 /// The data file.
@@ -64,9 +67,9 @@ impl Results {
     pub fn new(document: &Document, runs: &Runs) -> anyhow::Result<Self> {
         let run = RunFacts::new(runs)?;
         let statements = statements(document, runs, &run);
-        let mut paper = paper::text(document, runs, &run);
+        let (mut paper, tables) = paper::text(document, runs, &run);
         let answer = document.answer.chart.as_ref().map(|chart| (paper::ANSWER.into(), chart.svg(WIDTH).into_bytes()));
-        let mut figures: Vec<(String, Vec<u8>)> = answer.into_iter().collect();
+        let mut figures: Files = answer.into_iter().collect();
         for figure in document.figures() {
             let path = paper::path(&figure.id);
             let Some(chart) = figure.chart().filter(|_| paper.contains(&path)) else { continue };
@@ -77,11 +80,14 @@ impl Results {
                 None => figures.push((format!("{}.svg", figure.id), bytes)),
             }
         }
+        let digests = |folder: &'static str, files: &Files| {
+            files.iter().map(|(name, bytes)| (format!("{folder}/{name}"), digest(bytes))).collect::<Vec<_>>()
+        };
         let mut files: BTreeMap<String, String> =
-            figures.iter().map(|(name, bytes)| (format!("{FIGURES}/{name}"), digest(bytes))).collect();
+            [digests(FIGURES, &figures), digests(TABLES, &tables)].concat().into_iter().collect();
         files.insert(PAPER.into(), digest(paper.as_bytes()));
         let data = ResultsData { schema: 3, made_by: COMMAND.into(), run, statements, files };
-        Ok(Self { data, paper, figures })
+        Ok(Self { data, paper, figures, tables })
     }
 
     /// README with its marked places filled in. For a key without a measurement, README and the data say that it is not

@@ -1,13 +1,13 @@
 //! The paper: one fixed text around the answer and the Markdown of the reports.
 
-use super::run_facts::{RunFacts, portable};
-use super::{COMMAND, FIGURES};
+use super::run_facts::RunFacts;
+use super::{COMMAND, FIGURES, TABLES};
 use crate::page::document::{Document, Section};
 use crate::page::markdown::section;
 use crate::page::runs::Runs;
 use crate::report::markdown::prose;
 use crate::report::words::listed;
-use crate::report::{Art, Block, wrapped};
+use crate::report::{Art, Block, Table, csv, wrapped};
 
 /// The text around; a name in double braces is replaced.
 const FRAME: &str = include_str!("paper.md");
@@ -17,12 +17,21 @@ pub const ANSWER: &str = "answer.svg";
 /// Figures of a study in the paper; the page has all of them.
 const FIGURES_SHOWN: usize = 2;
 
+/// Tables with more rows are files beside the paper, except tables whose titles begin with these words.
+const LONG: usize = 8;
+const WHOLE: [&str; 2] = ["Claims", "Speed x"];
+
+/// Names and bytes of files.
+pub type Files = Vec<(String, Vec<u8>)>;
+
 /// The path of a figure in the paper.
 pub fn path(id: &str) -> String {
     format!("{FIGURES}/{id}.svg")
 }
 
-pub fn text(document: &Document, runs: &Runs, run: &RunFacts) -> String {
+/// The text, and the files in the folder of tables.
+pub fn text(document: &Document, runs: &Runs, run: &RunFacts) -> (String, Files) {
+    let (results, tables) = results(document, runs);
     let compiler = format!("Compiler: {}, {}. obvhs {} with its default preset.", run.rustc, run.target, run.obvhs);
     let filled = [
         ("command", COMMAND.to_owned()),
@@ -30,11 +39,11 @@ pub fn text(document: &Document, runs: &Runs, run: &RunFacts) -> String {
         ("answer", answer(document)),
         ("commands", run.commands.join("\n")),
         ("compiler", paragraph(&compiler)),
-        ("results", results(document, runs)),
+        ("results", results),
     ];
     let fill =
         |text: String, (name, value): &(&str, String)| text.replace(&format!("{{{{{name}}}}}"), value.trim_end());
-    filled.iter().fold(FRAME.to_owned(), fill)
+    (filled.iter().fold(FRAME.to_owned(), fill), tables)
 }
 
 fn paragraph(words: &str) -> String {
@@ -55,28 +64,40 @@ fn answer(document: &Document) -> String {
     text
 }
 
-/// The sections of the studies, without folded blocks, tables of single scenes and interactive blocks.
-fn results(document: &Document, runs: &Runs) -> String {
-    let mut text = String::new();
+/// The sections of the studies, without folded blocks, tables of single scenes, interactive blocks, and sentences of the
+/// answer; and the long tables as files.
+fn results(document: &Document, runs: &Runs) -> (String, Files) {
+    let (mut text, mut tables) = (String::new(), vec![]);
     for own in document.sections.iter().filter(|own| runs.of(own.id).is_some()) {
-        let mut figures = 0;
-        let mut is_shown = |block: &&Block| match block {
+        let (mut figures, others) = (0, tables.len());
+        let mut shown = |block: &Block| match block {
             Block::Figure(figure) if matches!(figure.art, Art::Chart(_)) => {
                 figures += 1;
-                figures <= FIGURES_SHOWN
+                (figures <= FIGURES_SHOWN).then(|| block.clone())
             }
-            Block::Table(table) => !table.of_scene,
-            Block::Text(_) => true,
-            _ => false,
+            Block::Table(table) if table.of_scene => None,
+            Block::Table(table) if is_long(table) => {
+                let name = format!("{}-{}.csv", own.id, tables.len() - others + 1);
+                let said = format!("{}: {} rows in {TABLES}/{name}.", table.title, table.rows.len());
+                tables.push((name, csv::table(table)));
+                Some(Block::Text(said))
+            }
+            Block::Text(words) if document.answer.sentences.contains(words) => None,
+            Block::Text(_) | Block::Table(_) => Some(block.clone()),
+            _ => None,
         };
-        let blocks = own.blocks.iter().filter(|block| is_shown(block)).cloned().collect();
-        let command = own.command.lines().map(portable).collect::<Vec<_>>().join("\n");
-        section(&Section { blocks, command, ..*own }, &mut text);
+        let blocks = own.blocks.iter().filter_map(&mut shown).collect();
+        // All commands are in the section on the method.
+        section(&Section { blocks, command: String::new(), ..*own }, &mut text);
     }
     let missing: Vec<String> =
         document.missing().iter().map(|own| format!("{} (`{}`)", own.what, own.command)).collect();
     if !missing.is_empty() {
         text += &paragraph(&format!("Not measured in this run: {}.", listed(&missing)));
     }
-    text
+    (text, tables)
+}
+
+fn is_long(table: &Table) -> bool {
+    table.rows.len() > LONG && !WHOLE.iter().any(|title| table.title.starts_with(title))
 }

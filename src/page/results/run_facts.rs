@@ -69,7 +69,7 @@ impl RunFacts {
 }
 
 /// A command without the folders of its machine.
-pub fn portable(command: &str) -> String {
+fn portable(command: &str) -> String {
     let name = |word: &str| match word.starts_with('/') {
         true => word.rsplit('/').next().unwrap_or(word).to_owned(),
         false => word.to_owned(),
