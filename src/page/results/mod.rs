@@ -15,7 +15,6 @@ use anyhow::Context;
 use serde::{Deserialize, Serialize};
 
 pub use marks::{OPEN, fill, marked};
-use paper::Files;
 pub use run_facts::RunFacts;
 
 use super::document::Document;
@@ -34,6 +33,9 @@ pub const PAPER: &str = "RESULTS.md";
 pub const DATA: &str = "results.json";
 pub const FIGURES: &str = "figures";
 pub const TABLES: &str = "results";
+
+/// Names and bytes of files.
+pub type Files = Vec<(String, Vec<u8>)>;
 
 pub struct Results {
     pub data: ResultsData,

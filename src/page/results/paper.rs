@@ -1,7 +1,7 @@
 //! The paper: one fixed text around the answer and the Markdown of the reports.
 
 use super::run_facts::RunFacts;
-use super::{COMMAND, FIGURES, TABLES};
+use super::{COMMAND, FIGURES, Files, TABLES};
 use crate::page::document::{Document, Section};
 use crate::page::markdown::section;
 use crate::page::runs::Runs;
@@ -20,9 +20,6 @@ const FIGURES_SHOWN: usize = 2;
 /// Tables with more rows are files beside the paper, except tables whose titles begin with these words.
 const LONG: usize = 8;
 const WHOLE: [&str; 2] = ["Claims", "Speed x"];
-
-/// Names and bytes of files.
-pub type Files = Vec<(String, Vec<u8>)>;
 
 /// The path of a figure in the paper.
 pub fn path(id: &str) -> String {
