@@ -13,7 +13,7 @@ use crate::triangle::TriangleTest;
 ///
 /// It tests eight triangles at once, with the same bits as the scalar test.
 pub struct BruteForce<T: TriangleTest> {
-    blocks: Vec<LeafBlock<T, 8>>,
+    blocks: Vec<LeafBlock<T>>,
     references: usize,
 }
 
@@ -29,7 +29,7 @@ impl<T: TriangleTest> Walk for BruteForce<T> {
         let prepared = T::prepare(ray);
         observer.leaf(self.references as u32);
         let count = self.references as u32;
-        search::<ANY, 8, L, T, O>(&self.blocks, count, &prepared, t_min, &mut nearest, &mut None, observer);
+        search::<ANY, L, T, O>(&self.blocks, count, &prepared, t_min, &mut nearest, &mut None, observer);
         nearest.answer::<ANY>(ray)
     }
 }

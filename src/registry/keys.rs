@@ -16,7 +16,7 @@ pub struct Key {
 }
 
 /// The keys of the structures of this crate and of obvhs; a key means the same in all of them.
-const MEANINGS: [(&str, &str); 25] = [
+const MEANINGS: [(&str, &str); 27] = [
     ("plane", "split plane of a node"),
     ("axis", "split axis of a median"),
     ("stop", "stop rule: when a node becomes a leaf"),
@@ -46,6 +46,8 @@ const MEANINGS: [(&str, &str); 25] = [
         "obvhs: prepare rays in the timed query (asked) or before the clock starts (loaded); Embree: its hint about the \
          directions in a packet",
     ),
+    ("packet", "Embree: rays per query"),
+    ("isa", "Embree: the instructions that it may use"),
 ];
 
 impl Entry {

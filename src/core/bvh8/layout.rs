@@ -17,7 +17,7 @@ const PIECE: usize = 4096;
 pub(super) struct Layout<T: TriangleTest> {
     pub root: Child,
     pub nodes: Vec<Node>,
-    pub blocks: Vec<LeafBlock<T, WIDTH>>,
+    pub blocks: Vec<LeafBlock<T>>,
 }
 
 impl<T: TriangleTest> Layout<T> {
@@ -86,7 +86,7 @@ struct Piece<'a, T: TriangleTest> {
     mesh: &'a Mesh,
     collapse: &'a Collapse<'a>,
     nodes: Vec<Node>,
-    blocks: Vec<LeafBlock<T, WIDTH>>,
+    blocks: Vec<LeafBlock<T>>,
     /// Nodes on the longest path from the root.
     depth: usize,
     /// Subtrees with at most this many references are left to other threads.

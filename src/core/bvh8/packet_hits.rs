@@ -11,7 +11,7 @@ pub(super) const HALVES: usize = RAYS / WIDTH;
 /// each.
 pub(super) struct PacketHits<'a, T: TriangleTest> {
     /// The blocks of the tree.
-    blocks: &'a [LeafBlock<T, WIDTH>],
+    blocks: &'a [LeafBlock<T>],
     t: [[f32; WIDTH]; HALVES],
     /// Lower bounds of the `t` of the hits; infinite without a hit.
     least: [[f32; WIDTH]; HALVES],
@@ -69,7 +69,7 @@ impl<L: EightLanes> HitLanes<L> {
 impl<'a, T: TriangleTest> PacketHits<'a, T> {
     /// No hits yet; hits of ray `i` must lie at or before `last(i)`.
     #[inline(always)]
-    pub fn until(blocks: &'a [LeafBlock<T, WIDTH>], last: impl Fn(usize) -> f32) -> Self {
+    pub fn until(blocks: &'a [LeafBlock<T>], last: impl Fn(usize) -> f32) -> Self {
         let mut hits = Self {
             blocks,
             t: [[0.0; WIDTH]; HALVES],

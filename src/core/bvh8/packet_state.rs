@@ -34,7 +34,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     #[inline(always)]
     pub fn new<L: EightLanes>(
         rays: &'a [Ray; RAYS],
-        blocks: &'a [LeafBlock<T, WIDTH>],
+        blocks: &'a [LeafBlock<T>],
         packet: &mut RayPacket<L>,
     ) -> Self {
         let nearest = PacketHits::until(blocks, |i| T::last(rays[i].t_max));
@@ -116,7 +116,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     pub fn search<const ANY: bool, L: EightLanes>(
         &mut self,
         first: usize,
-        blocks: &'a [LeafBlock<T, WIDTH>],
+        blocks: &'a [LeafBlock<T>],
         active: u16,
         packet: &mut RayPacket<L>,
     ) {
@@ -144,7 +144,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     fn triangle_by_triangle<L: EightLanes>(
         &mut self,
         first: usize,
-        blocks: &'a [LeafBlock<T, WIDTH>],
+        blocks: &'a [LeafBlock<T>],
         active: u16,
         packet: &mut RayPacket<L>,
     ) -> u16 {
@@ -178,7 +178,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     fn ray_by_ray<const ANY: bool, L: EightLanes>(
         &mut self,
         first: usize,
-        blocks: &'a [LeafBlock<T, WIDTH>],
+        blocks: &'a [LeafBlock<T>],
         active: u16,
         packet: &mut RayPacket<L>,
     ) {
@@ -227,7 +227,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     unsafe fn settle(
         &mut self,
         number: usize,
-        block: &'a LeafBlock<T, WIDTH>,
+        block: &'a LeafBlock<T>,
         i: usize,
         (mut candidates, values): BlockCandidates<T>,
     ) {

@@ -8,7 +8,7 @@
 use std::marker::PhantomData;
 use std::mem::MaybeUninit;
 
-use super::node::{Child, WIDTH};
+use super::node::Child;
 use super::prepared_ray::PreparedRay;
 use super::stack::{Entries, Stack};
 use super::tree::Bvh8;
@@ -187,7 +187,7 @@ impl<'a, T: TriangleTest> Stream<'a, T> {
                     let (first, count) = at.child.leaf_blocks();
                     let blocks = tree.blocks.get_unchecked(first..first + count);
                     let (ray, nearest) = (&at.ray, &mut at.nearest);
-                    search::<ANY, WIDTH, L, T, ()>(blocks, u32::MAX, ray, at.t_min, nearest, &mut None, &mut ());
+                    search::<ANY, L, T, ()>(blocks, u32::MAX, ray, at.t_min, nearest, &mut None, &mut ());
                     if !(ANY && at.nearest.found()) {
                         at.end = after(at.nearest.t);
                         let mut stack = Stack::<ANY>::of(&mut at.entries, at.left);

@@ -10,7 +10,7 @@
 //! any-hit query visits lanes from the highest to the lowest: leaves before nodes and large boxes before small ones,
 //! because large boxes occlude most (Nah, Manocha: SATO: Surface area traversal order for shadow ray tracing, 2014).
 
-use super::node::{Child, WIDTH};
+use super::node::Child;
 use super::prepared_ray::PreparedRay;
 use super::stack::{Entries, OnePage, Stack};
 use super::tree::Bvh8;
@@ -106,7 +106,7 @@ impl<T: TriangleTest> Bvh8<T> {
                 // Without the black box, the compiler loads the prepared ray into registers before the first node. This
                 // is wasted work: many rays meet no leaf, and a call spills these registers anyway.
                 let prepared = std::hint::black_box(prepared);
-                search::<ANY, WIDTH, L, T, O>(blocks, held, prepared, t_min, nearest, &mut None, observer);
+                search::<ANY, L, T, O>(blocks, held, prepared, t_min, nearest, &mut None, observer);
                 if ANY && nearest.found() {
                     return;
                 }

@@ -3,7 +3,7 @@ use glam::Vec3A;
 use super::collapse::Collapse;
 use super::config::{Batch, Bvh8Config};
 use super::layout::Layout;
-use super::node::{Child, Limits, Node, WIDTH};
+use super::node::{Child, Limits, Node};
 use super::trial::Trial;
 use crate::accel::BuildError;
 use crate::build::sah_cost::CostModel;
@@ -32,7 +32,7 @@ pub struct Bvh8<T: TriangleTest> {
     // `DEPTH` nodes, because `Limits::check` refuses longer ones.
     pub(super) root: Child,
     pub(super) nodes: Vec<Node>,
-    pub(super) blocks: Vec<LeafBlock<T, WIDTH>>,
+    pub(super) blocks: Vec<LeafBlock<T>>,
     pub(super) bounds: Aabb,
     /// See [`farthest`].
     pub(super) farthest: Vec3A,

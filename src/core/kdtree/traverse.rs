@@ -19,7 +19,6 @@ use super::node::Node;
 use super::tree::KdTree;
 use crate::accel::Observer;
 use crate::build::cells::DEEPEST;
-use crate::build::sah_cost::BLOCK;
 use crate::geometry::{Aabb, Hit, Ray};
 use crate::simd::EightLanes;
 use crate::traversal::leaf::{Mailbox, search, start};
@@ -42,7 +41,7 @@ impl<T: TriangleTest> Walk for KdTree<T> {
         while let Some(leaf) = leaves.next(self, &line, t_min, nearest.t, observer) {
             let (blocks, count) = (self.blocks_of(leaf), leaf.references());
             observer.leaf(count);
-            search::<ANY, BLOCK, L, T, O>(blocks, count, &prepared, t_min, &mut nearest, &mut mailbox, observer);
+            search::<ANY, L, T, O>(blocks, count, &prepared, t_min, &mut nearest, &mut mailbox, observer);
             if nearest.found() && (ANY || self.config.exit == Exit::FirstLeaf) {
                 break;
             }

@@ -22,7 +22,7 @@ use crate::triangle::TriangleTest;
 /// Ray Shooting Algorithms, 2000.
 pub struct KdTree<T: TriangleTest> {
     pub(super) nodes: Vec<Node>,
-    pub(super) blocks: Vec<LeafBlock<T, BLOCK>>,
+    pub(super) blocks: Vec<LeafBlock<T>>,
     pub(super) bounds: Aabb,
     pub(super) config: KdConfig,
 }
@@ -43,7 +43,7 @@ impl<T: TriangleTest> KdTree<T> {
     }
 
     #[inline(always)]
-    pub(super) fn blocks_of(&self, leaf: Node) -> &[LeafBlock<T, BLOCK>] {
+    pub(super) fn blocks_of(&self, leaf: Node) -> &[LeafBlock<T>] {
         let first = leaf.first() as usize;
         &self.blocks[first..first + (leaf.references() as usize).div_ceil(BLOCK)]
     }

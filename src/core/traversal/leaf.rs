@@ -3,8 +3,9 @@
 use std::cmp::Ordering;
 
 use crate::accel::{Footprint, Observer};
+use crate::build::sah_cost::BLOCK;
 use crate::geometry::{Hit, Mesh, Ray};
-use crate::simd::Lanes;
+use crate::simd::EightLanes;
 use crate::triangle::{Depth, TriangleTest};
 
 /// The nearest hit so far, or the end of the interval.
@@ -53,21 +54,21 @@ impl<D: Depth> Nearest<D> {
 /// The number in lanes without a triangle.
 pub(crate) const NONE: u32 = u32::MAX;
 
-/// At most `N` triangles, tested at once.
+/// At most eight triangles, tested at once.
 #[derive(Clone, Copy)]
 #[repr(C, align(64))]
-pub(crate) struct LeafBlock<T: TriangleTest, const N: usize> {
-    pub triangles: T::Block<N>,
+pub(crate) struct LeafBlock<T: TriangleTest> {
+    pub triangles: T::Block<BLOCK>,
     /// [`NONE`] in lanes without a triangle.
-    pub ids: [u32; N],
+    pub ids: [u32; BLOCK],
 }
 
-impl<T: TriangleTest, const N: usize> LeafBlock<T, N> {
+impl<T: TriangleTest> LeafBlock<T> {
     /// Blocks for the triangles `ids` of `mesh`, in that order.
     pub fn fill(mesh: &Mesh, ids: &[u32], blocks: &mut Vec<Self>) {
-        blocks.extend(ids.chunks(N).map(|ids| {
-            let mut corners = [[glam::Vec3::ZERO; 3]; N];
-            let mut padded = [NONE; N];
+        blocks.extend(ids.chunks(BLOCK).map(|ids| {
+            let mut corners = [[glam::Vec3::ZERO; 3]; BLOCK];
+            let mut padded = [NONE; BLOCK];
             for (lane, &id) in ids.iter().enumerate() {
                 corners[lane] = mesh.corners(id);
                 padded[lane] = id;
@@ -84,7 +85,7 @@ impl<T: TriangleTest, const N: usize> LeafBlock<T, N> {
 
     /// The bytes of `blocks`: the numbers of the triangles count as references, everything else as triangles.
     pub fn footprint(blocks: &[Self]) -> Footprint {
-        let references = blocks.len() * size_of::<[u32; N]>();
+        let references = blocks.len() * size_of::<[u32; BLOCK]>();
         Footprint { triangles: size_of_val(blocks) - references, references, ..Footprint::default() }
     }
 }
@@ -107,8 +108,8 @@ impl Mailbox {
 /// Searches the `count` triangles in the blocks of one leaf; the observer counts each tested block. With `ANY`, returns
 /// at the first block with a hit in the interval.
 #[inline(always)]
-pub(crate) fn search<'a, const ANY: bool, const N: usize, L: Lanes<N>, T: TriangleTest, O: Observer>(
-    blocks: &'a [LeafBlock<T, N>],
+pub(crate) fn search<'a, const ANY: bool, L: EightLanes, T: TriangleTest, O: Observer>(
+    blocks: &'a [LeafBlock<T>],
     count: u32,
     ray: &T::Ray,
     t_min: f32,
@@ -117,7 +118,7 @@ pub(crate) fn search<'a, const ANY: bool, const N: usize, L: Lanes<N>, T: Triang
     observer: &mut O,
 ) {
     for (i, block) in blocks.iter().enumerate() {
-        let mut fresh = (count - (i * N) as u32).min(N as u32);
+        let mut fresh = (count - (i * BLOCK) as u32).min(BLOCK as u32);
         if let Some(mailbox) = mailbox {
             fresh = block.ids.iter().filter(|&&id| id != NONE && !mailbox.visit(id)).count() as u32;
         }
@@ -125,7 +126,7 @@ pub(crate) fn search<'a, const ANY: bool, const N: usize, L: Lanes<N>, T: Triang
             continue;
         }
         observer.test(fresh);
-        let (candidates, first) = T::candidates::<N, L>(ray, &block.triangles, t_min, nearest.t);
+        let (candidates, first) = T::candidates::<BLOCK, L>(ray, &block.triangles, t_min, nearest.t);
         if candidates != 0 {
             settle(block, ray, candidates, &T::values(first), nearest);
             if ANY && nearest.found() {
@@ -140,16 +141,16 @@ pub(crate) fn search<'a, const ANY: bool, const N: usize, L: Lanes<N>, T: Triang
 /// Candidates that need another call are left to [`settle_closely`]. Most need none, and without a call this function
 /// saves no registers.
 #[inline(never)]
-pub(crate) fn settle<'a, const N: usize, T: TriangleTest>(
-    block: &'a LeafBlock<T, N>,
+pub(crate) fn settle<'a, T: TriangleTest>(
+    block: &'a LeafBlock<T>,
     ray: &T::Ray,
     mut candidates: u32,
-    values: &T::Values<N>,
+    values: &T::Values<BLOCK>,
     nearest: &mut Nearest<T::Depth<'a>>,
 ) {
     while candidates != 0 {
         // The remainder saves a check of bounds.
-        let lane = candidates.trailing_zeros() as usize % N;
+        let lane = candidates.trailing_zeros() as usize % BLOCK;
         let id = block.ids[lane];
         // A triangle may be referenced by several leaves.
         if nearest.hit.as_ref().is_none_or(|(_, nearest)| *nearest != id) {
@@ -178,11 +179,11 @@ const FEW: u32 = 2;
 
 /// Like [`settle`], with all stages of the test.
 #[inline(never)]
-fn settle_closely<'a, const N: usize, T: TriangleTest>(
-    block: &'a LeafBlock<T, N>,
+fn settle_closely<'a, T: TriangleTest>(
+    block: &'a LeafBlock<T>,
     ray: &T::Ray,
     mut candidates: u32,
-    values: &T::Values<N>,
+    values: &T::Values<BLOCK>,
     nearest: &mut Nearest<T::Depth<'a>>,
 ) {
     let closer;

@@ -126,13 +126,13 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// Refines many candidates at once, if that pays: the remaining candidates, and their values for
     /// [`decide`](Self::decide). It may drop candidates beyond `nearest`.
     #[inline(always)]
-    fn look_closer<const N: usize>(
+    fn look_closer(
         _ray: &Self::Ray,
-        _block: &Self::Block<N>,
+        _block: &Self::Block<8>,
         _candidates: u32,
-        _values: &Self::Values<N>,
+        _values: &Self::Values<8>,
         _nearest: Option<&Self::Depth<'_>>,
-    ) -> Option<(u32, Self::Values<N>)> {
+    ) -> Option<(u32, Self::Values<8>)> {
         None
     }
 

@@ -53,10 +53,10 @@ unsafe extern "C" fn on_memory(monitor: *mut c_void, bytes: isize, _: bool) -> b
 }
 
 impl Scene {
-    /// Builds over the triangles `ids` of `mesh` on `threads` threads.
-    pub fn new(mesh: &Mesh, ids: &[u32], flags: c_int, quality: c_int, threads: usize) -> Result<Self, BuildError> {
+    /// Builds over the triangles `ids` of `mesh`; `device` is the configuration that `rtcNewDevice` takes.
+    pub fn new(mesh: &Mesh, ids: &[u32], flags: c_int, quality: c_int, device: &str) -> Result<Self, BuildError> {
         let api = api().map_err(BuildError::Unavailable)?;
-        let options = CString::new(format!("threads={threads},set_affinity=0")).expect("no zero inside");
+        let options = CString::new(device).expect("no zero inside");
         // SAFETY: the calls and their order follow Embree's manual. The monitor given to the functions is stored in
         // `scene`, which releases the device before it drops the monitor, even after a failure.
         unsafe {

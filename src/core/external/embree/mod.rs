@@ -85,6 +85,8 @@ pub struct EmbreeConfig {
     pub packet: Lanes,
     /// Whether queries declare the rays of a packet as coherent.
     pub rays: Rays,
+    /// The instructions that it may use.
+    pub isa: Isa,
 }
 
 /// The build qualities of Embree for static scenes.
@@ -120,6 +122,17 @@ pub enum Rays {
     Incoherent,
     /// Similar directions.
     Coherent,
+}
+
+/// The instructions that Embree may use.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Isa {
+    /// All of the processor.
+    #[default]
+    Native,
+    /// None beyond AVX2, to compare with a build for processors without AVX-512.
+    Avx2,
 }
 
 impl TryFrom<u32> for Lanes {
@@ -233,7 +246,12 @@ impl<M: Mode> Accel for Embree<M> {
             Quality::Medium => 1,
             Quality::High => 2,
         };
-        let scene = Scene::new(mesh, &ids, M::FLAGS, quality, rayon::current_num_threads())?;
+        let isa = match config.isa {
+            Isa::Native => "",
+            Isa::Avx2 => ",isa=avx2",
+        };
+        let device = format!("threads={},set_affinity=0{isa}", rayon::current_num_threads());
+        let scene = Scene::new(mesh, &ids, M::FLAGS, quality, &device)?;
         let flags = match config.rays {
             Rays::Incoherent => 0,
             Rays::Coherent => 1 << 16,

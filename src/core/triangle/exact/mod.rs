@@ -14,7 +14,7 @@ use super::filter::{CandidateBounds, Candidates, FilterBlock, FilterRay, filter_
 use super::{EightHits, EightRays, TriangleTest};
 use crate::exact;
 use crate::geometry::{Ray, round_down, round_up};
-use crate::simd::{Arithmetic, EightLanes, LaneVec3, Lanes, Portable, each};
+use crate::simd::{Arithmetic, EightLanes, Kernel, LaneVec3, Lanes, Level, Portable, dispatch, each};
 use enclosure::{Bounds, look, look_at_corners, place, place_closely, place_in_axis_plane};
 
 /// Exact results at the cost of a filter: an `f32` stage, then `f64` with an error bound for undecided cases, then
@@ -122,20 +122,23 @@ impl TriangleTest for Exact {
     }
 
     #[inline(always)]
-    fn look_closer<const N: usize>(
+    fn look_closer(
         ray: &ExactRay,
-        block: &FilterBlock<N>,
+        block: &FilterBlock<8>,
         candidates: u32,
-        bounds: &CandidateBounds<N>,
+        bounds: &CandidateBounds<8>,
         nearest: Option<&ExactDepth>,
-    ) -> Option<(u32, CandidateBounds<N>)> {
+    ) -> Option<(u32, CandidateBounds<8>)> {
         let start = ray.ray.interval().0;
         let overlaps =
             |low: f32, high: f32| nearest.is_some_and(|hit| hit.overlaps(low, high)) || low < start && start <= high;
         let unclear = |lane: &usize| {
             (candidates & bounds.sure) >> lane & 1 == 1 && overlaps(bounds.low[*lane], bounds.high[*lane])
         };
-        ((0..N).filter(unclear).count() > 2).then(|| crowd(&ray.ray, block, candidates, bounds, nearest))
+        ((0..8).filter(unclear).count() > 2).then(|| {
+            let last = nearest.map_or(f64::INFINITY, |hit| hit.latest(&ray.ray));
+            dispatch(Level::current(), Crowd { ray: &ray.ray, block, candidates, bounds, last })
+        })
     }
 
     #[inline(always)]
@@ -205,28 +208,36 @@ fn within(ray: &Ray, bounds: Bounds) -> Option<Option<(f32, f32)>> {
 
 /// Refines in `f64` the candidates of a block if many are too close together, or too close to the origin, for `f32`:
 /// returns the remaining candidates and their bounds.
-#[inline(never)]
-fn crowd<const N: usize>(
-    ray: &Ray,
-    block: &FilterBlock<N>,
-    mut candidates: u32,
-    bounds: &CandidateBounds<N>,
-    nearest: Option<&ExactDepth>,
-) -> (u32, CandidateBounds<N>) {
-    let corners = block.corners().load::<Portable<N>>();
-    let (placed, low, high) = place(LaneVec3::splat(ray.origin), LaneVec3::splat(ray.direction), corners);
-    let (start, last) = (f64::from(ray.interval().0), nearest.map_or(f64::INFINITY, |hit| hit.latest(ray)));
-    let known = candidates & bounds.sure & placed;
-    let splat = <Portable<N> as Lanes<N>>::Double::splat;
-    candidates &= !(known & (high.lt(splat(start)) | splat(last).lt(low)));
-    let (mut bounds, mut left) = (*bounds, candidates & known);
-    while left != 0 {
-        let lane = left.trailing_zeros() as usize % N;
-        // Store lane by lane: most blocks have none left.
-        (bounds.low[lane], bounds.high[lane]) = (round_down(low.store()[lane]), round_up(high.store()[lane]));
-        left &= left - 1;
+struct Crowd<'a> {
+    ray: &'a Ray,
+    block: &'a FilterBlock<8>,
+    candidates: u32,
+    bounds: &'a CandidateBounds<8>,
+    /// Candidates whose `t` is certainly greater are dropped.
+    last: f64,
+}
+
+impl Kernel for Crowd<'_> {
+    type Output = (u32, CandidateBounds<8>);
+
+    #[inline(always)]
+    fn run<L: EightLanes>(self) -> (u32, CandidateBounds<8>) {
+        let Self { ray, block, mut candidates, bounds, last } = self;
+        let corners = block.corners().load::<L>();
+        let (placed, low, high) = place(LaneVec3::splat(ray.origin), LaneVec3::splat(ray.direction), corners);
+        let known = candidates & bounds.sure & placed;
+        let splat = L::Double::splat;
+        let start = f64::from(ray.interval().0);
+        candidates &= !(known & (high.lt(splat(start)) | splat(last).lt(low)));
+        let (mut bounds, mut left) = (*bounds, candidates & known);
+        let (low, high) = (low.store(), high.store());
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize % 8;
+            (bounds.low[lane], bounds.high[lane]) = (round_down(low[lane]), round_up(high[lane]));
+            left &= left - 1;
+        }
+        (candidates, bounds)
     }
-    (candidates, bounds)
 }
 
 /// A quick test whether the triangle is axis-aligned, such as floors and walls, and the ray parallel to its plane or in
