@@ -32,11 +32,7 @@ type BlockCandidates<T> = (u32, <T as TriangleTest>::Values<WIDTH>);
 impl<'a, T: TriangleTest> PacketState<'a, T> {
     /// For rays that search `blocks`; sets the ends of the rays in `packet`.
     #[inline(always)]
-    pub fn new<L: EightLanes>(
-        rays: &'a [Ray; RAYS],
-        blocks: &'a [LeafBlock<T>],
-        packet: &mut RayPacket<L>,
-    ) -> Self {
+    pub fn new<L: EightLanes>(rays: &'a [Ray; RAYS], blocks: &'a [LeafBlock<T>], packet: &mut RayPacket<L>) -> Self {
         let nearest = PacketHits::until(blocks, |i| T::last(rays[i].t_max));
         packet.end_all(each(&nearest.lanes::<L>(), |half| half.t));
         Self {

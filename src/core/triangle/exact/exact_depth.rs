@@ -34,10 +34,10 @@ impl<'a> ExactDepth<'a> {
         Self { width: f32::INFINITY, ..self }
     }
 
-    /// Whether a hit may have a `t` between these bounds.
+    /// The lanes whose bounds overlap with the bounds of this hit, as bits.
     #[inline(always)]
-    pub(super) fn overlaps(&self, low: f32, high: f32) -> bool {
-        low <= self.high && self.low <= high
+    pub(super) fn overlaps<L: EightLanes>(&self, low: L, high: L) -> u32 {
+        low.le(L::splat(self.high)) & L::splat(self.low).le(high)
     }
 
     /// An upper bound of the exact `t`, in `f64`.

@@ -129,16 +129,7 @@ impl TriangleTest for Exact {
         bounds: &CandidateBounds<8>,
         nearest: Option<&ExactDepth>,
     ) -> Option<(u32, CandidateBounds<8>)> {
-        let start = ray.ray.interval().0;
-        let overlaps =
-            |low: f32, high: f32| nearest.is_some_and(|hit| hit.overlaps(low, high)) || low < start && start <= high;
-        let unclear = |lane: &usize| {
-            (candidates & bounds.sure) >> lane & 1 == 1 && overlaps(bounds.low[*lane], bounds.high[*lane])
-        };
-        ((0..8).filter(unclear).count() > 2).then(|| {
-            let last = nearest.map_or(f64::INFINITY, |hit| hit.latest(&ray.ray));
-            dispatch(Level::current(), Crowd { ray: &ray.ray, block, candidates, bounds, last })
-        })
+        dispatch(Level::current(), Crowd { ray: &ray.ray, block, candidates, bounds, nearest })
     }
 
     #[inline(always)]
@@ -206,29 +197,34 @@ fn within(ray: &Ray, bounds: Bounds) -> Option<Option<(f32, f32)>> {
     }
 }
 
-/// Refines in `f64` the candidates of a block if many are too close together, or too close to the origin, for `f32`:
-/// returns the remaining candidates and their bounds.
+/// Refines in `f64` the candidates of a block if more than two are too close to the nearest hit or the start of the ray
+/// for `f32`: returns the remaining candidates and their bounds.
 struct Crowd<'a> {
     ray: &'a Ray,
     block: &'a FilterBlock<8>,
     candidates: u32,
     bounds: &'a CandidateBounds<8>,
-    /// Candidates whose `t` is certainly greater are dropped.
-    last: f64,
+    nearest: Option<&'a ExactDepth<'a>>,
 }
 
 impl Kernel for Crowd<'_> {
-    type Output = (u32, CandidateBounds<8>);
+    type Output = Option<(u32, CandidateBounds<8>)>;
 
     #[inline(always)]
-    fn run<L: EightLanes>(self) -> (u32, CandidateBounds<8>) {
-        let Self { ray, block, mut candidates, bounds, last } = self;
+    fn run<L: EightLanes>(self) -> Option<(u32, CandidateBounds<8>)> {
+        let Self { ray, block, mut candidates, bounds, nearest } = self;
+        let (low, high, start) = (L::load(&bounds.low), L::load(&bounds.high), ray.interval().0);
+        let near_start = low.lt(L::splat(start)) & L::splat(start).le(high);
+        let unclear = near_start | nearest.map_or(0, |hit| hit.overlaps(low, high));
+        if (candidates & bounds.sure & unclear).count_ones() <= 2 {
+            return None;
+        }
+        let last = nearest.map_or(f64::INFINITY, |hit| hit.latest(ray));
         let corners = block.corners().load::<L>();
         let (placed, low, high) = place(LaneVec3::splat(ray.origin), LaneVec3::splat(ray.direction), corners);
         let known = candidates & bounds.sure & placed;
         let splat = L::Double::splat;
-        let start = f64::from(ray.interval().0);
-        candidates &= !(known & (high.lt(splat(start)) | splat(last).lt(low)));
+        candidates &= !(known & (high.lt(splat(start.into())) | splat(last).lt(low)));
         let (mut bounds, mut left) = (*bounds, candidates & known);
         let (low, high) = (low.store(), high.store());
         while left != 0 {
@@ -236,7 +232,7 @@ impl Kernel for Crowd<'_> {
             (bounds.low[lane], bounds.high[lane]) = (round_down(low[lane]), round_up(high[lane]));
             left &= left - 1;
         }
-        (candidates, bounds)
+        Some((candidates, bounds))
     }
 }
 
