@@ -6,7 +6,6 @@ use super::config::Batch;
 use super::packet_hits::RAYS;
 use super::stream::{Slots, Stream};
 use super::tree::Bvh8;
-use super::trial::Way;
 use crate::accel::Observer;
 use crate::geometry::{Hit, Ray};
 use crate::simd::{EightLanes, Kernel, Level, dispatch, each};
@@ -55,15 +54,6 @@ impl Groups {
             let [first, last] = [run[0], run[run.len() - 1]].map(usize::from);
             first * RAYS..rays.min((last + 1) * RAYS)
         })
-    }
-
-    /// Two similar halves: four groups belong to the first, the next four to the second, and so on.
-    fn halves(&self) -> [Self; 2] {
-        let mut halves = [Self::NONE; 2];
-        for (place, &number) in self.numbers[..self.len].iter().enumerate() {
-            halves[place / 4 % 2].push(number.into());
-        }
-        halves
     }
 }
 
@@ -182,9 +172,9 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
     }
 }
 
-/// Traces some groups of a window with several rays at once: a separate kernel, because it is a third slower beside
-/// another traversal in the same function.
-pub(super) struct Interleaved<'a, const ANY: bool, T: TriangleTest, A, F> {
+/// The closest hits of some groups of a window, with several rays at once: a separate kernel, because it is a third
+/// slower beside another traversal in the same function.
+pub(super) struct Interleaved<'a, T: TriangleTest, A, F> {
     pub tree: &'a Bvh8<T>,
     pub rays: &'a [Ray],
     pub which: &'a Groups,
@@ -192,7 +182,7 @@ pub(super) struct Interleaved<'a, const ANY: bool, T: TriangleTest, A, F> {
     pub form: &'a F,
 }
 
-impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for Interleaved<'_, ANY, T, A, F> {
+impl<T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for Interleaved<'_, T, A, F> {
     type Output = ();
 
     #[inline(always)]
@@ -201,13 +191,13 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
         if !L::FAST {
             // Portable lanes are limited by arithmetic, not by memory.
             for i in which.places(rays.len()).flatten() {
-                answers[i] = form(silent::<ANY, L, _>(tree, &rays[i]));
+                answers[i] = form(silent::<false, L, _>(tree, &rays[i]));
             }
             return;
         }
         let mut slots = Slots::EMPTY;
         let which = which.places(rays.len()).flatten().map(|i| (i, &rays[i]));
-        Stream::<T>::new(tree, &mut slots).run::<ANY, L>(which, |i, hit| answers[i] = form(hit));
+        Stream::<T>::new(tree, &mut slots).run::<L>(which, |i, hit| answers[i] = form(hit));
     }
 }
 
@@ -250,7 +240,10 @@ pub(super) fn answer<const ANY: bool, T: TriangleTest, A, O: Observer>(
     }
 }
 
-/// Traces the groups of a window that form no packet, with the faster of two strategies.
+/// Traces the groups of a window that form no packet.
+///
+/// To interleave rays hides the time that they wait for memory and costs instructions. Any-hit queries end too early to
+/// gain from it (`papers/TUNING.md`).
 fn answer_apart<const ANY: bool, T: TriangleTest, A>(
     level: Level,
     tree: &Bvh8<T>,
@@ -259,21 +252,11 @@ fn answer_apart<const ANY: bool, T: TriangleTest, A>(
     answers: &mut [A],
     form: &impl Fn(Option<Hit>) -> A,
 ) {
-    let mut run = |which: &Groups, way: Way| match way {
-        Way::Interleaved => dispatch(level, Interleaved::<ANY, T, A, _> { tree, rays, which, answers, form }),
-        Way::InOrder => {
-            for places in which.runs(rays.len()) {
-                let (rays, answers) = (&rays[places.clone()], &mut answers[places]);
-                dispatch(level, InOrder::<ANY, T, A, _> { tree, rays, answers, form, level });
-            }
-        }
-    };
-    let trial = &tree.apart[usize::from(ANY)];
-    match trial.due(which.len) {
-        None => run(which, trial.choice()),
-        Some(race) => {
-            let halves = which.halves();
-            race.run([halves[0].len, halves[1].len], |way, half| run(&halves[half], way));
-        }
+    if !ANY && tree.interleaves {
+        return dispatch(level, Interleaved::<T, A, _> { tree, rays, which, answers, form });
+    }
+    for places in which.runs(rays.len()) {
+        let (rays, answers) = (&rays[places.clone()], &mut answers[places]);
+        dispatch(level, InOrder::<ANY, T, A, _> { tree, rays, answers, form, level });
     }
 }

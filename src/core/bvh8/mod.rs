@@ -19,7 +19,6 @@ mod stream;
 mod tests;
 mod traverse;
 mod tree;
-mod trial;
 
 pub use config::{Batch, Bvh8Config, Partition};
 pub use tree::Bvh8;

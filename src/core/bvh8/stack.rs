@@ -127,45 +127,6 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
         None
     }
 
-    /// Pushes all children whose boxes are met, in the same order. It repeats code of [`push`](Self::push), because
-    /// sharing it makes any-hit queries a twentieth slower.
-    ///
-    /// # Safety
-    /// See [`push`](Self::push).
-    #[inline(always)]
-    pub unsafe fn push_all<L: EightLanes>(&mut self, node: &Node, octant: usize, (enter, leave): (L, L)) {
-        let children = Child::bits(&node.children);
-        // SAFETY: as in `push`: of the eight entries that a node pushes, the next step takes one off.
-        let met = unsafe {
-            let chosen = self.entries.children.as_mut_ptr().add(self.len).cast();
-            if ANY {
-                enter.compress(leave, children, chosen)
-            } else {
-                let enters = self.entries.enters.as_mut_ptr().add(self.len).cast();
-                enter.compress_ordered(leave, children, node.orders[octant & 7], enters, chosen)
-            }
-        };
-        self.len += met.count_ones() as usize;
-    }
-
-    /// The next child that the ray enters at or before `end`; finally [`BOTTOM`](Child::BOTTOM).
-    ///
-    /// # Safety
-    /// The entries were [`reset`](Entries::reset), and the bottom has not been returned since.
-    #[inline(always)]
-    pub unsafe fn pop_down(&mut self, end: f32) -> Child {
-        // SAFETY: by the contracts of this function and of `of`, the functions `reset`, `push` and `push_all` have
-        // written the entries below `len`: for any-hit searches only their children, and only these are read. The loop
-        // ends at the bottom or above it, because the bottom is entered at minus infinity.
-        unsafe {
-            self.len -= 1;
-            while !ANY && self.entries.enters.get_unchecked(self.len).assume_init() > end {
-                self.len -= 1;
-            }
-            self.entries.children.get_unchecked(self.len).assume_init()
-        }
-    }
-
     /// The next child that the ray enters at or before `end`.
     #[inline(always)]
     pub fn pop(&mut self, end: f32) -> Option<Child> {
@@ -180,5 +141,41 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
             }
         }
         None
+    }
+}
+
+impl Stack<'_, false> {
+    /// Pushes all children whose boxes are met, in the order of [`push`](Self::push).
+    ///
+    /// # Safety
+    /// See [`push`](Self::push).
+    #[inline(always)]
+    pub unsafe fn push_all<L: EightLanes>(&mut self, node: &Node, octant: usize, (enter, leave): (L, L)) {
+        let children = Child::bits(&node.children);
+        // SAFETY: as in `push`: of the eight entries that a node pushes, the next step takes one off.
+        let met = unsafe {
+            let chosen = self.entries.children.as_mut_ptr().add(self.len).cast();
+            let enters = self.entries.enters.as_mut_ptr().add(self.len).cast();
+            enter.compress_ordered(leave, children, node.orders[octant & 7], enters, chosen)
+        };
+        self.len += met.count_ones() as usize;
+    }
+
+    /// The next child that the ray enters at or before `end`; finally [`BOTTOM`](Child::BOTTOM).
+    ///
+    /// # Safety
+    /// The entries were [`reset`](Entries::reset), and the bottom has not been returned since.
+    #[inline(always)]
+    pub unsafe fn pop_down(&mut self, end: f32) -> Child {
+        // SAFETY: by the contracts of this function and of `of`, the functions `reset`, `push` and `push_all` have
+        // written the entries below `len`. The loop
+        // ends at the bottom or above it, because the bottom is entered at minus infinity.
+        unsafe {
+            self.len -= 1;
+            while self.entries.enters.get_unchecked(self.len).assume_init() > end {
+                self.len -= 1;
+            }
+            self.entries.children.get_unchecked(self.len).assume_init()
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! Interleaved traversal: several single rays are active at once.
+//! Interleaved closest-hit queries: several single rays are active at once.
 //!
 //! **The same hits as one ray after the other.** Each ray has its own stack and takes the same steps in the same order
 //! as on its own. After a step of one ray the memory for its next step is prefetched, and meanwhile the other rays take
@@ -101,7 +101,7 @@ impl<'a, T: TriangleTest> Stream<'a, T> {
 
     /// Traces all of `rays`; `done` receives the number and the hit of each.
     #[inline(always)]
-    pub fn run<const ANY: bool, L: EightLanes>(
+    pub fn run<L: EightLanes>(
         &mut self,
         mut rays: impl Iterator<Item = (usize, &'a Ray)>,
         mut done: impl FnMut(usize, Option<Hit>),
@@ -109,50 +109,57 @@ impl<'a, T: TriangleTest> Stream<'a, T> {
         loop {
             while self.freed > 0 {
                 let Some((number, ray)) = rays.next() else { break };
-                self.push(number, ray, &mut done);
+                self.push::<L>(number, ray, &mut done);
             }
             if self.freed == SLOTS {
                 return;
             }
-            self.round::<ANY, L>(&mut done);
+            self.round::<L>(&mut done);
         }
     }
 
-    /// Starts a ray. There must be a free slot.
+    /// Starts a ray: visits the root, and if the ray meets a box there, takes a slot. There must be a free slot.
     #[inline(always)]
-    fn push(&mut self, number: usize, ray: &'a Ray, done: &mut impl FnMut(usize, Option<Hit>)) {
-        let Some((t_min, nearest)) = start::<T>(ray) else { return done(number, None) };
-        self.freed -= 1;
-        let root = self.tree.root;
-        // SAFETY: `freed` counts the slots in `free`, which `new` has borrowed for the lifetime of the stream, and was
+    fn push<L: EightLanes>(&mut self, number: usize, ray: &'a Ray, done: &mut impl FnMut(usize, Option<Hit>)) {
+        let (tree, root) = (self.tree, self.tree.root);
+        let Some((t_min, nearest)) = start::<T>(ray).filter(|_| !root.is_leaf()) else { return done(number, None) };
+        let (prepared_ray, end) = (PreparedRay::new(ray, tree.farthest, t_min), after(nearest.t));
+        // SAFETY: `freed` counts the slots in `free`, which `new` has borrowed for the lifetime of the stream, and is
         // above 0. Every field of the slot is written before the slot is put into a list, except the entries above the
-        // bottom of its stack, which `left` excludes. A slot is in one list at a time, so no list becomes longer than
-        // `SLOTS`.
+        // top of its stack, which `left` excludes. A slot is in one list at a time, so no list becomes longer than
+        // `SLOTS`. A root that is no leaf is a node (invariants of `Bvh8`), the first of every path.
         unsafe {
-            let slot = self.free.get(self.freed);
-            (&raw mut (*slot).prepared_ray).write(PreparedRay::new(ray, self.tree.farthest, t_min));
+            let slot = self.free.get(self.freed - 1);
+            Entries::reset(&raw mut (*slot).entries);
+            let mut stack = Stack::<false>::of(&mut (*slot).entries, 1);
+            let node = tree.nodes.get_unchecked(root.index());
+            stack.push_all::<L>(node, prepared_ray.octant, prepared_ray.cross(node, end));
+            let child = stack.pop_down(end);
+            let left = stack.len();
+            if child == Child::BOTTOM {
+                return done(number, None);
+            }
+            tree.fetch(child);
+            self.freed -= 1;
+            (&raw mut (*slot).prepared_ray).write(prepared_ray);
             (&raw mut (*slot).original).write(ray);
             (&raw mut (*slot).ray).write(T::prepare(ray));
             (&raw mut (*slot).t_min).write(t_min);
-            (&raw mut (*slot).end).write(after(nearest.t));
+            (&raw mut (*slot).end).write(end);
             (&raw mut (*slot).nearest).write(nearest);
-            (&raw mut (*slot).child).write(root);
+            (&raw mut (*slot).child).write(child);
             (&raw mut (*slot).number).write(number);
-            Entries::reset(&raw mut (*slot).entries);
-            (&raw mut (*slot).left).write(1);
-            if root.is_leaf() {
-                self.leaves.put(self.at_leaves, slot);
-                self.at_leaves += 1;
-            } else {
-                self.nodes.put(self.at_nodes, slot);
-                self.at_nodes += 1;
-            }
+            (&raw mut (*slot).left).write(left);
+            self.nodes.put(self.at_nodes, slot);
+            self.leaves.put(self.at_leaves, slot);
+            self.at_nodes += usize::from(!child.is_leaf());
+            self.at_leaves += usize::from(child.is_leaf());
         }
     }
 
     /// A step of each ray.
     #[inline(always)]
-    fn round<const ANY: bool, L: EightLanes>(&mut self, done: &mut impl FnMut(usize, Option<Hit>)) {
+    fn round<L: EightLanes>(&mut self, done: &mut impl FnMut(usize, Option<Hit>)) {
         let tree = self.tree;
         // Each list is rewritten in place while it is read. A slot is written to both lists, and counted in one of
         // them.
@@ -166,7 +173,7 @@ impl<'a, T: TriangleTest> Stream<'a, T> {
                 let slot = self.nodes.get(k);
                 let at = &mut *slot;
                 let node = tree.nodes.get_unchecked(at.child.index());
-                let mut stack = Stack::<ANY>::of(&mut at.entries, at.left);
+                let mut stack = Stack::<false>::of(&mut at.entries, at.left);
                 stack.push_all::<L>(node, at.prepared_ray.octant, at.prepared_ray.cross(node, at.end));
                 at.child = stack.pop_down(at.end);
                 at.left = stack.len();
@@ -187,21 +194,19 @@ impl<'a, T: TriangleTest> Stream<'a, T> {
                     let (first, count) = at.child.leaf_blocks();
                     let blocks = tree.blocks.get_unchecked(first..first + count);
                     let (ray, nearest) = (&at.ray, &mut at.nearest);
-                    search::<ANY, L, T, ()>(blocks, u32::MAX, ray, at.t_min, nearest, &mut None, &mut ());
-                    if !(ANY && at.nearest.found()) {
-                        at.end = after(at.nearest.t);
-                        let mut stack = Stack::<ANY>::of(&mut at.entries, at.left);
-                        at.child = stack.pop_down(at.end);
-                        at.left = stack.len();
-                        tree.fetch(at.child);
-                        self.nodes.put(nodes, slot);
-                        self.leaves.put(leaves, slot);
-                        nodes += usize::from(!at.child.is_leaf());
-                        leaves += usize::from(at.child.is_leaf());
-                        continue;
-                    }
+                    search::<false, L, T, ()>(blocks, u32::MAX, ray, at.t_min, nearest, &mut None, &mut ());
+                    at.end = after(at.nearest.t);
+                    let mut stack = Stack::<false>::of(&mut at.entries, at.left);
+                    at.child = stack.pop_down(at.end);
+                    at.left = stack.len();
+                    tree.fetch(at.child);
+                    self.nodes.put(nodes, slot);
+                    self.leaves.put(leaves, slot);
+                    nodes += usize::from(!at.child.is_leaf());
+                    leaves += usize::from(at.child.is_leaf());
+                    continue;
                 }
-                done(at.number, at.nearest.answer::<ANY>(at.original));
+                done(at.number, at.nearest.answer::<false>(at.original));
                 self.free.put(self.freed, slot);
                 self.freed += 1;
             }

@@ -4,7 +4,6 @@ use glam::Vec3;
 
 use super::batch::{Groups, Interleaved};
 use super::node::Limits;
-use super::trial::{Trial, Way};
 use super::*;
 use crate::accel::{Accel, BuildError, Counts};
 use crate::build::Quality;
@@ -89,15 +88,12 @@ fn several_answer_as_one<T: TriangleTest>(mesh: &Arc<Mesh>, rays: &[Ray]) {
     for partition in ALL {
         let tree = &Bvh8::<T>::build(mesh, &Bvh8Config::new(partition)).unwrap();
         for level in Level::available() {
-            let (mut hits, mut any) = (vec![None; rays.len()], vec![None; rays.len()]);
+            let mut hits = vec![None; rays.len()];
             let which = &Groups::all(rays.len());
-            dispatch(level, Interleaved::<false, T, _, _> { tree, rays, which, answers: &mut hits, form: &Some });
-            let form = &|hit: Option<Hit>| Some(hit.is_some());
-            dispatch(level, Interleaved::<true, T, _, _> { tree, rays, which, answers: &mut any, form });
-            for (i, ray) in rays.iter().enumerate() {
-                let found = (hits[i].map(|hit| as_bits(&[hit])), any[i]);
-                let alone = (Some(as_bits(&[tree.closest_hit(ray, &mut ())])), Some(tree.any_hit(ray, &mut ())));
-                assert_eq!(found, alone, "{partition:?}, {level}, {ray:?}");
+            dispatch(level, Interleaved::<T, _, _> { tree, rays, which, answers: &mut hits, form: &Some });
+            for (hit, ray) in hits.iter().zip(rays) {
+                let alone = Some(as_bits(&[tree.closest_hit(ray, &mut ())]));
+                assert_eq!(hit.map(|hit| as_bits(&[hit])), alone, "{partition:?}, {level}, {ray:?}");
             }
         }
     }
@@ -167,19 +163,16 @@ fn answers_of_long_slices<T: TriangleTest>(mesh: &Arc<Mesh>, rays: &[Ray]) {
     let alone: Vec<_> = rays.iter().map(|ray| single.closest_hit(ray, &mut ())).collect();
     let met = |of: &dyn Fn(usize) -> bool| (0..rays.len()).filter(|&i| of(i) && alone[i].is_some()).count();
     assert!(met(&|i| i / 16 % 3 == 0) > 2000 && met(&|i| i / 16 % 3 != 0) > 4000, "nearly all hit something");
-    let decided = [Way::Interleaved, Way::InOrder].map(|way| (Batch::Packets, Some(way)));
-    let undecided = [Batch::Single, Batch::Packets].map(|batch| (batch, None));
-    for (batch, winner) in undecided.into_iter().chain(decided) {
+    for (batch, interleaves) in [(Batch::Single, false), (Batch::Packets, false), (Batch::Packets, true)] {
         let mut tree = Bvh8::<T>::build(mesh, &Bvh8Config { batch, ..Bvh8Config::default() }).unwrap();
-        if let Some(winner) = winner {
-            tree.apart = [winner; 2].map(Trial::won_by).into();
-        }
+        assert!(!tree.interleaves, "so small a tree is traced in order by default");
+        tree.interleaves = interleaves;
         let short = (0..20).flat_map(|len| (0..400).step_by(13).map(move |first| first..first + len));
         for range in short.chain([4095, 4096, 4097, rays.len()].map(|len| 0..len)) {
             let (mut hits, mut any) = (vec![None; range.len()], vec![false; range.len()]);
             tree.closest_hits(&rays[range.clone()], &mut hits, &mut ());
             tree.any_hits(&rays[range.clone()], &mut any, &mut ());
-            let place = format!("{}, {batch:?}, {winner:?}, the rays {range:?}", T::NAME);
+            let place = format!("{}, {batch:?}, interleaved: {interleaves}, the rays {range:?}", T::NAME);
             let is_hit: Vec<bool> = alone[range.clone()].iter().map(Option::is_some).collect();
             assert!(as_bits(&hits) == as_bits(&alone[range]) && any == is_hit, "{place}");
         }

@@ -4,7 +4,6 @@ use super::collapse::Collapse;
 use super::config::{Batch, Bvh8Config};
 use super::layout::Layout;
 use super::node::{Child, Limits, Node};
-use super::trial::Trial;
 use crate::accel::BuildError;
 use crate::build::sah_cost::CostModel;
 use crate::geometry::{Aabb, Mesh};
@@ -37,10 +36,12 @@ pub struct Bvh8<T: TriangleTest> {
     /// See [`farthest`].
     pub(super) farthest: Vec3A,
     pub(super) batch: Batch,
-    /// The strategy for rays that form no packet, for closest-hit and any-hit queries. Boxed: writes to it must not
-    /// share a cache line with data that all threads read.
-    pub(super) apart: Box<[Trial; 2]>,
+    /// Whether closest-hit queries in packets interleave the rays that form no packet.
+    pub(super) interleaves: bool,
 }
+
+/// The bytes of the second-level cache of many processors. Rays in a tree that fits into it wait little for memory.
+const CACHE: usize = 2 << 20;
 
 impl<T: TriangleTest> Bvh8<T> {
     pub(super) fn within(mesh: &Mesh, config: &Bvh8Config, limits: &Limits) -> Result<Self, BuildError> {
@@ -50,6 +51,7 @@ impl<T: TriangleTest> Bvh8<T> {
         let collapse = Collapse::new(&tree, &CostModel::new(1.0, config.block_cost, 0.0));
         let Layout { root, nodes, blocks } = Layout::new(mesh, &collapse, limits)?;
         let (bounds, batch) = (mesh.bounds(), config.batch);
-        Ok(Self { root, nodes, blocks, bounds, farthest: farthest(&bounds), batch, apart: Default::default() })
+        let interleaves = size_of_val(&nodes[..]) + size_of_val(&blocks[..]) > CACHE;
+        Ok(Self { root, nodes, blocks, bounds, farthest: farthest(&bounds), batch, interleaves })
     }
 }
