@@ -26,14 +26,14 @@ pub struct Args {
     /// Measure everything again; earlier results stay, and the newest count
     #[arg(long)]
     fresh: bool,
-    /// Run everything in one process: faster, but the intervals no longer cover memory-layout effects, and builds have no
-    /// time limit
+    /// Run everything in one process: faster, but the intervals no longer cover memory-layout effects, and builds have
+    /// no time limit
     #[arg(long)]
     in_process: bool,
-    /// Try everything in a few minutes: few scenes, rays and epochs; the numbers mean little
+    /// Run everything in a few minutes, with few scenes, rays and epochs: to try the program, not for results
     #[arg(long)]
     quick: bool,
-    /// Scenes and mesh files instead of each study's own; some studies ignore this
+    /// Scenes and mesh files instead of each study's own; `replicate` ignores this
     #[arg(long, help_heading = SCENES, value_name = "SCENE|FILE", num_args = 1..)]
     scenes: Vec<OsString>,
 }

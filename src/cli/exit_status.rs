@@ -21,9 +21,9 @@ Exit status:
   5    correct, but a structure failed to build, panicked or was skipped
   130  interrupted by Ctrl-C; with a journal the same command resumes
 
-Wrong hits of a baseline with known defects do not change the status; tables
-name the defects. `-` as an output file is standard output; tables and messages
-then go to standard error.";
+Wrong hits of a baseline or peer with known defects do not change the status;
+tables name the defects. `-` as an output file is standard output; tables and
+messages then go to standard error.";
 
 /// Exits with the status of the result; prints an error first.
 pub(super) fn of(found: anyhow::Result<Status>) -> ExitCode {

@@ -10,6 +10,7 @@ use crate::render::ViewKind;
 use crate::report::number::count;
 use crate::report::words::each_once;
 use crate::report::{Cell, Table, Tone};
+use crate::request::RayKind;
 use crate::scene::meshes::GENERATORS;
 use crate::scene::{BUILTIN, WorkloadKind, real_mesh_folder};
 use crate::study::Status;
@@ -57,7 +58,8 @@ fn names(suite: &Suite) -> Table {
         ("meshes of scene files", GENERATORS.iter().map(|generator| generator.name).collect()),
         ("structures", suite.registry.names()),
         ("triangle tests", tests),
-        ("workloads", WorkloadKind::ALL.map(WorkloadKind::name).into()),
+        ("workloads of scenes", WorkloadKind::ALL.map(WorkloadKind::name).into()),
+        ("workloads of accuracy", RayKind::ALL.map(RayKind::name).into()),
         ("views", ViewKind::ALL.map(ViewKind::name).into()),
         ("studies", suite.studies.iter().map(|study| study.name).collect()),
     ];
@@ -73,7 +75,7 @@ fn scenes() -> anyhow::Result<Table> {
     for builtin in BUILTIN {
         let scene = builtin.scene(Some(&real_meshes))?;
         let difficulty = format!("{:?}", builtin.difficulty).to_lowercase();
-        let meshes = if scene.stand_ins.is_empty() { "as described" } else { "stand-in" };
+        let meshes = if scene.stand_ins.is_empty() { "" } else { "stand-in" };
         let mirrors = if scene.has_mirrors() { "yes" } else { "no" };
         let (triangles, lights) = (count(scene.mesh.len() as u64), scene.lights.len().to_string());
         rows.push([builtin.name, &difficulty, &triangles, &lights, mirrors, meshes].map(Cell::from).into());
@@ -133,7 +135,7 @@ fn keys(registry: &Registry, name: &str) -> Table {
     let (mut shown, mut notes) = (vec![], vec![]);
     for [key, default, meaning, values] in rows {
         let short = values.chars().count() <= 28;
-        shown.push([key.clone(), default, if short { values.clone() } else { "below".into() }]);
+        shown.push([key.clone(), default, if short { values.clone() } else { "see text".into() }]);
         let said = if short { String::new() } else { values };
         let words: Vec<String> = [meaning, said].into_iter().filter(|words| !words.is_empty()).collect();
         if !words.is_empty() {

@@ -81,7 +81,7 @@ const GLOBAL: usize = 900;
 /// Options of all commands.
 #[derive(Debug, clap::Args)]
 struct Global {
-    /// Print all notes and table columns
+    /// Print notes, and table columns that are hidden by default
     #[arg(long, global = true, help_heading = OUTPUT, display_order = GLOBAL)]
     verbose: bool,
     /// Hide progress and warnings
@@ -132,7 +132,7 @@ enum Command {
     Diff(diff::Args),
     /// Check every structure's hits against a reference
     Validate(Box<validate::Args>),
-    /// Record, import and print ray files, with exact hits
+    /// Record, import and print ray files; write a corpus of meshes, rays and exact hits
     Rays(rays::Args),
     /// Write the results of runs as a web page, Markdown and CSV
     #[cfg(feature = "page")]
@@ -170,7 +170,7 @@ fn shown(studies: &Studies) -> clap::Command {
     command = command.subcommands(studies.find(REPLICATE).map(study::command));
     let all = clap::Command::new(all::NAME);
     let listed = clap::Command::new(STUDY)
-        .about("Run an experiment, or plan one for a cluster")
+        .about("Run a study, or plan its jobs for a cluster")
         .subcommand_required(true)
         .arg_required_else_help(true)
         // An unknown study gets an error with the known ones.

@@ -24,10 +24,11 @@ const OUTPUTS: [&str; 4] = ["--export-json", "--export-csv", "--export-markdown"
 
 const NO_SCENE: &str = "--scenes needs a scene: --scenes SCENE..";
 
-/// Print a study as jobs for a cluster: one command per line, each measures one case and writes one file
+/// Print a study as jobs for a cluster, one command per line; each job measures one case (one epoch of one scene) and
+/// writes one file
 #[derive(Clone, Debug, clap::Args)]
 pub struct Args {
-    /// Study, or `all` for every study, with the settings of `study all` [default: all]
+    /// Study, or `all`: every study, with the settings of `study all` [default: all]
     #[arg(value_name = "NAME", allow_hyphen_values = true)]
     name: Option<OsString>,
     /// Folder of journals: each job writes DIR/NAME/CASE.json [default: runs]
@@ -39,7 +40,7 @@ pub struct Args {
     /// Scenes and mesh files instead of the studies' own
     #[arg(long, help_heading = SCENES, value_name = "SCENE|FILE", num_args = 1..)]
     scenes: Vec<OsString>,
-    /// More studies, then the options below and options of the studies
+    /// More studies, followed by options: those below, or options of the named studies
     #[arg(value_name = "NAME|OPTION", trailing_var_arg = true, allow_hyphen_values = true)]
     rest: Vec<OsString>,
 }

@@ -23,7 +23,7 @@ pub struct Args {
     #[arg(long, short, help_heading = OUTPUT, value_name = "DIR", required_unless_present = "results")]
     output: Option<PathBuf>,
     /// Write the findings of one run into this folder as a short paper (RESULTS.md, figures, tables, results.json), and
-    /// update the marked numbers in the README.md next to the folder
+    /// update the generated numbers in the README.md next to the folder [default folder: papers]
     #[arg(long, help_heading = OUTPUT, value_name = "DIR", num_args = 0..=1, require_equals = true, default_missing_value = "papers")]
     results: Option<PathBuf>,
     /// Omit pictures of the scenes, heat maps and error maps, which take time to render

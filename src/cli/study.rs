@@ -20,11 +20,11 @@ pub const RUNS: &str = "runs";
 #[derive(Clone, Debug, Default, clap::Args)]
 #[command(next_help_heading = OUTPUT)]
 pub struct Common {
-    /// Folder of journals: the same command resumes there; other scenes and settings add to it [default: runs;
-    /// `compare` writes no journal without --dir]
+    /// Folder of journals: the same command resumes there, and other scenes and settings add to it [default: runs; in
+    /// `compare`: no journal]
     #[arg(long, value_name = "DIR")]
     pub dir: Option<PathBuf>,
-    /// Measure these cases again; earlier results stay, and the newest count
+    /// Measure every case again, even if the journal has it; earlier results stay, and the newest count
     #[arg(long, help_heading = MEASURING)]
     pub fresh: bool,
     /// Run everything in one process: faster, but the intervals no longer cover memory-layout effects, and builds have
@@ -40,7 +40,7 @@ pub struct Common {
     /// Write the tables as Markdown
     #[arg(long, value_name = "FILE")]
     pub export_markdown: Option<PathBuf>,
-    /// Write the study's first figure as SVG; may be repeated
+    /// Write the study's first figure as an SVG file; may be repeated, which writes the same figure into each file
     #[arg(long, value_name = "F.svg")]
     pub plot: Vec<PathBuf>,
 }

@@ -22,24 +22,44 @@ const MEANINGS: [(&str, &str); 27] = [
     ("stop", "stop rule: when a node becomes a leaf"),
     ("traversal", "traversal algorithm"),
     ("leaf", "L: nodes with fewer triangles become leaves (stop=report, stop=leaf)"),
-    ("limit", "whether to split a node of exactly L triangles"),
-    ("threshold", "T: a split is discarded at this share of triangles on both sides (stop=report); in (0, 1]"),
-    ("count", "which triangles the share T refers to"),
-    ("median", "which vertex coordinate is the median"),
+    ("limit", "leaves have fewer than L triangles (below) or at most L triangles (at-most)"),
+    (
+        "threshold",
+        "T: a split is discarded if at least this share of the triangles would be in both sides (stop=report); in \
+         (0, 1]",
+    ),
+    (
+        "count",
+        "what T is a share of: the triangles of the node (parent: a split that fails is discarded), or of each child \
+         (child: a child that fails is not split further)",
+    ),
+    (
+        "median",
+        "the middle of an even number of coordinates: the lower of the two middle values (lower), their mean (mean), \
+         or the lower one, where a corner that triangles share counts once (welded)",
+    ),
     ("equal", "the side of a triangle with a vertex in the plane"),
-    ("exit", "when a ray stops traversal"),
-    ("mailbox", "test each triangle at most once per ray"),
-    ("traversal_cost", "SAH cost of an inner node; larger values give larger leaves"),
+    (
+        "exit",
+        "when a ray stops: when no nearer hit can follow (nearest), or at the first leaf with any hit (first-leaf: the \
+         literal reading of the report, which gives wrong hits)",
+    ),
+    ("mailbox", "a small hashed mailbox: a ray tests a triangle only once while it is in the mailbox"),
+    (
+        "traversal_cost",
+        "SAH cost of an inner node for the builder; larger values give larger leaves. The reported SAH cost always \
+         uses 1.2",
+    ),
     ("intersection_cost", "SAH cost of a block of eight triangles; larger values give smaller leaves"),
     ("block_cost", "SAH cost of a block of eight triangles relative to a node; larger values give smaller leaves"),
-    ("exact", "nodes with at most this many references try every plane (plane=sah-binned)"),
+    ("exact", "for nodes with at most this many references, the builder tries every plane (plane=sah-binned)"),
     ("candidates", "candidate planes per axis (plane=sah-binned); 2 to 62"),
     ("sample", "references sampled to split a large node (plane=sah-binned); at least 16"),
     ("empty_bonus", "SAH cost reduction for cutting off empty space; in [0, 1)"),
     ("duplication", "maximum number of references, as a multiple of the triangles; at least 1"),
     ("partition", "how triangles are partitioned"),
     ("quality", "build quality: slower builds give better trees"),
-    ("batch", "how the rays of a slice are traced"),
+    ("batch", "how a batch of rays is traced: one by one (single), or in packets where rays agree (packets)"),
     ("preset", "the builder's preset, from fastest build to best tree"),
     (
         "rays",

@@ -7,14 +7,14 @@ use super::{MEASURING, Seconds};
 #[derive(Clone, Debug, clap::Args)]
 #[command(next_help_heading = MEASURING)]
 pub struct Measuring<const EPOCHS: u16 = 5, const RUNS: u16 = 3, const BUDGET: u32 = 8> {
-    /// Number of epochs; each rebuilds all structures, and a later run can add more
+    /// Number of epochs; each rebuilds all structures. With a journal, a later run with a larger N adds epochs
     #[arg(long, value_name = "N", default_value = EPOCHS.to_string(), value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub epochs: u16,
     /// Samples per structure, workload and epoch (fewer if the budget runs out)
     #[arg(long, value_name = "N", default_value = RUNS.to_string(), value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub runs: u16,
-    /// Seconds of samples per scene and epoch: slow structures are timed on fewer rays. `none` times all rays and drops
-    /// no slow structure
+    /// Seconds of samples per scene and epoch: slow structures are timed on fewer rays. `none` times every structure on
+    /// all rays; `compare` then skips brute-force unless it is named
     #[arg(long, value_name = "SECONDS|none", default_value = BUDGET.to_string(), value_parser = Limit::parse,
         allow_negative_numbers = true)]
     pub budget: Limit,

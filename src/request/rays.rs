@@ -122,7 +122,7 @@ pub fn each_kind<K: Copy + PartialEq>(named: &[K], own: &[K]) -> Vec<K> {
 #[derive(Clone, Debug, clap::Args)]
 #[command(next_help_heading = super::RAYS)]
 pub struct Rays {
-    /// Workload; may be repeated [default: the study's]
+    /// Workload (see `sahara list`); may be repeated [default: primary, random]
     #[arg(long, short, value_name = "WORKLOAD")]
     pub workload: Vec<WorkloadKind>,
     /// Maximum number of rays to time per workload, in whole tiles of the scene's picture

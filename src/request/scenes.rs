@@ -175,8 +175,9 @@ pub fn named_notes<'a>(scenes: impl IntoIterator<Item = &'a Scene>, of: fn(&Scen
 /// Scenes on the command line.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub struct Scenes {
-    /// Built-in scenes, scene files (.toml), mesh files (.obj, .ply, .gltf, .glb) and generated scenes (icosphere:LEVEL)
-    /// [default: the study's scenes, else all built-in scenes]
+    /// Built-in scenes, scene files (.toml), mesh files (.obj, .ply, .gltf, .glb) and generated scenes
+    /// (icosphere:LEVEL) [default: all built-in scenes; in `scaling`: dragon, lucy and sponza, in addition to its
+    /// icospheres]
     #[arg(value_name = "SCENE|FILE")]
     pub scenes: Vec<OsString>,
 }

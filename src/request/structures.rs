@@ -159,10 +159,12 @@ pub fn guide(registry: &Registry) -> anyhow::Result<Choice> {
 #[derive(Clone, Debug, Default, clap::Args)]
 #[command(next_help_heading = super::STRUCTURES)]
 pub struct Structures {
-    /// Structure with options (see `sahara list NAME`); may be repeated, `all` is one of each name [default: the study's]
+    /// Structure with options (see `sahara list NAME`); may be repeated; `all` selects every structure once [default:
+    /// in `compare`, all and sah-hybrid:batch=packets; in `scaling`, seven of them]
     #[arg(long, short, value_name = "NAME[:key=value,..]")]
     pub structure: Vec<String>,
-    /// Default build quality of eight-wide trees
+    /// Build quality of the eight-wide trees (sah-kd-wide, sah-kd-tight, sah-hybrid, sah-bvh) that do not set
+    /// `quality=` [default: balanced]
     #[arg(long, value_parser = QUALITIES)]
     pub quality: Option<String>,
 }

@@ -18,7 +18,8 @@ pub struct ViewArgs {
     #[arg(long, value_name = "ex,ey,ez tx,ty,tz [fov]", allow_hyphen_values = true)]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     camera: Option<Look>,
-    /// View the scene from the middle of its bounding box, along the longer side; a bare mesh is lit from there
+    /// View the scene from the middle of its bounding box, along its longer horizontal side; a bare mesh is lit from
+    /// there
     #[arg(long, conflicts_with = "camera")]
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     inside: bool,

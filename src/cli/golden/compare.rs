@@ -21,8 +21,8 @@ use crate::study::Status;
 const TOLERANCE: &str = "Tolerance";
 
 /// The meaning of the common exit statuses here.
-const STATUSES: &str = "Exit status: 0 if all pictures are accepted; 2 if a picture differs; 1 if a picture is missing, \
-                        additional or unreadable.";
+const STATUSES: &str = "Exit status: 0 if all pictures are accepted; 2 if a picture differs; 1 if a picture exists in \
+                        only one of the folders or is unreadable.";
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = STATUSES)]
@@ -31,14 +31,15 @@ pub struct Args {
     expected: PathBuf,
     /// Picture to compare with it, or a folder of pictures with the same names
     actual: PathBuf,
-    /// Accept differences of at most N per channel, in 1/255 of full scale at any bit depth; floats use their own units
-    /// [default: 0]
+    /// Accept differences of at most N per channel, in 1/255 of full scale at any bit depth; in floating-point
+    /// pictures, in units of the stored values [default: 0]
     #[arg(long, help_heading = TOLERANCE, value_name = "N", value_parser = at_least_0, allow_negative_numbers = true)]
     max_difference: Option<f64>,
     /// Accept N pixels, or P percent of the pixels, that differ by more than --max-difference
     #[arg(long, help_heading = TOLERANCE, value_name = "N|P%", value_parser = allowed)]
     allow_pixels: Option<Allowed>,
-    /// Instead of these two options: accept a mean FLIP error (visible differences) of at most X, from 0 to 1
+    /// Instead of --max-difference and --allow-pixels: accept a mean FLIP error (visible differences) of at most X,
+    /// from 0 to 1
     #[arg(long, help_heading = TOLERANCE, value_name = "X", value_parser = from_0_to_1, conflicts_with_all = ["max_difference", "allow_pixels"],
         allow_negative_numbers = true)]
     max_flip: Option<f64>,

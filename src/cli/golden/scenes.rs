@@ -32,8 +32,8 @@ struct Targets {
     view: ViewKind,
     #[command(flatten)]
     from: ViewArgs,
-    /// Folder of golden images, NAME.golden.png or NAME.VIEW.golden.png [default: next to each file; built-in scenes have
-    /// built-in golden images]
+    /// Folder of golden images, NAME.golden.png or NAME.VIEW.golden.png [default: next to each file; built-in scenes
+    /// have built-in golden images]
     #[arg(long, help_heading = SCENES, value_name = "DIR")]
     goldens: Option<PathBuf>,
 }
@@ -42,7 +42,8 @@ struct Targets {
 pub struct CheckArgs {
     #[command(flatten)]
     targets: Targets,
-    /// Structure with options (see `sahara list NAME`); may be repeated [default: all over the exact triangle test]
+    /// Structure with options (see `sahara list NAME`); may be repeated [default: all structures, with the exact
+    /// triangle test]
     #[arg(long, short, help_heading = STRUCTURES, value_name = "NAME[:key=value,..]")]
     structure: Vec<String>,
     #[command(flatten)]

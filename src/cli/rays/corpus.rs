@@ -39,7 +39,8 @@ const SEED: u64 = 1;
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// Scenes (with stand-ins for fetched meshes), scene files or mesh files [default: all built-in scenes]
+    /// Scenes (stand-ins replace meshes that `fetch` downloads), scene files or mesh files [default: all built-in
+    /// scenes]
     #[arg(value_name = "SCENE|FILE")]
     scenes: Vec<OsString>,
     /// Folder to write; replaces an older corpus there

@@ -44,7 +44,7 @@ struct Record {
     /// Built-in scene, scene file (.toml) or mesh file
     #[arg(value_name = "SCENE|FILE")]
     scene: OsString,
-    /// Workload
+    /// Workload (see `sahara list`)
     #[arg(long, short, help_heading = RAYS, value_name = "WORKLOAD", default_value = "primary")]
     workload: WorkloadKind,
     /// Ray file to write

@@ -51,18 +51,19 @@ pub struct Args {
     /// Timeout in seconds for each reply of an external program, including builds
     #[arg(long, help_heading = STRUCTURES, value_name = "SECONDS", requires = "runner", default_value_t = RUNNER_LIMIT, allow_negative_numbers = true)]
     runner_limit: Seconds,
-    /// Default build quality of eight-wide trees
+    /// Build quality of the eight-wide trees (sah-kd-wide, sah-kd-tight, sah-hybrid, sah-bvh) that do not set
+    /// `quality=` [default: balanced]
     #[arg(long, help_heading = STRUCTURES, value_parser = request::QUALITIES)]
     quality: Option<String>,
-    /// Rays per scene, divided among the workloads, or a ray file to replay; without N, fewer rays if brute force would
-    /// take minutes [default: 10000]
+    /// Rays per scene, divided among the workloads, or a ray file to replay [default: 10000, or fewer if brute force
+    /// would take minutes]
     #[arg(long, help_heading = RAYS, value_name = "N|F.rays")]
     rays: Option<RaySource>,
-    /// Reference: `brute-force` with each structure's own triangle test, or another structure, e.g. `brute-force:test=exact`;
-    /// exact arithmetic decides where the two differ
+    /// Reference: `brute-force` with each structure's own triangle test, or another structure, e.g.
+    /// `brute-force:test=exact`; exact arithmetic decides where the two differ
     #[arg(long, help_heading = STRUCTURES, value_name = "NAME[:key=value,..]", default_value = BRUTE_FORCE)]
     against: String,
-    /// Trace rays that break traversals instead of the workloads
+    /// Instead of the workloads, trace adversarial rays, which are made to break traversals
     #[arg(long, help_heading = RAYS, conflicts_with_all = ["ray", "camera", "inside", "size"])]
     adversarial: bool,
     /// Instead of scenes, run hard cases, which ray tracers are known to get wrong, by name or number (see
@@ -78,8 +79,8 @@ pub struct Args {
     /// Instead of structures, check the hits in this file, which belong to the ray file of --rays
     #[arg(long, help_heading = STRUCTURES, value_name = "F.hits", conflicts_with_all = ["structure", "runner", "quality", "export_hits", "limit"])]
     hits: Option<PathBuf>,
-    /// With --hits: the triangle test of these hits [default: unknown; exact arithmetic decides]. With --hard: the test of
-    /// all structures that offer it; may be repeated [default: each structure's own]
+    /// With --hits: the triangle test of these hits [default: unknown; exact arithmetic decides]. With --hard: run each
+    /// structure that offers this triangle test with it; may be repeated [default: each structure's own]
     #[arg(long, short, help_heading = STRUCTURES, value_name = "NAME")]
     test: Vec<String>,
     /// Count rounding of the triangle test as a failure (status 2)
@@ -91,8 +92,9 @@ pub struct Args {
     /// Write the hits of one structure for the ray file of --rays
     #[arg(long, help_heading = OUTPUT, value_name = "F.hits", conflicts_with = "against")]
     export_hits: Option<PathBuf>,
-    /// Time limit in seconds for 256 rays, and for a build (as much again per million triangles); with --hard, for a
-    /// whole case. A structure that exceeds it counts as hanging. External programs have --runner-limit instead
+    /// Time limit in seconds for each batch of 256 rays and for each build, where every million triangles adds the same
+    /// time again; with --hard, for a whole case. A structure that exceeds it counts as hanging. External programs have
+    /// --runner-limit instead
     #[arg(long, help_heading = STRUCTURES, value_name = "SECONDS", default_value_t = Seconds::whole(LIMIT.as_secs() as u32), allow_negative_numbers = true)]
     limit: Seconds,
     /// Seed of the rays [default: 1]

@@ -39,13 +39,13 @@ pub const STUDY: Study = Study {
 struct AttributionArgs {
     #[command(flatten)]
     scenes: ScenesAndMeshes,
-    /// Workload
+    /// Workload (see `sahara list`)
     #[arg(long, short, help_heading = RAYS, value_name = "WORKLOAD", default_value = "primary")]
     workload: WorkloadKind,
     /// Maximum number of rays to time, in whole tiles of the scene's picture
     #[arg(long, help_heading = RAYS, value_name = "N|all", default_value = "all", value_parser = rays_or_all)]
     rays: usize,
-    /// Triangle test of all trees
+    /// Triangle test of all trees (see `sahara list`)
     #[arg(long, short, help_heading = STRUCTURES, value_name = "NAME", default_value = "exact")]
     test: String,
     // These numbers decide all claims together: with few epochs a significant result would depend on luck.

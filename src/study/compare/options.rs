@@ -35,14 +35,15 @@ pub struct CompareArgs {
     /// Timeout in seconds for each reply of an external program, including builds
     #[arg(long, help_heading = STRUCTURES, value_name = "SECONDS", requires = "runner", default_value_t = RUNNER_LIMIT, allow_negative_numbers = true)]
     pub runner_limit: Seconds,
-    /// Structure that speeds are relative to; always measured [default: median-kd and the better obvhs BVH, if measured,
-    /// else the first structure]
+    /// Structure that speeds are relative to; always measured [default: median-kd and the better obvhs BVH, if
+    /// measured, else the first structure]
     #[arg(long, help_heading = STRUCTURES, value_name = "NAME[:key=value,..]")]
     pub reference: Option<String>,
-    /// For a gate: measure only this structure, or the --runner with this name, and the reference (default: obvhs-bvh2)
+    /// For a gate: measure only this structure, or the --runner with this name, and the reference, which is obvhs-bvh2
+    /// unless --reference is given
     #[arg(long, help_heading = STRUCTURES, value_name = "NAME[:key=value,..]", conflicts_with_all = ["structure", "quick"])]
     pub only: Option<String>,
-    /// Workload; may be repeated [default: primary, shadow, diffuse, random]
+    /// Workload (see `sahara list`); may be repeated [default: primary, shadow, diffuse, random]
     #[arg(long, short, help_heading = RAYS, value_name = "WORKLOAD")]
     pub workload: Vec<WorkloadKind>,
     /// Maximum number of rays to time per workload, or a ray file to replay
@@ -57,11 +58,12 @@ pub struct CompareArgs {
     /// Coarse result in seconds: few rays, up to three epochs and about 4 s per scene; no brute-force unless named
     #[arg(long, help_heading = MEASURING, conflicts_with_all = ["epochs", "runs", "budget"])]
     pub quick: bool,
-    /// Time limit of a build in seconds [default: 60 + 30 per million triangles; with --quick 10 + 10; none with --budget
-    /// none]
+    /// Time limit of a build in seconds [default: 60 + 30 per million triangles; with --quick 10 + 10; none with
+    /// --budget none]
     #[arg(long, help_heading = MEASURING, value_name = "SECONDS|none", value_parser = Limit::parse, allow_negative_numbers = true)]
     pub build_limit: Option<Limit>,
-    /// Print all columns: builds, memory, tree shape, tests, steps, checks, both ratios, and when a build pays off
+    /// Print the additional columns: builds, memory, tree shape, tests, steps, checks, the speed relative to each
+    /// reference, and when a build pays off
     #[arg(long, help_heading = OUTPUT)]
     pub wide: bool,
 }

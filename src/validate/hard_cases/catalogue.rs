@@ -89,7 +89,8 @@ cases! {
     Moderate 21 "scale_1e-10", Hit => |n| scaled(n, 1e-10),
         "Absolute epsilons on determinants and distances swallow the whole scene.", EPSILONS;
     Moderate 22 "scale_1e-5", Hit => |n| scaled(n, 1e-5),
-        "The same at a scale that models in metres have.", EPSILONS;
+        "Absolute epsilons on determinants and distances swallow a scene of 1e-5, a scale that models in metres have.",
+        EPSILONS;
     Moderate 23 "scale_1e5", Hit => |n| scaled(n, 1e5),
         "Absolute epsilons are too small here to have an effect.", "Wächter, Binder 2019";
     Moderate 23 "scale_1e10", Hit => |n| scaled(n, 1e10),
@@ -102,11 +103,11 @@ cases! {
         "t is measured in lengths of the direction, which need not be 1: clamps of small components lose the ray.",
         INVERSES;
     Extreme 27 "dirlen_1e-20", Hit => |n| long(n, 1e-20),
-        "As above; squares of the direction underflow.", INVERSES;
+        "Squares of the direction underflow, and clamps of small components lose the ray.", INVERSES;
     Moderate 28 "dirlen_1e-10", Hit => |n| long(n, 1e-10),
-        "As above, below the machine epsilon, which some systems treat as zero.", INVERSE;
+        "Components of the direction are below the machine epsilon, which some systems treat as zero.", INVERSE;
     Moderate 29 "dirlen_1e-6", Hit => |n| long(n, 1e-6),
-        "As above: only small components fall below the machine epsilon, so only some rays bend.", INVERSE;
+        "Only small components of the direction fall below the machine epsilon, so only some rays bend.", INVERSE;
     Moderate 30 "dirlen_1e6", Hit => |n| long(n, 1e6),
         "Hits lie at t of 1e-6: below an absolute bound on box exits.", EPSILON;
     Extreme 31 "dirlen_1e15", Hit => |n| long(n, 1e15),
@@ -130,7 +131,7 @@ cases! {
         "Strips of 1000 x 1e-3 along the axes: a million times longer than wide.",
         "Woop, Benthin, Wald 2013: t is as accurate as the least accurate axis";
     Moderate 36 "slivers_1e6_rot", Oracle => |n| slivers(n, tilted),
-        "The same strips tilted: the f32 normal has no correct digit, and t is off by percents.",
+        "Tilted strips of 1000 x 1e-3: the f32 normal has no correct digit, and t is off by percents.",
         "Embree, stable_triangle_normal; measured: 36 to 44 % of the depths wrong";
     Moderate 37 "hair_diag", Oracle => |n| {
         Set::new(hair(), n, 13, |mesh, s| ray_to(s.direction() * 8.0, on_surface(mesh, s)))
@@ -140,7 +141,7 @@ cases! {
         "800 triangles meet in the target vertex: all are hit at edges, and none may fall out of its box.",
         "obvhs, rt_triangle.rs: seen from behind, 0 times a negative number is -0.0, and counts as outside";
     Moderate 39 "fan_random", Hit => |n| Set::new(fan(), n, 15, |_, s| ray_to(below(s), at_height(s, 0.0) * 0.4)),
-        "The same fan; the target is next to its apex.", "survey";
+        "A fan of 800 triangles; the rays aim next to its apex.", "survey";
 
     // Many triangles that no plane separates: copies, common centroids, triangles without area.
     Moderate 40 "coincident_1000", Hit x 2000 => |n| Set::new(copies(1000), n, 28, to_copies),
@@ -178,11 +179,11 @@ cases! {
     Extreme 51 "far_1e8", Oracle => |n| Set::new(star_times(0.3), n, 36, |mesh, s| from_afar(mesh, s, 1e8)),
         "From 1e8 away: the scene is smaller than an ulp of t.", "Ize 2013";
     Moderate 52 "shells_nested_in", Hit => |n| Set::new(shells(), n, 34, among_shells),
-        "Octahedra from 2^-30 to 2^30 around zero, seen from between them: the next must be hit, within any absolute \
-         epsilon.",
+        "Nested octahedra from 2^-30 to 2^30, seen from between them: the next octahedron must be hit, even if it is \
+         nearer than any absolute epsilon.",
         "obvhs, CwBvh node.rs EPSILON";
     Moderate 53 "shells_nested_out", Hit => |n| Set::new(shells(), n, 35, around_shells),
-        "The same octahedra from outside: the outermost must be hit.",
+        "Octahedra from 2^-30 to 2^30 around zero, seen from outside: the outermost must be hit.",
         "survey";
     Moderate 54 "same_centroid_2000", Oracle => |n| Set::new(same_centroid(2000), n, 21, to_surface),
         "All centroids in one point: a median split separates nothing and must stop.",
@@ -218,7 +219,7 @@ cases! {
         let lower = moved(&sheet(16), |p| p * 4.0 - Vec3::Z);
         Set::new(joined(&sheet(16), &lower), n, 55, |_, s| Ray::new(at_height(s, 0.0), at_height(s, -1.0)))
     },
-        "The origin lies exactly on a triangle: the hit is at t = 0, before the sheet below.",
+        "The origin lies exactly on a triangle: the hit at t = 0 must win over the sheet below.",
         "svenstaro/bvh and Embree leave t = 0 out";
     Moderate 63 "origin_in_aabb_face", Oracle => |n| Set::new(soup(2000, 22), n, 52, from_the_root_box),
         "The origin lies in a face of the root box: entry is at t = 0 exactly, and must not count as behind.",
@@ -255,11 +256,11 @@ cases! {
         "Embree, verify.cpp, sphere_filter_multi_hit";
     Added 74 "parity", Property => parity,
         "A ray from outside crosses a closed surface an even number of times.",
-        "survey: tests of volumes and of points in solids rest on it";
+        "survey: volume and point-in-solid tests depend on it";
     Added 75 "metamorphic", Property => metamorphic,
         "Reordered, mirrored and doubled scenes keep t; so do rotated, moved and cut scenes if the arithmetic is \
          exact.",
-        "survey: finds what a comparison with one's own test cannot";
+        "survey: finds errors that a comparison with the same triangle test cannot find";
     Added 76 "any_equals_closest", Property => any_equals_closest,
         "Any hit has its own loop in most systems, with its own bugs.", "pbrt-v4: a second copy of the loop";
     Added 77 "batch_equals_single", Property => batch_equals_single,
@@ -278,7 +279,7 @@ cases! {
     Added 81 "sizes_0_to_40", Property => sizes,
         "Zero to three triangles and all leaf sizes: blocks and nodes are partly filled.", "survey";
     Added 82 "median_matches_heavy", Oracle => |n| Set::new(mostly_centred(), n, 27, to_surface),
-        "More than half of the centroids equal the median: `less than` and `not less than` must both shrink.",
+        "More than half of the centroids equal the median: both sides of the split must get fewer triangles.",
         "the report's own median tree; survey";
     Added 83 "deep_chain", Hit => |n| Set::new(deep_chain(), n, 41, along_chain),
         "A triangle at every power of two from 2^-60 to 2^60: halving the box separates one at a time, deeper than \
@@ -317,7 +318,8 @@ cases! {
         [[49.000397, -704.82355, 176.40697], [-9731.703, 19450.404, -11313.292]],
         along_needle,
     ),
-        "A needle grazed at a sine of 5e-3: t has half of the digits of f64, which a tolerance of 1 % hides.",
+        "A needle grazed at a sine of 5e-3: t keeps only half of the digits of f64, a loss that a tolerance of 1 % \
+         hides.",
         "an independent check: t of a test in f64 115 ulps off";
     Added 90 "t_rounds_to_t_max", Hit => |n| Set::new(star(), n, 65, before_the_end),
         "The exact t is below t_max and rounds to it, half of the time near the largest float, where crossings \

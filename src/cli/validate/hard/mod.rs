@@ -183,5 +183,7 @@ pub fn described() -> Vec<String> {
         };
         [format!("{} {}: {what}", case.number, case.name), format!("   {} ({})", case.reason, case.source)]
     };
-    catalogue().iter().flat_map(lines).collect()
+    let head = "The cases 1 to 84 come from a survey, which is the source \"survey\". Two cases have the number 23; \
+                `--hard 23` runs both.";
+    std::iter::once(head.to_owned()).chain(catalogue().iter().flat_map(lines)).collect()
 }
