@@ -1,4 +1,5 @@
-//! **sahara** (SAH And Ray Acceleration): benchmark, validate and image-test ray-tracing acceleration structures.
+//! **sahara** (SAH And Ray Acceleration): benchmark and validate ray-tracing acceleration structures, and compare
+//! pictures with golden images.
 //!
 //! The README describes the command. This page is for users of the trees in a renderer, and for authors of a structure.
 //!

@@ -23,9 +23,9 @@ const TECHNICAL: [&str; 2] = ["box is lost", "hit is lost"];
 /// Claims stay as they were written before the measurement.
 const CLAIMS: &str = "src/study/CLAIMS.md";
 
-/// The phrases of the section "Not used", without patterns such as "hold X against Y".
+/// The phrases of the section "Words to avoid", without patterns such as "hold X against Y".
 fn not_used() -> Vec<String> {
-    let section = GLOSSARY.split("\n## Not used\n").nth(1).expect("the section");
+    let section = GLOSSARY.split("\n## Words to avoid\n").nth(1).expect("the section");
     let section = section.split("\n## ").next().unwrap_or(section);
     let cells = section.lines().filter_map(|line| line.strip_prefix("| ")?.split(" | ").next()).skip(1);
     // A remark in parentheses says when a phrase is not used.

@@ -6,8 +6,8 @@ use super::cut::Cut;
 use super::extent::Extent;
 use super::grouping::{Group, median, order};
 use super::reference::{CHUNK, PARALLEL, Reference, bounds};
-use super::sah_cost::BLOCK;
 use crate::geometry::Mesh;
+use crate::triangle::BLOCK;
 
 /// References and their box.
 pub(crate) struct Part {

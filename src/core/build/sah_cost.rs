@@ -1,9 +1,7 @@
 //! The cost model of the surface area heuristic.
 
 use crate::geometry::Aabb;
-
-/// Triangles that a leaf tests at once.
-pub(crate) const BLOCK: usize = 8;
+use crate::triangle::BLOCK;
 
 /// Expected cost of a tree for a random line that meets its box (Goldsmith, Salmon 1987; MacDonald, Booth 1990), with
 /// the empty-space bonus of Wald and Havran (2006). Leaves test a block of triangles at once, so the cost of a leaf is

@@ -4,12 +4,11 @@ use super::config::KdConfig;
 use super::node::{Limits, Node};
 use super::plan::{Plan, plan};
 use crate::accel::{Accel, BuildError, Footprint, Part, TreeShape};
-use crate::build::sah_cost::BLOCK;
 use crate::geometry::{Aabb, Mesh};
 use crate::traversal::leaf::LeafBlock;
 use crate::traversal::pages;
 use crate::traversal::walk::walked_queries;
-use crate::triangle::TriangleTest;
+use crate::triangle::{BLOCK, TriangleTest};
 
 /// A binary space partition by axis-aligned planes: 8-byte nodes in depth-first order, leaves of blocks of triangles.
 ///

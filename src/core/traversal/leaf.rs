@@ -3,10 +3,9 @@
 use std::cmp::Ordering;
 
 use crate::accel::{Footprint, Observer};
-use crate::build::sah_cost::BLOCK;
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::simd::EightLanes;
-use crate::triangle::{Depth, TriangleTest};
+use crate::triangle::{BLOCK, Depth, TriangleTest};
 
 /// The nearest hit so far, or the end of the interval.
 #[derive(Clone, Copy, Debug)]

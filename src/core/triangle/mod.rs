@@ -40,6 +40,9 @@ pub use watertight::Watertight;
 use crate::geometry::Ray;
 use crate::simd::{EightLanes, Lanes, Portable};
 
+/// Triangles that a leaf tests at once.
+pub(crate) const BLOCK: usize = 8;
+
 /// Decides whether and where a ray intersects a triangle.
 ///
 /// A test works in two stages: the first stage tests all lanes of a block at once, the second stage tests the remaining

@@ -10,8 +10,8 @@ use crate::build::extent::Extent;
 use crate::build::grouping::{Group, median};
 use crate::build::part::{Part, at_plane, by_group};
 use crate::build::reference::{PARALLEL, Reference};
-use crate::build::sah_cost::BLOCK;
 use crate::geometry::Mesh;
+use crate::triangle::BLOCK;
 
 /// A growing tree, and the number of references that its nodes have processed, to which the build time is proportional.
 #[derive(Default)]
