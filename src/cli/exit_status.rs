@@ -10,12 +10,12 @@ use crate::escaped::Escaped as _;
 use crate::output;
 use crate::study::{Status, StudyError};
 
-/// One rule for all commands. Known defects of a baseline are not a failure of a run.
+/// One rule for all commands. Known defects of a baseline or peer are not a failure of a run.
 pub(crate) const STATUSES: &str = "\
 Exit status:
   0    correct
   1    bad usage, unreadable input, unwritable output, or a failed scene
-  2    wrong hits, or a query that never returned
+  2    wrong hits, different pictures, or a query that never returned
   3    regression (diff --fail-on-regression)
   4    inconclusive: measure more to tell whether the threshold is exceeded
   5    correct, but a structure failed to build, panicked or was skipped

@@ -60,7 +60,7 @@ Commands (`sahara COMMAND --help` explains options and exit statuses):
 
 const EXAMPLES: &str = "\
 Examples:
-  sahara compare mesh.obj -s sah-bvh -s obvhs-bvh2  # verify hits, then time
+  sahara compare mesh.obj -s sah-bvh -s obvhs-bvh2  # time with checked hits
   sahara validate mesh.obj --adversarial            # check hits only
   sahara golden compare expected/ actual/           # compare rendered images";
 

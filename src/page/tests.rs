@@ -103,7 +103,7 @@ fn the_answer_goes_by_what_is_measured() {
     const SAH: &str = "Would a SAH tree have been much faster on the hard scenes?";
     // Studies with their scenes; question, verdict, numbers, sentences, and parts of the bars.
     type Case<'a> = (&'a [(&'a str, &'a [&'a str])], &'a str, &'a str, usize, &'a [&'a str], usize);
-    let tally = "0 of 24 claims confirmed, 1 refuted, 0 undecided, 23 not measured";
+    let tally = "0 of 24 confirmed, 1 refuted, 0 undecided, 23 not measured";
     let own = "Of all structures sah-kd is the fastest.";
     let cases: [Case; 6] = [
         (&[("replicate", &HARD)], SAH, "Yes", 4, &["Primary rays are 8.00 times", tally], 1),

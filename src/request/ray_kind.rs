@@ -9,7 +9,7 @@ use crate::scene::{Scene, View};
 use crate::validate::Stratum;
 
 named_enum! {
-    /// A workload whose errors are counted separately. Workloads are never pooled: each fails in its own way.
+    /// A workload whose errors are counted separately: errors on different workloads have different causes.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
     #[serde(rename_all = "kebab-case")]
     pub enum RayKind {

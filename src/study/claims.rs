@@ -132,7 +132,7 @@ pub fn judge(study: &str, findings: &[Finding]) -> Vec<ClaimVerdict> {
     if is_measured { verdicts } else { vec![] }
 }
 
-/// The number of claims by outcome: `10 of 24 claims confirmed, 10 refuted, 4 undecided`.
+/// The number of claims by outcome: `10 of 24 confirmed, 10 refuted, 4 undecided`.
 pub fn tally<'a>(verdicts: impl IntoIterator<Item = &'a ClaimVerdict>) -> String {
     let outcomes: Vec<Outcome> = verdicts.into_iter().map(|verdict| verdict.outcome).collect();
     let count = |outcome: Outcome| outcomes.iter().filter(|own| **own == outcome).count();
@@ -140,7 +140,7 @@ pub fn tally<'a>(verdicts: impl IntoIterator<Item = &'a ClaimVerdict>) -> String
     let [confirmed, refuted, undecided] = judged;
     let missing = CLAIMS - judged.iter().sum::<usize>();
     let missing = if missing == 0 { String::new() } else { format!(", {missing} not measured") };
-    format!("{confirmed} of {CLAIMS} claims confirmed, {refuted} refuted, {undecided} undecided{missing}")
+    format!("{confirmed} of {CLAIMS} confirmed, {refuted} refuted, {undecided} undecided{missing}")
 }
 
 #[cfg(test)]
@@ -177,6 +177,6 @@ mod tests {
         assert!(judge("replicate", &[]).is_empty(), "nothing is measured");
         let verdicts = judge("replicate", &[Finding::number("crowded-50", Estimate::exact(1.0))]);
         assert_eq!(verdicts.iter().filter(|verdict| verdict.outcome == Outcome::Refuted).count(), 1);
-        assert_eq!(tally(&verdicts), "0 of 24 claims confirmed, 1 refuted, 0 undecided, 23 not measured");
+        assert_eq!(tally(&verdicts), "0 of 24 confirmed, 1 refuted, 0 undecided, 23 not measured");
     }
 }

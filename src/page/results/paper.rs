@@ -19,7 +19,7 @@ const FIGURES_SHOWN: usize = 2;
 
 /// Tables with more rows are files beside the paper, except tables whose titles begin with these words.
 const LONG: usize = 8;
-const WHOLE: [&str; 2] = ["Claims", "Speed x"];
+const WHOLE: [&str; 2] = ["Claims", "Speed relative"];
 
 /// The path of a figure in the paper.
 pub fn path(id: &str) -> String {

@@ -63,7 +63,7 @@ impl RunFacts {
         let threads = if self.threads > 1 { "one thread where no other number is named" } else { "one thread" };
         let Self { version, commit, cpu, simd, .. } = self;
         format!(
-            "All numbers are of one run of sahara {version}, commit {commit}, on {threads} ({cpu}, {simd}), {days}."
+            "All numbers come from one run of sahara {version}, commit {commit}, on {threads} ({cpu}, {simd}), {days}."
         )
     }
 }

@@ -93,7 +93,7 @@ pub fn answer(runs: &Runs) -> (String, Answer) {
 /// The outcomes of the claims, which were written before the measurement.
 pub fn tally(runs: &Runs) -> String {
     let verdicts = runs.studies.iter().flat_map(|run| &run.report.verdicts);
-    format!("Written before the measurement: {}.", claims::tally(verdicts))
+    format!("Claims written before the measurement: {}.", claims::tally(verdicts))
 }
 
 fn headline(label: &str, ratio: Estimate) -> Headline {

@@ -23,16 +23,19 @@ pub fn finding(of_kind: &JudgedRays) -> Option<Finding> {
     }
     let rays = count(own.iter().map(|judged| judged.errors.rays).max()?);
     let right = match &right[..] {
-        [] => format!("wrong somewhere in {rays} rays over every triangle test"),
-        tests => format!("right in all of {rays} rays over {}", listed(tests)),
+        [] => format!("with every triangle test, some structures of ours return wrong results on {rays} rays"),
+        [test] => format!("with the triangle test {test}, our structures return no wrong result on {rays} rays"),
+        tests => {
+            format!("with the triangle tests {}, our structures return no wrong result on {rays} rays", listed(tests))
+        }
     };
-    let wrong = if wrong.is_empty() { String::new() } else { format!("; wrong over {}", listed(&wrong)) };
+    let wrong = if wrong.is_empty() { String::new() } else { format!("; share of wrong results: {}", listed(&wrong)) };
     let without = own.iter().filter(|judged| judged.errors.errors() == 0);
     let fastest = without.min_by(|one, other| one.ns_per_ray.total_cmp(&other.ns_per_ray));
     let fastest = fastest.map_or(String::new(), |judged| {
-        format!("; the fastest of them without an error is {}", judged.structure.label)
+        format!("; our fastest structure without a wrong result is {}", judged.structure.label)
     });
     let (scene, kind) = (of_kind.epoch.title(), of_kind.kind);
     let key = slug(&format!("{} {kind}", of_kind.epoch.scene));
-    Some(Finding::new(key, format!("{scene}, {kind} rays: our structures are {right}{wrong}{fastest}.")))
+    Some(Finding::new(key, format!("{scene}, {kind} rays: {right}{wrong}{fastest}.")))
 }

@@ -16,7 +16,7 @@ use clap::{ArgMatches, Args as _, Command, FromArgMatches as _};
 use super::{Check, Dataset, Plan, PlannedScene, Presets, Settings, Study};
 use crate::registry::Registry;
 use crate::report::number::count;
-use crate::report::words::each_once_by;
+use crate::report::words::{each_once, each_once_by};
 use crate::report::{Block, Failure, Report};
 use crate::request::{
     BRUTE_FORCE, MEASURING, RAYS, RayKind, RaySource, STRUCTURES, Scenes, Seconds, StructureRequest, WorkloadRequest,
@@ -146,9 +146,13 @@ fn structures(registry: &Registry, named: &[String], tests: &[String]) -> anyhow
 
 fn report(dataset: &Dataset, _: &ArgMatches) -> Report {
     let all = judged(dataset);
-    let text = "Exact arithmetic gives the true hit of every ray. Workloads are never pooled: each fails in its own way. \
-                The front holds the structures that no other one beats in both speed and error.";
+    let kinds = each_once(all.iter().map(|of_kind| (of_kind.kind, of_kind.description())));
+    let kinds: Vec<String> = kinds.iter().map(|(kind, description)| format!("{kind}: {description}")).collect();
+    let text = "Exact arithmetic gives the true hit of every ray. Errors on different workloads are never pooled, because \
+                they have different causes. The front contains the structures that no other one beats in both speed and \
+                error.";
     let mut blocks = vec![Block::Text(text.into())];
+    blocks.extend((!kinds.is_empty()).then(|| Block::Text(format!("Workloads: {}.", kinds.join("; ")))));
     for (i, of_kind) in all.iter().enumerate() {
         blocks.extend([Block::figure(figure::figure(i, of_kind)), Block::Table(table::table(of_kind))]);
     }

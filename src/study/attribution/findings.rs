@@ -42,31 +42,34 @@ fn form<'a>(results: &'a [Attribution<'a>], name: &str, stand_in: bool) -> Optio
 /// The factor that contributes most to the speedup on the hard scenes.
 fn parts(hard: &[&Attribution]) -> Option<Finding> {
     let scenes = listed(&hard.iter().map(|r| r.first().scene_title()).collect::<Vec<_>>());
-    let told = |factor: Factor| listed(&hard.iter().map(|r| interval(r.part(factor))).collect::<Vec<_>>());
+    let told = |factor: &Factor| {
+        let parts: Vec<String> = hard.iter().map(|r| interval(r.part(*factor))).collect();
+        format!("{} {}", factor.name(), listed(&parts))
+    };
     // The first on all scenes: its interval lies above the intervals of the other factors.
     let first = Factor::ALL.into_iter().find(|&factor| {
         let above = |r: &Attribution, other: Factor| r.part(factor).low() > r.part(other).high();
         hard.iter().all(|r| Factor::ALL.into_iter().all(|other| other == factor || above(r, other)))
     });
     let most = match first {
-        Some(factor) => {
-            format!("On {scenes} most of the speedup is due to the {}: it gives {} times", factor.name(), told(factor))
-        }
+        Some(factor) => format!("On {scenes} most of the speedup is due to the {}", factor.name()),
         None => format!("On {scenes} no one of the three gives most of the speedup everywhere"),
     };
-    let others = Factor::ALL.into_iter().filter(|&factor| Some(factor) != first);
-    let others: Vec<String> = others.map(|factor| format!("the {} {} times", factor.name(), told(factor))).collect();
-    (!hard.is_empty()).then(|| Finding::new("parts", format!("{most}; {}.", listed(&others))))
+    let factors = Factor::ALL.iter().map(told).collect::<Vec<_>>().join("; ");
+    let order = if hard.len() > 1 { ", in the order of the scenes" } else { "" };
+    (!hard.is_empty()).then(|| Finding::new("parts", format!("{most}. The factors{order}: {factors}.")))
 }
 
 /// `Dragon: speedup 21.1 = plane 1.60 x stop rule 9.10 x traversal 1.45`, and the ranges over the orders in which the
-/// three factors are switched.
+/// three factors are exchanged.
 pub fn split(r: &Attribution) -> Finding {
     let whole = r.whole();
     let [plane, stop, traversal] = Factor::ALL.map(|factor| figures(r.part(factor).estimate));
-    let orders = Factor::ALL.map(|factor| r.range(factor).map(figures).join(" to "));
+    let orders =
+        Factor::ALL.map(|factor| format!("the {} {}", factor.name(), r.range(factor).map(figures).join(" to ")));
     let sentence = format!(
-        "{}: speedup {} = plane {plane} x stop rule {stop} x traversal {traversal}; over all orders of switching {}.",
+        "{}: speedup {} = plane {plane} x stop rule {stop} x traversal {traversal}, each the mean over all orders of \
+         exchanging the three; in single orders {}.",
         r.first().scene_title(),
         figures(whole.estimate),
         listed(&orders)

@@ -75,7 +75,7 @@ impl<'a> Attribution<'a> {
         self.speedup(&part(factor))
     }
 
-    /// The smallest and the largest gain of `factor` over the orders of switching; they differ by the interactions.
+    /// The smallest and the largest gain of `factor` over the orders of exchanging; they differ by the interactions.
     pub fn range(&self, factor: Factor) -> [f64; 2] {
         let orders = parts_by_order(factor).map(|order| self.speedup(&order).estimate);
         [orders.iter().copied().fold(f64::INFINITY, f64::min), orders.iter().copied().fold(0.0, f64::max)]
@@ -100,7 +100,7 @@ pub fn gain(from: Treatment, to: Treatment) -> Weights {
 }
 
 /// The share of `factor` in the step from the report's tree to the SAH tree: its gain, averaged over all orders in
-/// which the three factors can be switched (Shapley, "A value for n-person games", 1953). The sum of the three parts is
+/// which the three factors can be exchanged (Shapley, "A value for n-person games", 1953). The sum of the three parts is
 /// the whole.
 fn part(factor: Factor) -> Weights {
     let mut sum = [0.0; CELLS];
@@ -110,7 +110,7 @@ fn part(factor: Factor) -> Weights {
     sum
 }
 
-/// The gain of `factor` in every order of switching.
+/// The gain of `factor` in every order of exchanging.
 fn parts_by_order(factor: Factor) -> [Weights; 6] {
     ORDERS.map(|order| {
         let before = order.into_iter().take_while(|&other| other != factor as usize);

@@ -4,7 +4,7 @@ use super::Reference;
 use super::table::control;
 use crate::measure::Estimate;
 use crate::report::number::plural;
-use crate::report::words::{distinct, each_once};
+use crate::report::words::{distinct, each_once, listed};
 use crate::report::{Cell, Table, Tone};
 use crate::study::measurement::{Measurement, trace_noise};
 
@@ -45,7 +45,8 @@ pub fn mean_table(all: &[Measurement], references: &[Reference]) -> Table {
 
     let against = references.first().map_or("?", Reference::name);
     let over = plural(distinct(all.iter().map(|r| &r.scene)).len(), "scene");
-    let title = format!("Speed x {against}: geometric means over {over}; all: over scenes and workloads");
+    let title =
+        format!("Speed relative to {against}: geometric means over {over}; column all: over scenes and workloads");
     let mut table = Table::of(title, &structures, &[("structure", &|label| (*label).into())]);
     if let Some(first) = references.first() {
         workloads.iter().for_each(|workload| table.push_column(workload, column(first, Some(workload))));
@@ -57,15 +58,23 @@ pub fn mean_table(all: &[Measurement], references: &[Reference]) -> Table {
     let untimed = || all.iter().filter(|r| r.mrays_per_s.is_none());
     let wrong = untimed().filter(|r| r.is_disqualified() || r.declined.is_none()).count();
     let declined = untimed().count() - wrong;
+    // A structure that is refused on a scene has no measurement there.
+    let cells = each_once(all.iter().map(|r| (&r.scene, &r.workload))).len();
+    let missing = (structures.len() * cells).saturating_sub(all.len());
+    let reasons = [
+        (wrong, "because of wrong hits"),
+        (declined, "because the structure declines the rays"),
+        (missing, "because the structure is not measured on the scene"),
+    ];
+    let reasons = reasons.iter().filter(|(n, _)| *n > 0).map(|(n, why)| format!("{n} {why}"));
+    let reasons: Vec<String> = reasons.collect();
     let mut notes = vec![];
-    for (n, why) in [(wrong, "with wrong hits"), (declined, "that a structure declines")] {
-        if n > 0 {
-            notes.push(format!("{} {why}: left out.", plural(n, "case")));
-        }
+    if !reasons.is_empty() {
+        notes.push(format!("Missing speeds (one structure on one workload of one scene): {}.", listed(&reasons)));
     }
     if table.rows.iter().flatten().any(|cell| !cell.note.is_empty()) {
-        let note = "(n of m): mean over n of the m cases in which the reference has a time; not comparable with the other \
-                    rows.";
+        let note = "(n of m): mean over only n of the m cells in which the reference structure has a time; not comparable \
+                    with the other rows.";
         notes.push(note.into());
     }
     notes.extend(uneven(all));

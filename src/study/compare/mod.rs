@@ -33,7 +33,7 @@ const FULL: &str = "-s all -s sah-hybrid:batch=packets -s median-kd:test=moller-
 /// The study.
 pub const STUDY: Study = Study {
     name: NAME,
-    question: "Benchmark structures: verify hits, then time them",
+    question: "Benchmark structures with checked hits",
     presets: Presets { full: FULL, quick: "cube torus --rays 16384 --epochs 2 --runs 2 --budget 1" },
     options: || CompareArgs::augment_args(Command::new(NAME)),
     plan: |matches, registry| CompareArgs::from_arg_matches(matches)?.plan(registry),

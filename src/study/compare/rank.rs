@@ -67,7 +67,7 @@ impl<'a> Ranking<'a> {
         Some(Self { all, noise, reference, cells, ranked })
     }
 
-    /// The fastest structure with correct hits, the fastest in single precision, the cost of correct hits, the speed of
+    /// The fastest structure with precise hits, the fastest in single precision, the cost of precise hits, the speed of
     /// each structure that the user brings, and the name of the fastest.
     pub fn findings(&self) -> Vec<Finding> {
         let is_precise = |row: &&Ranked| PRECISE.contains(&row.example.triangle_test.as_str());
@@ -75,14 +75,17 @@ impl<'a> Ranking<'a> {
         // Structures in single precision stay in the ranking although rounding gives some of them wrong hits.
         let errs = |row: &&Ranked| self.all.iter().any(|own| own.label == row.label && own.is_disqualified());
         let right: Vec<&Ranked> = precise.iter().copied().filter(|row| !errs(row)).collect();
-        let ranks = [("right", "with correct hits", &right), ("single", "in single precision", &single)];
+        let ranks = [
+            ("right", "with precise triangle tests and no wrong hits", &right),
+            ("single", "in single precision", &single),
+        ];
         let firsts = ranks.into_iter().filter_map(|(key, words, rows)| self.first(key, words, rows));
         let (firsts, fastest): (Vec<Finding>, Vec<Finding>) = firsts.unzip();
         let mut found: Vec<Finding> =
             firsts.into_iter().enumerate().map(|(i, own)| if i > 0 { own.detail() } else { own }).collect();
         found.extend(self.cost(&precise, &single).map(Finding::detail));
         found.extend(self.ranked.iter().filter(|row| !errs(row)).filter_map(|row| self.speed_finding(row)));
-        // The page names the fastest structure with correct hits or, without one, the fastest in single precision.
+        // The page names the fastest structure with precise hits or, without one, the fastest in single precision.
         found.extend(fastest.into_iter().next());
         found
     }
@@ -120,23 +123,25 @@ impl<'a> Ranking<'a> {
                 (format!("{label} (one epoch)"), "; one epoch gives no interval, so the ranking is undecided".into())
             }
             [] => (label.to_owned(), String::new()),
-            [other] => (format!("{label} or {other}"), format!("; not distinguishable from {label}: {other}")),
-            [..] if n < 4 => {
-                (format!("{label} or {n} others"), format!("; not distinguishable from {label}: {}", listed(&level)))
+            [other] => (format!("{label} or {other}"), format!("; {other} is not distinguishable from the fastest")),
+            [..] => {
+                let names = if n < 4 { listed(&level) } else { format!("{n} others") };
+                (format!("{label} or {n} others"), format!("; {names} are not distinguishable from the fastest"))
             }
-            [..] => (format!("{label} or {n} others"), format!("; not distinguishable from {label}: {n} others")),
         };
         let (reference, times) = (self.reference.words(), interval(value));
         let told = match () {
             () if value == Estimate::exact(1.0) => "the others are compared with it".to_owned(),
             () if value.holds(1.0) => {
-                format!("it is not distinguishable from {reference}: {times} times as many rays per second")
+                format!("it is not distinguishable from {reference}: {times} times the rays per second")
             }
-            () => format!("it traces {times} times as many rays per second as {reference}"),
+            () => format!("it traces {times} times the rays per second of {reference}"),
         };
         let (ranked, over) = (plural(rows.len(), "structure"), plural(self.cells.len(), "cell"));
-        let sentence =
-            format!("Of {ranked} {words}, {label} is the fastest over {over} of scene and workload: {told}{level}.");
+        let sentence = format!(
+            "Of {ranked} {words}, {label} has the highest mean speed over {over} (pairs of scene and workload): \
+             {told}{level}."
+        );
         Some((Finding::new(key, sentence).with_value(value), Finding::named(FASTEST, names)))
     }
 
@@ -159,8 +164,11 @@ impl<'a> Ranking<'a> {
             [least, .., most] => format!("{} to {}", told(least), told(most)),
         };
         let test = &costs[0].0.triangle_test;
-        let over = format!("Over the triangle test {test} the same structures take {told} times as long");
-        Some(Finding::new("cost", format!("{over} as in single precision.")))
+        let sentence = format!(
+            "With the triangle test {test}, structures take {told} times as long as the same structures in single \
+             precision."
+        );
+        Some(Finding::new("cost", sentence))
     }
 }
 
@@ -202,20 +210,22 @@ mod tests {
 
         let findings = ranking.findings();
         let told: Vec<&str> = findings.iter().map(|finding| finding.sentence.as_str()).collect();
-        assert!(told[0].starts_with("Of 2 structures with correct hits, fast is the fastest over 2 cells"), "{told:?}");
+        let first = "Of 2 structures with precise triangle tests and no wrong hits, fast has the highest mean speed over 2 \
+                     cells";
+        assert!(told[0].starts_with(first), "{told:?}");
         assert!(told[0].contains("traces 2.00") && !told[0].contains("distinguishable"), "{told:?}");
         assert!(told[1].starts_with(&format!("Of 3 structures in single precision, {} is", single[0])), "{told:?}");
         // Both have the same keys: packets are not compared with single rays.
         assert!(told[2].contains("exact") && told[2].contains("1.25"), "{told:?}");
         assert_eq!(findings.last().and_then(|finding| finding.name.as_deref()), Some("fast"));
-        // A structure with a wrong hit in any cell is not one with correct hits.
+        // A structure with a wrong hit in any cell is not ranked among those without wrong hits.
         let mut erring = all.clone();
         erring.iter_mut().filter(|r| r.label == "fast" && r.scene == "c").for_each(|r| {
             (r.mrays_per_s, r.wrong_hits, r.checked_rays) = (None, 2, 9);
         });
         erring.push(record("b", "rare", 1.0));
         let told = Ranking::of(&erring, &reference).unwrap().findings().remove(0).sentence;
-        assert!(!told.contains("fast is the fastest"), "{told}");
+        assert!(!told.contains("fast has the highest"), "{told}");
         assert!(Ranking::of(&all[..1], &reference).is_none());
     }
 }

@@ -25,11 +25,14 @@ pub fn checked(all: &[Measurement]) -> Option<Finding> {
         (errors > 0).then(|| format!("{label} ({} of {} checked rays)", count(errors), count(rays)))
     };
     let erring: Vec<String> = distinct(all.iter().map(|r| &r.label)).iter().filter_map(of).collect();
-    let erring = if erring.is_empty() { String::new() } else { format!(" Wrong, so not timed: {}.", listed(&erring)) };
+    let erring = match &erring[..] {
+        [] => String::new(),
+        erring => format!(" With wrong hits, so without a time on these rays: {}.", listed(erring)),
+    };
     let (wrong, rays) = sum(&|r| r.declined.is_none() && known_defect(&r.structure).is_none());
     let sentence = format!(
-        "Wrong hits: {} in {} checked rays (by another tree, brute force and exact arithmetic; known defects \
-         excluded).{erring}",
+        "Wrong hits: {} in {} checked rays of structures without known defects (checked by another tree, brute force \
+         and exact arithmetic).{erring}",
         count(wrong),
         count(rays)
     );

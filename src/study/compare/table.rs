@@ -20,7 +20,8 @@ pub fn legend(all: &[Measurement], references: &[Reference]) -> Vec<String> {
     let mut ratios = references.iter().map(column).collect::<Vec<_>>().join("; ");
     ratios += ", geometric mean over the row on the same rays";
     if all.iter().any(|r| r.epochs > 1) {
-        ratios += ", with 95 % prediction intervals for a rerun on a quiet machine; =: not distinguishable from 1";
+        ratios +=
+            ", with 95 % prediction intervals for a rerun on an equally quiet machine; =: not distinguishable from 1";
     }
     let mut speeds = "Workload columns: million rays per second, median".to_owned();
     if all.iter().any(Measurement::is_disqualified) {

@@ -30,10 +30,11 @@ pub fn figure(scenes: &[Vec<Measurement>], references: &[Reference]) -> Option<F
         id: "tradeoff".into(),
         caption: format!(
             "{}, {} rays: speed against memory. Higher is faster, further left is smaller; both axes are logarithmic. \
-             The page lets readers choose scene, workload and build time instead of memory. The solid line joins the \
-             structures that no other one beats in both. On the plot over build time a dashed line joins structures \
-             that finish build and the chosen number of rays at the same time as the first. Points are medians on the \
-             same rays; the tables have their intervals. Brute force is left out.",
+             The solid line joins the structures that no other one beats in both speed and memory. The web page has \
+             this plot for every scene and workload, and also with build time instead of memory; a dashed line then \
+             marks where building and tracing a chosen number of rays takes as long as with the structure that \
+             finishes first. Points are medians on the same rays; the tables have their intervals. Brute force is left \
+             out.",
             first.scene, first.workload
         ),
         alt,

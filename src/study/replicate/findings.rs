@@ -30,16 +30,17 @@ pub fn findings(main: &[Replicated], hard: &[Replicated]) -> Vec<Finding> {
 }
 
 fn faster(hard: &[Replicated]) -> Option<Finding> {
-    let scenes = hard.iter().map(|own| format!("{} {} times", own.first().title(), interval(own.faster())));
+    let scenes = hard.iter().map(|own| format!("{} on {}", interval(own.faster()), own.first().title()));
     let scenes: Vec<String> = scenes.collect();
     let mean = mean(hard)?;
     let told = match () {
-        () if mean.is_above(1.0) => "are faster with the SAH tree than with",
-        () if mean.holds(1.0) => "cannot be told to be faster or slower with the SAH tree than with",
-        () => "are slower with the SAH tree than with",
+        () if mean.is_above(1.0) => "faster than",
+        () if mean.holds(1.0) => "at a speed that is not distinguishable from the speed of",
+        () => "more slowly than",
     };
     let (scenes, times) = (listed(&scenes), interval(mean));
-    let sentence = format!("Primary rays {told} the report's tree, by this much: {scenes}; geometric mean {times}.");
+    let sentence =
+        format!("The SAH tree traces primary rays {told} the report's tree: speedup {scenes}; geometric mean {times}.");
     Some(Finding::new("hard", sentence).with_value(mean))
 }
 
@@ -54,7 +55,9 @@ fn rays(main: &[Replicated]) -> Option<Finding> {
     let far: Vec<String> = main.iter().filter(|own| off(own) > CLOSE).map(told).collect();
     let exceptions = if far.is_empty() { String::new() } else { format!("; {}", listed(&far)) };
     let (close, all) = (main.len() - far.len(), plural(main.len(), "scene"));
-    let sentence = format!("Our ray counts match the report's within {CLOSE} rays in {close} of {all}{exceptions}.");
+    let sentence = format!(
+        "Without the hard scenes, our ray counts match the report's within {CLOSE} rays in {close} of {all}{exceptions}."
+    );
     (!main.is_empty()).then(|| Finding::new("rays", sentence))
 }
 
@@ -75,8 +78,8 @@ fn order(main: &[Replicated]) -> Option<Finding> {
     let names: Vec<&str> = ORDER.split(' ').collect();
     let ranked = names.iter().enumerate().map(|(place, name)| Some((improvement(name)?, place.max(1))));
     let order = Order::of(&ranked.collect::<Option<Vec<_>>>()?, CLAIMS);
-    let reversed = order.reversed.iter().map(|&[more, less]| [names[more], names[less]].join(" gains less than "));
+    let reversed = order.reversed.iter().map(|&[more, less]| [names[more], names[less]].join(" improves less than "));
     let reversed = listed(&reversed.collect::<Vec<_>>());
-    let told = format!("Clearly not in the expected order: {reversed}.");
+    let told = format!("Improvements over brute force that are significantly out of the expected order: {reversed}.");
     Some(Finding::new("order", if reversed.is_empty() { String::new() } else { told }).with_value(order.tau))
 }

@@ -51,14 +51,14 @@ pub fn findings(growths: &[Growth]) -> Vec<Finding> {
     let both = [("growth-report", of(REPORT_TREE)), ("growth-sah", of(SAH_TREE))];
     let words = |growth: &Growth| {
         let over = match ends(growth) {
-            Some((from, to)) => format!(" from {} to {} triangles", count(from as u64), count(to as u64)),
+            Some((from, to)) => format!(" ({} to {} triangles)", count(from as u64), count(to as u64)),
             None => String::new(),
         };
         let power = written(growth.time?, |x| format!("{x:.2}"));
-        Some(format!("n^{power}{over} with {}", growth.label))
+        Some(format!("n^{power} with {}{over}", growth.label))
     };
     let powers: Vec<String> = both.iter().filter_map(|(_, growth)| words((*growth)?)).collect();
-    let sentence = format!("On one sphere of n triangles the time of a primary ray grows like {}.", listed(&powers));
+    let sentence = format!("On spheres of n triangles the time of a primary ray grows like {}.", listed(&powers));
     let first = both.iter().find_map(|(_, growth)| growth.as_ref()?.time);
     let mut findings: Vec<Finding> =
         first.map(|power| Finding::new("spheres", sentence).with_value(power)).into_iter().collect();
@@ -81,9 +81,10 @@ fn ends(growth: &Growth) -> Option<(usize, usize)> {
 pub fn blocks(growths: &[Growth]) -> Vec<Block> {
     let groups: Vec<&[Growth]> = growths.chunk_by(|a, b| a.family == b.family && a.workload == b.workload).collect();
     let Some(first) = groups.first() else { return vec![] };
-    let text = "A query that is logarithmic in the number of triangles n has a power of n near 0; a power of 1 means that \
-                twice the triangles take twice the time. Icospheres of one sphere, subdivided more finely and seen by \
-                the same camera, change only n; different meshes differ in more than their size.";
+    let text = "For a query in logarithmic time the fitted exponent of n, the number of triangles, is near 0; an exponent \
+                of 1 means that twice the triangles take twice the time. Icospheres at successive subdivision levels, \
+                seen by the same camera, differ only in n; different meshes differ in more than their size. Meshes \
+                whose tree is one leaf are not fitted.";
     let mut blocks = vec![Block::Text(text.into())];
     let spheres = groups.iter().filter(|group| group[0].family == SPHERES);
     blocks.extend(spheres.clone().map(|group| Block::figure(figure(group, &TIME))));
@@ -107,7 +108,7 @@ fn figure(group: &[Growth], quantity: &Quantity) -> Figure {
     };
     let told = group.iter().filter_map(|growth| {
         let power = (quantity.power)(growth)?;
-        Some(format!("{}: power {}", growth.label, written(power, |x| format!("{x:.2}"))))
+        Some(format!("{}: exponent {}", growth.label, written(power, |x| format!("{x:.2}"))))
     });
     let told: Vec<String> = told.collect();
     let rays = if quantity.id == TIME.id { format!(" {} rays;", first.workload) } else { String::new() };
@@ -138,7 +139,7 @@ fn all_points(growths: &[Growth]) -> impl Iterator<Item = (&Growth, &Point)> {
     growths.iter().flat_map(|growth| growth.points.iter().map(move |point| (growth, point)))
 }
 
-/// `None` with too few meshes for a power.
+/// `None` with too few meshes for an exponent.
 fn exponents(family: &[Growth]) -> Option<Table> {
     let power = |x: Option<Estimate>| Cell::from(x.map(|x| Cell::estimate(x, Format::Decimals(2))));
     let over = |growth: &Growth| {
@@ -147,7 +148,7 @@ fn exponents(family: &[Growth]) -> Option<Table> {
         format!("{fitted}{}", ends.unwrap_or_default())
     };
     let table = Table::of(
-        format!("{}: powers of the number of triangles", family[0].family),
+        format!("Exponents of the number of triangles, {}", family[0].family),
         family,
         &[
             ("structure", &|growth| growth.label.as_str().into()),
@@ -163,7 +164,7 @@ fn exponents(family: &[Growth]) -> Option<Table> {
     );
     let note = "Least squares on logarithms over the meshes on which the structure has more than one leaf, with 95 % \
                 intervals for a rerun on these meshes; counts and memory do not vary. +-: half of the 95 % interval \
-                of the power of time from the scatter of the meshes.";
+                of the exponent of time from the scatter of the meshes.";
     family.iter().any(|growth| growth.time.is_some()).then(|| table.noted([note]).explained())
 }
 

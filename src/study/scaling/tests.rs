@@ -67,8 +67,8 @@ fn the_report_has_the_sentence_three_figures_and_a_row_for_every_point() {
     let report = |measured| super::report(&dataset(measured), &STUDY.defaults());
     let own = report(spheres(0.25, 1.0, 0.01));
     let sentence = &own.finding("spheres").unwrap().sentence;
-    assert!(sentence.starts_with("On one sphere of n triangles the time of a primary ray grows like n^0.25 ["));
-    assert!(sentence.ends_with("] from 100 to 6,400 triangles with sah-kd."), "{sentence}");
+    assert!(sentence.starts_with("On spheres of n triangles the time of a primary ray grows like n^0.25 ["));
+    assert!(sentence.ends_with("] with sah-kd (100 to 6,400 triangles)."), "{sentence}");
     let figures = own.blocks.iter().filter(|block| matches!(block, crate::report::Block::Figure(_)));
     assert_eq!((figures.count(), own.tables().count(), own.data.rows.len()), (3, 1, TRIANGLES.len()));
     assert!(own.verdicts.is_empty() && own.finding("growth-sah").is_none(), "level 8 is not there");

@@ -72,7 +72,9 @@ fn what_is_declined_is_neither_right_nor_wrong() {
     assert_eq!(cell(&table, "sah-kd", "x median"), "8.00 (1 of 2)", "of the workloads that it does not decline");
     assert_eq!(table.notes, ["sah-kd declines any hit, which random rays need."]);
     let means = mean_table(&all);
-    assert_eq!(means.notes[0], "1 case that a structure declines: left out.");
+    let note =
+        "Missing speeds (one structure on one workload of one scene): 1 because the structure declines the rays.";
+    assert_eq!(means.notes[0], note);
     assert_eq!(cell(&means, "sah-kd", "all x median"), "8.00 (1 of 2)");
 }
 
@@ -157,7 +159,15 @@ fn a_mean_over_fewer_scenes_names_its_count_and_is_not_ranked() {
     let table = mean_table(&all);
     assert_eq!([cell(&table, "sah-kd", "primary"), cell(&table, "sah-bvh", "primary")], ["2.00", "9.00 (2 of 3)"]);
     assert_eq!(cell(&table, "sah-bvh", "all x median"), "9.00 (2 of 3)");
-    assert!(table.title.contains("3 scenes") && table.notes[0] == "1 case with wrong hits: left out.", "{table:?}");
+    assert!(table.title.contains("3 scenes") && table.notes[0].ends_with(": 1 because of wrong hits."), "{table:?}");
+    // A refused structure has no measurement on the scene.
+    let fewer: Vec<Measurement> =
+        all.iter().filter(|r| (r.scene.as_str(), r.label.as_str()) != ("A", "sah-kd")).cloned().collect();
+    let note = mean_table(&fewer).notes.swap_remove(0);
+    assert!(
+        note.ends_with(": 1 because of wrong hits and 1 because the structure is not measured on the scene."),
+        "{note}"
+    );
     let best = |row: &str| table.rows.iter().find(|r| r[0].text() == row).unwrap()[1].tone;
     assert_eq!((best("sah-kd"), best("sah-bvh")), (Tone::Best, Tone::Plain));
     assert!(table.notes.iter().any(|note| note.starts_with("(n of m)")), "{:?}", table.notes);
