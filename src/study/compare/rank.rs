@@ -214,7 +214,7 @@ mod tests {
                      cells";
         assert!(told[0].starts_with(first), "{told:?}");
         assert!(told[0].contains("traces 2.00") && !told[0].contains("distinguishable"), "{told:?}");
-        assert!(told[1].starts_with(&format!("Of 3 structures in single precision, {} is", single[0])), "{told:?}");
+        assert!(told[1].starts_with(&format!("Of 3 structures in single precision, {} has", single[0])), "{told:?}");
         // Both have the same keys: packets are not compared with single rays.
         assert!(told[2].contains("exact") && told[2].contains("1.25"), "{told:?}");
         assert_eq!(findings.last().and_then(|finding| finding.name.as_deref()), Some("fast"));
