@@ -66,7 +66,7 @@ const MEANINGS: [(&str, &str); 27] = [
         "obvhs: prepare rays in the timed query (asked) or before the clock starts (loaded); Embree: its hint about the \
          directions in a packet",
     ),
-    ("packet", "Embree: rays per query"),
+    ("packet", "Embree: rays per query: 1, 8 or 16"),
     ("isa", "Embree: the instructions that it may use"),
 ];
 

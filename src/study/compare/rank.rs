@@ -139,8 +139,7 @@ impl<'a> Ranking<'a> {
         };
         let (ranked, over) = (plural(rows.len(), "structure"), plural(self.cells.len(), "cell"));
         let sentence = format!(
-            "Of {ranked} {words}, {label} has the highest mean speed over {over} (pairs of scene and workload): \
-             {told}{level}."
+            "Of {ranked} {words}, {label} has the highest mean speed over {over} of scene and workload: {told}{level}."
         );
         Some((Finding::new(key, sentence).with_value(value), Finding::named(FASTEST, names)))
     }

@@ -31,8 +31,7 @@ pub fn checked(all: &[Measurement]) -> Option<Finding> {
     };
     let (wrong, rays) = sum(&|r| r.declined.is_none() && known_defect(&r.structure).is_none());
     let sentence = format!(
-        "Wrong hits: {} in {} checked rays of structures without known defects (checked by another tree, brute force \
-         and exact arithmetic).{erring}",
+        "Wrong hits: {} in {} rays, known defects excluded (by another tree, brute force and exact arithmetic).{erring}",
         count(wrong),
         count(rays)
     );
