@@ -242,8 +242,8 @@ pub(super) fn answer<const ANY: bool, T: TriangleTest, A, O: Observer>(
 
 /// Traces the groups of a window that form no packet.
 ///
-/// To interleave rays hides the time that they wait for memory and costs instructions. Any-hit queries end too early to
-/// gain from it (`papers/TUNING.md`).
+/// Interleaving hides the time that rays wait for memory, but costs instructions: trees that fit into a cache do not
+/// gain from it, and any-hit queries end too early (`papers/TUNING.md`).
 fn answer_apart<const ANY: bool, T: TriangleTest, A>(
     level: Level,
     tree: &Bvh8<T>,

@@ -168,8 +168,8 @@ impl Stack<'_, false> {
     #[inline(always)]
     pub unsafe fn pop_down(&mut self, end: f32) -> Child {
         // SAFETY: by the contracts of this function and of `of`, the functions `reset`, `push` and `push_all` have
-        // written the entries below `len`. The loop
-        // ends at the bottom or above it, because the bottom is entered at minus infinity.
+        // written the entries below `len`. The loop ends at the bottom or above it, because the bottom is entered at
+        // minus infinity.
         unsafe {
             self.len -= 1;
             while self.entries.enters.get_unchecked(self.len).assume_init() > end {
