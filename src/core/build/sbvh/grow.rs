@@ -103,12 +103,11 @@ fn choose(
     place: Place,
     slots: &mut Slots,
 ) -> Option<(Split, [usize; 2])> {
-    let (count, config) = (references.len(), context.config);
-    // The root of a tiny mesh may be split: it is a node anyway, and a ray tests the boxes of all children at once.
-    if count <= BLOCK && place.depth > 0 {
+    let (area, count, config) = (extent.half_area(), references.len(), context.config);
+    if count <= BLOCK && !context.is_large(area) {
         return None;
     }
-    let leaf_cost = context.costs.box_leaf(extent.half_area(), count);
+    let leaf_cost = context.unsplit_cost(area, count);
     let full = count > config.leaf as usize;
     if place.depth < context.depth
         && let Some(offer) = cheapest(context, references, extent, place.budget, slots)
@@ -174,15 +173,14 @@ fn merge(context: &Context, tree: &mut BinaryTree, own: usize, first: usize, are
     let mut ids = tree.references[first..].to_vec();
     ids.sort_unstable();
     ids.dedup();
-    let leaf_cost = context.costs.box_leaf(area, ids.len());
-    if ids.len() > most || leaf_cost > cost {
+    if ids.len() > most || context.unsplit_cost(area, ids.len()) > cost {
         return None;
     }
     tree.references.truncate(first);
     tree.references.extend(&ids);
     tree.nodes.truncate(own + 1);
     tree.nodes[own].content = Content::Leaf { first: first as u32, count: ids.len() as u32 };
-    Some(leaf_cost)
+    Some(context.costs.box_leaf(area, ids.len()))
 }
 
 impl Growth {

@@ -4,6 +4,11 @@ use super::config::SbvhConfig;
 use crate::build::extent::Extent;
 use crate::build::sah_cost::CostModel;
 use crate::geometry::Mesh;
+use crate::triangle::BLOCK;
+
+/// A box is large if its half area is more than this share of the root's: so few are that splitting their blocks adds
+/// little memory.
+const LARGE: f64 = 1.0 / 2048.0;
 
 /// The inputs of every step of a build.
 pub(super) struct Context<'a> {
@@ -20,6 +25,19 @@ impl<'a> Context<'a> {
         let root_area = Extent::from(mesh.bounds()).half_area();
         let depth = 16 + 2 * (usize::BITS - mesh.len().leading_zeros());
         Self { mesh, config, costs: config.costs(), root_area, depth }
+    }
+
+    /// Whether a box of half area `area` takes part in so many traversals that a block of triangles in it may be split.
+    pub fn is_large(&self, area: f64) -> bool {
+        area > LARGE * self.root_area
+    }
+
+    /// The cost of a leaf, with which its splits compete. For a single block in a large box, such as a floor and a
+    /// wall, it includes a step: the split adds no node, only a child to the wide node above, whose boxes are tested at
+    /// once.
+    pub fn unsplit_cost(&self, area: f64, count: usize) -> f64 {
+        let leaf = self.costs.box_leaf(area, count);
+        if count <= BLOCK && self.is_large(area) { self.costs.box_node(area, leaf) } else { leaf }
     }
 }
 

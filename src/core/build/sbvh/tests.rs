@@ -89,6 +89,31 @@ fn no_input_explodes() {
 }
 
 #[test]
+fn a_floor_and_a_wall_are_separate_leaves_and_tiles_of_a_floor_are_not() {
+    let quad = |[a, b, c, d]: [Vec3; 4]| [[a, b, c], [a, c, d]];
+    let floor = quad([(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0)].map(|(x, z)| Vec3::new(x, 0.0, z)));
+    let wall = quad([(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0)].map(|(x, y)| Vec3::new(x, y, 0.0)));
+    let (object, large) = (soup(200, 7), [floor, wall].concat());
+    let scene = mesh(204, |i| {
+        let corners = |i: usize| object.corners(i as u32).map(|p| p * 0.05 + Vec3::splat(4.0));
+        large.get(i).copied().unwrap_or_else(|| corners(i - 4))
+    });
+    let tiles = mesh(8, |i| {
+        let [x, z] = [i / 2 % 2, i / 4].map(|i| i as f32 * 0.7);
+        let at = |x: f32, z: f32| Vec3::new(x, 0.3, z);
+        [at(x, z), at(x + 0.7, z + 0.7), if i % 2 == 0 { at(x + 0.7, z) } else { at(x, z + 0.7) }]
+    });
+    for config in configs() {
+        let tree = build(&scene, &config);
+        for (_, ids) in leaves(&tree, config.leaf) {
+            let has = |part: [u32; 2]| part.iter().any(|id| ids.contains(id));
+            assert!(!(has([0, 1]) && has([2, 3])), "{config:?}: {ids:?}");
+        }
+        assert_eq!(build(&tiles, &config).nodes.len(), 1, "{config:?}");
+    }
+}
+
+#[test]
 fn nothing_and_next_to_nothing_build() {
     let line = [Vec3::ZERO, Vec3::X, Vec3::X * 2.0];
     let one = [Vec3::X, Vec3::Y, Vec3::Z];
