@@ -11,7 +11,7 @@ use crate::triangle::TriangleTest;
 
 /// Tests every triangle in order: the reference for all other structures.
 ///
-/// It tests eight triangles at once, with the same bits as the scalar test.
+/// It tests eight triangles at once; the results are bit-identical to the scalar test.
 pub struct BruteForce<T: TriangleTest> {
     blocks: Vec<LeafBlock<T>>,
     references: usize,

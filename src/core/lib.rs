@@ -25,8 +25,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A program compiles the structures that it uses, with its own settings. This project measures with `codegen-units =
-//! 1` in `[profile.release]`.
+//! The generic structures are compiled in your crate, with the profile of your workspace. This project measures with
+//! `codegen-units = 1` in `[profile.release]`.
 
 #![warn(missing_docs)]
 

@@ -14,7 +14,7 @@ use crate::triangle::{BaldwinWeber, EdgeF64, Exact, MollerTrumbore, MollerTrumbo
 
 /// A structure that is compiled in this crate.
 pub trait Offered: Accel {
-    /// Like [`Accel::build`], without its type.
+    /// Like [`Accel::build`], with the type erased.
     ///
     /// # Errors
     /// If the mesh or the configuration is rejected.

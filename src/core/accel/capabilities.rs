@@ -4,20 +4,20 @@ use std::borrow::Cow;
 
 use crate::geometry::{Hit, Ray};
 
-/// The features that a structure supports. It receives no rays that need other features; tables print them as declined,
-/// neither right nor wrong.
+/// The features that a structure supports. The structure receives no rays that need another feature; tables list such
+/// rays as declined, which is neither right nor wrong.
 ///
-/// [`Accel::OBSERVED`](super::Accel::OBSERVED) declares missing counts,
-/// [`Accel::TRIANGLE_TEST`](super::Accel::TRIANGLE_TEST) a private triangle test.
+/// Missing counts are declared in [`Accel::OBSERVED`](super::Accel::OBSERVED), a private triangle test in
+/// [`Accel::TRIANGLE_TEST`](super::Accel::TRIANGLE_TEST).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Capabilities {
-    /// Whether it has its own any-hit query. If not, any hit uses the closest hit, for drawing pictures; it is neither
-    /// checked nor timed.
+    /// Whether it has its own any-hit query. If not, the any-hit query falls back to the closest-hit query. The
+    /// fallback only serves to draw pictures: it is neither checked nor timed.
     pub any_hit: bool,
     /// Whether it ignores hits before a `t_min` above 0.
     pub t_min: bool,
-    /// Whether its intervals include their start. If not, rays whose nearest hit lies exactly at `t_min` are not
-    /// counted.
+    /// Whether its intervals include their start. If not, rays whose nearest hit lies exactly at `t_min` count as
+    /// declined.
     pub closed_start: bool,
     /// Whether it ignores hits at or beyond a finite `t_max`.
     pub t_max: bool,
@@ -27,7 +27,8 @@ impl Capabilities {
     /// All features of the contract of [`Accel`](super::Accel).
     pub const ALL: Self = Self { any_hit: true, t_min: true, closed_start: true, t_max: true };
 
-    /// Whether the result for `ray` is a matter of convention; `nearest` is its nearest hit.
+    /// Whether any result on `ray` is excused: the structure excludes the start of the interval, and `nearest`, the
+    /// nearest hit of the reference, lies exactly there.
     pub fn excuses(self, ray: &Ray, nearest: Option<Hit>) -> bool {
         !self.closed_start && nearest.is_some_and(|hit| hit.t == ray.interval().0)
     }

@@ -5,7 +5,7 @@
 pub struct Footprint {
     /// Inner nodes and leaf headers.
     pub nodes: usize,
-    /// Triangle numbers in leaves, or the permutation.
+    /// Triangle indices that leaves store, or the permutation of triangle indices that leaves refer to.
     pub references: usize,
     /// Triangle data copied for the triangle test.
     pub triangles: usize,

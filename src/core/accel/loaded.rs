@@ -8,13 +8,13 @@ pub trait Loaded: Send + Sync {
     /// The nearest hits of the rays.
     ///
     /// # Panics
-    /// If the number of slots differs from the number of rays.
+    /// If `hits` and the batch differ in length.
     fn closest_hits(&self, hits: &mut [Option<Hit>]);
 
     /// For each ray, whether it hits anything.
     ///
     /// # Panics
-    /// If the number of slots differs from the number of rays.
+    /// If `hits` and the batch differ in length.
     fn any_hits(&self, hits: &mut [bool]);
 
     /// Nanoseconds of the last query, if the structure is [`Remote`](super::Remote) and times itself.

@@ -14,20 +14,21 @@ use crate::geometry::{Hit, Mesh, Ray};
 /// The reason why a build failed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BuildError {
-    /// A configuration value is out of range; the sentence states the value and the allowed range.
+    /// A configuration value is out of range or has no effect. The message names the option and the allowed values.
     #[error("{0}")]
     Config(String),
-    /// The mesh exceeds a limit of the structure; the sentence states the reason.
+    /// The mesh exceeds a limit of the structure. The message states the reason.
     #[error("{0}")]
     Mesh(String),
-    /// The system lacks a requirement of the structure; the sentence states the requirement and how to install it.
+    /// The system lacks a requirement of the structure. The message states the requirement and how to install
+    /// it.
     #[error("{0}")]
     Unavailable(String),
-    /// The external program of the structure failed; the clause states how.
+    /// The external program of the structure failed. The message is a clause that states how.
     #[error("{0}")]
     Remote(String),
     /// The rays need a feature that the structure declines.
-    #[error("declined: it has no {0}, which these rays need")]
+    #[error("declined: it does not support {0}, which these rays need")]
     Declined(&'static str),
     /// The structure's own code panicked.
     #[error("its builder panicked on this mesh: omit the structure, or check for extreme coordinates")]
@@ -39,9 +40,10 @@ pub enum BuildError {
 /// The conformance suite tests this contract:
 ///
 /// 1. `closest_hit` returns the smallest `t` in [`t_min`, `t_max`) by the structure's triangle test, over all triangles
-///    of the mesh that are not degenerate. A `t` that rounds to no finite `f32` is not a hit, even if `t_max` is
+///    of the mesh that are not degenerate. A hit whose `t` rounds to infinity does not count, even if `t_max` is
 ///    infinite. The returned `t` may be the exact `t` rounded up to `t_max`.
-/// 2. Among equal `t`, `closest_hit` may return any primitive (the structures of this crate return the lowest number).
+/// 2. If several primitives are hit at the smallest `t`, `closest_hit` may return any of them (the structures of this
+///    crate return the one with the lowest index).
 /// 3. `any_hit(ray) == closest_hit(ray).is_some()`.
 /// 4. Results depend only on the mesh, the configuration and the ray.
 /// 5. Every [`Mesh`] builds, including the empty mesh.
@@ -50,20 +52,21 @@ pub enum BuildError {
 /// [`CAPABILITIES`](Accel::CAPABILITIES) and unreported events with [`OBSERVED`](Accel::OBSERVED).
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not an acceleration structure",
-    label = "does not implement `sahara::accel::Accel`",
-    note = "implement `sahara::accel::Accel` for `{Self}`: the front page of sahara's documentation walks through an example"
+    label = "does not implement `Accel` (`sahara_core::accel::Accel`)",
+    note = "implement `Accel` for `{Self}`: the front page of sahara's documentation walks through an example"
 )]
 pub trait Accel: Sized + Send + Sync + 'static {
-    /// Build parameters. Serialisation names them: the command line sets `key=value`, and exports contain the names.
+    /// Build parameters. The names of their serialised fields are the keys of `key=value` on the command line and in
+    /// exports.
     type Config: Clone + Debug + Default + Serialize + DeserializeOwned + Send + Sync + 'static;
 
     /// Name of the triangle test that determines the results. Structures with the same test must return the same bits
     /// of `t`. A structure with a private test keeps `"own"`.
     const TRIANGLE_TEST: &'static str = "own";
 
-    /// Deliberate deviations from the contract, one clause each, for readers. If a deviation changes hits, also declare
-    /// it in [`CAPABILITIES`](Accel::CAPABILITIES); then it does not count as an error. A defect belongs in neither
-    /// constant.
+    /// Deliberate deviations from the contract, one clause each; `sahara list` prints them. If a deviation changes
+    /// hits, also declare it in [`CAPABILITIES`](Accel::CAPABILITIES); then it does not count as an error. A defect
+    /// belongs in neither constant.
     const CONVENTIONS: &'static [&'static str] = &[];
 
     /// The events that the structure reports to the observer.
@@ -120,8 +123,8 @@ pub trait Accel: Sized + Send + Sync + 'static {
     ///
     /// The default keeps the rays unchanged, and every query prepares them in its timed region. This is right for every
     /// structure that traces a [`Ray`] directly, such as all structures of this crate. An adapter to a library with its
-    /// own ray type converts the rays here, once, so the conversion is not timed. Only data that depends on nothing but
-    /// the rays may be prepared here: no traversal, no hits.
+    /// own ray type converts the rays here, once, so the conversion is not timed. Prepare here only data that can
+    /// be computed from the rays without the tree; do not traverse.
     fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
         Box::new(RayBatch { accel: self, rays })
     }
@@ -133,7 +136,7 @@ pub trait Accel: Sized + Send + Sync + 'static {
     fn shape(&self) -> TreeShape;
 }
 
-/// [`Accel`] without its type: one virtual call per batch; everything inside is monomorphised.
+/// [`Accel`] with its type erased: one virtual call per batch; the code inside is monomorphised.
 pub trait DynAccel: Send + Sync {
     /// See [`Accel::closest_hits`]; without an observer.
     fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]);

@@ -37,8 +37,8 @@ pub(crate) fn cut_bounds(corners: [Vec3; 3], bounds: &Aabb, axis: usize, plane: 
     (half(below, -1.0), half(above, 1.0))
 }
 
-/// The area of the part of the triangle `corners` in `cell`, including its faces. The error is below 1e-12 of the
-/// square of the triangle's largest coordinate.
+/// The area of the triangle `corners` within the closed box `cell`. The error is below 1e-12 of the square of the
+/// triangle's largest coordinate.
 #[cfg(feature = "suite")]
 pub fn clipped_area(corners: [Vec3; 3], cell: &Aabb) -> f64 {
     let mut polygon = Polygon { slack: DVec3::ZERO, ..Polygon::new(corners) };

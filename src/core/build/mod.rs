@@ -1,6 +1,6 @@
 //! The common parts of builders: references and their clipping, the cost model of the surface area heuristic, planes
-//! and groups that may split a node, searches for the cheapest of them, moves of subtrees of a finished tree, and the
-//! resulting binary tree.
+//! and groups of triangles that may split a node, searches for the cheapest of them, reinsertion of subtrees of a
+//! finished tree, and the resulting binary tree.
 
 mod axes;
 pub(crate) mod binary_tree;

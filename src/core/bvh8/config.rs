@@ -16,15 +16,15 @@ use crate::triangle::TriangleTest;
 pub struct Bvh8Config {
     /// The partitioning strategy.
     pub partition: Partition,
-    /// Build time in exchange for a better tree.
+    /// Build quality: slower builds give better trees.
     pub quality: Quality,
     /// SAH cost of a block of eight triangles, relative to the cost of a node. Positive; a higher cost gives smaller
     /// leaves.
     pub block_cost: f32,
-    /// Maximum number of references, as a multiple of the triangles: a guard against inputs that explode. At least 1;
-    /// [`Quality::Fast`] uses at most 1.75.
+    /// Maximum number of references, as a multiple of the triangles: a limit for meshes in which splits would multiply
+    /// the references. At least 1; [`Quality::Fast`] uses at most 1.75.
     pub duplication: f32,
-    /// The tracing of a slice of rays; only [`Batch::Single`] over tests that are not
+    /// How a slice of rays is traced. Must be [`Batch::Single`] with triangle tests that are not
     /// [`BATCHED`](TriangleTest::BATCHED).
     pub batch: Batch,
 }
@@ -33,24 +33,24 @@ pub struct Bvh8Config {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Partition {
-    /// The cells of `sah-kd`; the tree stores their tight boxes.
+    /// The cells of the KD-tree `sah-kd`, stored as tight boxes.
     Cells,
-    /// Planes, with the heuristic computed on tight boxes.
+    /// Spatial splits only, with the heuristic computed on tight boxes.
     Tight,
-    /// Planes or groups of triangles, whichever is cheaper (Stich, Friedrich, Dietrich 2009).
+    /// Spatial or object splits, whichever is cheaper: an SBVH (Stich, Friedrich, Dietrich 2009).
     Hybrid,
-    /// Groups of triangles: a bounding volume hierarchy.
+    /// Object splits only: a BVH without duplicated references.
     Objects,
 }
 
-/// The tracing of a slice of rays; the hits are always the same.
+/// How a slice of rays is traced; the hits are always the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Batch {
     /// One ray after the other.
     Single,
-    /// Sixteen consecutive rays that share an octant form a packet. Other rays are traced one after the other, or
-    /// eight at a time in closest-hit queries on trees of more than 2 MiB.
+    /// Sixteen consecutive rays whose directions lie in the same octant form a packet. Other rays are traced one after
+    /// the other, or eight at a time in closest-hit queries on trees of more than 2 MiB.
     Packets,
 }
 
@@ -69,7 +69,7 @@ impl Bvh8Config {
             return refuse("duplication must be a number of at least 1");
         }
         if self.batch != Batch::Single && !T::BATCHED {
-            return refuse("batch must be single over this triangle test");
+            return refuse("batch must be `single` with this triangle test");
         }
         Ok(())
     }

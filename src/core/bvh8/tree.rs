@@ -13,12 +13,13 @@ use crate::triangle::TriangleTest;
 
 /// A tree of nodes with eight tight boxes, and leaves of blocks of eight triangles.
 ///
-/// The configuration selects the partition: by planes (leaves are the tight boxes of disjoint cells), by groups, or by
-/// both. Collapse, layout and traversal are the same for all partitions. A build takes O(n log n) time and memory for a
-/// bounded duplication of references; the tree is the same for every number of threads. A node takes 256 bytes; a block
-/// over Möller-Trumbore takes 320 bytes. A tree cannot be updated, so it does not suit moving geometry.
+/// The configuration selects the partition: by spatial splits (leaves are the tight boxes of disjoint cells), by object
+/// splits, or by both. Collapse, layout and traversal are the same for all partitions. A build takes O(n log n) time
+/// and memory for a bounded duplication of references; the tree is the same for every number of threads. A node takes
+/// 256 bytes; a block over Möller-Trumbore takes 320 bytes. A tree cannot be updated, so it does not suit moving
+/// geometry.
 ///
-/// `papers/TUNING.md` lists how constants were chosen, and rejected experiments.
+/// `papers/TUNING.md` documents how the constants were chosen and which experiments were rejected.
 ///
 /// # References
 /// Wald, Benthin, Boulos: Getting rid of packets, 2008 (wide nodes for single rays). Ylitie, Karras, Laine: Efficient

@@ -1,5 +1,5 @@
-//! One ray and one triangle, without rounding: whether and where a ray of `f32` numbers hits, and the order of hits,
-//! are decidable.
+//! Exact ray-triangle intersection: decides without rounding whether and where a ray of `f32` numbers hits a triangle,
+//! and orders the hits of a ray.
 
 mod expansion;
 mod integers;
@@ -27,10 +27,11 @@ pub struct ExactT {
 /// in its plane.
 ///
 /// The function ignores the interval of the ray: see [`ExactT::is_within`]. Numbers that are not finite hit nothing.
-/// Costs 50 nanoseconds if all bits in use lie within forty places, otherwise about a microsecond.
+/// Costs 50 nanoseconds if the significant bits of origin and corners span at most forty binary places, and so do the
+/// bits of the direction; otherwise about a microsecond.
 ///
-/// The line passes through the triangle if it passes all three edges on the same side, or meets them: three volumes
-/// have no opposite signs.
+/// The line meets the closed triangle if it passes all three edges on the same side or touches them, that is, if no two
+/// of the three signed volumes have opposite signs.
 ///
 /// # References
 /// Segura, Feito: Algorithms to test ray-triangle intersection. Comparative study. WSCG 2001.
@@ -55,7 +56,7 @@ pub fn height(origin: Vec3, corners: [Vec3; 3]) -> f64 {
 }
 
 /// The side on which the line of `ray` passes the line through two points: the sign of direction . ((p - origin) x (q -
-/// origin)). Equal if the two lines meet or are parallel. For finite numbers.
+/// origin)). `Ordering::Equal` if the two lines meet or are parallel. For finite numbers.
 ///
 /// Costs a sixth of [`hit`].
 #[inline(always)]
@@ -74,8 +75,8 @@ fn side_of_any_size(ray: &Ray, edge: [Vec3; 2]) -> Ordering {
 
 /// Whether the line of `ray` passes exactly through a point. For finite numbers.
 ///
-/// Costs a few nanoseconds unless the line passes the point within rounding, and the origin and the point differ so
-/// much in size that `f64` cannot represent their difference.
+/// Costs a few nanoseconds, except if rounding hides whether the line passes through the point and the difference of
+/// the point and the origin is not exact in `f64`.
 #[inline(always)]
 pub fn passes_through(ray: &Ray, point: Vec3) -> bool {
     let (direction, offset) = (ray.direction.as_dvec3(), point.as_dvec3() - ray.origin.as_dvec3());

@@ -79,8 +79,8 @@ pub fn hit_within(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
     Some(nearest_float(&within(ray, corners)?))
 }
 
-/// The same for the nearest of some triangles, with the lowest number among the triangles hit there; `None` for a ray
-/// that is not valid.
+/// Like [`hit_within`] for the nearest hit among `triangles`, with the lowest index of the triangles that are hit at
+/// its exact `t`; `None` for a ray that is not valid.
 ///
 /// # Panics
 /// If a corner is not finite.
