@@ -50,13 +50,13 @@ impl Aabb {
         self.max - self.min
     }
 
-    /// The centre; no finite box overflows.
+    /// The centre, without overflow for any finite box.
     pub fn centre(&self) -> Vec3 {
         self.min * 0.5 + self.max * 0.5
     }
 
     /// Half of the surface area, the measure of the surface area heuristic (Goldsmith, Salmon 1987); 0 if empty. The
-    /// result is an `f64`, so no mesh overflows.
+    /// result is an `f64`, so the area of no finite box overflows.
     #[inline]
     pub fn half_area(&self) -> f64 {
         half_area(self.min.as_dvec3(), self.max.as_dvec3())

@@ -25,9 +25,9 @@ pub enum MeshError {
     NotFinite { vertex: usize, x: f32, y: f32, z: f32 },
     /// A triangle refers to a vertex that does not exist.
     #[allow(missing_docs)]
-    #[error("triangle {triangle} names vertex {index}, but there are only {vertices} vertices")]
+    #[error("triangle {triangle} refers to vertex {index}, but there are only {vertices} vertices")]
     OutOfRange { triangle: usize, index: u32, vertices: usize },
-    /// There are more elements than numbers can distinguish.
+    /// There are more vertices or triangles than a mesh can index: more than 2^30.
     #[allow(missing_docs)]
     #[error("{count} {what} exceed the limit of {limit} per mesh: split the scene")]
     TooMany { what: &'static str, count: usize, limit: usize },

@@ -44,8 +44,8 @@ impl Ray {
         (if self.t_min > 0.0 { self.t_min } else { 0.0 }, self.t_max)
     }
 
-    /// The smallest exact `t` beyond the interval: `t_max`, or for a ray without end half an ulp beyond the largest
-    /// finite `f32`, because larger numbers round to infinity.
+    /// The smallest exact `t` beyond the interval: `t_max`; for an unbounded ray, the largest finite `f32` plus half an
+    /// ulp, from which on numbers round to infinity.
     #[inline(always)]
     pub fn end(&self) -> f64 {
         f64::from(self.t_max).min(UNREPRESENTABLE)
@@ -75,7 +75,7 @@ impl Ray {
     }
 }
 
-/// The number of a triangle in its mesh. Stored inverted: `Option<Hit>` then takes 8 bytes.
+/// The index of a triangle in its mesh. Stored inverted: `Option<Hit>` then takes 8 bytes.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct PrimId(NonZeroU32);
 
@@ -87,7 +87,7 @@ impl PrimId {
         Self(NonZeroU32::new(!index).expect("a primitive number is below u32::MAX"))
     }
 
-    /// The number, below `u32::MAX`.
+    /// The index, below `u32::MAX`.
     #[inline(always)]
     pub fn index(self) -> u32 {
         !self.0.get()

@@ -33,7 +33,7 @@ pub enum RayTextError {
     Count { text: String, count: usize },
     /// An interval that is not two numbers in brackets at the end.
     #[allow(missing_docs)]
-    #[error("the interval of the ray {text:?} must be two numbers in brackets behind the others: [t_min,t_max]")]
+    #[error("the interval of the ray {text:?} must be two numbers in brackets after the six numbers: [t_min,t_max]")]
     Interval { text: String },
     /// A part that is not a number.
     #[allow(missing_docs)]
@@ -41,12 +41,12 @@ pub enum RayTextError {
     Number { text: String, number: String },
     /// A ray that can hit nothing in any mesh.
     #[allow(missing_docs)]
-    #[error("the ray {text:?} hits nothing anywhere: {fault}")]
+    #[error("the ray {text:?} cannot hit anything: {fault}")]
     Invalid { text: String, fault: &'static str },
 }
 
 /// Reads the format that [`Display`] writes. Blanks, commas or both separate the numbers. The interval ends with `]` or
-/// `)`; both mean the open end.
+/// `)`; with both, `t_max` is excluded.
 impl FromStr for Ray {
     type Err = RayTextError;
 
@@ -86,7 +86,7 @@ impl Ray {
         } else if !ray.direction.is_finite() {
             "its direction is not finite: give three finite numbers"
         } else if ray.direction == Vec3::ZERO {
-            "its direction is zero: give one that has a length"
+            "its direction is zero: give a nonzero direction"
         } else {
             "its interval is empty: give a t_max above 0 and above t_min"
         };
@@ -152,7 +152,7 @@ mod tests {
         }
         let intervals = ["1,2,3 4,5,6 0,1", "1,2,3 4,5,6 [0,1,2]", "1 2 3 4 5 6 [0 1", "1 2 3 4 5 6 [0 1] 7"];
         for interval in intervals {
-            assert!(error(interval).contains("in brackets behind the others: [t_min,t_max]"), "{interval}");
+            assert!(error(interval).contains("in brackets after the six numbers: [t_min,t_max]"), "{interval}");
         }
         assert!(error(&"1 ".repeat(1 << 20)).len() < 300);
     }

@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3, Vec3};
 
-/// `world = R * S * p + t`, the placement rule of the report's course.
+/// `world = R * S * p + t`, the placement rule of the course of the student report that sahara reproduces.
 ///
 /// `R = Rz * Ry * Rx` with `Rx = [1 0 0; 0 c s; 0 -s c]`, `Ry = [c 0 -s; 0 1 0; s 0 c]` and
 /// `Rz = [c s 0; -s c 0; 0 0 1]` (rows). Each matrix rotates in the opposite sense to the usual right-handed rotation.

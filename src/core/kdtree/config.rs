@@ -4,8 +4,9 @@ use crate::accel::BuildError;
 use crate::build::cells::{CellConfig, Rules};
 use crate::build::sah_cost::CostModel;
 
-/// The build and traversal options of a [`KdTree`](super::KdTree); `median-kd` and `sah-kd` are two values. If the
-/// other options leave an option unread, it must keep the value of [`REPORT`](Self::REPORT) or [`SAH`](Self::SAH).
+/// The build and traversal options of a [`KdTree`](super::KdTree); `median-kd` and `sah-kd` are two values. "The
+/// report" is the student report that sahara reproduces. An option without effect in combination with the other options
+/// must keep its value from [`REPORT`](Self::REPORT) or [`SAH`](Self::SAH); otherwise the build fails.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KdConfig {
@@ -22,16 +23,16 @@ pub struct KdConfig {
     pub leaf: u32,
     /// Whether a node of exactly `leaf` triangles may be split; the report does not specify it.
     pub limit: Limit,
-    /// `T` of [`Stop::Report`]: the share of triangles on both sides that discards a split. In (0, 1]; 0.7 in the
-    /// report's main table.
+    /// `T` of [`Stop::Report`]: a split is discarded if at least this share of the triangles would lie on both sides.
+    /// In (0, 1]; 0.7 in the report's main table.
     pub threshold: f32,
     /// The triangles to which the share `threshold` refers.
     pub count: CountOf,
-    /// The value that represents the middle of the vertex coordinates.
+    /// How the median of the vertex coordinates is defined.
     pub median: Median,
     /// The side of a triangle with a vertex in the plane.
     pub equal: Equal,
-    /// The condition for the end of a ray.
+    /// When the traversal of a ray stops.
     pub exit: Exit,
     /// A small hashed mailbox: a ray tests a triangle only once while it is in the mailbox.
     pub mailbox: bool,
@@ -47,7 +48,8 @@ pub struct KdConfig {
     pub sample: u32,
     /// Share of the cost that a split saves if it cuts off empty space, in [0, 1); Wald and Havran use 0.2.
     pub empty_bonus: f32,
-    /// Maximum number of references, as a multiple of the triangles: a guard against inputs that explode. At least 1.
+    /// Maximum number of references, as a multiple of the triangles: a limit for meshes in which splits would multiply
+    /// the references. At least 1.
     pub duplication: f32,
 }
 
@@ -85,8 +87,8 @@ pub enum Stop {
     Report,
     /// Fewer than `leaf` triangles; no other reason.
     Leaf,
-    /// The split is not cheaper than testing all triangles, one step ahead. With SAH planes: no plane is cheaper than
-    /// testing all triangles.
+    /// Looking one split ahead, the SAH cost of the split is not below the cost of testing all triangles. With SAH
+    /// planes: no plane is cheaper than testing all triangles.
     Sah,
 }
 
@@ -110,13 +112,13 @@ pub enum Limit {
     AtMost,
 }
 
-/// The triangles that the match threshold is a share of.
+/// The triangles to which the share `threshold` refers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CountOf {
-    /// The triangles of the node: a split that fails is discarded.
+    /// The triangles of the node: a split that reaches the threshold is discarded.
     Parent,
-    /// The triangles of each child: a child that fails is not split further.
+    /// The triangles of each child: a child that reaches the threshold is not split further.
     Child,
 }
 
@@ -124,7 +126,7 @@ pub enum CountOf {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Median {
-    /// The lower of the two middle values; every triangle counts its three corners.
+    /// The lower of the two middle values; a corner that triangles share counts once per triangle.
     Lower,
     /// The mean of the two middle values.
     Mean,
@@ -136,13 +138,13 @@ pub enum Median {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Equal {
-    /// On both sides: below and above are strict.
+    /// On both sides: only a triangle strictly below or strictly above the plane lies on a single side.
     Both,
     /// Below, if no vertex is above.
     Below,
 }
 
-/// The condition for the end of a ray.
+/// When the traversal of a ray stops.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Exit {
@@ -247,22 +249,23 @@ impl KdConfig {
         macro_rules! refuse_unread {
             ($($key:ident: $is_read:expr, $with:literal;)*) => {$(
                 if !$is_read && ![Self::REPORT.$key, Self::SAH.$key].contains(&self.$key) {
-                    let sentence = concat!(stringify!($key), " must be left as it is: it is only read with ", $with);
-                    return Err(BuildError::Config(sentence.into()));
+                    let fault = "has no effect here, so it must keep its default; it is used only with";
+                    return Err(BuildError::Config(format!("{} {fault} {}", stringify!($key), $with)));
                 }
             )*};
         }
         refuse_unread! {
-            axis: is_median, "the plane of a median";
+            axis: is_median, "plane=vertex-median, spatial-median or centroid-median";
             median: is_median && self.plane != Plane::SpatialMedian, "plane=vertex-median or plane=centroid-median";
-            equal: is_median, "the plane of a median";
+            equal: is_median, "plane=vertex-median, spatial-median or centroid-median";
             leaf: self.stop != Stop::Sah, "stop=report or stop=leaf";
             limit: self.stop != Stop::Sah, "stop=report or stop=leaf";
             threshold: self.stop == Stop::Report, "stop=report";
-            count: self.stop == Stop::Report && is_median, "stop=report and the plane of a median";
-            traversal_cost: asks_costs, "a plane of the surface area heuristic or stop=sah";
-            intersection_cost: asks_costs, "a plane of the surface area heuristic or stop=sah";
-            empty_bonus: asks_costs, "a plane of the surface area heuristic or stop=sah";
+            count: self.stop == Stop::Report && is_median,
+                "stop=report and with plane=vertex-median, spatial-median or centroid-median";
+            traversal_cost: asks_costs, "plane=sah-binned, plane=sah-sweep or stop=sah";
+            intersection_cost: asks_costs, "plane=sah-binned, plane=sah-sweep or stop=sah";
+            empty_bonus: asks_costs, "plane=sah-binned, plane=sah-sweep or stop=sah";
             exact: is_binned, "plane=sah-binned";
             candidates: is_binned, "plane=sah-binned";
             sample: is_binned, "plane=sah-binned";

@@ -1,4 +1,5 @@
-//! KD-trees. The report's median tree and the SAH tree are two configurations of one type.
+//! KD-trees. `median-kd`, the tree of the student report that sahara reproduces ("the report" below), and the SAH tree
+//! `sah-kd` are two configurations of one type.
 
 mod config;
 mod median;

@@ -31,7 +31,7 @@ pub enum Level {
 
 /// An unknown level, or a level that this machine or build lacks.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("there is no level {name:?} here; the levels are: {known}")]
+#[error("level {name:?} is not available on this processor or in this build; available: {known}")]
 pub struct UnknownLevel {
     name: String,
     known: String,

@@ -1,4 +1,4 @@
-//! Lanes of `f32` and `f64`: written once over a small trait, with the same bits for every width.
+//! SIMD lanes of `f32` and `f64`, written once against a small trait; results are bit-identical for every width.
 
 #[cfg(target_arch = "x86_64")]
 mod avx;
@@ -14,7 +14,8 @@ pub use level::{Kernel, Level, UnknownLevel, dispatch};
 pub use portable::Portable;
 pub use vector::LaneVec3;
 
-/// `N` lanes of one type of float. Arithmetic follows IEEE 754, lane by lane, and is never fused unless a name says so.
+/// `N` lanes of one type of float. Arithmetic follows IEEE 754, lane by lane, and is never fused, except in the methods
+/// `mul_add_loosely` and `mul_sub_loosely`.
 pub trait Arithmetic<const N: usize>: Copy {
     /// The type of one lane.
     type Scalar: Copy;
@@ -63,18 +64,19 @@ pub trait Lanes<const N: usize>: Arithmetic<N, Scalar = f32> {
     fn narrow(wide: Self::Double) -> Self;
 }
 
-/// Eight lanes that can be chosen from by comparisons, and numbers beside them.
+/// Eight lanes with comparison masks, and eight lanes of `u32`.
 pub trait EightLanes: Lanes<8> {
-    /// Yes or no in each lane.
+    /// A boolean per lane.
     type Mask: Copy;
-    /// A number in each lane.
+    /// A `u32` per lane.
     type Numbers: Copy;
 
-    /// Whether the lanes are instructions of the machine, which makes work on many lanes at once worthwhile.
+    /// Whether lane operations are machine instructions, so work on many lanes at once pays off.
     const FAST: bool;
 
     /// Selects the lanes where `self <= limit`, in a given order: three bits per lane, the first one lowest. Writes
-    /// them to `keys` and their `values` to `chosen`, and returns a mask: bit `i` is the `i`-th in that order.
+    /// them to `keys` and their `values` to `chosen`, and returns a mask: bit `i` is set if the `i`-th lane in that
+    /// order is selected.
     ///
     /// # Safety
     /// Eight floats may be written to `keys` and eight numbers to `chosen`, for any number of selected lanes.
@@ -119,7 +121,7 @@ pub trait EightLanes: Lanes<8> {
     /// The numbers of `one` in the lanes of `mask`, and of `other` elsewhere.
     fn choose_numbers(one: Self::Numbers, other: Self::Numbers, mask: Self::Mask) -> Self::Numbers;
 
-    /// Lane `j` of the `i`-th becomes lane `i` of the `j`-th.
+    /// Lane `j` of row `i` becomes lane `i` of row `j`.
     fn transpose(rows: [Self; 8]) -> [Self; 8];
 }
 

@@ -1,6 +1,6 @@
 use super::{Arithmetic, EightLanes, Lanes, each, indexed};
 
-/// Lanes as an array: the slow twin of all others, and the fallback for other machines.
+/// Lanes as an array: the reference for the other implementations, and the fallback on other machines.
 #[derive(Clone, Copy, Debug)]
 pub struct Portable<const N: usize, S = f32>([S; N]);
 

@@ -5,7 +5,7 @@ use glam::Vec3;
 
 use super::{Arithmetic, Lanes};
 
-/// A 3-vector in every lane. Sums of products are added from x to z.
+/// A 3-vector in every lane. Scalar products add their terms in the order x, y, z.
 #[derive(Clone, Copy, Debug)]
 pub struct LaneVec3<const N: usize, L> {
     /// The x of each lane.
@@ -24,13 +24,13 @@ impl<const N: usize, L: Lanes<N>> LaneVec3<N, L> {
         Self::new(L::splat(v.x), L::splat(v.y), L::splat(v.z))
     }
 
-    /// Vectors that are stored coordinate by coordinate.
+    /// Vectors in structure-of-arrays layout.
     #[inline(always)]
     pub fn load([x, y, z]: &[[f32; N]; 3]) -> Self {
         Self::new(L::load(x), L::load(y), L::load(z))
     }
 
-    /// One of several vectors, which are stored coordinate by coordinate, in every lane.
+    /// Vector `lane` of `M` vectors in structure-of-arrays layout, broadcast to every lane.
     ///
     /// # Panics
     /// If there is no such vector.

@@ -7,7 +7,7 @@ use crate::simd::{LaneVec3, Lanes, indexed};
 /// Baldwin-Weber, in `f32`: the test transforms the ray into the space of the unit triangle.
 ///
 /// Guarantees: the least arithmetic of all tests. Not guaranteed: accuracy, because the transformation is relative to
-/// the world's origin and errors grow with the distance from it (1e3 extents away every other hit is lost); closed
+/// the world's origin and errors grow with the distance from it (at 1e3 extents, every second hit is lost); closed
 /// meshes may leak at edges. 48 bytes per triangle.
 ///
 /// Instead of the paper's nine numbers and an axis, a block stores all twelve numbers of the matrix: lanes may then

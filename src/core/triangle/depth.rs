@@ -25,8 +25,8 @@ pub trait Depth: Copy {
     /// The `t` to return for a hit of `ray`: the nearest float.
     fn t(&self, ray: &Ray) -> f32;
 
-    /// Whether `t` needs further computation, for which eight hits at once are faster. Such a depth implements
-    /// [`inputs`](Self::inputs) and [`ts`](Self::ts).
+    /// Whether `t` is computed from the depth in a further step, which is faster for eight hits at once. Such a depth
+    /// implements [`inputs`](Self::inputs) and [`ts`](Self::ts).
     const LATE: bool = false;
 
     /// The inputs of `ts` for a hit of `ray`: the corners of the triangle, the origin, the direction and the distance

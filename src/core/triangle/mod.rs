@@ -50,8 +50,9 @@ pub(crate) const BLOCK: usize = 8;
 /// lane is the scalar form. All widths return the same bits.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a triangle test",
-    label = "does not implement `sahara::triangle::TriangleTest`",
-    note = "use one of the tests in `sahara::triangle`, for example `Exact`; a structure with a test of its own needs none: it leaves `Accel::TRIANGLE_TEST` as it is"
+    label = "does not implement `TriangleTest` (`sahara_core::triangle::TriangleTest`)",
+    note = "use a test of that module, for example `Exact`",
+    note = "a private triangle test needs no `TriangleTest`: keep the default `Accel::TRIANGLE_TEST`"
 )]
 pub trait TriangleTest: Send + Sync + 'static {
     /// The name on the command line and in exports.
@@ -82,8 +83,8 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// If there are more than `N` triangles.
     fn block<const N: usize>(triangles: &[[Vec3; 3]]) -> Self::Block<N>;
 
-    /// The last `t` of a hit for a valid ray that ends before `t_max`: the preceding float, if hits are ordered as
-    /// floats.
+    /// The largest `t` that a hit may have on a valid ray with the exclusive end `t_max`: the float below `t_max` if
+    /// hits are ordered by their rounded `t`.
     #[inline(always)]
     fn last(t_max: f32) -> f32 {
         // A valid ray ends after 0, so this is `next_down`, without the cases that cost each ray a dozen instructions.
@@ -114,8 +115,8 @@ pub trait TriangleTest: Send + Sync + 'static {
         values: &Self::Values<N>,
     ) -> Option<Self::Depth<'a>>;
 
-    /// Like [`decide`](Self::decide), without a call, if the first stage decides; otherwise `None`. The values come
-    /// from [`values`](Self::values), not from [`look_closer`](Self::look_closer).
+    /// Like [`decide`](Self::decide), but small enough to inline: `None` if the first stage does not decide. The values
+    /// come from [`values`](Self::values), not from [`look_closer`](Self::look_closer).
     #[inline(always)]
     fn decide_at_once<'a, const N: usize>(
         ray: &Self::Ray,

@@ -15,9 +15,10 @@ use crate::simd::{Arithmetic, LaneVec3, Lanes, each};
 /// grazes.
 ///
 /// The errors are small for triangles of ordinary shape, but not for needles and slivers: |det| is twice the area times
-/// the sine of the angle to the plane times the length of the direction. Measured on single triangles: a hit 4.5e-11
-/// beside a sliver of 1 to 10,000; a lost needle of 1 to 10,000,000, hit along its length; an error of `t` of 115 ulps
-/// on another needle. [`Exact`](super::Exact) is right in these cases.
+/// the sine of the angle to the plane times the length of the direction. Measured on single triangles: a false hit
+/// 4.5e-11 outside a sliver of aspect ratio 10,000; a missed hit on a needle of aspect ratio 10,000,000, which the ray
+/// meets along its length; a `t` that is off by 115 ulps on another needle. [`Exact`](super::Exact) is right in these
+/// cases.
 ///
 /// Cost: two to three times the `f32` test in blocks.
 ///

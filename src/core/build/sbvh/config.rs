@@ -33,8 +33,8 @@ pub(crate) struct SbvhConfig {
     pub block_cost: f32,
     /// Maximum number of references of a leaf, in 8..=64.
     pub leaf: u32,
-    /// Maximum number of references of a build, as a multiple of the triangles: the guard against inputs that explode.
-    /// At least 1.
+    /// Maximum number of references of a build, as a multiple of the triangles: a limit for meshes in which splits
+    /// would multiply the references. At least 1.
     pub duplication: f32,
 }
 

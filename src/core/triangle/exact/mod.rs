@@ -25,8 +25,8 @@ use enclosure::{Bounds, look, look_at_corners, place, place_closely, place_in_ax
 /// their exact `t`, at equal `t` by number; the returned `t` is the exact `t`, correctly rounded (so a `t` just before
 /// an open end `t_max` may be returned as `t_max`). In a structure that loses nothing, the result for every ray is the
 /// mathematical one. Not guaranteed: speed, if many rays pass exactly through edges or start in planes of triangles.
-/// Each such triangle costs 50 nanoseconds, or a microsecond if the bits of the coordinates lie more than forty places
-/// apart. Results may be wrong if the processor is set to treat denormal numbers as zero.
+/// Each such triangle costs 50 nanoseconds, or a microsecond if the significant bits of the coordinates span more than
+/// forty binary places. Results may be wrong if the processor is set to treat denormal numbers as zero.
 ///
 /// # References
 /// Filters before exact arithmetic: Fortune, Van Wyk: Efficient exact arithmetic for computational geometry. SoCG 1993.
