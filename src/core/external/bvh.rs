@@ -46,7 +46,8 @@ pub struct SvenstaroBvhConfig {
 #[serde(rename_all = "kebab-case")]
 pub enum Traversal {
     /// The plain iterator over a custom query: the crate's ray with a box test that also rejects boxes behind the
-    /// nearest hit so far. Left before right; its stack has space for 32 nodes, and it panics on deeper trees.
+    /// nearest hit so far. The iterator visits left before right; its stack has space for 32 nodes, and it panics on
+    /// deeper trees.
     #[default]
     Pruned,
     /// The iterator from near to far, with a heap, up to the first box behind the nearest hit.
@@ -172,7 +173,8 @@ impl<T: TriangleTest> Accel for SvenstaroBvh<T> {
 
     const TRIANGLE_TEST: &'static str = T::NAME;
     const OBSERVED: Observed = Observed::TESTS;
-    const CONVENTIONS: &'static [&'static str] = &["traces unit directions: t is multiplied by the direction's length"];
+    const CONVENTIONS: &'static [&'static str] =
+        &["tests boxes with the unit direction, up to a distance of t times the direction's length"];
 
     fn build(mesh: &Arc<Mesh>, config: &SvenstaroBvhConfig) -> Result<Self, BuildError> {
         let leaves = Leaves::new(mesh);

@@ -3,8 +3,9 @@
 //!
 //! The tree takes the leaf test as a closure, and traverses from near to far with early termination. The closure
 //! respects `t_min`, which parry's own mesh shape does not support; nothing is culled. The ray is two vectors; the
-//! crate computes its inverse direction itself, in the timed region, and accepts no precomputed one. It has no query
-//! that stops at the first hit: any hit returns its first hit at minus infinity, so no box remains in front of it.
+//! crate computes its inverse direction itself, in the timed region, and accepts no precomputed one. parry has no
+//! query that stops at the first hit. For any hit, the leaf test of the adapter reports its first hit at t = -infinity,
+//! so every remaining box lies behind it.
 
 use std::cell::Cell;
 use std::sync::Arc;

@@ -63,7 +63,7 @@ impl Scene {
             let device = (api.new_device)(options.as_ptr());
             if device.is_null() {
                 let code = (api.device_error)(ptr::null_mut());
-                return Err(BuildError::Unavailable(format!("Embree gives no device: error {code}")));
+                return Err(BuildError::Unavailable(format!("Embree could not create a device (error {code})")));
             }
             let monitor: Arc<Monitor> = Arc::default();
             let listener = Arc::as_ptr(&monitor).cast_mut().cast();
@@ -92,7 +92,7 @@ impl Scene {
             let indices: *mut [u32; 3] = (api.new_buffer)(geometry, INDICES, 0, UINT3, 12, ids.len()).cast();
             if vertices.is_null() || indices.is_null() {
                 (api.release_geometry)(geometry);
-                return Err(self.refusal().unwrap_or(BuildError::Mesh("Embree gives no buffer".into())));
+                return Err(self.refusal().unwrap_or(BuildError::Mesh("Embree could not allocate a buffer".into())));
             }
             vertices.copy_from_nonoverlapping(positions.as_ptr(), positions.len());
             for (i, &id) in ids.iter().enumerate() {
@@ -108,7 +108,7 @@ impl Scene {
 
     fn refusal(&self) -> Option<BuildError> {
         let error = self.monitor.error.lock().ok()?.take()?;
-        Some(BuildError::Mesh(format!("Embree refuses: {error}")))
+        Some(BuildError::Mesh(format!("Embree reports an error: {error}")))
     }
 
     fn checked(self) -> Result<Self, BuildError> {

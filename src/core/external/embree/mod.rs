@@ -4,10 +4,10 @@
 //! Its flag ROBUST changes both the triangle test and the box test, so there are two structures: `embree` and
 //! `embree-robust`. Only its own triangle test is available; brute force over it uses a scene of one triangle for each
 //! tested triangle ([`alone`]). Rays and packets of eight or sixteen are converted to its format before the clock
-//! starts: 48, 384 and 768 bytes, all that it reads. It writes the end of the hit into them, so each query copies them
-//! to the stack, followed by an empty hit. This is the cheapest way to repeat the same rays, and a renderer does the
-//! same if it generates rays on demand. Builds run on the threads of the caller. The shape of its tree is unknown, so
-//! the adapter reports one leaf.
+//! starts: 48, 384 and 768 bytes, all that it reads. A query overwrites the end of the ray (`tfar`) and writes the hit
+//! behind it, so each query gets a copy on the stack, followed by an empty hit. This is the cheapest way to repeat the
+//! same rays, and a renderer does the same if it generates rays on demand. Builds run on the threads of the caller. The
+//! shape of its tree is unknown, so the adapter reports one leaf.
 //!
 //! # References
 //! Wald, Woop, Benthin, Johnson, Ernst: Embree: a kernel framework for efficient CPU ray tracing. SIGGRAPH 2014.
@@ -72,7 +72,7 @@ impl Mode for Robust {
     const FLAGS: c_int = 4;
     const TEST: &'static str = "embree-plucker";
     const CLOSED_START: bool = true;
-    const CONVENTIONS: &'static [&'static str] = &["counts edges within rounding errors as hit"];
+    const CONVENTIONS: &'static [&'static str] = &["counts rays that pass an edge within rounding error as hits"];
 }
 
 /// The options of Embree.

@@ -1,6 +1,6 @@
 //! Rays in Embree's format: one, eight or sixteen.
 //!
-//! A query reads the ray, and writes the end of its interval and the hit: each query gets a copy of the ray.
+//! A query reads the ray, overwrites the end of its interval (`tfar`) and writes the hit, so each query gets a copy.
 
 use std::ffi::c_int;
 

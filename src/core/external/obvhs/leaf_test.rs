@@ -24,8 +24,8 @@ pub trait LeafTest: Send + Sync + 'static {
     /// Prepares a ray.
     fn prepare(ray: &Ray) -> Self::Ray;
 
-    /// The end of the interval of obvhs' ray, for a ray that ends before `t_max`: obvhs accepts no hit whose rounded
-    /// `t` is this end.
+    /// The `tmax` to give to obvhs for a ray with the exclusive end `t_max`: obvhs rejects hits whose rounded `t`
+    /// equals its `tmax`.
     #[inline(always)]
     fn end(t_max: f32) -> f32 {
         t_max

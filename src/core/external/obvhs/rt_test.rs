@@ -11,8 +11,8 @@ use crate::triangle::decided_at_once::decided_at_once;
 /// The triangle test of obvhs: Möller-Trumbore on precomputed edges and normal, 64 bytes per triangle.
 ///
 /// Wrapped as a test of this crate, which makes brute force over it a reference for the BVHs that use it. It reads
-/// signs from the sign bit of rounded quotients. Therefore it misses hits exactly on an edge if a coordinate is -0.0,
-/// from the back and on the third edge also from the front.
+/// signs from the sign bit of rounded quotients. Therefore it misses hits exactly on an edge if a barycentric
+/// coordinate is -0.0: on edges seen from the back, and on the third edge also from the front.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RtTest;
 

@@ -2,10 +2,11 @@
 //! per leaf (`BVH8_CPU`), which is its fastest layout on a processor with AVX2.
 //!
 //! A C++ compiler builds it, for the instructions of this machine. The crate only provides the closest hit, and
-//! declares a ray of 64 bytes instead of C++'s 128. So only its builders are called through the crate; both queries are
-//! called in the library that it links, by their names there, with a ray of the right size ([`query`]). The ray (unit
+//! declares a ray of 64 bytes instead of C++'s 128. Therefore only the builders are called through the crate; both
+//! queries call the linked C++ library directly, by symbol name, with a ray of the full size ([`query`]). The ray (unit
 //! direction, inverse) is made before the clock starts; for a closest hit it is copied to the stack, because the hit is
-//! written into it. Triangles are copied as corners of 16 bytes, its format; it builds large scenes on its own threads.
+//! written into it. Triangles are copied as corners of 16 bytes, the format of tinybvh, which builds large scenes on
+//! its own threads.
 //!
 //! # References
 //! Fuetterling, Lojewski, Pfreundt, Ebert: Accelerated single ray tracing for wide vector units. HPG 2017.
@@ -125,7 +126,7 @@ impl Prepare for TinyBvh {
 
 /// Builds through the two layouts from which its own layout is converted.
 fn built(corners: Positions, quality: Quality) -> Result<(bvh8_cpu::BVH, TreeShape), BuildError> {
-    let refusal = |error: tinybvh_rs::Error| BuildError::Mesh(format!("tinybvh refuses: {error}"));
+    let refusal = |error: tinybvh_rs::Error| BuildError::Mesh(format!("tinybvh reports an error: {error}"));
     let mut binary = match quality {
         Quality::Medium => bvh::BVH::new(corners),
         Quality::High => bvh::BVH::new_hq(corners),
