@@ -69,5 +69,5 @@ fn the_python_of_the_document_counts_the_errors_that_we_count() {
     let other = answered(&scene, RayKind::Uniform, 10, 3, &oracle).unwrap().1;
     let args = [&script, &write("f.truth", &other.to_bytes()), &folder.path().join("f.hits")];
     let refused = Command::new("python3").args(args).output().unwrap();
-    assert!(String::from_utf8_lossy(&refused.stderr).contains("answers to other rays"));
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("the hits belong to other rays"));
 }
