@@ -10,7 +10,6 @@
 //! references. Its [interval](fn@crate::measure::Rerun::change) decides the finding. The interval is corrected for the
 //! number of structures and of looks. Tables show the change of each cell, but it decides nothing.
 //!
-//! # In continuous integration
 #![doc = include_str!("GATE.md")]
 
 mod changes;
