@@ -45,7 +45,7 @@ pub use room::may_fit;
 /// hits is refused; a structure with wrong hits gets no time; all others continue. `watch` observes the builds.
 ///
 /// # Errors
-/// If the structures do not fit into memory, or the reference structure for secondary rays cannot be built.
+/// If the structures do not fit into memory, or the ray source of secondary rays cannot be built.
 pub fn measure(
     case: &Case,
     prepared: &Prepared,
