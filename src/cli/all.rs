@@ -20,10 +20,10 @@ pub const NAME: &str = "all";
 #[derive(Clone, Debug, clap::Args)]
 #[command(next_help_heading = MEASURING)]
 pub struct Args {
-    /// Folder of journals: the same command resumes there
+    /// Folder that keeps the results, one journal per study; repeat the command to resume an interrupted run
     #[arg(long, help_heading = OUTPUT, value_name = "DIR", default_value = RUNS)]
     dir: PathBuf,
-    /// Measure everything again; earlier results stay, and the newest count
+    /// Measure everything again. Earlier results are kept; reports use the newest result of each case
     #[arg(long)]
     fresh: bool,
     /// Run everything in one process: faster, but the intervals no longer cover memory-layout effects, and builds have
@@ -72,7 +72,7 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
         let words = match found {
             Status::Wrong => "wrong hits",
             Status::Failed => "failed",
-            Status::Refused => "a structure has no time",
+            Status::Refused => "a structure failed or was skipped",
             _ => "correct",
         };
         let took = duration(start.elapsed().as_nanos() as f64);

@@ -20,11 +20,12 @@ pub struct Args {
     /// New run
     #[arg(value_name = "B")]
     new: PathBuf,
-    /// Exit with status 3 if the estimated slowdown of a structure is at least PERCENT and the interval of this
-    /// slowdown lies above 0, else with status 4 if such an interval contains PERCENT or is missing
+    /// Exit with status 3 if a structure is at least PERCENT slower and the interval of its slowdown lies above 0;
+    /// otherwise with status 4 if the interval of any structure contains PERCENT or is unknown
     #[arg(long, help_heading = GATE, value_name = "PERCENT", value_parser = percent)]
     fail_on_regression: Option<f64>,
-    /// How often this comparison may be repeated in total while epochs are added; intervals widen accordingly
+    /// Total number of times that you will run this comparison while you add epochs (sequential looks); intervals are
+    /// widened to allow for it
     #[arg(long, help_heading = GATE, value_name = "N", default_value_t = 1, requires = "fail_on_regression", value_parser = clap::value_parser!(u8).range(1..=100))]
     looks: u8,
     /// Structure that is the same in both runs; changes are relative to it [default: the obvhs structures]

@@ -14,16 +14,16 @@ use crate::study::{Status, StudyError};
 pub(crate) const STATUSES: &str = "\
 Exit status:
   0    correct
-  1    bad usage, unreadable input, unwritable output, or a failed scene
+  1    bad usage, unreadable input, unwritable output, or a failed measurement
   2    wrong hits, different pictures, or a query that never returned
   3    regression (diff --fail-on-regression)
   4    inconclusive: measure more to tell whether the threshold is exceeded
   5    correct, but a structure failed to build, panicked or was skipped
   130  interrupted by Ctrl-C; with a journal the same command resumes
 
-Wrong hits of a baseline or peer with known defects do not change the status;
-tables name the defects. `-` as an output file is standard output; tables and
-messages then go to standard error.";
+Wrong hits of structures of other projects (obvhs, Embree, tinybvh, bvh, parry)
+with known defects do not change the status; tables name the defects. `-` as an
+output file is standard output; tables and messages then go to standard error.";
 
 /// Exits with the status of the result; prints an error first.
 pub(super) fn of(found: anyhow::Result<Status>) -> ExitCode {

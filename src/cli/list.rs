@@ -58,8 +58,8 @@ fn names(suite: &Suite) -> Table {
         ("meshes of scene files", GENERATORS.iter().map(|generator| generator.name).collect()),
         ("structures", suite.registry.names()),
         ("triangle tests", tests),
-        ("workloads of scenes", WorkloadKind::ALL.map(WorkloadKind::name).into()),
-        ("workloads of accuracy", RayKind::ALL.map(RayKind::name).into()),
+        ("workloads", WorkloadKind::ALL.map(WorkloadKind::name).into()),
+        ("workloads of `study accuracy`", RayKind::ALL.map(RayKind::name).into()),
         ("views", ViewKind::ALL.map(ViewKind::name).into()),
         ("studies", suite.studies.iter().map(|study| study.name).collect()),
     ];
@@ -105,20 +105,21 @@ fn declined(entry: &Entry) -> Vec<&'static str> {
     let mut declined = entry.capabilities.declined();
     if entry.observed != Observed::ALL {
         declined.push(match entry.observed {
-            Observed { tests: true, .. } => "steps",
-            Observed { steps: true, .. } => "triangle tests",
+            Observed { tests: true, .. } => "counts of steps",
+            Observed { steps: true, .. } => "counts of triangle tests",
             _ => "all counts",
         });
     }
     declined
 }
 
-/// How a structure differs from all others by design, and the reason why it is absent.
+/// How a structure deviates from the contract by design, and the reason why it is absent.
 fn remarks(entry: &Entry) -> Vec<String> {
     let name = &entry.name;
     let mut remarks = vec![];
     if !entry.conventions.is_empty() {
-        remarks.push(format!("{name} differs by design: {}.", entry.conventions.join("; ")));
+        remarks
+            .push(format!("{name} deviates by design from the contract of `Accel`: {}.", entry.conventions.join("; ")));
     }
     remarks.extend(entry.absence().map(|absence| format!("{name} is not available: {absence}.")));
     remarks
@@ -135,7 +136,7 @@ fn keys(registry: &Registry, name: &str) -> Table {
     let (mut shown, mut notes) = (vec![], vec![]);
     for [key, default, meaning, values] in rows {
         let short = values.chars().count() <= 28;
-        shown.push([key.clone(), default, if short { values.clone() } else { "see text".into() }]);
+        shown.push([key.clone(), default, if short { values.clone() } else { "see below".into() }]);
         let said = if short { String::new() } else { values };
         let words: Vec<String> = [meaning, said].into_iter().filter(|words| !words.is_empty()).collect();
         if !words.is_empty() {
@@ -144,7 +145,7 @@ fn keys(registry: &Registry, name: &str) -> Table {
     }
     let declined = declined(first);
     if !declined.is_empty() {
-        notes.push(format!("It declines {}.", declined.join(", ")));
+        notes.push(format!("{} does not support: {}.", first.name, declined.join(", ")));
     }
     notes.extend(remarks(first));
     let title = format!("{}: options, as in --structure {}:key=value,..", first.name, first.name);

@@ -40,7 +40,7 @@ pub struct Args {
     /// Scenes and mesh files instead of the studies' own
     #[arg(long, help_heading = SCENES, value_name = "SCENE|FILE", num_args = 1..)]
     scenes: Vec<OsString>,
-    /// More studies, followed by options: those below, or options of the named studies
+    /// More studies, then options: of this command, or of the named studies
     #[arg(value_name = "NAME|OPTION", trailing_var_arg = true, allow_hyphen_values = true)]
     rest: Vec<OsString>,
 }

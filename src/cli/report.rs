@@ -16,7 +16,7 @@ use crate::study::{Status, Studies};
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// Files of `--export-json`, folders of them and journals [default: runs]
+    /// Export files (`--export-json`), or folders of export files or journals [default: runs]
     #[arg(value_name = "RUN")]
     runs: Vec<PathBuf>,
     /// Folder for the page, Markdown, figures and data; replaces an older report there
@@ -36,8 +36,8 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
     let results = args.results.as_deref().map(ResultsFolder::check).transpose()?;
     anyhow::ensure!(
         !args.runs.is_empty() || Path::new(RUNS).exists(),
-        "there is no folder {RUNS} here: measure with `sahara compare --dir {RUNS}`, or name files of `--export-json` or \
-         folders"
+        "there is no folder {RUNS} here: measure with `sahara compare --dir {RUNS}`, or name export files \
+         (`--export-json`) or folders"
     );
     let paths = if args.runs.is_empty() { vec![PathBuf::from(RUNS)] } else { args.runs.clone() };
     let runs = Runs::read(&paths, &suite.studies)?;

@@ -20,11 +20,12 @@ pub const RUNS: &str = "runs";
 #[derive(Clone, Debug, Default, clap::Args)]
 #[command(next_help_heading = OUTPUT)]
 pub struct Common {
-    /// Folder of journals: the same command resumes there, and other scenes and settings add to it [default: runs; in
-    /// `compare`: no journal]
+    /// Folder that keeps the results, one journal per study. Repeat the command to resume an interrupted run; runs with
+    /// other scenes or settings are added [default: runs; in `compare`: no journal]
     #[arg(long, value_name = "DIR")]
     pub dir: Option<PathBuf>,
-    /// Measure every case again, even if the journal has it; earlier results stay, and the newest count
+    /// Measure every case again, even if the journal has it. Earlier results are kept; reports use the newest result of
+    /// each case
     #[arg(long, help_heading = MEASURING)]
     pub fresh: bool,
     /// Run everything in one process: faster, but the intervals no longer cover memory-layout effects, and builds have

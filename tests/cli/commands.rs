@@ -165,17 +165,17 @@ fn compare_has_a_short_help_and_a_whole_one_in_groups() {
 #[test]
 fn old_names_are_answered_with_the_new_ones() {
     for (old, new) in [
-        ("bench", ["bench was removed", "--fail-on-regression"]),
+        ("bench", ["`bench` was removed; use `sahara", "--fail-on-regression"]),
         ("hard cube", ["", "validate --hard"]),
         ("compare-runs a b", ["", "diff"]),
         ("counts cube", ["", "compare --wide"]),
-        ("study counts", ["counts was removed", "compare --wide"]),
-        ("study predictions", ["predictions was removed", "study all"]),
+        ("study counts", ["`counts` was removed", "compare --wide"]),
+        ("study predictions", ["`predictions` was removed", "study all"]),
         ("study crossover", ["", "sahara compare"]),
         ("study partitions cube --quick", ["", "sah-kd-tight"]),
         ("study plan threads", ["", "--threads"]),
-        ("compare cube --save-baseline main", ["--save-baseline was removed: `sahara compare", "sahara diff"]),
-        ("compare cube --baseline=main", ["--baseline was removed", "sahara diff"]),
+        ("compare cube --save-baseline main", ["`--save-baseline` was removed; keep a run with", "sahara diff"]),
+        ("compare cube --baseline=main", ["`--baseline` was removed", "sahara diff"]),
     ] {
         refuses_in_a_line(&words(old), &new);
     }

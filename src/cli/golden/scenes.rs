@@ -116,12 +116,12 @@ impl Targets {
             None => {
                 anyhow::ensure!(
                     is_default,
-                    "the built-in golden images are shaded, {} x {} pixels and use the scene's camera, but the request is {} \
-                     view {}: keep other images in a folder with --goldens DIR",
+                    "built-in golden images exist only for the shaded view, {} x {} pixels, from the scene's camera; for the \
+                     {} view{} pass --goldens DIR",
                     SIZE[0],
                     SIZE[1],
                     self.view.name(),
-                    self.from.words()
+                    if self.from.is_default() { String::new() } else { format!(" with {}", self.from.words()) }
                 );
                 SceneGolden::builtin(&name)
                     .with_context(|| format!("{name} has no built-in golden image: name a folder with --goldens DIR"))?
@@ -235,7 +235,7 @@ pub fn update(registry: &Registry, args: &UpdateArgs, terminal: &Terminal) -> an
         let what = match golden.update(&scene, accel.as_ref(), overwrite)? {
             Update::Same => "unchanged".into(),
             Update::New => "created".into(),
-            Update::Layout(old) => format!("replaced, it had {old}"),
+            Update::Layout(old) => format!("replaced (it had {old})"),
             Update::Changed(difference) => format!("replaced: {}", difference.sentence(golden.size)),
         };
         terminal.print(&format!("{}: {what}, {}\n", scene.name, golden.path().escaped()));

@@ -78,7 +78,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     for scene in scenes {
         let part = part(&scene, args, &waiting)?;
         if let Some(twice) = part.files.keys().find(|name| files.contains_key(*name)) {
-            anyhow::bail!("two of these scenes would write a file {twice}: rename one");
+            anyhow::bail!("two of these scenes would write the same file, {twice}: rename one scene");
         }
         rows.push(part.row(&scene));
         if !scene.stand_ins.is_empty() {

@@ -38,7 +38,7 @@ impl Run<'_> {
         };
         let output = request::output(self.registry, to, &args.scenes, args.source().file())?;
         let label = &choice.label;
-        let accel = args.build(choice, scene, &waiting).with_context(|| format!("the builder of {label}"))?;
+        let accel = args.build(choice, scene, &waiting).with_context(|| format!("cannot build {label}"))?;
         let can = accel.capabilities();
         let declined = workload.rays.iter().find_map(|ray| can.declines(ray));
         if let Some(what) = declined.or((workload.query == Query::Any && !can.any_hit).then_some("any hit")) {
@@ -57,7 +57,7 @@ impl Run<'_> {
         HitFile::new(workload, hits).write(&output)?;
         drop(waiting);
         let (path, results, hash) = (output.path.escaped(), plural(rays, "result"), workload.hash());
-        self.terminal.print(&format!("{path}: {results} of {label} for the rays {hash}\n"));
+        self.terminal.print(&format!("{path}: {results} of {label}; hash of the rays {hash}\n"));
         Ok(Status::Right)
     }
 

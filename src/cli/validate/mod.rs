@@ -66,8 +66,8 @@ pub struct Args {
     /// Instead of the workloads, trace adversarial rays, which are made to break traversals
     #[arg(long, help_heading = RAYS, conflicts_with_all = ["ray", "camera", "inside", "size"])]
     adversarial: bool,
-    /// Instead of scenes, run hard cases, which ray tracers are known to get wrong, by name or number (see
-    /// `sahara list hard`); each structure runs in its own process [default: all cases]
+    /// Run hard cases (inputs that ray tracers are known to get wrong) instead of scenes; CASE is a name or a number
+    /// (see `sahara list hard`). Each structure runs in its own process [default: all cases]
     #[arg(long, help_heading = SCENES, value_name = "CASE", num_args = 0.., conflicts_with_all = [
         "scenes", "ray", "adversarial", "hits", "export_hits", "against", "seed", "camera", "inside", "size",
     ])]
@@ -79,8 +79,9 @@ pub struct Args {
     /// Instead of structures, check the hits in this file, which belong to the ray file of --rays
     #[arg(long, help_heading = STRUCTURES, value_name = "F.hits", conflicts_with_all = ["structure", "runner", "quality", "export_hits", "limit"])]
     hits: Option<PathBuf>,
-    /// With --hits: the triangle test of these hits [default: unknown; exact arithmetic decides]. With --hard: run each
-    /// structure that offers this triangle test with it; may be repeated [default: each structure's own]
+    /// With --hits: triangle test that produced the hits [default: unknown; exact arithmetic decides]. With --hard: use
+    /// this triangle test in every structure that supports it; may be repeated [default: the default test of each
+    /// structure]
     #[arg(long, short, help_heading = STRUCTURES, value_name = "NAME")]
     test: Vec<String>,
     /// Count rounding of the triangle test as a failure (status 2)
@@ -92,8 +93,8 @@ pub struct Args {
     /// Write the hits of one structure for the ray file of --rays
     #[arg(long, help_heading = OUTPUT, value_name = "F.hits", conflicts_with = "against")]
     export_hits: Option<PathBuf>,
-    /// Time limit in seconds for each batch of 256 rays and for each build, where every million triangles adds the same
-    /// time again; with --hard, for a whole case. A structure that exceeds it counts as hanging. External programs have
+    /// Time limit in seconds for each batch of 256 rays, for each build (plus the same again per million triangles) or,
+    /// with --hard, for a whole case. A structure that exceeds it counts as hanging. External programs have
     /// --runner-limit instead
     #[arg(long, help_heading = STRUCTURES, value_name = "SECONDS", default_value_t = Seconds::whole(LIMIT.as_secs() as u32), allow_negative_numbers = true)]
     limit: Seconds,
@@ -172,7 +173,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     Ok(outcomes.iter().fold(Status::Right, |status, own| status.and(own.status(args.strict))))
 }
 
-const NEEDS_RAYS: &str = "hits need the rays that they belong to: pass --rays F.rays";
+const NEEDS_RAYS: &str = "--hits and --export-hits need a ray file: pass --rays F.rays";
 
 impl Args {
     fn source(&self) -> RaySource {

@@ -80,7 +80,7 @@ impl ReferenceChoice {
 impl fmt::Display for ReferenceChoice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.0 {
-            Some(choice) => write!(f, "{} over {}", choice.label, choice.triangle_test()),
+            Some(choice) => write!(f, "{} with triangle test {}", choice.label, choice.triangle_test()),
             None => write!(f, "brute force"),
         }
     }

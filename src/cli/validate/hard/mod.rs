@@ -183,7 +183,7 @@ pub fn described() -> Vec<String> {
         };
         [format!("{} {}: {what}", case.number, case.name), format!("   {} ({})", case.reason, case.source)]
     };
-    let head = "The cases 1 to 84 come from a survey, which is the source \"survey\". Two cases have the number 23; \
-                `--hard 23` runs both.";
+    let head = "Cases 1 to 84 come from a survey, cited below as \"survey\". Two cases have the number 23; `--hard 23` \
+                runs both.";
     std::iter::once(head.to_owned()).chain(catalogue().iter().flat_map(lines)).collect()
 }

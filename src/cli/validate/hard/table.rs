@@ -16,12 +16,12 @@ pub const LEGEND: [&str; 4] = [
     "Dot: no error. m: missed, d: wrong depth (t off by more than 4 ulps and more than 1e-6; after the slash: off by \
      more than 1 %, or 0.1 % on another primitive), S: structure errors, all in percent of the true hits. f: false \
      hits, in percent of the rays.",
-    "S counts hits that the structure lost or changed although exact arithmetic confirms them and no rounding of the \
-     triangle test could hide them. c: rays on which any hit, closest hit and batches contradict each other.",
+    "S counts hits confirmed by exact arithmetic that the structure lost or changed and that no rounding of the \
+     triangle test explains. c: rays on which any hit, closest hit and batches contradict each other.",
     "hang, panic, crash: no result. refused: the build over this mesh failed. declined: the structure does not \
      support such rays. The true hits are exact; the ray interval is half-open.",
     "Star: not in the totals (the input is invalid, systems disagree on the correct hit, or nothing can be hit). \
-     Plus: an addition to the catalogue's measured cases.",
+     Plus: added after the survey; not in the totals.",
 ];
 
 /// The nonempty tables of a run: hits, errors of t, times of invalid rays, properties, totals.
@@ -171,8 +171,8 @@ fn totals(cases: &[&HardCase], columns: &[Column]) -> Table {
         rows.push(row);
     }
     let note = format!(
-        "(+n): cases without a result; their rays are in no sum. f: number of false hits. E: m, d and f together, in \
-         percent of all rays. A structure that traces all rays has {}.",
+        "(+n): n cases without a result, which the sums leave out. f: number of false hits. E: m, d and f together, in \
+         percent of all rays. m, d and S: in percent of {}, or fewer if a structure does not trace all rays.",
         plural(most_hits as usize, "true hit")
     );
     Table::new("Totals", names, rows).noted(vec![note])
