@@ -77,11 +77,12 @@ pub const LEGEND: [&str; 3] = [
     "hits: rays with a hit in the reference. wrong: hits that no rounding of the triangle test explains, contradictions, panics \
      and queries that never return; a correct structure has none. rounded: hits that differ from the reference because the \
      triangle test rounds; they change the exit status only with --strict.",
-    "structure errors: hits that the structure lost or invented; its triangle test, run over all triangles, has other results. \
-     answer errors: wrong hits of a structure whose triangle test sahara does not have; exact arithmetic finds them, and no \
-     rounding explains them. depth errors: depths of such a structure that are off by more than 4 ulps and more than 1e-6, but \
-     within the bound on rounding.",
-    "test errors: errors of the triangle test, not of the structure. ties: hits on another triangle at the same t; not errors.",
+    "structure errors: hits that the structure lost or invented; its triangle test, run over all triangles, has other \
+     results. answer errors: wrong hits of a structure whose triangle test sahara does not have; exact arithmetic \
+     finds them, and no rounding explains them. depth errors: depths of such a structure that are off by more than 4 \
+     ulps and more than 1e-6, but within the bound on rounding.",
+    "test errors: errors of the triangle test, not of the structure. ties: hits on another triangle at the same t; not \
+     errors.",
 ];
 
 /// One row per ray: number of the ray, t, triangle, and the position on it.

@@ -12,7 +12,7 @@ pub fn figure(number: usize, of_kind: &JudgedRays) -> Figure {
     let JudgedRays { epoch, kind, structures, .. } = of_kind;
     let front = structures.iter().filter(|own| own.dominated_by.is_none()).map(|own| {
         let (ns, error) = (figures(own.ns_per_ray), figures(100.0 * own.error_bound));
-        format!("{}, {ns} ns per ray, error at most {error} %", own.structure.label)
+        format!("{}, {ns} ns per ray, wrong results at most {error} % (95 % confidence)", own.structure.label)
     });
     let front: Vec<String> = front.collect();
     let few = if structures.len() > LABELLED {

@@ -22,14 +22,18 @@ pub fn finding(of_kind: &JudgedRays) -> Option<Finding> {
         }
     }
     let rays = count(own.iter().map(|judged| judged.errors.rays).max()?);
-    let right = match &right[..] {
-        [] => format!("with every triangle test, some structures of ours return wrong results on {rays} rays"),
-        [test] => format!("with the triangle test {test}, our structures return no wrong result on {rays} rays"),
-        tests => {
-            format!("with the triangle tests {}, our structures return no wrong result on {rays} rays", listed(tests))
-        }
+    let (right, other) = match &right[..] {
+        [] => ("with every triangle test, some of our structures return wrong results".to_owned(), ""),
+        [test] => (format!("our structures return no wrong result with the triangle test {test}"), " with other tests"),
+        tests => (
+            format!("our structures return no wrong result with the triangle tests {}", listed(tests)),
+            " with other tests",
+        ),
     };
-    let wrong = if wrong.is_empty() { String::new() } else { format!("; share of wrong results: {}", listed(&wrong)) };
+    let wrong = match &wrong[..] {
+        [] => String::new(),
+        wrong => format!("; share of wrong results{other}: {}", listed(wrong)),
+    };
     let without = own.iter().filter(|judged| judged.errors.errors() == 0);
     let fastest = without.min_by(|one, other| one.ns_per_ray.total_cmp(&other.ns_per_ray));
     let fastest = fastest.map_or(String::new(), |judged| {
@@ -37,5 +41,5 @@ pub fn finding(of_kind: &JudgedRays) -> Option<Finding> {
     });
     let (scene, kind) = (of_kind.epoch.title(), of_kind.kind);
     let key = slug(&format!("{} {kind}", of_kind.epoch.scene));
-    Some(Finding::new(key, format!("{scene}, {kind} rays: {right}{wrong}{fastest}.")))
+    Some(Finding::new(key, format!("{scene}, {rays} {kind} rays: {right}{wrong}{fastest}.")))
 }

@@ -1,4 +1,4 @@
-//! `accuracy`: error and speed. Every structure over every triangle test traces the same rays; the exact oracle judges
+//! `accuracy`: error and speed. Every structure with every triangle test traces the same rays; the exact oracle judges
 //! the hits, and one thread is timed.
 
 mod figure;
@@ -28,7 +28,7 @@ use judged::{JudgedRays, judged};
 
 pub const STUDY: Study = Study {
     name: "accuracy",
-    question: "Measure error rates and speed of every structure over every triangle test",
+    question: "Measure error rates and speed of every structure with every triangle test",
     presets: Presets {
         full: "dragon cornellbox -w uniform -w vertex -w grazing",
         quick: "cube -w vertex --rays 500 --runs 2 --budget 1",
@@ -42,7 +42,7 @@ pub const STUDY: Study = Study {
 struct AccuracyArgs {
     #[command(flatten)]
     scenes: Scenes,
-    /// Structure with options, over every triangle test unless `test=` is given; may be repeated [default: all;
+    /// Structure with options; measured with all triangle tests unless `test=` is given; may be repeated [default: all;
     /// brute-force only on meshes of at most 5,000 triangles]
     #[arg(long, short, help_heading = STRUCTURES, value_name = "NAME[:key=value,..]")]
     structure: Vec<String>,
@@ -148,9 +148,10 @@ fn report(dataset: &Dataset, _: &ArgMatches) -> Report {
     let all = judged(dataset);
     let kinds = each_once(all.iter().map(|of_kind| (of_kind.kind, of_kind.description())));
     let kinds: Vec<String> = kinds.iter().map(|(kind, description)| format!("{kind}: {description}")).collect();
-    let text = "Exact arithmetic gives the true hit of every ray. Errors on different workloads are never pooled, because \
-                they have different causes. The front contains the structures that no other one beats in both speed and \
-                error.";
+    let text = "Exact arithmetic gives the true hit of every ray. A result is wrong if the hit is missed, invented or \
+                at a wrong depth; a range of shares is over our structures. Errors on different workloads are never \
+                pooled, because they have different causes. The front contains the structures that no other one beats \
+                in both speed and error.";
     let mut blocks = vec![Block::Text(text.into())];
     blocks.extend((!kinds.is_empty()).then(|| Block::Text(format!("Workloads: {}.", kinds.join("; ")))));
     for (i, of_kind) in all.iter().enumerate() {

@@ -24,7 +24,10 @@ pub fn table(of_kind: &JudgedRays) -> Table {
     let timed = of_kind.most(|own| own.rays.rays as u64);
     for own in structures.iter().filter(|own| (own.rays.rays as u64) < timed) {
         let [few, all] = [own.rays.rays as u64, timed].map(count);
-        notes.push(format!("{}: timed on {few} of the {all} rays of the others", own.structure.label));
+        notes.push(format!(
+            "{}: timed on {few} of the {all} rays on which other structures are timed",
+            own.structure.label
+        ));
     }
     let tone = |own: &Judged| if own.dominated_by.is_none() { Tone::Best } else { Tone::Plain };
     let errors = |n: u64| Cell::from(n).with(if n > 0 { Tone::Wrong } else { Tone::Plain });
@@ -63,8 +66,8 @@ pub const LEGEND: [&str; 4] = [
      Pearson; about 3/n for no error in n rays).",
     "primitive: hits on a triangle that is not the nearest, however small the difference; not part of the error. ulps: \
      error of t on the correct triangle; at most 0.5 is correctly rounded.",
-    "dominated by: a structure that is at most as slow and at most as wrong, and better in one of the two; blank on the \
-     front.",
+    "dominated by: a structure that is at most as slow and at most as wrong, and better in one of the two; blank on \
+     the Pareto front (no other structure is at most as slow, at most as wrong, and better in one of the two).",
 ];
 
 /// One row per structure and workload.

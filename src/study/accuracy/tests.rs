@@ -61,8 +61,8 @@ fn exact_is_right_and_single_precision_is_not() {
     assert!(report.failures.is_empty());
     let keys: Vec<&str> = report.findings.iter().map(|finding| finding.key.as_str()).collect();
     assert_eq!(keys, ["torus-edge", "torus-grazing"]);
-    let told = "Torus, edge rays: with the triangle test exact, our structures return no wrong result on 400 rays; share of \
-                wrong results: moller-trumbore";
+    let told = "Torus, 400 edge rays: our structures return no wrong result with the triangle test exact; share of \
+                wrong results with other tests: moller-trumbore";
     assert!(report.findings[0].sentence.starts_with(told), "{}", report.findings[0].sentence);
     assert!(report.tables().all(|table| table.of_scene && table.rows.len() == 2 && table.notes.is_empty()));
     assert_eq!((report.tables().count(), report.data.rows.len()), (2, 4));

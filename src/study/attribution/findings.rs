@@ -44,7 +44,9 @@ fn parts(hard: &[&Attribution]) -> Option<Finding> {
     let scenes = listed(&hard.iter().map(|r| r.first().scene_title()).collect::<Vec<_>>());
     let told = |factor: &Factor| {
         let parts: Vec<String> = hard.iter().map(|r| interval(r.part(*factor))).collect();
-        format!("{} {}", factor.name(), listed(&parts))
+        // The documents quote this sentence before they explain the stop rule.
+        let meaning = if *factor == Factor::Stop { " (when a node becomes a leaf)" } else { "" };
+        format!("{}{meaning} {}", words(*factor), listed(&parts))
     };
     // The first on all scenes: its interval lies above the intervals of the other factors.
     let first = Factor::ALL.into_iter().find(|&factor| {
@@ -52,26 +54,36 @@ fn parts(hard: &[&Attribution]) -> Option<Finding> {
         hard.iter().all(|r| Factor::ALL.into_iter().all(|other| other == factor || above(r, other)))
     });
     let most = match first {
-        Some(factor) => format!("On {scenes} most of the speedup is due to the {}", factor.name()),
-        None => format!("On {scenes} no one of the three gives most of the speedup everywhere"),
+        Some(Factor::Plane) => format!("On {scenes} most of the speedup comes from the choice of split planes"),
+        Some(factor) => format!("On {scenes} most of the speedup comes from the {}", factor.name()),
+        None => format!(
+            "No single factor gives most of the speedup on {}{scenes}",
+            if hard.len() > 1 { "all of " } else { "" }
+        ),
     };
     let factors = Factor::ALL.iter().map(told).collect::<Vec<_>>().join("; ");
     let order = if hard.len() > 1 { ", in the order of the scenes" } else { "" };
     (!hard.is_empty()).then(|| Finding::new("parts", format!("{most}. The factors{order}: {factors}.")))
 }
 
-/// `Dragon: speedup 21.1 = plane 1.60 x stop rule 9.10 x traversal 1.45`, and the ranges over the orders in which the
-/// three factors are exchanged.
+/// The name of a factor in sentences.
+fn words(factor: Factor) -> &'static str {
+    if factor == Factor::Plane { "split plane" } else { factor.name() }
+}
+
+/// The speedup of a scene as a product of its factors, and the ranges of the factors over the orders in which the three
+/// are exchanged.
 pub fn split(r: &Attribution) -> Finding {
     let whole = r.whole();
-    let [plane, stop, traversal] = Factor::ALL.map(|factor| figures(r.part(factor).estimate));
+    let parts = Factor::ALL.map(|factor| format!("{} {}", words(factor), figures(r.part(factor).estimate)));
     let orders =
-        Factor::ALL.map(|factor| format!("the {} {}", factor.name(), r.range(factor).map(figures).join(" to ")));
+        Factor::ALL.map(|factor| format!("{} for the {}", r.range(factor).map(figures).join(" to "), words(factor)));
     let sentence = format!(
-        "{}: speedup {} = plane {plane} x stop rule {stop} x traversal {traversal}, each the mean over all orders of \
-         exchanging the three; in single orders {}.",
+        "{}: the speedup of {} is the product of three factors: {}. Each is the geometric mean of its gains over all \
+         six orders in which the three can be exchanged; in single orders the gain is {}.",
         r.first().scene_title(),
         figures(whole.estimate),
+        listed(&parts),
         listed(&orders)
     );
     Finding::new(format!("split-{}", slug(&r.first().scene)), sentence).with_value(whole)

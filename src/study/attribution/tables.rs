@@ -13,10 +13,10 @@ pub fn blocks(results: &[Attribution]) -> Vec<Block> {
     }
     let mut sorted: Vec<&Attribution> = results.iter().collect();
     sorted.sort_by_key(|r| HARD.iter().position(|name| r.first().scene == *name).unwrap_or(HARD.len()));
-    let text = "The study builds one type of tree in every combination of six split planes, three stop rules and two \
-                traversals. The report's tree and the SAH tree differ in these three factors. The part of a factor is \
-                the geometric mean of its gains over all orders in which the three can be exchanged (its Shapley \
-                value), so the parts multiply to the whole. A part below 1 is a slowdown.";
+    let text = "The study builds one type of tree in every combination of six rules for split planes, three stop rules \
+                and two traversals. The report's tree and the SAH tree differ in these three choices. The factor of a \
+                choice is the geometric mean of its gains over all orders in which the three can be exchanged (its \
+                Shapley value), so the three factors multiply to the whole speedup. A factor below 1 is a slowdown.";
     vec![
         Block::Text(text.into()),
         Block::figure(figure(&sorted)),
@@ -61,10 +61,10 @@ fn headlines(results: &[&Attribution]) -> Table {
             ("plane alone", &|r| r.plane_alone().into()),
         ],
     );
-    let note = "whole: speedup of the SAH tree over the report's tree; the three parts multiply to it. plane alone: \
-                speedup of the exact SAH plane over the report's plane if both trees stop at 8 triangles, as far as \
-                planes separate them, and both are traversed by plane intervals. Intervals are 95 % prediction \
-                intervals for a rerun.";
+    let note = "whole: speedup of the SAH tree over the report's tree; the three factors multiply to it. plane alone: \
+                speedup of the exact SAH split plane over the report's split plane, if both trees split nodes of more \
+                than 8 triangles (unless no plane separates the triangles) and both use the traversal plane intervals, \
+                which clips the ray interval at each split plane. Intervals are 95 % prediction intervals for a rerun.";
     let noise = results.first().and_then(|r| r.noise.log()).unwrap_or(0.0);
     let noise = format!("A/A noise of all scenes: a factor of {:.3}.", libm::exp(noise));
     table.noted(vec![note.into(), noise]).explained()

@@ -43,10 +43,10 @@ pub fn mean_table(all: &[Measurement], references: &[Reference]) -> Table {
         rows.iter().map(shown).collect()
     };
 
-    let against = references.first().map_or("?", Reference::name);
+    let against = references.first().map_or("?".into(), Reference::words);
     let over = plural(distinct(all.iter().map(|r| &r.scene)).len(), "scene");
     let title =
-        format!("Speed relative to {against}: geometric means over {over}; column all: over scenes and workloads");
+        format!("Speed relative to {against}: geometric means over {over} (column all: over scenes and workloads)");
     let mut table = Table::of(title, &structures, &[("structure", &|label| (*label).into())]);
     if let Some(first) = references.first() {
         workloads.iter().for_each(|workload| table.push_column(workload, column(first, Some(workload))));

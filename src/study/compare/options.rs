@@ -35,7 +35,7 @@ pub struct CompareArgs {
     /// Timeout in seconds for each reply of an external program, including builds
     #[arg(long, help_heading = STRUCTURES, value_name = "SECONDS", requires = "runner", default_value_t = RUNNER_LIMIT, allow_negative_numbers = true)]
     pub runner_limit: Seconds,
-    /// Structure that speeds are relative to; always measured [default: median-kd and the better obvhs BVH, if
+    /// Structure that speeds are relative to; always measured [default: median-kd and the faster obvhs BVH, if
     /// measured, else the first structure]
     #[arg(long, help_heading = STRUCTURES, value_name = "NAME[:key=value,..]")]
     pub reference: Option<String>,
@@ -51,8 +51,8 @@ pub struct CompareArgs {
     pub rays: RaySource,
     #[command(flatten)]
     pub measuring: Measuring<4, 1, 2>,
-    /// Stop before the first build if `diff` could not compare the results with this run: a file of --export-json or a
-    /// folder of --dir
+    /// Stop before the first build if `diff` could not compare the results with the earlier run RUN, an export file
+    /// (--export-json) or a folder of --dir
     #[arg(long, help_heading = MEASURING, value_name = "RUN")]
     pub like: Option<PathBuf>,
     /// Coarse result in seconds: few rays, up to three epochs and about 4 s per scene; no brute-force unless named

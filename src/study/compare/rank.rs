@@ -76,7 +76,7 @@ impl<'a> Ranking<'a> {
         let errs = |row: &&Ranked| self.all.iter().any(|own| own.label == row.label && own.is_disqualified());
         let right: Vec<&Ranked> = precise.iter().copied().filter(|row| !errs(row)).collect();
         let ranks = [
-            ("right", "with precise triangle tests and no wrong hits", &right),
+            ("right", "with double-precision or exact triangle tests and no wrong hits", &right),
             ("single", "in single precision", &single),
         ];
         let firsts = ranks.into_iter().filter_map(|(key, words, rows)| self.first(key, words, rows));
@@ -131,15 +131,15 @@ impl<'a> Ranking<'a> {
         };
         let (reference, times) = (self.reference.words(), interval(value));
         let told = match () {
-            () if value == Estimate::exact(1.0) => "the others are compared with it".to_owned(),
+            () if value == Estimate::exact(1.0) => "it is itself the reference".to_owned(),
             () if value.holds(1.0) => {
                 format!("it is not distinguishable from {reference}: {times} times the rays per second")
             }
             () => format!("it traces {times} times the rays per second of {reference}"),
         };
-        let (ranked, over) = (plural(rows.len(), "structure"), plural(self.cells.len(), "cell"));
+        let (ranked, over) = (plural(rows.len(), "structure"), plural(self.cells.len(), "common cell"));
         let sentence = format!(
-            "Of {ranked} {words}, {label} has the highest mean speed over {over} of scene and workload: {told}{level}."
+            "Of {ranked} {words}, {label} has the highest mean speed over {over} (scene and workload): {told}{level}."
         );
         Some((Finding::new(key, sentence).with_value(value), Finding::named(FASTEST, names)))
     }
@@ -164,8 +164,7 @@ impl<'a> Ranking<'a> {
         };
         let test = &costs[0].0.triangle_test;
         let sentence = format!(
-            "With the triangle test {test}, structures take {told} times as long as the same structures in single \
-             precision."
+            "Structures take {told} times as long with the triangle test {test} as with a test in single precision."
         );
         Some(Finding::new("cost", sentence))
     }
@@ -209,8 +208,8 @@ mod tests {
 
         let findings = ranking.findings();
         let told: Vec<&str> = findings.iter().map(|finding| finding.sentence.as_str()).collect();
-        let first = "Of 2 structures with precise triangle tests and no wrong hits, fast has the highest mean speed over 2 \
-                     cells";
+        let first = "Of 2 structures with double-precision or exact triangle tests and no wrong hits, fast has the \
+                     highest mean speed over 2 common cells";
         assert!(told[0].starts_with(first), "{told:?}");
         assert!(told[0].contains("traces 2.00") && !told[0].contains("distinguishable"), "{told:?}");
         assert!(told[1].starts_with(&format!("Of 3 structures in single precision, {} has", single[0])), "{told:?}");

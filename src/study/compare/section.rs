@@ -27,11 +27,12 @@ pub fn checked(all: &[Measurement]) -> Option<Finding> {
     let erring: Vec<String> = distinct(all.iter().map(|r| &r.label)).iter().filter_map(of).collect();
     let erring = match &erring[..] {
         [] => String::new(),
-        erring => format!(" With wrong hits, so without a time on these rays: {}.", listed(erring)),
+        erring => format!(" Not timed in the cells with wrong hits: {}.", listed(erring)),
     };
     let (wrong, rays) = sum(&|r| r.declined.is_none() && known_defect(&r.structure).is_none());
     let sentence = format!(
-        "Wrong hits: {} in {} rays, known defects excluded (by another tree, brute force and exact arithmetic).{erring}",
+        "Wrong hits: {} in {} rays checked by another tree, brute force and exact arithmetic (known defects \
+         excluded).{erring}",
         count(wrong),
         count(rays)
     );

@@ -18,7 +18,7 @@ const PACKETS: &str = "batch=packets";
 pub fn legend(all: &[Measurement], references: &[Reference]) -> Vec<String> {
     let column = |own: &Reference| format!("x {}: speed against {}", own.name(), own.words());
     let mut ratios = references.iter().map(column).collect::<Vec<_>>().join("; ");
-    ratios += ", geometric mean over the row on the same rays";
+    ratios += "; each is the geometric mean over the workloads of the row, on the same rays";
     if all.iter().any(|r| r.epochs > 1) {
         ratios +=
             ", with 95 % prediction intervals for a rerun on an equally quiet machine; =: not distinguishable from 1";
@@ -31,7 +31,7 @@ pub fn legend(all: &[Measurement], references: &[Reference]) -> Vec<String> {
         speeds += "; ~: timed on a subset of the rays";
     }
     if all.iter().any(|r| r.query == Query::Any) {
-        speeds += "; *: any hit, the others closest hit";
+        speeds += "; *: any-hit query, all other columns: closest-hit query";
     }
     let mut legend = vec![speeds + ".", ratios + "."];
     let has = |part: &str| all.iter().any(|r| r.label.contains(part));
@@ -53,7 +53,7 @@ pub fn refusals(refused: &[&Structure]) -> Vec<String> {
 
 /// A scene whose structures are all refused.
 pub fn nothing_measured(scene: &str, refused: &[&Structure]) -> Table {
-    let title = format!("{scene}: every structure failed to build, or no ray is left");
+    let title = format!("{scene}: no structure could be measured");
     Table::of(title, refused, &[("structure", &|own| (&own.label).into())]).of_one_scene()
 }
 
@@ -117,13 +117,13 @@ pub(super) fn control(all: &[Measurement]) -> Option<String> {
     let (twins, label) = (trace_noise(all), &all.iter().find(|r| r.twin_samples_ns.is_some())?.label);
     let noise = libm::exp(twins.log()?) - 1.0;
     let holding = twins.holding_one();
-    let holding = holding.map_or(String::new(), |(n, all)| format!("; {n} of {all} intervals contain 1"));
+    let holding = holding.map_or(String::new(), |(n, all)| format!("; {n} of {all} intervals of the ratio contain 1"));
     // The scatter of the epochs may hide the noise: that does not prove that there is none.
     let noise = match noise {
         0.0 => "none beyond the variation of the epochs".into(),
         _ => format!("{}%", figures(noise * 100.0)),
     };
-    Some(format!("A/A noise ({label} twice): {noise}{holding}."))
+    Some(format!("A/A noise ({label} built twice and compared with itself): {noise}{holding}."))
 }
 
 /// A footnote for each baseline with wrong hits from a known defect.

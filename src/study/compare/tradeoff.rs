@@ -31,10 +31,10 @@ pub fn figure(scenes: &[Vec<Measurement>], references: &[Reference]) -> Option<F
         caption: format!(
             "{}, {} rays: speed against memory. Higher is faster, further left is smaller; both axes are logarithmic. \
              The solid line joins the structures that no other one beats in both speed and memory. The web page has \
-             this plot for every scene and workload, and also with build time instead of memory; a dashed line then \
-             marks where building and tracing a chosen number of rays takes as long as with the structure that \
-             finishes first. Points are medians on the same rays; the tables have their intervals. Brute force is left \
-             out.",
+             this plot for every scene and workload, and also with build time instead of memory. In the plot with \
+             build time, points on the dashed line need the same total time, for the build and a chosen number of \
+             rays, as the structure with the least total time. Points are medians on the same rays; the tables have \
+             their intervals. Brute force is left out.",
             first.scene, first.workload
         ),
         alt,

@@ -56,7 +56,7 @@ fn rays(main: &[Replicated]) -> Option<Finding> {
     let exceptions = if far.is_empty() { String::new() } else { format!("; {}", listed(&far)) };
     let (close, all) = (main.len() - far.len(), plural(main.len(), "scene"));
     let sentence = format!(
-        "Without the hard scenes, our ray counts match the report's within {CLOSE} rays in {close} of {all}{exceptions}."
+        "Outside the hard scenes, our ray counts match the report's within {CLOSE} rays in {close} of {all}{exceptions}."
     );
     (!main.is_empty()).then(|| Finding::new("rays", sentence))
 }
@@ -80,6 +80,10 @@ fn order(main: &[Replicated]) -> Option<Finding> {
     let order = Order::of(&ranked.collect::<Option<Vec<_>>>()?, CLAIMS);
     let reversed = order.reversed.iter().map(|&[more, less]| [names[more], names[less]].join(" improves less than "));
     let reversed = listed(&reversed.collect::<Vec<_>>());
-    let told = format!("Improvements over brute force that are significantly out of the expected order: {reversed}.");
+    let expected = names.join(" > ").replacen('>', "~", 1);
+    let told = format!(
+        "The expected order of the improvements over brute force is {expected}. Significantly out of this order: \
+         {reversed}."
+    );
     Some(Finding::new("order", if reversed.is_empty() { String::new() } else { told }).with_value(order.tau))
 }

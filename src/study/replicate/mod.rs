@@ -69,8 +69,8 @@ fn structures(registry: &Registry, row: &Row) -> anyhow::Result<Vec<StructureReq
 fn report(dataset: &Dataset, _: &ArgMatches) -> Report {
     let all = replicated(dataset);
     let (main, hard) = all.split_at(all.partition_point(|own| !own.report.is_hard()));
-    let text = "Rays, seconds and settings of the source report next to ours. Seconds come from different machines \
-                and code: compare their ratios.";
+    let text = "The tables compare rays, seconds and settings of the source report with ours. The seconds come from \
+                different machines and code: compare only their ratios.";
     let tables = tables::tables(&all, main, hard).into_iter().map(Block::Table);
     let findings = findings(main, hard);
     Report {

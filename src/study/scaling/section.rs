@@ -163,8 +163,8 @@ fn exponents(family: &[Growth]) -> Option<Table> {
         ],
     );
     let note = "Least squares on logarithms over the meshes on which the structure has more than one leaf, with 95 % \
-                intervals for a rerun on these meshes; counts and memory do not vary. +-: half of the 95 % interval \
-                of the exponent of time from the scatter of the meshes.";
+                intervals for a rerun on these meshes; counts and memory do not vary. +-: half-width of the 95 % \
+                interval of the time exponent that follows from how far the meshes scatter about the fitted line.";
     family.iter().any(|growth| growth.time.is_some()).then(|| table.noted([note]).explained())
 }
 
