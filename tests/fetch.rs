@@ -133,7 +133,7 @@ fn what_is_wrong_is_refused_in_a_sentence_and_not_kept() {
     let server = Server::start();
     for (path, bytes, parts) in [
         ("/wrong", Some(mesh().len()), ["SHA-256", "nothing is kept"]),
-        ("/long", Some(mesh().len()), ["more than", "nothing is kept"]),
+        ("/long", Some(mesh().len()), ["more than", "the download was discarded"]),
         ("/missing", None, ["404", "the file is gone"]),
         ("/broken", None, ["503", "try again later"]),
         ("/circle", None, ["redirects", "circle"]),

@@ -39,7 +39,8 @@ pub enum FetchError {
     #[error("{url}: {cause}: check the connection and fetch again")]
     Connection { url: String, cause: String },
     #[error(
-        "{url}: the file has more than {most} bytes, the size in the scene file or the default limit: nothing is kept"
+        "{url}: the file has more than {most} bytes (the size in the scene file, or the default limit): the download \
+         was discarded"
     )]
     TooLarge { url: String, most: u64 },
     #[error(
@@ -55,7 +56,7 @@ pub enum FetchError {
 
 fn advice(status: u16) -> &'static str {
     match status {
-        404 | 410 => "the file is gone; search for the mesh by its origin",
+        404 | 410 => "the file is gone; `sahara fetch --list` prints its origin, to search for another copy",
         401 | 403 => "it restricts access to the file",
         429 | 500.. => "try again later",
         _ => "open the address in a browser",

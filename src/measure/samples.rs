@@ -52,8 +52,8 @@ pub struct SamplePlan {
 pub struct Samples {
     /// Rays of a sample; fewer than the case has if it is slow.
     pub rays: usize,
-    /// The level of the rays of [`checksum`](Self::checksum), if they are not the rays of the samples. They are rays of
-    /// epoch 0.
+    /// The level of the rays over which [`checksum`](Self::checksum) is computed, if these are not the sampled rays;
+    /// they are drawn from the tiles of epoch 0.
     pub asked: Option<usize>,
     /// The checksum of the results; it is the same in all epochs.
     pub checksum: u64,
@@ -62,7 +62,7 @@ pub struct Samples {
     pub timed_checksum: u64,
     /// Time of each sample, ns, in the order of the rounds: samples of two cases with the same index are a pair.
     pub ns: Vec<u64>,
-    /// The same samples, restricted to a subset of their rays, for comparison with slower cases.
+    /// The samples of `ns`, restricted to a subset of their rays, for comparison with slower cases.
     pub parts: Vec<SubsetSamples>,
     /// Whether the same rays had the same results every time.
     pub is_steady: bool,

@@ -6,7 +6,10 @@ use crate::study::journal::JournalError;
 /// The reason why runs cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
-    #[error("{} is JSON, but not a run of sahara: name files of `--export-json` or of a study", path.escaped())]
+    #[error(
+        "{} is JSON, but not a run of sahara: name export files (`--export-json`) or files of a journal",
+        path.escaped()
+    )]
     Foreign { path: PathBuf },
     #[error("{} belongs to the study {study:?}, which this sahara does not have: omit it", path.escaped())]
     Unknown { path: PathBuf, study: String },

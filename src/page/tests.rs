@@ -183,7 +183,7 @@ fn of_two_runs_the_newest_cases_count_and_what_is_not_shown_is_said() {
     type Case<'a> = (Files, &'a [&'a str], &'a [&'a str], &'a str);
     let cases: [Case; 6] = [
         (export("compare", &three, &old), &three, &[], ""),
-        (again, &three, &[], "compare: 1 case measured again later"),
+        (again, &three, &[], "compare: 1 case was measured again"),
         (journal("compare", &["Torus"], &new), &["Cube", "Dragon", "Lucy", "Torus"], &[], ""),
         (journal("compare", &["Torus"], &other_cpu), &three, &["Torus"], ""),
         (export("compare", &["Torus"], &other_commit), &three, &["Torus"], ""),
@@ -215,12 +215,12 @@ fn what_cannot_be_read_is_one_sentence() {
     let changed = |from: &str, to: &str| case.replacen(from, to, 1).into_bytes();
     let newer = String::from_utf8(export.clone()).unwrap().replacen("\"schema\":4", "\"schema\":5", 1);
     let cases: [(&str, Vec<u8>, &str); 10] = [
-        ("torn.json", export[..export.len() / 2].to_vec(), "does not read"),
-        ("empty.json", vec![], "does not read"),
-        ("text.json", b"hello".to_vec(), "does not read"),
+        ("torn.json", export[..export.len() / 2].to_vec(), "cannot be parsed"),
+        ("empty.json", vec![], "cannot be parsed"),
+        ("text.json", b"hello".to_vec(), "cannot be parsed"),
         ("other.json", b"{\"a\": 1}".to_vec(), "not a run of sahara"),
         ("list.json", b"[1, 2]".to_vec(), "not a run of sahara"),
-        ("half.json", case.as_bytes()[..case.len() / 2].to_vec(), "does not read"),
+        ("half.json", case.as_bytes()[..case.len() / 2].to_vec(), "cannot be parsed"),
         ("astrology.json", changed("\"study\":\"compare\"", "\"study\":\"astrology\""), "astrology"),
         ("broken.json", changed("\"scene_hash\":", "\"scene_hush\":"), "missing field `scene_hash`"),
         ("old.json", changed("\"schema\":4", "\"schema\":3"), "has version 3"),

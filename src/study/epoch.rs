@@ -98,7 +98,7 @@ pub struct Rays {
     /// Time of each sample, ns, in the order of the rounds: samples of two structures with the same index are a pair.
     /// Empty without a time.
     pub ns: Vec<u64>,
-    /// The same samples, restricted to the subsets of rays on which slower structures are timed.
+    /// The samples of `ns`, restricted to the subsets of rays on which slower structures are timed.
     pub parts: Vec<SubsetSamples>,
     /// The reason why there is no time, as a clause.
     pub untimed: Option<String>,
@@ -279,12 +279,14 @@ impl Epoch {
         for structure in &self.structures {
             let failure =
                 |sentence, refused, wrong| Failure { structure: structure.name.clone(), sentence, refused, wrong };
-            let on = format!("{} on {}", structure.label, self.title());
-            let refusal = |why: &String| failure(format!("{on} has no result: {why}."), true, structure.wrong);
+            let (label, scene) = (&structure.label, self.title());
+            let refusal =
+                |why: &String| failure(format!("{label} on {scene} has no result: {why}."), true, structure.wrong);
             let refused = structure.refused.iter().map(refusal);
             let untimed = structure.rays.iter().filter_map(|rays| {
                 let why = rays.untimed.as_ref()?;
-                Some(failure(format!("{on}, {} rays, has no time: {why}.", rays.workload), false, rays.wrong))
+                let sentence = format!("{label} is not timed on the {} rays of {scene}: {why}.", rays.workload);
+                Some(failure(sentence, false, rays.wrong))
             });
             failures.extend(refused.chain(untimed));
         }

@@ -24,16 +24,16 @@ pub enum StudyError {
          wrong"
     )]
     Disagree { one: String, other: String, scene: String, rays: String },
-    #[error("nothing was measured: these scenes have no rays of these workloads; name others")]
+    #[error("nothing was measured: these scenes have no rays of these workloads; name other scenes or workloads")]
     Nothing,
     #[error("{scene} has no rays of this workload: omit the scene, or name another workload")]
     NoRays { scene: String },
     #[error(
-        "{structure} on the {rays} rays of {scene}: epoch 0 and epoch {epoch} differ in {what}, so their times are \
-         not comparable"
+        "{structure} on {scene}{}: epochs 0 and {epoch} differ in {what}, so their times are not comparable",
+        workload(rays)
     )]
     Apart { structure: String, scene: String, rays: String, epoch: usize, what: &'static str },
-    #[error("the process that measures {key}: {cause}; --in-process measures in this process and shows more")]
+    #[error("the process that measures {key} failed: {cause}; rerun with --in-process to see more")]
     Process { key: String, cause: String },
     #[error("{key} cannot be measured: {cause}")]
     Case { key: String, cause: String },
@@ -45,6 +45,11 @@ pub enum StudyError {
 
 /// The difference between two epochs, if one of them has wrong [hits](StudyError::Apart).
 pub const ANSWERS: &str = "the hits";
+
+/// The workload on which epochs differ; empty if they differ in their structures.
+fn workload(rays: &str) -> String {
+    if rays.is_empty() { String::new() } else { format!(", {rays} rays") }
+}
 
 /// Advice to name at most `most` structures, which fit into memory.
 fn fewer(most: usize) -> String {

@@ -158,8 +158,8 @@ fn one(epochs: &mut [Epoch]) -> Result<(), StudyError> {
 const CHANGED: &str = "after a rebuild it returns other hits than before: its times are not comparable";
 
 /// Reason for a runner whose epochs have no rays in common.
-const UNSTEADY: &str =
-    "one epoch is more than sixteen times as slow as another by its own clock: the epochs share no rays";
+const UNSTEADY: &str = "its speed differs by more than a factor of sixteen between epochs (by its own clock), so no \
+                        rays are timed in all of them";
 
 /// Refuses a structure in all epochs; for wrong hits if one of them has wrong hits.
 fn refuse(epochs: &mut [Epoch], place: usize, reason: &str) {

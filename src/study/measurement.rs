@@ -37,7 +37,7 @@ pub struct Measurement {
     pub rays: usize,
     /// Whether a sample has fewer rays than the workload; also `true` without a time.
     pub sampled: bool,
-    /// The same samples, restricted to the subsets of rays on which slower structures are timed.
+    /// The samples of `samples_ns`, restricted to the subsets of rays on which slower structures are timed.
     pub parts: Vec<SubsetSamples>,
     /// The number of rays over which hits, tests, steps, instructions and branch misses are counted.
     pub counted_rays: usize,

@@ -110,7 +110,7 @@ impl Study {
         self.command().get_positionals().next().is_some()
     }
 
-    /// The arguments with which `study all` runs it; `scenes` replace its scenes, if there are any.
+    /// The arguments with which `study all` runs it. If `scenes` is not empty, it replaces the scenes of the preset.
     pub fn preset(&self, effort: Effort, scenes: &[OsString]) -> Vec<OsString> {
         let own = match effort {
             Effort::Full => self.presets.full,

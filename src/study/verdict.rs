@@ -51,7 +51,8 @@ impl Verdict {
             (0, 0, _) => format!("{name} was not checked: no ray that it accepts was traced."),
             (rays, 0, 0) => format!("{name} is right on {}.", plural(rays as usize, "ray")),
             (_, 0, rounded) => format!(
-                "{name} differs on {}, each within rounding: the triangle test rounds, the tree is right so far.",
+                "{name} differs from the exact hits on {}, always within the rounding of the triangle test; no error \
+                 of the tree was found.",
                 of(rounded)
             ),
             (_, wrong, _) => {
@@ -68,15 +69,15 @@ fn fault(kind: Kind) -> (&'static str, &'static str) {
     const EITHER: &str = "the tree or its triangle test is wrong";
     match kind {
         Kind::Hangs => ("does not return", TREE),
-        Kind::Panicked => ("panics or ends", TREE),
-        Kind::Lost | Kind::NearerLost => ("loses hits that no rounding could hide", TREE),
-        Kind::Invented => ("returns hits that no rounding could make", EITHER),
-        Kind::WrongT => ("returns depths that no rounding could give", EITHER),
+        Kind::Panicked => ("panics or exits", TREE),
+        Kind::Lost | Kind::NearerLost => ("loses hits, which no rounding explains", TREE),
+        Kind::Invented => ("returns hits that no rounding explains", EITHER),
+        Kind::WrongT => ("returns depths that no rounding explains", EITHER),
         Kind::WrongPrimitive => ("names triangles that are not hit there", TREE),
         Kind::AnyHitDisagrees => {
             ("contradicts itself: any hit and closest hit disagree", "one of the two queries is wrong")
         }
-        Kind::Unrepeatable => ("returns other hits in a batch than alone", TREE),
+        Kind::Unrepeatable => ("returns different hits for a ray in a batch and on its own", TREE),
         _ => ("is wrong", EITHER),
     }
 }
@@ -96,10 +97,11 @@ mod tests {
             (right, "mine is right on 60,000 rays."),
             (
                 right.and(rounds),
-                "mine differs on 3 of 70,000 rays, each within rounding: the triangle test rounds, the tree is right so far.",
+                "mine differs from the exact hits on 3 of 70,000 rays, always within the rounding of the triangle \
+                 test; no error of the tree was found.",
             ),
-            (rounds.and(lost), "mine loses hits that no rounding could hide, on 12 of 20,000 rays: the tree is wrong."),
-            (off.and(lost), "mine loses hits that no rounding could hide, on 13 of 70,000 rays: the tree is wrong."),
+            (rounds.and(lost), "mine loses hits, which no rounding explains, on 12 of 20,000 rays: the tree is wrong."),
+            (off.and(lost), "mine loses hits, which no rounding explains, on 13 of 70,000 rays: the tree is wrong."),
         ] {
             assert_eq!(verdict.sentence("mine"), expected);
         }

@@ -72,7 +72,7 @@ fn what_cannot_be_reported_leaves_everything_as_it_was() {
     let new = place.path().join("new");
     let bytes = fs::read(runs.path().join("compare.json")).unwrap();
     fs::write(runs.path().join("torn.json"), &bytes[..bytes.len() / 2]).unwrap();
-    refuses_in_a_line(&["report", run, "-o", text(&new)], &["torn.json", "does not read"]);
+    refuses_in_a_line(&["report", run, "-o", text(&new)], &["torn.json", "cannot be parsed"]);
     refuses_in_a_line(&["report", text(&place.path().join("none")), "-o", text(&new)], &["none"]);
     let empty = TempDir::new().unwrap();
     refuses_in_a_line(&["report", text(empty.path()), "-o", text(&new)], &["no run", "sahara study all"]);

@@ -44,7 +44,7 @@ fn caption(loaded: &[LoadedScene]) -> String {
     let asked =
         loaded.iter().filter_map(|own| Some(format!("{} ({})", own.scene.name, own.request.view.looks_from()?)));
     let asked: Vec<String> = asked.collect();
-    let asked = if asked.is_empty() { String::new() } else { format!("; seen otherwise: {}", listed(&asked)) };
+    let asked = if asked.is_empty() { String::new() } else { format!("; other views: {}", listed(&asked)) };
     format!(
         "The traced scenes, rendered by sahara. Built-in scenes use the source report's cameras, lights and \
          materials; the default camera of a mesh shows all of it{asked}."
@@ -81,6 +81,6 @@ mod tests {
     fn a_scene_that_is_seen_from_elsewhere_is_named() {
         let caption = |view: &str| super::caption(&[LoadedScene::cube("cube", "Cube", view)]);
         assert!(caption("{}").ends_with("shows all of it."));
-        assert!(caption(r#"{"inside":true}"#).ends_with("seen otherwise: Cube (--inside)."));
+        assert!(caption(r#"{"inside":true}"#).ends_with("; other views: Cube (--inside)."));
     }
 }

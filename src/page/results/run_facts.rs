@@ -35,7 +35,7 @@ impl RunFacts {
                 [] => Ok("unknown".into()),
                 [only] => Ok(only.into()),
                 _ => anyhow::bail!(
-                    "these runs have more than one {what} ({}), but results come from one run: measure everything \
+                    "these runs have more than one {what} ({}), but --results needs a single run: measure everything \
                      again into a new folder",
                     values.join(", ")
                 ),

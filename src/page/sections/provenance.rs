@@ -10,8 +10,8 @@ use crate::study::Dataset;
 
 /// Every machine; `missing` lists the missing measurements.
 pub fn section(runs: &Runs, missing: Vec<Block>) -> Section {
-    let note = "The newest cases of each scene and study count, if they share settings, build and machine. The page shows \
-                the settings, build and machine with the most cases of a study.";
+    let note = "For each study and scene, the page uses the newest cases that share settings, build and machine. The \
+                page shows the settings, build and machine with the most cases of a study.";
     let mut blocks = vec![Block::Table(machines(runs).noted([note]))];
     blocks.extend(warnings(&runs.provenances()).map(Block::Table));
     blocks.extend(runs.notes.iter().map(|note| Block::Note(note.clone())));

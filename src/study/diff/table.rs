@@ -24,7 +24,7 @@ pub fn cautions(comparison: &Comparison) -> Vec<String> {
         // The SIMD level stands in parentheses.
         let cpu = |machine: &String| machine.rsplit_once(" (").map(|(cpu, _)| cpu.to_owned());
         let two = if cpu(old) == cpu(new) { "Two instruction sets" } else { "Two machines" };
-        format!("{two}, {old} and {new}: they may cause a change, not the code.")
+        format!("{two}, {old} and {new}: they, rather than the code, may cause a change.")
     }));
     if !comparison.settings.is_empty() {
         cautions.push(format!("Settings differ: {}.", listed(&comparison.settings)));
@@ -39,7 +39,7 @@ pub fn sentences(comparison: &Comparison) -> Vec<String> {
         let wrong = comparison.wrong.iter().filter(|wrong| wrong.structure == change.structure).count();
         let right = match wrong {
             0 => format!("right on {} checked rays", count(change.checked_rays as u64)),
-            n => format!("wrong or other hits in {}", plural(n, "cell")),
+            n => format!("wrong or changed hits in {}", plural(n, "cell")),
         };
         let slower = || change.time.map_or(String::new(), slower);
         let speed = match change.finding {
@@ -49,9 +49,9 @@ pub fn sentences(comparison: &Comparison) -> Vec<String> {
             Finding::NoDifference => format!("no change beyond noise, {}", slower()),
             Finding::Inconclusive => format!("inconclusive, the interval contains {threshold} %: {}", slower()),
             Finding::Unknown if change.time.is_some() => {
-                "one epoch shows no change of time: measure more with --epochs".into()
+                "a single epoch gives no interval, so a change cannot be judged: measure more with --epochs".into()
             }
-            Finding::Unknown => "no time to compare".into(),
+            Finding::Unknown => "not timed in at least one of the runs".into(),
         };
         format!("{}: {right}; {speed}.", change.structure)
     };
@@ -129,8 +129,9 @@ fn cells(comparison: &Comparison) -> Table {
     let share = |n: usize| format!("{n} of {ratios} ({}%)", figures(100.0 * n as f64 / ratios as f64));
     let reproduced = (ratios > 0).then(|| {
         format!(
-            "Ratios to the report's tree and to the references: {} of the old run lie within the new run's intervals, {} of the new run \
-             within the old run's; {} have not changed, by intervals of the change, which include the spread of both runs.",
+            "Ratios to the report's tree and to the references: {} of the old run lie within the new run's intervals, \
+             {} of the new run within the old run's; for {} the interval of the change, which includes the spread of \
+             both runs, contains 1 (no change).",
             share(old_in_new),
             share(new_in_old),
             share(unchanged)
@@ -156,6 +157,6 @@ fn word(change: &Change) -> Cell {
         Finding::Regression => Cell::from("regression").with(Tone::Wrong),
         Finding::Inconclusive => "inconclusive".into(),
         Finding::Unknown if change.time.is_some() => "one epoch".into(),
-        Finding::Unknown => "no time".into(),
+        Finding::Unknown => "not timed".into(),
     }
 }

@@ -183,7 +183,7 @@ fn a_gate_ends_in_a_sentence_a_structure() {
     let mut wrong = run(1.0, 1.0);
     wrong[1].wrong_hits = 3;
     let found = sentences(&compare(&run(1.0, 1.0), &wrong, Some(10.0), 1))[1].clone();
-    assert!(found.starts_with("sah-kd: wrong or other hits in 1 cell;"), "{found}");
+    assert!(found.starts_with("sah-kd: wrong or changed hits in 1 cell;"), "{found}");
     assert!(sentences(&compare(&run(1.0, 1.0), &wrong, None, 1)).is_empty(), "no gate");
 }
 
@@ -295,7 +295,7 @@ fn scenes_with_other_numbers_of_epochs_have_a_mean_over_the_first_of_each() {
     let comparison = compare(&two(1), &two(2), None, 1);
     let change = change_of(&comparison, "own-0");
     assert!(change.cells == 2 && change.time.unwrap().interval.is_some(), "{change:?}");
-    assert_ne!(tables(&comparison)[0].rows[0][2].text(), "no time");
+    assert_ne!(tables(&comparison)[0].rows[0][2].text(), "not timed");
 }
 
 #[test]

@@ -10,7 +10,7 @@ use crate::study::{Case, Dataset};
 
 /// The reason why two runs cannot be compared: a value that differs.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the runs are not comparable: {what} is {old} in the old run and {new} in the new: {advice}")]
+#[error("the runs are not comparable: {what} differs ({old} in the old run, {new} in the new): {advice}")]
 pub struct Unlike {
     pub what: String,
     pub old: String,
@@ -19,6 +19,7 @@ pub struct Unlike {
 }
 
 const SAME_MACHINE: &str = "measure both on the same machine, with the same options";
+const SAME_PROCESSES: &str = "measure both with --in-process, or both without";
 const SAME_UNIT: &str = "two machines are compared by ratios to an obvhs structure over its own triangle test: measure such a \
                          structure in both runs";
 const SAME_INPUT: &str = "measure the old run again on the same scenes and rays";
@@ -44,16 +45,17 @@ pub fn unlike(old: &Side, new: &Side, gate: bool) -> Result<(), Unlike> {
     let has_unit =
         pairs.iter().any(|(old, new)| has_reference_role(old) && old.trace_ns.is_some() && new.trace_ns.is_some());
     if pairs.is_empty() {
-        let whose = |side: &Side| side.all.first().map_or("nothing".into(), cell_title);
+        let whose = |side: &Side| side.all.first().map_or("none".into(), cell_title);
         let (old, new) = (whose(old), whose(new));
-        return Err(Unlike { what: "the first case".into(), old, new, advice: SAME_INPUT });
+        let what = "no structure is in both runs on the same scene and workload; the first cell".into();
+        return Err(Unlike { what, old, new, advice: SAME_INPUT });
     }
     let (a, b) = (&old.provenance, &new.provenance);
     if gate || !has_unit {
         other_machine(a, b, if gate { SAME_MACHINE } else { SAME_UNIT })?;
     }
-    let words = [a, b].map(|p| if p.process_per_epoch { "an epoch each" } else { "all epochs" });
-    differ("what a process measures", words[0], words[1], SAME_MACHINE)?;
+    let words = [a, b].map(|p| if p.process_per_epoch { "one per epoch" } else { "one for all epochs" });
+    differ("the number of processes", words[0], words[1], SAME_PROCESSES)?;
     differ("the clock", &a.clock, &b.clock, SAME_MACHINE)?;
     differ("the profile", &a.profile, &b.profile, SAME_BUILD)?;
     if pairs.iter().any(|(old, _)| is_obvhs(&old.structure)) {

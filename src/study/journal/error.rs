@@ -30,12 +30,12 @@ pub enum JournalError {
     )]
     Other(PathBuf),
     #[error(
-        "{} has version {there} of the case format, this sahara writes version {here}: choose another folder, or \
+        "{} has version {there} of the case format, but this sahara uses version {here}: choose another folder, or \
          measure again",
         path.escaped()
     )]
     Schema { path: PathBuf, there: u32, here: u32 },
-    #[error("{} does not read: {problem}; remove it and repeat the command that wrote it", path.escaped())]
+    #[error("{} cannot be parsed: {problem}; remove it and repeat the command that wrote it", path.escaped())]
     Damaged { path: PathBuf, problem: String },
 }
 

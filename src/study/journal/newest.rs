@@ -42,10 +42,10 @@ pub fn newest(files: Vec<CaseFile>) -> Option<Dataset> {
     let date = |group: &&Group| group.files.iter().map(|file| file.provenance.date.clone()).max();
     let mut dataset = dataset(&groups.iter().max_by_key(date)?.files);
     if groups.len() > 1 {
-        let others = plural(groups.len() - 1, "group");
-        dataset
-            .notes
-            .push(format!("{others} of cases with other settings, builds or machines left out: the newest counts."));
+        let (others, are) = (plural(groups.len() - 1, "group"), if groups.len() == 2 { "is" } else { "are" });
+        dataset.notes.push(format!(
+            "{others} of cases with other settings, builds or machines {are} left out; only the newest group is used."
+        ));
     }
     Some(dataset)
 }
@@ -96,13 +96,15 @@ fn dataset(files: &[CaseFile]) -> Dataset {
     dataset.notes.extend(unchecked);
     dataset.notes.extend(missing);
     if let Some(path) = replaced.first() {
-        let cases = plural(replaced.len(), "case");
-        dataset.notes.push(format!("{cases} measured again later, e.g. in {}.", path.escaped()));
+        let (cases, were) = (plural(replaced.len(), "case"), if replaced.len() == 1 { "was" } else { "were" });
+        let path = path.escaped();
+        dataset.notes.push(format!("{cases} {were} measured again; the older files are ignored, e.g. {path}."));
     }
     // Different cases may run on different hosts, whose times differ even with the same processor.
     let hosts = each_once(files.iter().map(|file| file.provenance.host.as_str()));
     if hosts.len() > 1 {
-        dataset.notes.push(format!("cases of {}: {}.", plural(hosts.len(), "host"), listed(&hosts)));
+        let (number, names) = (plural(hosts.len(), "host"), listed(&hosts));
+        dataset.notes.push(format!("the cases were measured on {number}: {names}."));
     }
     dataset
 }

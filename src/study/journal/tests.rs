@@ -101,10 +101,10 @@ fn what_is_no_case_or_damaged_is_named_and_left_alone() {
     let text = fs::read_to_string(&file).unwrap();
     let old = text.replace("\"schema\":4", "\"schema\":3");
     for (text, parts) in [
-        ("my notes", &["does not read"][..]),
+        ("my notes", &["cannot be parsed"][..]),
         ("{\"a\":1}", &["not a case of a study"]),
         ("[]", &["not a case"]),
-        (&text[..text.len() / 2], &["does not read: EOF", "remove it"]),
+        (&text[..text.len() / 2], &["cannot be parsed: EOF", "remove it"]),
         (&text.replace("\"structures\"", "\"things\""), &["missing field `structures`"]),
         (&old, &["version 3", "version 4"]),
     ] {
@@ -143,7 +143,7 @@ fn cases_of_equal_settings_are_a_dataset_and_what_was_measured_again_counts_once
     measure(&mut elsewhere, &later, "2026-03-01");
     let cube = datasets(read()).into_iter().find(|own| own.measured[0].case.settings.runs == 9).unwrap();
     let notes = cube.notes.join(" ");
-    assert!(notes.contains("1 case measured again later") && notes.contains("2 hosts"), "{notes}");
+    assert!(notes.contains("1 case was measured again") && notes.contains("2 hosts"), "{notes}");
     assert!(notes.contains("epoch 1 is not measured"), "{notes}");
 }
 

@@ -5,6 +5,7 @@ use std::ffi::OsStr;
 use super::built::Built;
 use super::check::declined;
 use crate::escaped::Escaped as _;
+use crate::report::number::plural;
 use crate::request::known_defect;
 use crate::scene::Workload;
 use crate::study::epoch::{Checked, Rays, Structure};
@@ -17,7 +18,7 @@ pub fn new_record(built: &Built, workload: &Workload, hash: &str) -> Rays {
         hash: hash.into(),
         query: workload.query,
         all: workload.rays.len(),
-        untimed: declined.map(|what| format!("declined: it has no {what}")),
+        untimed: declined.map(|what| format!("declined: it does not support {what}")),
         declined: declined.map(String::from),
         ..Rays::default()
     }
@@ -34,7 +35,7 @@ pub fn record_check(rays: &mut Rays, check: Checked, scene: &OsStr, built: &Buil
         let hint = check.example.as_ref().map_or(String::new(), |(ray, sentence)| {
             format!("; {sentence}; see: sahara validate {} {structure} --ray \"{ray}\"", scene.escaped())
         });
-        let counts = format!("{} wrong hits on {} rays", check.errors, check.rays);
+        let counts = format!("{} on {}", plural(check.errors, "wrong hit"), plural(check.rays, "ray"));
         drop_times(rays, counts + &hint);
     }
     rays.checked = Some(check);

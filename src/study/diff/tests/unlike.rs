@@ -19,7 +19,7 @@ fn runs_that_differ_in_more_than_their_code_are_unlike() {
     assert_eq!(with(&|side| side.provenance.commit = "other".into()), Ok(()));
     assert_eq!(with(&|side| side.provenance.threads = 2), Ok(()), "the heading names it");
     let refusals: [(&str, &Edit); 11] = [
-        ("the reference is obvhs-bvh2 and obvhs-cwbvh in the old run and missing in the new", &|side| {
+        ("the reference differs (obvhs-bvh2 and obvhs-cwbvh in the old run, missing in the new)", &|side| {
             side.all.iter_mut().filter(|own| has_reference_role(own)).for_each(|own| own.trace_ns = None);
         }),
         ("the key threshold of obvhs-bvh2", &|side| {
@@ -33,7 +33,7 @@ fn runs_that_differ_in_more_than_their_code_are_unlike() {
         ("the hash of the scene Cube", &|side| side.all[0].scene_hash = "ff".into()),
         ("the hash of the primary rays of Cube", &|side| side.all[0].workload_hash = "ff".into()),
         ("the number of timed rays of sah-kd", &|side| side.all[1].rays = 250),
-        ("the first case", &|side| side.all.iter_mut().for_each(|own| own.scene = "Sphere".into())),
+        ("the first cell differs", &|side| side.all.iter_mut().for_each(|own| own.scene = "Sphere".into())),
     ];
     for (part, edit) in refusals {
         let refused = with(edit).unwrap_err();
@@ -65,10 +65,10 @@ fn a_plan_that_a_gate_could_not_compare_is_refused_before_it_is_measured() {
     let edits: [(&str, &Edit); 6] = [
         ("the processor", &|_, here| here.cpu = "Other".into()),
         ("the hash of the scene Cube", &|case, _| case.scene.hash = "0".into()),
-        ("the scene Sphere is missing in the old run", &|case, _| case.scene.name = "Sphere".into()),
-        ("the seed is 1 in the old run and 2 in the new", &|case, _| case.settings.seed = 2),
+        ("the scene Sphere differs (missing in the old run", &|case, _| case.scene.name = "Sphere".into()),
+        ("the seed differs (1 in the old run, 2 in the new)", &|case, _| case.settings.seed = 2),
         ("the ray selection of Cube", &|case, _| case.workloads = crate::request::WorkloadRequest::Picture),
-        ("the budget is", &|case, _| case.settings.budget_ns = Some(7)),
+        ("the budget differs", &|case, _| case.settings.budget_ns = Some(7)),
     ];
     for (part, edit) in edits {
         let said = refused(edit).unwrap_err();
@@ -105,5 +105,5 @@ fn on_two_machines_ratios_to_obvhs_are_compared_and_nothing_else() {
     let untimed = refused(&|side| {
         side.all.iter_mut().filter(|own| has_reference_role(own)).for_each(|own| own.trace_ns = None);
     });
-    assert!(untimed.contains("the processor is") && untimed.contains("ratios to an obvhs structure"), "{untimed}");
+    assert!(untimed.contains("the processor differs") && untimed.contains("ratios to an obvhs structure"), "{untimed}");
 }
