@@ -44,13 +44,17 @@ fn own_test(own: ScalarTest, mesh: &Mesh, ray: &Ray, expected: Option<Hit>, foun
     match (other.kind, found) {
         // No traversal can return a hit that its test does not find, or does not find in front of the returned one.
         (Kind::Lost | Kind::NearerLost, _) => match (of(expected), found) {
-            (None, _) => by_the_test("the structure's own test does not hit it"),
-            (Some(t), Some(f)) if t >= f.t => by_the_test(&format!("the structure's own test hits it at {t:?}")),
+            (None, _) => by_the_test("the structure's own triangle test misses it"),
+            (Some(t), Some(f)) if t >= f.t => {
+                by_the_test(&format!("the structure's own triangle test hits it at t = {t:?}"))
+            }
             _ => other,
         },
         // It may return what its test returns, right or wrong.
         (Kind::WrongT | Kind::Invented, Some(f)) => match of(found) {
-            Some(t) if DepthRule::COARSE.allows(t.into(), f.t, true) => by_the_test("so says the structure's own test"),
+            Some(t) if DepthRule::COARSE.allows(t.into(), f.t, true) => {
+                by_the_test("the structure's own triangle test gives the same result")
+            }
             _ => other,
         },
         _ => other,
@@ -103,18 +107,20 @@ fn same_test(test: ScalarTest, mesh: &Mesh, ray: &Ray, expected: Option<Hit>, fo
 /// The structure returns less than its test found: an error if the missing hit is real.
 fn lost(mesh: &Mesh, ray: &Ray, expected: Hit, found: Option<Hit>) -> Blame {
     let Some(nearer) = true_hit(mesh, ray, expected) else {
-        return verdict(Kind::TriangleTest, format!("exactly, {:?} is not hit in the interval", expected.prim));
+        let sentence = format!("by exact arithmetic the ray does not hit {:?} in its interval", expected.prim);
+        return verdict(Kind::TriangleTest, sentence);
     };
-    let sure = format!("exactly, {:?} is hit at {:?}", expected.prim, nearer.round());
+    let sure = exactly(expected.prim, nearer.round());
     let Some(f) = found else { return verdict(Kind::Lost, sure) };
     if nearer.compare(f.t).is_some_and(Ordering::is_ge) {
         // It may cull hits behind the computed one.
-        return verdict(Kind::TriangleTest, format!("{sure}, not before the computed t of {:?}", f.prim));
+        let sentence = format!("{sure}, which is not before the computed t of {:?}: the traversal may skip it", f.prim);
+        return verdict(Kind::TriangleTest, sentence);
     }
     match true_hit(mesh, ray, f) {
-        Some(t) if t <= nearer => verdict(Kind::TriangleTest, format!("{sure}, {:?} not later", f.prim)),
-        Some(t) => verdict(Kind::NearerLost, format!("{sure}, {:?} later, at {:?}", f.prim, t.round())),
-        None => verdict(Kind::NearerLost, format!("{sure}, {:?} is not hit in the interval", f.prim)),
+        Some(t) if t <= nearer => verdict(Kind::TriangleTest, format!("{sure} and {:?} no later", f.prim)),
+        Some(t) => verdict(Kind::NearerLost, format!("{sure} and {:?} later, at t = {:?}", f.prim, t.round())),
+        None => verdict(Kind::NearerLost, format!("{sure} and does not hit {:?} in its interval", f.prim)),
     }
 }
 
@@ -122,7 +128,10 @@ fn lost(mesh: &Mesh, ray: &Ray, expected: Hit, found: Option<Hit>) -> Blame {
 fn tie(mesh: &Mesh, ray: &Ray, expected: Hit, found: Hit) -> Blame {
     let lower = true_hit(mesh, ray, expected).filter(|t| t.compare(found.t).is_some_and(Ordering::is_le));
     if lower.is_some() && expected.prim.index() < found.prim.index() {
-        return verdict(Kind::HigherId, format!("exactly, {:?} is hit too, no later", expected.prim));
+        return verdict(
+            Kind::HigherId,
+            format!("by exact arithmetic the ray also hits {:?}, at this t or before", expected.prim),
+        );
     }
     verdict(Kind::Tie, "both primitives have this computed t".into())
 }
@@ -155,14 +164,14 @@ fn other_test(
         let margin = Margin::new(ray, mesh.corners(prim.index()), precision);
         let kind = if found.is_some() { Kind::NearerLost } else { Kind::Lost };
         if margin.latest() < limit && !margin.may_miss(ray) {
-            return Some(verdict(kind, format!("exactly, {prim:?} is hit at {:?}", t.round())));
+            return Some(verdict(kind, exactly(*prim, t.round())));
         }
         // A test may miss the nearest triangle or place it behind a later one, but may not return a hit behind that
         // one.
         if precision == Precision::Single
             && let Some((t, prim)) = nearest_sure(mesh, ray, limit)
         {
-            return Some(verdict(kind, format!("exactly, {prim:?} is hit at {:?}", t as f32)));
+            return Some(verdict(kind, exactly(prim, t as f32)));
         }
     }
     rounded(truth, expected, found)
@@ -181,12 +190,12 @@ fn no_hit(precision: Precision, mesh: &Mesh, ray: &Ray, found: Hit, truth: Optio
         Some(t) if DepthRule::STRICT.allows(t.approximate(), found.t, true) || margin.may_round_to(found.t) => None,
         Some(t) => {
             let ulps = t.round().to_bits().abs_diff(found.t.to_bits());
-            wrong(Kind::WrongT, format!("exactly, {:?} is hit at {:?}, {ulps} ulps away", found.prim, t.round()))
+            wrong(Kind::WrongT, format!("{}, {ulps} ulps away", exactly(found.prim, t.round())))
         }
         None if margin.may_hit(ray, found.t) => None,
         None => {
-            let sentence = format!("exactly, {:?} is not hit in the interval{}", found.prim, outside(ray, found));
-            wrong(Kind::Invented, sentence)
+            let (prim, why) = (found.prim, outside(ray, found));
+            wrong(Kind::Invented, format!("by exact arithmetic the ray does not hit {prim:?} in its interval{why}"))
         }
     }
 }
@@ -197,7 +206,8 @@ fn outside(ray: &Ray, found: Hit) -> String {
     if t_min <= found.t && found.t < t_max {
         return String::new();
     }
-    format!(", and t = {:?} is not in [{t_min:?}, {t_max:?}): t below 0 never counts", found.t)
+    let rule = if found.t < 0.0 { "; hits at negative t never count" } else { "" };
+    format!(", and t = {:?} is not in [{t_min:?}, {t_max:?}){rule}", found.t)
 }
 
 /// Rounding may explain every lost or invented hit: decides whether structure or reference is wrong.
@@ -208,8 +218,8 @@ fn rounded(truth: Option<(ExactT, PrimId)>, expected: Option<Hit>, found: Option
         _ => false,
     };
     let sure = match &truth {
-        Some((t, prim)) => format!("exactly, {prim:?} is hit at {:?}", t.round()),
-        None => "exactly, nothing is hit there in the interval".into(),
+        Some((t, prim)) => exactly(*prim, t.round()),
+        None => "by exact arithmetic the ray hits no such triangle in its interval".into(),
     };
     match (is_right(expected), is_right(found), &truth, found) {
         (true, true, ..) => None,
@@ -218,8 +228,16 @@ fn rounded(truth: Option<(ExactT, PrimId)>, expected: Option<Hit>, found: Option
             let ulps = t.round().to_bits().abs_diff(f.t.to_bits());
             Some(verdict(Kind::Depth, format!("{sure}, {ulps} ulps away")))
         }
-        _ => Some(verdict(Kind::TriangleTest, format!("{sure}; single precision may round that away"))),
+        _ => Some(verdict(
+            Kind::TriangleTest,
+            format!("{sure}; rounding in single precision may explain the difference"),
+        )),
     }
+}
+
+/// An exact hit as a clause.
+fn exactly(prim: PrimId, t: f32) -> String {
+    format!("by exact arithmetic the ray hits {prim:?} at t = {t:?}")
 }
 
 fn verdict(kind: Kind, sentence: String) -> Blame {

@@ -30,7 +30,7 @@ pub fn validate(subject: &dyn DynAccel, reference: &Reference, mesh: &Mesh, rays
     validate_known(subject, reference, &reference.closest_hits(rays), mesh, rays)
 }
 
-/// Like [`validate`], but receives the hits of `reference` in `expected`: several structures capabilities share them.
+/// Like [`validate`], but receives the hits of `reference` in `expected`: several structures can share them.
 ///
 /// # Panics
 /// If there is not one hit per ray.
@@ -108,8 +108,8 @@ pub fn differences(
 /// judges the rays on which they differ.
 ///
 /// If structure and reference share the triangle test, a hit that the reference lacks is `Invented`, even if the oracle
-/// has a hit there. If rounding may explain a result, `subject`, which is the structure, traces the ray on_its_own for the
-/// closest hit: a triangle test rounds the same way in both queries, so the two must agree.
+/// has a hit there. If rounding may explain a result, the structure `subject` also traces this ray with the closest-hit
+/// query: a triangle test rounds the same way in both queries, so they must agree.
 ///
 /// # Panics
 /// If there is not one result per ray.

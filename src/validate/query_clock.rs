@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 pub(super) fn message(payload: &(dyn Any + Send)) -> String {
     let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());
     let text = text.or_else(|| payload.downcast_ref::<String>().cloned());
-    format!("it says {:?}", text.unwrap_or_else(|| "nothing".into()))
+    text.map_or("there is no message".into(), |text| format!("the message is {text:?}"))
 }
 
 /// A query of a structure.

@@ -72,9 +72,9 @@ pub struct Reference {
 }
 
 impl Reference {
-    /// Brute force with the triangle test named `test` ([`TRIANGLE_TEST`](crate::accel::Accel::TRIANGLE_TEST)). For a
-    /// test that this crate lacks, or has only as a scene of one triangle, brute force with `exact`; the latter kind of
-    /// test judges disputes.
+    /// Brute force with the triangle test named `test` ([`TRIANGLE_TEST`](crate::accel::Accel::TRIANGLE_TEST)). If this
+    /// crate lacks the test, or can run it only on one triangle at a time (Embree), the reference is brute force with
+    /// `exact`; in the second case the test itself decides disputed triangles.
     ///
     /// # Errors
     /// If it cannot be built over the mesh.

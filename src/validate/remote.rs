@@ -40,8 +40,8 @@ pub fn validate_remote(
         }
     }
     for (&index, again) in some.iter().zip(again).filter(|(index, again)| !same(found[**index], *again)) {
-        let alone = again.map_or("nothing".to_owned(), |hit| format!("t = {:?} at {:?}", hit.t, hit.prim));
-        let verdict = format!("in a batch of other rays closest hit says {alone}");
+        let alone = again.map_or("a miss".to_owned(), |hit| format!("t = {:?} at {:?}", hit.t, hit.prim));
+        let verdict = format!("in another batch, the closest-hit query returns {alone}");
         sums.worst.push(worst(index, &rays[index], expected[index], found[index], Kind::Unrepeatable, verdict));
         sums.unrepeatable += 1;
     }

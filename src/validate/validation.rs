@@ -22,7 +22,7 @@ pub struct Validation {
     pub differing: u64,
     /// Hits lost or invented by the structure; zero in a correct one.
     pub structure_errors: u64,
-    /// Differences that the triangle test causes: its hit is exactly a miss, or exactly not the nearer one.
+    /// Differences that the triangle test causes: by exact arithmetic its hit is a miss or is not the nearer hit.
     pub test_errors: u64,
     /// Differences that the reference causes, which has another triangle test: the structure's hit is right.
     pub reference_errors: u64,
@@ -78,7 +78,7 @@ named_enum! {
         Panicked = "panics",
         /// An exact hit, and the structure returns a miss.
         Lost = "lost",
-        /// An exact hit, and the structure returns one behind it, or one that is exactly a miss.
+        /// An exact hit, but the structure returns a hit behind it, or a hit that exact arithmetic does not confirm.
         NearerLost = "nearer-lost",
         /// A hit that the triangle test over all triangles does not return.
         Invented = "invented",
@@ -170,9 +170,13 @@ impl Validation {
     pub(super) fn ended(mut self, expected: Option<Hit>, rays: &[Ray], call: Call, kind: Kind, why: String) -> Self {
         let (index, verdict) = match call {
             Call::Ray(index) => (index, why),
-            Call::Batch => {
-                (0, format!("{why}, in the batch of {} rays that begins here, not as a single ray", rays.len()))
-            }
+            Call::Batch => (
+                0,
+                format!(
+                    "{why}; no single ray causes it, but the batch of {} rays that begins with this ray",
+                    rays.len()
+                ),
+            ),
         };
         let ray = WorstRay {
             index: index as u64,
@@ -199,10 +203,10 @@ impl Display for WorstRay {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
         let answer = |hit: Option<Hit>| match hit {
             Some(hit) => format!("t = {:?} at {:?}", hit.t, hit.prim),
-            None => "nothing".into(),
+            None => "a miss".into(),
         };
         let (kind, expected) = (self.kind.name(), answer(self.expected));
-        let found = if self.kind <= Kind::Panicked { "no answer".into() } else { answer(self.found) };
-        write!(f, "{kind}: ray \"{}\": expected {expected}, found {found}; {}", self.ray, self.verdict)
+        let found = if self.kind <= Kind::Panicked { "no result".into() } else { answer(self.found) };
+        write!(f, "{kind} on ray \"{}\": expected {expected}, got {found}; {}", self.ray, self.verdict)
     }
 }

@@ -26,7 +26,7 @@ const PAUSE: Duration = Duration::from_millis(20);
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum WatchError {
     /// It took longer than the limit.
-    #[error("it hangs: no answer within {0:?}")]
+    #[error("it hangs: no result within {0:?}")]
     Hangs(Duration),
     /// It panicked.
     #[error("it panics: {0}")]
@@ -140,7 +140,7 @@ pub fn validate_watched(
         if let Some((number, call)) = states.iter().filter_map(overdue).min_by_key(|(number, _)| *number) {
             let (rays, expected) = comparison.batch(number).expect("a thread compares it");
             let sums = Validation { rays: rays.len() as u64, ..Validation::default() };
-            let why = format!("no answer within {limit:?}");
+            let why = format!("no result within {limit:?}");
             let first = if let Call::Ray(index) = call { index } else { 0 };
             batches.insert(number, sums.ended(expected[first], rays, call, Kind::Hangs, why));
             return Validation::of_batches(declined, batches.into_values());

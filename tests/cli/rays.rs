@@ -79,7 +79,7 @@ fn answers_go_out_and_come_back_and_wrong_ones_are_found() {
             let args = [&exchange[..], &["--hits", "f.hits"], test].concat();
             let output = sahara(&folder, &args).output().unwrap();
             assert_eq!(output.status.code(), Some(WRONG));
-            assert!(stdout(&output).contains("lost: ray \""), "{}", stdout(&output));
+            assert!(stdout(&output).contains("lost on ray \""), "{}", stdout(&output));
         }
     }
     refuses(&folder, &["validate", "torus", "--hits", "f.hits"], &["--rays F.rays"]);

@@ -101,11 +101,11 @@ fn the_grid_that_the_broken_ones_are_made_from_is_right_and_what_is_declined_is_
 #[test]
 fn a_structure_that_hangs_is_given_up_and_the_ray_is_named() {
     let report = answers(&subject(Fault::Hangs), &meshes(), 200).unwrap_err();
-    assert!(report.contains("worst: hangs: ray \"") && report.contains("no answer within 5s"), "{report}");
+    assert!(report.contains("worst: hangs on ray \"") && report.contains("no result within 5s"), "{report}");
     let ray: Option<Ray> = report.split('"').find_map(|part| part.parse().ok());
     assert!(ray.is_some_and(|ray| picks(&ray, 500)), "{report}");
     let counted = counting(&subject(Fault::Hangs), &meshes()[..1], 2000).unwrap_err();
-    assert!(counted.contains("it hangs") && counted.contains("for ray \""), "{counted}");
+    assert!(counted.contains("it hangs") && counted.contains("tracing ray \""), "{counted}");
 }
 
 /// Ten places are enough for the small meshes.
@@ -120,7 +120,7 @@ fn a_short_stack_is_found_by_stacked_sheets() {
 fn builders_that_panic_or_hang_are_told_from_each_other() {
     let of = |fault| answers(&subject(fault), &meshes(), 1).unwrap_err();
     let words = "does not build over \"crossing needles\": it";
-    assert!(of(Fault::BuilderPanics).contains(&format!("{words} panics: it says \"no triangle")));
+    assert!(of(Fault::BuilderPanics).contains(&format!("{words} panics: the message is \"no triangle")));
     assert!(of(Fault::BuilderHangs).contains(&format!("{words} hangs")));
     assert!(shapes(&subject(Fault::BuilderHangs), &meshes()).unwrap_err().contains("it hangs"));
 }
@@ -163,13 +163,13 @@ fn content(args: &str, parts: &[&str]) -> String {
 fn the_command_rejects_each_fault_for_its_own_reason() {
     // The named ray triggers the fault, if the fault affects one ray in so many.
     for (fault, rays, reason, one_in) in [
-        ("drops", 100_000, "lost: ray \"", 10_000),
-        ("wrong-id", 1000, "wrong-primitive: ray \"", 1),
-        ("late", 1000, "wrong-t: ray \"", 1),
-        ("any-hit-disagrees", 10_000, "any-hit-disagrees: ray \"", 500),
-        ("panics", 10_000, "panics: ray \"", 500),
-        ("hangs", 10_000, "hangs: ray \"", 500),
-        ("moody", 10_000, "unrepeatable: ray \"", 1),
+        ("drops", 100_000, "lost on ray \"", 10_000),
+        ("wrong-id", 1000, "wrong-primitive on ray \"", 1),
+        ("late", 1000, "wrong-t on ray \"", 1),
+        ("any-hit-disagrees", 10_000, "any-hit-disagrees on ray \"", 500),
+        ("panics", 10_000, "panics on ray \"", 500),
+        ("hangs", 10_000, "hangs on ray \"", 500),
+        ("moody", 10_000, "unrepeatable on ray \"", 1),
         ("builder-panics", 100, "refused", 1),
         ("builder-hangs", 100, "hangs", 1),
     ] {

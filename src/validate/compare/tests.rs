@@ -75,7 +75,7 @@ fn lost_hits_are_found_and_named() {
         assert!(wrong > 0 && wrong == v.errors() && wrong == v.differing, "{v:?}");
         let worst = v.worst_error().unwrap();
         assert_eq!((worst.kind, worst.found), (Kind::Lost, None));
-        assert!(worst.verdict.contains("is hit at"), "{worst}");
+        assert!(worst.verdict.contains("the ray hits"), "{worst}");
         let replayed: Ray = worst.to_string().split('"').nth(1).unwrap().parse().unwrap();
         assert_eq!(replayed, worst.ray);
     }

@@ -65,8 +65,8 @@ pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(),
                 Err(ended) => {
                     // A single ray may cause the failure.
                     let alone = rays.iter().find(|ray| trace(&accel, &[**ray], subject.limit).is_err());
-                    let which = alone.map_or("all of them".into(), |ray| format!("ray \"{ray}\""));
-                    return Err(format!("{place}: queried with counts for {which}, {ended}"));
+                    let which = alone.map_or("all rays".into(), |ray| format!("ray \"{ray}\""));
+                    return Err(format!("{place}: tracing {which} with counts failed: {ended}"));
                 }
             };
 
@@ -91,13 +91,17 @@ pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(),
             all.extend(asks_any.then_some(("any", traced.any_counts)));
             for (which, c) in all {
                 if !observed.steps && c.steps() > 0 || !observed.tests && c.tests > 0 {
-                    lines.push(format!("{place}: {which} hit counts what it declares unobserved: {c:?}"));
+                    lines.push(format!(
+                        "{place}: the {which}-hit query counts events that `OBSERVED` does not declare: {c:?}"
+                    ));
                 }
                 if hit && (observed.steps && c.steps() == 0 || observed.tests && c.tests == 0) {
-                    lines.push(format!("{place}: {which} hit finds something, but counts no step or no test: {c:?}"));
+                    lines.push(format!(
+                        "{place}: the {which}-hit query finds hits, but counts no step or no test: {c:?}"
+                    ));
                 }
                 if c.empty_leaves > c.leaves {
-                    lines.push(format!("{place}: {which} hit counts more empty leaves than leaves: {c:?}"));
+                    lines.push(format!("{place}: the {which}-hit query counts more empty leaves than leaves: {c:?}"));
                 }
             }
         }
@@ -121,13 +125,13 @@ pub fn shapes(subject: &Subject, meshes: &[Named]) -> Result<(), String> {
             (shape.references < solid, "fewer references than triangles that have an area"),
             (solid > 0 && shape.leaves == 0, "no leaf"),
             (shape.empty > shape.leaves, "more empty leaves than leaves"),
-            (shape.largest_leaf > shape.references, "a leaf with more than all references"),
+            (shape.largest_leaf > shape.references, "a leaf with more references than the whole tree"),
             (
                 shape.largest_leaf * (shape.leaves - shape.empty.min(shape.leaves)) < shape.references,
                 "leaves too small for the references",
             ),
             (shape.depth > shape.inner, "deeper than there are inner nodes"),
-            (shape.sah_cost.is_some_and(|cost| cost.is_nan() || cost < 0.0), "a SAH cost that is no cost"),
+            (shape.sah_cost.is_some_and(|cost| cost.is_nan() || cost < 0.0), "a SAH cost that is NaN or negative"),
             (solid > 0 && footprint.total() == 0, "no bytes"),
         ];
         for (_, what) in wrong.iter().filter(|(wrong, _)| *wrong) {

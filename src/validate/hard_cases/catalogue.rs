@@ -138,7 +138,7 @@ cases! {
     },
         "Needles of 2 x 1e-3 along a diagonal: their boxes are almost empty, and all overlap.", "survey";
     Moderate 38 "fan_apex", Hit x 2000 => |n| Set::new(fan(), n, 14, |_, s| ray_to(below(s), Vec3::ZERO)),
-        "800 triangles meet in the target vertex: all are hit at edges, and none may fall out of its box.",
+        "800 triangles meet in the target vertex: rays hit them at edges, and rounding must not cull their boxes.",
         "obvhs, rt_triangle.rs: seen from behind, 0 times a negative number is -0.0, and counts as outside";
     Moderate 39 "fan_random", Hit => |n| Set::new(fan(), n, 15, |_, s| ray_to(below(s), at_height(s, 0.0) * 0.4)),
         "A fan of 800 triangles; the rays aim next to its apex.", "survey";
@@ -225,7 +225,7 @@ cases! {
         "The origin lies in a face of the root box: entry is at t = 0 exactly, and must not count as behind.",
         "Hapala, Havran 2011: the ray's origin in a plane";
     Moderate 64 "soup_random", Oracle => |n| Set::new(soup(2000, 22), n, 22, to_surface),
-        "Random triangles and rays: the baseline for the other cases.", "survey";
+        "Random triangles and rays, for comparison with the other cases.", "survey";
 
     // Invalid rays: no ray may hit, and none may take long.
     Unranked 65 "rays_nan_origin", Miss x 1000 => |n| spoilt(n, |s, ray| ray.origin[s.below(3)] = f32::NAN),
@@ -286,7 +286,7 @@ cases! {
          64.",
         "stacks of 32 or 64 entries in svenstaro/bvh and pbrt-v4";
     Added 84 "limits", Property => limits,
-        "Numbers of nodes and references must stay bounded where triangles cannot be separated, before memory ends.",
+        "Numbers of nodes and references must stay bounded where triangles cannot be separated, or memory runs out.",
         "pbrt-v4, kd-tree: depth 8 + 1.3 log2 N and bad refines; Embree, regression with failing allocations";
 
     // Failures that reviews and fuzzing of this crate have found.
@@ -302,7 +302,7 @@ cases! {
         [[1.0529697, 0.79743576, 2.6935759], [-0.052969694, -0.5633358, -1.6935759]],
         |s, target| ray_to(target + s.cube(), target),
     ),
-        "Rays miss a sliver of 1 to 10,000 by less than f64 can resolve: the band grows with the aspect ratio.",
+        "Rays miss a sliver of 1 to 10,000 by less than f64 can resolve; this distance grows with the aspect ratio.",
         "an independent check: a hit 4.5e-11 outside, although an f64 test promised 1e-15";
     Added 88 "along_a_needle", Oracle => |n| along_edges(
         n, 63,
