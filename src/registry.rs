@@ -93,7 +93,7 @@ impl Registry {
     ) -> Self {
         assert!(
             !name.is_empty() && name != "all" && !name.contains([':', ',', '=', ' ', '\t', '\n']),
-            "the name {name:?} must not be \"all\" nor hold ':', ',', '=' or white space"
+            "the name {name:?} must neither be \"all\" nor contain ':', ',', '=' or white space"
         );
         let test = A::TRIANGLE_TEST;
         assert!(self.find(name, test).is_none(), "there is already a structure {name:?} over the test {test:?}");
@@ -135,7 +135,7 @@ impl Registry {
     /// that name is taken.
     ///
     /// # Errors
-    /// If the name, a key or the test is unknown (the error lists the known ones), or a value does not fit.
+    /// If the name, a key or the test is unknown (the error lists the known ones), or a value is not accepted.
     pub fn choose(&self, spec: &str) -> Result<Choice, ChoiceError> {
         let (name, pairs) = spec.split_once(':').unwrap_or((spec, ""));
         let mut overrides = vec![];

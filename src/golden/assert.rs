@@ -7,8 +7,8 @@ use image::DynamicImage;
 use super::page::Values;
 use super::{GoldenError, Match, PictureError, failure, file};
 
-/// The environment variable that makes [`assert_image`] write golden images instead of comparing if its value is
-/// `update`.
+/// The environment variable that, with the value `update`, makes [`assert_image`] write golden images instead of
+/// comparing.
 pub const UPDATE: &str = "SAHARA_GOLDEN";
 
 /// The folder for the pictures of failures, relative to the current directory, which is the crate's folder in tests.

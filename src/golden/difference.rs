@@ -55,8 +55,8 @@ pub fn pixels_over(one: &DynamicImage, other: &DynamicImage, difference: f64) ->
     gaps(one, other).filter(|gap| gap * own > limit).count()
 }
 
-/// A picture of the difference: black for equal pixels, from dark red for a step of 255 to yellow for 255. A difference
-/// below one step is shown as one step.
+/// A picture of the difference: black for equal pixels, from dark red for a difference of 1/255 to yellow for 255/255.
+/// A smaller difference is shown as 1/255.
 ///
 /// # Panics
 /// If the pictures differ in layout.

@@ -61,8 +61,8 @@ pub enum GoldenError {
     )]
     Foreign(PathBuf),
     #[error(
-        "the golden images of built-in scenes are part of the program, whose sources are not here: pass --goldens DIR \
-         to use a folder"
+        "the golden images of built-in scenes are compiled into the program and can only be updated in its source \
+         tree, which was not found: pass --goldens DIR to use a folder"
     )]
     NoSources,
     #[error("{label}: {said}: see {}; the golden image is {}", shown.escaped(), path.escaped())]

@@ -61,7 +61,10 @@ impl Conditions {
         });
         let is_changed = !matches!(denormals, "kept" | "unknown");
         let denormals = is_changed.then(|| {
-            format!("denormals are not exact ({denormals}): a library changed the FPU control word; hits may differ")
+            format!(
+                "denormal numbers are treated as zero ({denormals}): a library changed the FPU control word; hits may \
+                 differ"
+            )
         });
         [debug, load, governor, clock, interruptions, denormals].into_iter().flatten().collect()
     }
@@ -98,7 +101,7 @@ pub fn of_samples(cases: &[&[f64]]) -> Vec<String> {
     let outliers: usize = cases.iter().map(|case| outliers(case)).sum();
     let many = (outliers as f64 > OUTLIERS * all as f64).then(|| {
         format!(
-            "{outliers} of {all} samples are outliers: something interrupts the run; use a quieter machine or more \
+            "{outliers} of {all} samples are outliers: something interrupts the run; use a quieter machine, or raise \
              --runs"
         )
     });

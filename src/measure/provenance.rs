@@ -133,8 +133,8 @@ impl Provenance {
         (threads > cores).then(|| {
             let noun = if *cores == 1 { "core" } else { "cores" };
             format!(
-                "{threads} threads share {cores} {noun}, so times describe neither number: use --threads {cores} \
-                     at most"
+                "{threads} threads share {cores} {noun}, so times represent neither {threads} nor {cores} threads: use \
+                 at most --threads {cores}"
             )
         })
     }

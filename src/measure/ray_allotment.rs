@@ -69,8 +69,8 @@ pub fn pilot_level(rays: usize) -> usize {
     (0..=last_level(rays)).rev().find(|&level| rays_at(rays, level) >= PILOT).unwrap_or(0)
 }
 
-/// The first level from `from` on at which a sample of `case`, whose cost is unknown, takes at most `most_ns`. It is
-/// measured.
+/// The first level from `from` on at which a sample of `case`, whose cost is unknown, takes at most `most_ns`. The
+/// level is found by timing `case`.
 pub fn level_by_clock(watch: &Stopwatch, case: &mut dyn Timed, from: usize, most_ns: u64) -> usize {
     let all = case.rays();
     let mut pace = |level: usize| {

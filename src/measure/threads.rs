@@ -58,7 +58,7 @@ impl Threads {
         };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(self.count).start_handler(bind);
         pool.build().map_err(|error| {
-            format!("the system refuses {} threads ({error}): use fewer --threads, or raise the limit", self.count)
+            format!("the system cannot start {} threads ({error}): lower --threads, or raise the limit", self.count)
         })
     }
 

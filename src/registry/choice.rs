@@ -46,8 +46,7 @@ impl Choice {
     /// belongs to another entry.
     ///
     /// # Errors
-    /// If a key is unknown, or a value does not fit.
-    /// If a key is unknown, or a value does not fit.
+    /// If a key is unknown or a value is not accepted.
     pub(super) fn of(entry: &Entry, overrides: &[(&str, &str)], name_test: bool) -> Result<Self, ChoiceError> {
         let mut config = entry.config.clone();
         let keys = config.as_object_mut().expect("checked when it was registered");

@@ -25,18 +25,18 @@ const MEANINGS: [(&str, &str); 27] = [
     ("limit", "leaves have fewer than L triangles (below) or at most L triangles (at-most)"),
     (
         "threshold",
-        "T: a split is discarded if at least this share of the triangles would be in both sides (stop=report); in \
+        "T: a split is discarded if at least this share of the triangles would lie on both sides (stop=report); in \
          (0, 1]",
     ),
     (
         "count",
-        "what T is a share of: the triangles of the node (parent: a split that fails is discarded), or of each child \
-         (child: a child that fails is not split further)",
+        "the triangles that T is a share of: those in the node (parent: a split that reaches T is discarded), or in \
+         each child (child: a child that reaches T is not split further)",
     ),
     (
         "median",
         "the middle of an even number of coordinates: the lower of the two middle values (lower), their mean (mean), \
-         or the lower one, where a corner that triangles share counts once (welded)",
+         or the lower one over distinct vertices, with a shared corner counted once (welded)",
     ),
     ("equal", "the side of a triangle with a vertex in the plane"),
     (
@@ -59,23 +59,28 @@ const MEANINGS: [(&str, &str); 27] = [
     ("duplication", "maximum number of references, as a multiple of the triangles; at least 1"),
     ("partition", "how triangles are partitioned"),
     ("quality", "build quality: slower builds give better trees"),
-    ("batch", "how a batch of rays is traced: one by one (single), or in packets where rays agree (packets)"),
-    ("preset", "the builder's preset, from fastest build to best tree"),
     (
-        "rays",
-        "obvhs: prepare rays in the timed query (asked) or before the clock starts (loaded); Embree: its hint about the \
-         directions in a packet",
+        "batch",
+        "how a batch of rays is traced: one by one (single), or in packets of rays with the same direction octant \
+         (packets)",
     ),
+    ("preset", "the builder's preset, from fastest build to best tree"),
+    ("rays", "prepare rays in the timed query (asked) or before the clock starts (loaded)"),
     ("packet", "Embree: rays per query: 1, 8 or 16"),
     ("isa", "Embree: the instructions that it may use"),
 ];
+
+/// A key with another meaning in Embree.
+const OF_EMBREE: (&str, &str) = ("rays", "coherence hint for the rays of a packet");
 
 impl Entry {
     /// The keys, in the order of the configuration.
     pub fn keys(&self) -> Vec<Key> {
         // A structure of another crate may have a key of the same name with another meaning.
         let meanings = if self.is_builtin { &MEANINGS[..] } else { &[] };
-        let known = |name: &str| meanings.iter().find(|(key, _)| *key == name).map_or("", |(_, meaning)| meaning);
+        let of_embree = Some(&OF_EMBREE).filter(|_| self.is_builtin && self.name.starts_with("embree"));
+        let all = || of_embree.into_iter().chain(meanings);
+        let known = |name: &str| all().find(|(key, _)| *key == name).map_or("", |(_, meaning)| meaning);
         let key = |(name, value): (&String, &Value)| Key {
             name: name.clone(),
             meaning: known(name),

@@ -31,7 +31,7 @@ named_enum! {
     }
 }
 
-/// The heat of a structure that does not report tests and steps.
+/// The error of the heat view: the structure does not report triangle tests and steps.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the structure does not count tests and steps, which the heat view shows: choose another view or structure")]
 pub struct ViewError;
@@ -50,7 +50,7 @@ impl FromStr for ViewKind {
 /// number for all, for example the [`hottest`] of all. The other views ignore it.
 ///
 /// # Errors
-/// The heat of a structure that does not report tests and steps.
+/// If the heat view is requested of a structure that does not report triangle tests and steps.
 pub fn draw(
     scene: &Scene,
     accel: &dyn DynAccel,

@@ -13,8 +13,8 @@ pub struct Measuring<const EPOCHS: u16 = 5, const RUNS: u16 = 3, const BUDGET: u
     /// Samples per structure, workload and epoch (fewer if the budget runs out)
     #[arg(long, value_name = "N", default_value = RUNS.to_string(), value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub runs: u16,
-    /// Seconds of samples per scene and epoch: slow structures are timed on fewer rays. `none` times every structure on
-    /// all rays; `compare` then skips brute-force unless it is named
+    /// Time budget in seconds for the samples of one scene in one epoch; to stay within it, slow structures are timed
+    /// on fewer rays. `none` times every structure on all rays; `compare` then skips brute-force unless it is named
     #[arg(long, value_name = "SECONDS|none", default_value = BUDGET.to_string(), value_parser = Limit::parse,
         allow_negative_numbers = true)]
     pub budget: Limit,

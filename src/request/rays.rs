@@ -202,13 +202,15 @@ impl RaySource {
         }
     }
 
-    /// Like [`count`](Self::count), for rays without a natural number.
+    /// Like [`count`](Self::count), for rays that can be generated in any number.
     ///
     /// # Errors
     /// If all rays are requested.
     pub fn number(&self) -> anyhow::Result<usize> {
         match self {
-            Self::Count(usize::MAX) => anyhow::bail!("the number of such rays is unlimited: give a number, not `all`"),
+            Self::Count(usize::MAX) => {
+                anyhow::bail!("any number of these rays can be generated: give a number instead of `all`")
+            }
             Self::Count(count) => Ok(*count),
             Self::File(_) => Ok(0),
         }
@@ -247,7 +249,8 @@ pub fn recorded(
 }
 
 /// The inputs of a study from the file that `source` names: its scene with its word, and its rays. At most `rays` of
-/// them are timed. `None` if the rays are to be generated. `workloads` are the other named ones: there must be none.
+/// them are timed. `None` if the rays are to be generated. `workloads` are the workloads on the command line: there
+/// must be none.
 ///
 /// # Errors
 /// Like [`recorded`].

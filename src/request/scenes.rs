@@ -176,8 +176,8 @@ pub fn named_notes<'a>(scenes: impl IntoIterator<Item = &'a Scene>, of: fn(&Scen
 #[derive(Clone, Debug, Default, clap::Args)]
 pub struct Scenes {
     /// Built-in scenes, scene files (.toml), mesh files (.obj, .ply, .gltf, .glb) and generated scenes
-    /// (icosphere:LEVEL) [default: all built-in scenes; in `scaling`: dragon, lucy and sponza, in addition to its
-    /// icospheres]
+    /// (icosphere:LEVEL) [default: all built-in scenes; in `scaling`, which always adds icospheres: dragon, lucy and
+    /// sponza]
     #[arg(value_name = "SCENE|FILE")]
     pub scenes: Vec<OsString>,
 }

@@ -57,7 +57,9 @@ impl Program {
     fn advice_on_name(&self) -> String {
         let unfit = self.command.split_once('=').map(|(text, _)| text).filter(|text| !is_name(text));
         unfit.map_or_else(String::new, |text| {
-            format!("; {text:?}, before the first \"=\", is no NAME: a NAME has only letters, digits, \"-\" and \"_\"")
+            format!(
+                "; {text:?}, before the first \"=\", is not a valid NAME: use only letters, digits, \"-\" and \"_\""
+            )
         })
     }
 

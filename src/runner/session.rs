@@ -68,7 +68,10 @@ impl Session {
 
     fn exchange(&mut self, request: &str) -> Result<Reply, String> {
         if let Ok(line) = self.lines.try_recv() {
-            return Err(format!("it says {:?} before the request {request:?}", text(&line)));
+            let line = text(&line);
+            return Err(format!(
+                "it printed {line:?} before the request {request:?}: print only replies to standard output"
+            ));
         }
         let start = Instant::now();
         // If the program has ended, this write may fail; the missing reply is reported below.
@@ -89,7 +92,7 @@ impl Session {
         let ns = start.elapsed().as_nanos() as u64;
         let text = text(&line);
         match text.strip_prefix("error ") {
-            Some(sentence) => Err(format!("it says: {sentence}")),
+            Some(sentence) => Err(format!("it reports the error: {sentence}")),
             None => Ok(Reply { text, ns }),
         }
     }

@@ -216,7 +216,7 @@ impl SceneFile {
             }
             if let Some(terrain) = object.terrain {
                 let alone = object.mesh.is_none() && object.real.is_none() && object.stands_in_for.is_none();
-                let problem = "use it alone, without `mesh`, `real` and `stands_in_for`";
+                let problem = "it excludes `mesh`, `real` and `stands_in_for`: remove them";
                 demand(alone, &format!("objects[{i}].terrain"), problem)?;
                 let key = format!("objects[{i}].terrain.triangles");
                 demand((1..=Terrain::MOST).contains(&terrain.triangles), &key, "give 1 to 134217728 (2^27)")?;
@@ -224,7 +224,7 @@ impl SceneFile {
                 let problem = "name a mesh or a file, or give `terrain` or `real`";
                 demand(object.real.is_some(), &format!("objects[{i}].mesh"), problem)?;
                 let placed = (object.rot, object.sca, object.tra) != ([0.0; 3], [1.0; 3], [0.0; 3]);
-                let problem = "it describes no `mesh`: move it into `real`, or remove it";
+                let problem = "there is no `mesh` that it could apply to: move it into `real`, or remove it";
                 demand(!placed, &format!("objects[{i}].rot, sca or tra"), problem)?;
                 demand(object.stands_in_for.is_none(), &format!("objects[{i}].stands_in_for"), problem)?;
             }

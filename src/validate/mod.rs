@@ -3,8 +3,9 @@
 //! There are two kinds of errors. A *structure error* is a result that differs from brute force with the same triangle
 //! test because the traversal lost or invented a hit: a correct structure has none, on any ray. A *triangle-test error*
 //! is caused by the triangle test: it returns a hit where exact arithmetic finds none, or at another depth, and a
-//! correct traversal may return or cull this hit. If the reference lacks the structure's test, exact arithmetic decides:
-//! differences that rounding in single precision explains are triangle-test errors; all others are *answer errors*.
+//! correct traversal may return or cull this hit. If the reference lacks the structure's test, exact arithmetic
+//! decides: differences that rounding in single precision explains are triangle-test errors; all others are *answer
+//! errors*.
 
 pub mod adversarial;
 mod blame;

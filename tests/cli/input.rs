@@ -82,7 +82,7 @@ fn a_terrain_needs_no_file_and_a_wrong_one_is_refused() {
     for (wrong, parts) in [
         ("0", ["objects[0].terrain.triangles", "1 to 134217728"]),
         ("10, seed = -1", ["ground.toml, line 10", "u32"]),
-        ("10 }\nmesh = \"cube\" # { 1", ["objects[0].terrain", "use it alone"]),
+        ("10 }\nmesh = \"cube\" # { 1", ["objects[0].terrain", "it excludes"]),
     ] {
         fs::write(&scene, terrain(wrong)).unwrap();
         refuses(&["render", &file, "-o", &picture], &parts);

@@ -97,7 +97,7 @@ fn a_program_that_fails_is_refused_in_a_sentence_and_the_others_go_on() {
     let program = nothing(&folder);
     let failures = [
         ("unbuilt", "it ended instead of replying to \"scene "),
-        ("refuses", "it says: it holds no more than two triangles"),
+        ("refuses", "it reports the error: it holds no more than two triangles"),
         ("dies", "(exit status: 3)"),
         ("hangs", "it does not reply to \"pass 0\" within 5 s"),
         ("nan", "it replies \"passed nan\" to \"pass 0\", not \"passed SECONDS\""),
@@ -130,8 +130,8 @@ fn a_program_that_fails_is_not_checked_and_not_wrong() {
     let scene = ["cube", "--rays", "8"];
     let cases = ["--hard", "flat_inplane", "parity", "straight_down", "--rays", "8"];
     for (how, sentence) in [
-        ("refuses", "it says: it holds no more than two triangles."),
-        ("objects", "it says: no ray fits."),
+        ("refuses", "it reports the error: it holds no more than two triangles."),
+        ("objects", "it reports the error: no ray fits."),
         ("miscounts", "it replies \"loaded 7\" to \"rays 0 "),
         ("dies", "it ended instead of replying to \"pass 0\" (exit status: 3)."),
         ("hangs", "it does not reply to \"pass 0\" within 0.5 s: raise --runner-limit."),
@@ -183,8 +183,11 @@ fn a_clock_that_disagrees_with_ours_is_told_and_what_it_declines_is_not_asked() 
 fn what_is_no_runner_is_refused_before_anything_is_measured() {
     for (command, parts) in [
         ("./no-such-program -x", &["./no-such-program -x", "the program \"./no-such-program\" cannot be started"][..]),
-        ("my bvh=./bvh", &["the program \"my\" cannot be started", "\"my bvh\", before the first \"=\", is no NAME"]),
-        ("=./bvh", &["the program \"=./bvh\" cannot be started", "\"\", before the first \"=\", is no NAME"]),
+        (
+            "my bvh=./bvh",
+            &["the program \"my\" cannot be started", "\"my bvh\", before the first \"=\", is not a valid NAME"],
+        ),
+        ("=./bvh", &["the program \"=./bvh\" cannot be started", "\"\", before the first \"=\", is not a valid NAME"]),
         ("my=bvh=./bvh", &["the program \"bvh=./bvh\" cannot be started"]),
         ("true", &["\"true\"", "it ended instead of replying to \"sahara 1 1\""]),
         ("cat", &["it replies \"sahara 1 1\"", "runner 1 closest any"]),

@@ -69,7 +69,7 @@ fn more_threads_than_the_system_gives_are_refused_before_anything_is_measured() 
         let mut command = std::process::Command::new("sh");
         command.env("RUST_MIN_STACK", "1000000000").env("RAYON_NUM_THREADS", "1").env("MALLOC_ARENA_MAX", "1");
         let output = command.args(["-c", &script]).current_dir(folder.path()).output().unwrap();
-        refused_in_a_line(&output, &["error: the system refuses 1024 threads", "use fewer"]);
+        refused_in_a_line(&output, &["error: the system cannot start 1024 threads", "lower --threads"]);
     }
     assert!(journal::cases(&folder.path().join("runs"), "compare").is_empty());
 }

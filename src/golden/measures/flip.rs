@@ -15,8 +15,8 @@ use image::DynamicImage;
 use super::plane::{Plane, gaussian, in_bands, offsets};
 use crate::golden::layout::Layout;
 
-/// Pixels per degree of sight for a screen 0.7 m wide with 3840 pixels at a distance of 0.7 m: the assumption of the
-/// paper.
+/// Pixels per degree of visual angle for a screen 0.7 m wide with 3840 pixels at a distance of 0.7 m: the assumption of
+/// the paper.
 pub const PIXELS_PER_DEGREE: f64 = 3840.0 * PI / 180.0;
 
 /// FLIP of each pixel, from 0 (equal) to 1. The pictures have one layout, without floats.

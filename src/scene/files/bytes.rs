@@ -24,7 +24,8 @@ pub(super) fn header(bytes: &[u8], magic: &[u8; 8], what: &str) -> Result<FileHe
         ));
     }
     if bytes.len() < HEADER_BYTES {
-        return Err(format!("the file is truncated: {} bytes are less than its header", bytes.len()));
+        let found = bytes.len();
+        return Err(format!("the file is truncated: it has {found} bytes, fewer than its header of {HEADER_BYTES}"));
     }
     let (version, query) = (number(bytes, 8), number(bytes, 12));
     if version != VERSION {
@@ -72,8 +73,8 @@ pub(super) fn body(bytes: &[u8], at: usize, count: u64, size: u64) -> Result<&[u
     match count.checked_mul(size) {
         Some(expected) if expected == found => Ok(body),
         Some(expected) if expected < found => {
-            Err(format!("{} bytes follow the last of {count}: the file was changed", found - expected))
+            Err(format!("{} bytes follow the last of {count} items: the file was changed", found - expected))
         }
-        _ => Err(format!("the file is truncated: it should hold {count}, but holds {}", found / size)),
+        _ => Err(format!("the file is truncated: it should contain {count} items, but contains {}", found / size)),
     }
 }

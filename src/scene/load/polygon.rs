@@ -52,7 +52,10 @@ impl Splitter {
         for (count, what) in [
             (self.crossing, "cross themselves: split into fans around their first corner, perhaps not as intended"),
             (self.bent, "are neither convex nor flat: their surface is ambiguous"),
-            (self.large, "have very many corners and are not convex: split into fans, which may overlap"),
+            (
+                self.large,
+                "have too many corners to search for crossings and are not convex: split into fans, which may overlap",
+            ),
         ] {
             if count > 0 {
                 notes.add(format!("{count} polygons {what}"));
@@ -289,7 +292,7 @@ mod tests {
             let middle = [teeth as f32 / 2.0, -9.0];
             polygon(&(0..teeth).map(|i| [i as f32, (i % 2) as f32]).chain([middle]).collect::<Vec<_>>())
         };
-        assert!(noted(&saw(12_000)).contains("very many corners"));
+        assert!(noted(&saw(12_000)).contains("too many corners"));
         let mut splitter = Splitter { pairs: MOST_PAIRS - 1000 * (1000 - SMALL), ..Splitter::default() };
         for (teeth, large) in [(999, 0), (99, 1), (63, 1)] {
             splitter.split(&saw(teeth));

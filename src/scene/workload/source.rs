@@ -33,7 +33,7 @@ impl Sampling {
 
 pub(super) struct Source<'a> {
     pub scene: &'a Scene,
-    /// The number of rays; [`Sampling::limit`] is applied to the rays that a kind's function returns.
+    /// The number of rays; [`Sampling::limit`] is applied to the rays that the generator of the workload returns.
     pub sampling: &'a Sampling,
     /// The structure that finds the hits at which secondary rays start.
     pub accel: &'a dyn DynAccel,

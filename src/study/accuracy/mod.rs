@@ -58,7 +58,7 @@ struct AccuracyArgs {
     /// Samples per structure and workload
     #[arg(long, help_heading = MEASURING, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..))]
     runs: u16,
-    /// Seconds of samples per scene: slow structures are timed on fewer rays
+    /// Time budget in seconds for the samples of one scene; to stay within it, slow structures are timed on fewer rays
     #[arg(long, help_heading = MEASURING, value_name = "SECONDS", default_value_t = BUDGET, allow_negative_numbers = true)]
     budget: Seconds,
     /// Seed of the rays and of the sample order

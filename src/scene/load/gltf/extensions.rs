@@ -27,7 +27,7 @@ pub(super) fn check(required: &Value, used: &Value, notes: &mut Notes) -> Result
     }
     // Compressed data that are not required exist uncompressed as well.
     for name in others(used).filter(|name| !is_shading(name) && decompression(name).is_none()) {
-        notes.add(format!("the extension {} is ignored, with what it changes", quoted(name)));
+        notes.add(format!("the extension {} is ignored: its changes to the scene are missing", quoted(name)));
     }
     Ok(())
 }

@@ -35,7 +35,7 @@ pub(super) fn walk(document: &Document) -> Result<(Vec<Node<'_>>, Vec<DMat4>), F
     let mut is_shown = vec![false; nodes.len()];
     for &root in &roots {
         if std::mem::replace(&mut is_shown[root], true) {
-            return fault(root, "the scene shows it twice: list each root once".to_owned());
+            return fault(root, "the scene lists it twice: list each root once".to_owned());
         }
     }
 

@@ -68,8 +68,10 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
         let surfaces: usize = shapes.values().map(|shape| shape.parts.len()).sum();
         let others: usize = shapes.values().map(|shape| shape.left_out).sum();
         let (nodes, meshes) = (document.nodes().len(), document.meshes().len());
-        let shown =
-            format!("{surfaces} empty primitives for triangles, and {others} for points or lines or without positions");
+        let shown = format!(
+            "{surfaces} triangle primitives without triangles, and {others} primitives of points or lines or without \
+             positions"
+        );
         let problem =
             format!("it has no visible triangles: it shows {shown}; the file has {nodes} nodes and {meshes} meshes");
         return Err(Fault::file(problem));
@@ -98,8 +100,8 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
         placement.node.skin().is_some() && positions.any(|attribute| attribute.influences.is_empty())
     };
     let unposed = [
-        "node has a skin, but its mesh lacks joints: unposed",
-        "nodes have skins, but their meshes lack joints: unposed",
+        "node has a skin, but its mesh has no joints: shown as stored, without a pose",
+        "nodes have skins, but their meshes have no joints: shown as stored, without a pose",
     ];
     notes.count(placements.iter().filter(is_unposed).count(), unposed);
     let texture = [
@@ -112,8 +114,8 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
     let parts = shapes.values().flat_map(|shape| &shape.parts);
     notes.count(parts.filter(|part| part.primitive.morph_targets().len() > 0).count(), morph);
     let left_out = [
-        "primitive is points or lines, or has no positions: ignored",
-        "primitives are points or lines, or have no positions: ignored",
+        "primitive consists of points or lines, or has no positions: ignored",
+        "primitives consist of points or lines, or have no positions: ignored",
     ];
     notes.count(shapes.values().map(|shape| shape.left_out).sum(), left_out);
     model.notes = notes.into_vec();
@@ -137,7 +139,7 @@ fn reserve(model: &mut Model, sizes: [usize; 4], bytes: usize) -> Result<(), Fau
     if fits {
         return Ok(());
     }
-    let shown = format!("its nodes show {triangles} triangles and {vertices} vertices");
+    let shown = format!("its nodes instantiate {triangles} triangles and {vertices} vertices");
     if sizes.iter().all(|&size| size <= most) {
         return Err(Fault::file(format!("{shown}, which do not fit into memory: split the scene")));
     }

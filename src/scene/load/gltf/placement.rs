@@ -35,7 +35,10 @@ impl<'a> Placement<'a> {
         for accessor in self.instances.into_iter().flatten() {
             let count = accessors.get(accessor)?.count();
             if *copies.get_or_insert(count) != count {
-                return Err(fault(accessor, format!("it has {count} elements, unlike others of the same instances")));
+                let problem = format!(
+                    "it has {count} elements, but another accessor of the same instances has a different number"
+                );
+                return Err(fault(accessor, problem));
             }
         }
         Ok([copies.unwrap_or(1), 0])

@@ -1,8 +1,8 @@
 //! The text of a glTF document, alone or in a binary file.
 //!
-//! The crate `gltf` has the types of a document and checks its indices. By itself it refuses valid files for what is not
-//! read here, and misreads some invalid ones. It is therefore cut down to what is read before the crate sees
-//! it.
+//! The crate `gltf` has the types of a document and checks its indices. The crate rejects valid files because of parts
+//! that this loader does not read, and misreads some invalid files. The document is therefore reduced to the parts that
+//! are read before the crate parses it.
 
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;

@@ -8,8 +8,10 @@ use super::{binary, changed, data, document, gltf, loaded, refused};
 #[test]
 fn files_that_show_nothing_are_refused_with_a_reason() {
     let shown = |nodes, meshes, surfaces, others| {
-        let shown =
-            format!("{surfaces} empty primitives for triangles, and {others} for points or lines or without positions");
+        let shown = format!(
+            "{surfaces} triangle primitives without triangles, and {others} primitives of points or lines or without \
+             positions"
+        );
         format!("it has no visible triangles: it shows {shown}; the file has {nodes} nodes and {meshes} meshes")
     };
     let plain = |changes: &[(&str, Value)], shown: String| refused(changes, &[&shown]);
@@ -242,7 +244,10 @@ fn many_empty_primitives_shown_often_are_refused() {
     document["nodes"] = (0..20_000).map(|_| json!({"mesh": 0})).collect();
     document["scenes"][0]["nodes"] = (0..20_000).collect();
     let error = loaded(document.to_string().as_bytes()).unwrap_err().to_string();
-    assert!(error.contains("its nodes show 40000 triangles") && error.contains("the limit for files of"), "{error}");
+    assert!(
+        error.contains("its nodes instantiate 40000 triangles") && error.contains("the limit for files of"),
+        "{error}"
+    );
 }
 
 #[test]
