@@ -96,7 +96,7 @@ impl Registry {
             "the name {name:?} must neither be \"all\" nor contain ':', ',', '=' or white space"
         );
         let test = A::TRIANGLE_TEST;
-        assert!(self.find(name, test).is_none(), "there is already a structure {name:?} over the test {test:?}");
+        assert!(self.find(name, test).is_none(), "there is already a structure {name:?} with the test {test:?}");
         let config = match serde_json::to_value(config).expect("a configuration serialises") {
             Value::Null => Value::Object(Map::new()),
             value @ Value::Object(_) => value,

@@ -20,7 +20,7 @@ pub enum StudyError {
     #[error("{failure} The study compares all of its trees or none.")]
     Missing { failure: String, wrong: bool },
     #[error(
-        "{one} and {other}, over the same triangle test, return different hits for the {rays} rays of {scene}: one is \
+        "{one} and {other}, with the same triangle test, return different hits for the {rays} rays of {scene}: one is \
          wrong"
     )]
     Disagree { one: String, other: String, scene: String, rays: String },

@@ -140,7 +140,7 @@ fn structures(registry: &Registry, named: &[String], tests: &[String]) -> anyhow
         }
     }
     let chosen = each_once_by(chosen, |one, other| one.spec == other.spec);
-    chosen.first().context("no structure is available over these triangle tests: see `sahara list`")?;
+    chosen.first().context("no structure is available with these triangle tests: see `sahara list`")?;
     Ok(chosen)
 }
 

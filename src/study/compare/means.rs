@@ -71,6 +71,9 @@ pub fn mean_table(all: &[Measurement], references: &[Reference]) -> Table {
     let mut notes = vec![];
     if !reasons.is_empty() {
         notes.push(format!("Missing speeds (one structure on one workload of one scene): {}.", listed(&reasons)));
+        let note = "Means are over all cells in which a structure has a time; rankings use only the cells that all \
+                    ranked structures have in common.";
+        notes.push(note.into());
     }
     if table.rows.iter().flatten().any(|cell| !cell.note.is_empty()) {
         let note = "(n of m): mean over only n of the m cells in which the reference structure has a time; not comparable \

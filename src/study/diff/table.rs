@@ -16,8 +16,8 @@ pub fn cautions(comparison: &Comparison) -> Vec<String> {
     let mut cautions: Vec<String> =
         comparison.wrong.iter().map(|wrong| format!("Wrong: {}: {}.", wrong.case, wrong.what)).collect();
     if comparison.references.is_empty() {
-        let sentence = "Times are not normalised, because the runs share no obvhs structure over its own triangle test: a \
-                        slower machine counts as a change.";
+        let sentence = "Times are not normalised, because the runs share no obvhs structure with its own triangle \
+                        test: a slower machine counts as a change.";
         cautions.push(sentence.into());
     }
     cautions.extend(comparison.machines.as_ref().map(|[old, new]| {

@@ -20,8 +20,8 @@ pub struct Unlike {
 
 const SAME_MACHINE: &str = "measure both on the same machine, with the same options";
 const SAME_PROCESSES: &str = "measure both with --in-process, or both without";
-const SAME_UNIT: &str = "two machines are compared by ratios to an obvhs structure over its own triangle test: measure such a \
-                         structure in both runs";
+const SAME_UNIT: &str = "two machines are compared by ratios to an obvhs structure with its own triangle test: measure \
+                         such a structure in both runs";
 const SAME_INPUT: &str = "measure the old run again on the same scenes and rays";
 const SAME_SCENE: &str = "the hash covers the mesh, camera, lights and picture size: measure the old run again with the same scene \
                           and --size";

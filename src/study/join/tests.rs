@@ -77,7 +77,7 @@ fn structures_over_the_exact_test_that_answer_otherwise_are_a_wrong_answer() {
     let failures = with(["exact", "exact"], &|_| ());
     let sentence = failures[0].to_string();
     assert!(
-        failures[0].is_wrong_answer() && sentence.starts_with("x and y, over the same triangle test"),
+        failures[0].is_wrong_answer() && sentence.starts_with("x and y, with the same triangle test"),
         "{sentence}"
     );
     assert!(with(["exact", "moller-trumbore"], &|_| ()).is_empty());

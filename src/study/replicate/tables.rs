@@ -9,7 +9,8 @@ pub fn tables(all: &[Replicated], main: &[Replicated], hard: &[Replicated]) -> V
     let note = "~: extrapolated from a subset of the rays. improvement: brute-force / median-kd; times faster: \
                 median-kd / sah-kd; both from times of one round.";
     let easy = table("Seconds for all rays, without construction", main, &SECONDS).noted([note]);
-    let hard = table("Hard scenes: seconds for the primary rays, without construction", hard, &SECONDS);
+    let note = "~: extrapolated from a subset of the rays. times faster: median-kd / sah-kd, from times of one round.";
+    let hard = table("Hard scenes: seconds for the primary rays, without construction", hard, &SECONDS).noted([note]);
     let t_primes = table("t' = seconds / (rays x triangles)", all, &T_PRIMES);
     let all = [rays(all), easy, t_primes, settings(main), hard];
     all.into_iter().filter(Table::says_something).map(Table::explained).collect()
