@@ -93,7 +93,7 @@ fn compare_says_who_won_and_relates_to_what_is_asked_for() {
     );
     let text = said(&[&args[..], &["--reference", "median-kd:leaf=8", "--verbose"]].concat());
     assert!(text.contains("x median-kd:leaf=8: speed against median-kd:leaf=8"), "{text}");
-    let last = text.rsplit("structures with double-precision or exact triangle tests").next().unwrap();
+    let last = text.rsplit("structures with exact or f64 triangle tests").next().unwrap();
     assert!(last.contains("median-kd:leaf=8"), "that sentence is about the reference: {last}");
 }
 

@@ -44,9 +44,7 @@ fn parts(hard: &[&Attribution]) -> Option<Finding> {
     let scenes = listed(&hard.iter().map(|r| r.first().scene_title()).collect::<Vec<_>>());
     let told = |factor: &Factor| {
         let parts: Vec<String> = hard.iter().map(|r| interval(r.part(*factor))).collect();
-        // The documents quote this sentence before they explain the stop rule.
-        let meaning = if *factor == Factor::Stop { " (when a node becomes a leaf)" } else { "" };
-        format!("{}{meaning} {}", words(*factor), listed(&parts))
+        format!("{} {}", words(*factor), listed(&parts))
     };
     // The first on all scenes: its interval lies above the intervals of the other factors.
     let first = Factor::ALL.into_iter().find(|&factor| {
@@ -54,15 +52,14 @@ fn parts(hard: &[&Attribution]) -> Option<Finding> {
         hard.iter().all(|r| Factor::ALL.into_iter().all(|other| other == factor || above(r, other)))
     });
     let most = match first {
-        Some(Factor::Plane) => format!("On {scenes} most of the speedup comes from the choice of split planes"),
-        Some(factor) => format!("On {scenes} most of the speedup comes from the {}", factor.name()),
+        Some(factor) => format!("On {scenes} most of the speedup is due to the {}", words(factor)),
         None => format!(
             "No single factor gives most of the speedup on {}{scenes}",
             if hard.len() > 1 { "all of " } else { "" }
         ),
     };
     let factors = Factor::ALL.iter().map(told).collect::<Vec<_>>().join("; ");
-    let order = if hard.len() > 1 { ", in the order of the scenes" } else { "" };
+    let order = if hard.len() > 1 { ", scene by scene" } else { "" };
     (!hard.is_empty()).then(|| Finding::new("parts", format!("{most}. The factors{order}: {factors}.")))
 }
 

@@ -124,8 +124,8 @@ fn the_sentences_name_the_parts_and_the_stand_in() {
                  three can be exchanged; in single orders the gain is 1.50 to 3.00 for the split plane, 8.00 to 16.0 \
                  for the stop rule and 1.25 to 1.25 for the traversal.";
     assert_eq!(sentence("split-dragon"), split);
-    let parts = "On Dragon (stand-in) most of the speedup comes from the stop rule. The factors: split plane 2.12 \
-                 [2.12, 2.12]; stop rule (when a node becomes a leaf) 11.3 [11.3, 11.3]; traversal 1.25 [1.25, 1.25].";
+    let parts = "On Dragon (stand-in) most of the speedup is due to the stop rule. The factors: split plane 2.12 \
+                 [2.12, 2.12]; stop rule 11.3 [11.3, 11.3]; traversal 1.25 [1.25, 1.25].";
     assert_eq!(sentence("parts"), parts);
     assert_eq!((own.data.rows.len(), own.tables().count()), (CELLS, 1));
     assert!(own.finding("gain-dragon").is_none() && report(vec![]).blocks.is_empty());

@@ -76,7 +76,7 @@ impl<'a> Ranking<'a> {
         let errs = |row: &&Ranked| self.all.iter().any(|own| own.label == row.label && own.is_disqualified());
         let right: Vec<&Ranked> = precise.iter().copied().filter(|row| !errs(row)).collect();
         let ranks = [
-            ("right", "with double-precision or exact triangle tests and no wrong hits", &right),
+            ("right", "with exact or f64 triangle tests and no wrong hits", &right),
             ("single", "in single precision", &single),
         ];
         let firsts = ranks.into_iter().filter_map(|(key, words, rows)| self.first(key, words, rows));
@@ -163,9 +163,8 @@ impl<'a> Ranking<'a> {
             [least, .., most] => format!("{} to {}", told(least), told(most)),
         };
         let test = &costs[0].0.triangle_test;
-        let sentence = format!(
-            "Structures take {told} times as long with the triangle test {test} as with a test in single precision."
-        );
+        let sentence =
+            format!("Structures take {told} times as long with the triangle test {test} as in single precision.");
         Some(Finding::new("cost", sentence))
     }
 }
@@ -208,8 +207,8 @@ mod tests {
 
         let findings = ranking.findings();
         let told: Vec<&str> = findings.iter().map(|finding| finding.sentence.as_str()).collect();
-        let first = "Of 2 structures with double-precision or exact triangle tests and no wrong hits, fast has the \
-                     highest mean speed over 2 common cells";
+        let first = "Of 2 structures with exact or f64 triangle tests and no wrong hits, fast has the highest mean \
+                     speed over 2 common cells";
         assert!(told[0].starts_with(first), "{told:?}");
         assert!(told[0].contains("traces 2.00") && !told[0].contains("distinguishable"), "{told:?}");
         assert!(told[1].starts_with(&format!("Of 3 structures in single precision, {} has", single[0])), "{told:?}");
