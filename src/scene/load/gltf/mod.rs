@@ -20,6 +20,7 @@ use self::accessors::Accessors;
 use self::placement::{Placement, Pose};
 use self::shape::{Attribute, Shape, Sizes};
 use super::error::Fault;
+use crate::plural::plural;
 use crate::scene::{Material, Model};
 
 /// A scene may have at most as many triangles, and as many vertices, as its files have bytes, plus this number. Only
@@ -69,8 +70,9 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
         let others: usize = shapes.values().map(|shape| shape.left_out).sum();
         let (nodes, meshes) = (document.nodes().len(), document.meshes().len());
         let shown = format!(
-            "{surfaces} triangle primitives without triangles, and {others} primitives of points or lines or without \
-             positions"
+            "{} without triangles, and {} of points or lines or without positions",
+            plural(surfaces, "triangle primitive"),
+            plural(others, "primitive")
         );
         let problem =
             format!("it has no visible triangles: it shows {shown}; the file has {nodes} nodes and {meshes} meshes");

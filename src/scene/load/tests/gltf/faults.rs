@@ -4,13 +4,15 @@ use serde_json::{Value, json};
 
 use super::super::{assert_refused, load_files};
 use super::{binary, changed, data, document, gltf, loaded, refused};
+use crate::plural::plural;
 
 #[test]
 fn files_that_show_nothing_are_refused_with_a_reason() {
     let shown = |nodes, meshes, surfaces, others| {
         let shown = format!(
-            "{surfaces} triangle primitives without triangles, and {others} primitives of points or lines or without \
-             positions"
+            "{} without triangles, and {} of points or lines or without positions",
+            plural(surfaces, "triangle primitive"),
+            plural(others, "primitive")
         );
         format!("it has no visible triangles: it shows {shown}; the file has {nodes} nodes and {meshes} meshes")
     };
