@@ -70,7 +70,7 @@ fn fault(kind: Kind) -> (&'static str, &'static str) {
     match kind {
         Kind::Hangs => ("does not return", TREE),
         Kind::Panicked => ("panics or exits", TREE),
-        Kind::Lost | Kind::NearerLost => ("loses hits, which no rounding explains", TREE),
+        Kind::Lost | Kind::NearerLost => ("loses hits that no rounding explains", TREE),
         Kind::Invented => ("returns hits that no rounding explains", EITHER),
         Kind::WrongT => ("returns depths that no rounding explains", EITHER),
         Kind::WrongPrimitive => ("names triangles that are not hit there", TREE),
@@ -100,8 +100,8 @@ mod tests {
                 "mine differs from the exact hits on 3 of 70,000 rays, always within the rounding of the triangle \
                  test; no error of the tree was found.",
             ),
-            (rounds.and(lost), "mine loses hits, which no rounding explains, on 12 of 20,000 rays: the tree is wrong."),
-            (off.and(lost), "mine loses hits, which no rounding explains, on 13 of 70,000 rays: the tree is wrong."),
+            (rounds.and(lost), "mine loses hits that no rounding explains, on 12 of 20,000 rays: the tree is wrong."),
+            (off.and(lost), "mine loses hits that no rounding explains, on 13 of 70,000 rays: the tree is wrong."),
         ] {
             assert_eq!(verdict.sentence("mine"), expected);
         }

@@ -148,10 +148,7 @@ fn text_becomes_rays_and_rays_become_text() {
     refuses(&folder, &["rays", "import", "rays.txt", "-o", "bad.rays", "--name", "a\nb"], &["control character"]);
     for (line, part) in [
         ("1,2,3 nan,0,1", "line 1: the ray"),
-        (
-            "0 0 1 0 0 -1\n\n0 0 0 0 -0 0",
-            "line 3: the ray \"0 0 0 0 -0 0\" cannot hit anything: its direction is zero",
-        ),
+        ("0 0 1 0 0 -1\n\n0 0 0 0 -0 0", "line 3: the ray \"0 0 0 0 -0 0\" cannot hit anything: its direction is zero"),
         ("1 2 3 4 5 6 [2, 1] # back", "its interval is empty"),
         ("1,2 3,4,5", "line 1"),
         ("# none", "no ray"),

@@ -186,7 +186,7 @@ fn the_command_rejects_each_fault_for_its_own_reason() {
 /// most of them.
 #[test]
 fn each_fault_of_a_tree_is_told_from_what_its_triangle_test_rounds() {
-    const LOSES: &str = "loses hits, which no rounding explains";
+    const LOSES: &str = "loses hits that no rounding explains";
     let validate = |fault: &str, options: &str| {
         let (printed, right) = sahara(&format!("validate -s mybvh:fault={fault} --rays 4000 {options}"));
         (printed, right)
