@@ -107,7 +107,8 @@ fn choose(
     if count <= BLOCK && !context.is_large(area) {
         return None;
     }
-    let leaf_cost = context.unsplit_cost(area, count);
+    // A split of a single block is tried even if it costs more: one further down may pay, and `merge` undoes it if not.
+    let leaf_cost = if count <= BLOCK { f64::INFINITY } else { context.unsplit_cost(area, count) };
     let full = count > config.leaf as usize;
     if place.depth < context.depth
         && let Some(offer) = cheapest(context, references, extent, place.budget, slots)
