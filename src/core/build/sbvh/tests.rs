@@ -95,7 +95,7 @@ fn a_floor_and_a_wall_are_separate_leaves_and_tiles_of_a_floor_are_not() {
     let wall = quad([(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0)].map(|(x, y)| Vec3::new(x, y, 0.0)));
     let large = [floor, wall].concat();
     let scene = mesh(204, |i| {
-        let small = || [Vec3::X, Vec3::Y, Vec3::Z].map(|p| p * 0.1 + Vec3::splat(4.0 + i as f32 * 0.01));
+        let small = || [Vec3::X, Vec3::Y, Vec3::Z].map(|p| p * 0.1 + Vec3::splat(5.0 + i as f32 * 0.01));
         large.get(i).copied().unwrap_or_else(small)
     });
     let tiles = mesh(8, |i| {
