@@ -24,7 +24,7 @@ pub fn finding(of_kind: &JudgedRays) -> Option<Finding> {
     let rays = count(own.iter().map(|judged| judged.errors.rays).max()?);
     let (right, other) = match &right[..] {
         [] => ("with every triangle test, some of our structures return wrong results".to_owned(), ""),
-        [test] => (format!("our structures return no wrong result with the triangle test {test}"), " with other tests"),
+        [test] => (format!("our structures return no wrong result with the {test} triangle test"), " with other tests"),
         tests => (
             format!("our structures return no wrong result with the triangle tests {}", listed(tests)),
             " with other tests",

@@ -61,7 +61,7 @@ fn exact_is_right_and_single_precision_is_not() {
     assert!(report.failures.is_empty());
     let keys: Vec<&str> = report.findings.iter().map(|finding| finding.key.as_str()).collect();
     assert_eq!(keys, ["torus-edge", "torus-grazing"]);
-    let told = "Torus, 400 edge rays: our structures return no wrong result with the triangle test exact; share of \
+    let told = "Torus, 400 edge rays: our structures return no wrong result with the exact triangle test; share of \
                 wrong results with other tests: moller-trumbore";
     assert!(report.findings[0].sentence.starts_with(told), "{}", report.findings[0].sentence);
     assert!(report.tables().all(|table| table.of_scene && table.rows.len() == 2 && table.notes.is_empty()));

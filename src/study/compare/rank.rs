@@ -96,7 +96,7 @@ impl<'a> Ranking<'a> {
             *value != Estimate::exact(1.0) && is_brought(&row.example.structure, &row.example.triangle_test)
         })?;
         let (label, times, reference) = (row.label, interval(value), self.reference.words());
-        let sentence = format!("{label} traces {times} times the rays per second of {reference}.");
+        let sentence = format!("{label} traces {times} times as many rays per second as {reference}.");
         Some(Finding::new(format!("speed-{}", slug(label)), sentence).with_value(value))
     }
 
@@ -133,9 +133,9 @@ impl<'a> Ranking<'a> {
         let told = match () {
             () if value == Estimate::exact(1.0) => "it is itself the reference".to_owned(),
             () if value.holds(1.0) => {
-                format!("it is not distinguishable from {reference}: {times} times the rays per second")
+                format!("it is not distinguishable from {reference}: {times} times as many rays per second")
             }
-            () => format!("it traces {times} times the rays per second of {reference}"),
+            () => format!("it traces {times} times as many rays per second as {reference}"),
         };
         let (ranked, over) = (plural(rows.len(), "structure"), plural(self.cells.len(), "common cell"));
         let sentence = format!(
@@ -164,7 +164,7 @@ impl<'a> Ranking<'a> {
         };
         let test = &costs[0].0.triangle_test;
         let sentence =
-            format!("Structures take {told} times as long with the triangle test {test} as in single precision.");
+            format!("Structures take {told} times as long with the {test} triangle test as in single precision.");
         Some(Finding::new("cost", sentence))
     }
 }
