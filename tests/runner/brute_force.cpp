@@ -1,4 +1,4 @@
-// Every ray against every triangle: a whole program for `sahara compare --runner`. Put your structure in the place of `query`.
+// Every ray against every triangle: a whole program for `sahara compare --runner`. Build your structure in `scene`, and query it in `query`.
 #include <cstdint>
 #include <cstdio>
 #include <ctime>
@@ -27,7 +27,7 @@ Hit query(const std::vector<Triangle> &triangles, const Ray &ray, bool any) {
         const Triangle &of = triangles[i];
         Vec p = cross(ray.direction, of.edge2), s = ray.origin - of.corner, q = cross(s, of.edge1);
         float det = dot(of.edge1, p), u = dot(s, p) / det, v = dot(ray.direction, q) / det, t = dot(of.edge2, q) / det;
-        if (u >= 0 && v >= 0 && u + v <= 1 && t >= ray.t_min && t < hit.t) hit = {t, i};
+        if (u >= 0 && v >= 0 && u + v <= 1 && t >= 0 && t >= ray.t_min && t < hit.t) hit = {t, i};
     }
     return hit;
 }
