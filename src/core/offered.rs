@@ -1,6 +1,11 @@
 //! The structures that the registry offers by name, each over each of its triangle tests. This crate compiles their
 //! builds and traversals once, with its own settings; otherwise every crate that uses a generic structure would compile
 //! it again.
+//!
+//! To add a structure of this crate, add its type to `offered_over!`, or to `offered!` if it has one triangle test. In
+//! `src/registry/builtin.rs`, add a bound and a line `.offering` to `over`, or only the line to `builtin`. The tests
+//! require that the structure works over every triangle test of `offered_over!`, returns the lowest primitive number at
+//! equal `t`, loses no hit in the ranked hard cases, and returns the same bits at every SIMD level.
 
 use std::sync::Arc;
 
