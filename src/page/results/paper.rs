@@ -2,10 +2,9 @@
 
 use super::run_facts::RunFacts;
 use super::{COMMAND, FIGURES, Files, TABLES};
-use crate::page::document::{Document, Section};
-use crate::page::markdown::section;
+use crate::page::document::Document;
 use crate::page::runs::Runs;
-use crate::report::markdown::prose;
+use crate::report::markdown::{blocks, escaped, prose};
 use crate::report::words::listed;
 use crate::report::{Art, Block, Table, csv, wrapped};
 
@@ -19,7 +18,10 @@ const FIGURES_SHOWN: usize = 2;
 
 /// Tables with more rows are files beside the paper, except tables whose titles begin with these words.
 const LONG: usize = 8;
-const WHOLE: [&str; 2] = ["Claims", "Speed relative"];
+const WHOLE: [&str; 2] = [CLAIMS, "Speed relative"];
+
+/// The beginning of the title of verdicts on claims, whose columns say what they are.
+const CLAIMS: &str = "Claims";
 
 /// The path of a figure in the paper.
 pub fn path(id: &str) -> String {
@@ -50,6 +52,13 @@ fn paragraph(words: &str) -> String {
     format!("{}\n\n", wrapped(&prose(words), 120).join("\n"))
 }
 
+/// A list with an item for each sentence.
+fn list<'a>(sentences: impl Iterator<Item = &'a str>) -> String {
+    let items: Vec<String> =
+        sentences.map(|sentence| format!("- {}\n", wrapped(&prose(sentence), 118).join("\n  "))).collect();
+    if items.is_empty() { String::new() } else { items.concat() + "\n" }
+}
+
 fn answer(document: &Document) -> String {
     let answer = &document.answer;
     let mut text = String::new();
@@ -59,19 +68,20 @@ fn answer(document: &Document) -> String {
     // The last section of the paper defines the verdicts.
     let reason = if answer.verdict == "Yes" { ": the whole intervals of all three speedups lie above 2" } else { "" };
     text += &format!("**{}** {}{reason}.\n\n", prose(&document.title), prose(&answer.verdict));
-    text += &answer.sentences.iter().map(|sentence| paragraph(sentence)).collect::<String>();
+    text += &list(answer.sentences.iter().map(String::as_str));
     if answer.chart.is_some() {
         text += &format!("![The answer: speedup over the report's tree]({FIGURES}/{ANSWER})\n");
     }
     text
 }
 
-/// The sections of the studies, without folded blocks, tables of single scenes, interactive blocks, and sentences of the
-/// answer; and the long tables as files.
+/// The sections of the studies, findings first, without folded blocks, tables of single scenes, interactive blocks, and
+/// sentences of the answer; and the long tables as files.
 fn results(document: &Document, runs: &Runs) -> (String, Files) {
     let (mut text, mut tables) = (String::new(), vec![]);
-    for own in document.sections.iter().filter(|own| runs.of(own.id).is_some()) {
-        let (mut figures, others) = (0, tables.len());
+    for (own, run) in document.sections.iter().filter_map(|own| runs.of(own.id).map(|run| (own, run))) {
+        let found: Vec<&str> = run.report.sentences().collect();
+        let (mut figures, others, mut files) = (0, tables.len(), vec![]);
         let mut shown = |block: &Block| match block {
             Block::Figure(figure) if matches!(figure.art, Art::Chart(_)) => {
                 figures += 1;
@@ -80,17 +90,26 @@ fn results(document: &Document, runs: &Runs) -> (String, Files) {
             Block::Table(table) if table.of_scene => None,
             Block::Table(table) if is_long(table) => {
                 let name = format!("{}-{}.csv", own.id, tables.len() - others + 1);
-                let said = format!("{}: {} rows in {TABLES}/{name}.", table.title, table.rows.len());
+                files.push(format!("{} ({TABLES}/{name}, {} rows)", table.title, table.rows.len()));
                 tables.push((name, csv::table(table)));
-                Some(Block::Text(said))
+                None
             }
-            Block::Text(words) if document.answer.sentences.contains(words) => None,
+            Block::Table(table) if table.title.starts_with(CLAIMS) => {
+                Some(Block::Table(Table { title: String::new(), ..table.clone() }))
+            }
+            Block::Text(words) if found.contains(&words.as_str()) => None,
             Block::Text(_) | Block::Table(_) => Some(block.clone()),
             _ => None,
         };
-        let blocks = own.blocks.iter().filter_map(&mut shown).collect();
+        let shown: Vec<Block> = own.blocks.iter().filter_map(&mut shown).collect();
         // All commands are in the section on the method.
-        section(&Section { blocks, command: String::new(), ..*own }, &mut text);
+        text += &format!("## {}\n\n", escaped(own.title));
+        let is_new = |sentence: &&str| !document.answer.sentences.iter().any(|own| own == sentence);
+        text += &list(found.into_iter().filter(is_new));
+        blocks(&shown, &mut text);
+        if !files.is_empty() {
+            text += &paragraph(&format!("Long tables: {}.", files.join("; ")));
+        }
     }
     let missing: Vec<String> =
         document.missing().iter().map(|own| format!("{} (`{}`)", own.what, own.command)).collect();

@@ -70,10 +70,11 @@ fn results(runs: &Runs) -> anyhow::Result<Results> {
 
 /// Each figure and file of the paper is written, no other one, and none twice.
 fn are_shown(results: &Results) {
+    let paper = results.paper.replace('\n', " ");
     for (name, _) in &results.tables {
-        assert_eq!(results.paper.matches(&format!(" rows in results/{name}.")).count(), 1, "{name}");
+        assert_eq!(paper.matches(&format!("(results/{name}, ")).count(), 1, "{name}");
     }
-    assert_eq!(results.paper.matches(" rows in results/").count(), results.tables.len());
+    assert_eq!(paper.matches("(results/").count(), results.tables.len());
     let shown: BTreeSet<&str> =
         results.paper.split("](figures/").skip(1).filter_map(|rest| rest.split(')').next()).collect();
     let written: BTreeSet<&str> = results.figures.iter().map(|(name, _)| name.as_str()).collect();

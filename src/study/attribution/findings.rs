@@ -73,11 +73,10 @@ fn words(factor: Factor) -> &'static str {
 pub fn split(r: &Attribution) -> Finding {
     let whole = r.whole();
     let parts = Factor::ALL.map(|factor| format!("{} {}", words(factor), figures(r.part(factor).estimate)));
-    let orders =
-        Factor::ALL.map(|factor| format!("{} for the {}", r.range(factor).map(figures).join(" to "), words(factor)));
+    let orders = Factor::ALL.map(|factor| r.range(factor).map(figures).join(" to "));
     let sentence = format!(
-        "{}: the speedup of {} is the product of three factors: {}. Each is the geometric mean of its gains over all \
-         six orders in which the three can be exchanged; in single orders the gain is {}.",
+        "{}: the speedup of {} is the product of {}; in the six orders in which the three can be exchanged, their \
+         gains are {}.",
         r.first().scene_title(),
         figures(whole.estimate),
         listed(&parts),
