@@ -328,5 +328,5 @@ fn nothing_and_a_single_point_can_be_framed() {
     let point = Model { positions: vec![Vec3::new(5.0, 5.0, 5.0)], triangles: vec![[0, 0, 0]], ..Model::default() };
     assert_eq!(Scene::framed("point", point).unwrap().material_of, [0]);
     let broken = Model { positions: vec![], triangles: vec![[0, 0, 0]], ..Model::default() };
-    assert!(Scene::framed("broken", broken).unwrap_err().to_string().starts_with("broken: triangle 0 names"));
+    assert!(Scene::framed("broken", broken).unwrap_err().to_string().starts_with("broken: triangle 0 refers to"));
 }

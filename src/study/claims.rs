@@ -203,7 +203,11 @@ mod tests {
     fn the_whole_interval_decides() {
         let of = |value: Estimate| {
             let findings = [Finding::number("crowded", value)];
-            judge("replicate", &findings).into_iter().find(|verdict| verdict.claim.starts_with("100")).unwrap().outcome
+            judge("replicate", &findings)
+                .into_iter()
+                .find(|verdict| verdict.claim.contains("100 / 0.7"))
+                .unwrap()
+                .outcome
         };
         assert_eq!(of(Estimate::exact(1.0)), Outcome::Confirmed);
         assert_eq!(of(Estimate::exact(2.0)), Outcome::Refuted);

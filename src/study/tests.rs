@@ -76,7 +76,10 @@ fn scenes_that_fail_are_told_and_cut_no_mean() {
     let mut screen = RecordingScreen::default();
     let outcome = outcome(folder.path(), &mut screen);
     let told: Vec<String> = outcome.failures.iter().map(ToString::to_string).collect();
-    assert!(told.len() == 2 && told[0].contains("b epoch 1") && told[1].contains("rays of c: epoch 0"), "{told:?}");
+    assert!(
+        told.len() == 2 && told[0].contains("b epoch 1") && told[1].contains("x on c, primary rays: epochs 0 and 1"),
+        "{told:?}"
+    );
     assert_eq!(outcome.status, Status::Wrong, "wrong answers weigh more than what cannot be measured");
     // The measured part of b is shown, and is in no mean.
     assert_eq!(screen.titles, ["a", "b (1 of 2 epochs)"]);

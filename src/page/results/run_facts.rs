@@ -68,11 +68,12 @@ impl RunFacts {
     }
 }
 
-/// A command without the folders of its machine.
+/// A command without the folders of its machine and the file name of its program.
 fn portable(command: &str) -> String {
-    let name = |word: &str| match word.starts_with('/') {
-        true => word.rsplit('/').next().unwrap_or(word).to_owned(),
-        false => word.to_owned(),
+    let name = |(i, word): (usize, &str)| match word.rsplit('/').next() {
+        _ if i == 0 => "sahara".to_owned(),
+        Some(last) if word.starts_with('/') => last.to_owned(),
+        _ => word.to_owned(),
     };
-    command.split(' ').map(name).collect::<Vec<_>>().join(" ")
+    command.split(' ').enumerate().map(name).collect::<Vec<_>>().join(" ")
 }

@@ -63,7 +63,7 @@ fn headlines(results: &[&Attribution]) -> Table {
     );
     let note = "whole: speedup of the SAH tree over the report's tree; the three factors multiply to it. plane alone: \
                 speedup of the exact SAH split plane over the report's split plane, if both trees split nodes of more \
-                than 8 triangles (unless no plane separates the triangles) and both use the traversal plane intervals, \
+                than 8 triangles (unless no plane separates the triangles) and both use the traversal \"plane intervals\", \
                 which clips the ray interval at each split plane. Intervals are 95 % prediction intervals for a rerun.";
     let noise = results.first().and_then(|r| r.noise.log()).unwrap_or(0.0);
     let noise = format!("A/A noise of all scenes: a factor of {:.3}.", libm::exp(noise));

@@ -64,15 +64,15 @@ pub fn mean_table(all: &[Measurement], references: &[Reference]) -> Table {
     let reasons = [
         (wrong, "because of wrong hits"),
         (declined, "because the structure declines the rays"),
-        (missing, "because the structure is not measured on the scene"),
+        (missing, "because the structure is refused on the scene"),
     ];
     let reasons = reasons.iter().filter(|(n, _)| *n > 0).map(|(n, why)| format!("{n} {why}"));
     let reasons: Vec<String> = reasons.collect();
     let mut notes = vec![];
     if !reasons.is_empty() {
         notes.push(format!("Missing speeds (one structure on one workload of one scene): {}.", listed(&reasons)));
-        let note = "Means are over all cells in which a structure has a time; rankings use only the cells that all \
-                    ranked structures have in common.";
+        let note = "Means are over all cells in which a structure has a time; rankings use only the cells in which all \
+                    ranked structures, with exact or f64 triangle tests and in single precision, have a time.";
         notes.push(note.into());
     }
     if table.rows.iter().flatten().any(|cell| !cell.note.is_empty()) {

@@ -65,7 +65,7 @@ impl Reference {
         match self {
             Self::Structure(label) if label == REPORT_TREE => format!("the report's tree, {label}"),
             Self::Structure(label) => label.clone(),
-            Self::Obvhs => "the faster obvhs BVH per cell".into(),
+            Self::Obvhs => "each cell's faster obvhs BVH".into(),
         }
     }
 

@@ -104,7 +104,7 @@ fn what_is_refused_in_one_epoch_is_refused_in_all() {
 fn epochs_that_differ_in_what_they_must_not_are_named() {
     let answers = failure(|epoch| epoch.structures[1].rays[0].checksum = 2);
     let sentence = answers.to_string();
-    assert!(sentence.contains("y on the primary rays of a") && sentence.contains("epoch 1"), "{sentence}");
+    assert!(sentence.contains("y on a, primary rays") && sentence.contains("epochs 0 and 1"), "{sentence}");
     assert!(sentence.contains("the hits") && answers.is_wrong_answer(), "{sentence}");
     // Other differences are not wrong hits: for instance, a structure that counts could not be built in one of them.
     for (other, what) in [

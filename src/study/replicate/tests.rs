@@ -136,7 +136,10 @@ fn claims_about_all_scenes_are_judged_with_all_scenes() {
     let order = value(&report, "order").unwrap();
     assert!((order.estimate - (1.0 - 16.0 / 35.0)).abs() < 1e-12, "{order:?}");
     let told = &report.finding("order").unwrap().sentence;
-    assert!(told.contains("significantly") && told.contains("Infinitycandy improves less than Cube"), "{told}");
+    assert!(
+        told.contains("Significantly out of this order") && told.contains("Infinitycandy improves less than Cube"),
+        "{told}"
+    );
     assert_eq!(report.verdicts.len(), 12);
     assert!(report.verdicts.iter().all(|verdict| verdict.value.is_some()));
 }

@@ -27,7 +27,7 @@ impl<'a> Context<'a> {
         Self { mesh, config, costs: config.costs(), root_area, depth }
     }
 
-    /// Whether a box of half area `area` takes part in so many traversals that a block of triangles in it may be split.
+    /// Whether rays visit a box of half area `area` so often that a block of triangles in it may be split.
     pub fn is_large(&self, area: f64) -> bool {
         area > LARGE * self.root_area
     }

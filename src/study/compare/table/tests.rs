@@ -168,10 +168,7 @@ fn a_mean_over_fewer_scenes_names_its_count_and_is_not_ranked() {
     let fewer: Vec<Measurement> =
         all.iter().filter(|r| (r.scene.as_str(), r.label.as_str()) != ("A", "sah-kd")).cloned().collect();
     let note = mean_table(&fewer).notes.swap_remove(0);
-    assert!(
-        note.ends_with(": 1 because of wrong hits and 1 because the structure is not measured on the scene."),
-        "{note}"
-    );
+    assert!(note.ends_with(": 1 because of wrong hits and 1 because the structure is refused on the scene."), "{note}");
     let best = |row: &str| table.rows.iter().find(|r| r[0].text() == row).unwrap()[1].tone;
     assert_eq!((best("sah-kd"), best("sah-bvh")), (Tone::Best, Tone::Plain));
     assert!(table.notes.iter().any(|note| note.starts_with("(n of m)")), "{:?}", table.notes);
