@@ -20,7 +20,7 @@ fn accuracy_prints_exports_and_draws_what_it_finds() {
     for text in [
         "vertex: 300 rays through vertices",
         "uniform: 300 camera rays and random lines",
-        "sah-kd:test=moller-trumbore",
+        ":test=moller-trumbore",
         "dominated by",
     ] {
         assert!(printed.contains(text), "{text} is not in {printed}");
