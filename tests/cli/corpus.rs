@@ -83,7 +83,10 @@ fn what_a_corpus_cannot_be_made_of_is_refused_and_nothing_of_others_is_replaced(
     let other = write(&parent, "cube.obj", SQUARE);
     refuses_in_a_line(&["rays", "corpus", "cube", &other, "-o", &out], &["two different scenes have the name cube"]);
     let [spaced, joined] = ["a square.obj", "a-square.obj"].map(|name| write(&parent, name, SQUARE));
-    refuses_in_a_line(&["rays", "corpus", &spaced, &joined, "-o", &out, "--rays", "3"], &["write the same file, a-square-"]);
+    refuses_in_a_line(
+        &["rays", "corpus", &spaced, &joined, "-o", &out, "--rays", "3"],
+        &["write the same file, a-square-"],
+    );
     assert!(!Path::new(&out).exists(), "what was refused has left a folder");
 
     let foreign = tempfile::tempdir().unwrap();
