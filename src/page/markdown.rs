@@ -21,7 +21,7 @@ pub fn markdown(document: &Document) -> String {
 }
 
 /// A section under its heading, with its commands at the end.
-pub fn section(section: &Section, text: &mut String) {
+fn section(section: &Section, text: &mut String) {
     *text += &format!("## {}\n\n", escaped(section.title));
     blocks(&section.blocks, text);
     if !section.command.is_empty() {
