@@ -54,12 +54,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fa
     if !text.trim_ascii_start().starts_with(b"{") {
         return Err(no_gltf("it is not a JSON object"));
     }
-    let members = serde_json::from_slice::<Members>(text).or_else(|error| {
-        // The nodes of glTF 1.0 are no list.
-        let versioned: Versioned = serde_json::from_slice(text).map_err(|_| no_gltf(&error.to_string()))?;
-        check_version(&versioned.asset)?;
-        Err(no_gltf(&error.to_string()))
-    })?;
+    let broken = |error: serde_json::Error| no_gltf(&error.to_string());
+    let members: Members = serde_json::from_slice(text).map_err(broken)?;
     // Other versions and extensions first: they explain what is wrong with the rest.
     check_version(&members.asset)?;
     let mut notes = Notes::default();
@@ -67,7 +63,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fa
 
     let mut instances = HashMap::new();
     let mut root = Root { scene: typed("scene", members.scene)?, ..Root::default() };
-    for (number, text) in members.nodes.into_iter().map(RawValue::get).enumerate() {
+    let nodes: Vec<&RawValue> = serde_json::from_str(members.nodes.map_or("[]", RawValue::get)).map_err(broken)?;
+    for (number, text) in nodes.into_iter().map(RawValue::get).enumerate() {
         root.nodes.push(match plain_node(text) {
             Some(node) => node,
             None => {
@@ -118,14 +115,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fa
     Ok((Document { root, instances, textured, notes }, chunk))
 }
 
-/// The version of a document in any version.
-#[derive(Deserialize)]
-struct Versioned {
-    #[serde(default)]
-    asset: Value,
-}
-
-/// A document. Nodes are text, for as values they would take twenty times as much memory, and there may be very many.
+/// A document. Nodes are text, for as values they would take twenty times as much memory, and there may be very many; in
+/// glTF 1.0 they are no list.
 #[derive(Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 struct Members<'a> {
@@ -135,7 +126,7 @@ struct Members<'a> {
     scene: Value,
     scenes: Value,
     #[serde(borrow)]
-    nodes: Vec<&'a RawValue>,
+    nodes: Option<&'a RawValue>,
     materials: Value,
     skins: Value,
     meshes: Value,
