@@ -171,6 +171,14 @@ mod tests {
         points.iter().map(|&[x, y]| Vec3::new(x, y, 0.0)).collect()
     }
 
+    /// A quad with one concave corner.
+    const ARROW: [[f32; 2]; 4] = [[0.0, 0.0], [2.0, -1.0], [0.5, 0.0], [2.0, 1.0]];
+
+    /// The polygon with these corners in polar coordinates.
+    fn polar(corners: impl Iterator<Item = (f32, f32)>) -> Vec<Vec3> {
+        polygon(&corners.map(|(angle, r)| [r * angle.cos(), r * angle.sin()]).collect::<Vec<_>>())
+    }
+
     fn notes(splitter: &Splitter) -> Vec<String> {
         let mut notes = Notes::default();
         splitter.note(&mut notes);
@@ -197,29 +205,15 @@ mod tests {
 
     #[test]
     fn concave_polygons_are_covered_once_from_every_first_corner() {
-        let arrow = polygon(&[[0.0, 0.0], [2.0, -1.0], [0.5, 0.0], [2.0, 1.0]]);
         let comb: Vec<[f32; 2]> = (0..20).map(|i| [i as f32, if i % 2 == 0 { 1.0 } else { 5.0 }]).collect();
         let comb = polygon(&[&comb[..], &[[19.0, 0.0], [0.0, 0.0]]].concat());
-        let spiral: Vec<[f32; 2]> = (0..30)
-            .map(|i| (i as f32 * 0.5, 1.0 + i as f32 * 0.2))
-            .chain((0..30).rev().map(|i| (i as f32 * 0.5, 1.5 + i as f32 * 0.2)))
-            .map(|(angle, r)| [r * angle.cos(), r * angle.sin()])
-            .collect();
+        let arm = |r: f32| (0..30).map(move |i| (i as f32 * 0.5, r + i as f32 * 0.2));
+        let spiral = polar(arm(1.0).chain(arm(1.5).rev()));
         // A square with a hole that a double edge connects to the outline.
-        let hole = polygon(&[
-            [0.0, 0.0],
-            [4.0, 0.0],
-            [4.0, 4.0],
-            [0.0, 4.0],
-            [0.0, 0.0],
-            [1.0, 1.0],
-            [1.0, 3.0],
-            [3.0, 3.0],
-            [3.0, 1.0],
-            [1.0, 1.0],
-        ]);
+        let outline = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [0.0, 0.0]];
+        let hole = polygon(&[outline, [[1.0, 1.0], [1.0, 3.0], [3.0, 3.0], [3.0, 1.0], [1.0, 1.0]]].concat());
         let twice = polygon(&[[0.0, 0.0], [2.0, 0.0], [2.0, 0.0], [2.0, 2.0], [1.0, 0.5], [0.0, 2.0]]);
-        for mut corners in [arrow, comb, polygon(&spiral), hole, twice] {
+        for mut corners in [polygon(&ARROW), comb, spiral, hole, twice] {
             for _ in 0..corners.len() {
                 assert_covered(&corners);
                 corners.rotate_left(1);
@@ -238,14 +232,13 @@ mod tests {
         };
         for n in (4..120).flat_map(|n| [n; 5]) {
             let corner = |i: usize| (i as f32 / n as f32 * std::f32::consts::TAU, 0.1 + random());
-            let star: Vec<[f32; 2]> = (0..n).map(corner).map(|(angle, r)| [r * angle.cos(), r * angle.sin()]).collect();
-            assert_covered(&polygon(&star));
+            assert_covered(&polar((0..n).map(corner)));
         }
     }
 
     #[test]
     fn a_concave_quad_is_split_along_the_diagonal_inside() {
-        let mut arrow = polygon(&[[0.0, 0.0], [2.0, -1.0], [0.5, 0.0], [2.0, 1.0]]);
+        let mut arrow = polygon(&ARROW);
         for is_fan in [true, false, true, false] {
             let expected = if is_fan { [[0, 1, 2], [0, 2, 3]] } else { [[3, 0, 1], [1, 2, 3]] };
             assert_eq!(Splitter::default().split(&arrow), expected);
@@ -284,7 +277,7 @@ mod tests {
         let star = polygon(&[[0.0, 3.0], [2.0, -3.0], [-3.0, 1.0], [3.0, 1.0], [-2.0, -3.0]]);
         assert!(noted(&bow).starts_with("1 polygons cross") && noted(&star).starts_with("1 polygons cross"));
         assert_eq!(noted(&polygon(&[[0.0, 0.0], [1.0, 1.0], [3.0, 3.0], [2.0, 2.0]])), "", "a line has no surface");
-        let mut arrow = polygon(&[[0.0, 0.0], [2.0, -1.0], [0.5, 0.0], [2.0, 1.0]]);
+        let mut arrow = polygon(&ARROW);
         arrow[2].z = 0.5;
         assert!(noted(&arrow).contains("neither convex nor flat"));
         // The limit of pairs of corners is for one polygon or for all together; small polygons do not count.

@@ -21,18 +21,16 @@ fn load_files(files: &[(&str, &[u8])]) -> Result<Model, LoadError> {
     load(&folder.path().join(files[0].0))
 }
 
-/// The error of a file that must be rejected, without the name of the folder; it must be one line.
-fn refusal(name: &str, bytes: &[u8]) -> String {
-    let message = load_files(&[(name, bytes)]).expect_err("this file must be refused").to_string();
-    assert!(!message.contains('\n'), "{message:?}");
-    message[message.find(name).expect("the message names the file")..].to_owned()
+fn assert_refused(name: &str, bytes: &[u8], words: &[&str]) {
+    assert_error(load_files(&[(name, bytes)]), name, words);
 }
 
-fn assert_refused(name: &str, bytes: &[u8], words: &[&str]) {
-    let message = refusal(name, bytes);
-    for word in words {
-        assert!(message.contains(word), "{message:?} does not contain {word:?}");
-    }
+/// The file must be rejected in one line, which has these words from the name of the file on.
+fn assert_error(result: Result<Model, LoadError>, name: &str, words: &[&str]) {
+    let message = result.expect_err(&format!("{words:?}")).to_string();
+    assert!(!message.contains('\n'), "{message:?}");
+    let message = &message[message.find(name).expect("the message names the file")..];
+    words.iter().for_each(|word| assert!(message.contains(word), "{message:?} does not contain {word:?}"));
 }
 
 fn corners(model: &Model) -> Vec<[Vec3; 3]> {

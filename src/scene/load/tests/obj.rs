@@ -7,6 +7,16 @@ fn obj(text: &str) -> Model {
     load_files(&[("a.obj", text.as_bytes())]).unwrap()
 }
 
+/// The text after a line `mtllib a.mtl`, with this library.
+fn with_library(text: &str, library: &[u8]) -> Model {
+    let text = format!("mtllib a.mtl # colours\n{text}");
+    load_files(&[("a.obj", text.as_bytes()), ("a.mtl", library)]).unwrap()
+}
+
+fn colours(model: &Model) -> Vec<Vec3> {
+    model.materials.iter().map(|material| material.diffuse).collect()
+}
+
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 9 9 9\n";
 
 #[test]
@@ -57,39 +67,33 @@ fn materials_come_from_the_mtl_file() {
     assert_eq!((red.specular, red.shininess, red.mirror), (Vec3::splat(0.5), 64.0, 0.0));
     assert_eq!(model.materials[2], Material { diffuse: Vec3::splat(0.5), ..Material::named("grey") });
     assert_eq!(model.notes.len(), 4, "{:?}", model.notes);
-    assert!(
-        model.notes[0].contains("line 13") && model.notes[1].contains("line 14") && model.notes[3].contains("`lost`")
-    );
-    assert!(model.notes[2].starts_with("1 material has a texture"), "{}", model.notes[2]);
+    for (note, words) in model.notes.iter().zip(["line 13", "line 14", "1 material has a texture", "`lost`"]) {
+        assert!(note.contains(words), "{note}");
+    }
 }
 
 #[test]
 fn a_library_is_read_once_and_notes_are_few() {
     let lines = |count: usize, line: &str| (0..count).map(|i| line.replace('#', &i.to_string())).collect::<String>();
     let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
-    let bad = ("a.mtl", &b"newmtl a\nKd x\n"[..]);
     let text = lines(1000, "mtllib a.mtl\n") + &lines(50, "mtllib ./a.mtl a.mtl\nmtllib a.mtl ././a.mtl\n") + triangle;
-    let model = load_files(&[("a.obj", text.as_bytes()), bad]).unwrap();
-    assert_eq!(model.notes.len(), 1, "{:?}", model.notes);
-    let model = obj(&(lines(1000, "mtllib b#.mtl\n") + triangle));
-    assert_eq!(model.notes.len(), 13, "{:?}", model.notes);
-    assert_eq!(model.notes[0], "only the first 64 material files are read");
-    assert!(model.notes[12].ends_with("more notes on this file"), "{:?}", model.notes);
+    assert_eq!(with_library(&text, b"newmtl a\nKd x\n").notes.len(), 1);
+    let notes = obj(&(lines(1000, "mtllib b#.mtl\n") + triangle)).notes;
+    assert!(notes.len() == 13 && notes[12].ends_with("more notes on this file"), "{notes:?}");
+    assert_eq!(notes[0], "only the first 64 material files are read");
     // A line names several files.
     assert_eq!(obj(&format!("mtllib a.mtl b.mtl\n{triangle}")).notes.len(), 3);
-    let outside = obj(&format!("mtllib ../a.mtl\nmtllib /etc/hosts\n{triangle}"));
-    assert!(outside.notes[..2].iter().all(|note| note.contains("outside the folder")), "{:?}", outside.notes);
+    let outside = obj(&format!("mtllib ../a.mtl\nmtllib /etc/hosts\n{triangle}")).notes;
+    assert!(outside[..2].iter().all(|note| note.contains("outside the folder")), "{outside:?}");
     // The later of two materials with one name counts, whole.
-    let twice = ("a.mtl", &b"newmtl a\nKd 1 0 0\nKs 1 1 1\nmap_Kd a.png\nnewmtl a\nKd 0 1 0\n"[..]);
-    let model = load_files(&[("a.obj", format!("mtllib a.mtl\n{triangle}").as_bytes()), twice]).unwrap();
+    let twice = b"newmtl a\nKd 1 0 0\nKs 1 1 1\nmap_Kd a.png\nnewmtl a\nKd 0 1 0\n";
+    let model = with_library(triangle, twice);
     assert_eq!(model.materials, [Material { diffuse: Vec3::Y, ..Material::named("a") }]);
     assert!(model.notes.is_empty(), "{:?}", model.notes);
     // Notes that stand for many occurrences follow all others.
-    let textured = lines(20, "Kd #x\n") + "map_Kd a.png\n";
-    let textured = ("a.mtl", [&b"newmtl a\n"[..], textured.as_bytes()].concat());
-    let text = format!("mtllib a.mtl\n{triangle}");
-    let model = load_files(&[("a.obj", text.as_bytes()), (textured.0, &textured.1)]).unwrap();
-    assert!(model.notes.iter().any(|note| note.starts_with("1 material has a texture")), "{:?}", model.notes);
+    let textured = format!("newmtl a\n{}map_Kd a.png\n", lines(20, "Kd #x\n"));
+    let notes = with_library(triangle, textured.as_bytes()).notes;
+    assert!(notes.iter().any(|note| note.starts_with("1 material has a texture")), "{notes:?}");
 }
 
 #[test]
@@ -112,11 +116,9 @@ fn marks_line_ends_and_comments_do_not_hide_vertices() {
 fn elements_other_than_faces_are_reported_and_a_material_may_have_no_name() {
     let model = obj(&format!("{SQUARE}l 1 2\np 1\nf 1 2 3\ncurv 0 1 1 2\no name\n"));
     assert_eq!(model.notes, ["3 points, lines, curves or surfaces: ignored"]);
-    let library = ("a.mtl", &b"newmtl red\nKd 1 0 0\nnewmtl\nKd 0 1 0\n"[..]);
-    let text = format!("mtllib a.mtl\n{SQUARE}usemtl red\nf 1 2 3\nusemtl\nf 1 2 3\n");
-    let model = load_files(&[("a.obj", text.as_bytes()), library]).unwrap();
-    assert_eq!(model.materials.iter().map(|m| m.diffuse).collect::<Vec<_>>(), [Vec3::X, Vec3::Y]);
-    assert!(model.notes.is_empty(), "{:?}", model.notes);
+    let text = format!("{SQUARE}usemtl red\nf 1 2 3\nusemtl\nf 1 2 3\n");
+    let model = with_library(&text, b"newmtl red\nKd 1 0 0\nnewmtl\nKd 0 1 0\n");
+    assert_eq!((colours(&model), model.notes), (vec![Vec3::X, Vec3::Y], vec![]));
 }
 
 #[test]
@@ -186,23 +188,18 @@ fn what_tobj_misreads_is_read() {
     assert_eq!(model.notes[0], "3 vertices have weights w other than 1: ignored");
 
     // It panics on these normals.
-    let normals = format!("{SQUARE}vn 0 0 1\nvn 0 0 1\nvn 0 0 1\n");
     for (normal, words) in [
         ("-4", "normal index -4 precedes the first of the 3"),
         ("6148914691236517206", "normal 6148914691236517206 exceeds the limit of a mesh"),
         ("9", "normal 9, but the file has only 3"),
     ] {
-        let text = format!("{normals}f 1//1 2//{normal} 3//1\n");
+        let text = format!("{SQUARE}{}f 1//1 2//{normal} 3//1\n", "vn 0 0 1\n".repeat(3));
         assert_refused("a.obj", text.as_bytes(), &["line 9:", words]);
     }
     // It finds fewer or more words than there are.
     for text in ["v 1 2\u{a0}3 4\n", "v \u{a0} \u{a0} \u{a0}\n", "v 1 2\u{b}3 4\n"] {
         assert_refused("a.obj", text.as_bytes(), &["line 1:", "three finite numbers are needed"]);
     }
-}
-
-#[test]
-fn a_face_has_at_most_2_20_corners() {
     let face = |corners: usize| format!("v 0 0 0\nf{}\n", " 1".repeat(corners));
     assert_eq!(obj(&face(1 << 20)).triangles.len(), (1 << 20) - 2);
     assert_refused("a.obj", face((1 << 20) + 1).as_bytes(), &["line 2:", "more than 1048576 corners"]);
@@ -224,17 +221,14 @@ fn vertices_are_the_same_in_all_parts_of_a_large_file() {
         let a = row * SIDE + column;
         let corners = [a, a + 1, a + SIDE + 1, a + SIDE];
         let is_smooth = i % 3 > 0;
-        text += &match i % 1000 {
-            0 => format!("g {i}\nusemtl m{}\nf", i % 3000),
-            _ => "f".into(),
-        };
-        for corner in corners {
-            text += &match is_smooth {
-                true => format!(" {}//{}", corner + 2, column + 2),
-                false => format!(" -{}/1", SIDE * SIDE - corner),
-            };
+        if i % 1000 == 0 {
+            text += &format!("g {i}\nusemtl m{}\n", i % 3000);
         }
-        text.push('\n');
+        let corner = |corner: u32| match is_smooth {
+            true => format!(" {}//{}", corner + 2, column + 2),
+            false => format!(" -{}/1", SIDE * SIDE - corner),
+        };
+        text += &format!("f{}\n", corners.map(corner).concat());
         let [a, b, c, d] = corners;
         triangles.extend([[a, b, c], [a, c, d]]);
         normal_indices.extend([[if is_smooth { column + 1 } else { Model::FLAT }; 3]; 2]);
@@ -249,10 +243,7 @@ fn vertices_are_the_same_in_all_parts_of_a_large_file() {
 
 #[test]
 fn what_tobj_misreads_in_a_library_is_read() {
-    let read = |mtl: &[u8]| {
-        let text = format!("mtllib a.mtl # colours\n{SQUARE}usemtl a # red\nf 1 2 3\n");
-        load_files(&[("a.obj", text.as_bytes()), ("a.mtl", mtl)]).unwrap()
-    };
+    let read = |mtl: &[u8]| with_library(&format!("{SQUARE}usemtl a # red\nf 1 2 3\n"), mtl);
     let red = Material { diffuse: Vec3::X, ..Material::named("a") };
     for mtl in [
         "newmtl a # red\nKd 1 0 0 # full\n",
@@ -264,28 +255,18 @@ fn what_tobj_misreads_in_a_library_is_read() {
         assert_eq!((&model.materials[..], &model.notes[..]), (&[red.clone()][..], &[][..]), "{mtl:?}");
     }
     // One bad line is noted, the others count; on some of these tobj panics.
-    for bad in [
-        "Ka",
-        "Ka 0.5 0.5",
-        "Ka x",
-        "Ka 0 0 nan",
-        "Ka 1e999",
-        "Ka \u{a0} \u{a0} \u{a0}",
-        "Ks spectral a.rfl",
-        "Ns",
-        "Ns inf",
-    ] {
-        let model = read(format!("newmtl a\n{bad}\nKd 1 0 0\nillum x\nd\nmap_Kd\n").as_bytes());
-        assert_eq!(model.materials, std::slice::from_ref(&red), "{bad:?}");
-        assert_eq!(model.notes.len(), 1, "{:?}", model.notes);
-        assert!(model.notes[0].contains("line 2: `"), "{:?}", model.notes);
+    let bad_colours = ["Ka", "Ka 0.5 0.5", "Ka x", "Ka 0 0 nan", "Ka 1e999", "Ka \u{a0} \u{a0} \u{a0}"];
+    for bad in bad_colours.into_iter().chain(["Ks spectral a.rfl", "Ns", "Ns inf"]) {
+        let Model { materials, notes, .. } =
+            read(format!("newmtl a\n{bad}\nKd 1 0 0\nillum x\nd\nmap_Kd\n").as_bytes());
+        assert_eq!(materials, std::slice::from_ref(&red), "{bad:?}");
+        assert!(notes.len() == 1 && notes[0].contains("line 2: `"), "{notes:?}");
     }
-    assert_eq!(read(b"newmtl a\nKd 0.5\nNs -1\nKe \xff\n").materials[0].diffuse, Vec3::splat(0.5));
+    assert_eq!(colours(&read(b"newmtl a\nKd 0.5\nNs -1\nKe \xff\n")), [Vec3::splat(0.5)]);
     // A `#` without a space is a part of the name.
-    let text = format!("mtllib a.mtl\n{SQUARE}usemtl Material #2\nf 1 2 3\nusemtl Material #3\nf 1 2 3\n");
-    let mtl = b"newmtl Material #2\nKd 1 0 0\nnewmtl Material #3\nKd 0 1 0\n";
-    let model = load_files(&[("a.obj", text.as_bytes()), ("a.mtl", mtl)]).unwrap();
-    assert_eq!(model.materials.iter().map(|m| m.diffuse).collect::<Vec<_>>(), [Vec3::X, Vec3::Y]);
+    let text = format!("{SQUARE}usemtl Material #2\nf 1 2 3\nusemtl Material #3\nf 1 2 3\n");
+    let model = with_library(&text, b"newmtl Material #2\nKd 1 0 0\nnewmtl Material #3\nKd 0 1 0\n");
+    assert_eq!(colours(&model), [Vec3::X, Vec3::Y]);
 }
 
 /// Names are bytes: two that are no text stay two, and a file is opened by the bytes of its name.
@@ -306,6 +287,5 @@ fn names_need_not_be_text() {
     assert!(missing.notes[0].contains("gr\\xfcn.mtl"), "{:?}", missing.notes);
     fs::write(path(b"gr\xfcn.mtl"), b"newmtl gr\xfcn\nKd 0 1 0\nnewmtl gr\xf6n\nKd 0 0 1\n").unwrap();
     let model = load(&path(b"a.obj")).unwrap();
-    assert_eq!(model.materials.iter().map(|m| m.diffuse).collect::<Vec<_>>(), [Vec3::Y, Vec3::Z]);
-    assert!(model.notes.is_empty() && model.material_of == [0, 1], "{:?}", model.notes);
+    assert_eq!((colours(&model), model.material_of, model.notes), (vec![Vec3::Y, Vec3::Z], vec![0, 1], vec![]));
 }

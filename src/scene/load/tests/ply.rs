@@ -31,14 +31,10 @@ pub(super) fn binary(big: bool, length: &str, corner: &str) -> Vec<u8> {
         [0.0, 0.0, 1.0_f32].iter().for_each(|c| put(&c.to_le_bytes()));
         put(&[1, 2]);
     }
-    let width = |kind: &str| {
-        if kind.ends_with("char") {
-            1
-        } else if kind.ends_with("short") {
-            2
-        } else {
-            4
-        }
+    let width = |kind: &str| match kind.trim_start_matches('u') {
+        "char" => 1,
+        "short" => 2,
+        _ => 4,
     };
     for face in [&[0, 1, 2, 3_u32][..], &[2, 1, 0]] {
         put(&(face.len() as u32).to_le_bytes()[..width(length)]);
@@ -54,14 +50,18 @@ fn text_with_more_than_a_mesh() {
     assert_eq!(model.positions.len(), 5, "unused vertices stay");
     assert_eq!(model.positions[3], Vec3::new(0.0, 1.0, -0.5));
     assert!(model.normals.is_empty() && model.normal_indices.is_empty());
-    assert_eq!(ply(ASCII.replace('\n', "\r\n").as_bytes()), model);
-    assert_eq!(ply(ASCII.trim_end().as_bytes()), model);
-    assert_eq!(ply(ASCII.replace('\n', "\r").as_bytes()), model);
-    assert_eq!(ply(&[b"\xef\xbb\xbf", ASCII.as_bytes()].concat()), model);
-    let mut comment = ASCII.replace("by hand", "caf?").into_bytes();
-    let at = comment.iter().position(|&b| b == b'?').unwrap();
-    comment[at] = 0xe9;
-    assert_eq!(ply(&comment), model);
+    let latin = ASCII.replace("by hand", "caf?").bytes().map(|byte| if byte == b'?' { 0xe9 } else { byte }).collect();
+    for (what, file) in [
+        ("line ends of DOS", ASCII.replace('\n', "\r\n").into()),
+        ("line ends of old Macs", ASCII.replace('\n', "\r").into()),
+        ("no last line end", ASCII.trim_end().into()),
+        ("a byte order mark", [b"\xef\xbb\xbf", ASCII.as_bytes()].concat()),
+        ("a comment in Latin-1", latin),
+        // In text a length may exceed its type.
+        ("a long list", ASCII.replace("2 7 8", &format!("300{}", " 7".repeat(300))).into()),
+    ] {
+        assert_eq!(ply(&file), model, "{what}");
+    }
 }
 
 #[test]
@@ -104,39 +104,36 @@ fn with_vertices(elements: &str, numbers: &[i32]) -> Vec<u8> {
 fn strips_begin_anew_at_minus_one_and_their_winding_alternates() {
     let strips = |rows: usize| format!("element tristrips {rows}\nproperty list int int vertex_indices\n");
     let face = "element face 1\nproperty list int int vertex_index\n";
-    let model = ply(&with_vertices(&strips(1), &[8, 0, 1, 2, 3, -1, 4, 5, 6]));
-    assert_eq!(model.triangles, [[0, 1, 2], [2, 1, 3], [4, 5, 6]]);
-    assert!(model.notes.is_empty());
-    let model = ply(&with_vertices(&strips(2), &[5, 0, 1, 2, 3, 4, 3, 4, 5, 6]));
-    assert_eq!(model.triangles, [[0, 1, 2], [2, 1, 3], [2, 3, 4], [4, 5, 6]], "the end of a row ends its strip");
-    // Both are drawn, in the order of the file.
-    let model = ply(&with_vertices(&(strips(1) + face), &[3, 0, 1, 2, 3, 4, 5, 6]));
-    assert_eq!(model.triangles, [[0, 1, 2], [4, 5, 6]]);
-    // Strips without a triangle are told, but not the nothing between two -1.
-    let model = ply(&with_vertices(&strips(1), &[9, -1, 3, 4, -1, -1, 0, 1, 2, -1]));
-    assert_eq!((&model.triangles[..], model.notes.len()), (&[[0, 1, 2]][..], 1));
-    assert!(model.notes[0].starts_with("1 face with fewer than three corners"), "{:?}", model.notes);
+    let small = "1 face with fewer than three corners: ignored";
+    for (elements, numbers, triangles, notes) in [
+        (strips(1), &[8, 0, 1, 2, 3, -1, 4, 5, 6][..], &[[0, 1, 2], [2, 1, 3], [4, 5, 6]][..], &[][..]),
+        // The end of a row ends its strip.
+        (strips(2), &[5, 0, 1, 2, 3, 4, 3, 4, 5, 6], &[[0, 1, 2], [2, 1, 3], [2, 3, 4], [4, 5, 6]], &[]),
+        // Both are drawn, in the order of the file.
+        (strips(1) + face, &[3, 0, 1, 2, 3, 4, 5, 6], &[[0, 1, 2], [4, 5, 6]], &[]),
+        // Strips without a triangle are told, but not the nothing between two -1.
+        (strips(1), &[9, -1, 3, 4, -1, -1, 0, 1, 2, -1], &[[0, 1, 2]], &[small]),
+    ] {
+        let model = ply(&with_vertices(&elements, numbers));
+        assert_eq!(model.triangles, triangles, "{numbers:?}");
+        assert_eq!(model.notes, notes, "{numbers:?}");
+    }
     // More entries than the corners of a face may be.
     let long: Vec<i32> = [2_000_000].into_iter().chain((0..2_000_000).map(|i| i % 7)).collect();
     assert_eq!(ply(&with_vertices(&strips(1), &long)).triangles.len(), 1_999_998);
 
-    let refused = |elements: &str, numbers: &[i32], words: &[&str]| {
-        assert_refused("a.ply", &with_vertices(elements, numbers), words);
-    };
-    refused(&strips(1), &[4, 0, 1, 2, -2], &["tristrips 0:", "corner -2 is not one of the 7"]);
-    refused(&strips(1), &[4, 0, 1, 2, 7], &["tristrips 0:", "corner 7"]);
-    refused(&strips(1), &[-1, 0, 1, 2], &["tristrips 0:", "-1 entries"]);
-    refused(&strips(1), &[9, 0, 1, 2], &["tristrips 0:", "truncated"]);
-    refused(&strips(1), &[2, 0, 1], &["no triangles"]);
-    refused(&strips(1).replace("int int", "int float"), &[3, 0, 0, 0], &["line 8:", "a list of integers"]);
-    refused(&strips(1).replace("indices", "colours"), &[3, 0, 1, 2], &["element tristrips:", "`vertex_indices`"]);
-    refused(face, &[3, 0, 1, -1], &["face 0:", "corner -1"]);
-}
-
-#[test]
-fn a_length_in_text_may_exceed_its_type() {
-    let tags = format!("300{}", " 7".repeat(300));
-    assert_eq!(ply(ASCII.replace("2 7 8", &tags).as_bytes()), ply(ASCII.as_bytes()));
+    for (elements, numbers, words) in [
+        (strips(1), &[4, 0, 1, 2, -2][..], ["tristrips 0:", "corner -2 is not one of the 7"]),
+        (strips(1), &[4, 0, 1, 2, 7], ["tristrips 0:", "corner 7"]),
+        (strips(1), &[-1, 0, 1, 2], ["tristrips 0:", "-1 entries"]),
+        (strips(1), &[9, 0, 1, 2], ["tristrips 0:", "truncated"]),
+        (strips(1), &[2, 0, 1], ["it has", "no triangles"]),
+        (strips(1).replace("int int", "int float"), &[3, 0, 0, 0], ["line 8:", "a list of integers"]),
+        (strips(1).replace("indices", "colours"), &[3, 0, 1, 2], ["element tristrips:", "`vertex_indices`"]),
+        (face.into(), &[3, 0, 1, -1], ["face 0:", "corner -1"]),
+    ] {
+        assert_refused("a.ply", &with_vertices(&elements, numbers), &words);
+    }
 }
 
 #[test]
@@ -191,19 +188,18 @@ fn malformed_files_are_refused_by_name_and_number() {
         assert!(ASCII.contains(from), "{from}");
         assert_refused("a.ply", ASCII.replacen(from, to, 1).as_bytes(), &words);
     }
-    // The headers are right and the bodies are not: a list of 4 thousand million entries, one of -1, a NaN.
-    let mut file = binary(false, "uint", "int");
-    let first_list = file.len() - 36;
-    file[first_list..first_list + 4].fill(0xff);
-    assert_refused("a.ply", &file, &["face 0:", "4294967295 entries"]);
-    file[first_list..first_list + 4].copy_from_slice(&[0, 1, 0, 0]);
-    assert_refused("a.ply", &file, &["face 0:", "truncated"]);
-    let mut file = binary(true, "int", "int");
-    let first_list = file.len() - 36;
-    file[first_list..first_list + 4].fill(0xff);
-    assert_refused("a.ply", &file, &["face 0:", "-1 entries"]);
-    let mut file = binary(false, "uchar", "int");
-    let first_vertex = file.windows(11).position(|w| w == b"end_header\n").unwrap() + 11;
-    file[first_vertex..first_vertex + 8].copy_from_slice(&f64::NAN.to_le_bytes());
-    assert_refused("a.ply", &file, &["vertex 0:", "finite"]);
+    // The headers are right and the bodies are not: a list of 4 thousand million entries, a longer one than the file,
+    // one of -1, a NaN.
+    let [first_vertex, first_list] = [36 + 5 * 38, 36];
+    for (file, from_end, bytes, words) in [
+        (binary(false, "uint", "int"), first_list, &[0xff; 4][..], ["face 0:", "4294967295 entries"]),
+        (binary(false, "uint", "int"), first_list, &[0, 1, 0, 0], ["face 0:", "truncated"]),
+        (binary(true, "int", "int"), first_list, &[0xff; 4], ["face 0:", "-1 entries"]),
+        (binary(false, "uint", "int"), first_vertex, &f64::NAN.to_le_bytes(), ["vertex 0:", "finite"]),
+    ] {
+        let mut file = file;
+        let at = file.len() - from_end;
+        file[at..at + bytes.len()].copy_from_slice(bytes);
+        assert_refused("a.ply", &file, &words);
+    }
 }

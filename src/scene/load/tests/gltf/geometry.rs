@@ -4,7 +4,7 @@ use glam::{Quat, Vec3};
 use serde_json::{Value, json};
 
 use super::super::{face_normals, load_files};
-use super::{gltf, refused};
+use super::{changed, gltf, refused};
 use crate::scene::Model;
 
 /// The square with its corners as integers at 0 and `one`, `stride` bytes apart; as sparse elements if `is_sparse`.
@@ -24,20 +24,16 @@ fn quantised(component: u32, one: [u8; 4], stride: usize, is_normalized: bool, i
         let indices = json!({"bufferView": 1, "componentType": 5121});
         positions["sparse"] = json!({"count": 4, "indices": indices, "values": {"bufferView": 0}});
     }
-    let document = json!({
-        "asset": {"version": "2.0"},
-        "extensionsUsed": ["KHR_mesh_quantization"],
-        "extensionsRequired": ["KHR_mesh_quantization"],
-        "buffers": [{"uri": "a.bin", "byteLength": bytes.len()}],
-        "bufferViews": [
-            {"buffer": 0, "byteLength": 4 * stride, "byteStride": stride},
-            {"buffer": 0, "byteOffset": 4 * stride, "byteLength": 4}
-        ],
-        "accessors": [positions],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "mode": 6}]}],
-        "nodes": [{"mesh": 0}]
-    });
-    load_files(&[("a.gltf", document.to_string().as_bytes()), ("a.bin", &bytes)]).unwrap()
+    let document = changed(&[
+        ("/extensionsUsed", json!(["KHR_mesh_quantization"])),
+        ("/extensionsRequired", json!(["KHR_mesh_quantization"])),
+        ("/buffers/0/byteLength", bytes.len().into()),
+        ("/bufferViews/0", json!({"buffer": 0, "byteLength": 4 * stride, "byteStride": stride})),
+        ("/bufferViews/1", json!({"buffer": 0, "byteOffset": 4 * stride, "byteLength": 4})),
+        ("/accessors/0", positions),
+        ("/meshes/0/primitives/0", json!({"attributes": {"POSITION": 0}, "mode": 6})),
+    ]);
+    load_files(&[("a.gltf", &document), ("a.bin", &bytes)]).unwrap()
 }
 
 #[test]
@@ -74,26 +70,17 @@ fn positions_are_integers_of_every_kind() {
 
 /// A change of the node, with accessors of instances: translations, rotations and scales.
 fn instances(node: Value, required: bool) -> Vec<(&'static str, Value)> {
-    let bytes: Vec<u8> = [
-        [0.0, 0.0, 0.0],
-        [0.0, 0.0, 5.0],
-        // Two quaternions: none, and half a turn about z.
-        [0.0, 0.0, 0.0],
-        [1.0, 0.0, 0.0],
-        [1.0, 0.0, 0.0_f32],
-        // Scales.
-        [1.0, 1.0, 1.0],
-        [2.0, -1.0, 1.0],
-    ]
-    .as_flattened()
-    .iter()
-    .flat_map(|c| c.to_le_bytes())
-    .collect();
+    let translations = [0.0, 0.0, 0.0, 0.0, 0.0, 5.0];
+    // None, and half a turn about z.
+    let rotations = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0];
+    let scales = [1.0, 1.0, 1.0, 2.0, -1.0, 1.0_f32];
+    let numbers = [&translations[..], &rotations, &scales].concat();
+    let bytes: Vec<u8> = numbers.iter().flat_map(|c| c.to_le_bytes()).collect();
     let mut changes = vec![
         ("/buffers/-", json!({"uri": format!("data:;base64,{}", base64::encode(&bytes)), "byteLength": bytes.len()})),
         ("/bufferViews/-", json!({"buffer": 1, "byteLength": bytes.len()})),
     ];
-    for (kind, offset) in [("VEC3", 0), ("VEC4", 24), ("VEC3", 60)] {
+    for (kind, offset) in [("VEC3", 0), ("VEC4", 24), ("VEC3", 56)] {
         let accessor = json!({"bufferView": 5, "byteOffset": offset, "componentType": 5126, "type": kind, "count": 2});
         changes.push(("/accessors/-", accessor));
     }
@@ -158,7 +145,7 @@ pub(super) fn skinned() -> Vec<(&'static str, Value)> {
         ("/nodes/-", json!({"translation": [100, 0, 0], "children": [2]})),
         ("/nodes/-", json!({"translation": [-100, 5, 1]})),
         ("/scenes/0/nodes", json!([0, 1])),
-        ("/meshes/0/primitives/0/attributes", attributes),
+        ("attributes", attributes),
     ]
 }
 
@@ -184,7 +171,7 @@ fn joints_place_a_mesh_with_a_skin_and_its_node_does_not() {
     refused(&with(("/accessors/5/count", json!(3))), &["its JOINTS_0 has 3 elements for 4 vertices"]);
     refused(&with(("/nodes/0/skin", json!(1))), &["nodes[0].skin:", "index out of bounds"]);
 
-    let bare = gltf(&with(("/meshes/0/primitives/0/attributes", json!({"POSITION": 0}))));
+    let bare = gltf(&with(("attributes", json!({"POSITION": 0}))));
     assert_eq!(bare.positions, gltf(&[]).positions, "unposed, around the origin");
     assert!(bare.notes[0].starts_with("1 node has a skin, but its mesh has no joints"), "{:?}", bare.notes);
 }
