@@ -17,7 +17,7 @@ use self::session::{nanoseconds, unexpected};
 use crate::accel::{BuildError, Capabilities, Counts, DynAccel, Footprint, Loaded, Observed, Remote, TreeShape};
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::measure::median;
-use crate::scene::files::write_mesh;
+use crate::scene::files::mesh_bytes;
 
 pub use program::Program;
 
@@ -46,7 +46,7 @@ impl Runner {
         let folder = tempfile::Builder::new().prefix("sahara-runner-").tempdir();
         let folder = folder.map_err(|cause| format!("cannot create a folder for its files: {cause}"))?;
         let path = folder.path().join("scene.ply");
-        write_mesh(mesh, &path).map_err(|cause| format!("cannot write {}: {cause}", path.display()))?;
+        std::fs::write(&path, mesh_bytes(mesh)).map_err(|cause| format!("cannot write {}: {cause}", path.display()))?;
         let (request, form) = (format!("scene {}", path.display()), "built SECONDS BYTES");
         let reply = session.request(&request)?.text;
         let read = || {

@@ -76,7 +76,7 @@ impl Run<'_> {
         let reference = choice.build(scene, test)?;
         let reference_name = choice.name_for_file(&reference, test);
         let expected = closest_hits(&reference, scene, &rays, &reference_name, &waiting);
-        let found = match hit_file.query {
+        let found = match hit_file.rays.query {
             Query::Closest => validate_hits(&reference, &expected, &scene.mesh, &rays, &hits),
             Query::Any => {
                 let any: Vec<bool> = hits.iter().map(Option::is_some).collect();

@@ -3,12 +3,31 @@
 use sha2::{Digest, Sha256};
 
 use crate::accel::Query;
+use crate::scene::Workload;
 
+/// The identity of rays, as in the header of their file and of files of their hits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct FileHeader {
+pub struct RaysId {
+    /// Their query.
     pub query: Query,
-    pub count: u64,
-    pub hash: [u8; 8],
+    pub(super) count: u64,
+    pub(super) hash: [u8; 8],
+}
+
+impl RaysId {
+    /// The identity of the rays of a workload.
+    pub fn of(workload: &Workload) -> Self {
+        Self { query: workload.query, count: workload.rays.len() as u64, hash: rays_hash(&workload.bytes()) }
+    }
+
+    pub(super) fn header(&self, magic: &[u8; 8]) -> Vec<u8> {
+        let mut bytes = magic.to_vec();
+        bytes.extend(VERSION.to_le_bytes());
+        bytes.extend(u32::from(self.query == Query::Any).to_le_bytes());
+        bytes.extend(self.count.to_le_bytes());
+        bytes.extend(self.hash);
+        bytes
+    }
 }
 
 pub(super) const HEADER_BYTES: usize = 32;
@@ -16,12 +35,10 @@ pub(super) const HEADER_BYTES: usize = 32;
 const VERSION: u32 = 1;
 
 /// Reads the header of a file of `what`, which must begin with `magic`.
-pub(super) fn header(bytes: &[u8], magic: &[u8; 8], what: &str) -> Result<FileHeader, String> {
+pub(super) fn header(bytes: &[u8], magic: &[u8; 8], what: &str) -> Result<RaysId, String> {
     if bytes.len() < 8 || bytes[..8] != magic[..] {
-        return Err(format!(
-            "this is not a file of {what}: it does not begin with {:?}",
-            String::from_utf8_lossy(magic)
-        ));
+        let magic = String::from_utf8_lossy(magic);
+        return Err(format!("this is not a file of {what}: it does not begin with {magic:?}"));
     }
     if bytes.len() < HEADER_BYTES {
         let found = bytes.len();
@@ -39,16 +56,7 @@ pub(super) fn header(bytes: &[u8], magic: &[u8; 8], what: &str) -> Result<FileHe
         other => return Err(format!("the query {other} is unknown: 0 is closest hit, 1 is any hit")),
     };
     let eight = |at: usize| -> [u8; 8] { bytes[at..at + 8].try_into().expect("eight bytes") };
-    Ok(FileHeader { query, count: u64::from_le_bytes(eight(16)), hash: eight(24) })
-}
-
-pub(super) fn header_bytes(header: &FileHeader, magic: &[u8; 8]) -> Vec<u8> {
-    let mut bytes = magic.to_vec();
-    bytes.extend(VERSION.to_le_bytes());
-    bytes.extend(u32::from(header.query == Query::Any).to_le_bytes());
-    bytes.extend(header.count.to_le_bytes());
-    bytes.extend(header.hash);
-    bytes
+    Ok(RaysId { query, count: u64::from_le_bytes(eight(16)), hash: eight(24) })
 }
 
 /// Identifies the rays in files: the first bytes of the SHA-256 of [`Workload::bytes`](crate::scene::Workload::bytes).
@@ -63,12 +71,9 @@ pub(super) fn number(bytes: &[u8], at: usize) -> u32 {
 
 /// The part after `at`, which must have `count` items of `size` bytes. The file may end before it.
 pub(super) fn body(bytes: &[u8], at: usize, count: u64, size: u64) -> Result<&[u8], String> {
-    let Some(body) = bytes.get(at..) else {
-        return Err(format!(
-            "the file is truncated: it has {} bytes, but the first item begins at byte {at}",
-            bytes.len()
-        ));
-    };
+    let length = bytes.len();
+    let short = || format!("the file is truncated: it has {length} bytes, but the first item begins at byte {at}");
+    let body = bytes.get(at..).ok_or_else(short)?;
     let found = body.len() as u64;
     match count.checked_mul(size) {
         Some(expected) if expected == found => Ok(body),

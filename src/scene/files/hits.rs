@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
-use super::bytes::{FileHeader, HEADER_BYTES, body, header, header_bytes, number, rays_hash};
+use super::bytes::{HEADER_BYTES, RaysId, body, header, number};
 use super::{FileError, read};
-use crate::accel::Query;
 use crate::geometry::Hit;
 use crate::output::OutputFile;
 use crate::scene::Workload;
@@ -13,26 +12,9 @@ use crate::scene::hash::hexadecimal;
 /// The hits of the rays of a file, in the same order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HitFile {
-    /// The query of the rays.
-    pub query: Query,
-    hash: [u8; 8],
+    /// The rays that are hit.
+    pub rays: RaysId,
     hits: Vec<Option<Hit>>,
-}
-
-/// The identity of rays, as in the header of their file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct RaysId {
-    /// Their query.
-    pub query: Query,
-    hash: [u8; 8],
-    count: usize,
-}
-
-impl RaysId {
-    /// The identity of the rays of a workload.
-    pub fn of(workload: &Workload) -> Self {
-        Self { query: workload.query, hash: rays_hash(&workload.bytes()), count: workload.rays.len() }
-    }
 }
 
 const MAGIC: &[u8; 8] = b"SAHAHITS";
@@ -47,7 +29,7 @@ impl HitFile {
     /// If there are more or fewer hits than rays.
     pub fn new(workload: &Workload, hits: Vec<Option<Hit>>) -> Self {
         assert_eq!(workload.rays.len(), hits.len(), "one hit per ray");
-        Self { query: workload.query, hash: rays_hash(&workload.bytes()), hits }
+        Self { rays: RaysId::of(workload), hits }
     }
 
     /// # Errors
@@ -75,32 +57,25 @@ impl HitFile {
     /// # Errors
     /// Like [`HitFile::hits_of`].
     pub fn hits_of_rays(&self, rays: &RaysId) -> Result<&[Option<Hit>], String> {
-        if self.hash != rays.hash || self.hits.len() != rays.count {
-            return Err(format!(
-                "these are hits of {} rays with the hash {}, not of the {} rays with the hash {}",
-                self.hits.len(),
-                hexadecimal(&self.hash),
-                rays.count,
-                hexadecimal(&rays.hash)
-            ));
+        if (self.rays.hash, self.rays.count) != (rays.hash, rays.count) {
+            let [theirs, ours] =
+                [&self.rays, rays].map(|rays| format!("{} rays with the hash {}", rays.count, hexadecimal(&rays.hash)));
+            return Err(format!("these are hits of {theirs}, not of the {ours}"));
         }
-        if self.query != rays.query {
-            let (theirs, ours) = (self.query.name(), rays.query.name());
+        if self.rays.query != rays.query {
+            let (theirs, ours) = (self.rays.query.name(), rays.query.name());
             return Err(format!("these hits have the query {theirs:?}, but the rays have {ours:?}"));
         }
         Ok(&self.hits)
     }
 
     pub(super) fn to_bytes(&self) -> Vec<u8> {
-        let mut bytes =
-            header_bytes(&FileHeader { query: self.query, count: self.hits.len() as u64, hash: self.hash }, MAGIC);
-        bytes.extend(hits_to_bytes(&self.hits));
-        bytes
+        [self.rays.header(MAGIC), hits_to_bytes(&self.hits)].concat()
     }
 
     pub(super) fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
-        let FileHeader { query, count, hash } = header(bytes, MAGIC, "hits")?;
-        Ok(Self { query, hash, hits: hits_from_bytes(body(bytes, HEADER_BYTES, count, 8)?) })
+        let rays = header(bytes, MAGIC, "hits")?;
+        Ok(Self { rays, hits: hits_from_bytes(body(bytes, HEADER_BYTES, rays.count, 8)?) })
     }
 }
 

@@ -1,42 +1,21 @@
 //! Files of meshes.
 
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
-use std::path::Path;
-
 use crate::geometry::Mesh;
 
-/// Writes all triangles of `mesh` as a PLY file in the format of the document. Triangle n becomes face n.
-///
-/// # Errors
-/// If the file cannot be written.
-pub fn write_mesh(mesh: &Mesh, path: &Path) -> io::Result<()> {
-    let mut file = BufWriter::with_capacity(1 << 16, File::create(path)?);
-    write_to(mesh, &mut file)?;
-    file.flush()
-}
-
-/// The bytes of the file that [`write_mesh`] writes.
+/// All triangles of `mesh` as a PLY file in the format of the document. Triangle n becomes face n.
 pub fn mesh_bytes(mesh: &Mesh) -> Vec<u8> {
-    let mut bytes = vec![];
-    write_to(mesh, &mut bytes).expect("memory takes everything");
-    bytes
-}
-
-fn write_to(mesh: &Mesh, file: &mut impl Write) -> io::Result<()> {
-    write!(
-        file,
+    let header = format!(
         "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n\
          element face {}\nproperty list uchar int vertex_indices\nend_header\n",
         mesh.positions().len(),
         mesh.len()
-    )?;
-    for position in mesh.positions() {
-        position.to_array().into_iter().try_for_each(|x| file.write_all(&x.to_le_bytes()))?;
-    }
+    );
+    let mut bytes = header.into_bytes();
+    bytes.reserve_exact(12 * mesh.positions().len() + 13 * mesh.len());
+    bytes.extend(mesh.positions().iter().flat_map(|position| position.to_array()).flat_map(f32::to_le_bytes));
     for triangle in mesh.triangles() {
-        file.write_all(&[3])?;
-        triangle.iter().try_for_each(|corner| file.write_all(&corner.to_le_bytes()))?;
+        bytes.push(3);
+        bytes.extend(triangle.map(u32::to_le_bytes).as_flattened());
     }
-    Ok(())
+    bytes
 }

@@ -15,10 +15,11 @@ use std::path::{Path, PathBuf};
 use crate::escaped::Escaped as _;
 use crate::output::OutputError;
 
+pub use bytes::RaysId;
 pub use exact_hits::ExactHitFile;
-pub use hits::{HitFile, RaysId};
+pub use hits::HitFile;
 pub(crate) use hits::{hits_from_bytes, hits_to_bytes};
-pub use mesh::{mesh_bytes, write_mesh};
+pub use mesh::mesh_bytes;
 pub use rays::RayFile;
 
 /// The reason why a file of rays or hits cannot be used.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use glam::Vec3;
 
-use super::bytes::{FileHeader, HEADER_BYTES, body, header, header_bytes, number, rays_hash};
+use super::bytes::{HEADER_BYTES, RaysId, body, header, number, rays_hash};
 use super::{FileError, read};
 use crate::geometry::Ray;
 use crate::output::OutputFile;
@@ -92,8 +92,8 @@ impl RayFile {
     pub fn to_bytes(&self) -> Vec<u8> {
         let Workload { name, query, rays } = &self.workload;
         let body = self.workload.bytes();
-        let header = FileHeader { query: *query, count: rays.len() as u64, hash: rays_hash(&body) };
-        let mut bytes = header_bytes(&header, MAGIC);
+        let id = RaysId { query: *query, count: rays.len() as u64, hash: rays_hash(&body) };
+        let mut bytes = id.header(MAGIC);
         bytes.extend(self.scene_hash.as_deref().map_or([0; 32], unhex));
         bytes.extend((self.scene.len() as u32).to_le_bytes());
         bytes.extend((name.len() as u32).to_le_bytes());
@@ -105,23 +105,18 @@ impl RayFile {
     }
 
     pub(super) fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
-        let FileHeader { query, count, hash } = header(bytes, MAGIC, "rays")?;
+        let RaysId { query, count, hash } = header(bytes, MAGIC, "rays")?;
         let short = || "the file is truncated in its header".to_owned();
-        if bytes.len() < NAMES {
-            return Err(short());
-        }
-        let lengths = [number(bytes, NAMES - 8), number(bytes, NAMES - 4)].map(|n| n as usize);
-        let rest = &bytes[NAMES..];
-        let scene = rest.get(..lengths[0]).ok_or_else(short)?;
-        let name = rest[lengths[0]..].get(..lengths[1]).ok_or_else(short)?;
-        let text = |bytes: &[u8]| {
-            String::from_utf8(bytes.to_vec())
-                .map_err(|_| "a name in the header is not UTF-8: the file was changed".to_owned())
+        let mut names = bytes.get(NAMES..).ok_or_else(short)?;
+        let mut name = |length: usize| {
+            let name = names.split_off(..number(bytes, length) as usize).ok_or_else(short)?;
+            let unreadable = |_| "a name in the header is not UTF-8: the file was changed".to_owned();
+            String::from_utf8(name.to_vec()).map_err(unreadable)
         };
-        let (scene, name) = (text(scene)?, text(name)?);
+        let (scene, name) = (name(NAMES - 8)?, name(NAMES - 4)?);
         Self::check_names(&scene, &name)?;
 
-        let start = (NAMES + lengths[0] + lengths[1]).next_multiple_of(HEADER_BYTES);
+        let start = (NAMES + scene.len() + name.len()).next_multiple_of(HEADER_BYTES);
         let body = body(bytes, start, count, 32)?;
         if rays_hash(body) != hash {
             return Err("the rays do not match the hash in the header: the file was changed".into());
