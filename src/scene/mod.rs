@@ -12,13 +12,11 @@ mod light;
 pub mod load;
 mod material;
 pub mod meshes;
-mod mirror_ray;
 mod model;
 mod normals;
 pub mod offset;
 #[allow(clippy::module_inception)]
 mod scene;
-mod shadow_ray;
 pub mod spheres;
 #[cfg(test)]
 mod tests;

@@ -94,6 +94,26 @@ impl Scene {
         Surface { point, shading_normal, smooth }
     }
 
+    /// The any-hit ray that tests whether `light` is hidden from the surface of `prim`.
+    ///
+    /// It starts on the surface, or off it by [`Scene::shadow_terminator_fix`], with the offset [`Scene::offset`]. Its
+    /// length is the distance of the light from the surface point: as in the course, an occluder slightly beyond the
+    /// light counts. Lights behind the surface have shadow rays too.
+    pub fn shadow_ray(&self, prim: PrimId, surface: &Surface, light: &Light) -> Ray {
+        let mut start = surface.point;
+        if surface.smooth && self.shadow_terminator_fix {
+            start.position += surface.shading_normal * libm::pow(self.area(prim).into(), 0.05) as f32;
+        }
+        let distance = (light.position - surface.point.position).length();
+        self.offset.leave(&start, light.position - start.position).until(distance)
+    }
+
+    /// `ray` reflected at `surface`, about the shading normal. It starts on the surface, offset by [`Scene::offset`].
+    pub fn mirror_ray(&self, ray: &Ray, surface: &Surface) -> Ray {
+        let (direction, normal) = (ray.direction, surface.shading_normal);
+        self.offset.leave(&surface.point, direction - normal * (2.0 * direction.dot(normal)))
+    }
+
     /// Whether any triangle casts mirror rays.
     pub fn has_mirrors(&self) -> bool {
         let mirrors: Vec<bool> = self.materials.iter().map(|m| m.mirror > 0.0).collect();

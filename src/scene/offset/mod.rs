@@ -1,7 +1,6 @@
 //! Moves the origins of rays that leave a surface: far enough not to hit it again, near enough to miss no other
 //! surface.
 
-pub mod error_bounded;
 mod surface_point;
 
 use glam::Vec3;
@@ -20,9 +19,22 @@ pub enum Offset {
     /// By this distance along the direction, including rays from the eye: the source report's course does this, with
     /// 0.01. A grazing ray leaves the surface slowly and may hit it again.
     Direction(f32),
-    /// By the error bound of the point: [`error_bounded`], right at every scale and place.
+    /// Along the normal by the error bound of the point.
+    ///
+    /// Guaranteed, for a point from [`SurfacePoint::on_triangle`] at any scale and place: the origin lies on the side of
+    /// the triangle's plane to which the ray leaves, so the ray does not hit the triangle again; and at a distance of at
+    /// most about ten units in the last place of the largest coordinate of its corners. The ray passes through another
+    /// surface that is nearer than that.
+    ///
+    /// # References
+    /// Pharr, Jakob, Humphreys: Physically Based Rendering, 4th edition, 2023, section 6.8.6. This version departs in two
+    /// points, for triangles with a coordinate of zero and coordinates so small that the error bound underflows: every
+    /// coordinate in which the normal is not zero moves by at least one float, and `t = 0` is excluded.
     ErrorBounded,
 }
+
+/// The least positive number: it excludes `t = 0`, where a hit belongs to the surface that the ray leaves.
+const T_MIN: f32 = f32::from_bits(1);
 
 impl Offset {
     /// The ray that leaves `start` in `direction`, which is normalised.
@@ -31,11 +43,7 @@ impl Offset {
     pub fn leave(self, start: &SurfacePoint, direction: Vec3) -> Ray {
         match self {
             Self::Direction(distance) => moved_along(start.position, direction, distance),
-            // A hit at the origin itself belongs to the surface that the ray leaves.
-            Self::ErrorBounded => {
-                let origin = error_bounded::origin(start, direction);
-                Ray { t_min: error_bounded::T_MIN, ..Ray::new(origin, unit(direction)) }
-            }
+            Self::ErrorBounded => Ray { t_min: T_MIN, ..Ray::new(start.moved_out(direction), unit(direction)) },
         }
     }
 

@@ -41,9 +41,17 @@ impl SurfacePoint {
         Self { position: point.as_vec3(), error: magnitude.as_vec3() * GAMMA_7, normal: normal.as_vec3() }
     }
 
-    /// The normal on the side to which a ray in `direction` leaves.
-    pub(super) fn towards(&self, direction: Vec3) -> Vec3 {
-        if self.normal.as_dvec3().dot(direction.as_dvec3()) < 0.0 { -self.normal } else { self.normal }
+    /// The point moved to the side to which a ray in `direction` leaves, by the extent of the error box along the
+    /// normal, then by one more float against the rounding of this sum.
+    pub(super) fn moved_out(&self, direction: Vec3) -> Vec3 {
+        let is_behind = self.normal.as_dvec3().dot(direction.as_dvec3()) < 0.0;
+        let normal = if is_behind { -self.normal } else { self.normal };
+        let moved = self.position + normal * normal.abs().dot(self.error);
+        Vec3::from_array(std::array::from_fn(|axis| match normal[axis] {
+            n if n > 0.0 => moved[axis].next_up(),
+            n if n < 0.0 => moved[axis].next_down(),
+            _ => moved[axis],
+        }))
     }
 }
 
