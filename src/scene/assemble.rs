@@ -33,24 +33,24 @@ pub(super) fn assemble(file: &SceneFile, origin: &Origin) -> Result<Scene, Scene
     }
 
     if let Some(wanted) = file.triangles.filter(|_| !parts.replaced) {
-        let count = parts.triangles.len();
+        let count = parts.all.triangles.len();
         let problem = format!("the file states {wanted} triangles, but its objects have {count}: correct one of them");
         if count != wanted {
             return Err(origin.value("triangles", problem));
         }
     }
-    let mesh = Mesh::new(parts.positions, parts.triangles)
+    let mesh = Mesh::new(parts.all.positions, parts.all.triangles)
         .map_err(|cause| SceneError::Mesh { file: origin.file.into(), cause })?;
     let c = &file.camera;
     let camera = Camera::new(c.eye.into(), c.target.into(), c.up.into(), c.vertical_fov)
         .map_err(|cause| SceneError::Camera { file: origin.file.into(), cause })?;
     let light = |l: &LightFile| Light { position: l.pos.into(), colour: l.col.into(), linear: l.lat, quadratic: l.qat };
-    let smooth = parts.normal_indices.iter().any(|&n| n != CornerNormals::FLAT);
+    let smooth = parts.all.normal_indices.iter().any(|&n| n != CornerNormals::FLAT);
     Ok(Scene {
         name: file.name.clone(),
-        normals: smooth.then(|| CornerNormals::new(parts.normals, parts.normal_indices)),
-        materials: parts.materials,
-        material_of: parts.material_of,
+        normals: smooth.then(|| CornerNormals::new(parts.all.normals, parts.all.normal_indices)),
+        materials: parts.all.materials,
+        material_of: parts.all.material_of,
         lights: file.lights.iter().map(light).collect(),
         camera,
         background: file.background.into(),
@@ -60,7 +60,7 @@ pub(super) fn assemble(file: &SceneFile, origin: &Origin) -> Result<Scene, Scene
         size: file.size,
         is_framed: false,
         stand_ins: parts.stand_ins,
-        notes: parts.notes,
+        notes: parts.all.notes,
         warnings: vec![],
         mesh: Arc::new(mesh),
     })
@@ -68,14 +68,9 @@ pub(super) fn assemble(file: &SceneFile, origin: &Origin) -> Result<Scene, Scene
 
 #[derive(Default)]
 struct Parts {
-    positions: Vec<glam::Vec3>,
-    triangles: Vec<[u32; 3]>,
-    normals: Vec<glam::Vec3>,
-    normal_indices: Vec<[u32; 3]>,
-    materials: Vec<Material>,
-    material_of: Vec<u32>,
+    /// The objects so far, in world space, with unit normals.
+    all: Model,
     stand_ins: Vec<String>,
-    notes: Vec<String>,
     /// Whether a real mesh replaces a stand-in.
     replaced: bool,
 }
@@ -85,35 +80,38 @@ impl Parts {
         let materials = file.materials.iter().map(|(name, m)| m.material(name)).collect();
         let textures: Vec<&str> =
             file.materials.values().flat_map(|m| m.texture.iter().chain(&m.normal_map)).map(String::as_str).collect();
-        let left_out = format!("textures ignored (materials use Kd): {}", textures.join(", "));
-        Self { materials, notes: (!textures.is_empty()).then_some(left_out).into_iter().collect(), ..Self::default() }
+        let mut all = Model { materials, ..Model::default() };
+        if !textures.is_empty() {
+            all.notes.push(format!("textures ignored (materials use Kd): {}", textures.join(", ")));
+        }
+        Self { all, ..Self::default() }
     }
 
     fn add(&mut self, object: &ObjectFile, key: &str, origin: &Origin) -> Result<(), SceneError> {
         let (mut model, placement) = self.choose(object, key, origin)?;
-        self.notes.append(&mut model.notes);
+        self.all.notes.append(&mut model.notes);
 
-        let (first, before) = (self.positions.len(), self.triangles.len());
+        let (first, before) = (self.all.positions.len(), self.all.triangles.len());
         let is_mirrored = placement.is_mirror();
         let shifted = |&indices: &[u32; 3], by: usize| Model::placed(indices, is_mirrored).map(|i| i + by as u32);
-        if (first + model.positions.len()).max(self.normals.len() + model.normals.len()) > i32::MAX as usize {
+        if (first + model.positions.len()).max(self.all.normals.len() + model.normals.len()) > i32::MAX as usize {
             return Err(origin.value(key, "the scene has more than 2^31 vertices or normals: split it".into()));
         }
         model.positions.iter_mut().for_each(|p| *p = placement.point(*p));
-        append(&mut self.positions, std::mem::take(&mut model.positions));
+        append(&mut self.all.positions, std::mem::take(&mut model.positions));
         model.triangles.iter_mut().for_each(|t| *t = shifted(t, first));
-        append(&mut self.triangles, std::mem::take(&mut model.triangles));
+        append(&mut self.all.triangles, std::mem::take(&mut model.triangles));
 
-        let first = self.normals.len();
-        self.normals.extend(model.normals.iter().map(|&n| placement.normal(n)));
+        let first = self.all.normals.len();
+        self.all.normals.extend(model.normals.iter().map(|&n| placement.normal(n)));
         // If no mesh has normals, triangles need no normal indices.
         if !model.normal_indices.is_empty() {
             let flat = |n: &[u32; 3]| n.contains(&Model::FLAT);
             let placed = |n| if flat(n) { CornerNormals::FLAT } else { shifted(n, first) };
-            self.normal_indices.resize(before, CornerNormals::FLAT);
-            self.normal_indices.extend(model.normal_indices.iter().map(placed));
-        } else if !self.normal_indices.is_empty() {
-            self.normal_indices.resize(self.triangles.len(), CornerNormals::FLAT);
+            self.all.normal_indices.resize(before, CornerNormals::FLAT);
+            self.all.normal_indices.extend(model.normal_indices.iter().map(placed));
+        } else if !self.all.normal_indices.is_empty() {
+            self.all.normal_indices.resize(self.all.triangles.len(), CornerNormals::FLAT);
         }
         self.paint(object, &model, key, origin)
     }
@@ -145,7 +143,7 @@ impl Parts {
         };
         if let Some(whole) = &object.stands_in_for {
             self.stand_ins.push(mesh.clone());
-            self.notes.push(format!("mesh `{mesh}` stands in for {whole}"));
+            self.all.notes.push(format!("mesh `{mesh}` stands in for {whole}"));
         }
 
         let key = format!("{key}.mesh");
@@ -168,10 +166,10 @@ impl Parts {
         let count = model.triangles.len();
         let left_out = before - count;
         let instead = real.reported_triangles.map_or(String::new(), |n| format!(" instead of the report's {n}"));
-        self.notes.push(format!("real mesh {}: {count} triangles{instead}", path.escaped()));
+        self.all.notes.push(format!("real mesh {}: {count} triangles{instead}", path.escaped()));
         if left_out > 0 {
             let materials = real.exclude_materials.join(", ");
-            self.notes.push(format!("{left_out} triangles of the real mesh excluded (materials {materials})"));
+            self.all.notes.push(format!("{left_out} triangles of the real mesh excluded (materials {materials})"));
         }
         model
     }
@@ -183,7 +181,7 @@ impl Parts {
         };
         let own = model.materials.len().max(1);
         let numbers: Vec<u32> = if let Some(name) = &object.material {
-            vec![number(&self.materials, name); own]
+            vec![number(&self.all.materials, name); own]
         } else if let Some(by_part) = &object.materials {
             let part_names: Vec<&str> = model.materials.iter().map(|m| m.name.as_str()).collect();
             let key = format!("{key}.materials");
@@ -194,22 +192,22 @@ impl Parts {
             let chosen = |part: &&str| {
                 let name = by_part.get(*part);
                 let problem = || origin.value(&key, format!("part `{part}` has no material: add one"));
-                name.map(|name| number(&self.materials, name)).ok_or_else(problem)
+                name.map(|name| number(&self.all.materials, name)).ok_or_else(problem)
             };
             part_names.iter().map(chosen).collect::<Result<_, _>>()?
         } else {
-            let first = self.materials.len() as u32;
-            self.materials.extend(model.materials.iter().cloned());
+            let first = self.all.materials.len() as u32;
+            self.all.materials.extend(model.materials.iter().cloned());
             if model.materials.is_empty() {
-                self.materials.push(Material::named("grey"));
+                self.all.materials.push(Material::named("grey"));
             }
-            (first..self.materials.len() as u32).collect()
+            (first..self.all.materials.len() as u32).collect()
         };
 
         if model.material_of.is_empty() {
-            self.material_of.resize(self.triangles.len(), numbers[0]);
+            self.all.material_of.resize(self.all.triangles.len(), numbers[0]);
         } else {
-            self.material_of.extend(model.material_of.iter().map(|&part| numbers[part as usize]));
+            self.all.material_of.extend(model.material_of.iter().map(|&part| numbers[part as usize]));
         }
         Ok(())
     }

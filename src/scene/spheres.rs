@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::{Camera, Light, Scene, SceneError, meshes};
+use super::{Camera, Light, Scene, meshes};
 
 /// Steps along an edge of the icosahedron, by level: 20 triangles and four times as many from each level to the next,
 /// except for the last one. It has 16 million: all structures over 21 million would exceed the memory of many machines.
@@ -16,28 +16,16 @@ pub fn triangles(level: u32) -> usize {
     20 * (STEPS[level as usize] as usize).pow(2)
 }
 
-/// The scene of the level `parameters`.
+/// The icosphere of the level `parameters` with the camera and the light of the report's sphere: all levels have the
+/// same view.
 ///
 /// # Errors
 /// If it is not a level.
 pub fn generate(parameters: &str) -> anyhow::Result<Scene> {
-    let level = parameters.parse().ok().filter(|level| *level <= FINEST);
+    let level = parameters.parse::<u32>().ok().filter(|level| *level <= FINEST);
     let level = level.ok_or_else(|| anyhow::anyhow!("give a level from 0 to {FINEST}, such as icosphere:5"))?;
-    Ok(sphere(level)?)
-}
-
-/// The icosphere of a level with the camera and the light of the report's sphere: all levels have the same view.
-///
-/// # Errors
-/// None for an existing level.
-///
-/// # Panics
-/// If there is no such level.
-fn sphere(level: u32) -> Result<Scene, SceneError> {
-    let name = format!("icosphere {level}");
-    let scene = Scene::framed(&name, meshes::divided_icosphere(STEPS[level as usize]))?;
-    let camera = Camera::new(Vec3::new(0.0, 0.0, 5.0), Vec3::ZERO, Vec3::Y, 60.0)
-        .map_err(|cause| SceneError::Camera { file: name, cause })?;
+    let scene = Scene::framed(&format!("icosphere {level}"), meshes::divided_icosphere(STEPS[level as usize]))?;
+    let camera = Camera::new(Vec3::new(0.0, 0.0, 5.0), Vec3::ZERO, Vec3::Y, 60.0)?;
     let light = Light { position: Vec3::new(2.0, 5.0, 3.0), colour: Vec3::ONE, linear: 0.0, quadratic: 0.0 };
     Ok(Scene { camera, lights: vec![light], ..scene })
 }

@@ -5,15 +5,13 @@ mod kinds;
 mod lines;
 mod picture;
 mod primary;
-mod sampler;
 mod source;
 #[cfg(test)]
 mod tests;
 
 use sha2::{Digest, Sha256};
 
-use self::sampler::Sampler;
-use self::source::Source;
+use self::source::{Sampler, Source};
 use super::Scene;
 use super::hash::hexadecimal;
 use crate::accel::{DynAccel, Query};
