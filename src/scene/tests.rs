@@ -29,32 +29,32 @@ fn message(text: &str) -> String {
 
 #[test]
 fn all_twelve_have_the_triangles_and_cameras_of_the_report() {
-    let triangles = [12, 1280, 2304, 4032, 4164, 5130, 140, 7682, 4480, 130_862, 275_694, 174_840];
-    let degenerate = [0, 0, 0, 0, 160, 0, 0, 0, 0, 0, 0, 0];
-    let lights = [1, 1, 1, 1, 4, 3, 1, 2, 1, 1, 1, 1];
-    assert_eq!(BUILTIN.len(), 12);
-    for (i, builtin) in BUILTIN.iter().enumerate() {
+    let expected: [(&str, [usize; 3], bool, &[&str]); 12] = [
+        ("Cube", [12, 0, 1], false, &[]),
+        ("Sphere", [1280, 0, 1], false, &[]),
+        ("Torus", [2304, 0, 1], false, &[]),
+        ("Teapot", [4032, 0, 1], false, &[]),
+        ("Billards", [4164, 160, 4], true, &[]),
+        ("Cornellbox", [5130, 0, 3], true, &[]),
+        ("Infinitycandy", [140, 0, 1], true, &[]),
+        ("Metallic", [7682, 0, 2], true, &[]),
+        ("Starters", [4480, 0, 1], true, &["rabbit", "fox", "elephant"]),
+        ("Dragon", [130_862, 0, 1], true, &["dragon"]),
+        ("Lucy", [275_694, 0, 1], false, &["lucy"]),
+        ("Sponza", [174_840, 0, 1], false, &["sponza"]),
+    ];
+    assert_eq!(BUILTIN.len(), expected.len());
+    for (builtin, (name, [triangles, degenerate, lights], has_mirrors, stand_ins)) in BUILTIN.iter().zip(expected) {
         let scene = builtin.scene(None).unwrap();
-        assert_eq!(scene.name, builtin.name);
-        assert_eq!(builtin.file().triangles, Some(triangles[i]), "{}", builtin.name);
-        assert_eq!(scene.mesh.len(), triangles[i], "{}", builtin.name);
-        assert_eq!(scene.mesh.degenerate().len(), degenerate[i], "{}", builtin.name);
-        assert_eq!(scene.material_of.len(), triangles[i], "{}", builtin.name);
-        assert_eq!(scene.lights.len(), lights[i], "{}", builtin.name);
-        assert_eq!((scene.size, scene.offset), ([512, 512], Offset::Direction(0.01)), "{}", builtin.name);
-        let is_dragon = builtin.name == "Dragon";
-        assert_eq!(scene.recursion_limit, if is_dragon { 1 } else { 8 }, "{}", builtin.name);
-        assert_eq!(scene.shadow_terminator_fix, !is_dragon, "{}", builtin.name);
-        let mirrors = ["Billards", "Cornellbox", "Infinitycandy", "Metallic", "Starters", "Dragon"];
-        assert_eq!(scene.has_mirrors(), mirrors.contains(&builtin.name), "{}", builtin.name);
-        let stand_ins: &[&str] = match builtin.name {
-            "Starters" => &["rabbit", "fox", "elephant"],
-            "Dragon" => &["dragon"],
-            "Lucy" => &["lucy"],
-            "Sponza" => &["sponza"],
-            _ => &[],
-        };
-        assert_eq!(scene.stand_ins, stand_ins, "{}", builtin.name);
+        assert_eq!([builtin.name, &scene.name], [name; 2]);
+        let counts = [scene.mesh.len(), scene.mesh.degenerate().len(), scene.lights.len()];
+        assert_eq!(counts, [triangles, degenerate, lights], "{name}");
+        assert_eq!((builtin.file().triangles, scene.material_of.len()), (Some(triangles), triangles), "{name}");
+        assert_eq!((scene.size, scene.offset), ([512, 512], Offset::Direction(0.01)), "{name}");
+        let shading = if name == "Dragon" { (1, false) } else { (8, true) };
+        assert_eq!((scene.recursion_limit, scene.shadow_terminator_fix), shading, "{name}");
+        assert_eq!(scene.has_mirrors(), has_mirrors, "{name}");
+        assert_eq!(scene.stand_ins, stand_ins, "{name}");
     }
 }
 
@@ -69,36 +69,37 @@ fn a_plain_file_gets_the_defaults() {
 
 #[test]
 fn errors_name_the_file_the_location_and_a_remedy() {
-    let changed = |from: &str, to: &str| message(&PLAIN.replace(from, to));
-    let starts = |text: String, start: &str| assert!(text.starts_with(start), "{text}");
-    starts(changed("name = \"Test\"", "nmae = \"Test\""), "test.toml, line 2: unknown field `nmae`, expected one of");
-    starts(changed("mesh", "mseh"), "test.toml, line 4: unknown field `mseh`");
-    starts(changed("name = \"Test\"", ""), "test.toml, line 1: missing field `name`");
-    starts(changed("60", "'60'"), "test.toml, line 3: invalid type");
-    starts(
-        changed("cube", "cub"),
-        "test.toml, `objects[0].mesh`: there is no mesh `cub` (did you mean cube?); name a file or one of cube,",
-    );
-    starts(changed("60", "180"), "test.toml, `camera`: the camera's vertical field of view must be");
-    starts(changed("[0, 0, 0]", "[0, 0, 5]"), "test.toml, `camera`: the camera's eye and target are the same");
-    starts(changed("[0, 0, 0]", "[0, 1, 5]"), "test.toml, `camera`: the camera's up is parallel");
-    starts(
-        changed("\"cube\"", "\"cube\", material = \"Red\""),
-        "test.toml, `objects[0].material`: the file has no material",
-    );
-    starts(changed("\"cube\"", "\"cube\", tra = [nan, 0, 0]"), "test.toml, `objects[0].rot, sca or tra`: give finite");
-    starts(changed("\"cube\"", "\"cube\", sca = [3e38, 3e38, 3e38], tra = [3e38, 0, 0]"), "test.toml: vertex");
-    let named = |name: &str| message(&PLAIN.replace("\"Test\"", name));
-    for name in ["\"\"", "\" \"", "\"a\\tb\"", "\"a\\u001bb\""] {
-        starts(named(name), "test.toml, `name`: give a name");
+    for (from, to, start) in [
+        ("name = \"Test\"", "nmae = \"Test\"", ", line 2: unknown field `nmae`, expected one of"),
+        ("mesh", "mseh", ", line 4: unknown field `mseh`"),
+        ("name = \"Test\"", "", ", line 1: missing field `name`"),
+        ("60", "'60'", ", line 3: invalid type"),
+        (
+            "cube",
+            "cub",
+            ", `objects[0].mesh`: there is no mesh `cub` (did you mean cube?); name a file or one of cube,",
+        ),
+        ("60", "180", ", `camera`: the camera's vertical field of view must be"),
+        ("[0, 0, 0]", "[0, 0, 5]", ", `camera`: the camera's eye and target are the same"),
+        ("[0, 0, 0]", "[0, 1, 5]", ", `camera`: the camera's up is parallel"),
+        ("\"cube\"", "\"cube\", material = \"Red\"", ", `objects[0].material`: the file has no material"),
+        ("\"cube\"", "\"cube\", tra = [nan, 0, 0]", ", `objects[0].rot, sca or tra`: give finite"),
+        ("\"cube\"", "\"cube\", sca = [3e38, 3e38, 3e38], tra = [3e38, 0, 0]", ": vertex"),
+        ("\"Test\"", "\"\"", ", `name`: give a name"),
+        ("\"Test\"", "\" \"", ", `name`: give a name"),
+        ("\"Test\"", "\"a\\tb\"", ", `name`: give a name"),
+        ("\"Test\"", "\"a\\u001bb\"", ", `name`: give a name"),
+        ("name", "size = [0, 1]\nname", ", `size`: width and height must be between"),
+        ("name", "triangles = 13\nname", ", `triangles`: the file states 13 triangles, but"),
+    ] {
+        let message = message(&PLAIN.replace(from, to));
+        assert!(message.starts_with(&format!("test.toml{start}")), "{message}");
     }
-    let mirror = |r: &str| format!("{PLAIN}\n[materials.M]\nKa = [0, 0, 0]\nKd = [0, 0, 0]\nKs = [0, 0, 0]\nr = {r}\n");
     for r in ["1.5", "-0.1", "nan"] {
-        starts(message(&mirror(r)), "test.toml, `materials.M.r`: give a share, from 0 to 1");
+        let material = format!("[materials.M]\nKa = [0, 0, 0]\nKd = [0, 0, 0]\nKs = [0, 0, 0]\nr = {r}\n");
+        let message = message(&format!("{PLAIN}\n{material}"));
+        assert!(message.starts_with("test.toml, `materials.M.r`: give a share, from 0 to 1"), "{message}");
     }
-    starts(changed("name", "size = [0, 1]\nname"), "test.toml, `size`: width and height must be between");
-    starts(changed("name", "triangles = 13\nname"), "test.toml, `triangles`: the file states 13 triangles, but");
-
     let missing = Scene::read(std::path::Path::new("no/such.toml"), None).unwrap_err().to_string();
     assert!(missing.starts_with("no/such.toml: cannot read the scene"), "{missing}");
 }
@@ -139,11 +140,8 @@ fn a_real_mesh_takes_the_place_of_its_stand_in() {
     assert_eq!((with.mesh.len(), with.stand_ins.len()), (1, 0));
     assert_eq!(with.mesh.corners(0), [Vec3::new(0.0, 1.0, 7.0), Vec3::new(1.0, 0.0, 7.0), Vec3::new(0.0, 0.0, 7.0)]);
     assert_eq!(with.material(Hit::new(1.0, 0).prim).diffuse, Vec3::X);
-    assert!(
-        with.notes.iter().any(|n| n.ends_with("thing.obj: 1 triangles instead of the report's 3")),
-        "{:?}",
-        with.notes
-    );
+    let noted = "thing.obj: 1 triangles instead of the report's 3";
+    assert!(with.notes.iter().any(|note| note.ends_with(noted)), "{:?}", with.notes);
     assert!(made(&text, None).unwrap().mesh.len() == 12);
 }
 
@@ -159,9 +157,8 @@ fn a_scene_of_real_meshes_alone_says_how_to_get_them() {
     let with = |key: &str| message(&PLAIN.replace("mesh = \"cube\"", &format!("{key}, {real}")));
     assert!(with("sca = [2, 2, 2]").contains("move it into `real`"));
     assert!(with("stands_in_for = \"a thing\"").contains("`objects[0].stands_in_for`"));
-    assert!(
-        message(&PLAIN.replace("mesh = \"cube\"", "")).contains("name a mesh or a file, or give `terrain` or `real`")
-    );
+    let nothing = message(&PLAIN.replace("mesh = \"cube\"", ""));
+    assert!(nothing.contains("name a mesh or a file, or give `terrain` or `real`"), "{nothing}");
 
     fs::write(folder.path().join("thing.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
     let scene = made(&text, Some(folder.path())).unwrap();
