@@ -95,10 +95,9 @@ impl RayFile {
         let id = RaysId { query: *query, count: rays.len() as u64, hash: rays_hash(&body) };
         let mut bytes = id.header(MAGIC);
         bytes.extend(self.scene_hash.as_deref().map_or([0; 32], unhex));
-        bytes.extend((self.scene.len() as u32).to_le_bytes());
-        bytes.extend((name.len() as u32).to_le_bytes());
-        bytes.extend(self.scene.as_bytes());
-        bytes.extend(name.as_bytes());
+        let names = [self.scene.as_str(), name];
+        names.iter().for_each(|name| bytes.extend((name.len() as u32).to_le_bytes()));
+        names.iter().for_each(|name| bytes.extend(name.as_bytes()));
         bytes.resize(bytes.len().next_multiple_of(HEADER_BYTES), 0);
         bytes.extend(body);
         bytes

@@ -46,14 +46,11 @@ pub fn load(path: &Path) -> Result<Model, LoadError> {
         _ => return Err(LoadError::UnknownFormat { file: path.into() }),
     };
 
-    let bytes = read_start(path, u64::MAX).map_err(|cause| LoadError::Unreadable { file: path.into(), cause })?;
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let mut model = read(bytes, folder).map_err(|Fault { place, problem }| LoadError::Malformed {
-        file: path.into(),
-        place,
-        problem,
-    })?;
-    Mesh::check(&model.positions, &model.triangles).map_err(|cause| LoadError::Mesh { file: path.into(), cause })?;
+    let file = || path.to_path_buf();
+    let bytes = read_start(path, u64::MAX).map_err(|cause| LoadError::Unreadable { file: file(), cause })?;
+    let malformed = |Fault { place, problem }| LoadError::Malformed { file: file(), place, problem };
+    let mut model = read(bytes, path.parent().unwrap_or(Path::new(""))).map_err(malformed)?;
+    Mesh::check(&model.positions, &model.triangles).map_err(|cause| LoadError::Mesh { file: file(), cause })?;
     flatten_bad_normals(&mut model);
     Ok(model)
 }
@@ -64,11 +61,9 @@ fn flatten_bad_normals(model: &mut Model) {
         n == Model::FLAT || model.normals.get(n as usize).is_some_and(|n| n.is_finite() && n.length_squared() > 0.0)
     };
     let mut flattened = 0;
-    for corners in &mut model.normal_indices {
-        if !corners.iter().all(|&n| usable(n)) {
-            *corners = [Model::FLAT; 3];
-            flattened += 1;
-        }
+    for corners in model.normal_indices.iter_mut().filter(|corners| !corners.iter().all(|&n| usable(n))) {
+        *corners = [Model::FLAT; 3];
+        flattened += 1;
     }
     if flattened > 0 {
         model.notes.push(format!("{flattened} triangles have an invalid normal: shaded flat"));

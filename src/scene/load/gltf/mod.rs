@@ -66,17 +66,11 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
     }
     let mut model = Model { materials: document.materials().enumerate().map(material).collect(), ..Model::default() };
     if sizes[2].0 == 0 {
-        let surfaces: usize = shapes.values().map(|shape| shape.parts.len()).sum();
-        let others: usize = shapes.values().map(|shape| shape.left_out).sum();
-        let (nodes, meshes) = (document.nodes().len(), document.meshes().len());
-        let shown = format!(
-            "{} without triangles, and {} of points or lines or without positions",
-            plural(surfaces, "triangle primitive"),
-            plural(others, "primitive")
-        );
-        let problem =
-            format!("it has no visible triangles: it shows {shown}; the file has {nodes} nodes and {meshes} meshes");
-        return Err(Fault::file(problem));
+        let surfaces = plural(shapes.values().map(|shape| shape.parts.len()).sum(), "triangle primitive");
+        let others = plural(shapes.values().map(|shape| shape.left_out).sum(), "primitive");
+        let shown = format!("{surfaces} without triangles, and {others} of points or lines or without positions");
+        let whole = format!("the file has {} nodes and {} meshes", document.nodes().len(), document.meshes().len());
+        return Err(Fault::file(format!("it has no visible triangles: it shows {shown}; {whole}")));
     }
     reserve(&mut model, sizes.map(|size| size.0), size)?;
     for placement in &placements {

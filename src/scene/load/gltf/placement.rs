@@ -35,10 +35,8 @@ impl<'a> Placement<'a> {
         for accessor in self.instances.into_iter().flatten() {
             let count = accessors.get(accessor)?.count();
             if *copies.get_or_insert(count) != count {
-                let problem = format!(
-                    "it has {count} elements, but another accessor of the same instances has a different number"
-                );
-                return Err(fault(accessor, problem));
+                let other = "but another accessor of the same instances has a different number";
+                return Err(fault(accessor, format!("it has {count} elements, {other}")));
             }
         }
         Ok([copies.unwrap_or(1), 0])

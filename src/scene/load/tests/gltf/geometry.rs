@@ -38,23 +38,17 @@ fn quantised(component: u32, one: [u8; 4], stride: usize, is_normalized: bool, i
 
 #[test]
 fn positions_are_integers_of_every_kind() {
-    for (component, one, normalized) in [
-        (5120, [0x81, 0, 0, 0], -1.0),
-        (5120, [0x80, 0, 0, 0], -1.0),
-        (5120, [3, 0, 0, 0], 3.0 / 127.0),
-        (5121, [0xff, 0, 0, 0], 1.0),
-        (5121, [3, 0, 0, 0], 3.0 / 255.0),
-        (5122, [0, 0x80, 0, 0], -1.0),
-        (5122, [1, 1, 0, 0], 257.0 / 32767.0),
-        (5123, [0xff, 0xff, 0, 0], 1.0),
-        (5123, [1, 1, 0, 0], 257.0_f32 / 65535.0),
+    for (component, one, plain, normalized) in [
+        (5120, [0x81, 0, 0, 0], -127.0, -1.0),
+        (5120, [0x80, 0, 0, 0], -128.0, -1.0),
+        (5120, [3, 0, 0, 0], 3.0, 3.0 / 127.0),
+        (5121, [0xff, 0, 0, 0], 255.0, 1.0),
+        (5121, [3, 0, 0, 0], 3.0, 3.0 / 255.0),
+        (5122, [0, 0x80, 0, 0], -32768.0, -1.0),
+        (5122, [1, 1, 0, 0], 257.0, 257.0 / 32767.0),
+        (5123, [0xff, 0xff, 0, 0], 65535.0, 1.0),
+        (5123, [1, 1, 0, 0], 257.0, 257.0_f32 / 65535.0),
     ] {
-        let plain = match component {
-            5120 => f32::from(one[0] as i8),
-            5121 => f32::from(one[0]),
-            5122 => f32::from(i16::from_le_bytes([one[0], one[1]])),
-            _ => f32::from(u16::from_le_bytes([one[0], one[1]])),
-        };
         for (stride, is_normalized, is_sparse) in
             [(8, false, false), (8, true, false), (12, true, true), (8, false, true)]
         {
