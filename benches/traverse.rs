@@ -24,7 +24,7 @@ fn workloads(scene: &Scene) -> Vec<Workload> {
 fn bench(criterion: &mut Criterion, group: &str, name: &str, accel: &dyn DynAccel, workload: &Workload) {
     let threads = Threads::pinned(1).expect("there is a thread");
     let _pin = threads.pin();
-    let (system, own) = (SystemClock::start(), CpuClock::of_thread(&threads));
+    let (system, own) = (SystemClock::start(), CpuClock::Thread.on(&threads));
     let watch = Stopwatch::new(own.as_ref().map_or(&system, |own| own));
     let mut pass = Pass::new(accel, &workload.rays, workload.query, &threads);
     let mut group = criterion.benchmark_group(format!("{group}/{}", workload.name));

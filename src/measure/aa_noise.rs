@@ -2,7 +2,7 @@
 
 use super::estimate::Estimate;
 use super::interval::{Rerun, epoch_values};
-use super::variance::{Variance, mean};
+use super::summary::{Variance, mean};
 
 /// The A/A ratios of a run: the same structure built twice and timed as two. Without noise they are 1 (Georges,
 /// Buytaert, Eeckhout, "Statistically rigorous Java performance evaluation", 2007, on comparing alternatives; the twin

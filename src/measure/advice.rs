@@ -1,7 +1,6 @@
 //! Warnings about a run, with remedies. Pure functions: this module measures nothing.
 
-use super::summary::median;
-use super::variance::mean;
+use super::summary::{mean, median};
 
 /// The state of the machine before, during and after the timed part of a run. `None` if the system does not report it.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -58,56 +58,43 @@ impl Clock for SystemClock {
 
 /// Processor time: it stops while another program, or the host of a virtual machine, has the core. For work on one
 /// thread it is the time that would elapse on an idle machine.
-pub struct CpuClock(Id);
-
-#[cfg(target_os = "linux")]
-type Id = nix::time::ClockId;
-#[cfg(not(target_os = "linux"))]
-type Id = std::convert::Infallible;
+#[derive(Clone, Copy)]
+pub enum CpuClock {
+    /// Of the calling thread, for passes.
+    Thread,
+    /// Of the whole process, for builds: some builders start threads, whose work counts.
+    Process,
+}
 
 impl CpuClock {
-    /// The clock of the calling thread, for passes. `None` for several threads, or if the system has no such clock:
-    /// then use the elapsed time.
-    pub fn of_thread(threads: &Threads) -> Option<Self> {
-        #[cfg(target_os = "linux")]
-        let id = Some(Id::CLOCK_THREAD_CPUTIME_ID);
-        #[cfg(not(target_os = "linux"))]
-        let id = None;
-        Self::of(threads, id)
+    /// This clock, for work on `threads`. `None` for several threads, or if the system has no such clock: then use the
+    /// elapsed time.
+    pub fn on(self, threads: &Threads) -> Option<Self> {
+        (threads.count() == 1 && self.read_ns().is_some()).then_some(self)
     }
 
-    /// The clock of the whole process, for builds: some builders start threads, whose work counts. `None` if
-    /// [`CpuClock::of_thread`] is `None`.
-    pub fn of_process(threads: &Threads) -> Option<Self> {
-        #[cfg(target_os = "linux")]
-        let id = Some(Id::CLOCK_PROCESS_CPUTIME_ID);
-        #[cfg(not(target_os = "linux"))]
-        let id = None;
-        Self::of(threads, id)
+    #[cfg(target_os = "linux")]
+    fn read_ns(self) -> Option<u64> {
+        use nix::time::ClockId;
+        let id = match self {
+            Self::Thread => ClockId::CLOCK_THREAD_CPUTIME_ID,
+            Self::Process => ClockId::CLOCK_PROCESS_CPUTIME_ID,
+        };
+        let time = id.now().ok()?;
+        Some(time.tv_sec() as u64 * 1_000_000_000 + time.tv_nsec() as u64)
     }
 
-    fn of(threads: &Threads, id: Option<Id>) -> Option<Self> {
-        let id = id.filter(|_| threads.count() == 1)?;
-        cpu_time_ns(&id).map(|_| Self(id))
+    #[cfg(not(target_os = "linux"))]
+    fn read_ns(self) -> Option<u64> {
+        None
     }
 }
 
 impl Clock for CpuClock {
     #[inline]
     fn now_ns(&self) -> u64 {
-        cpu_time_ns(&self.0).expect("it was there when the clock was made")
+        self.read_ns().expect("it was there before the work")
     }
-}
-
-#[cfg(target_os = "linux")]
-fn cpu_time_ns(id: &Id) -> Option<u64> {
-    let time = id.now().ok()?;
-    Some(time.tv_sec() as u64 * 1_000_000_000 + time.tv_nsec() as u64)
-}
-
-#[cfg(not(target_os = "linux"))]
-fn cpu_time_ns(id: &Id) -> Option<u64> {
-    match *id {}
 }
 
 #[cfg(all(test, target_os = "linux"))]
@@ -116,16 +103,15 @@ mod tests {
 
     #[test]
     fn the_clock_of_the_process_sees_other_threads() {
-        let one = Threads::new(1).unwrap();
-        let (thread, process) = (CpuClock::of_thread(&one).unwrap(), CpuClock::of_process(&one).unwrap());
+        let one = Threads::unstarted(1);
+        let [thread, process] = [CpuClock::Thread, CpuClock::Process].map(|clock| clock.on(&one).unwrap());
         let (own, all) = (thread.now_ns(), process.now_ns());
         let worker = std::thread::spawn(|| {
-            let clock = CpuClock::of_thread(&Threads::new(1).unwrap()).unwrap();
-            let start = clock.now_ns();
-            while clock.now_ns() - start < 20_000_000 {}
+            let start = CpuClock::Thread.now_ns();
+            while CpuClock::Thread.now_ns() - start < 20_000_000 {}
         });
         worker.join().unwrap();
         assert!(process.now_ns() - all >= 20_000_000 && thread.now_ns() - own < 20_000_000);
-        assert!(CpuClock::of_process(&Threads::new(2).unwrap()).is_none());
+        assert!(CpuClock::Process.on(&Threads::unstarted(2)).is_none());
     }
 }

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::student::{LEVEL, factor};
-use super::variance::Variance;
+use super::quantiles::{LEVEL, factor};
+use super::summary::Variance;
 
 /// An estimate with its 95 % [interval](mod@super::interval); a single epoch gives no interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -38,9 +38,8 @@
 //! 86 %; and a single A/A ratio is not enough if the effects of whole runs dominate.
 
 use super::estimate::{Estimate, Interval};
-use super::student::{LEVEL, factor};
-use super::summary::median;
-use super::variance::{Variance, mean};
+use super::quantiles::{LEVEL, factor};
+use super::summary::{Variance, mean, median};
 
 /// ln(numerator / denominator) of every round, by epoch. The samples are in the order taken; each epoch has the same
 /// number of rounds.

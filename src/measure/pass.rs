@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 
-use super::query_results::{QueryResults, ResultSlots};
+use super::query_results::QueryResults;
 use super::tiles::{TILE, tiles};
 use super::{RandomOrder, Stopwatch, Threads, Timed};
 use crate::accel::{DynAccel, Loaded, Query};
@@ -20,22 +20,25 @@ struct Piece<'a> {
     levels: u32,
 }
 
-fn query_all(slots: ResultSlots, pieces: &[Piece]) {
-    pieces.iter().fold(slots, |slots, piece| {
-        let (own, rest) = slots.split(piece.count);
-        own.query(piece.rays.as_ref());
-        rest
-    });
+/// Traces the pieces one after the other; their results begin at `first`. Returns the end of the results.
+fn query_all(results: &mut QueryResults, first: usize, pieces: &[Piece]) -> usize {
+    pieces.iter().fold(first, |first, piece| {
+        results.query(first..first + piece.count, piece.rays.as_ref());
+        first + piece.count
+    })
 }
 
-fn share(slots: ResultSlots, pieces: &[&Piece], threads: &Threads) {
-    let mut work = Vec::with_capacity(pieces.len());
-    pieces.iter().fold(slots, |slots, &piece| {
-        let (own, rest) = slots.split(piece.count);
-        work.push((piece, own));
-        rest
-    });
-    threads.install(|| work.into_par_iter().for_each(|(piece, slots)| slots.query(piece.rays.as_ref())));
+/// Traces the pieces on all threads. Their results are the first ones, in order.
+fn share(results: &mut QueryResults, pieces: &[&Piece], threads: &Threads) {
+    fn each<T: Send>(mut rest: &mut [T], pieces: &[&Piece], query: fn(&dyn Loaded, &mut [T]), threads: &Threads) {
+        let own = |piece: &&Piece| rest.split_off_mut(..piece.count).expect("there is a result for each ray");
+        let results: Vec<&mut [T]> = pieces.iter().map(own).collect();
+        threads.install(|| pieces.par_iter().zip(results).for_each(|(piece, own)| query(piece.rays.as_ref(), own)));
+    }
+    match results {
+        QueryResults::Closest(hits) => each(hits, pieces, |rays, hits| rays.closest_hits(hits), threads),
+        QueryResults::Any(hits) => each(hits, pieces, |rays, hits| rays.any_hits(hits), threads),
+    }
 }
 
 /// `count` of `all`, in order: one from each of `count` parts of equal length, at a seeded random position, to avoid a
@@ -90,17 +93,15 @@ impl<'a> Pass<'a> {
     /// If there are no rays.
     pub fn new(accel: &'a dyn DynAccel, rays: &'a [Ray], query: Query, threads: &'a Threads) -> Self {
         assert!(!rays.is_empty(), "a pass has rays");
-        let (results, lead_in_results) = (QueryResults::empty(query), QueryResults::empty(query));
-        let (lead_in, pieces) = (vec![], vec![]);
         let mut pass = Self {
             accel,
             threads,
             all: rays,
-            lead_in,
-            pieces,
+            lead_in: vec![],
+            pieces: vec![],
             levels: 0,
-            results,
-            lead_in_results,
+            results: QueryResults::empty(query),
+            lead_in_results: QueryResults::empty(query),
             lead_in_checksum: None,
             lead_in_ps: u128::MAX,
             filled: false,
@@ -180,21 +181,16 @@ impl Timed for Pass<'_> {
     }
 
     fn lead_in(&mut self) {
-        let start = Instant::now();
+        let (start, is_whole) = (Instant::now(), self.results.count() == self.all.len());
         let mut count = self.lead_in.iter().map(|piece| piece.count).sum();
         if self.threads.count() > 1 {
-            share(self.lead_in_results.first(count), &self.lead_in.iter().collect::<Vec<_>>(), self.threads);
+            share(&mut self.lead_in_results, &self.lead_in.iter().collect::<Vec<_>>(), self.threads);
         } else {
-            let is_whole = self.results.count() == self.all.len();
-            let pieces = self.lead_in.iter().take_while(|_| is_whole || start.elapsed() < LEAD_IN);
-            count = pieces.fold(0, |done, piece| {
-                self.lead_in_results.first(done + piece.count).split(done).1.query(piece.rays.as_ref());
-                done + piece.count
-            });
+            let pieces = self.lead_in.chunks(1).take_while(|_| is_whole || start.elapsed() < LEAD_IN);
+            count = pieces.fold(0, |done, piece| query_all(&mut self.lead_in_results, done, piece));
         }
         self.lead_in_ps = start.elapsed().as_nanos() * 1000 / count.max(1) as u128;
-        self.lead_in_checksum =
-            (self.results.count() == self.all.len()).then(|| (count, self.lead_in_results.checksum(0..count)));
+        self.lead_in_checksum = is_whole.then(|| (count, self.lead_in_results.checksum(0..count)));
     }
 
     fn run(&mut self, watch: &Stopwatch) -> Vec<u64> {
@@ -205,29 +201,25 @@ impl Timed for Pass<'_> {
             for level in (0..self.levels).rev() {
                 let of_level = |piece: &&Piece| piece.levels >> level & 1 == 1;
                 let pieces: Vec<&Piece> = self.pieces.iter().filter(of_level).collect();
-                let slots = self.results.first(pieces.iter().map(|piece| piece.count).sum());
-                ns[level] = watch.time(|| share(slots, &pieces, self.threads));
+                ns[level] = watch.time(|| share(&mut self.results, &pieces, self.threads));
             }
             return ns;
         }
-        let mut rest = self.results.first(self.results.count());
+        let mut first = 0;
         for run in self.pieces.chunk_by(|one, other| one.levels == other.levels) {
             if run[0].levels == 0 {
                 let affordable = TILE_LEAD_IN_NS * 1000 / self.lead_in_ps.max(1);
                 let mut rays: usize = run.iter().map(|piece| piece.count).sum();
                 let mut run = run;
-                while let [first, rest @ ..] = run
+                while let [largest, rest @ ..] = run
                     && rays as u128 > affordable
                 {
-                    (rays, run) = (rays - first.count, rest);
+                    (rays, run) = (rays - largest.count, rest);
                 }
-                query_all(self.lead_in_results.first(rays), run);
+                query_all(&mut self.lead_in_results, 0, run);
                 continue;
             }
-            let count = run.iter().map(|piece| piece.count).sum();
-            let (own, others) = rest.split(count);
-            rest = others;
-            let took = watch.time(|| query_all(own, run));
+            let took = watch.time(|| first = query_all(&mut self.results, first, run));
             (0..self.levels).filter(|level| run[0].levels >> level & 1 == 1).for_each(|level| ns[level] += took);
         }
         ns

@@ -3,9 +3,10 @@
 //! On Linux each program leads its own process group, and the whole group is killed. Only this process receives Ctrl-C;
 //! it ends its programs. On other systems only the program itself is killed, and it receives Ctrl-C as well.
 
+use std::io::{self, Read};
 #[cfg(target_os = "linux")]
 use std::os::unix::process::CommandExt;
-use std::process::{Child, Command};
+use std::process::{Child, Command, Output, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -56,6 +57,33 @@ pub fn ends_within(child: &mut Child, limit: Duration) -> bool {
     true
 }
 
+/// The output and exit status of a program; `None` if it took longer than `limit`: then it was killed, together with
+/// all programs that it had started.
+///
+/// # Errors
+/// If it cannot be started or waited for.
+pub fn output_within(command: &mut Command, limit: Duration) -> io::Result<Option<Output>> {
+    set_apart(command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()));
+    let mut child = command.spawn()?;
+
+    // Empty both pipes at once: a full one would stop the program.
+    let (mut out, mut err) = (child.stdout.take().expect("piped"), child.stderr.take().expect("piped"));
+    thread::scope(|scope| {
+        let (out, err) = (scope.spawn(move || drain(&mut out)), scope.spawn(move || drain(&mut err)));
+        let in_time = ends_within(&mut child, limit);
+        end(&mut child);
+        let status = child.wait()?;
+        let (stdout, stderr) = (out.join().expect("reads only")?, err.join().expect("reads only")?);
+        Ok(in_time.then_some(Output { status, stdout, stderr }))
+    })
+}
+
+fn drain(pipe: &mut dyn Read) -> io::Result<Vec<u8>> {
+    let mut bytes = vec![];
+    pipe.read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
 /// Makes this process end with the thread that started it: a killed run leaves no process that disturbs the next run.
 pub fn end_with_parent() {
     #[cfg(target_os = "linux")]
@@ -100,7 +128,6 @@ fn state(child: &Child) -> nix::Result<WaitStatus> {
 mod tests {
     use std::io::{BufRead, BufReader};
     use std::os::unix::process::ExitStatusExt;
-    use std::process::Stdio;
 
     use super::*;
 
@@ -128,5 +155,24 @@ mod tests {
         BufReader::new(shell.stdout.take().unwrap()).read_line(&mut line).unwrap();
         end_started_by(shell.id());
         assert_eq!(shell.wait().unwrap().code(), Some(128 + Signal::SIGKILL as i32), "what the shell says of it");
+    }
+
+    fn shell(script: &str, limit: Duration) -> Option<Output> {
+        output_within(Command::new("/bin/sh").args(["-c", script]), limit).unwrap()
+    }
+
+    #[test]
+    fn a_full_pipe_stops_no_program() {
+        let output = shell("yes | head -c 1000000 >&2; echo done; exit 101", Duration::from_secs(60)).unwrap();
+        assert_eq!((output.status.code(), output.stderr.len()), (Some(101), 1_000_000));
+        assert_eq!(output.stdout, b"done\n");
+    }
+
+    /// The pipe is open until the last of them ends.
+    #[test]
+    fn what_takes_too_long_is_killed_with_all_that_it_started() {
+        let start = Instant::now();
+        assert_eq!(shell("sleep 600 & sleep 600", Duration::from_millis(300)), None);
+        assert!(start.elapsed() < Duration::from_secs(60), "{:?}", start.elapsed());
     }
 }

@@ -61,14 +61,6 @@ pub struct Provenance {
     pub warnings: Vec<String>,
 }
 
-fn elapsed() -> String {
-    "elapsed".into()
-}
-
-fn unknown() -> String {
-    "unknown".into()
-}
-
 impl Provenance {
     /// The provenance of this process, which builds and traces on `threads` threads.
     pub fn capture(threads: usize) -> Self {
@@ -84,13 +76,13 @@ impl Provenance {
             target: env!("SAHARA_TARGET").into(),
             target_features: env!("SAHARA_TARGET_FEATURES").into(),
             simd: Level::current().name().into(),
-            host: host_name().unwrap_or_else(unknown),
-            cpu: cpu_name().unwrap_or_else(unknown),
+            host: host_name().unwrap_or_else(|| "unknown".into()),
+            cpu: cpu_name().unwrap_or_else(|| "unknown".into()),
             cores: std::thread::available_parallelism().map_or(1, usize::from),
             threads,
             os: std::env::consts::OS.into(),
             obvhs: env!("SAHARA_OBVHS").into(),
-            clock: elapsed(),
+            clock: "elapsed".into(),
             pinned: None,
             process_per_epoch: false,
             mxcsr: machine::mxcsr(),
@@ -105,26 +97,16 @@ impl Provenance {
     pub fn of(threads: &Threads) -> Self {
         let pinned = threads.cores().map(<[usize]>::to_vec);
         let core = pinned.as_ref().map_or(0, |cores| cores[0]);
-        let clock = if CpuClock::of_thread(threads).is_some() { "cpu".into() } else { elapsed() };
+        let clock = if CpuClock::Thread.on(threads).is_some() { "cpu" } else { "elapsed" }.into();
         Self { pinned, clock, governor: machine::governor(core), ..Self::capture(threads.count()) }
     }
 
     /// The known facts that affect the speed of a program. Hosts with the same processor are one machine: their cases
     /// are epochs of one measurement, and samples are paired only within one case.
     pub fn machine(&self) -> Map<String, Value> {
-        let parts: [(&str, Value); 10] = [
-            ("version", self.version.as_str().into()),
-            ("commit", self.commit.as_str().into()),
-            ("build", self.build.as_str().into()),
-            ("rustc", self.rustc.as_str().into()),
-            ("profile", self.profile.as_str().into()),
-            ("target_features", self.target_features.as_str().into()),
-            ("simd", self.simd.as_str().into()),
-            ("cpu", self.cpu.as_str().into()),
-            ("threads", self.threads.into()),
-            ("process_per_epoch", self.process_per_epoch.into()),
-        ];
-        parts.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
+        let facts = "version commit build rustc profile target_features simd cpu threads process_per_epoch";
+        let all = serde_json::to_value(self).expect("keys are text");
+        facts.split(' ').map(|name| (name.to_owned(), all[name].clone())).collect()
     }
 
     /// A warning if there are more threads than processors.

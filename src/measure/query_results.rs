@@ -10,11 +10,6 @@ pub enum QueryResults {
     Any(Vec<bool>),
 }
 
-pub enum ResultSlots<'a> {
-    Closest(&'a mut [Option<Hit>]),
-    Any(&'a mut [bool]),
-}
-
 impl QueryResults {
     pub fn empty(query: Query) -> Self {
         match query {
@@ -39,10 +34,11 @@ impl QueryResults {
         }
     }
 
-    pub fn first(&mut self, count: usize) -> ResultSlots<'_> {
+    /// Traces a batch with as many rays as there are indices in `at`, the places of its results.
+    pub fn query(&mut self, at: Range<usize>, rays: &dyn Loaded) {
         match self {
-            Self::Closest(hits) => ResultSlots::Closest(&mut hits[..count]),
-            Self::Any(hits) => ResultSlots::Any(&mut hits[..count]),
+            Self::Closest(hits) => rays.closest_hits(&mut hits[at]),
+            Self::Any(hits) => rays.any_hits(&mut hits[at]),
         }
     }
 
@@ -58,29 +54,6 @@ impl QueryResults {
         match self {
             Self::Closest(hits) => hits.len(),
             Self::Any(hits) => hits.len(),
-        }
-    }
-}
-
-impl<'a> ResultSlots<'a> {
-    pub fn split(self, count: usize) -> (Self, Self) {
-        match self {
-            Self::Closest(hits) => {
-                let (own, rest) = hits.split_at_mut(count);
-                (Self::Closest(own), Self::Closest(rest))
-            }
-            Self::Any(hits) => {
-                let (own, rest) = hits.split_at_mut(count);
-                (Self::Any(own), Self::Any(rest))
-            }
-        }
-    }
-
-    /// Traces a batch with as many rays as there are slots.
-    pub fn query(self, rays: &dyn Loaded) {
-        match self {
-            Self::Closest(hits) => rays.closest_hits(hits),
-            Self::Any(hits) => rays.any_hits(hits),
         }
     }
 }

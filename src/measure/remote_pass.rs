@@ -37,6 +37,12 @@ struct RayBatch<'a> {
     count: usize,
 }
 
+impl RayBatch<'_> {
+    fn query(&self, results: &mut QueryResults) {
+        results.query(0..self.count, self.rays.as_ref());
+    }
+}
+
 /// The lead-in has this fraction, 1 / 8, of the timed rays.
 const LEAD_IN_SHARE: usize = 8;
 
@@ -101,12 +107,11 @@ impl Timed for RemotePass<'_> {
         // If only a subset of the rays is timed, its tiles lie far from the rays of the lead-in: trace them once
         // instead.
         if !self.is_warm && !self.has_failed() {
-            let batch = &self.batches[0];
-            self.results.first(batch.count).query(batch.rays.as_ref());
+            self.batches[0].query(&mut self.results);
             self.is_warm = true;
         }
         if let Some(batch) = self.lead_in.as_ref().filter(|_| !self.has_failed()) {
-            self.lead_in_results.first(batch.count).query(batch.rays.as_ref());
+            batch.query(&mut self.lead_in_results);
             self.has_led_in = self.batches[0].count == self.all.len();
         }
     }
@@ -118,7 +123,7 @@ impl Timed for RemotePass<'_> {
             if self.has_failed() {
                 break;
             }
-            self.results.first(batch.count).query(batch.rays.as_ref());
+            batch.query(&mut self.results);
             *ns = batch.rays.own_ns().unwrap_or(0);
         }
         ns

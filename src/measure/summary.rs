@@ -1,4 +1,4 @@
-//! Summaries of many samples. Pure functions.
+//! Medians, means and variances. Pure functions.
 
 /// The median of `values`, the mean of the middle two if their number is even; `None` without values.
 ///
@@ -15,6 +15,46 @@ pub fn median(values: &[f64]) -> Option<f64> {
     }
 }
 
+pub fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// A variance with its degrees of freedom.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Variance {
+    /// At least 0.
+    pub square: f64,
+    /// Degrees of freedom of Student's t, at least 1.
+    pub freedom: f64,
+}
+
+impl Variance {
+    /// The variance of a constant.
+    pub const NONE: Self = Self { square: 0.0, freedom: f64::INFINITY };
+
+    /// The variance of the mean of `values`; `None` with fewer than two values.
+    pub fn of_mean(values: &[f64]) -> Option<Self> {
+        let (n, centre) = (values.len() as f64, mean(values));
+        let squares: f64 = values.iter().map(|v| (v - centre) * (v - centre)).sum();
+        (values.len() > 1).then(|| Self { square: squares / (n - 1.0) / n, freedom: n - 1.0 })
+    }
+
+    /// The variance of `factor` times the quantity.
+    pub fn times(self, factor: f64) -> Self {
+        Self { square: self.square * factor * factor, ..self }
+    }
+
+    /// The variance of a sum of independent parts, with the best-fitting degrees of freedom (Satterthwaite, "An
+    /// approximate distribution of estimates of variance components", 1946; of two, Welch, "The generalization of
+    /// Student's problem when several different population variances are involved", 1947).
+    pub fn sum(parts: &[Self]) -> Self {
+        let square: f64 = parts.iter().map(|part| part.square).sum();
+        let spread: f64 = parts.iter().map(|part| part.square * part.square / part.freedom).sum();
+        let least = parts.iter().map(|part| part.freedom).fold(f64::INFINITY, f64::min);
+        Self { square, freedom: if spread > 0.0 { square * square / spread } else { least } }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -25,5 +65,15 @@ mod tests {
         assert_eq!(median(&[3.0]), Some(3.0));
         assert_eq!(median(&[9.0, 1.0, 5.0]), Some(5.0));
         assert_eq!(median(&[4.0, 1.0, 100.0, 2.0]), Some(3.0));
+    }
+
+    #[test]
+    fn parts_add_up_and_the_less_known_one_weighs() {
+        let part = |square, freedom| Variance { square, freedom };
+        // Equal parts: the degrees of freedom add up. A single part keeps its own.
+        assert_eq!(Variance::sum(&[part(1.0, 4.0), part(1.0, 4.0)]), part(2.0, 8.0));
+        assert_eq!(Variance::sum(&[part(1.0, 4.0), Variance::NONE]), part(1.0, 4.0));
+        assert_eq!(Variance::sum(&[part(0.0, 4.0), part(0.0, 8.0)]), part(0.0, 4.0));
+        assert_eq!(part(3.0, 2.0).times(2.0), part(12.0, 2.0));
     }
 }

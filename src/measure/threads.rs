@@ -16,37 +16,22 @@ pub struct Threads {
 }
 
 impl Threads {
-    /// Threads that run on any core.
-    ///
-    /// # Errors
-    /// If the system does not provide that many threads.
-    pub fn new(count: usize) -> Result<Self, String> {
-        Self::on(count, None).started()
-    }
-
     /// Threads for measurements: each is bound to its own core if the system allows it and has enough cores.
     ///
     /// # Errors
-    /// As [`Threads::new`].
+    /// If the system does not provide that many threads.
     pub fn pinned(count: usize) -> Result<Self, String> {
-        Self::unstarted(count).started()
+        let threads = Self::unstarted(count);
+        let pool = threads.start()?;
+        Ok(Self { pool: Arc::new(OnceLock::from(pool)), ..threads })
     }
 
     /// Like [`Threads::pinned`], but the threads start with their first work: if they have none, starting them would
     /// only disturb the timed thread.
     pub fn unstarted(count: usize) -> Self {
-        Self::on(count, pin::choose(count))
-    }
-
-    fn on(count: usize, cores: Option<Vec<usize>>) -> Self {
         // Read the load before these threads add to it.
         machine::load_at_start();
-        Self { pool: Arc::default(), count, cores }
-    }
-
-    fn started(self) -> Result<Self, String> {
-        let pool = self.start()?;
-        Ok(Self { pool: Arc::new(OnceLock::from(pool)), ..self })
+        Self { pool: Arc::default(), count, cores: pin::choose(count) }
     }
 
     fn start(&self) -> Result<rayon::ThreadPool, String> {
@@ -66,7 +51,7 @@ impl Threads {
     /// already run.
     ///
     /// # Errors
-    /// As [`Threads::new`].
+    /// As [`Threads::pinned`].
     pub fn are_given(&self) -> Result<(), String> {
         if self.pool.get().is_some() { Ok(()) } else { self.start().map(drop) }
     }

@@ -17,25 +17,21 @@ pub fn interval(x: Estimate) -> String {
 pub fn written(x: Estimate, number: impl Fn(f64) -> String) -> String {
     match x.interval {
         Some(interval) if interval.low == interval.high => number(x.estimate),
-        _ => format!("{} {}", number(x.estimate), written_ends(x, number)),
+        _ => format!("{} {}", number(x.estimate), ends(x, number)),
+    }
+}
+
+/// `[19.2, 21.4]`; `(one epoch)` without an interval.
+pub fn ends(x: Estimate, number: impl Fn(f64) -> String) -> String {
+    match x.interval {
+        Some(Interval { low, high, .. }) => format!("[{}, {}]", number(low), number(high)),
+        None => ONE_EPOCH.into(),
     }
 }
 
 /// Adds a full stop, unless the text ends with a full stop or a question mark.
 pub fn ended(words: &str) -> String {
     if words.ends_with(['.', '?', '!']) { words.into() } else { format!("{words}.") }
-}
-
-/// `[19.2, 21.4]`; `(one epoch)` without an interval.
-pub fn ends(x: Estimate) -> String {
-    written_ends(x, figures)
-}
-
-fn written_ends(x: Estimate, number: impl Fn(f64) -> String) -> String {
-    match x.interval {
-        Some(Interval { low, high, .. }) => format!("[{}, {}]", number(low), number(high)),
-        None => ONE_EPOCH.into(),
-    }
 }
 
 pub const ONE_EPOCH: &str = "(one epoch)";

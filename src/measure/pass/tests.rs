@@ -23,7 +23,7 @@ fn rays(n: usize) -> Vec<Ray> {
 #[test]
 fn a_pass_answers_the_rays_of_its_tiles_on_any_number_of_threads() {
     let (accel, rays, clock) = (triangle(), rays(9000), SystemClock::start());
-    let threads = [1, 3].map(|count| Threads::new(count).unwrap());
+    let threads = [1, 3].map(Threads::unstarted);
     for query in [Query::Closest, Query::Any] {
         for (levels, epoch) in [(&[0][..], 5), (&[0, 1, 3], 5), (&[1], 0), (&[2, 4], 5), (&[3], 1), (&[6], 2)] {
             let sums = threads.each_ref().map(|threads| {
@@ -49,7 +49,7 @@ fn a_pass_answers_the_rays_of_its_tiles_on_any_number_of_threads() {
 
 #[test]
 fn a_pass_that_answers_nothing_is_unsteady() {
-    let (accel, rays, threads) = (triangle(), rays(10), Threads::new(1).unwrap());
+    let (accel, rays, threads) = (triangle(), rays(10), Threads::unstarted(1));
     for query in [Query::Closest, Query::Any] {
         let mut pass = Pass::new(accel.as_ref(), &rays, query, &threads);
         let [first, second] = [(); 2].map(|()| {
@@ -112,7 +112,7 @@ fn the_time_of_a_part_is_that_of_its_rays_and_lead_ins_are_not_timed() {
     let slow = Slow(&now, triangle());
     // Ray number i takes i nanoseconds.
     let rays: Vec<Ray> = (0..9000).map(|i| Ray::new(Vec3::splat(i as f32), Vec3::X)).collect();
-    let (threads, clock) = (Threads::new(1).unwrap(), Now(&now));
+    let (threads, clock) = (Threads::unstarted(1), Now(&now));
     for (levels, epoch) in [(&[0][..], 0), (&[0, 1, 3], 1), (&[1, 2], 2), (&[4], 3)] {
         let mut pass = Pass::new(&slow, &rays, Query::Closest, &threads);
         pass.choose(levels, epoch);

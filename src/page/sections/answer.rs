@@ -97,7 +97,7 @@ pub fn tally(runs: &Runs) -> String {
 }
 
 fn headline(label: &str, ratio: Estimate) -> Headline {
-    Headline { number: format!("{} ×", figures(ratio.estimate)), interval: ends(ratio), label: label.into() }
+    Headline { number: format!("{} ×", figures(ratio.estimate)), interval: ends(ratio, figures), label: label.into() }
 }
 
 fn verdict(hard: &[Hard], mean: Option<Estimate>) -> String {

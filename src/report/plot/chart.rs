@@ -1,6 +1,7 @@
-//! All kinds of charts in one type.
+//! All kinds of charts, as data.
 
-use super::{Bars, Curves, Scatter, Tradeoff};
+use crate::measure::Estimate;
+use crate::report::words::distinct;
 
 /// Default width of a drawing, in its units.
 pub const WIDTH: f64 = 900.0;
@@ -12,4 +13,153 @@ pub enum Chart {
     /// Always 800 units wide, because labels stand everywhere.
     Scatter(Scatter),
     Tradeoff(Tradeoff),
+}
+
+/// Groups of bars with intervals that share labels, order and one logarithmic axis that starts at 1: speedups. A bar may
+/// consist of the factors of a product, whose lengths add up to the whole.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bars {
+    pub x_title: String,
+    /// Names of the bars of every group; structures have fixed colours.
+    pub labels: Vec<String>,
+    /// Names of the factors of the bars; empty if the bars have no factors.
+    pub parts: Vec<String>,
+    pub groups: Vec<BarGroup>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct BarGroup {
+    /// May be empty.
+    pub title: String,
+    pub bars: Vec<Bar>,
+}
+
+/// One bar. All numbers are positive.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Bar {
+    Of(Estimate),
+    /// One factor per part, and the whole.
+    Product(Vec<f64>, Estimate),
+    /// The reason why there is no bar, in a word or two; may be empty.
+    Missing(String),
+}
+
+impl Bar {
+    pub fn value(&self) -> Option<Estimate> {
+        match self {
+            Self::Of(value) | Self::Product(_, value) => Some(*value),
+            Self::Missing(_) => None,
+        }
+    }
+}
+
+impl Bars {
+    /// Bars of products with factors of these names, without a heading.
+    pub fn of_products(x_title: &str, parts: Vec<String>, rows: impl IntoIterator<Item = (String, Bar)>) -> Self {
+        let (labels, bars) = rows.into_iter().unzip();
+        let group = BarGroup { title: String::new(), bars };
+        Self { x_title: x_title.into(), labels, parts, groups: vec![group] }
+    }
+}
+
+/// Lines through points over two logarithmic axes: a power is a straight line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curves {
+    pub x_title: String,
+    pub y_title: String,
+    pub lines: Vec<Line>,
+}
+
+/// A line through points, from left to right.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    /// Structures have fixed colours.
+    pub label: String,
+    /// The text behind it.
+    pub note: String,
+    /// Both coordinates are positive.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// Points on two logarithmic axes, with the Pareto front.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scatter {
+    pub x_title: String,
+    pub y_title: String,
+    pub points: Vec<Point>,
+}
+
+/// A point. Both coordinates are positive and finite.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    pub x: f64,
+    pub y: f64,
+    /// Whether only an upper bound of `y` is known: then an arrow points down from it.
+    pub is_bound: bool,
+    /// Whether no other point is better in both: such points are filled, and a line joins them.
+    pub is_front: bool,
+    /// The text beside the point.
+    pub label: String,
+    /// The meaning of its colour; structures have fixed colours.
+    pub group: String,
+}
+
+/// The maximum number of points that are all labelled; with more points only the front has labels.
+pub const LABELLED: usize = 20;
+
+impl Scatter {
+    /// The groups with a colour.
+    pub fn groups(&self) -> Vec<String> {
+        distinct(self.points.iter().map(|point| &point.group))
+    }
+}
+
+/// Speed against memory or build time. A page shows any case, other formats the first one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tradeoff {
+    pub cases: Vec<TradeoffCase>,
+}
+
+/// The structures with a time on one workload of one scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TradeoffCase {
+    pub scene: String,
+    pub workload: String,
+    pub points: Vec<TradeoffPoint>,
+}
+
+/// A structure. All numbers are positive.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TradeoffPoint {
+    /// Structures have fixed colours.
+    pub label: String,
+    pub bytes: f64,
+    pub build_ns: f64,
+    pub ns_per_ray: f64,
+    /// Its speed relative to another structure, in words.
+    pub ratio: String,
+}
+
+impl Tradeoff {
+    /// The first case against memory.
+    pub fn scatter(&self) -> Scatter {
+        let of_case = self.cases.first().map_or(&[][..], |case| &case.points);
+        let is_better = |a: &TradeoffPoint, b: &TradeoffPoint| {
+            let [a, b] = [a, b].map(|point| [point.bytes, point.ns_per_ray]);
+            a != b && a[0] <= b[0] && a[1] <= b[1]
+        };
+        let point = |point: &TradeoffPoint| Point {
+            x: point.bytes / f64::from(1 << 20),
+            y: 1e3 / point.ns_per_ray,
+            is_bound: false,
+            is_front: !of_case.iter().any(|other| is_better(other, point)),
+            label: point.label.clone(),
+            group: point.label.clone(),
+        };
+        Scatter {
+            x_title: "memory, MiB".into(),
+            y_title: "million rays per second".into(),
+            points: of_case.iter().map(point).collect(),
+        }
+    }
 }

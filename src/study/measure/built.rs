@@ -59,7 +59,7 @@ impl Built {
     fn once(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, BuildError> {
         let mesh = Arc::clone(&scene.mesh);
         // As for rays: on a single thread, the time that other processes take of the core is no build time.
-        let own = CpuClock::of_process(threads);
+        let own = CpuClock::Process.on(threads);
         let clock = own.as_ref().map_or(clock, |clock| clock as &dyn Clock);
         let start = clock.now_ns();
         let accel = threads.install(|| choice.build(&mesh));

@@ -65,7 +65,7 @@ mod tests {
     #[test]
     fn costs_follow_counts_and_what_does_not_count_is_taken_for_the_median() {
         let scene = Builtin::find("torus").unwrap().scene(None).unwrap();
-        let (registry, threads) = (Registry::builtin(), Threads::new(1).unwrap());
+        let (registry, threads) = (Registry::builtin(), Threads::unstarted(1));
         let build = |spec: &str| {
             let choice = registry.choose(spec).unwrap();
             Built::new(&choice, &scene, &threads, &SystemClock::start()).unwrap()

@@ -91,7 +91,7 @@ impl Timing<'_> {
         let (mut passes, failures): (Vec<_>, Vec<_>) = timed.iter().map(pass).collect();
         let _pin = self.threads.pin();
         // The time that other processes take of the core is not part of a pass.
-        let own = CpuClock::of_thread(self.threads);
+        let own = CpuClock::Thread.on(self.threads);
         let clock = own.as_ref().map_or(self.clock, |clock| clock as &dyn Clock);
 
         let mut levels = levels.clone();

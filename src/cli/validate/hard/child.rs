@@ -1,12 +1,12 @@
 //! Runs a hard case in a separate process: a structure that panics or never returns does not end the whole run.
 
 use std::io;
-use std::process::Output;
+use std::process::{Command, Output};
 use std::time::Duration;
 
 use crate::accel::BuildError;
-use crate::measure::subprocess::{output_within, same_program};
-use crate::measure::{SystemClock, process_group};
+use crate::measure::process_group::{end_with_parent, output_within};
+use crate::measure::{SystemClock, program};
 use crate::registry::{Choice, Registry};
 use crate::request::{self, RUNNER_LIMIT, Seconds};
 use crate::simd::Level;
@@ -38,7 +38,7 @@ const PANICKED: i32 = 101;
 
 /// The child's side: writes the results of the structure to standard output.
 pub fn run_child(registry: &Registry, args: &Args) -> anyhow::Result<Status> {
-    process_group::end_with_parent();
+    end_with_parent();
     let case = find(&args.name)?;
     let choice = match (&args.runner, &args.structure) {
         (Some(command), _) => request::runner(command, args.runner_limit.seconds())?,
@@ -73,7 +73,8 @@ pub fn answers(case: &HardCase, choice: &Choice, rays: u32, limits: Limits) -> i
         Some(command) => (vec!["--runner", command, "--runner-limit", &reply], Duration::MAX),
         None => (vec![&*choice.label], limits.structure),
     };
-    let mut command = same_program([&[COMMAND, case.name, "--rays", &rays, "--level", level], &*structure].concat());
+    let mut command = Command::new(program::executable());
+    command.args([COMMAND, case.name, "--rays", &rays, "--level", level]).args(structure);
     Ok(outcome(output_within(&mut command, limit)?))
 }
 
@@ -96,8 +97,6 @@ fn outcome(output: Option<Output>) -> Result<Answers, Failure> {
 
 #[cfg(all(test, unix))]
 mod tests {
-    use std::process::Command;
-
     use super::*;
 
     #[test]

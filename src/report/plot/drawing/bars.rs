@@ -11,7 +11,7 @@ use super::canvas::{Area, DrawResult, Place, TEXT, line, text, widest, width_of}
 use super::palette::{Colour, INK, MIDDLE, PAPER, PARTS, colours};
 use crate::measure::Estimate;
 use crate::report::number::figures;
-use crate::report::plot::bars::{Bar, BarGroup, Bars};
+use crate::report::plot::chart::{Bar, BarGroup, Bars};
 
 impl Bar {
     /// The ends of the bar. Factors below 1 reduce the whole: they are to the left of 1.

@@ -1,11 +1,14 @@
-//! Draws a chart of any kind as SVG.
+//! Draws a chart of any kind as SVG, and curves.
 
 use plotters::drawing::IntoDrawingArea;
 use plotters::prelude::SVGBackend;
+use plotters::series::LineSeries;
+use plotters::style::Color;
 
+use super::axes::{legend, legend_height, log_log, padded};
 use super::canvas::{Area, DrawResult, register};
-use super::palette::PAPER;
-use crate::report::plot::chart::Chart;
+use super::palette::{PAPER, colours};
+use crate::report::plot::chart::{Chart, Curves};
 
 /// Drawing into memory with a registered font cannot fail.
 const DRAWN: &str = "memory takes every stroke, and the font is registered";
@@ -41,5 +44,30 @@ impl Chart {
         let mut text = String::new();
         self.draw(&SVGBackend::with_string(&mut text, self.size(width)).into_drawing_area()).expect(DRAWN);
         text
+    }
+}
+
+impl Curves {
+    fn names(&self) -> Vec<String> {
+        self.lines.iter().map(|line| format!("{} {}", line.label, line.note).trim_end().to_owned()).collect()
+    }
+
+    /// Height of a drawing of this width.
+    pub fn height(&self, width: i32) -> i32 {
+        (4 * width / 5).min(860) + legend_height(&self.names())
+    }
+
+    pub fn draw(&self, area: &Area) -> DrawResult {
+        let labels: Vec<String> = self.lines.iter().map(|line| line.label.clone()).collect();
+        let colours = colours(&labels);
+        let area = legend(area, &self.names(), &colours)?;
+        let points = || self.lines.iter().flat_map(|line| &line.points);
+        let ends = [padded(points().map(|(x, _)| *x), [0.02; 2]), padded(points().map(|(_, y)| *y), [0.08; 2])];
+        let mut axes = log_log(&area, [&self.x_title, &self.y_title], ends)?;
+        for (line, &colour) in self.lines.iter().zip(&colours) {
+            let style = colour.filled().stroke_width(4);
+            axes.draw_series(LineSeries::new(line.points.iter().copied(), style).point_size(6))?;
+        }
+        Ok(())
     }
 }

@@ -4,7 +4,6 @@ mod axes;
 mod bars;
 mod canvas;
 mod chart;
-mod curves;
 mod labels;
 pub mod palette;
 mod scatter;

@@ -10,7 +10,7 @@ use super::axes::{legend, legend_height, log_log, padded};
 use super::canvas::{Area, DrawResult, Place, TEXT, line, text, width_of};
 use super::labels::{Corners, place};
 use super::palette::{Colour, MIDDLE, PAPER, colours};
-use crate::report::plot::scatter::{LABELLED, Point, Scatter};
+use crate::report::plot::chart::{LABELLED, Point, Scatter};
 
 const RADIUS: i32 = 10;
 
