@@ -1,9 +1,9 @@
 //! All files of a report.
 
-use super::document::Document;
+use super::document::{Document, Section};
 use super::html::page;
-use super::markdown::markdown;
 use super::runs::Runs;
+use crate::report::markdown::{blocks, escaped, prose};
 use crate::report::plot::WIDTH;
 use crate::report::{Art, Figure, csv};
 
@@ -31,4 +31,31 @@ fn of_figure(figure: &Figure) -> Vec<(String, Vec<u8>)> {
         files.push((path("csv"), csv::table(&figure.data)));
     }
     files
+}
+
+/// The report as Markdown, with pictures beside it.
+pub fn markdown(document: &Document) -> String {
+    let mut text = format!("# {}\n\n", escaped(&document.title));
+    if !document.answer.banner.is_empty() {
+        text += &format!("> **{}**\n\n", escaped(&document.answer.banner));
+    }
+    text += &format!("**{}.**\n\n", escaped(&document.answer.verdict));
+    for number in &document.answer.numbers {
+        text += &format!("- {}: **{}** {}\n", escaped(&number.label), escaped(&number.number), number.interval);
+    }
+    for sentence in &document.answer.sentences {
+        text += &format!("\n{}\n", prose(sentence));
+    }
+    text.push('\n');
+    document.sections.iter().for_each(|own| section(own, &mut text));
+    text.trim_end().to_owned() + "\n"
+}
+
+/// A section under its heading, with its commands at the end.
+fn section(section: &Section, text: &mut String) {
+    *text += &format!("## {}\n\n", escaped(section.title));
+    blocks(&section.blocks, text);
+    if !section.command.is_empty() {
+        *text += &format!("```console\n{}\n```\n\n", section.command);
+    }
 }

@@ -6,10 +6,8 @@
 mod document;
 mod files;
 mod html;
-mod markdown;
 mod pictures;
 pub mod results;
-mod run_error;
 mod runs;
 mod sections;
 #[cfg(test)]
@@ -19,6 +17,5 @@ pub use document::{Answer, Document, Headline, Section};
 pub use files::files;
 pub use html::page;
 pub use pictures::{draw, left_out};
-pub use run_error::RunError;
-pub use runs::{Runs, StudyRun};
+pub use runs::{RunError, Runs, StudyRun};
 pub use sections::document;

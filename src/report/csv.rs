@@ -2,56 +2,48 @@
 
 use super::{Cell, Table, Value};
 
+/// The endings of the names of the fields of a column: the value, the ends of its interval, the number of checked rays.
+const ENDINGS: [&str; 4] = ["", "_low", "_high", "_of"];
+
 /// The table under a row of names. A column `x` with intervals becomes `x`, `x_low` and `x_high`, a column with errors
 /// `x` and `x_of`. An unknown value is empty.
 pub fn table(table: &Table) -> Vec<u8> {
-    let column = |i: usize| table.rows.iter().map(move |row| &row[i].value);
-    let has = |is: fn(&Value) -> bool| (0..table.columns.len()).map(|i| column(i).any(is)).collect::<Vec<bool>>();
-    let has_interval = has(|value| matches!(value, Value::Estimate(..)));
-    let has_errors = has(|value| matches!(value, Value::Errors { .. }));
+    let fields_of = |i: usize| {
+        let has = |is: fn(&Value) -> bool| table.rows.iter().any(|row| is(&row[i].value));
+        let has_interval = has(|value| matches!(value, Value::Estimate(..)));
+        [true, has_interval, has_interval, has(|value| matches!(value, Value::Errors { .. }))]
+    };
+    let columns: Vec<[bool; 4]> = (0..table.columns.len()).map(fields_of).collect();
+    let kept = |fields: [String; 4], column: [bool; 4]| {
+        fields.into_iter().zip(column).filter(|(_, is_kept)| *is_kept).map(|(field, _)| field)
+    };
     let mut writer = csv::Writer::from_writer(vec![]);
-    let mut names = vec![];
-    for (i, name) in table.columns.iter().enumerate() {
-        names.push(name.clone());
-        names.extend(["_low", "_high"].iter().filter(|_| has_interval[i]).map(|end| format!("{name}{end}")));
-        names.extend(has_errors[i].then(|| format!("{name}_of")));
-    }
-    if !names.is_empty() {
-        writer.write_record(&names).expect("memory takes every write");
+    if !columns.is_empty() {
+        let names = |name: &String| ENDINGS.map(|ending| format!("{name}{ending}"));
+        let names = table.columns.iter().zip(&columns).flat_map(|(name, column)| kept(names(name), *column));
+        writer.write_record(names.collect::<Vec<_>>()).expect("memory takes every write");
     }
     for row in &table.rows {
-        let mut fields = vec![];
-        for (i, cell) in row.iter().enumerate() {
-            let [own, low, high, of] = parts(cell);
-            fields.push(own);
-            fields.extend([low, high].into_iter().filter(|_| has_interval[i]));
-            fields.extend(Some(of).filter(|_| has_errors[i]));
-        }
-        writer.write_record(&fields).expect("all rows have the same columns");
+        let fields = row.iter().zip(&columns).flat_map(|(cell, column)| kept(fields(cell), *column));
+        writer.write_record(fields.collect::<Vec<_>>()).expect("all rows have the same columns");
     }
     writer.into_inner().expect("memory takes every write")
 }
 
-/// The value, the ends of its interval, and the number of checked rays.
-fn parts(cell: &Cell) -> [String; 4] {
-    let mut parts = <[String; 4]>::default();
-    parts[0] = match &cell.value {
-        Value::Empty => String::new(),
-        Value::Text(text) => text.clone(),
-        Value::Count(n) => n.to_string(),
-        Value::Difference(n) => n.to_string(),
-        Value::Number(x, _) => x.to_string(),
+fn fields(cell: &Cell) -> [String; 4] {
+    let none = String::new;
+    match &cell.value {
+        Value::Empty => Default::default(),
+        Value::Text(text) => [text.clone(), none(), none(), none()],
+        Value::Count(n) => [n.to_string(), none(), none(), none()],
+        Value::Difference(n) => [n.to_string(), none(), none(), none()],
+        Value::Number(x, _) => [x.to_string(), none(), none(), none()],
         Value::Estimate(x, _) => {
-            let [low, high] = [x.low(), x.high()].map(|end| end.map_or(String::new(), |end| end.to_string()));
-            [parts[1], parts[2]] = [low, high];
-            x.estimate.to_string()
+            let [low, high] = [x.low(), x.high()].map(|end| end.map_or(none(), |end| end.to_string()));
+            [x.estimate.to_string(), low, high, none()]
         }
-        Value::Errors { wrong, of } => {
-            parts[3] = of.to_string();
-            wrong.to_string()
-        }
-    };
-    parts
+        Value::Errors { wrong, of } => [wrong.to_string(), none(), none(), of.to_string()],
+    }
 }
 
 #[cfg(test)]

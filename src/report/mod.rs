@@ -3,7 +3,6 @@
 
 mod cell;
 pub mod csv;
-pub mod inspector;
 pub mod markdown;
 pub mod number;
 pub mod plot;

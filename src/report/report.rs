@@ -1,6 +1,5 @@
 //! A study's report on a dataset, as plain data independent of the output format.
 
-use super::inspector::Inspector;
 use super::plot::Chart;
 use super::{Cell, Table, Tone};
 use crate::measure::Estimate;
@@ -118,7 +117,7 @@ pub struct Overlay {
     pub pictures: Vec<Picture>,
     pub colours: Colours,
     /// Data for inspecting single pixels; `None` if there is none.
-    pub inspector: Option<Box<Inspector>>,
+    pub inspector: Option<serde_json::Value>,
 }
 
 #[derive(Clone, Debug, PartialEq)]

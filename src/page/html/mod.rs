@@ -1,6 +1,5 @@
 //! The report as a single self-contained page.
 
-mod scatter;
 mod view;
 
 use minijinja::{AutoEscape, Environment, UndefinedBehavior};

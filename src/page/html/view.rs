@@ -1,11 +1,13 @@
 //! The values of the template.
 
 use minijinja::{Value, context};
+use serde_json::json;
 
-use super::{in_script, scatter};
+use super::in_script;
 use crate::page::document::{Answer, Document, Headline, Section};
-use crate::report::plot::{Chart, WIDTH};
-use crate::report::words::ended;
+use crate::report::plot::palette::roles_of;
+use crate::report::plot::{Chart, Tradeoff, TradeoffCase, TradeoffPoint, WIDTH};
+use crate::report::words::{distinct, ended};
 use crate::report::{Art, Block, Cell, Colours, Figure, Overlay, Picture, Table, Tone};
 
 const NARROW: f64 = 360.0;
@@ -96,11 +98,39 @@ fn figure(figure: &Figure) -> Value {
         wide => chart.map(|chart| inline(&chart.svg(WIDTH))),
         narrow => chart.filter(shrinks).map(|chart| inline(&chart.svg(NARROW))),
         // The data of an interactive chart.
-        scatter => if let Some(Chart::Tradeoff(tradeoff)) = chart { Some(scatter::data(tradeoff)) } else { None },
+        scatter => if let Some(Chart::Tradeoff(tradeoff)) = chart { Some(scatter(tradeoff)) } else { None },
         overlay => if let Art::Overlay(drawn) = &figure.art { Some(overlay(drawn)) } else { None },
         pictures => values(figure.pictures(), picture),
         data => table(&figure.data),
     }
+}
+
+/// The data of a scatter plot for its script.
+fn scatter(tradeoff: &Tradeoff) -> String {
+    // A structure has one colour in all cases.
+    let all: Vec<String> = tradeoff.cases.iter().flat_map(|case| &case.points).map(|p| p.label.clone()).collect();
+    let labels = distinct(all.iter());
+    let roles = roles_of(&labels);
+    let colour = |label: &String| {
+        let place = labels.iter().position(|other| other == label).expect("all labels are listed");
+        format!("--{}", roles[place].name)
+    };
+    let point = |p: &TradeoffPoint| {
+        json!({
+            "label": p.label,
+            // Name of the custom property with its colour.
+            "colour": colour(&p.label),
+            "bytes": p.bytes,
+            "build": p.build_ns,
+            "ray": p.ns_per_ray,
+            "ratio": p.ratio,
+        })
+    };
+    let case = |case: &TradeoffCase| {
+        let points: Vec<_> = case.points.iter().map(point).collect();
+        json!({ "scene": case.scene, "rays": case.workload, "points": points })
+    };
+    in_script(&tradeoff.cases.iter().map(case).collect::<Vec<_>>())
 }
 
 /// Colours with a scale and its title; or with their meanings.
@@ -116,7 +146,7 @@ fn overlay(overlay: &Overlay) -> Value {
             context! { ramp => "", key => values(key, meaning) }
         }
     };
-    let inspector = overlay.inspector.as_deref().map(in_script);
+    let inspector = overlay.inspector.as_ref().map(in_script);
     context! { heading => &overlay.heading, inspector => inspector, ..colours }
 }
 

@@ -1,6 +1,6 @@
 //! The work of all structures on the camera rays of one scene.
 
-use super::loaded_scene::LoadedScene;
+use super::scenes::LoadedScene;
 use crate::accel::Observed;
 use crate::page::runs::{COMPARE, Runs};
 use crate::registry::Registry;

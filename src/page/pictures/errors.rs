@@ -1,16 +1,12 @@
 //! Pictures of wrong hits, pixel by pixel, judged by exact arithmetic.
 
 use super::camera_rays::{CameraRays, StructureWork};
+use super::hex;
 use super::inspect::{inspector, most_rays};
-use super::{hex, introduced};
-use crate::page::document::Section;
 use crate::render::{ErrorMap, png};
-use crate::report::inspector::Inspector;
 use crate::report::number::{count, plural};
 use crate::report::words::{listed, slug};
 use crate::report::{Art, Block, Colours, Figure, Overlay, Picture, Table};
-
-pub const TITLE: &str = "Wrong hits, pixel by pixel";
 
 /// The pictures of all structures with a wrong hit, with the command that draws one; a sentence if all hits are right.
 /// `None` without structures.
@@ -65,14 +61,14 @@ fn figure(camera: &CameraRays, wrong: &[(&StructureWork, ErrorMap)], right: &[&s
             heading: camera.name.clone(),
             pictures: wrong.iter().map(picture).collect(),
             colours: Colours::Key(names.into()),
-            inspector: Some(Box::new(pixels(camera, wrong))),
+            inspector: Some(pixels(camera, wrong)),
         }),
         data: Table { columns, rows: wrong.iter().map(row).collect(), ..Table::default() },
     }
 }
 
 /// The rays of all pixels on which some structure has a wrong hit; if there are too many, an even selection.
-fn pixels(camera: &CameraRays, wrong: &[(&StructureWork, ErrorMap)]) -> Inspector {
+fn pixels(camera: &CameraRays, wrong: &[(&StructureWork, ErrorMap)]) -> serde_json::Value {
     let mut pixels: Vec<usize> = wrong.iter().flat_map(|(_, map)| map.errors()).collect();
     pixels.sort_unstable();
     pixels.dedup();
@@ -82,11 +78,5 @@ fn pixels(camera: &CameraRays, wrong: &[(&StructureWork, ErrorMap)]) -> Inspecto
         n if n == all => format!("Select any of {} with a wrong hit.", plural(n, "pixel")),
         n => format!("Select any of {} (of {} with a wrong hit).", count(n as u64), plural(all, "pixel")),
     };
-    inspector(camera, chosen, which)
-}
-
-pub fn section(found: Vec<(Block, String)>) -> Section {
-    let what = "Hits of the camera rays of a picture, checked against exact arithmetic.";
-    let (blocks, command) = introduced("Pictures of wrong hits", what, found);
-    Section { id: "errors", title: TITLE, command, blocks }
+    inspector(camera, &chosen, &which)
 }

@@ -1,18 +1,14 @@
 //! Heat maps: the work of every structure, pixel by pixel.
 
 use super::camera_rays::{CameraRays, StructureWork};
+use super::hex;
 use super::inspect::{inspector, most_rays};
-use super::{hex, introduced};
 use crate::accel::Observed;
-use crate::page::document::Section;
 use crate::render::{Work, from_pixels, heat_colour, hottest, png};
-use crate::report::inspector::Inspector;
 use crate::report::number::{count, figures};
 use crate::report::plot::tick_text;
 use crate::report::words::slug;
 use crate::report::{Art, Block, Colours, Figure, Overlay, Picture, Table};
-
-pub const TITLE: &str = "Cost per pixel";
 
 struct Heat<'a> {
     label: &'a str,
@@ -61,7 +57,7 @@ pub fn block(camera: &CameraRays) -> Option<(Block, String)> {
             heading: name.clone(),
             pictures: maps.iter().map(picture).collect(),
             colours: ramp(scale),
-            inspector: Some(Box::new(grid(camera))),
+            inspector: Some(grid(camera)),
         }),
         data: Table::new("", ["structure", "mean", "99.5 % below", "most"], rows),
     };
@@ -71,7 +67,7 @@ pub fn block(camera: &CameraRays) -> Option<(Block, String)> {
 }
 
 /// The rays of a coarse grid of pixels.
-fn grid(camera: &CameraRays) -> Inspector {
+fn grid(camera: &CameraRays) -> serde_json::Value {
     let [width, height] = camera.exact.size.map(|side| side as usize);
     let of = |stride: usize| {
         let places = |side: usize| (stride / 2..side).step_by(stride);
@@ -85,7 +81,7 @@ fn grid(camera: &CameraRays) -> Inspector {
         1 => "Select any pixel.".into(),
         _ => format!("Select any pixel of a grid with a spacing of {stride} pixels."),
     };
-    inspector(camera, pixels, which)
+    inspector(camera, &pixels, &which)
 }
 
 fn ramp(scale: u64) -> Colours {
@@ -106,10 +102,4 @@ fn stepped(cost: u64, scale: u64) -> u64 {
     let unit = libm::log1p(scale as f64) / STEPS;
     let step = libm::round(libm::log1p(cost.min(scale) as f64) / unit);
     libm::round(libm::expm1(step * unit)) as u64
-}
-
-pub fn section(found: Vec<(Block, String)>) -> Section {
-    let what = "Cost per pixel (triangle tests + traversal steps); brighter is more expensive.";
-    let (blocks, command) = introduced("Heat maps of the structures", what, found);
-    Section { id: "heat", title: TITLE, command, blocks }
 }

@@ -1,9 +1,10 @@
-//! The rays of some pixels, and the work of every structure on them.
+//! The data of the pixel inspector: the rays of some pixels, and the work of every structure on them.
+
+use serde_json::{Value, json};
 
 use super::camera_rays::{CameraRays, StructureWork};
-use crate::geometry::{Hit, Ray};
+use crate::geometry::Hit;
 use crate::render::{Work, error_name};
-use crate::report::inspector::{Answer, InspectedHit, InspectedStructure, Inspector};
 use crate::report::words::each_once;
 use crate::scene::offset::barycentrics;
 
@@ -18,38 +19,48 @@ pub fn most_rays(structures: usize) -> usize {
     NUMBERS / (structures + OF_RAY)
 }
 
-/// The data of `pixels`, which are indices of pixels in ascending order. The sentence `which` describes the selection.
-pub fn inspector(camera: &CameraRays, pixels: Vec<usize>, which: String) -> Inspector {
+/// The data of `pixels`, which are indices of pixels in ascending order, row by row from the top left. The sentence
+/// `which` describes the selection. Rays are stored by columns, so a few thousand stay small on a page.
+pub fn inspector(camera: &CameraRays, pixels: &[usize], which: &str) -> Value {
     let options: Vec<String> = camera.structures.iter().map(|s| format!("-s {}", s.label)).collect();
-    let answers: Vec<Vec<Answer>> = pixels.iter().map(|&pixel| answers(camera, pixel)).collect();
+    let answer = |structure: &StructureWork, pixel: usize| {
+        let hit = structure.work[pixel].hit;
+        answer(camera, pixel, hit, error_name(camera.exact.outcome(pixel, hit)).unwrap_or(""))
+    };
+    let answers_of = |pixel: &usize| each_once(camera.structures.iter().map(|structure| answer(structure, *pixel)));
+    let answers: Vec<Vec<Value>> = pixels.iter().map(answers_of).collect();
+    let truth = |&pixel: &usize| {
+        let truth = camera.exact.truths[pixel].as_ref().map(|truth| Hit::new(truth.rounded(), truth.ids[0]));
+        self::answer(camera, pixel, truth, "")
+    };
     let of_structure = |structure: &StructureWork| {
-        let numbers = |known: bool, number: fn(&Work) -> u64| {
-            let asked = pixels.iter().map(|&pixel| number(&structure.work[pixel]));
-            if known { asked.collect() } else { vec![] }
+        // Columns that it does not report are empty.
+        let numbers = |known: bool, number: fn(&Work) -> u64| -> Vec<u64> {
+            pixels.iter().filter(|_| known).map(|&pixel| number(&structure.work[pixel])).collect()
         };
-        let own = |(answers, &pixel): (&Vec<Answer>, &usize)| {
-            let answer = answer(camera, pixel, structure.work[pixel].hit);
+        let own = |(answers, &pixel): (&Vec<Value>, &usize)| {
+            let answer = answer(structure, pixel);
             answers.iter().position(|other| *other == answer).expect("the ray has the answers of all structures")
         };
-        InspectedStructure {
-            label: structure.label.clone(),
-            nodes: numbers(structure.observed.steps, |work| work.counts.inner),
-            leaves: numbers(sees_leaves(structure), |work| work.counts.leaves),
-            tests: numbers(structure.observed.tests, |work| work.counts.tests),
-            answers: answers.iter().zip(&pixels).map(own).collect(),
-        }
+        json!({
+            "label": structure.label,
+            "nodes": numbers(structure.observed.steps, |work| work.counts.inner),
+            "leaves": numbers(sees_leaves(structure), |work| work.counts.leaves),
+            "tests": numbers(structure.observed.tests, |work| work.counts.tests),
+            "answers": answers.iter().zip(pixels).map(own).collect::<Vec<usize>>(),
+        })
     };
-    let structures = camera.structures.iter().map(of_structure).collect();
-    Inspector {
-        size: camera.exact.size,
-        which,
-        command: format!("sahara validate {} {} --ray", camera.loaded.words(), options.join(" ")),
-        pixels: pixels.iter().map(|&pixel| pixel as u32).collect(),
-        rays: pixels.iter().map(|&pixel| camera.exact.rays[pixel].to_string()).collect(),
-        truths: pixels.iter().map(|&pixel| truth(camera, pixel)).collect(),
-        answers,
-        structures,
-    }
+    json!({
+        "size": camera.exact.size,
+        "which": which,
+        // Up to the text of the ray, which it traces again with all structures.
+        "command": format!("sahara validate {} {} --ray", camera.loaded.words(), options.join(" ")),
+        "pixels": pixels,
+        "rays": pixels.iter().map(|&pixel| camera.exact.rays[pixel].to_string()).collect::<Vec<_>>(),
+        "truths": pixels.iter().map(truth).collect::<Vec<_>>(),
+        "answers": answers,
+        "structures": camera.structures.iter().map(of_structure).collect::<Vec<_>>(),
+    })
 }
 
 /// Whether leaves are observed: in some trees they are not separate nodes. If leaves are counted, every structure that
@@ -59,22 +70,42 @@ fn sees_leaves(structure: &StructureWork) -> bool {
     structure.observed.steps && (any(|work| work.counts.leaves) || !any(|work| work.counts.tests))
 }
 
-fn truth(camera: &CameraRays, pixel: usize) -> Answer {
-    let truth = camera.exact.truths[pixel].as_ref().map(|truth| Hit::new(truth.rounded(), truth.ids[0]));
-    Answer { hit: truth.map(|hit| of_hit(camera, &camera.exact.rays[pixel], hit)), wrong: "" }
+fn answer(camera: &CameraRays, pixel: usize, hit: Option<Hit>, wrong: &str) -> Value {
+    let hit = hit.map(|hit| {
+        let triangle = hit.prim.index();
+        let weights = barycentrics(&camera.exact.rays[pixel], camera.loaded.scene.mesh.corners(triangle));
+        (hit.t, triangle, [weights.y, weights.z])
+    });
+    answer_of(hit, wrong)
 }
 
-fn answers(camera: &CameraRays, pixel: usize) -> Vec<Answer> {
-    each_once(camera.structures.iter().map(|structure| answer(camera, pixel, structure.work[pixel].hit)))
+/// `[t, triangle, u, v]`, or `[]` for a miss; the fault follows in a few words, unless the hit is right. `u` and `v` are
+/// the weights of the second and third corner at the point in which the ray meets the plane of the triangle.
+fn answer_of(hit: Option<(f32, u32, [f64; 2])>, wrong: &str) -> Value {
+    let mut fields = hit.map_or(vec![], |(t, triangle, weights)| {
+        // Keep only the printed digits: `t` as short as it reads back.
+        let t: f64 = t.to_string().parse().expect("a number");
+        let [u, v] = weights.map(|weight| libm::round(weight * 1e9) / 1e9);
+        vec![json!(t), json!(triangle), json!(u), json!(v)]
+    });
+    fields.extend((!wrong.is_empty()).then(|| json!(wrong)));
+    Value::Array(fields)
 }
 
-fn answer(camera: &CameraRays, pixel: usize, hit: Option<Hit>) -> Answer {
-    let wrong = error_name(camera.exact.outcome(pixel, hit)).unwrap_or("");
-    Answer { hit: hit.map(|hit| of_hit(camera, &camera.exact.rays[pixel], hit)), wrong }
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-fn of_hit(camera: &CameraRays, ray: &Ray, hit: Hit) -> InspectedHit {
-    let triangle = hit.prim.index();
-    let weights = barycentrics(ray, camera.loaded.scene.mesh.corners(triangle));
-    InspectedHit { t: hit.t, triangle, weights: [weights.y, weights.z] }
+    #[test]
+    fn answers_are_short() {
+        let hit = Some((0.1, 7, [0.25, 1.0 / 3.0]));
+        for (hit, wrong, json) in [
+            (hit, "", "[0.1,7,0.25,0.333333333]"),
+            (hit, "too far", "[0.1,7,0.25,0.333333333,\"too far\"]"),
+            (None, "", "[]"),
+            (None, "missed", "[\"missed\"]"),
+        ] {
+            assert_eq!(answer_of(hit, wrong).to_string(), json);
+        }
+    }
 }

@@ -4,7 +4,6 @@ mod camera_rays;
 mod errors;
 mod heat;
 mod inspect;
-mod loaded_scene;
 mod scenes;
 
 use std::ffi::OsStr;
@@ -16,11 +15,54 @@ use crate::report::Block;
 use crate::request::is_large;
 
 use camera_rays::CameraRays;
-use loaded_scene::LoadedScene;
+use scenes::LoadedScene;
 
 /// The number of scenes with heat maps and pictures of errors: the largest of those whose structures can be rebuilt in
 /// seconds.
 const LARGEST: usize = 3;
+
+/// A section of pictures.
+struct Part {
+    id: &'static str,
+    title: &'static str,
+    /// What is missing without the pictures.
+    pictures: &'static str,
+    /// Stands before the pictures of structures.
+    introduction: &'static str,
+}
+
+const SCENES: Part = Part { id: "scenes", title: "The scenes", pictures: "Pictures of the scenes", introduction: "" };
+const HEAT: Part = Part {
+    id: "heat",
+    title: "Cost per pixel",
+    pictures: "Heat maps of the structures",
+    introduction: "Cost per pixel (triangle tests + traversal steps); brighter is more expensive.",
+};
+const ERRORS: Part = Part {
+    id: "errors",
+    title: "Wrong hits, pixel by pixel",
+    pictures: "Pictures of wrong hits",
+    introduction: "Hits of the camera rays of a picture, checked against exact arithmetic.",
+};
+
+impl Part {
+    fn section(&self, blocks: Vec<Block>) -> Section {
+        Section { id: self.id, title: self.title, blocks, ..Section::default() }
+    }
+
+    /// The blocks of `found` after an introduction, with their commands; without blocks, a note that they are missing.
+    fn introduced(&self, found: Vec<(Block, String)>) -> Section {
+        let note = "Scenes of more than four million triangles are left out; `sahara render` draws them.";
+        let first = match found.is_empty() {
+            true => Block::missing(self.pictures, "sahara compare --dir runs"),
+            false => Block::Text(format!("{} {note}", self.introduction)),
+        };
+        let (blocks, mut commands): (Vec<Block>, Vec<String>) = found.into_iter().unzip();
+        commands.retain(|command| !command.is_empty());
+        let blocks = std::iter::once(first).chain(blocks).collect();
+        Section { command: commands.join("\n"), ..self.section(blocks) }
+    }
+}
 
 /// The sections of scenes, heat maps and errors. `progress` receives each step.
 pub fn draw(runs: &Runs, registry: &Registry, progress: &mut dyn FnMut(String)) -> Vec<Section> {
@@ -54,35 +96,16 @@ pub fn draw(runs: &Runs, registry: &Registry, progress: &mut dyn FnMut(String)) 
         heat.extend(heat::block(&rays));
         errors.extend(errors::block(&rays));
     }
-    vec![scenes::section(pictures, &loaded, &lost), heat::section(heat), errors::section(errors)]
+    vec![scenes::section(pictures, &loaded, &lost), HEAT.introduced(heat), ERRORS.introduced(errors)]
 }
 
 fn hex([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// The blocks of `found` after an introductory sentence, with their commands; without blocks, a note that these
-/// pictures are missing.
-fn introduced(pictures: &str, sentence: &str, found: Vec<(Block, String)>) -> (Vec<Block>, String) {
-    let note = "Scenes of more than four million triangles are left out; `sahara render` draws them.";
-    let first = match found.is_empty() {
-        true => Block::missing(pictures, "sahara compare --dir runs"),
-        false => Block::Text(format!("{sentence} {note}")),
-    };
-    let (found, mut commands): (Vec<Block>, Vec<String>) = found.into_iter().unzip();
-    commands.retain(|command| !command.is_empty());
-    (std::iter::once(first).chain(found).collect(), commands.join("\n"))
-}
-
 /// The sections of a report without pictures, with a note.
 pub fn left_out() -> Vec<Section> {
-    let section = |id, title, what| {
-        let blocks = vec![Block::missing(what, "sahara report, without --no-pictures")];
-        Section { id, title, blocks, ..Section::default() }
-    };
-    vec![
-        section("scenes", scenes::TITLE, "Pictures of the scenes"),
-        section("heat", heat::TITLE, "Heat maps of the structures"),
-        section("errors", errors::TITLE, "Pictures of wrong hits"),
-    ]
+    let section =
+        |part: &Part| part.section(vec![Block::missing(part.pictures, "sahara report, without --no-pictures")]);
+    [SCENES, HEAT, ERRORS].iter().map(section).collect()
 }

@@ -2,19 +2,41 @@
 
 use image::{Rgb, RgbImage};
 
-use super::loaded_scene::LoadedScene;
+use super::SCENES;
+use crate::escaped::quoted;
 use crate::page::document::Section;
 use crate::registry::Registry;
 use crate::render::{ViewKind, draw, png, size_of};
 use crate::report::number::count;
 use crate::report::words::{listed, scene_name};
 use crate::report::{Art, Block, Cell, Figure, Picture, Table};
-use crate::request::guide;
+use crate::request::{SceneRequest, guide};
+use crate::scene::Scene;
 use crate::study::measure::guarded;
 
 const SIDE: u32 = 208;
 
-pub const TITLE: &str = "The scenes";
+/// A scene of the runs.
+pub struct LoadedScene {
+    pub scene: Scene,
+    pub request: SceneRequest,
+}
+
+impl LoadedScene {
+    /// The scene and its view as arguments for a shell.
+    pub fn words(&self) -> String {
+        let view = self.request.view.words();
+        [quoted(&self.request.word), view].into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
+    }
+
+    /// The cube with another name, loaded by `word` and with the view in the JSON `view`.
+    #[cfg(test)]
+    pub fn cube(word: &str, name: &str, view: &str) -> Self {
+        let scene = Scene { name: name.into(), ..crate::scene::Builtin::find("cube").unwrap().scene(None).unwrap() };
+        let request = SceneRequest::new(word, &serde_json::from_str(view).unwrap(), &scene);
+        Self { scene, request }
+    }
+}
 
 /// The scene with the shading of the course, four rays per pixel.
 pub fn picture(loaded: &LoadedScene, registry: &Registry) -> Option<Picture> {
@@ -41,9 +63,8 @@ fn halved(fine: &RgbImage) -> RgbImage {
 }
 
 fn caption(loaded: &[LoadedScene]) -> String {
-    let asked =
-        loaded.iter().filter_map(|own| Some(format!("{} ({})", own.scene.name, own.request.view.looks_from()?)));
-    let asked: Vec<String> = asked.collect();
+    let asked = |own: &LoadedScene| Some(format!("{} ({})", own.scene.name, own.request.view.looks_from()?));
+    let asked: Vec<String> = loaded.iter().filter_map(asked).collect();
     let asked = if asked.is_empty() { String::new() } else { format!("; other views: {}", listed(&asked)) };
     format!(
         "The traced scenes, rendered by sahara. Built-in scenes use the source report's cameras, lights and \
@@ -53,12 +74,12 @@ fn caption(loaded: &[LoadedScene]) -> String {
 
 /// `lost` are the scenes without a picture.
 pub fn section(pictures: Vec<Picture>, loaded: &[LoadedScene], lost: &[String]) -> Section {
-    let (mut blocks, mut command) = (vec![], String::new());
+    let mut section = SCENES.section(vec![]);
     if !pictures.is_empty() {
         let name = |own: &LoadedScene| scene_name(&own.scene.name, own.request.stand_in);
         let rows = loaded.iter().map(|own| vec![name(own).into(), Cell::from(own.scene.mesh.len())]);
-        command = "sahara render SCENE -o SCENE.png".into();
-        blocks.push(Block::figure(Figure {
+        section.command = "sahara render SCENE -o SCENE.png".into();
+        section.blocks.push(Block::figure(Figure {
             id: "scenes".into(),
             caption: caption(loaded),
             alt: String::new(),
@@ -68,9 +89,9 @@ pub fn section(pictures: Vec<Picture>, loaded: &[LoadedScene], lost: &[String]) 
     }
     for name in lost {
         let what = format!("A picture of {name}: the scene is missing, or has changed since the measurement");
-        blocks.push(Block::missing(&what, "sahara render FILE -o F.png"));
+        section.blocks.push(Block::missing(&what, "sahara render FILE -o F.png"));
     }
-    Section { id: "scenes", title: TITLE, command, blocks }
+    section
 }
 
 #[cfg(test)]

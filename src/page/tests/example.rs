@@ -8,7 +8,6 @@ use clap::{ArgMatches, Command};
 
 use crate::measure::{Estimate, Provenance};
 use crate::page::{Document, RunError, Runs, Section, document};
-use crate::report::inspector::{Answer, InspectedHit, InspectedStructure, Inspector};
 use crate::report::plot::{Bar, BarGroup, Bars, Chart, Curves, Line, Tradeoff, TradeoffCase, TradeoffPoint};
 use crate::report::words::slug;
 use crate::report::{
@@ -181,29 +180,6 @@ pub fn refused(path: PathBuf) -> RunError {
     Runs::read(&[path], &STUDIES).err().expect("it cannot be read")
 }
 
-/// Two rays; one hits a triangle that one of two structures misses.
-fn inspector(scene: &str) -> Inspector {
-    let hit = Answer { hit: Some(InspectedHit { t: 0.1, triangle: 7, weights: [0.25, 1.0 / 3.0] }), wrong: "" };
-    let (miss, missed) = (Answer { hit: None, wrong: "" }, Answer { hit: None, wrong: "missed" });
-    let structure = |label: &str, answers: [usize; 2]| InspectedStructure {
-        label: label.into(),
-        nodes: vec![3, 4],
-        tests: vec![12, 0],
-        answers: answers.into(),
-        ..InspectedStructure::default()
-    };
-    Inspector {
-        size: [2, 2],
-        which: "Some".into(),
-        command: format!("sahara validate {scene} --ray"),
-        pixels: vec![0, 3],
-        rays: vec!["0.0,0.0,0.0 1.0,0.0,0.0".into(); 2],
-        truths: vec![hit.clone(), miss.clone()],
-        answers: vec![vec![hit, missed], vec![miss]],
-        structures: vec![structure(scene, [0, 0]), structure("b", [1, 0])],
-    }
-}
-
 /// A page with all possible parts, from a scene called `scene`.
 pub fn whole(scene: &str) -> (Document, Runs<'static>) {
     let runs = runs(&[("compare", &[scene]), ("attribution", &[scene]), ("replicate", &[scene])]);
@@ -222,7 +198,7 @@ pub fn whole(scene: &str) -> (Document, Runs<'static>) {
             colours: vec!["#000000".into(), "#ffffff".into()],
             ticks: vec![(0.0, "0".into()), (1.0, "10".into())],
         },
-        inspector: Some(Box::new(inspector(scene))),
+        inspector: Some(serde_json::json!({ "command": format!("sahara validate {scene} --ray") })),
     };
     let key = Overlay { colours: Colours::Key(vec![("#ff0000".into(), "missed".into())]), ..overlay.clone() };
     let line = Line { label: scene.into(), note: String::new(), points: vec![] };
