@@ -87,8 +87,7 @@ mod tests {
 
     #[test]
     fn it_is_a_root_mean_square_and_does_not_grow_with_the_cells() {
-        assert_eq!(twins(&[]).log(), None);
-        assert_eq!(twins(&[]).of_ratio().square, 0.0);
+        assert_eq!((twins(&[]).log(), twins(&[]).of_ratio().square), (None, 0.0));
         let one = twins(&[0.01, -0.03, 0.02]);
         assert!((one.log().unwrap() - libm::sqrt(14e-4 / 3.0)).abs() < 1e-12);
         let many = twins(&[0.01, -0.03, 0.02].repeat(20));
@@ -114,13 +113,9 @@ mod tests {
         // A cell of one epoch beside another cell has no interval.
         let both = AaNoise::new(&[vec![vec![0.01, 0.03]], vec![vec![0.0; 3]; 5]]);
         assert_eq!((both.ratios.len(), both.holding_one()), (2, Some((1, 1))));
-    }
-
-    #[test]
-    fn figures_have_it_as_their_weights_say() {
+        // Figures have it as their weights say.
         let noise = twins(&[0.02; 4]);
-        assert!((noise.of_ratio().square - 4e-4).abs() < 1e-12);
-        assert!((noise.of_mean(4).square - 1e-4).abs() < 1e-12);
-        assert!((noise.weighted(&[2.0]).square - 8e-4).abs() < 1e-12);
+        let squares = [noise.of_ratio(), noise.of_mean(4), noise.weighted(&[2.0])].map(|variance| variance.square);
+        assert!(squares.iter().zip([4e-4, 1e-4, 8e-4]).all(|(one, other)| (one - other).abs() < 1e-12), "{squares:?}");
     }
 }

@@ -1,6 +1,7 @@
 //! Warnings about a run, with remedies. Pure functions: this module measures nothing.
 
 use super::summary::{mean, median};
+use crate::plural::plural;
 
 /// The state of the machine before, during and after the timed part of a run. `None` if the system does not report it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -31,14 +32,12 @@ impl Conditions {
     /// One sentence for each condition that disturbs measurements.
     pub fn warnings(&self) -> Vec<String> {
         let &Self { cores, seconds, denormals, .. } = self;
-        let debug = self
-            .debug
-            .then(|| "sahara is built without optimisation: rebuild with --release for meaningful times".into());
+        let slow = "sahara is built without optimisation: rebuild with --release for meaningful times";
+        let debug = self.debug.then(|| slow.into());
         let load = self.load.filter(|&load| load > 0.5 * cores as f64).map(|load| {
-            let noun = if cores == 1 { "core" } else { "cores" };
+            let cores = plural(cores, "core");
             format!(
-                "the load average was {load:.1} on {cores} {noun} before the run: stop other programs, or trust \
-                 ratios only"
+                "the load average was {load:.1} on {cores} before the run: stop other programs, or trust ratios only"
             )
         });
         let governor = (self.governor.as_deref() == Some("powersave")).then(|| {
@@ -58,8 +57,7 @@ impl Conditions {
                  stop it and rerun"
             )
         });
-        let is_changed = !matches!(denormals, "kept" | "unknown");
-        let denormals = is_changed.then(|| {
+        let denormals = (!matches!(denormals, "kept" | "unknown")).then(|| {
             format!(
                 "denormal numbers are treated as zero ({denormals}): a library changed the FPU control word; hits may \
                  differ"
@@ -143,8 +141,7 @@ fn trend(cases: &[&[f64]]) -> Option<f64> {
     let of_round = |round: usize| mean(&cases.iter().map(|case| case[round]).collect::<Vec<_>>());
     let paces: Vec<f64> = (0..rounds).map(of_round).collect();
 
-    let mut slopes = vec![];
-    let mut sum = 0.0;
+    let (mut slopes, mut sum) = (vec![], 0.0);
     for (i, a) in paces.iter().enumerate() {
         for (j, b) in paces.iter().enumerate().skip(i + 1) {
             sum += if b > a { 1.0 } else { -1.0 };

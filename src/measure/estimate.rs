@@ -36,11 +36,8 @@ struct Flat {
 impl From<Flat> for Estimate {
     fn from(flat: Flat) -> Self {
         let Flat { estimate, low, high, freedom } = flat;
-        let ends = low.zip(high);
-        Self {
-            estimate,
-            interval: ends.map(|(low, high)| Interval { low, high, freedom: freedom.unwrap_or(f64::INFINITY) }),
-        }
+        let freedom = freedom.unwrap_or(f64::INFINITY);
+        Self { estimate, interval: low.zip(high).map(|(low, high)| Interval { low, high, freedom }) }
     }
 }
 
@@ -101,8 +98,11 @@ impl Estimate {
     /// The estimate as one of `looks` that are judged together: with 95 % probability all of their intervals contain
     /// the true value (Bonferroni). Both sides of the interval grow by the same factor.
     pub fn among(self, looks: usize) -> Self {
+        if looks < 2 {
+            return self;
+        }
         let grown = |Interval { low, high, freedom }: Interval| {
-            let by = wider(freedom, looks);
+            let by = factor(freedom, LEVEL / looks as f64) / factor(freedom, LEVEL);
             let from = |end: f64| self.estimate + (end - self.estimate) * by;
             Interval { low: from(low), high: from(high), freedom }
         };
@@ -129,11 +129,6 @@ impl Estimate {
         });
         Self { estimate: libm::exp(log), interval }
     }
-}
-
-/// How much wider an interval is as one of `looks`, as a factor.
-fn wider(freedom: f64, looks: usize) -> f64 {
-    if looks < 2 { 1.0 } else { factor(freedom, LEVEL / looks as f64) / factor(freedom, LEVEL) }
 }
 
 #[cfg(test)]

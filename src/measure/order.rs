@@ -4,13 +4,11 @@ use rand_core::{RngCore, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
 /// Returns the numbers from 0 to `n` in a new random order each time.
-pub struct RandomOrder {
-    generator: Pcg64Mcg,
-}
+pub struct RandomOrder(Pcg64Mcg);
 
 impl RandomOrder {
     pub fn new(seed: u64) -> Self {
-        Self { generator: Pcg64Mcg::seed_from_u64(seed) }
+        Self(Pcg64Mcg::seed_from_u64(seed))
     }
 
     /// A uniform number below `n`, with a bias below `n` / 2^64.
@@ -19,7 +17,7 @@ impl RandomOrder {
     /// If `n` is 0.
     pub fn below(&mut self, n: usize) -> usize {
         assert!(n > 0, "there is no number below 0");
-        ((u128::from(self.generator.next_u64()) * n as u128) >> 64) as usize
+        ((u128::from(self.0.next_u64()) * n as u128) >> 64) as usize
     }
 
     /// The numbers from 0 to `n` shuffled (Fisher, Yates 1938; Durstenfeld 1964).

@@ -62,6 +62,7 @@ pub struct Pass<'a> {
     accel: &'a dyn DynAccel,
     threads: &'a Threads,
     all: &'a [Ray],
+    query: Query,
     lead_in: Vec<Piece<'a>>,
     pieces: Vec<Piece<'a>>,
     levels: usize,
@@ -77,7 +78,7 @@ pub struct Pass<'a> {
 }
 
 /// The lead-in of a pass has this fraction, 1 / 8, of the rays of the workload.
-const LEAD_IN_SHARE: usize = 8;
+pub(super) const LEAD_IN_SHARE: usize = 8;
 
 /// Time limit of a lead-in before tiles: slow structures need fewer rays to fill the caches.
 const LEAD_IN: Duration = Duration::from_millis(10);
@@ -97,11 +98,12 @@ impl<'a> Pass<'a> {
             accel,
             threads,
             all: rays,
+            query,
             lead_in: vec![],
             pieces: vec![],
             levels: 0,
-            results: QueryResults::empty(query),
-            lead_in_results: QueryResults::empty(query),
+            results: QueryResults::misses(query, 0),
+            lead_in_results: QueryResults::misses(query, 0),
             lead_in_checksum: None,
             lead_in_ps: u128::MAX,
             filled: false,
@@ -169,8 +171,8 @@ impl Timed for Pass<'_> {
             (first, size) = (first + count, TILE.min(2 * size));
         }
         (self.pieces, self.levels) = (pieces, levels.len());
-        self.results.resize(timed);
-        self.lead_in_results.resize(lead_in.max(TILE));
+        self.results = QueryResults::misses(self.query, timed);
+        self.lead_in_results = QueryResults::misses(self.query, lead_in.max(TILE));
     }
 
     fn clear(&mut self) {

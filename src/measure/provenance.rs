@@ -5,14 +5,13 @@ use serde_json::{Map, Value};
 
 use super::{CpuClock, Threads, machine, program};
 use crate::escaped::quoted;
+use crate::plural::plural;
 use crate::simd::Level;
 
 /// The facts for judging and repeating a measurement.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Provenance {
-    /// The command line.
     pub command: String,
-    /// Version of this crate.
     pub version: String,
     /// Commit of the build, with `+changes` if the sources differed; `unknown` outside git.
     pub commit: String,
@@ -21,11 +20,10 @@ pub struct Provenance {
     pub build: String,
     /// Start of the run, in UTC: `2026-03-01T12:30:59Z`.
     pub date: String,
-    /// Compiler.
     pub rustc: String,
     /// `release` or `debug`.
     pub profile: String,
-    /// Target triple.
+    /// A triple.
     pub target: String,
     /// Instruction set extensions that the compiler could use; the same for all structures.
     pub target_features: String,
@@ -39,7 +37,6 @@ pub struct Provenance {
     pub cores: usize,
     /// Threads that built and traced; 1 is the unit of all comparisons.
     pub threads: usize,
-    /// Operating system.
     pub os: String,
     /// Version of obvhs, whose structures are the references of comparisons between runs.
     pub obvhs: String,
@@ -113,9 +110,9 @@ impl Provenance {
     pub fn too_many_threads(&self) -> Option<String> {
         let Self { threads, cores, .. } = self;
         (threads > cores).then(|| {
-            let noun = if *cores == 1 { "core" } else { "cores" };
+            let all = plural(*cores, "core");
             format!(
-                "{threads} threads share {cores} {noun}, so times represent neither {threads} nor {cores} threads: use \
+                "{threads} threads share {all}, so times represent neither {threads} nor {cores} threads: use \
                  at most --threads {cores}"
             )
         })
@@ -134,7 +131,7 @@ impl Provenance {
 
     /// One line for the foot of a table.
     pub fn line(&self) -> String {
-        let threads = if self.threads == 1 { "1 thread".into() } else { format!("{} threads", self.threads) };
+        let threads = plural(self.threads, "thread");
         let pinned = match self.pinned.as_deref() {
             Some([core]) => format!(" on core {core}"),
             Some(_) => ", each on its own core".into(),

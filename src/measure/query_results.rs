@@ -11,17 +11,11 @@ pub enum QueryResults {
 }
 
 impl QueryResults {
-    pub fn empty(query: Query) -> Self {
+    /// Misses of `count` rays.
+    pub fn misses(query: Query, count: usize) -> Self {
         match query {
-            Query::Closest => Self::Closest(vec![]),
-            Query::Any => Self::Any(vec![]),
-        }
-    }
-
-    pub fn resize(&mut self, count: usize) {
-        match self {
-            Self::Closest(hits) => hits.resize(count, None),
-            Self::Any(hits) => hits.resize(count, false),
+            Query::Closest => Self::Closest(vec![None; count]),
+            Query::Any => Self::Any(vec![false; count]),
         }
     }
 

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::cell::RefCell;
 use std::rc::Rc;
 
+use super::pass::LEAD_IN_SHARE;
 use super::query_results::QueryResults;
 use super::tiles::tiles;
 use super::{Stopwatch, Timed};
@@ -19,6 +20,7 @@ pub struct RemotePass<'a> {
     accel: &'a dyn DynAccel,
     remote: &'a dyn Remote,
     all: &'a [Ray],
+    query: Query,
     /// One per level.
     batches: Vec<RayBatch<'a>>,
     /// The last rays of the workload, an eighth of the timed rays.
@@ -43,9 +45,6 @@ impl RayBatch<'_> {
     }
 }
 
-/// The lead-in has this fraction, 1 / 8, of the timed rays.
-const LEAD_IN_SHARE: usize = 8;
-
 impl<'a> RemotePass<'a> {
     /// A pass over all rays, and the place of its failure.
     ///
@@ -58,10 +57,11 @@ impl<'a> RemotePass<'a> {
             accel,
             remote,
             all: rays,
+            query,
             batches: vec![],
             lead_in: None,
-            results: QueryResults::empty(query),
-            lead_in_results: QueryResults::empty(query),
+            results: QueryResults::misses(query, 0),
+            lead_in_results: QueryResults::misses(query, 0),
             has_led_in: false,
             is_warm: false,
             failure: Rc::clone(&failure),
@@ -93,8 +93,9 @@ impl Timed for RemotePass<'_> {
         let count = batches[0].count / LEAD_IN_SHARE;
         let last = &self.all[self.all.len() - count..];
         self.lead_in = (count > 0).then(|| RayBatch { rays: self.accel.load(Cow::Borrowed(last)), count });
-        self.results.resize(batches.iter().map(|batch| batch.count).max().unwrap_or(0));
-        self.lead_in_results.resize(count);
+        let most = batches.iter().map(|batch| batch.count).max().unwrap_or(0);
+        (self.results, self.lead_in_results) =
+            (QueryResults::misses(self.query, most), QueryResults::misses(self.query, count));
         self.batches = batches;
         self.is_warm = false;
     }

@@ -48,7 +48,7 @@ pub struct SamplePlan {
 }
 
 /// The samples of one case.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Samples {
     /// Rays of a sample; fewer than the case has if it is slow.
     pub rays: usize,
@@ -83,15 +83,7 @@ impl Samples {
     /// results cannot be compared between epochs: a sixteenth of the tiles of epoch 0 is traced for that purpose.
     pub fn none(all: usize, level: usize) -> Self {
         let asked = (level > 0).then(|| (level + 2).min(last_level(all)));
-        Self {
-            rays: rays_at(all, level),
-            asked,
-            checksum: 0,
-            timed_checksum: 0,
-            ns: vec![],
-            parts: vec![],
-            is_steady: true,
-        }
+        Self { rays: rays_at(all, level), asked, is_steady: true, ..Self::default() }
     }
 }
 

@@ -1,5 +1,7 @@
 //! The content of a page, independent of its format: the answer, and sections of text, tables and figures.
 
+use serde::Serialize;
+
 use crate::report::plot::Chart;
 use crate::report::{Block, Figure, Missing};
 
@@ -11,7 +13,7 @@ pub struct Document {
 }
 
 /// The summary for readers of nothing else.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Answer {
     /// A warning above the verdict; may be empty.
     pub banner: String,
@@ -21,11 +23,12 @@ pub struct Answer {
     pub sentences: Vec<String>,
     pub numbers: Vec<Headline>,
     /// The same as a chart, with intervals; `None` without intervals.
+    #[serde(skip)]
     pub chart: Option<Chart>,
 }
 
 /// A single number of the summary.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Headline {
     /// Printed in large type: `20.6 ×`.
     pub number: String,

@@ -68,11 +68,8 @@ impl<'a> Runs<'a> {
                 return Err(RunError::Empty { path: path.clone() });
             }
             for file in files {
-                match read(&file, studies) {
-                    Ok((own, notes)) => {
-                        runs.notes.extend(notes);
-                        cases.extend(own);
-                    }
+                match read(&file, studies, &mut runs.notes) {
+                    Ok(own) => cases.extend(own),
                     // A folder may contain files of other programs.
                     Err(RunError::Foreign { .. } | RunError::Unknown { .. }) if is_folder => {
                         runs.notes.push(format!("{} is not a run: ignored.", file.escaped()));
@@ -86,23 +83,16 @@ impl<'a> Runs<'a> {
         }
         let mut datasets = journal::datasets(each_measured_once(cases));
         for study in studies.iter() {
-            let (own, rest): (Vec<Dataset>, _) = datasets.into_iter().partition(|own| own.study() == Some(study.name));
-            datasets = rest;
-            runs.add(study, own);
-        }
-        runs.notes = each_once(std::mem::take(&mut runs.notes));
-        Ok(runs)
-    }
-
-    /// Adds the measurements of a study, with its report.
-    fn add(&mut self, study: &'a Study, datasets: Vec<Dataset>) {
-        let notes = datasets.iter().flat_map(|dataset| &dataset.notes);
-        self.notes.extend(notes.map(|note| format!("{}: {note}", study.name)));
-        let mut datasets = datasets.into_iter();
-        if let Some(dataset) = datasets.next() {
+            let mut own = datasets.extract_if(.., |own| own.study() == Some(study.name));
+            let Some(dataset) = own.next() else { continue };
+            let others: Vec<Dataset> = own.collect();
+            let notes = std::iter::once(&dataset).chain(&others).flat_map(|dataset| &dataset.notes);
+            runs.notes.extend(notes.map(|note| format!("{}: {note}", study.name)));
             let report = (study.report)(&dataset, &study.defaults());
-            self.studies.push(StudyRun { study, dataset, others: datasets.collect(), report });
+            runs.studies.push(StudyRun { study, dataset, others, report });
         }
+        runs.notes = each_once(runs.notes);
+        Ok(runs)
     }
 
     pub fn of(&self, study: &str) -> Option<&StudyRun<'a>> {
@@ -145,8 +135,8 @@ pub fn also_measured(dataset: &Dataset) -> String {
     format!("Measured but not shown: {scenes} on {cpu}, commit {commit}, {day} ({}).", listed(&commands))
 }
 
-/// The cases in the file `path`, and notes on them.
-fn read(path: &Path, studies: &Studies) -> Result<(Vec<CaseFile>, Vec<String>), RunError> {
+/// The cases in the file `path`; adds the notes on them.
+fn read(path: &Path, studies: &Studies, notes: &mut Vec<String>) -> Result<Vec<CaseFile>, RunError> {
     let text = fs::read_to_string(path).map_err(|cause| JournalError::Read { path: path.into(), cause })?;
     let value: Value = serde_json::from_str(&text).map_err(|cause| JournalError::damaged(path, &cause))?;
     let known = |name: &str| match studies.find(name) {
@@ -156,12 +146,12 @@ fn read(path: &Path, studies: &Studies) -> Result<(Vec<CaseFile>, Vec<String>), 
     if CaseFile::is_case(&value) {
         let case = CaseFile::of(path, value)?;
         known(&case.case.study)?;
-        return Ok((vec![case], vec![]));
+        return Ok(vec![case]);
     }
     if !Dataset::is_dataset(&value) {
         return Err(RunError::Foreign { path: path.into() });
     }
-    let Dataset { provenance, measured, notes, .. } = Dataset::read(path, value)?;
+    let Dataset { provenance, measured, notes: own, .. } = Dataset::read(path, value)?;
     let study = measured.first().map(|own| own.case.study.clone());
     let study = known(&study.ok_or_else(|| RunError::Foreign { path: path.into() })?)?;
     let cases = measured.into_iter().map(|own| CaseFile {
@@ -170,8 +160,8 @@ fn read(path: &Path, studies: &Studies) -> Result<(Vec<CaseFile>, Vec<String>), 
         case: own.case,
         epoch: own.epoch,
     });
-    let notes = notes.iter().map(|note| format!("{study}: {note}")).collect();
-    Ok((cases.collect(), notes))
+    notes.extend(own.iter().map(|note| format!("{study}: {note}")));
+    Ok(cases.collect())
 }
 
 /// The files of a folder that may be runs, by name: the files in it and in its journals.

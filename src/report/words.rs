@@ -63,16 +63,9 @@ pub fn listed<S: AsRef<str>>(words: &[S]) -> String {
 
 /// Letters, digits and hyphens, from any text; different texts may give the same result.
 pub fn slug(text: &str) -> String {
-    let mut slug = String::new();
-    for c in text.chars() {
-        match c {
-            c if c.is_ascii_alphanumeric() => slug.push(c.to_ascii_lowercase()),
-            _ if slug.ends_with('-') || slug.is_empty() => {}
-            _ => slug.push('-'),
-        }
-    }
-    let slug = slug.trim_end_matches('-');
-    if slug.is_empty() { "x".into() } else { slug.into() }
+    let words = text.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
+    let slug = words.collect::<Vec<_>>().join("-").to_ascii_lowercase();
+    if slug.is_empty() { "x".into() } else { slug }
 }
 
 /// The name of a structure: its label without the keys.

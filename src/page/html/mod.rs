@@ -15,17 +15,14 @@ pub fn page(document: &Document) -> String {
     let mut environment = Environment::new();
     environment.set_auto_escape_callback(|_| AutoEscape::Html);
     environment.set_undefined_behavior(UndefinedBehavior::Strict);
-    environment.add_template("page.html", include_str!("page.html")).expect(RENDERED);
-    let template = environment.get_template("page.html").expect(RENDERED);
-    template.render(view::page(document, sheet())).expect(RENDERED)
+    let page = environment.render_named_str("page.html", include_str!("page.html"), view::page(document, sheet()));
+    page.expect("a test renders the template with all kinds of blocks")
 }
 
 /// JSON for a script element: no text in it can end the element.
 fn in_script(data: &impl Serialize) -> String {
     serde_json::to_string(data).expect("data have text keys").replace('<', "\\u003c")
 }
-
-const RENDERED: &str = "a test renders the template with all kinds of blocks";
 
 /// The style sheet: the layout of the page, and the colours of drawings in light and dark mode.
 fn sheet() -> String {

@@ -1,10 +1,11 @@
 //! The values of the template.
 
+use minijinja::value::Serde;
 use minijinja::{Value, context};
 use serde_json::json;
 
 use super::in_script;
-use crate::page::document::{Answer, Document, Headline, Section};
+use crate::page::document::{Document, Section};
 use crate::report::plot::palette::roles_of;
 use crate::report::plot::{Chart, Tradeoff, TradeoffCase, TradeoffPoint, WIDTH};
 use crate::report::words::{distinct, ended};
@@ -20,7 +21,7 @@ pub fn page(document: &Document, css: String) -> Value {
     };
     context! {
         title => &document.title,
-        answer => answer(&document.answer),
+        answer => Serde(&document.answer),
         sections => values(&document.sections, section),
         css => css,
         js => concat!(include_str!("page.js"), include_str!("overlay.js"), include_str!("scatter.js")),
@@ -32,26 +33,10 @@ fn values<'a, T: 'a>(items: impl IntoIterator<Item = &'a T>, value: impl FnMut(&
     items.into_iter().map(value).collect()
 }
 
-fn answer(answer: &Answer) -> Value {
-    let number = |n: &Headline| context! { number => &n.number, interval => &n.interval, label => &n.label };
-    context! {
-        banner => if answer.banner.is_empty() { vec![] } else { spans(&answer.banner) },
-        verdict => &answer.verdict,
-        sentences => values(&answer.sentences, |sentence| spans(sentence).into()),
-        numbers => values(&answer.numbers, number),
-    }
-}
-
-/// A sentence whose parts between backticks are code.
-fn spans(text: &str) -> Vec<Value> {
-    let span = |(i, text): (usize, &str)| context! { text => text, is_code => i % 2 == 1 };
-    text.split('`').enumerate().map(span).collect()
-}
-
 fn blocks(list: &[Block]) -> Vec<Value> {
     let block = |block: &Block| match block {
-        Block::Text(text) => context! { kind => "text", spans => spans(text) },
-        Block::Note(text) => context! { kind => "note", spans => spans(text) },
+        Block::Text(text) => context! { kind => "text", text => text },
+        Block::Note(text) => context! { kind => "note", text => text },
         Block::Table(own) => context! { kind => "table", table => table(own) },
         Block::Figure(f) => context! { kind => "figure", figure => figure(f) },
         Block::Missing(missing) => {
@@ -137,14 +122,9 @@ fn scatter(tradeoff: &Tradeoff) -> String {
 fn overlay(overlay: &Overlay) -> Value {
     let colours = match &overlay.colours {
         Colours::Ramp { title, colours, ticks } => {
-            // Percent of the width.
-            let tick = |(at, text): &(f64, String)| context! { at => at * 100.0, text => text };
-            context! { ramp_title => title, ramp => colours.join(","), ticks => values(ticks, tick) }
+            context! { ramp_title => title, ramp => colours, ticks => Serde(ticks) }
         }
-        Colours::Key(key) => {
-            let meaning = |(colour, text): &(String, String)| context! { colour => colour, text => text };
-            context! { ramp => "", key => values(key, meaning) }
-        }
+        Colours::Key(key) => context! { ramp => "", key => Serde(key) },
     };
     let inspector = overlay.inspector.as_ref().map(in_script);
     context! { heading => &overlay.heading, inspector => inspector, ..colours }

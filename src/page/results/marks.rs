@@ -1,5 +1,7 @@
 //! The marked places of a Markdown file, which a run fills in: text between `<!-- sahara: KEY -->` and `<!-- / -->`.
 
+use std::ops::Range;
+
 pub const OPEN: &str = "<!-- sahara: ";
 const END: &str = " -->";
 const CLOSE: &str = "<!-- / -->";
@@ -7,15 +9,8 @@ const CLOSE: &str = "<!-- / -->";
 /// Columns of a line.
 const WIDTH: usize = 120;
 
-/// A marked place: the beginning and the end of the text between the marks.
-struct Place<'a> {
-    key: &'a str,
-    from: usize,
-    to: usize,
-}
-
-/// Rejects a mark that is not closed.
-fn places(text: &str) -> anyhow::Result<Vec<Place<'_>>> {
+/// The keys of the marked places, and the text between the marks. Rejects a mark that is not closed.
+fn places(text: &str) -> anyhow::Result<Vec<(&str, Range<usize>)>> {
     let (mut places, mut at) = (vec![], 0);
     while let Some(open) = text[at..].find(OPEN) {
         let rest = &text[at + open + OPEN.len()..];
@@ -29,7 +24,7 @@ fn places(text: &str) -> anyhow::Result<Vec<Place<'_>>> {
         if after[..length].contains(OPEN) {
             return Err(error(key));
         }
-        places.push(Place { key, from, to: from + length });
+        places.push((key, from..from + length));
         at = from + length + CLOSE.len();
     }
     Ok(places)
@@ -37,22 +32,22 @@ fn places(text: &str) -> anyhow::Result<Vec<Place<'_>>> {
 
 /// Keys and texts of all marked places, in order; white space is reduced to single spaces.
 pub fn marked(text: &str) -> anyhow::Result<Vec<(String, String)>> {
-    let plain = |place: &Place| text[place.from..place.to].split_whitespace().collect::<Vec<_>>().join(" ");
-    Ok(places(text)?.iter().map(|place| (place.key.to_owned(), plain(place))).collect())
+    let plain = |place: Range<usize>| text[place].split_whitespace().collect::<Vec<_>>().join(" ");
+    Ok(places(text)?.into_iter().map(|(key, place)| (key.to_owned(), plain(place))).collect())
 }
 
 /// The file with the result of `of` in the marked places; for an unknown key the text stays. Paragraphs with marks are
 /// wrapped again, tables start on a new line.
 pub fn fill(text: &str, of: impl Fn(&str) -> Option<String>) -> anyhow::Result<String> {
     let (mut filled, mut at) = (String::new(), 0);
-    for Place { key, from, to } in places(text)? {
-        filled += &text[at..from];
+    for (key, place) in places(text)? {
+        filled += &text[at..place.start];
+        at = place.end;
         match of(key) {
             Some(value) if value.contains('\n') => filled += &format!("\n\n{}\n\n", value.trim()),
             Some(value) => filled += &value,
-            None => filled += &text[from..to],
+            None => filled += &text[place],
         }
-        at = to;
     }
     filled += &text[at..];
     let is_code = |fences: usize| fences % 2 == 1;

@@ -1,7 +1,6 @@
 //! The paper: one fixed text around the answer and the Markdown of the reports.
 
-use super::run_facts::RunFacts;
-use super::{COMMAND, FIGURES, Files, TABLES};
+use super::{COMMAND, FIGURES, Files, RunFacts, TABLES};
 use crate::page::document::Document;
 use crate::page::runs::Runs;
 use crate::report::markdown::{blocks, escaped, prose};

@@ -41,16 +41,13 @@ fn of_findings(run: &StudyRun, prefix: &str) -> Vec<Hard> {
 
 /// The hard scenes, their mean and a sentence on them: from `replicate`, or else from `attribution`, which has no mean.
 fn hard(runs: &Runs) -> Option<(Vec<Hard>, Option<Estimate>, String)> {
-    let of = |study: &str, prefix: &str| {
-        let run = runs.of(study)?;
-        Some((run, of_findings(run, prefix))).filter(|(_, hard)| !hard.is_empty())
-    };
-    if let Some((run, hard)) = of(REPLICATE, "hard") {
-        let finding = run.report.finding("hard");
+    let of = |study: &str, prefix: &str| Some(of_findings(runs.of(study)?, prefix)).filter(|hard| !hard.is_empty());
+    if let Some(hard) = of(REPLICATE, "hard") {
+        let finding = runs.of(REPLICATE)?.report.finding("hard");
         let sentence = finding.map_or(String::new(), |finding| finding.sentence.clone());
         return Some((hard, finding.and_then(|finding| finding.value), sentence));
     }
-    let (_, hard) = of(ATTRIBUTION, "whole")?;
+    let hard = of(ATTRIBUTION, "whole")?;
     let times: Vec<String> = hard.iter().map(|own| format!("{} times on {}", interval(own.ratio), own.title)).collect();
     let sentence =
         format!("The SAH tree traces the same primary rays faster than the report's tree: {}.", listed(&times));
@@ -136,13 +133,13 @@ fn otherwise(runs: &Runs) -> (String, Answer) {
     let mut answer = Answer { banner: banner(runs), verdict: "Not measured".into(), ..Answer::default() };
     let mut title = QUESTION.to_owned();
     if let Some(run) = runs.of(COMPARE) {
-        let sentence = |key: &str| run.report.finding(key).map(|finding| finding.sentence.clone());
-        if let Some(fastest) = run.report.finding(FASTEST).and_then(|finding| finding.name.clone()) {
+        let finding = |key: &str| run.report.finding(key);
+        if let Some(fastest) = finding(FASTEST).and_then(|finding| finding.name.clone()) {
             let scenes = scene_titles(&run.dataset);
             let on = if scenes.len() > 3 { plural(scenes.len(), "scene") } else { listed(&scenes) };
             title = format!("Which structure is the fastest on {on}?");
             answer.verdict = fastest;
-            answer.sentences.extend(sentence("right").or_else(|| sentence("single")).map(|found| ended(&found)));
+            answer.sentences.extend(finding("right").or(finding("single")).map(|found| ended(&found.sentence)));
         }
     }
     answer.sentences.push("These runs do not measure the source report's question; `sahara replicate` does.".into());

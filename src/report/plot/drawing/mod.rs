@@ -4,7 +4,6 @@ mod axes;
 mod bars;
 mod canvas;
 mod chart;
-mod labels;
 pub mod palette;
 mod scatter;
 #[cfg(test)]

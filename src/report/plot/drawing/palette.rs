@@ -106,17 +106,12 @@ pub fn roles_of(labels: &[String]) -> Vec<Role> {
 fn spread<'a>(texts: impl Iterator<Item = &'a str>, n: usize) -> BTreeMap<&'a str, usize> {
     let mut given: BTreeMap<&str, usize> = BTreeMap::new();
     for text in texts.collect::<BTreeSet<_>>() {
-        let first = number(text) % n;
+        let hash = checksum(text.bytes().map(u64::from));
+        let first = (hash ^ hash >> 32) as u32 as usize % n;
         let free = (0..n).map(|step| (first + step) % n).find(|i| given.values().all(|other| other != i));
         given.insert(text, free.unwrap_or(first));
     }
     given
-}
-
-/// A number that depends only on the text.
-fn number(text: &str) -> usize {
-    let hash = checksum(text.bytes().map(u64::from));
-    (hash ^ hash >> 32) as u32 as usize
 }
 
 /// The colour in the format of style sheets and drawings.
