@@ -36,18 +36,11 @@ pub fn table(table: &Table, screen: Screen) -> String {
     let title = if screen.colour { format!("\x1b[1m{title}\x1b[0m") } else { title.to_string() };
     let mut text = if table.title.is_empty() { String::new() } else { title + "\n" };
     for columns in blocks(&table, screen.width.map(usize::from)) {
-        for line in grid(&table, &columns, screen).lines() {
-            text.push_str(line.trim_end());
-            text.push('\n');
-        }
+        text.extend(grid(&table, &columns, screen).lines().map(|line| format!("{}\n", line.trim_end())));
     }
-    for note in &table.notes {
-        for line in
-            wrapped(&note.escaped().to_string(), usize::from(screen.width.unwrap_or(120)).saturating_sub(4).max(20))
-        {
-            text.push_str(&format!("  {line}\n"));
-        }
-    }
+    let width = usize::from(screen.width.unwrap_or(120)).saturating_sub(4).max(20);
+    let notes = table.notes.iter().flat_map(|note| wrapped(&note.escaped().to_string(), width));
+    text.extend(notes.map(|line| format!("  {line}\n")));
     text
 }
 

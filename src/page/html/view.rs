@@ -1,14 +1,16 @@
 //! The values of the template.
 
+use std::collections::BTreeMap;
+
 use minijinja::value::Serde;
 use minijinja::{Value, context};
 use serde_json::json;
 
 use super::in_script;
 use crate::page::document::{Document, Section};
-use crate::report::plot::palette::roles_of;
+use crate::report::plot::palette::{Role, roles_of};
 use crate::report::plot::{Chart, Tradeoff, TradeoffCase, TradeoffPoint, WIDTH};
-use crate::report::words::{distinct, ended};
+use crate::report::words::ended;
 use crate::report::{Art, Block, Cell, Colours, Figure, Overlay, Picture, Table, Tone};
 
 const NARROW: f64 = 360.0;
@@ -92,19 +94,14 @@ fn figure(figure: &Figure) -> Value {
 
 /// The data of a scatter plot for its script.
 fn scatter(tradeoff: &Tradeoff) -> String {
-    // A structure has one colour in all cases.
     let all: Vec<String> = tradeoff.cases.iter().flat_map(|case| &case.points).map(|p| p.label.clone()).collect();
-    let labels = distinct(all.iter());
-    let roles = roles_of(&labels);
-    let colour = |label: &String| {
-        let place = labels.iter().position(|other| other == label).expect("all labels are listed");
-        format!("--{}", roles[place].name)
-    };
+    // A structure has one colour in all cases.
+    let roles: BTreeMap<&String, Role> = all.iter().zip(roles_of(&all)).collect();
     let point = |p: &TradeoffPoint| {
         json!({
             "label": p.label,
             // Name of the custom property with its colour.
-            "colour": colour(&p.label),
+            "colour": format!("--{}", roles[&p.label].name),
             "bytes": p.bytes,
             "build": p.build_ns,
             "ray": p.ns_per_ray,

@@ -10,39 +10,29 @@ use crate::report::plot::tick_text;
 use crate::report::words::slug;
 use crate::report::{Art, Block, Colours, Figure, Overlay, Picture, Table};
 
-struct Heat<'a> {
-    label: &'a str,
-    costs: Vec<u64>,
-}
-
-impl Heat<'_> {
-    fn mean(&self) -> f64 {
-        self.costs.iter().sum::<u64>() as f64 / self.costs.len() as f64
-    }
-}
-
 /// The maps of all structures that report their work, with the command that draws one. `None` if no structure does.
 pub fn block(camera: &CameraRays) -> Option<(Block, String)> {
     let told = camera.structures.iter().filter(|own| own.observed == Observed::ALL);
     let costs = |own: &StructureWork| own.work.iter().map(Work::cost).collect();
-    let maps: Vec<Heat> = told.map(|own| Heat { label: &own.label, costs: costs(own) }).collect();
+    let maps: Vec<(String, Vec<u64>)> = told.map(|own| (own.label.clone(), costs(own))).collect();
+    let mean = |costs: &[u64]| costs.iter().sum::<u64>() as f64 / costs.len() as f64;
     // Use one scale for all: equal work has equal brightness.
-    let scale = maps.iter().map(|heat| hottest(&heat.costs)).max()?;
+    let scale = maps.iter().map(|(_, costs)| hottest(costs)).max()?;
     let (name, size) = (&camera.name, camera.exact.size);
-    let picture = |heat: &Heat| {
-        let colours = heat.costs.iter().map(|&cost| heat_colour(stepped(cost, scale), scale));
-        let mean = figures(heat.mean());
+    let picture = |(label, costs): &(String, Vec<u64>)| {
+        let colours = costs.iter().map(|&cost| heat_colour(stepped(cost, scale), scale));
+        let mean = figures(mean(costs));
         Picture {
-            name: heat.label.into(),
+            name: label.clone(),
             note: format!("{mean} per ray"),
-            alt: format!("Heat map of {} on {name}: {mean} tests and steps per ray on average", heat.label),
+            alt: format!("Heat map of {label} on {name}: {mean} tests and steps per ray on average"),
             png: png(&from_pixels(size, colours.collect())),
             size,
         }
     };
-    let rows = maps.iter().map(|heat| {
-        let most = heat.costs.iter().max().copied().unwrap_or(0);
-        vec![heat.label.into(), heat.mean().into(), hottest(&heat.costs).into(), most.into()]
+    let rows = maps.iter().map(|(label, costs)| {
+        let most = costs.iter().max().copied().unwrap_or(0);
+        vec![label.into(), mean(costs).into(), hottest(costs).into(), most.into()]
     });
     let figure = Figure {
         id: format!("heat-{}", slug(&camera.loaded.scene.name)),

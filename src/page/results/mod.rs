@@ -81,12 +81,10 @@ impl Results {
                 None => figures.push((format!("{}.svg", figure.id), bytes)),
             }
         }
-        let digests = |folder: &'static str, files: &Files| {
-            files.iter().map(|(name, bytes)| (format!("{folder}/{name}"), digest(bytes))).collect::<Vec<_>>()
-        };
-        let mut files: BTreeMap<String, String> =
-            [digests(FIGURES, &figures), digests(TABLES, &tables)].concat().into_iter().collect();
-        files.insert(PAPER.into(), digest(paper.as_bytes()));
+        let mut files = BTreeMap::from([(PAPER.to_owned(), digest(paper.as_bytes()))]);
+        for (folder, own) in [(FIGURES, &figures), (TABLES, &tables)] {
+            files.extend(own.iter().map(|(name, bytes)| (format!("{folder}/{name}"), digest(bytes))));
+        }
         let data = ResultsData { schema: 3, made_by: COMMAND.into(), run, statements, files };
         Ok(Self { data, paper, figures, tables })
     }

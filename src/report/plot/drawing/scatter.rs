@@ -1,7 +1,5 @@
 //! Draws points, and labels of which none covers another label or a point.
 
-use std::collections::BTreeMap;
-
 use plotters::element::{Circle, Polygon, Rectangle};
 use plotters::style::Color;
 use plotters::style::text_anchor::HPos;
@@ -35,19 +33,14 @@ impl Scatter {
     }
 
     pub fn draw(&self, whole: &Area) -> DrawResult {
-        let (groups, names) = (self.groups(), self.names());
-        let colours = colours(&groups);
-        let area = legend(whole, &names, &colours)?;
+        let area = legend(whole, &self.names(), &colours(&self.groups()))?;
         // Leave space on the right for a label, below for the arrows of bounds.
         let x_ends = padded(self.points.iter().map(|point| point.x), [0.1, 0.2]);
         let y_ends = padded(self.points.iter().map(|point| point.y), [0.15, 0.1]);
         let axes = log_log(&area, [&self.x_title, &self.y_title], [x_ends, y_ends])?;
-        let colours: BTreeMap<&str, Colour> = groups.iter().map(String::as_str).zip(colours).collect();
-        let dots = self.points.iter().map(|point| {
-            let Point { x, y, group, .. } = point;
-            Dot { point, place: axes.backend_coord(&(*x, *y)), colour: colours[&**group] }
-        });
-        let mut dots: Vec<Dot> = dots.collect();
+        let groups: Vec<String> = self.points.iter().map(|point| point.group.clone()).collect();
+        let dot = |(point, colour)| Dot { point, place: axes.backend_coord(&(point.x, point.y)), colour };
+        let mut dots: Vec<Dot> = self.points.iter().zip(colours(&groups)).map(dot).collect();
         dots.sort_by_key(|dot| !dot.point.is_front);
 
         let (x, y) = axes.plotting_area().get_pixel_range();
