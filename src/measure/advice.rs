@@ -112,12 +112,17 @@ pub fn of_samples(cases: &[&[f64]]) -> Vec<String> {
     [many, trend].into_iter().flatten().collect()
 }
 
+/// The logarithms of samples relative to their median.
+fn relative(samples: &[f64]) -> Vec<f64> {
+    let logs: Vec<f64> = samples.iter().map(|&ns| libm::log(ns)).collect();
+    let middle = median(&logs).unwrap_or(0.0);
+    logs.into_iter().map(|log| log - middle).collect()
+}
+
 /// Samples whose logarithm is farther from the median than [`OUTLIER`] modified standard deviations.
 fn outliers(samples: &[f64]) -> usize {
-    let logs: Vec<f64> = samples.iter().map(|&ns| libm::log(ns)).collect();
-    let Some(middle) = median(&logs) else { return 0 };
-    let distances: Vec<f64> = logs.iter().map(|log| libm::fabs(log - middle)).collect();
-    let spread = median(&distances).expect("as many as samples");
+    let distances: Vec<f64> = relative(samples).into_iter().map(libm::fabs).collect();
+    let Some(spread) = median(&distances) else { return 0 };
     // The factor turns the median distance of normal noise into its standard deviation. Clocks have steps: half a
     // percent is not a distance.
     distances.iter().filter(|&&d| 0.6745 * d > OUTLIER * spread.max(0.005)).count()
@@ -131,13 +136,7 @@ fn trend(cases: &[&[f64]]) -> Option<f64> {
     if rounds < 3 {
         return None;
     }
-    // The time of a round relative to the median round of each case.
-    let relative = |case: &&[f64]| {
-        let logs: Vec<f64> = case.iter().map(|&ns| libm::log(ns)).collect();
-        let middle = median(&logs).expect("there are rounds");
-        logs.into_iter().map(move |log| log - middle).collect()
-    };
-    let cases: Vec<Vec<f64>> = cases.iter().map(relative).collect();
+    let cases: Vec<Vec<f64>> = cases.iter().map(|case| relative(case)).collect();
     let of_round = |round: usize| mean(&cases.iter().map(|case| case[round]).collect::<Vec<_>>());
     let paces: Vec<f64> = (0..rounds).map(of_round).collect();
 
