@@ -60,9 +60,9 @@ impl Clock for SystemClock {
 /// thread it is the time that would elapse on an idle machine.
 #[derive(Clone, Copy)]
 pub enum CpuClock {
-    /// Of the calling thread, for passes.
+    /// The time of the calling thread, for passes.
     Thread,
-    /// Of the whole process, for builds: some builders start threads, whose work counts.
+    /// The time of the whole process, for builds: some builders start threads, whose work counts.
     Process,
 }
 
