@@ -96,7 +96,8 @@ pub fn draw(runs: &Runs, registry: &Registry, progress: &mut dyn FnMut(String)) 
         heat.extend(heat::block(&rays));
         errors.extend(errors::block(&rays));
     }
-    vec![scenes::section(pictures, &loaded, &lost), HEAT.introduced(heat), ERRORS.introduced(errors)]
+    let (blocks, command) = scenes::blocks(pictures, &loaded, &lost);
+    vec![Section { command, ..SCENES.section(blocks) }, HEAT.introduced(heat), ERRORS.introduced(errors)]
 }
 
 fn hex([r, g, b]: [u8; 3]) -> String {

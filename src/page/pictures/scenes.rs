@@ -2,9 +2,7 @@
 
 use image::{Rgb, RgbImage};
 
-use super::SCENES;
 use crate::escaped::quoted;
-use crate::page::document::Section;
 use crate::registry::Registry;
 use crate::render::{ViewKind, draw, png, size_of};
 use crate::report::number::count;
@@ -72,14 +70,14 @@ fn caption(loaded: &[LoadedScene]) -> String {
     )
 }
 
-/// `lost` are the scenes without a picture.
-pub fn section(pictures: Vec<Picture>, loaded: &[LoadedScene], lost: &[String]) -> Section {
-    let mut section = SCENES.section(vec![]);
+/// The figure of the pictures, with the command that draws one. `lost` are the scenes without a picture.
+pub fn blocks(pictures: Vec<Picture>, loaded: &[LoadedScene], lost: &[String]) -> (Vec<Block>, String) {
+    let (mut blocks, mut command) = (vec![], String::new());
     if !pictures.is_empty() {
         let name = |own: &LoadedScene| scene_name(&own.scene.name, own.request.stand_in);
         let rows = loaded.iter().map(|own| vec![name(own).into(), Cell::from(own.scene.mesh.len())]);
-        section.command = "sahara render SCENE -o SCENE.png".into();
-        section.blocks.push(Block::figure(Figure {
+        command = "sahara render SCENE -o SCENE.png".into();
+        blocks.push(Block::figure(Figure {
             id: "scenes".into(),
             caption: caption(loaded),
             alt: String::new(),
@@ -89,9 +87,9 @@ pub fn section(pictures: Vec<Picture>, loaded: &[LoadedScene], lost: &[String]) 
     }
     for name in lost {
         let what = format!("A picture of {name}: the scene is missing, or has changed since the measurement");
-        section.blocks.push(Block::missing(&what, "sahara render FILE -o F.png"));
+        blocks.push(Block::missing(&what, "sahara render FILE -o F.png"));
     }
-    section
+    (blocks, command)
 }
 
 #[cfg(test)]
