@@ -25,7 +25,7 @@ const LARGEST: usize = 3;
 struct Part {
     id: &'static str,
     title: &'static str,
-    /// What is missing without the pictures.
+    /// The name of the pictures, for a note that they are missing.
     pictures: &'static str,
     /// Stands before the pictures of structures.
     introduction: &'static str,

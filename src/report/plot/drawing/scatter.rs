@@ -1,4 +1,4 @@
-//! Draws points, and labels of which none covers another label or a point.
+//! Draws points and their labels: no label covers another label or a point.
 
 use plotters::element::{Circle, Polygon, Rectangle};
 use plotters::style::Color;
