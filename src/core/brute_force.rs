@@ -53,15 +53,9 @@ impl<T: TriangleTest> Accel for BruteForce<T> {
     }
 
     fn shape(&self) -> TreeShape {
-        TreeShape {
-            leaves: 1,
-            empty: usize::from(self.references == 0),
-            references: self.references,
-            largest_leaf: self.references,
-            // Every ray enters it, regardless of its box.
-            sah_cost: Some(TreeShape::leaf_cost(self.references)),
-            ..TreeShape::default()
-        }
+        // Every ray enters it, regardless of its box.
+        let sah_cost = Some(TreeShape::leaf_cost(self.references));
+        TreeShape { sah_cost, ..TreeShape::one_leaf(self.references) }
     }
 }
 

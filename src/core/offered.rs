@@ -77,7 +77,4 @@ mod parry {
 offered!(crate::external::tinybvh::TinyBvh);
 
 #[cfg(feature = "peer-embree")]
-offered!(
-    crate::external::embree::Embree<crate::external::embree::Fast>,
-    crate::external::embree::Embree<crate::external::embree::Robust>,
-);
+offered!(crate::external::embree::Embree<false>, crate::external::embree::Embree<true>);

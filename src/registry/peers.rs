@@ -36,9 +36,9 @@ impl Registry {
 
         #[cfg(feature = "peer-embree")]
         let this = {
-            use crate::external::embree::{Embree, EmbreeConfig, Fast, Robust};
-            this.offering::<Embree<Fast>>("embree", EmbreeConfig::default())
-                .offering::<Embree<Robust>>("embree-robust", EmbreeConfig::default())
+            use crate::external::embree::{Embree, EmbreeConfig};
+            this.offering::<Embree<false>>("embree", EmbreeConfig::default())
+                .offering::<Embree<true>>("embree-robust", EmbreeConfig::default())
         };
 
         this

@@ -10,7 +10,7 @@ use crate::brute_force::{BruteForce, BruteForceConfig};
 #[cfg(feature = "peer-bvh")]
 use crate::external::bvh::SvenstaroTest;
 #[cfg(feature = "peer-embree")]
-use crate::external::embree;
+use crate::external::embree::{Embree, alone};
 use crate::external::obvhs::RtTest;
 #[cfg(feature = "peer-parry")]
 use crate::external::parry::ParryTest;
@@ -81,9 +81,9 @@ impl Reference {
     pub fn of_test(test: &str, mesh: &Arc<Mesh>) -> Result<Self, BuildError> {
         match test {
             #[cfg(feature = "peer-embree")]
-            <embree::Fast as embree::Mode>::TEST => Self::in_disputes(embree::alone::<embree::Fast>, mesh),
+            <Embree<false> as crate::accel::Accel>::TRIANGLE_TEST => Self::in_disputes(alone::<false>, mesh),
             #[cfg(feature = "peer-embree")]
-            <embree::Robust as embree::Mode>::TEST => Self::in_disputes(embree::alone::<embree::Robust>, mesh),
+            <Embree<true> as crate::accel::Accel>::TRIANGLE_TEST => Self::in_disputes(alone::<true>, mesh),
             test => match REFERENCES.iter().find(|(name, _)| *name == test) {
                 Some((_, reference)) => reference(mesh),
                 None => Ok(Self { test: None, ..Self::brute_force::<Exact>(mesh)? }),

@@ -39,6 +39,12 @@ impl TreeShape {
         references as f64
     }
 
+    /// The shape of a structure without a known tree: one leaf, of unknown cost.
+    pub fn one_leaf(references: usize) -> Self {
+        let empty = usize::from(references == 0);
+        Self { leaves: 1, empty, references, largest_leaf: references, ..Self::default() }
+    }
+
     /// Counts the parts of the tree below `root`, if there is a root, in depth-first order. `open` returns the part at
     /// a node.
     pub fn of<N>(root: Option<(N, Aabb)>, mut open: impl FnMut(N, &Aabb) -> Part<N>) -> Self {

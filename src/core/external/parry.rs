@@ -134,18 +134,17 @@ impl<T: TriangleTest> Accel for ParryBvh<T> {
     /// Without SAH cost: only a traversal can see the nodes of the tree.
     fn shape(&self) -> TreeShape {
         let leaves = self.leaves.ids.len();
-        match leaves {
-            0 => TreeShape { leaves: 1, empty: 1, ..TreeShape::default() },
-            1 => TreeShape { leaves, references: 1, largest_leaf: 1, ..TreeShape::default() },
-            _ => TreeShape {
-                inner: leaves - 1,
-                leaves,
-                references: leaves,
-                // Counted in nodes.
-                depth: self.tree.subtree_depth(0) as usize - 1,
-                largest_leaf: 1,
-                ..TreeShape::default()
-            },
+        if leaves <= 1 {
+            return TreeShape::one_leaf(leaves);
+        }
+        TreeShape {
+            inner: leaves - 1,
+            leaves,
+            references: leaves,
+            // Counted in nodes.
+            depth: self.tree.subtree_depth(0) as usize - 1,
+            largest_leaf: 1,
+            ..TreeShape::default()
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The required functions of Embree 4, looked up in its shared library when the first structure is built.
 
 use std::env;
-use std::ffi::{CStr, OsString, c_char, c_int, c_uint, c_void};
+use std::ffi::{OsString, c_char, c_int, c_uint, c_void};
 use std::sync::OnceLock;
 
 use libloading::Library;
@@ -38,6 +38,9 @@ pub const VERTICES: c_int = 1;
 pub const UINT3: c_int = 0x5003;
 pub const FLOAT3: c_int = 0x9003;
 const VERSION: c_int = 0;
+
+/// A flag of scenes: Plücker instead of Möller-Trumbore, and widened boxes.
+pub const ROBUST: c_int = 4;
 
 macro_rules! api {
     ($($field:ident = $symbol:literal: fn($($argument:ty),*) $(-> $result:ty)?;)*) => {
@@ -150,16 +153,4 @@ unsafe fn version(library: &Library) -> Result<isize, libloading::Error> {
         release(device);
         Ok(version)
     }
-}
-
-/// The sentence that Embree passes to [`OnError`].
-///
-/// # Safety
-/// `text` must be null or a string of C.
-pub unsafe fn sentence(text: *const c_char) -> String {
-    if text.is_null() {
-        return "it gives no reason".into();
-    }
-    // SAFETY: by the contract of this function it is a string of C, because it is not null.
-    unsafe { CStr::from_ptr(text) }.to_string_lossy().into_owned()
 }

@@ -1,11 +1,11 @@
-use std::ffi::{CString, c_char, c_int, c_void};
+use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::ptr;
 use std::sync::atomic::{AtomicIsize, Ordering};
 use std::sync::{Arc, Mutex};
 
 use glam::Vec3;
 
-use super::api::{Api, FLOAT3, Handle, INDICES, TRIANGLES, UINT3, VERTICES, api, sentence};
+use super::api::{Api, FLOAT3, Handle, INDICES, TRIANGLES, UINT3, VERTICES, api};
 use crate::accel::BuildError;
 use crate::geometry::Mesh;
 
@@ -20,9 +20,10 @@ struct Monitor {
 
 /// A device of Embree and one finished scene on it.
 pub struct Scene {
-    api: &'static Api,
+    pub(super) api: &'static Api,
     device: Handle,
-    scene: Handle,
+    /// The scene, committed.
+    pub(super) handle: Handle,
     /// Embree stores a pointer to it. In an `Arc`, whose content stays in place and may be shared: a pointer into a
     /// `Box` is no longer valid once the box is moved.
     monitor: Arc<Monitor>,
@@ -37,10 +38,16 @@ unsafe impl Sync for Scene {}
 /// # Safety
 /// `monitor` is the pointer given with this function, and outlives the device; `text` is null or a string of C.
 unsafe extern "C" fn on_error(monitor: *mut c_void, _: c_int, text: *const c_char) {
-    // SAFETY: by the contract of this function the monitor lives, and `text` is null or a string of C.
-    let (monitor, text) = unsafe { (&*monitor.cast::<Monitor>(), sentence(text)) };
+    // SAFETY: by the contract of this function the monitor lives.
+    let monitor = unsafe { &*monitor.cast::<Monitor>() };
+    let sentence = if text.is_null() {
+        "it gives no reason".into()
+    } else {
+        // SAFETY: by the contract of this function it is a string of C, because it is not null.
+        unsafe { CStr::from_ptr(text) }.to_string_lossy().into_owned()
+    };
     if let Ok(mut error) = monitor.error.lock() {
-        error.get_or_insert(text);
+        error.get_or_insert(sentence);
     }
 }
 
@@ -70,14 +77,14 @@ impl Scene {
             (api.on_error)(device, on_error, listener);
             (api.on_memory)(device, on_memory, listener);
 
-            let scene = Self { api, device, scene: (api.new_scene)(device), monitor };
-            (api.set_scene_flags)(scene.scene, flags);
-            (api.set_scene_quality)(scene.scene, quality);
+            let scene = Self { api, device, handle: (api.new_scene)(device), monitor };
+            (api.set_scene_flags)(scene.handle, flags);
+            (api.set_scene_quality)(scene.handle, quality);
             if !ids.is_empty() {
                 scene.attach(mesh, ids, quality)?;
             }
-            (api.commit_scene)(scene.scene);
-            scene.checked()
+            (api.commit_scene)(scene.handle);
+            scene.refusal().map_or(Ok(scene), Err)
         }
     }
 
@@ -100,7 +107,7 @@ impl Scene {
             }
             (api.set_geometry_quality)(geometry, quality);
             (api.commit_geometry)(geometry);
-            (api.attach_geometry)(self.scene, geometry);
+            (api.attach_geometry)(self.handle, geometry);
             (api.release_geometry)(geometry);
         }
         Ok(())
@@ -109,18 +116,6 @@ impl Scene {
     fn refusal(&self) -> Option<BuildError> {
         let error = self.monitor.error.lock().ok()?.take()?;
         Some(BuildError::Mesh(format!("Embree reports an error: {error}")))
-    }
-
-    fn checked(self) -> Result<Self, BuildError> {
-        self.refusal().map_or(Ok(self), Err)
-    }
-
-    pub fn api(&self) -> &'static Api {
-        self.api
-    }
-
-    pub fn handle(&self) -> Handle {
-        self.scene
     }
 
     /// All memory of the device: nodes, triangles, buffers.
@@ -134,7 +129,7 @@ impl Drop for Scene {
         // SAFETY: `new` has made both, and only this function releases them; the monitor is dropped after this
         // function.
         unsafe {
-            (self.api.release_scene)(self.scene);
+            (self.api.release_scene)(self.handle);
             (self.api.release_device)(self.device);
         }
     }

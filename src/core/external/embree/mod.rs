@@ -17,62 +17,25 @@ mod device;
 mod rays;
 
 use std::borrow::Cow;
-use std::ffi::c_int;
-use std::marker::PhantomData;
 use std::sync::Arc;
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use crate::accel::{Accel, BuildError, Capabilities, Footprint, Loaded, Observed, Observer, TreeShape};
-use crate::external::prepared::{Prepare, PreparedBatch};
 use crate::geometry::{Hit, Mesh, Ray};
 use api::Arguments;
 use device::Scene;
-use rays::{Packet, Single};
+use rays::Packet;
 
-/// A scene of Embree.
-pub struct Embree<M: Mode> {
+/// A scene of Embree. Its triangle test is Möller-Trumbore, and it computes boxes by fused multiply-add; with `ROBUST`
+/// (`RTC_SCENE_FLAG_ROBUST`), the test is Plücker and the boxes are widened.
+pub struct Embree<const ROBUST: bool> {
     scene: Scene,
     /// The triangle of the mesh for each triangle of the scene.
     ids: Vec<u32>,
     packet: Lanes,
     arguments: Arguments,
-    mode: PhantomData<M>,
-}
-
-/// The effect of the flag ROBUST.
-pub trait Mode: Send + Sync + 'static {
-    /// Scene flags, as numbered in Embree's headers.
-    const FLAGS: c_int;
-    /// The name of its triangle test.
-    const TEST: &'static str;
-    /// Whether intervals include their start.
-    const CLOSED_START: bool;
-    /// Other deviations from the contract.
-    const CONVENTIONS: &'static [&'static str];
-}
-
-/// Without flags: Möller-Trumbore, boxes by fused multiply-add.
-#[derive(Clone, Copy, Debug)]
-pub struct Fast;
-
-/// `RTC_SCENE_FLAG_ROBUST`: Plücker, widened boxes.
-#[derive(Clone, Copy, Debug)]
-pub struct Robust;
-
-impl Mode for Fast {
-    const FLAGS: c_int = 0;
-    const TEST: &'static str = "embree-moller-trumbore";
-    const CLOSED_START: bool = false;
-    const CONVENTIONS: &'static [&'static str] = &[];
-}
-
-impl Mode for Robust {
-    const FLAGS: c_int = 4;
-    const TEST: &'static str = "embree-plucker";
-    const CLOSED_START: bool = true;
-    const CONVENTIONS: &'static [&'static str] = &["counts rays that pass an edge within rounding error as hits"];
 }
 
 /// The options of Embree.
@@ -89,15 +52,15 @@ pub struct EmbreeConfig {
     pub isa: Isa,
 }
 
-/// The build qualities of Embree for static scenes.
+/// The build qualities of Embree for static scenes, as numbered in its headers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Quality {
     /// Binned surface area heuristic.
-    Medium,
+    Medium = 1,
     /// With spatial splits.
     #[default]
-    High,
+    High = 2,
 }
 
 /// Rays per query.
@@ -106,22 +69,22 @@ pub enum Quality {
 pub enum Lanes {
     /// `rtcIntersect1`.
     #[default]
-    One,
+    One = 1,
     /// `rtcIntersect8`, for consecutive rays of a batch.
-    Eight,
+    Eight = 8,
     /// `rtcIntersect16`, for consecutive rays of a batch.
-    Sixteen,
+    Sixteen = 16,
 }
 
-/// The coherence of the rays of a packet.
+/// The coherence of the rays of a packet, as query flags.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Rays {
     /// No coherence.
     #[default]
-    Incoherent,
+    Incoherent = 0,
     /// Similar directions.
-    Coherent,
+    Coherent = 1 << 16,
 }
 
 /// The instructions that Embree may use.
@@ -139,168 +102,96 @@ impl TryFrom<u32> for Lanes {
     type Error = String;
 
     fn try_from(rays: u32) -> Result<Self, String> {
-        match rays {
-            1 => Ok(Self::One),
-            8 => Ok(Self::Eight),
-            16 => Ok(Self::Sixteen),
-            other => Err(format!("packet must be 1, 8 or 16, not {other}")),
-        }
+        let all = [Self::One, Self::Eight, Self::Sixteen];
+        let named = all.into_iter().find(|&lanes| lanes as u32 == rays);
+        named.ok_or_else(|| format!("packet must be 1, 8 or 16, not {rays}"))
     }
 }
 
 impl From<Lanes> for u32 {
     fn from(lanes: Lanes) -> Self {
-        match lanes {
-            Lanes::One => 1,
-            Lanes::Eight => 8,
-            Lanes::Sixteen => 16,
-        }
-    }
-}
-
-impl<M: Mode> Embree<M> {
-    #[inline(always)]
-    fn hit(&self, found: Option<(f32, u32)>) -> Option<Hit> {
-        found.map(|(t, primitive)| Hit::new(t, self.ids[primitive as usize]))
-    }
-
-    #[inline]
-    fn closest_of_packet<const LANES: usize>(&self, packet: &Packet<LANES>, hits: &mut [Option<Hit>]) {
-        let found = packet.closest(&self.scene, &self.arguments);
-        hits.iter_mut().zip(found).for_each(|(hit, found)| *hit = self.hit(found));
-    }
-
-    #[inline]
-    fn any_of_packet<const LANES: usize>(&self, packet: &Packet<LANES>, hits: &mut [bool]) {
-        let found = packet.any(&self.scene, &self.arguments);
-        hits.iter_mut().zip(found).for_each(|(hit, found)| *hit = found);
-    }
-
-    fn closest_in_packets<const LANES: usize>(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
-        let blocks = rays.chunks(LANES).zip(hits.chunks_mut(LANES));
-        blocks.for_each(|(rays, hits)| self.closest_of_packet(&Packet::<LANES>::new(rays), hits));
-    }
-
-    fn any_in_packets<const LANES: usize>(&self, rays: &[Ray], hits: &mut [bool]) {
-        let blocks = rays.chunks(LANES).zip(hits.chunks_mut(LANES));
-        blocks.for_each(|(rays, hits)| self.any_of_packet(&Packet::<LANES>::new(rays), hits));
-    }
-
-    fn packets<const LANES: usize>(&self, rays: &[Ray]) -> Box<dyn Loaded + '_> {
-        let packets = rays.chunks(LANES).map(Packet::<LANES>::new).collect();
-        Box::new(Packets { structure: self, packets, rays: rays.len() })
-    }
-}
-
-impl<M: Mode> Prepare for Embree<M> {
-    type Ready = Single;
-
-    #[inline(always)]
-    fn ready(&self, ray: &Ray) -> Option<Single> {
-        Single::new(ray)
-    }
-
-    #[inline(always)]
-    fn closest<O: Observer>(&self, ready: &Single, _: &mut O) -> Option<Hit> {
-        self.hit(ready.closest(&self.scene, &self.arguments))
-    }
-
-    #[inline(always)]
-    fn any<O: Observer>(&self, ready: &Single, _: &mut O) -> bool {
-        ready.any(&self.scene, &self.arguments)
+        lanes as Self
     }
 }
 
 /// A batch of rays in packets; the last one has the remaining rays.
-struct Packets<'a, const LANES: usize, M: Mode> {
-    structure: &'a Embree<M>,
+struct Packets<'a, const LANES: usize, const ROBUST: bool> {
+    structure: &'a Embree<ROBUST>,
     packets: Vec<Packet<LANES>>,
     rays: usize,
 }
 
-impl<const LANES: usize, M: Mode> Loaded for Packets<'_, LANES, M> {
+impl<'a, const LANES: usize, const ROBUST: bool> Packets<'a, LANES, ROBUST> {
+    fn boxed(structure: &'a Embree<ROBUST>, rays: &[Ray]) -> Box<dyn Loaded + 'a> {
+        let packets = rays.chunks(LANES).map(Packet::new).collect();
+        Box::new(Self { structure, packets, rays: rays.len() })
+    }
+}
+
+impl<const LANES: usize, const ROBUST: bool> Loaded for Packets<'_, LANES, ROBUST> {
     fn closest_hits(&self, hits: &mut [Option<Hit>]) {
         assert_eq!(self.rays, hits.len(), "one result per ray");
-        let blocks = self.packets.iter().zip(hits.chunks_mut(LANES));
-        blocks.for_each(|(packet, hits)| self.structure.closest_of_packet(packet, hits));
+        let Embree { scene, ids, arguments, .. } = self.structure;
+        for (packet, hits) in self.packets.iter().zip(hits.chunks_mut(LANES)) {
+            for (hit, found) in hits.iter_mut().zip(packet.closest(scene, arguments)) {
+                *hit = found.map(|(t, primitive)| Hit::new(t, ids[primitive as usize]));
+            }
+        }
     }
 
     fn any_hits(&self, hits: &mut [bool]) {
         assert_eq!(self.rays, hits.len(), "one result per ray");
-        let blocks = self.packets.iter().zip(hits.chunks_mut(LANES));
-        blocks.for_each(|(packet, hits)| self.structure.any_of_packet(packet, hits));
+        let Embree { scene, arguments, .. } = self.structure;
+        for (packet, hits) in self.packets.iter().zip(hits.chunks_mut(LANES)) {
+            hits.iter_mut().zip(packet.any(scene, arguments)).for_each(|(hit, found)| *hit = found);
+        }
     }
 }
 
-impl<M: Mode> Accel for Embree<M> {
+impl<const ROBUST: bool> Accel for Embree<ROBUST> {
     type Config = EmbreeConfig;
 
-    const TRIANGLE_TEST: &'static str = M::TEST;
+    const TRIANGLE_TEST: &'static str = if ROBUST { "embree-plucker" } else { "embree-moller-trumbore" };
     const OBSERVED: Observed = Observed::NONE;
-    const CAPABILITIES: Capabilities = Capabilities { closed_start: M::CLOSED_START, ..Capabilities::ALL };
-    const CONVENTIONS: &'static [&'static str] = M::CONVENTIONS;
+    const CAPABILITIES: Capabilities = Capabilities { closed_start: ROBUST, ..Capabilities::ALL };
+    const CONVENTIONS: &'static [&'static str] =
+        if ROBUST { &["counts rays that pass an edge within rounding error as hits"] } else { &[] };
 
     fn build(mesh: &Arc<Mesh>, config: &EmbreeConfig) -> Result<Self, BuildError> {
         let ids: Vec<u32> = mesh.solid().collect();
-        let quality = match config.quality {
-            Quality::Medium => 1,
-            Quality::High => 2,
-        };
-        let isa = match config.isa {
-            Isa::Native => "",
-            Isa::Avx2 => ",isa=avx2",
-        };
+        let isa = if config.isa == Isa::Avx2 { ",isa=avx2" } else { "" };
         let device = format!("threads={},set_affinity=0{isa}", rayon::current_num_threads());
-        let scene = Scene::new(mesh, &ids, M::FLAGS, quality, &device)?;
-        let flags = match config.rays {
-            Rays::Incoherent => 0,
-            Rays::Coherent => 1 << 16,
-        };
-        let arguments = Arguments { flags, features: u32::MAX, rest: [0; 5] };
-        Ok(Self { scene, ids, packet: config.packet, arguments, mode: PhantomData })
+        let flags = if ROBUST { api::ROBUST } else { 0 };
+        let scene = Scene::new(mesh, &ids, flags, config.quality as _, &device)?;
+        let arguments = Arguments { flags: config.rays as _, features: u32::MAX, rest: [0; 5] };
+        Ok(Self { scene, ids, packet: config.packet, arguments })
     }
 
-    #[inline]
-    fn closest_hit<O: Observer>(&self, ray: &Ray, _: &mut O) -> Option<Hit> {
+    fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
         let mut hit = [None];
-        self.closest_hits(&[*ray], &mut hit, &mut ());
+        self.closest_hits(&[*ray], &mut hit, observer);
         hit[0]
     }
 
-    #[inline]
-    fn any_hit<O: Observer>(&self, ray: &Ray, _: &mut O) -> bool {
+    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
         let mut hit = [false];
-        self.any_hits(&[*ray], &mut hit, &mut ());
+        self.any_hits(&[*ray], &mut hit, observer);
         hit[0]
     }
 
     fn closest_hits<O: Observer>(&self, rays: &[Ray], hits: &mut [Option<Hit>], _: &mut O) {
-        assert_eq!(rays.len(), hits.len(), "one result per ray");
-        match self.packet {
-            Lanes::One => {}
-            Lanes::Eight => return self.closest_in_packets::<8>(rays, hits),
-            Lanes::Sixteen => return self.closest_in_packets::<16>(rays, hits),
-        }
-        let answer = |ray| self.ready(ray).and_then(|ready| self.closest(&ready, &mut ()));
-        rays.iter().zip(hits).for_each(|(ray, hit)| *hit = answer(ray));
+        Accel::load(self, Cow::Borrowed(rays)).closest_hits(hits);
     }
 
     fn any_hits<O: Observer>(&self, rays: &[Ray], hits: &mut [bool], _: &mut O) {
-        assert_eq!(rays.len(), hits.len(), "one result per ray");
-        match self.packet {
-            Lanes::One => {}
-            Lanes::Eight => return self.any_in_packets::<8>(rays, hits),
-            Lanes::Sixteen => return self.any_in_packets::<16>(rays, hits),
-        }
-        let answer = |ray| self.ready(ray).is_some_and(|ready| self.any(&ready, &mut ()));
-        rays.iter().zip(hits).for_each(|(ray, hit)| *hit = answer(ray));
+        Accel::load(self, Cow::Borrowed(rays)).any_hits(hits);
     }
 
     fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
         match self.packet {
-            Lanes::One => Box::new(PreparedBatch::new(self, &rays)),
-            Lanes::Eight => self.packets::<8>(&rays),
-            Lanes::Sixteen => self.packets::<16>(&rays),
+            Lanes::One => Packets::<1, ROBUST>::boxed(self, &rays),
+            Lanes::Eight => Packets::<8, ROBUST>::boxed(self, &rays),
+            Lanes::Sixteen => Packets::<16, ROBUST>::boxed(self, &rays),
         }
     }
 
@@ -312,21 +203,15 @@ impl<M: Mode> Accel for Embree<M> {
     }
 
     fn shape(&self) -> TreeShape {
-        let references = self.ids.len();
-        TreeShape {
-            leaves: 1,
-            empty: usize::from(references == 0),
-            references,
-            largest_leaf: references,
-            ..TreeShape::default()
-        }
+        TreeShape::one_leaf(self.ids.len())
     }
 }
 
 /// The result of Embree's triangle test without a traversal: a scene of one triangle. Takes a fraction of a
 /// millisecond.
-pub fn alone<M: Mode>(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
+pub fn alone<const ROBUST: bool>(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
     let mesh = Arc::new(Mesh::new(corners.into(), vec![[0, 1, 2]]).ok()?);
-    let scene = Embree::<M>::build(&mesh, &EmbreeConfig { quality: Quality::Medium, ..Default::default() }).ok()?;
+    let config = EmbreeConfig { quality: Quality::Medium, ..Default::default() };
+    let scene = Embree::<ROBUST>::build(&mesh, &config).ok()?;
     scene.closest_hit(ray, &mut ()).map(|hit| hit.t)
 }

@@ -191,8 +191,7 @@ impl Accel for TinyBvh {
         }
         let ids: Vec<u32> = mesh.solid().collect();
         if ids.is_empty() {
-            let shape = TreeShape { leaves: 1, empty: 1, ..TreeShape::default() };
-            return Ok(Self { tree: None, ids, shape });
+            return Ok(Self { tree: None, ids, shape: TreeShape::one_leaf(0) });
         }
         let corners: Vec<[f32; 4]> =
             ids.iter().flat_map(|&id| mesh.corners(id)).map(|v| v.extend(0.0).to_array()).collect();
