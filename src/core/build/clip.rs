@@ -37,15 +37,6 @@ pub(crate) fn cut_bounds(corners: [Vec3; 3], bounds: &Aabb, axis: usize, plane: 
     (half(below, -1.0), half(above, 1.0))
 }
 
-/// The area of the triangle `corners` within the closed box `cell`. The error is below 1e-12 of the square of the
-/// triangle's largest coordinate.
-#[cfg(feature = "suite")]
-pub fn clipped_area(corners: [Vec3; 3], cell: &Aabb) -> f64 {
-    let mut polygon = Polygon { slack: DVec3::ZERO, ..Polygon::new(corners) };
-    polygon.cut_to(cell);
-    polygon.area()
-}
-
 /// Corners, and for each whether it was computed (and hence rounded) or given.
 struct Polygon {
     corners: [(DVec3, bool); CORNERS],
@@ -54,28 +45,20 @@ struct Polygon {
 }
 
 impl Polygon {
-    fn new(corners: [Vec3; 3]) -> Self {
+    /// The part of a triangle in `cell`.
+    fn clipped(corners: [Vec3; 3], cell: &Aabb) -> Self {
         let corners = corners.map(Vec3::as_dvec3);
         let largest = corners.iter().fold(DVec3::ZERO, |m, p| m.max(p.abs()));
         let mut slots = [(DVec3::ZERO, false); CORNERS];
         for (slot, corner) in slots.iter_mut().zip(corners) {
             slot.0 = corner;
         }
-        Self { corners: slots, len: 3, slack: largest * ERROR }
-    }
-
-    fn clipped(corners: [Vec3; 3], cell: &Aabb) -> Self {
-        let mut polygon = Self::new(corners);
-        polygon.cut_to(cell);
-        polygon
-    }
-
-    /// Cuts the polygon to its part in `cell`.
-    fn cut_to(&mut self, cell: &Aabb) {
+        let mut polygon = Self { corners: slots, len: 3, slack: largest * ERROR };
         for axis in 0..3 {
-            self.keep(axis, cell.min[axis].into(), 1.0);
-            self.keep(axis, cell.max[axis].into(), -1.0);
+            polygon.keep(axis, cell.min[axis].into(), 1.0);
+            polygon.keep(axis, cell.max[axis].into(), -1.0);
         }
+        polygon
     }
 
     fn corners(&self) -> impl Iterator<Item = (DVec3, bool)> + '_ {
@@ -91,13 +74,6 @@ impl Polygon {
         let mut corner_box = CornerBox::EMPTY;
         self.corners().for_each(|(p, computed)| corner_box.grow(p, self.slack_of(computed)));
         corner_box
-    }
-
-    #[cfg(feature = "suite")]
-    fn area(&self) -> f64 {
-        let [first, rest @ ..] = &self.corners[..self.len] else { return 0.0 };
-        let fan = rest.windows(2).map(|pair| (pair[0].0 - first.0).cross(pair[1].0 - first.0));
-        fan.sum::<DVec3>().length() * 0.5
     }
 
     /// Cuts away the part that certainly lies beyond the plane.

@@ -21,6 +21,4 @@ mod sample;
 pub(crate) mod sbvh;
 mod slices;
 
-#[cfg(feature = "suite")]
-pub use clip::clipped_area;
 pub use quality::Quality;
