@@ -22,28 +22,10 @@ impl Display for Ray {
     }
 }
 
-/// The reason why a text is not a ray.
+/// The reason why a text is not a ray, or not one that can hit something.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum RayTextError {
-    /// Not six numbers.
-    #[allow(missing_docs)]
-    #[error(
-        "the ray {text:?} has {count} numbers: write \"ox,oy,oz dx,dy,dz\", then \" [t_min,t_max]\" if it is bounded"
-    )]
-    Count { text: String, count: usize },
-    /// An interval that is not two numbers in brackets at the end.
-    #[allow(missing_docs)]
-    #[error("the interval of the ray {text:?} must be two numbers in brackets after the six numbers: [t_min,t_max]")]
-    Interval { text: String },
-    /// A part that is not a number.
-    #[allow(missing_docs)]
-    #[error("{number:?} in the ray {text:?} is not a number")]
-    Number { text: String, number: String },
-    /// A ray that can hit nothing in any mesh.
-    #[allow(missing_docs)]
-    #[error("the ray {text:?} cannot hit anything: {fault}")]
-    Invalid { text: String, fault: &'static str },
-}
+#[error("{0}")]
+pub struct RayTextError(String);
 
 /// Reads the format that [`Display`] writes. Blanks, commas or both separate the numbers. The interval ends with `]` or
 /// `)`; with both, `t_max` is excluded.
@@ -55,13 +37,18 @@ impl FromStr for Ray {
             Some((six, rest)) => (six.trim_end().trim_end_matches(','), Some(rest)),
             None => (text, None),
         };
-        let not_a_number = |number: &str| RayTextError::Number { text: short(text), number: short(number) };
-        let numbers = |part| numbers(part).map_err(not_a_number);
-        let no_interval = || RayTextError::Interval { text: short(text) };
+        let shown = short(text);
+        let not_a_number = |number: &str| format!("{:?} in the ray {shown:?} is not a number", short(number));
+        let numbers = |part| numbers(part).map_err(|number| RayTextError(not_a_number(number)));
+        let needs = "must be two numbers in brackets after the six numbers: [t_min,t_max]";
+        let no_interval = || RayTextError(format!("the interval of the ray {shown:?} {needs}"));
         let ray = match numbers(six)?[..] {
             [a, b, c, d, e, f] => Self::new(Vec3::new(a, b, c), Vec3::new(d, e, f)),
             [_, _, _, _, _, _, _, _] if interval.is_none() => return Err(no_interval()),
-            ref other => return Err(RayTextError::Count { text: short(text), count: other.len() }),
+            ref other => {
+                let format = "write \"ox,oy,oz dx,dy,dz\", then \" [t_min,t_max]\" if it is bounded";
+                return Err(RayTextError(format!("the ray {shown:?} has {} numbers: {format}", other.len())));
+            }
         };
         let Some(rest) = interval else { return Ok(ray) };
         let inner = rest.trim_end().strip_suffix([']', ')']).ok_or_else(no_interval)?;
@@ -90,7 +77,7 @@ impl Ray {
         } else {
             "its interval is empty: give a t_max above 0 and above t_min"
         };
-        Err(RayTextError::Invalid { text: short(text), fault })
+        Err(RayTextError(format!("the ray {:?} cannot hit anything: {fault}", short(text))))
     }
 }
 
