@@ -147,13 +147,19 @@ fn of_loaded(loaded: &dyn Loaded, rays: usize) -> Said {
 #[test]
 fn loaded_rays_are_answered_as_direct_ones_by_every_structure() {
     let registry = Registry::builtin();
-    let packets = ["sah-kd-tight:batch=packets", "embree:packet=16", "embree-robust:packet=16,rays=coherent"];
-    let packets = packets.iter().filter_map(|spec| registry.choose(spec).ok());
+    let others = [
+        "sah-kd-tight:batch=packets",
+        "obvhs-bvh2:rays=loaded",
+        "obvhs-cwbvh:rays=loaded",
+        "embree:packet=16",
+        "embree-robust:packet=16,rays=coherent",
+    ];
+    let others = others.iter().filter_map(|spec| registry.choose(spec).ok());
     let meshes =
         degenerate_meshes().into_iter().filter(|(name, _)| name == "box of a grid" || name == "only without area");
     let meshes: Vec<_> = meshes.collect();
     assert_eq!(meshes.len(), 2);
-    for choice in registry.all().into_iter().chain(packets).filter(|choice| choice.entry.absence().is_none()) {
+    for choice in registry.all().into_iter().chain(others).filter(|choice| choice.entry.absence().is_none()) {
         for (name, mesh) in &meshes {
             let accel = choice.build(mesh).unwrap();
             let rays: Vec<Ray> = Stratum::ALL.iter().flat_map(|stratum| stratum.rays(mesh, 37, 5)).collect();

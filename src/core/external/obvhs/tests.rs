@@ -1,5 +1,3 @@
-use std::borrow::Cow;
-
 use glam::Vec3;
 use rand_core::SeedableRng;
 use rand_pcg::Pcg32;
@@ -78,26 +76,6 @@ fn a_hit_that_is_rounded_to_the_end_is_found() {
         assert_eq!(found(third), (Some(Hit::new(third, 0)), true));
         assert_eq!(found(third.next_down()), (None, false));
     }
-}
-
-fn same_when_loaded<B: Tree>() {
-    let (mesh, rays) = (soup(1000), rays(2000));
-    let config = ObvhsConfig { rays: Rays::Loaded, ..Default::default() };
-    let built = Obvhs::<B, Native>::build(&mesh, &config).unwrap();
-    let (mut hits, mut loaded) = (vec![None; rays.len()], vec![None; rays.len()]);
-    Accel::closest_hits(&built, &rays, &mut hits, &mut ());
-    let batch = Accel::load(&built, Cow::Borrowed(&rays));
-    batch.closest_hits(&mut loaded);
-    assert_eq!(hits, loaded);
-    let mut any = vec![false; rays.len()];
-    batch.any_hits(&mut any);
-    assert!(hits.iter().map(Option::is_some).eq(any));
-}
-
-#[test]
-fn loaded_rays_are_answered_alike() {
-    same_when_loaded::<Bvh2>();
-    same_when_loaded::<CwBvh>();
 }
 
 #[test]
