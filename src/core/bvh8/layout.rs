@@ -11,7 +11,7 @@ use crate::traversal::pages;
 use crate::triangle::TriangleTest;
 
 /// One thread writes the subtree of a node with at most this many references.
-const PIECE: usize = 4096;
+pub(super) const PIECE: usize = 4096;
 
 /// The data of a traversal.
 pub(super) struct Layout<T: TriangleTest> {
@@ -21,16 +21,12 @@ pub(super) struct Layout<T: TriangleTest> {
 }
 
 impl<T: TriangleTest> Layout<T> {
-    /// The tree of `collapse`. It does not depend on the number of threads.
+    /// The tree of `collapse`, in pieces of at most `most` references. It depends neither on the pieces nor on the
+    /// number of threads.
     ///
     /// # Errors
     /// If it exceeds the limits.
-    pub fn new(mesh: &Mesh, collapse: &Collapse, limits: &Limits) -> Result<Self, BuildError> {
-        Self::in_pieces(mesh, collapse, limits, PIECE)
-    }
-
-    /// The same with pieces of at most `most` references.
-    fn in_pieces(mesh: &Mesh, collapse: &Collapse, limits: &Limits, most: usize) -> Result<Self, BuildError> {
+    pub fn new(mesh: &Mesh, collapse: &Collapse, limits: &Limits, most: usize) -> Result<Self, BuildError> {
         let Some(root) = collapse.root() else {
             return Ok(Self { root: Child::NOTHING, nodes: vec![], blocks: vec![] });
         };
@@ -154,7 +150,7 @@ impl<'a, T: TriangleTest> Piece<'a, T> {
 mod tests {
     use super::*;
     use crate::build::Quality;
-    use crate::build::check::{same_on_threads, soup};
+    use crate::build::check::soup;
     use crate::build::sah_cost::CostModel;
     use crate::build::sbvh::{SbvhConfig, Splits, build};
     use crate::triangle::MollerTrumbore;
@@ -182,7 +178,7 @@ mod tests {
             let tree = build(&mesh, &SbvhConfig::new(splits, Quality::Fast));
             let collapse = Collapse::new(&tree, &CostModel::new(1.0, 1.0, 0.0));
             let all = |most: usize| {
-                let tree = Tree::in_pieces(&mesh, &collapse, &Limits::OF_NODES, most).unwrap();
+                let tree = Tree::new(&mesh, &collapse, &Limits::OF_NODES, most).unwrap();
                 let mut into = vec![];
                 seen(&tree, tree.root, &mut into);
                 (into, tree.nodes.len(), tree.blocks.len())
@@ -193,17 +189,5 @@ mod tests {
                 assert!(all(most) == alone, "{splits:?}, pieces of {most}");
             }
         }
-    }
-
-    #[test]
-    fn the_layout_does_not_depend_on_the_number_of_threads() {
-        let mesh = soup(30_000, 42);
-        let tree = build(&mesh, &SbvhConfig::new(Splits::SpatialAndObject, Quality::Fast));
-        same_on_threads(|| {
-            let collapse = Collapse::new(&tree, &CostModel::new(1.0, 1.0, 0.0));
-            let Layout { root, nodes, blocks } = Tree::new(&mesh, &collapse, &Limits::OF_NODES).unwrap();
-            let ids: Vec<[u32; WIDTH]> = blocks.iter().map(|block| block.ids).collect();
-            (root, nodes, ids)
-        });
     }
 }

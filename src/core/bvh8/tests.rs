@@ -7,7 +7,7 @@ use super::node::Limits;
 use super::*;
 use crate::accel::{Accel, BuildError, Counts};
 use crate::build::Quality;
-use crate::build::check::{mesh, soup};
+use crate::build::check::{mesh, same_on_threads, soup};
 use crate::exact;
 use crate::geometry::{Hit, Mesh, PrimId, Ray};
 use crate::simd::{Level, dispatch};
@@ -17,29 +17,35 @@ type Tree = Bvh8<MollerTrumbore>;
 
 const ALL: [Partition; 4] = [Partition::Cells, Partition::Tight, Partition::Hybrid, Partition::Objects];
 
-#[test]
-fn lanes_left_over_are_not_counted_as_triangles() {
-    let ray = Ray::new(Vec3::ZERO, Vec3::ONE);
-    for n in [1, 8, 9] {
-        let mesh = Arc::new(mesh(n, |_| [Vec3::X, Vec3::Y, Vec3::Z]));
-        let mut counts = Counts::default();
-        Tree::build(&mesh, &Bvh8Config::default()).unwrap().closest_hit(&ray, &mut counts);
-        assert_eq!(counts.tests, n as u64);
-    }
-}
-
 /// Triangles at one place, which no partition can divide, and a few separate ones.
 #[test]
-fn rays_that_miss_the_whole_mesh_test_no_triangle() {
-    let coincident = [1, 8, 40].map(|count| mesh(count, |_| [Vec3::X, Vec3::Y, Vec3::Z]));
+fn rays_test_only_triangles_of_leaves_that_they_meet_and_no_lanes_left_over() {
+    let coincident = [1, 8, 9, 40].map(|count| mesh(count, |_| [Vec3::X, Vec3::Y, Vec3::Z]));
     for mesh in coincident.into_iter().chain([soup(12, 3)]).map(Arc::new) {
         for partition in ALL {
             let tree = Tree::build(&mesh, &Bvh8Config::new(partition)).unwrap();
             let bounds = mesh.bounds();
             let beside = Ray::new(bounds.max + bounds.max.abs(), Vec3::ONE);
-            let mut counts = Counts::default();
-            assert_eq!(tree.closest_hit(&beside, &mut counts), None);
-            assert_eq!(counts.tests, 0, "{partition:?}");
+            let (mut missing, mut meeting) = (Counts::default(), Counts::default());
+            assert_eq!(tree.closest_hit(&beside, &mut missing), None);
+            assert_eq!(missing.tests, 0, "{partition:?}");
+            if bounds.min == Vec3::ZERO {
+                tree.closest_hit(&Ray::new(Vec3::ZERO, Vec3::ONE), &mut meeting);
+                assert_eq!(meeting.tests, mesh.len() as u64, "{partition:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_tree_does_not_depend_on_the_number_of_threads() {
+    let mesh = Arc::new(soup(30_000, 5));
+    for partition in ALL {
+        for quality in [Quality::Fast, Quality::Balanced, Quality::High] {
+            same_on_threads(|| {
+                let tree = Tree::build(&mesh, &Bvh8Config { quality, ..Bvh8Config::new(partition) }).unwrap();
+                (tree.root, tree.nodes, tree.blocks.iter().map(|block| block.ids).collect::<Vec<_>>())
+            });
         }
     }
 }

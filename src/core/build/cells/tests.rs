@@ -26,14 +26,6 @@ fn cells_as_tight_boxes_partition_space_and_lose_nothing() {
 }
 
 #[test]
-fn cells_do_not_depend_on_the_number_of_threads() {
-    let mesh = check::soup(30_000, 15);
-    for config in cells() {
-        check::same_on_threads(|| build(&mesh, &config, 4.0));
-    }
-}
-
-#[test]
 fn cells_that_cannot_be_cut_are_dealt_out() {
     let coincident = check::mesh(1000, |_| [Vec3::X, Vec3::Y, Vec3::Z]);
     for config in cells() {

@@ -78,7 +78,7 @@ fn largest(links: &Links, count: usize) -> Vec<u32> {
 mod tests {
     use super::*;
     use crate::build::Quality;
-    use crate::build::check::{covers, disjoint, leaves, mesh, room, same_on_threads, soup};
+    use crate::build::check::{covers, disjoint, leaves, mesh, room, soup};
     use crate::build::extent::Extent;
     use crate::build::sbvh::{SbvhConfig, Splits, build};
     use glam::Vec3;
@@ -178,12 +178,6 @@ mod tests {
             let found = Search::best(&links, at, &mut vec![]).map_or(0.0, gain);
             assert!((most - found).abs() <= 1e-12 * before, "{at}: {found} instead of {most}");
         }
-    }
-
-    #[test]
-    fn moves_do_not_depend_on_the_number_of_threads() {
-        let tree = binary(&soup(20_000, 24), Splits::Object);
-        same_on_threads(|| reinsert(tree.clone(), 2));
     }
 
     #[test]

@@ -13,13 +13,6 @@ use crate::build::reference::{PARALLEL, Reference};
 use crate::geometry::Mesh;
 use crate::triangle::BLOCK;
 
-/// A growing tree, and the number of references that its nodes have processed, to which the build time is proportional.
-#[derive(Default)]
-pub(super) struct Growth {
-    pub tree: BinaryTree,
-    pub work: u64,
-}
-
 /// The position of a node in the tree.
 #[derive(Clone, Copy, Debug)]
 struct Place {
@@ -39,30 +32,25 @@ enum Split {
 /// Takes O(n log n) time and memory: paths have at most 16 + 2 log2 n levels of chosen splits and then halvings, and
 /// all leaves together have at most `config.duplication` times the triangles.
 pub(crate) fn build(mesh: &Mesh, config: &SbvhConfig) -> BinaryTree {
-    growth(mesh, config).tree
-}
-
-pub(super) fn growth(mesh: &Mesh, config: &SbvhConfig) -> Growth {
     let context = Context::new(mesh, config);
     let root = Part::whole(mesh);
-    let mut growth = Growth::default();
+    let mut tree = BinaryTree::default();
     if !root.references.is_empty() {
         let budget = f64::from(config.duplication) * root.references.len() as f64;
-        grow(&context, root, Place { depth: 0, budget }, &mut growth, &mut Slots::new());
+        grow(&context, root, Place { depth: 0, budget }, &mut tree, &mut Slots::new());
     }
-    growth
+    tree
 }
 
 /// Appends the tree over `part`, its root first; returns its cost.
-fn grow(context: &Context, part: Part, place: Place, growth: &mut Growth, slots: &mut Slots) -> f64 {
+fn grow(context: &Context, part: Part, place: Place, tree: &mut BinaryTree, slots: &mut Slots) -> f64 {
     let Part { references, extent } = part;
     let (area, count) = (extent.half_area(), references.len());
-    let (own, first) = (growth.tree.nodes.len(), growth.tree.references.len());
-    growth.work += count as u64;
+    let (own, first) = (tree.nodes.len(), tree.references.len());
     let Some((split, counts)) = choose(context, &references, extent, place, slots) else {
-        growth.tree.references.extend(references.iter().map(|r| r.id()));
+        tree.references.extend(references.iter().map(|r| r.id()));
         let content = Content::Leaf { first: first as u32, count: count as u32 };
-        growth.tree.nodes.push(BinaryNode { bounds: extent.into(), content });
+        tree.nodes.push(BinaryNode { bounds: extent.into(), content });
         return context.costs.box_leaf(area, count);
     };
     let [below, above] = match split {
@@ -75,24 +63,24 @@ fn grow(context: &Context, part: Part, place: Place, growth: &mut Growth, slots:
     let child = |part: &Part| Place { depth: place.depth + 1, budget: share * part.references.len() as f64 };
     let (below_place, above_place) = (child(&below), child(&above));
 
-    growth.tree.nodes.push(BinaryNode { bounds: extent.into(), content: Content::Inner([0; 2]) });
+    tree.nodes.push(BinaryNode { bounds: extent.into(), content: Content::Inner([0; 2]) });
     let (second, children) = if count < PARALLEL {
-        let left = grow(context, below, below_place, growth, slots);
-        let second = growth.tree.nodes.len();
-        (second, left + grow(context, above, above_place, growth, slots))
+        let left = grow(context, below, below_place, tree, slots);
+        let second = tree.nodes.len();
+        (second, left + grow(context, above, above_place, tree, slots))
     } else {
-        let mut other = Growth::default();
+        let mut other = BinaryTree::default();
         let (left, right) = rayon::join(
-            || grow(context, below, below_place, growth, slots),
+            || grow(context, below, below_place, tree, slots),
             || grow(context, above, above_place, &mut other, &mut Slots::new()),
         );
-        let second = growth.tree.nodes.len();
-        growth.append(other);
+        let second = tree.nodes.len();
+        tree.append(other);
         (second, left + right)
     };
-    growth.tree.nodes[own].content = Content::Inner([own as u32 + 1, second as u32]);
+    tree.nodes[own].content = Content::Inner([own as u32 + 1, second as u32]);
     let cost = context.costs.box_node(area, children);
-    merge(context, &mut growth.tree, own, first, area, cost).unwrap_or(cost)
+    merge(context, tree, own, first, area, cost).unwrap_or(cost)
 }
 
 /// The split and the references on both sides; an error returns the part if a leaf is better.
@@ -182,12 +170,4 @@ fn merge(context: &Context, tree: &mut BinaryTree, own: usize, first: usize, are
     tree.nodes.truncate(own + 1);
     tree.nodes[own].content = Content::Leaf { first: first as u32, count: ids.len() as u32 };
     Some(context.costs.box_leaf(area, ids.len()))
-}
-
-impl Growth {
-    /// Appends the nodes of `other`.
-    fn append(&mut self, other: Growth) {
-        self.tree.append(other.tree);
-        self.work += other.work;
-    }
 }
