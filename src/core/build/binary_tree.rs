@@ -13,7 +13,6 @@ pub(crate) struct BinaryTree {
     pub references: Vec<u32>,
 }
 
-/// An inner node or a leaf.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BinaryNode {
     /// The box of the node's triangles, clipped to its part of space if they were split; rounded outward, never empty.
@@ -21,7 +20,6 @@ pub(crate) struct BinaryNode {
     pub content: Content,
 }
 
-/// The content of a node.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Content {
     /// The numbers of the two children.
@@ -31,7 +29,6 @@ pub(crate) enum Content {
 }
 
 impl BinaryTree {
-    /// Appends the nodes of `other`.
     pub fn append(&mut self, other: Self) {
         let (nodes, references) = (self.nodes.len() as u32, self.references.len() as u32);
         self.nodes.extend(other.nodes.into_iter().map(|node| {

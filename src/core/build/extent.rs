@@ -34,14 +34,12 @@ impl Extent {
         Self { min: self.min.max(other.min), max: self.max.min(other.max) }
     }
 
-    /// The part of the box below a plane.
     #[inline(always)]
     pub fn up_to(mut self, axis: usize, plane: f32) -> Self {
         self.max[axis] = self.max[axis].min(plane);
         self
     }
 
-    /// The part of the box above a plane.
     #[inline(always)]
     pub fn down_to(mut self, axis: usize, plane: f32) -> Self {
         self.min[axis] = self.min[axis].max(plane);

@@ -9,7 +9,6 @@ use super::reference::{CHUNK, PARALLEL, Reference, bounds};
 use crate::geometry::Mesh;
 use crate::triangle::BLOCK;
 
-/// References and their box.
 pub(crate) struct Part {
     pub references: Vec<Reference>,
     pub extent: Extent,
@@ -90,7 +89,6 @@ pub(crate) fn halves(references: Vec<Reference>) -> [Part; 2] {
     by_group(references, group, counts)
 }
 
-/// Divides into two groups.
 pub(crate) fn by_group(references: Vec<Reference>, group: Group, counts: [usize; 2]) -> [Part; 2] {
     match group {
         Group::Bins { bins, last } => {

@@ -26,24 +26,20 @@ impl Reference {
         Self { low: min.extend(f32::from_bits(id)).to_array(), high: max.extend(0.0).to_array() }
     }
 
-    /// A whole triangle of the mesh.
     pub fn whole(mesh: &Mesh, id: u32) -> Self {
         Self::new(id, mesh.triangle_bounds(id))
     }
 
-    /// The number of the triangle.
     #[inline(always)]
     pub fn id(&self) -> u32 {
         self.low[3].to_bits()
     }
 
-    /// The lower end of the box on an axis.
     #[inline(always)]
     pub fn min(&self, axis: usize) -> f32 {
         self.low[axis & 3]
     }
 
-    /// The upper end of the box on an axis.
     #[inline(always)]
     pub fn max(&self, axis: usize) -> f32 {
         self.high[axis & 3]
@@ -60,7 +56,6 @@ impl Reference {
         Aabb { min: corner(self.low), max: corner(self.high) }
     }
 
-    /// The centre of the box on an axis.
     #[inline(always)]
     pub fn centre(&self, axis: usize) -> f32 {
         self.min(axis) * 0.5 + self.max(axis) * 0.5

@@ -8,7 +8,6 @@ pub(crate) struct Sample<'a> {
 }
 
 impl<'a> Sample<'a> {
-    /// At most `limit` references.
     pub fn new(references: &'a [Reference], limit: u32) -> Self {
         Self { references, stride: references.len().div_ceil(limit as usize).max(1) }
     }

@@ -20,7 +20,6 @@ pub(super) struct Collapse<'a> {
     best: Vec<Best>,
 }
 
-/// The choices for one node.
 #[derive(Clone, Copy)]
 struct Best {
     /// `cost[i]`: with at most `i + 1` parts.
@@ -49,7 +48,6 @@ pub(super) enum Part {
     Leaf(u32),
 }
 
-/// The children of a wide node.
 pub(super) struct Children {
     parts: [Part; WIDTH],
     len: usize,
@@ -64,7 +62,6 @@ impl Children {
     }
 }
 
-/// The inputs of every choice.
 struct Chooser<'a> {
     tree: &'a BinaryTree,
     costs: &'a CostModel,
@@ -170,7 +167,6 @@ impl<'a> Collapse<'a> {
         &self.tree.references[first as usize..end as usize]
     }
 
-    /// The children of the wide node `at`.
     pub fn children(&self, at: u32) -> Children {
         let (mut found, mut len) = ([Part::Leaf(0); WIDTH], 0);
         self.gather(at, WIDTH, &mut |part| {

@@ -74,7 +74,6 @@ impl Bvh8Config {
         Ok(())
     }
 
-    /// Partitions the triangles of `mesh`.
     pub(super) fn partition(&self, mesh: &Mesh) -> BinaryTree {
         // Trees without object splits have twice as many nodes and less to gain.
         let passes = match (self.quality, self.partition) {

@@ -13,7 +13,6 @@ use crate::triangle::TriangleTest;
 /// One thread writes the subtree of a node with at most this many references.
 pub(super) const PIECE: usize = 4096;
 
-/// The data of a traversal.
 pub(super) struct Layout<T: TriangleTest> {
     pub root: Child,
     pub nodes: Vec<Node>,
@@ -129,7 +128,6 @@ impl<'a, T: TriangleTest> Piece<'a, T> {
         }
     }
 
-    /// Whether another thread writes it.
     fn is_left(&self, part: Part) -> bool {
         matches!(part, Part::Node(_)) && self.collapse.references(part).len() <= self.cut
     }

@@ -3,7 +3,6 @@ use crate::simd::{EightLanes, each};
 use crate::traversal::leaf::{LeafBlock, NONE, Nearest};
 use crate::triangle::{Depth, EightHits, TriangleTest};
 
-/// Rays of a packet.
 pub(super) const RAYS: usize = 16;
 pub(super) const HALVES: usize = RAYS / WIDTH;
 

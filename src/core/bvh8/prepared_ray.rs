@@ -1,5 +1,3 @@
-//! A ray, prepared for the boxes of wide nodes.
-
 use glam::Vec3A;
 
 use super::node::{Node, WIDTH};
@@ -55,7 +53,6 @@ impl PreparedRay {
         Self::of(ray.origin.to_array(), inverses(ray, farthest), t_min, octant as usize)
     }
 
-    /// Prepares a ray that is given by its parts.
     #[inline(always)]
     pub fn of(origin: [f32; 3], inverse: [f32; 3], t_min: f32, octant: usize) -> Self {
         let (near, far) = rows(octant);

@@ -110,7 +110,6 @@ impl<L: EightLanes> RayPacket<L> {
         met as u16
     }
 
-    /// One of the rays.
     #[inline(always)]
     pub fn single(&self, i: usize) -> PreparedRay {
         let pick = |row: &[L; HALVES]| row[i / WIDTH].store()[i % WIDTH];
@@ -149,7 +148,6 @@ impl<L: EightLanes> RayPacket<L> {
         inputs
     }
 
-    /// Half of the rays.
     #[inline(always)]
     pub fn half(&self, half: usize) -> EightRays<L> {
         let row = |[x, y, z]: &[[L; HALVES]; 3]| LaneVec3::new(x[half], y[half], z[half]);

@@ -14,9 +14,9 @@ const _: () = assert!(1 + (DEPTH - 1) * (WIDTH - 1) + WIDTH <= SIZE);
 /// that would cost more than a short traversal.
 ///
 /// The address matters: eight entries are written at once, and a store across the border of two pages is slow. If the
-/// first few dozen entries, which most traversals use, cross a border, a traversal takes 1.25 to 1.4 times as long
-/// (Xeon). So the stack of a single ray lies in one page, see [`OnePage`]. Several simultaneous stacks should begin at
-/// different offsets in their pages, because the first-level cache has few ways for the same offset in many pages.
+/// first few dozen entries cross a border, a traversal takes 1.25 to 1.4 times as long (Xeon). So the stack of a single
+/// ray lies in one page, see [`OnePage`]. Several simultaneous stacks should begin at different offsets in their pages,
+/// because the first-level cache has few ways for the same offset in many pages.
 #[repr(C)]
 pub(super) struct Entries {
     children: [MaybeUninit<Child>; SIZE],
@@ -31,8 +31,7 @@ pub(super) struct Stack<'a, const ANY: bool> {
 }
 
 /// A value in one page of memory, a quarter of a page after its beginning: the compiler spills registers near the
-/// beginning, and a load waits for a store to the same offset of another page. The speed is 1.01 of the speed at the
-/// beginning of a page; half a page after it, 1.005 (Xeon).
+/// beginning, and a load waits for a store to the same offset of another page.
 #[repr(C, align(4096))]
 pub(super) struct OnePage<T>(pub [MaybeUninit<u8>; BEFORE], pub T);
 
@@ -70,8 +69,6 @@ impl Entries {
 }
 
 impl<'a, const ANY: bool> Stack<'a, ANY> {
-    /// The stack of the first `len` entries.
-    ///
     /// # Safety
     /// `len` is 0; or 1 after [`reset`](Entries::reset); or the length of an earlier stack of the same `ANY` over these
     /// entries, if nothing else has written to them since.

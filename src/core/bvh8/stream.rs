@@ -22,7 +22,6 @@ use crate::triangle::TriangleTest;
 /// Active rays: enough to hide the latency of memory, few enough for the first-level cache.
 const SLOTS: usize = 8;
 
-/// An active ray.
 struct StreamRay<'a, T: TriangleTest> {
     prepared_ray: PreparedRay,
     original: &'a Ray,
@@ -40,7 +39,6 @@ struct StreamRay<'a, T: TriangleTest> {
     left: usize,
 }
 
-/// Memory for the active rays.
 pub(super) struct Slots<'a, T: TriangleTest>([MaybeUninit<StreamRay<'a, T>>; SLOTS]);
 
 impl<T: TriangleTest> Slots<'_, T> {

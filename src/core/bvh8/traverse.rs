@@ -32,7 +32,6 @@ impl<T: TriangleTest> Walk for Bvh8<T> {
 }
 
 impl<T: TriangleTest> Bvh8<T> {
-    /// Searches the whole tree.
     #[inline(always)]
     pub(super) fn find<'a, const ANY: bool, L: EightLanes, O: Observer>(
         &'a self,

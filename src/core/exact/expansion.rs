@@ -19,7 +19,6 @@ use smallvec::SmallVec;
 pub(super) struct Expansion(SmallVec<[f64; 6]>);
 
 impl Expansion {
-    /// `a - b`.
     pub fn difference(a: f64, b: f64) -> Self {
         let mut difference = Self::from(a);
         difference.add(-b);

@@ -205,18 +205,13 @@ impl KdConfig {
         }
     }
 
-    pub(super) fn median(&self) -> MedianConfig {
-        let Self { plane, axis, median, equal, count, .. } = *self;
-        MedianConfig { plane, axis, median, equal, count, costs: self.costs() }
-    }
-
     /// The configuration of the search for the cheapest plane.
     pub(super) fn sah(&self) -> CellConfig {
         let exact = if self.plane == Plane::SahSweep { CellConfig::ALL_PLANES } else { self.exact };
         CellConfig { costs: self.costs(), exact, candidates: self.candidates, sample: self.sample }
     }
 
-    fn costs(&self) -> CostModel {
+    pub(super) fn costs(&self) -> CostModel {
         CostModel::new(self.traversal_cost, self.intersection_cost, self.empty_bonus)
     }
 
@@ -278,16 +273,4 @@ impl Default for KdConfig {
     fn default() -> Self {
         Self::SAH
     }
-}
-
-/// The keys of a [`KdConfig`] that select the plane of a median; [`KdConfig::rules`] decides when it is rejected.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct MedianConfig {
-    pub plane: Plane,
-    pub axis: AxisRule,
-    pub median: Median,
-    pub equal: Equal,
-    pub count: CountOf,
-    /// The cost model of a cut that must pay.
-    pub costs: CostModel,
 }

@@ -1,7 +1,7 @@
 //! Planes selected without a cost: the median of vertex coordinates, as in the report, the median of centroids, or the
 //! middle of the cell. Whole triangles decide the sides.
 
-use super::config::{AxisRule, CountOf, Equal, Median, MedianConfig, Plane};
+use super::config::{AxisRule, CountOf, Equal, KdConfig, Median, Plane};
 use crate::build::cells::{Content, Context, Place};
 use crate::build::cut::Cut;
 use crate::build::sah_cost::SideAreas;
@@ -13,11 +13,11 @@ pub(super) struct Triangles {
 }
 
 impl Triangles {
-    pub fn all(context: &Context<MedianConfig>) -> Self {
+    pub fn all(context: &Context<KdConfig>) -> Self {
         Self { ids: context.mesh.solid().collect(), matches: 0 }
     }
 
-    fn plane(&self, context: &Context<MedianConfig>, place: &Place, axis: usize) -> f32 {
+    fn plane(&self, context: &Context<KdConfig>, place: &Place, axis: usize) -> f32 {
         match context.config.plane {
             Plane::SpatialMedian => place.cell.min[axis] * 0.5 + place.cell.max[axis] * 0.5,
             Plane::CentroidMedian => middle(self.centroids(context, axis), context.config.median),
@@ -25,12 +25,12 @@ impl Triangles {
         }
     }
 
-    fn centroids(&self, context: &Context<MedianConfig>, axis: usize) -> Vec<f32> {
+    fn centroids(&self, context: &Context<KdConfig>, axis: usize) -> Vec<f32> {
         let centroid = |&id| context.mesh.corners(id).map(|p| f64::from(p[axis])).iter().sum::<f64>() / 3.0;
         self.ids.iter().map(|id| centroid(id) as f32).collect()
     }
 
-    fn coordinates(&self, context: &Context<MedianConfig>, axis: usize) -> Vec<f32> {
+    fn coordinates(&self, context: &Context<KdConfig>, axis: usize) -> Vec<f32> {
         let corners = self.ids.iter().flat_map(|&id| context.mesh.triangles()[id as usize]);
         let coordinate = |i: u32| context.mesh.positions()[i as usize][axis];
         if context.config.median == Median::Welded {
@@ -46,10 +46,10 @@ impl Triangles {
     }
 
     /// Whether a division of the cell into sides with these numbers of triangles is cheaper than testing all of them.
-    fn pays(&self, context: &Context<MedianConfig>, place: &Place, cut: Cut, below: usize, above: usize) -> bool {
+    fn pays(&self, context: &Context<KdConfig>, place: &Place, cut: Cut, below: usize, above: usize) -> bool {
         // Vertices may lie outside the cell, and so may their median.
         let inside = place.cell.min[cut.axis] < cut.plane && cut.plane < place.cell.max[cut.axis];
-        let (model, areas) = (&context.config.costs, SideAreas::new(&place.cell, cut.axis));
+        let (model, areas) = (context.config.costs(), SideAreas::new(&place.cell, cut.axis));
         let (below_area, above_area) = areas.at(cut.plane.into());
         let cost = model.cell_split(1.0 / areas.whole(), (below_area, below), (above_area, above));
         inside && cost < model.leaf(self.ids.len())
@@ -67,12 +67,12 @@ fn middle(mut values: Vec<f32>, rule: Median) -> f32 {
 }
 
 /// Whether too many of the triangles of a node are on both sides for a cut.
-fn is_too_many(context: &Context<MedianConfig>, matches: usize, count: usize) -> bool {
+fn is_too_many(context: &Context<KdConfig>, matches: usize, count: usize) -> bool {
     context.rules.threshold.is_some_and(|share| matches as f64 >= f64::from(share) * count as f64)
 }
 
 impl Content for Triangles {
-    type Config = MedianConfig;
+    type Config = KdConfig;
 
     fn len(&self) -> usize {
         self.ids.len()
@@ -82,7 +82,7 @@ impl Content for Triangles {
         self.ids.iter().copied()
     }
 
-    fn choose(&self, context: &Context<MedianConfig>, place: &Place) -> Option<Cut> {
+    fn choose(&self, context: &Context<KdConfig>, place: &Place) -> Option<Cut> {
         let axis = match context.config.axis {
             AxisRule::Cyclic => (place.depth % 3) as usize,
             AxisRule::Longest => place.cell.longest_axis(),
@@ -90,7 +90,7 @@ impl Content for Triangles {
         Some(Cut { axis, plane: self.plane(context, place, axis), flat_below: true })
     }
 
-    fn divide(self, context: &Context<MedianConfig>, place: &Place, cut: Cut) -> Result<(Self, Self), Self> {
+    fn divide(self, context: &Context<KdConfig>, place: &Place, cut: Cut) -> Result<(Self, Self), Self> {
         let (mut below, mut above, mut matches) = (vec![], vec![], 0);
         for &id in &self.ids {
             let corners = context.mesh.corners(id).map(|p| p[cut.axis]);
@@ -117,7 +117,7 @@ impl Content for Triangles {
         Ok((Self { ids: below, matches }, Self { ids: above, matches }))
     }
 
-    fn may_divide(&self, context: &Context<MedianConfig>) -> bool {
+    fn may_divide(&self, context: &Context<KdConfig>) -> bool {
         context.config.count == CountOf::Parent || !is_too_many(context, self.matches, self.ids.len())
     }
 }

@@ -14,7 +14,6 @@ pub(super) struct Node {
 
 const _: () = assert!(size_of::<Node>() == 8);
 
-/// The size limits of a tree.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
     pub nodes: usize,

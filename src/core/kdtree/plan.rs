@@ -22,8 +22,7 @@ pub(super) fn plan(mesh: &Mesh, config: &KdConfig, limits: &Limits) -> Result<Pl
     let rules = config.rules();
     let plan: Plan = match config.plane {
         Plane::VertexMedian | Plane::SpatialMedian | Plane::CentroidMedian => {
-            let median = config.median();
-            let context = Context::new(mesh, rules, &median);
+            let context = Context::new(mesh, rules, config);
             grow(&context, Triangles::all(&context))
         }
         Plane::SahBinned | Plane::SahSweep => {

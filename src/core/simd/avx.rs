@@ -36,25 +36,17 @@ macro_rules! instructions {
 impl<const MASKS: bool> Arithmetic<8> for Avx<MASKS> {
     type Scalar = f32;
 
-    #[inline(always)]
-    fn zero() -> Self {
-        Self::splat(0.0)
-    }
-
-    #[inline(always)]
-    fn store(self) -> [f32; 8] {
-        let mut values = [0.0; 8];
-        // SAFETY: the machine has the instruction, see `Avx`.
-        unsafe { _mm256_storeu_ps(values.as_mut_ptr(), self.0) };
-        values
-    }
-
     lanewise!(add: _mm256_add_ps, sub: _mm256_sub_ps, mul: _mm256_mul_ps, div: _mm256_div_ps);
     lanewise!(min: _mm256_min_ps, max: _mm256_max_ps);
 
     instructions! {
         fn splat(value: f32) -> Self {
             Self(_mm256_set1_ps(value))
+        }
+        fn store(self) -> [f32; 8] {
+            let mut values = [0.0; 8];
+            _mm256_storeu_ps(values.as_mut_ptr(), self.0);
+            values
         }
         fn flip_sign(self, other: Self) -> Self {
             Self(_mm256_xor_ps(self.0, _mm256_and_ps(other.0, _mm256_set1_ps(-0.0))))
@@ -84,12 +76,7 @@ impl<const MASKS: bool> Lanes<8> for Avx<MASKS> {
         fn narrow(F64x8([low, high]): F64x8) -> Self {
             Self(_mm256_set_m128(_mm256_cvtpd_ps(high), _mm256_cvtpd_ps(low)))
         }
-    }
-
-    #[inline(always)]
-    fn widen(self) -> F64x8 {
-        // SAFETY: the machine has the instruction, see `Avx`.
-        unsafe {
+        fn widen(self) -> F64x8 {
             let halves = [_mm256_castps256_ps128(self.0), _mm256_extractf128_ps::<1>(self.0)];
             F64x8([_mm256_cvtps_pd(halves[0]), _mm256_cvtps_pd(halves[1])])
         }
@@ -201,19 +188,11 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
         fn cmp_lt(self, other: Self) -> __m256 {
             _mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0)
         }
-    }
-
-    #[inline(always)]
-    fn mask(bits: u32) -> __m256 {
-        // SAFETY: the machine has the instruction, see `Avx`.
-        unsafe {
+        fn mask(bits: u32) -> __m256 {
             let own = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
             let set = _mm256_and_si256(_mm256_set1_epi32(bits as i32), own);
             _mm256_castsi256_ps(_mm256_cmpeq_epi32(set, own))
         }
-    }
-
-    instructions! {
         fn bits(mask: __m256) -> u32 {
             _mm256_movemask_ps(mask) as u32
         }
@@ -232,17 +211,11 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
         fn splat_number(number: u32) -> __m256i {
             _mm256_set1_epi32(number as i32)
         }
-    }
-
-    #[inline(always)]
-    fn store_numbers(numbers: __m256i) -> [u32; 8] {
-        let mut stored = [0; 8];
-        // SAFETY: the machine has the instruction, see `Avx`.
-        unsafe { _mm256_storeu_si256(stored.as_mut_ptr().cast(), numbers) };
-        stored
-    }
-
-    instructions! {
+        fn store_numbers(numbers: __m256i) -> [u32; 8] {
+            let mut stored = [0; 8];
+            _mm256_storeu_si256(stored.as_mut_ptr().cast(), numbers);
+            stored
+        }
         fn cmp_le_numbers(one: __m256i, other: __m256i) -> __m256 {
             _mm256_castsi256_ps(_mm256_cmpeq_epi32(_mm256_min_epu32(one, other), one))
         }

@@ -1,6 +1,7 @@
 //! SIMD lanes of `f32` and `f64`, written once against a small trait; results are bit-identical for every width.
 
 #[cfg(target_arch = "x86_64")]
+#[macro_use]
 mod avx;
 #[cfg(target_arch = "x86_64")]
 mod avx_double;
@@ -18,10 +19,13 @@ pub use vector::LaneVec3;
 /// `mul_add_loosely` and `mul_sub_loosely`.
 pub trait Arithmetic<const N: usize>: Copy {
     /// The type of one lane.
-    type Scalar: Copy;
+    type Scalar: Copy + Default;
 
     /// Zero in every lane.
-    fn zero() -> Self;
+    #[inline(always)]
+    fn zero() -> Self {
+        Self::splat(Self::Scalar::default())
+    }
     /// The same number in every lane.
     fn splat(value: Self::Scalar) -> Self;
     /// The lanes as an array.

@@ -32,11 +32,6 @@ macro_rules! arithmetic {
             type Scalar = $scalar;
 
             #[inline(always)]
-            fn zero() -> Self {
-                Self::splat(0.0)
-            }
-
-            #[inline(always)]
             fn splat(value: $scalar) -> Self {
                 Self([value; N])
             }

@@ -76,7 +76,6 @@ impl<T: TriangleTest> LeafBlock<T> {
         }));
     }
 
-    /// The number of triangles.
     #[inline(always)]
     pub fn len(&self) -> u32 {
         self.ids.iter().map(|&id| u32::from(id != NONE)).sum()

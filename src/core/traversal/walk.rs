@@ -4,7 +4,6 @@ use crate::accel::{Counts, Observer};
 use crate::geometry::{Hit, Ray};
 use crate::simd::{EightLanes, Kernel, Level, Portable, dispatch};
 
-/// A structure whose traversal is written over lanes.
 pub(crate) trait Walk {
     /// The nearest hit; with `ANY` any hit.
     fn walk<const ANY: bool, L: EightLanes, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit>;
@@ -24,7 +23,6 @@ impl<const ANY: bool, W: Walk> Kernel for Single<'_, ANY, W> {
     }
 }
 
-/// A traversal without an observer.
 #[inline(always)]
 pub(crate) fn silent<const ANY: bool, L: EightLanes, W: Walk>(structure: &W, ray: &Ray) -> Option<Hit> {
     if L::FAST {
@@ -42,7 +40,6 @@ fn watched<const ANY: bool, W: Walk, O: Observer>(structure: &W, ray: &Ray, obse
     structure.walk::<ANY, Portable<8>, O>(ray, observer)
 }
 
-/// Traces one ray on the current level.
 #[inline(always)]
 pub(crate) fn single<const ANY: bool, W: Walk, O: Observer>(structure: &W, ray: &Ray, observer: &mut O) -> Option<Hit> {
     if O::ACTIVE {

@@ -33,7 +33,6 @@ impl<const N: usize> Corners<N> {
         [LaneVec3::load(a), LaneVec3::load(b), LaneVec3::load(c)]
     }
 
-    /// The corners of one triangle in every lane.
     #[inline(always)]
     pub(super) fn splat<const M: usize, L: Lanes<M>>(&self, lane: usize) -> [LaneVec3<M, L>; 3] {
         let [a, b, c] = &self.0;
@@ -47,7 +46,6 @@ impl<const N: usize> Corners<N> {
         [L::load(&a[axis]), L::load(&b[axis]), L::load(&c[axis])]
     }
 
-    /// One triangle.
     #[inline(always)]
     pub(super) fn place(&self, lane: usize) -> Place<'_> {
         assert!(lane < N);

@@ -50,7 +50,6 @@ pub trait Depth: Copy {
     fn least(&self) -> f32;
 }
 
-/// [`Depth::ts`] on a level.
 #[inline(always)]
 pub(crate) fn last_bits<D: Depth>(level: Level, inputs: &[[f32; 8]; INPUTS], which: u32) -> [f32; 8] {
     dispatch(level, LastBits::<D> { inputs, which, depth: PhantomData })

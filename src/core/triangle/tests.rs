@@ -6,7 +6,6 @@ mod every;
 mod exact;
 mod f64_bounds;
 mod filter;
-mod intervals;
 
 use glam::Vec3;
 use rand_core::{RngCore, SeedableRng};

@@ -43,7 +43,7 @@ pub(crate) trait Content: Sized + Send {
 
     fn len(&self) -> usize;
 
-    /// The triangles, in ascending order.
+    /// In ascending order.
     fn ids(&self) -> impl Iterator<Item = u32>;
 
     /// The cut, or `None` if a leaf is better.
@@ -84,7 +84,6 @@ pub(crate) trait Tree<C>: Default + Send {
     /// Cuts the node `inner`. The subtree of the second child is the nodes from `second` to the end.
     fn close(&mut self, inner: usize, cut: Cut, second: usize);
 
-    /// Appends the nodes of `other`.
     fn append(&mut self, other: Self);
 }
 
@@ -182,7 +181,6 @@ fn try_divide<C: Content>(
 }
 
 impl Place {
-    /// The place of the root with `count` references.
     pub fn root<C>(context: &Context<C>, count: usize) -> Self {
         let budget = f64::from(context.rules.duplication) * count as f64;
         Self { cell: context.mesh.bounds(), depth: 0, stalled: 0, budget }

@@ -86,7 +86,7 @@ impl Events {
         Self { references, axes }
     }
 
-    /// The cheapest plane of one axis: its cost and the cut.
+    /// The cost and the cut of the cheapest plane of one axis.
     fn sweep(&self, model: &CostModel, cell: &Aabb, axis: usize) -> Option<(f64, Cut)> {
         let areas = SideAreas::new(cell, axis);
         let inverse = 1.0 / areas.whole();

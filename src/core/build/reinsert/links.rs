@@ -9,12 +9,15 @@ use crate::build::extent::Extent;
 
 pub(super) const NONE: u32 = u32::MAX;
 
+/// No move makes a path longer than this: nested boxes would be cheapest as a chain.
+pub(super) const DEEPEST: u32 = 80;
+
 /// A node with links in both directions: the data of a search, in one cache line.
 #[derive(Clone, Copy)]
 #[repr(align(64))]
 pub(super) struct Link {
     pub extent: Extent,
-    /// Half of the surface area of the box.
+    /// Half of the surface area.
     pub area: f64,
     /// `NONE` for a leaf.
     pub children: [u32; 2],
@@ -36,7 +39,6 @@ impl Link {
     }
 }
 
-/// The tree during the moves.
 #[derive(Clone)]
 pub(super) struct Links(pub Vec<Link>);
 
@@ -80,8 +82,7 @@ impl Links {
         if a == at { b } else { a }
     }
 
-    /// Makes `children` the children of `parent`.
-    pub fn join(&mut self, parent: u32, children: [u32; 2]) {
+    fn join(&mut self, parent: u32, children: [u32; 2]) {
         self[parent].children = children;
         children.iter().for_each(|&child| self[child].parent = parent);
         let extent = self.extent_over(parent);
@@ -99,7 +100,7 @@ impl Links {
         1 + a.max(b)
     }
 
-    pub fn replace(&mut self, parent: u32, old: u32, new: u32) {
+    fn replace(&mut self, parent: u32, old: u32, new: u32) {
         let slot = usize::from(self[parent].children[1] == old);
         self[parent].children[slot] = new;
         self[new].parent = parent;
@@ -107,7 +108,7 @@ impl Links {
 
     /// Recomputes boxes and heights from `at` upward until they no longer change; returns the total growth of their
     /// areas.
-    pub fn refit(&mut self, mut at: u32) -> f64 {
+    fn refit(&mut self, mut at: u32) -> f64 {
         let mut growth = 0.0;
         while at != NONE {
             let (new, height) = (self.extent_over(at), self.height_over(at));
@@ -122,6 +123,40 @@ impl Links {
             at = link.parent;
         }
         growth
+    }
+
+    /// Moves `at` beside `target`, if that is still possible and still saves area.
+    pub fn relocate(&mut self, at: u32, target: u32) {
+        let (parent, sibling) = (self[at].parent, self.sibling(at));
+        let grand = self[parent].parent;
+        let (mut depth, mut up, mut inside) = (0, target, false);
+        while up != NONE {
+            inside |= up == at;
+            (depth, up) = (depth + 1, self[up].parent);
+        }
+        let deepest = depth + self[at].height.max(self[target].height);
+        if grand == NONE || target == parent || target == sibling || inside || deepest > DEEPEST {
+            return;
+        }
+
+        // The parent moves with the node, to become the parent of the target.
+        let old_area = self[parent].area;
+        self.replace(grand, parent, sibling);
+        let mut growth = self.refit(grand);
+        let above = self[target].parent;
+        self.replace(above, target, parent);
+        self.join(parent, [target, at]);
+        growth += self[parent].area - old_area + self.refit(above);
+        if growth < 0.0 {
+            return;
+        }
+
+        // Earlier moves have made it useless: undo it.
+        self.replace(above, parent, target);
+        self.refit(above);
+        self.replace(grand, sibling, parent);
+        self.join(parent, [sibling, at]);
+        self.refit(grand);
     }
 
     /// The current nodes and references of `tree`, depth first.

@@ -8,7 +8,6 @@
 //! boxes before the first pass.
 
 mod links;
-mod relocate;
 mod search;
 
 use rayon::prelude::*;
@@ -17,14 +16,12 @@ use crate::build::binary_tree::BinaryTree;
 use links::Links;
 use search::Search;
 
-/// Nodes whose moves are sought at the same time, at first; then as many as have been processed. Near the root moves
-/// conflict: with 256, or in another order than by size, rays of indoor scenes took 0.9 to 1.2 times as many steps, for
-/// the same area. Further down, waiting threads cost more than the few moves that conflict.
+/// Nodes whose moves are sought at the same time, at first; then as many as have been processed: near the root moves
+/// conflict, further down waiting threads cost more than the few moves that conflict.
 const BATCH: usize = 64;
 
 /// The share of nodes that the first pass processes, those with the largest boxes; pass k processes the first 1/k of
-/// them. With 0.6 instead of 0.4, builds take 1.03 to 1.08 times as long, for 0.99 to 1.00 of the area and no faster
-/// rays.
+/// them.
 const SHARE: f64 = 0.4;
 
 /// Searches better places for the nodes with the largest boxes in `tree`, the largest first, in `passes` passes. Leaves
@@ -187,7 +184,7 @@ mod tests {
         assert!(reinsert(BinaryTree::default(), 4).nodes.is_empty());
         for mesh in [nested, coincident] {
             let tree = reinsert(binary(&mesh, Splits::Object), 4);
-            assert!(Links::new(&tree)[0].height <= relocate::DEEPEST);
+            assert!(Links::new(&tree)[0].height <= links::DEEPEST);
             covers(&tree, &mesh, 25);
         }
     }

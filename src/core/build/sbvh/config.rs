@@ -4,12 +4,11 @@ use crate::build::sah_cost::CostModel;
 /// The configuration of a binary tree of tight boxes. [`SbvhConfig::new`] has the tuned values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SbvhConfig {
-    /// The allowed splits.
     pub splits: Splits,
     /// Candidate planes and bins per axis, in 2..=62; more finds cheaper splits and takes longer.
     pub candidates: u32,
     /// Nodes with at most this many references try every object split; larger ones try `candidates`. The cheapest split
-    /// is not the best for the tree: 64 instead of 16 gives a final SAH cost 2 to 8 % higher.
+    /// is not the best for the tree: a larger number raises the final SAH cost.
     pub exact: u32,
     /// Nodes with at most this many references clip the triangle to every slab of a spatial split; larger ones cut its
     /// box by the slab.
@@ -20,8 +19,7 @@ pub(crate) struct SbvhConfig {
     pub sample: u32,
     /// In addition to object splits, spatial splits are tried if the children of the best object split overlap by more
     /// than this share of the root's area, in [0, 1]. Stich, Friedrich, Dietrich use 1e-5; a larger share gives fewer
-    /// references and takes less time: 1e-4 instead of the preset's 1e-3 builds 1.2 to 1.3 times as long, for the same
-    /// speed.
+    /// references and faster builds.
     pub alpha: f32,
     /// Cost of the overlap of an object split that competes with a spatial one, as a multiple of testing the triangles
     /// of the smaller side in the overlap. At least 0, as in the paper; trees between 2 and 10 are equally fast.
@@ -50,7 +48,6 @@ pub(crate) enum Splits {
 }
 
 impl SbvhConfig {
-    /// The tuned values for `quality`.
     pub const fn new(splits: Splits, quality: Quality) -> Self {
         let spatial = matches!(splits, Splits::Spatial);
         let (candidates, exact, sliced, refined, sample) = match quality {

@@ -13,7 +13,6 @@ use crate::build::reference::{PARALLEL, Reference};
 use crate::geometry::Mesh;
 use crate::triangle::BLOCK;
 
-/// The position of a node in the tree.
 #[derive(Clone, Copy, Debug)]
 struct Place {
     depth: u32,
@@ -110,7 +109,6 @@ fn choose(
     })
 }
 
-/// The cheapest of the allowed splits.
 fn cheapest(
     context: &Context,
     references: &[Reference],

@@ -41,7 +41,6 @@ impl<'a> Context<'a> {
     }
 }
 
-/// The cheapest split so far.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Offer<T> {
     pub cost: f64,

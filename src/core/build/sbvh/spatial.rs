@@ -123,7 +123,6 @@ pub(super) fn cheapest_cut(
     Some(offer)
 }
 
-/// The input of a search for a cut.
 struct Node<'a> {
     sample: Sample<'a>,
     area: f64,

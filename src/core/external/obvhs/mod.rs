@@ -20,7 +20,6 @@ mod config;
 mod cwbvh;
 mod leaf_test;
 mod leaves;
-mod rt_test;
 #[cfg(test)]
 mod tests;
 
@@ -33,8 +32,7 @@ use obvhs::ray::{Ray as PreparedRay, RayHit};
 use obvhs::triangle::Triangle;
 
 pub use config::{ObvhsConfig, Preset, Rays};
-pub use leaf_test::{LeafTest, Native, Over};
-pub use rt_test::RtTest;
+pub use leaf_test::{LeafTest, Native, Over, RtTest};
 
 use crate::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
 use crate::external::prepared::{Prepare, prepared_queries};

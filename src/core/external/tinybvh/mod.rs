@@ -124,24 +124,6 @@ impl Prepare for TinyBvh {
     }
 }
 
-/// Builds through the two layouts from which its own layout is converted.
-fn built(corners: Positions, quality: Quality) -> Result<(bvh8_cpu::BVH, TreeShape), BuildError> {
-    let refusal = |error: tinybvh_rs::Error| BuildError::Mesh(format!("tinybvh reports an error: {error}"));
-    let mut binary = match quality {
-        Quality::Medium => bvh::BVH::new(corners),
-        Quality::High => bvh::BVH::new_hq(corners),
-    }
-    .map_err(refusal)?;
-    binary.split_leaves(4);
-    let wide = mbvh::BVH::new(&binary);
-    let (shape, waiting) = shape(wide.nodes());
-    if waiting > STACK {
-        let sentence = format!("tinybvh has a stack of {STACK} nodes, but its tree over this mesh needs {waiting}");
-        return Err(BuildError::Mesh(sentence));
-    }
-    Ok((bvh8_cpu::BVH::new(&wide).map_err(refusal)?, shape))
-}
-
 /// The size of the stacks of its traversal and of the conversion to its fastest layout, which do not check for
 /// overflow.
 const STACK: usize = 256;
@@ -195,8 +177,23 @@ impl Accel for TinyBvh {
         }
         let corners: Vec<[f32; 4]> =
             ids.iter().flat_map(|&id| mesh.corners(id)).map(|v| v.extend(0.0).to_array()).collect();
-        let (tree, shape) = built(corners.as_slice().into(), config.quality)?;
-        Ok(Self { tree: Some(Tree::new(tree)), ids, shape })
+        // Its own layout is converted from two others.
+        let refusal = |error: tinybvh_rs::Error| BuildError::Mesh(format!("tinybvh reports an error: {error}"));
+        let corners: Positions = corners.as_slice().into();
+        let binary = match config.quality {
+            Quality::Medium => bvh::BVH::new(corners),
+            Quality::High => bvh::BVH::new_hq(corners),
+        };
+        let mut binary = binary.map_err(refusal)?;
+        binary.split_leaves(4);
+        let wide = mbvh::BVH::new(&binary);
+        let (shape, waiting) = shape(wide.nodes());
+        if waiting > STACK {
+            let sentence = format!("tinybvh has a stack of {STACK} nodes, but its tree over this mesh needs {waiting}");
+            return Err(BuildError::Mesh(sentence));
+        }
+        let tree = Tree::new(bvh8_cpu::BVH::new(&wide).map_err(refusal)?);
+        Ok(Self { tree: Some(tree), ids, shape })
     }
 
     prepared_queries!();

@@ -131,11 +131,7 @@ fn hold<T: TriangleTest>(bounds: fn(&Sizes, f64) -> Bounds) {
 }
 
 #[test]
-fn moller_trumbore_f64_keeps_its_bounds() {
+fn tests_in_f64_keep_their_bounds() {
     hold::<MollerTrumboreF64>(of_moller_trumbore);
-}
-
-#[test]
-fn edge_f64_keeps_its_bounds() {
     hold::<EdgeF64>(of_edges);
 }
