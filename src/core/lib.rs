@@ -1,5 +1,4 @@
-//! The trees of **sahara**, for renderers: meshes, triangle tests and acceleration structures, with five small
-//! dependencies.
+//! The trees of **sahara**, for renderers: meshes, triangle tests, acceleration structures; five small dependencies.
 //!
 //! A structure is built over a mesh and traces slices of rays:
 //!

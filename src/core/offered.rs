@@ -1,6 +1,5 @@
 //! The structures that the registry offers by name, each over each of its triangle tests. This crate compiles their
-//! builds and traversals once, with its own settings; otherwise every crate that uses a generic structure would compile
-//! it again.
+//! builds and traversals once, with its own settings; otherwise each user of a generic structure would again.
 //!
 //! To add a structure of this crate, add its type to `offered_over!`, or to `offered!` if it has one triangle test. In
 //! `src/registry/builtin.rs`, add a bound and a line `.offering` to `over`, or only the line to `builtin`. The tests

@@ -16,8 +16,7 @@ pub struct Capabilities {
     pub any_hit: bool,
     /// Whether it ignores hits before a `t_min` above 0.
     pub t_min: bool,
-    /// Whether its intervals include their start. If not, rays whose nearest hit lies exactly at `t_min` count as
-    /// declined.
+    /// Whether its intervals include their start. If not, rays whose nearest hit lies at `t_min` are declined.
     pub closed_start: bool,
     /// Whether it ignores hits at or beyond a finite `t_max`.
     pub t_max: bool,
@@ -27,8 +26,7 @@ impl Capabilities {
     /// All features of the contract of [`Accel`](super::Accel).
     pub const ALL: Self = Self { any_hit: true, t_min: true, closed_start: true, t_max: true };
 
-    /// Whether any result on `ray` is excused: the structure excludes the start of the interval, and `nearest`, the
-    /// nearest hit of the reference, lies exactly there.
+    /// Whether any result on `ray` is excused: the structure excludes `t_min`, where `nearest`, the true hit, lies.
     pub fn excuses(self, ray: &Ray, nearest: Option<Hit>) -> bool {
         !self.closed_start && nearest.is_some_and(|hit| hit.t == ray.interval().0)
     }

@@ -1,7 +1,6 @@
 use crate::geometry::Hit;
 
-/// A batch of rays that a structure has loaded ([`Accel::load`](super::Accel::load)). Its queries are timed and may be
-/// repeated.
+/// A batch of rays that a structure has loaded ([`Accel::load`](super::Accel::load)).
 ///
 /// The results always equal those from the structure's queries for the same rays, bit for bit.
 pub trait Loaded: Send + Sync {

@@ -7,8 +7,7 @@
     note = "pass `&mut ()` to watch nothing, or `&mut Counts::default()` to count steps and tests"
 )]
 pub trait Observer {
-    /// Whether the observer uses events. If so, a structure that cannot report events on its fast path takes another
-    /// path.
+    /// Whether the observer uses events. If so, a structure may need a slower path.
     const ACTIVE: bool = true;
 
     /// The traversal enters an inner node.

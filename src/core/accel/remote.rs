@@ -9,7 +9,6 @@ pub trait Remote {
     /// The reason why it failed, as a clause; `None` if it has not failed.
     fn failure(&self) -> Option<String>;
 
-    /// The median ratio of the elapsed time of its queries to the time that it reported. `None` if all times were too
-    /// short to compare.
+    /// The median ratio of elapsed to reported time of its queries. `None` if all were too short to compare.
     fn outside(&self) -> Option<f64>;
 }

@@ -45,8 +45,7 @@ impl TreeShape {
         Self { leaves: 1, empty, references, largest_leaf: references, ..Self::default() }
     }
 
-    /// Counts the parts of the tree below `root`, if there is a root, in depth-first order. `open` returns the part at
-    /// a node.
+    /// Counts the parts of the tree below `root`, if any, depth first. `open` returns the part at a node.
     pub fn of<N>(root: Option<(N, Aabb)>, mut open: impl FnMut(N, &Aabb) -> Part<N>) -> Self {
         let root_area = root.as_ref().map_or(0.0, |(_, bounds)| bounds.half_area());
         let mut shape = Self::default();

@@ -20,8 +20,7 @@ pub enum BuildError {
     /// The mesh exceeds a limit of the structure. The message states the reason.
     #[error("{0}")]
     Mesh(String),
-    /// The system lacks a requirement of the structure. The message states the requirement and how to install
-    /// it.
+    /// The system lacks a requirement of the structure. The message states how to install it.
     #[error("{0}")]
     Unavailable(String),
     /// The external program of the structure failed. The message is a clause that states how.
@@ -56,8 +55,7 @@ pub enum BuildError {
     note = "implement `Accel` for `{Self}`: the front page of sahara's documentation walks through an example"
 )]
 pub trait Accel: Sized + Send + Sync + 'static {
-    /// Build parameters. The names of their serialised fields are the keys of `key=value` on the command line and in
-    /// exports.
+    /// Build parameters. The names of their serialised fields are the keys on the command line and in exports.
     type Config: Clone + Debug + Default + Serialize + DeserializeOwned + Send + Sync + 'static;
 
     /// Name of the triangle test that determines the results. Structures with the same test must return the same bits
@@ -240,5 +238,45 @@ impl<A: DynAccel + ?Sized> Loaded for RayBatch<'_, A> {
 
     fn any_hits(&self, hits: &mut [bool]) {
         self.accel.any_hits(&self.rays, hits);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+
+    /// Has a hit at `t` = 1, by the exact `t` before every end; declines `t_max` if `ENDS` is false.
+    struct AtOne<const ENDS: bool>;
+
+    impl<const ENDS: bool> Accel for AtOne<ENDS> {
+        type Config = ();
+
+        const CAPABILITIES: Capabilities = Capabilities { t_max: ENDS, ..Capabilities::ALL };
+
+        fn build(_: &Arc<Mesh>, (): &()) -> Result<Self, BuildError> {
+            Ok(Self)
+        }
+
+        fn closest_hit<O: Observer>(&self, _: &Ray, _: &mut O) -> Option<Hit> {
+            Some(Hit::new(1.0, 0))
+        }
+
+        fn footprint(&self) -> Footprint {
+            Footprint::default()
+        }
+
+        fn shape(&self) -> TreeShape {
+            TreeShape::default()
+        }
+    }
+
+    #[test]
+    fn any_hit_is_by_default_whether_there_is_a_closest_hit() {
+        let until = |t_max| Ray::new(Vec3::ZERO, Vec3::X).until(t_max);
+        // A hit just before the end may round to it.
+        assert!(AtOne::<true>.any_hit(&until(1.0), &mut ()));
+        assert!(!AtOne::<false>.any_hit(&until(1.0), &mut ()) && AtOne::<false>.any_hit(&until(1.5), &mut ()));
     }
 }

@@ -91,8 +91,7 @@ impl Polygon {
         (self.corners, self.len) = (after, len);
     }
 
-    /// Visits the corners of the part that may lie on this side of the plane: keeps points with `side * (p[axis] -
-    /// plane) >= 0` and some slack.
+    /// Visits the corners of the part with `side * (p[axis] - plane) >= 0`, with some slack.
     #[inline(always)]
     fn kept(&self, axis: usize, plane: f64, side: f64, mut visit: impl FnMut(DVec3, bool)) {
         let plane = plane - side * self.slack[axis];
@@ -220,8 +219,7 @@ mod tests {
         assert!(clipped.contains(&Aabb::of_points([Vec3::ZERO])), "{clipped:?}");
     }
 
-    /// Planes close to 0 cut triangles with large coordinates: the error of corners is larger than the distance between
-    /// the planes.
+    /// Planes close to 0 cut triangles with large coordinates: the error of corners is larger than their distance.
     #[test]
     fn nothing_is_lost_where_edges_almost_lie_in_planes() {
         use std::cmp::Ordering::{Equal, Greater, Less};

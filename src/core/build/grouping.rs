@@ -63,8 +63,7 @@ pub(crate) fn order(references: &[Reference], axis: usize) -> Vec<u32> {
 /// Bits in the order of the floats, the same for both zeros.
 #[inline(always)]
 pub(crate) fn ordered_bits(x: f32) -> u32 {
-    // Negative floats are ordered backwards: flip all their bits, and only the sign bit of other floats. -0.0 becomes
-    // 0.0.
+    // Negative floats are ordered backwards: flip all their bits, of others only the sign. -0.0 becomes 0.0.
     let bits = (x + 0.0).to_bits();
     if bits >> 31 == 1 { !bits } else { bits | 1 << 31 }
 }

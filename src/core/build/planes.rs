@@ -5,8 +5,7 @@ use super::sample::Sample;
 /// Maximum number of planes, including both ends of the range; a power of two, so a mask bounds an index.
 pub(crate) const PLANES: usize = 64;
 
-/// Ascending planes: both ends of a range and, in every cell of an even grid between them, the highest edge of a
-/// reference, or the middle of the cell if it has no edge.
+/// Ascending planes: both ends of a range and, in every cell of an even grid, its highest edge or middle.
 ///
 /// Planes at edges keep walls whole: a plane beside a wall would cut all triangles that end at it.
 #[derive(Clone, Copy, Debug)]
@@ -39,8 +38,7 @@ impl Planes {
         (planes.values[0], planes.values[last]) = (min, max);
         for cell in 1..last {
             if planes.values[cell] == f32::NEG_INFINITY {
-                // If rounding moves the middle to another cell, repeat the last plane: everything in the cell lies
-                // above it.
+                // If rounding moves the middle to another cell, repeat the last plane: all of the cell lies above it.
                 let middle = min + cell as f32 / planes.scale;
                 planes.values[cell] = if planes.cell(middle) == cell { middle } else { planes.values[cell - 1] };
             }

@@ -12,8 +12,7 @@ pub enum Quality {
     /// references and larger leaves. A build takes 0.4 (`Cells`, `Tight`), 0.6 (`Hybrid`) or 0.8 x (`Objects`) as long
     /// as with `Balanced`, and 1.0 to 2.4 x as long as obvhs `medium`. Rays have 0.79 to 1.05 of the speed.
     Fast,
-    /// A finer search around the best plane; then subtrees are reinserted where they reduce the SAH cost. A build takes
-    /// 0.15 to 0.92 x as long as obvhs `very-slow`.
+    /// A finer search for planes, and reinsertion. A build takes 0.15 to 0.92 x as long as obvhs `very-slow`.
     #[default]
     Balanced,
     /// Spatial splits of smaller nodes clip triangles to slabs instead of cutting their boxes (`Cells`: more candidate

@@ -4,8 +4,7 @@ use crate::geometry::Aabb;
 use crate::triangle::BLOCK;
 
 /// Expected cost of a tree for a random line that meets its box (Goldsmith, Salmon 1987; MacDonald, Booth 1990), with
-/// the empty-space bonus of Wald and Havran (2006). Leaves test a block of triangles at once, so the cost of a leaf is
-/// per block.
+/// the empty-space bonus of Wald and Havran (2006). Leaves test a block of triangles at once.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CostModel {
     /// Cost of a step from a node to its children.

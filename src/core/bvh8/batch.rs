@@ -172,8 +172,7 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
     }
 }
 
-/// The closest hits of some groups of a window, with several rays at once: a separate kernel, because it is a third
-/// slower beside another traversal in the same function.
+/// The closest hits of some groups of a window, as a kernel of its own, which is faster.
 pub(super) struct Interleaved<'a, T: TriangleTest, A, F> {
     pub tree: &'a Bvh8<T>,
     pub rays: &'a [Ray],

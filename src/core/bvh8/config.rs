@@ -9,8 +9,7 @@ use crate::build::sbvh::{self, SbvhConfig, Splits};
 use crate::geometry::Mesh;
 use crate::triangle::TriangleTest;
 
-/// The build options of a [`Bvh8`](super::Bvh8). `sah-kd-wide`, `sah-kd-tight`, `sah-hybrid` and `sah-bvh` differ only
-/// in the partition.
+/// The build options of a [`Bvh8`](super::Bvh8). Structures of the command differ only in the partition.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bvh8Config {
@@ -18,8 +17,7 @@ pub struct Bvh8Config {
     pub partition: Partition,
     /// Build quality: slower builds give better trees.
     pub quality: Quality,
-    /// SAH cost of a block of eight triangles, relative to the cost of a node. Positive; a higher cost gives smaller
-    /// leaves.
+    /// SAH cost of a block of eight triangles, relative to a node. Positive; a higher cost gives smaller leaves.
     pub block_cost: f32,
     /// Maximum number of references, as a multiple of the triangles: a limit for meshes in which splits would multiply
     /// the references. At least 1; [`Quality::Fast`] uses at most 1.75.

@@ -20,8 +20,7 @@ pub(super) struct Layout<T: TriangleTest> {
 }
 
 impl<T: TriangleTest> Layout<T> {
-    /// The tree of `collapse`, in pieces of at most `most` references. It depends neither on the pieces nor on the
-    /// number of threads.
+    /// The tree of `collapse`, in pieces of at most `most` references; the same for any pieces and threads.
     ///
     /// # Errors
     /// If it exceeds the limits.

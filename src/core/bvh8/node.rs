@@ -140,8 +140,7 @@ impl Child {
 }
 
 impl Node {
-    /// A node without children. No line meets its boxes; a ray without usable inverses visits them nevertheless, and
-    /// finds empty leaves.
+    /// A node without children. No line meets its boxes; a ray without usable inverses finds empty leaves.
     pub const EMPTY: Self = Self {
         planes: [[[f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]]; 3],
         children: [Child::NOTHING; WIDTH],

@@ -88,8 +88,7 @@ impl<T: TriangleTest> Bvh8<T> {
                     return true;
                 }
                 len -= 1;
-                // SAFETY: entries are written before `len` counts them; their parent is the node from which they were
-                // read.
+                // SAFETY: entries are written before `len` counts them; their parent is a node.
                 let (entry, node) = unsafe {
                     let entry = stack.get_unchecked(len).assume_init();
                     (entry, self.nodes.get_unchecked(entry.parent as usize))

@@ -6,8 +6,7 @@ use crate::triangle::{Depth, EightHits, TriangleTest};
 pub(super) const RAYS: usize = 16;
 pub(super) const HALVES: usize = RAYS / WIDTH;
 
-/// The nearest hits of sixteen rays so far, or the ends of their intervals, side by side: the data of a [`Nearest`]
-/// each.
+/// The nearest hits of sixteen rays so far, or the ends of their intervals: the data of a [`Nearest`] each.
 pub(super) struct PacketHits<'a, T: TriangleTest> {
     /// The blocks of the tree.
     blocks: &'a [LeafBlock<T>],
@@ -16,8 +15,7 @@ pub(super) struct PacketHits<'a, T: TriangleTest> {
     least: [[f32; WIDTH]; HALVES],
     /// [`NONE`] without a hit.
     ids: [[u32; WIDTH]; HALVES],
-    /// The places of the hit triangles, unless single rays found them: eight times the number of the block, plus the
-    /// lane.
+    /// The places of the hit triangles, unless single rays found them: 8 x block + lane.
     places: [[u32; WIDTH]; HALVES],
     /// The hits of the rays in `alone`.
     depths: [Option<T::Depth<'a>>; RAYS],
@@ -130,8 +128,7 @@ impl<'a, T: TriangleTest> PacketHits<'a, T> {
         }
     }
 
-    /// The same for a test whose depth is more than a float, and a triangle stored at `place`; false if the order of
-    /// the two hits is undecided.
+    /// The same for a depth that is more than a float, and a triangle at `place`; false if the order is undecided.
     #[inline(always)]
     pub fn offer_between(&mut self, i: usize, depth: &T::Depth<'_>, id: u32, place: u32) -> bool {
         let (half, lane) = (i / WIDTH, i % WIDTH);

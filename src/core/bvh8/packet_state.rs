@@ -116,8 +116,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         active: u16,
         packet: &mut RayPacket<L>,
     ) {
-        // Ray by ray takes a step for each ray and block; triangle by triangle takes one for each triangle and half of
-        // the rays.
+        // Ray by ray takes a step per ray and block; triangle by triangle takes one per triangle and half of the rays.
         let rays = active.count_ones();
         let triangles = || blocks.iter().map(LeafBlock::len).sum::<u32>();
         let pays = T::EIGHT && rays >= MANY && triangles() * HALVES as u32 <= rays * blocks.len() as u32;
@@ -168,8 +167,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     }
 
     /// Ray by ray, the triangles of a block at once. The first stage runs for all rays before the second stage decides
-    /// the candidates: whether a ray has any cannot be predicted, and a mispredicted branch costs as much as the tests
-    /// of two rays. With `ANY`, rays with a hit stop.
+    /// the candidates, because it cannot be predicted whether a ray has any. With `ANY`, rays with a hit stop.
     #[inline(always)]
     fn ray_by_ray<const ANY: bool, L: EightLanes>(
         &mut self,

@@ -37,8 +37,7 @@ pub(super) struct PreparedRay {
 /// The factor that enlarges the crossings of far planes.
 pub(super) const ENLARGED: f32 = 1.0 + 8.0 * f32::EPSILON;
 
-/// The rows of the near planes and the rows of the far planes for rays of an octant, by axis. A node has six rows of
-/// planes.
+/// The rows of the near and of the far planes for rays of an octant, by axis. A node has six rows of planes.
 #[inline(always)]
 pub(super) fn rows(octant: usize) -> ([usize; 3], [usize; 3]) {
     let [x, y, z] = indexed(|axis| octant >> axis & 1);

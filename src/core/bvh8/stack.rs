@@ -23,8 +23,7 @@ pub(super) struct Entries {
     enters: [MaybeUninit<f32>; SIZE],
 }
 
-/// The first `len` of some entries, for a closest-hit or any-hit query. The length is separate, which keeps it in a
-/// register.
+/// The first `len` of some entries, for one of the queries. A separate length stays in a register.
 pub(super) struct Stack<'a, const ANY: bool> {
     entries: &'a mut Entries,
     len: usize,
@@ -59,8 +58,7 @@ impl Entries {
     /// `entries` is valid for writes.
     #[inline(always)]
     pub unsafe fn reset(entries: *mut Self) {
-        // SAFETY: by the contract of this function the entries may be written; the code uses raw pointers, because a
-        // reference to uninitialised memory would be unsound.
+        // SAFETY: by the contract of this function the entries may be written, through raw pointers.
         unsafe {
             (&raw mut (*entries).children[0]).write(MaybeUninit::new(Child::BOTTOM));
             (&raw mut (*entries).enters[0]).write(MaybeUninit::new(f32::NEG_INFINITY));
@@ -86,8 +84,7 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
     /// order is the order of the lanes, the highest first, otherwise the order of the octant.
     ///
     /// The first child is found by a branch for each place, not by a table look-up: a branch is predicted, and the
-    /// processor continues in the next node while the boxes of this one are still being tested. A look-up waits for
-    /// them.
+    /// processor continues in the next node while the boxes of this one are still being tested.
     ///
     /// # Safety
     /// Every node on the path has been pushed once, and there are at most [`DEPTH`].

@@ -2,8 +2,7 @@
 //!
 //! **The same hits as one ray after the other.** Each ray has its own stack and takes the same steps in the same order
 //! as on its own. After a step of one ray the memory for its next step is prefetched, and meanwhile the other rays take
-//! their steps. Rays at nodes and rays at leaves are in separate lists, so no branch depends on which of the two comes
-//! next.
+//! their steps. Rays at nodes and at leaves are in separate lists, so no branch depends on which comes next.
 
 use std::marker::PhantomData;
 use std::mem::MaybeUninit;
@@ -159,8 +158,7 @@ impl<'a, T: TriangleTest> Stream<'a, T> {
     #[inline(always)]
     fn round<L: EightLanes>(&mut self, done: &mut impl FnMut(usize, Option<Hit>)) {
         let tree = self.tree;
-        // Each list is rewritten in place while it is read. A slot is written to both lists, and counted in one of
-        // them.
+        // Each list is rewritten in place while it is read. A slot is written to both lists, and counted in one.
         let (mut nodes, rays) = (0, self.at_nodes);
         for k in 0..rays {
             // SAFETY: `push` has filled the first `at_nodes` slots of `nodes`, and each is in one list, so this is the

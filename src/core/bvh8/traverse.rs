@@ -57,8 +57,7 @@ impl<T: TriangleTest> Bvh8<T> {
         self.descend::<ANY, L, O>(first, &mut stack, &prepared_ray, &T::prepare(ray), nearest, observer);
     }
 
-    /// Pushes the children whose boxes the ray enters at or before `end`, except the first child to visit, which it
-    /// returns.
+    /// Pushes the children whose boxes the ray enters at or before `end`, except the first, which it returns.
     ///
     /// # Safety
     /// `node` is a node of the tree, and no node of the path was entered twice since the stack was empty.

@@ -20,8 +20,7 @@ use crate::triangle::TriangleTest;
 /// The configuration selects the partition: by spatial splits (leaves are the tight boxes of disjoint cells), by object
 /// splits, or by both. Collapse, layout and traversal are the same for all partitions. A build takes O(n log n) time
 /// and memory for a bounded duplication of references; the tree is the same for every number of threads. A node takes
-/// 256 bytes; a block over Möller-Trumbore takes 320 bytes. A tree cannot be updated, so it does not suit moving
-/// geometry.
+/// 256 bytes; a block over Möller-Trumbore takes 320 bytes. It cannot be updated.
 ///
 /// `papers/TUNING.md` documents how the constants were chosen and which experiments were rejected.
 ///

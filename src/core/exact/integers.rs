@@ -1,5 +1,4 @@
-//! Intersects a line and a triangle in integers, if all used bits lie close together: several times the speed of sums
-//! of floats.
+//! Intersects a line and a triangle in integers, if all used bits lie close together: much faster than sums of floats.
 
 use std::cmp::Ordering;
 

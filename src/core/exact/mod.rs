@@ -1,5 +1,4 @@
-//! Exact ray-triangle intersection: decides without rounding whether and where a ray of `f32` numbers hits a triangle,
-//! and orders the hits of a ray.
+//! Exact ray-triangle intersection: whether and where a ray of `f32` numbers hits, and the order of hits.
 
 mod expansion;
 mod integers;
@@ -23,15 +22,13 @@ pub struct ExactT {
     denominator: Expansion,
 }
 
-/// The parameter at which the whole line of `ray` meets the closed triangle; `None` if it misses the triangle or lies
-/// in its plane.
+/// The parameter at which the line of `ray` meets the closed triangle; `None` if it misses or lies in the plane.
 ///
 /// The function ignores the interval of the ray: see [`ExactT::is_within`]. Numbers that are not finite hit nothing.
 /// Costs 50 nanoseconds if the significant bits of origin and corners span at most forty binary places, and so do the
 /// bits of the direction; otherwise about a microsecond.
 ///
-/// The line meets the closed triangle if it passes all three edges on the same side or touches them, that is, if no two
-/// of the three signed volumes have opposite signs.
+/// The line meets the closed triangle if no two of the three signed volumes with its edges have opposite signs.
 ///
 /// # References
 /// Segura, Feito: Algorithms to test ray-triangle intersection. Comparative study. WSCG 2001.

@@ -70,8 +70,7 @@ fn nearest_float(t: &RBig) -> f32 {
     t.to_f32().value()
 }
 
-/// The nearest `f32` of the hit of `ray` within its half-open interval; a `t` that rounds to infinity lies beyond the
-/// end.
+/// The nearest `f32` of the hit of `ray` within its half-open interval; an infinite `t` is beyond the end.
 ///
 /// # Panics
 /// If a number of the ray's origin or direction or of a corner is not finite.
@@ -79,8 +78,7 @@ pub fn hit_within(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
     Some(nearest_float(&within(ray, corners)?))
 }
 
-/// Like [`hit_within`] for the nearest hit among `triangles`, with the lowest index of the triangles that are hit at
-/// its exact `t`; `None` for a ray that is not valid.
+/// Like [`hit_within`] for the nearest hit among `triangles`, with the lowest index at equal exact `t`.
 ///
 /// # Panics
 /// If a corner is not finite.

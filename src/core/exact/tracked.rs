@@ -1,5 +1,4 @@
-//! The side on which a line passes an edge, in `f64`. It has a result only if no operation rounds, as with coordinates
-//! of few digits or a direction along an axis.
+//! The side on which a line passes an edge, in `f64`. It has a result only if no operation rounds.
 
 use std::cmp::Ordering;
 

@@ -1,5 +1,4 @@
-//! [bvh](https://github.com/svenstaro/bvh) 0.13 (crate `bvh`): a binary BVH with one triangle per leaf, split by a
-//! binned surface area heuristic.
+//! [bvh](https://github.com/svenstaro/bvh) 0.13 (crate `bvh`): a binary BVH by binned SAH, one triangle per leaf.
 //!
 //! The crate has no closest-hit query: it returns candidates, and its caller tests triangles. The adapter offers two of
 //! its traversals ([`Traversal`]), both with early termination. The crate's ray (unit direction and inverse, by its own
@@ -46,8 +45,7 @@ pub struct SvenstaroBvhConfig {
 #[serde(rename_all = "kebab-case")]
 pub enum Traversal {
     /// The plain iterator over a custom query: the crate's ray with a box test that also rejects boxes behind the
-    /// nearest hit so far. The iterator visits left before right; its stack has space for 32 nodes, and it panics on
-    /// deeper trees.
+    /// nearest hit so far. The iterator visits left before right, and panics on trees deeper than 32.
     #[default]
     Pruned,
     /// The iterator from near to far, with a heap, up to the first box behind the nearest hit.
@@ -99,8 +97,7 @@ fn entry(ray: &PreparedRay<f32, 3>, bounds: &Aabb<f32, 3>) -> Option<f32> {
     ray.intersection_slice_for_aabb(bounds).map(|(entry, _)| entry)
 }
 
-/// Boxes are tested in units of length, with two roundings and a difference that the hit's `t` does not have: the slack
-/// before a box counts as behind the hit.
+/// Boxes are tested in units of length, with more roundings than `t` has: their slack.
 const SLACK: f32 = 1.0 + 8.0 * f32::EPSILON;
 
 fn point(v: Vec3) -> Point3<f32> {

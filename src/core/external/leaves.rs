@@ -4,8 +4,7 @@ use crate::geometry::{Aabb, Mesh, Ray};
 use crate::traversal::leaf::{Nearest, start};
 use crate::triangle::TriangleTest;
 
-/// The triangles with an area, in the order of the mesh, prepared for the test `T`: for a peer that only tests boxes
-/// and leaves triangles to its caller.
+/// The triangles with an area, in the order of the mesh, prepared for the test `T`, for a peer that tests boxes.
 pub(super) struct Leaves<T: TriangleTest> {
     triangles: Vec<T::Block<1>>,
     /// The triangle of the mesh for each of them.

@@ -1,5 +1,4 @@
-//! [parry](https://github.com/dimforge/parry) 0.31 (crate `parry3d`): a binary BVH, one triangle per leaf, two children
-//! per node.
+//! [parry](https://github.com/dimforge/parry) 0.31 (crate `parry3d`): a binary BVH, one triangle per leaf.
 //!
 //! The tree takes the leaf test as a closure, and traverses from near to far with early termination. The closure
 //! respects `t_min`, which parry's own mesh shape does not support; nothing is culled. The ray is two vectors; the

@@ -65,18 +65,10 @@ impl Aabb {
     /// The axis of the longest edge; the first one of equal edges.
     #[inline]
     pub fn longest_axis(&self) -> usize {
-        let e = self.extent();
-        if e.x >= e.y && e.x >= e.z {
-            0
-        } else if e.y >= e.z {
-            1
-        } else {
-            2
-        }
+        self.extent().max_position()
     }
 
-    /// The parts of the box below and above the plane `axis = split`; both contain the plane. If the plane misses the
-    /// box, one part is the box and the other one is empty.
+    /// The parts of the box below and above the plane `axis = split`; one is empty if it misses the box.
     #[inline]
     pub fn cut(&self, axis: usize, split: f32) -> (Self, Self) {
         let (mut below, mut above) = (*self, *self);

@@ -6,8 +6,7 @@ use super::Aabb;
 
 /// A validated set of triangles: every coordinate is finite, every index exists.
 ///
-/// Degenerate triangles (see [`Mesh::is_degenerate`]) remain in the mesh, so triangle numbers do not shift, but no ray
-/// hits them.
+/// Degenerate triangles (see [`Mesh::is_degenerate`]) remain, so triangle numbers do not shift, but no ray hits them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     positions: Vec<Vec3>,

@@ -18,8 +18,7 @@ pub struct KdConfig {
     pub stop: Stop,
     /// The way in which rays traverse the tree.
     pub traversal: Traversal,
-    /// `L` of [`Stop::Report`] and [`Stop::Leaf`]: a node with fewer triangles becomes a leaf. At least 1; 100 in the
-    /// report's main table.
+    /// `L` of [`Stop::Report`] and [`Stop::Leaf`]: fewer triangles make a leaf. At least 1; 100 in the report.
     pub leaf: u32,
     /// Whether a node of exactly `leaf` triangles may be split; the report does not specify it.
     pub limit: Limit,
@@ -87,8 +86,7 @@ pub enum Stop {
     Report,
     /// Fewer than `leaf` triangles; no other reason.
     Leaf,
-    /// Looking one split ahead, the SAH cost of the split is not below the cost of testing all triangles. With SAH
-    /// planes: no plane is cheaper than testing all triangles.
+    /// The SAH cost of the split (with SAH planes: of every plane) is not below the cost of testing all triangles.
     Sah,
 }
 

@@ -1,5 +1,4 @@
-//! Planes selected without a cost: the median of vertex coordinates, as in the report, the median of centroids, or the
-//! middle of the cell. Whole triangles decide the sides.
+//! Planes selected without a cost: a median or the middle of the cell. Whole triangles decide the sides.
 
 use super::config::{AxisRule, CountOf, Equal, KdConfig, Median, Plane};
 use crate::build::cells::{Content, Context, Place};

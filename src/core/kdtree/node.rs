@@ -1,14 +1,12 @@
 use crate::accel::BuildError;
 
-/// A node of the tree in 8 bytes. The child below the plane follows its parent; the node stores the number of the child
-/// above.
+/// A node of the tree in 8 bytes. The child below the plane follows its parent; it stores the number of the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub(super) struct Node {
     /// Inner node: the bits of the split coordinate. Leaf: its first reference while building, then its first block.
     payload: u32,
-    /// The two low bits are the axis, or 3 for a leaf; the other bits are the number of the child above, or of
-    /// references.
+    /// The two low bits are the axis, or 3 for a leaf; the others number the child above or the references.
     tag: u32,
 }
 
@@ -39,8 +37,7 @@ impl Limits {
 impl Node {
     const LEAF: u32 = 3;
 
-    /// `axis` is below 3, `above` below [`Limits::nodes`] of a finished tree: in a growing tree it may wrap, because
-    /// such a tree is rejected.
+    /// `axis` is below 3, `above` below [`Limits::nodes`] of a finished tree: a growing tree that wraps is rejected.
     pub fn inner(axis: usize, split: f32, above: u32) -> Self {
         Self { payload: split.to_bits(), tag: above << 2 | axis as u32 }
     }

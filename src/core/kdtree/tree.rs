@@ -13,8 +13,7 @@ use crate::triangle::{BLOCK, TriangleTest};
 /// A binary space partition by axis-aligned planes: 8-byte nodes in depth-first order, leaves of blocks of triangles.
 ///
 /// The configuration selects the planes, the leaves and the traversal. A build takes O(n log n) time and memory for a
-/// bounded duplication of references; the tree is the same for every number of threads. A tree cannot be updated, so it
-/// does not suit moving geometry.
+/// bounded duplication of references; the tree is the same for every number of threads. It cannot be updated.
 ///
 /// # References
 /// Wald, Havran: On building fast kd-trees for ray tracing, and on doing that in O(N log N), 2006. Havran: Heuristic

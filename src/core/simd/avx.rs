@@ -142,8 +142,7 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
         keys: *mut f32,
         chosen: *mut u32,
     ) -> u32 {
-        // SAFETY: the machine has the instructions, see `Avx`; by the contract of this function eight floats and eight
-        // numbers may be written.
+        // SAFETY: the machine has the instructions, see `Avx`; by its contract eight of each may be written.
         unsafe {
             let hit = _mm256_cmp_ps::<_CMP_LE_OQ>(self.0, limit.0);
             let shifts = _mm256_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21);
@@ -166,8 +165,7 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
 
     #[inline(always)]
     unsafe fn compress(self, limit: Self, values: &[u32; 8], chosen: *mut u32) -> u32 {
-        // SAFETY: the machine has the instructions, see `Avx`; by the contract of this function eight numbers may be
-        // written.
+        // SAFETY: the machine has the instructions, see `Avx`; by its contract eight numbers may be written.
         unsafe {
             let set = self.le(limit);
             let values = _mm256_loadu_si256(values.as_ptr().cast());

@@ -3,8 +3,7 @@ use std::arch::x86_64::*;
 use super::{Arithmetic, indexed};
 
 /// 8 lanes of `f64` in two AVX registers, for machines with AVX2 and FMA: the double of [`Avx`](super::avx::Avx). It is
-/// made only from an [`Avx`](super::avx::Avx) or beside one, so the machine has the instructions for the reason given
-/// there.
+/// made only from an [`Avx`](super::avx::Avx) or beside one, so the machine has the instructions.
 #[derive(Clone, Copy, Debug)]
 pub struct F64x8(pub(super) [__m256d; 2]);
 

@@ -1,8 +1,7 @@
 use std::mem::MaybeUninit;
 
 /// `array::from_fn` that is always inlined: a function of the standard library is compiled without the instructions of
-/// a [`Level`](super::Level), and its inlining depends on how the compiler divides a crate; lanes that pass through it
-/// are stored to memory and loaded again.
+/// a [`Level`](super::Level) unless it is inlined, and stores lanes that pass through it to memory.
 #[inline(always)]
 pub fn indexed<const N: usize, B: Copy>(f: impl Fn(usize) -> B) -> [B; N] {
     let mut results = [const { MaybeUninit::uninit() }; N];

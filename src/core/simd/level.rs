@@ -42,8 +42,7 @@ pub trait Kernel {
     /// The result.
     type Output;
 
-    /// Mark it, and all functions with lanes that it calls, `#[inline(always)]`: only inlined code is compiled for the
-    /// level.
+    /// Mark it, and all that it calls with lanes, `#[inline(always)]`: only inlined code is compiled for the level.
     fn run<L: EightLanes>(self) -> Self::Output;
 }
 

@@ -48,8 +48,7 @@ pub trait Arithmetic<const N: usize>: Copy {
     fn le(self, other: Self) -> u32;
     /// Lanes where `self < other`, as bits; false for NaN.
     fn lt(self, other: Self) -> u32;
-    /// `self * factor + term`, rounded once if the machine has such an instruction, otherwise twice: only for values
-    /// that no hit depends on.
+    /// `self * factor + term`, rounded once or twice: only for values that no hit depends on.
     fn mul_add_loosely(self, factor: Self, term: Self) -> Self;
     /// `self * factor - term`, rounded in the same way.
     fn mul_sub_loosely(self, factor: Self, term: Self) -> Self;
@@ -79,8 +78,7 @@ pub trait EightLanes: Lanes<8> {
     const FAST: bool;
 
     /// Selects the lanes where `self <= limit`, in a given order: three bits per lane, the first one lowest. Writes
-    /// them to `keys` and their `values` to `chosen`, and returns a mask: bit `i` is set if the `i`-th lane in that
-    /// order is selected.
+    /// them to `keys` and their `values` to `chosen`; bit `i` of the result marks the `i`-th lane in that order.
     ///
     /// # Safety
     /// Eight floats may be written to `keys` and eight numbers to `chosen`, for any number of selected lanes.
@@ -150,20 +148,15 @@ mod tests {
             let (x, y) = (L::load(&a), L::load(&b));
             let (p, q) = (Portable::load(&a), Portable::load(&b));
             let bits = |v: [f32; 8]| v.map(|f| if f.is_nan() { 0x7fc0_0000 } else { f.to_bits() });
-            assert_eq!(bits(x.add(y).store()), bits(p.add(q).store()));
-            assert_eq!(bits(x.sub(y).store()), bits(p.sub(q).store()));
-            assert_eq!(bits(x.mul(y).store()), bits(p.mul(q).store()));
-            assert_eq!(bits(x.div(y).store()), bits(p.div(q).store()));
-            assert_eq!(bits(x.min(y).store()), bits(p.min(q).store()));
-            assert_eq!(bits(x.max(y).store()), bits(p.max(q).store()));
-            assert_eq!(bits(x.flip_sign(y).store()), bits(p.flip_sign(q).store()));
+            let own = [x.add(y), x.sub(y), x.mul(y), x.div(y), x.min(y), x.max(y), x.flip_sign(y)];
+            let portable = [p.add(q), p.sub(q), p.mul(q), p.div(q), p.min(q), p.max(q), p.flip_sign(q)];
+            assert_eq!(own.map(|v| bits(v.store())), portable.map(|v| bits(v.store())));
             assert_eq!((x.le(y), x.lt(y)), (p.le(q), p.lt(q)));
             assert_eq!(bits(L::splat(a[0]).store()), bits([a[0]; 8]));
         }
     }
 
-    /// The selection from `a` up to `b`, in a given order and in the order of the lanes: the sets, and the bits of keys
-    /// and values.
+    /// The selection from `a` up to `b`, in a given order and in that of lanes: sets, and bits of keys and values.
     fn taken<L: EightLanes>(a: &[f32; 8], b: &[f32; 8], order: u32) -> ([u32; 2], [Vec<u32>; 3]) {
         let (a, b, values) = (L::load(a), L::load(b), std::array::from_fn(|i| 100 + i as u32));
         let (mut keys, [mut ordered, mut plain]) = ([0.0_f32; 8], [[0_u32; 8]; 2]);

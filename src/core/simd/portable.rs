@@ -112,8 +112,7 @@ impl EightLanes for Portable<8> {
         for at in 0..8 {
             let lane = (order >> (3 * at) & 7) as usize;
             if self.0[lane] <= limit.0[lane] {
-                // SAFETY: by the contract of this function eight of both may be written, and `count` is the number of
-                // lanes taken before this one.
+                // SAFETY: by its contract eight of both may be written; `count` were taken before.
                 unsafe {
                     keys.add(count).write(self.0[lane]);
                     chosen.add(count).write(values[lane]);
@@ -130,8 +129,7 @@ impl EightLanes for Portable<8> {
         let (mut set, mut count) = (0, 0);
         for (lane, &value) in values.iter().enumerate() {
             if self.0[lane] <= limit.0[lane] {
-                // SAFETY: by the contract of this function eight may be written, and `count` is the number of lanes
-                // taken before.
+                // SAFETY: by its contract eight may be written; `count` were taken before.
                 unsafe { chosen.add(count).write(value) };
                 set |= 1 << lane;
                 count += 1;

@@ -88,8 +88,7 @@ impl<T: TriangleTest> LeafBlock<T> {
     }
 }
 
-/// A mailbox: a direct-mapped cache of the last triangle that the ray was tested against, for each of eight hash values
-/// (Havran 2000).
+/// A mailbox: the last tested triangle for each of eight hash values (Havran 2000).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mailbox([u32; 8]);
 
@@ -136,8 +135,7 @@ pub(crate) fn search<'a, const ANY: bool, L: EightLanes, T: TriangleTest, O: Obs
 
 /// Decides the candidates of a block. Rare, so out of line: inlined, it would take registers from the traversal.
 ///
-/// Candidates that need another call are left to [`settle_closely`]. Most need none, and without a call this function
-/// saves no registers.
+/// Candidates that need another call are left to [`settle_closely`]: with a call it would save no registers.
 #[inline(never)]
 pub(crate) fn settle<'a, T: TriangleTest>(
     block: &'a LeafBlock<T>,

@@ -1,5 +1,4 @@
-//! The line of a ray for traversals: its crossings of axis-aligned planes, with the slack that prevents rounding from
-//! losing a hit.
+//! The line of a ray for traversals: crossings of axis-aligned planes, with slack against rounding.
 
 use glam::Vec3A;
 
@@ -58,8 +57,7 @@ pub(crate) fn after(t: f32) -> f32 {
 /// [`before`] of the largest finite float: `before` moves no finite crossing beyond it.
 const LATEST: f32 = f32::MAX * BEFORE - TINY;
 
-/// `t`, a crossing that [`before`] has moved, or [`LATEST`] if it overflowed. The result is not after the exact
-/// parameter.
+/// `t`, a crossing that [`before`] has moved, or [`LATEST`] if it overflowed: not after the exact one.
 #[inline(always)]
 pub(crate) fn finite_entry(t: f32) -> f32 {
     if t < LATEST { t } else { LATEST }

@@ -1,5 +1,4 @@
-//! Shared code of the traversals: leaves of blocks of triangles, plane crossings with slack, traversals compiled for
-//! several levels, memory on large pages.
+//! Shared code of the traversals: leaves of blocks of triangles, plane crossings, levels, memory on large pages.
 
 pub(crate) mod leaf;
 pub(crate) mod line;

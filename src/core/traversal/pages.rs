@@ -21,8 +21,7 @@ pub(crate) fn moved<T: Copy>(values: Vec<T>) -> Vec<T> {
 #[inline(always)]
 pub(crate) fn fetch(at: *const u8) {
     #[cfg(target_arch = "x86_64")]
-    // SAFETY: a prefetch has no visible effect on the program, and does not fault at any address; SSE is part of
-    // x86-64.
+    // SAFETY: a prefetch has no visible effect and faults at no address; SSE is part of x86-64.
     unsafe {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
         _mm_prefetch::<_MM_HINT_T0>(at.cast());
@@ -40,8 +39,7 @@ fn advise<T>(start: *const T, bytes: usize) {
     }
     const MADV_HUGEPAGE: c_int = 14;
     const PAGE: usize = 4096;
-    // SAFETY: this advice changes no values; it covers the whole pages between `start` and `bytes` after it, which the
-    // callers have just allocated.
+    // SAFETY: this advice changes no values; it covers whole pages that the callers have just allocated.
     unsafe {
         let first = start.addr().next_multiple_of(PAGE);
         let end = (start.addr() + bytes) / PAGE * PAGE;

@@ -66,8 +66,7 @@ impl Place<'_> {
     pub(super) fn coordinates(&self) -> [f32; 9] {
         let lanes = self.coordinates.len() / 9;
         debug_assert!(self.lane < lanes);
-        // SAFETY: `Corners::place`, the only constructor of this type, passes nine rows of `lanes` coordinates, and has
-        // checked that the lane is below `lanes`.
+        // SAFETY: `Corners::place`, the only constructor, passes nine rows of `lanes`, and checks the lane.
         indexed(|row| unsafe { *self.coordinates.get_unchecked(row * lanes + self.lane) })
     }
 

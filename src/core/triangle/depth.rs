@@ -29,15 +29,13 @@ pub trait Depth: Copy {
     /// implements [`inputs`](Self::inputs) and [`ts`](Self::ts).
     const LATE: bool = false;
 
-    /// The inputs of `ts` for a hit of `ray`: the corners of the triangle, the origin, the direction and the distance
-    /// between the bounds of `t`.
+    /// The inputs of `ts` for a hit of `ray`: corners, origin, direction, and the distance between the bounds.
     #[inline(always)]
     fn inputs(&self, _ray: &Ray) -> [f32; INPUTS] {
         unreachable!("a depth whose `t` is late has inputs")
     }
 
-    /// The same bits as [`t`](Self::t) for up to eight hits, from their inputs; the bits of `which` mark the lanes with
-    /// a hit.
+    /// The same bits as [`t`](Self::t) for up to eight hits, in the lanes `which`, from their inputs.
     #[inline(always)]
     fn ts<L: EightLanes>(_inputs: &[[f32; 8]; INPUTS], _which: u32) -> [f32; 8] {
         unreachable!("a depth whose `t` is late computes the `t` of eight hits")

@@ -1,5 +1,4 @@
-//! The first stage of the exact test, in `f32`. It rejects nearly all triangles that the ray misses and none that it
-//! hits, and it decides most hits.
+//! The first stage of the exact test, in `f32`. It rejects most triangles that the ray misses, and no hits.
 
 use glam::{Vec3, Vec3Swizzles as _};
 
@@ -17,8 +16,7 @@ pub(super) struct FilterRay {
     scaling: Scaling,
 }
 
-/// The power of two that scales the directions of rays: the largest component of all is then in [1, 2), or below 1 if
-/// it is denormal.
+/// The power of two that scales directions: the largest component is then in [1, 2), or less if denormal.
 #[derive(Clone, Copy, Debug)]
 struct Scaling {
     /// The factor and its inverse.
@@ -37,8 +35,7 @@ pub struct FilterBlock<const N: usize> {
     /// negative in unused lanes.
     extents: [f32; N],
     /// 10 units of 2^-24 of the largest component of the normal, with the magnitudes of its two products added. It
-    /// bounds the rounding of heights and determinants more closely than the extent does, and far more closely for
-    /// narrow triangles.
+    /// bounds the rounding of heights and determinants more closely than the extent does.
     areas: [f32; N],
 }
 
@@ -60,8 +57,7 @@ pub struct Candidates<L> {
 /// The candidates among `N` triangles that the line certainly meets, and bounds of their `t`.
 #[derive(Clone, Copy, Debug)]
 pub struct CandidateBounds<const N: usize> {
-    /// The lanes whose triangle the line certainly meets, at an exact `t` in [`low`, `high`], as bits; all other lanes
-    /// are undecided.
+    /// The lanes whose triangle the line certainly meets, at an exact `t` in [`low`, `high`], as bits.
     pub sure: u32,
     pub low: [f32; N],
     pub high: [f32; N],
@@ -88,8 +84,7 @@ impl Scaling {
     /// For directions and origins whose components have at most these magnitudes.
     #[inline(always)]
     fn new(longest: f32, farthest: f32) -> Self {
-        // Multiply by two to the negative exponent of the largest component: exact, except for components that become
-        // denormal.
+        // By two to the negative exponent of the largest component: exact, except where the result is denormal.
         let exponent = longest.to_bits() >> 23;
         let scale = match exponent {
             254 => f32::MIN_POSITIVE / 2.0,
@@ -172,8 +167,7 @@ impl<L> Candidates<L> {
     }
 }
 
-/// The lanes whose triangle the ray may meet at a `t` up to `to`, including all that it does meet; and the results of
-/// the first stage.
+/// The lanes whose triangle the ray may meet at a `t` up to `to`, including all that it does meet; and the results.
 ///
 /// **Why no hit is lost.** Let s = o - a, e and f the edges from a, det = e . (d x f), u = s . (d x f), v = d . (s x e),
 /// exact for the `f32` corners and ray; the line meets the closed triangle if u, v and det - u - v, taken with the sign
@@ -218,12 +212,10 @@ pub(super) fn filter_block<const N: usize, L: Lanes<N>>(
     (!signs.lt(L::zero()) & ((1_u64 << N) - 1) as u32, candidates)
 }
 
-/// Like [`filter_block`], for eight rays and the triangle in one lane of a block: the rays that miss it, and the
-/// results.
+/// Like [`filter_block`], for eight rays and one triangle of a block: the rays that miss it, and the results.
 ///
 /// All directions are scaled like the longest one. The argument at [`filter_block`] only requires that no component is
-/// beyond 2, and that the error of a component that becomes denormal is at most 2^-150, so it holds for all directions;
-/// for much shorter ones fewer cases are decided.
+/// beyond 2, and that the error of a component that becomes denormal is at most 2^-150, so it holds for all.
 #[inline(always)]
 pub(super) fn filter_eight<const N: usize, L: EightLanes>(
     rays: &EightRays<L>,

@@ -70,8 +70,7 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// The values that the first stage passes to the second stage.
     type Values<const N: usize>: Copy;
 
-    /// The position of a hit along the ray; the test orders hits by it. `f32` for tests that compute `t` as a float. It
-    /// may refer to the block.
+    /// The position of a hit along the ray; the test orders hits by it. It may refer to the block.
     type Depth<'a>: Depth;
 
     /// Prepares a valid ray.
@@ -94,8 +93,7 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// The first stage: the lanes that the ray may hit at a `t` in [`from`, `to`], as bits, and the input of
     /// [`values`](Self::values) if there are any lanes.
     ///
-    /// The results are not a closure, because the compiler may not inline a closure, and then does not compile it for
-    /// the level.
+    /// The results are not a closure, which might not be inlined, and so not compiled for the level.
     fn candidates<const N: usize, L: Lanes<N>>(
         ray: &Self::Ray,
         block: &Self::Block<N>,
@@ -175,8 +173,7 @@ pub trait TriangleTest: Send + Sync + 'static {
         unreachable!("a test that has this form writes it")
     }
 
-    /// The depth of a hit of [`meet_eight`](Self::meet_eight) from the bounds of its `t`, if [`Depth::of`] does not
-    /// make one.
+    /// The depth of a hit of [`meet_eight`](Self::meet_eight) from bounds of `t`, if [`Depth::of`] makes none.
     #[inline(always)]
     fn depth_between<const N: usize>(_block: &Self::Block<N>, _lane: usize, _low: f32, _high: f32) -> Self::Depth<'_> {
         unreachable!("a depth that takes more than a float is made by its test")

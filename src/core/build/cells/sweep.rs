@@ -126,8 +126,7 @@ impl Events {
         best
     }
 
-    /// The references on the side `here` (0: below, 1: above), whose cell is `cell`, with their events. `sides`
-    /// contains the sides of each reference.
+    /// The references on the side `here` (0: below, 1: above), whose cell is `cell`; `sides` has all sides.
     fn part(&self, context: &Context<CellConfig>, sides: &[[bool; 2]], here: usize, cell: &Aabb) -> Self {
         let count = sides.iter().filter(|side| side[here]).count();
         let mut references = Vec::with_capacity(count);

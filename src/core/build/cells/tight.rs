@@ -15,8 +15,7 @@ const MOST: usize = 64;
 #[derive(Default)]
 struct Cells(BinaryTree);
 
-/// The nonempty cells of `mesh` as tight boxes, with on average at most `duplication` references per triangle. The tree
-/// does not depend on the number of threads.
+/// The nonempty cells of `mesh` as tight boxes, with on average at most `duplication` references per triangle.
 pub(crate) fn build(mesh: &Mesh, config: &CellConfig, duplication: f32) -> BinaryTree {
     let context = Context::new(mesh, Rules::sah(duplication), config);
     let Cells(tree) = grow(&context, Binned::all(&context));

@@ -106,8 +106,7 @@ impl Links {
         self[new].parent = parent;
     }
 
-    /// Recomputes boxes and heights from `at` upward until they no longer change; returns the total growth of their
-    /// areas.
+    /// Recomputes boxes and heights from `at` upward until they no longer change; returns the growth of areas.
     fn refit(&mut self, mut at: u32) -> f64 {
         let mut growth = 0.0;
         while at != NONE {

@@ -20,12 +20,10 @@ use search::Search;
 /// conflict, further down waiting threads cost more than the few moves that conflict.
 const BATCH: usize = 64;
 
-/// The share of nodes that the first pass processes, those with the largest boxes; pass k processes the first 1/k of
-/// them.
+/// The share of nodes that the first pass processes, the largest boxes; pass k processes the first 1/k of them.
 const SHARE: f64 = 0.4;
 
-/// Searches better places for the nodes with the largest boxes in `tree`, the largest first, in `passes` passes. Leaves
-/// stay unchanged.
+/// Searches better places for the nodes with the largest boxes in `tree`, the largest first. Leaves stay unchanged.
 pub(crate) fn reinsert(tree: BinaryTree, passes: u32) -> BinaryTree {
     if tree.nodes.len() < 2 || passes == 0 {
         return tree;

@@ -10,16 +10,14 @@ pub(crate) struct SbvhConfig {
     /// Nodes with at most this many references try every object split; larger ones try `candidates`. The cheapest split
     /// is not the best for the tree: a larger number raises the final SAH cost.
     pub exact: u32,
-    /// Nodes with at most this many references clip the triangle to every slab of a spatial split; larger ones cut its
-    /// box by the slab.
+    /// Nodes with at most this many references clip triangles to the slabs of a spatial split; others cut boxes.
     pub sliced: u32,
     /// Nodes with at least this many references refine the search around the best plane of a spatial split.
     pub refined: u32,
     /// Larger nodes use a sample of about this many references. At least 16.
     pub sample: u32,
     /// In addition to object splits, spatial splits are tried if the children of the best object split overlap by more
-    /// than this share of the root's area, in [0, 1]. Stich, Friedrich, Dietrich use 1e-5; a larger share gives fewer
-    /// references and faster builds.
+    /// than this share of the root's area, in [0, 1]. The paper uses 1e-5; a larger share builds faster.
     pub alpha: f32,
     /// Cost of the overlap of an object split that competes with a spatial one, as a multiple of testing the triangles
     /// of the smaller side in the overlap. At least 0, as in the paper; trees between 2 and 10 are equally fast.
@@ -31,8 +29,7 @@ pub(crate) struct SbvhConfig {
     pub block_cost: f32,
     /// Maximum number of references of a leaf, in 8..=64.
     pub leaf: u32,
-    /// Maximum number of references of a build, as a multiple of the triangles: a limit for meshes in which splits
-    /// would multiply the references. At least 1.
+    /// Maximum number of references of a build, as a multiple of the triangles. At least 1.
     pub duplication: f32,
 }
 
@@ -55,8 +52,7 @@ impl SbvhConfig {
             Quality::Balanced => (20, 16, 0, 16, 16384),
             Quality::High => (20, 16, 4096, 16, 16384),
         };
-        // If only planes may split, making references takes most of the time: a fast build makes fewer, and larger
-        // leaves.
+        // If only planes may split, references take most of the time: a fast build makes fewer, and larger leaves.
         let node_cost = match quality {
             Quality::Fast if spatial => 1.5,
             Quality::Fast => 0.4,

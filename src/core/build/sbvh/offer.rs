@@ -33,8 +33,7 @@ impl<'a> Context<'a> {
     }
 
     /// The cost of a leaf, with which its splits compete. For a single block in a large box, such as a floor and a
-    /// wall, it includes a step: the split adds no node, only a child to the wide node above, whose boxes are tested at
-    /// once.
+    /// wall, it includes a step: the split adds no node, only a child to the wide node above.
     pub fn unsplit_cost(&self, area: f64, count: usize) -> f64 {
         let leaf = self.costs.box_leaf(area, count);
         if count <= BLOCK && self.is_large(area) { self.costs.box_node(area, leaf) } else { leaf }

@@ -18,12 +18,10 @@ pub type Handle = *mut c_void;
 /// Receives errors: the pointer given with the function, the code, a sentence.
 pub type OnError = unsafe extern "C" fn(*mut c_void, c_int, *const c_char);
 
-/// Receives changes of memory: the pointer given with the function, bytes allocated or freed, whether that has happened
-/// already. May refuse.
+/// Receives changes of memory: the pointer given with the function, bytes, whether it has happened. May refuse.
 pub type OnMemory = unsafe extern "C" fn(*mut c_void, isize, bool) -> bool;
 
-/// The options of a query: the head of `RTCIntersectArguments` and `RTCOccludedArguments`, which agree, with space for
-/// later versions.
+/// The options of a query: the head of `RTCIntersectArguments` and `RTCOccludedArguments`, with space.
 #[repr(C)]
 pub struct Arguments {
     pub flags: c_uint,
@@ -51,9 +49,9 @@ macro_rules! api {
 
         impl Api {
             /// # Safety
-            /// `library` must be Embree 4.
+            /// If `library` has these symbols, it must be Embree; calls require the types of Embree 4.
             unsafe fn find(library: &Library) -> Result<Self, libloading::Error> {
-                // SAFETY: by the contract of this function it is Embree 4, and the types agree with its headers.
+                // SAFETY: by the contract of this function the symbols are functions of Embree.
                 unsafe { Ok(Self { $($field: *library.get(concat!($symbol, "\0").as_bytes())?,)* }) }
             }
         }
@@ -64,6 +62,7 @@ api! {
     new_device = "rtcNewDevice": fn(*const c_char) -> Handle;
     release_device = "rtcReleaseDevice": fn(Handle);
     device_error = "rtcGetDeviceError": fn(Handle) -> c_int;
+    device_property = "rtcGetDeviceProperty": fn(Handle, c_int) -> isize;
     on_error = "rtcSetDeviceErrorFunction": fn(Handle, OnError, *mut c_void);
     on_memory = "rtcSetDeviceMemoryMonitorFunction": fn(Handle, OnMemory, *mut c_void);
     new_scene = "rtcNewScene": fn(Handle) -> Handle;
@@ -102,8 +101,7 @@ fn load() -> Result<(Library, Api), String> {
     };
     let mut failure = None;
     let library = candidates.iter().find_map(|name| {
-        // SAFETY: loading runs the initialisers of the library. It is the library that the user names, or the system's
-        // own Embree: both are trusted to be the named library.
+        // SAFETY: loading runs the initialisers of the library. It is the one that the user names, or the system's.
         let loaded = unsafe { Library::new(name) };
         loaded.map_err(|error| failure = Some(error)).ok()
     });
@@ -124,33 +122,21 @@ fn load() -> Result<(Library, Api), String> {
         let place = named.as_ref().map_or(NAMES[0].into(), |path| path.display().to_string());
         format!("{place} is not Embree 4: {what}; set {VARIABLE} to the path of libembree4")
     };
-    // SAFETY: a library with these symbols is Embree's, and `version` calls only functions whose types are unchanged
-    // since Embree 3.
-    let version = unsafe { version(&library) }.map_err(|error| other(&error.to_string()))?;
+    // SAFETY: a library with these symbols is Embree's, and only functions whose types are unchanged since Embree 3 are
+    // called before its version is known.
+    let (api, version) = unsafe {
+        let api = Api::find(&library).map_err(|error| other(&error.to_string()))?;
+        let device = (api.new_device)(c"threads=1".as_ptr());
+        let mut version = 0;
+        if !device.is_null() {
+            version = (api.device_property)(device, VERSION);
+            (api.release_device)(device);
+        }
+        (api, version)
+    };
+    // 40400 for 4.4.0.
     if version / 10_000 != 4 {
         return Err(other(&format!("its version is {}.{}", version / 10_000, version / 100 % 100)));
     }
-    // SAFETY: its version, checked above, is Embree 4.
-    let api = unsafe { Api::find(&library) }.map_err(|error| other(&error.to_string()))?;
     Ok((library, api))
-}
-
-/// Its version number: 40400 for 4.4.0.
-///
-/// # Safety
-/// If `library` has these symbols, they must be Embree's, of version 3 or later.
-unsafe fn version(library: &Library) -> Result<isize, libloading::Error> {
-    // SAFETY: by the contract of this function the symbols are Embree's, whose types have not changed since version 3.
-    unsafe {
-        let new_device = library.get::<unsafe extern "C" fn(*const c_char) -> Handle>(b"rtcNewDevice\0")?;
-        let property = library.get::<unsafe extern "C" fn(Handle, c_int) -> isize>(b"rtcGetDeviceProperty\0")?;
-        let release = library.get::<unsafe extern "C" fn(Handle)>(b"rtcReleaseDevice\0")?;
-        let device = new_device(c"threads=1".as_ptr());
-        if device.is_null() {
-            return Ok(0);
-        }
-        let version = property(device, VERSION);
-        release(device);
-        Ok(version)
-    }
 }

@@ -29,8 +29,7 @@ pub struct Scene {
     monitor: Arc<Monitor>,
 }
 
-// SAFETY: Embree's objects may be used and released by any thread, and many threads may query a committed scene at
-// once.
+// SAFETY: any thread may use and release objects of Embree, and many may query a committed scene at once.
 unsafe impl Send for Scene {}
 // SAFETY: as for `Send`; `Monitor` is made of an atomic and a lock.
 unsafe impl Sync for Scene {}
@@ -126,8 +125,7 @@ impl Scene {
 
 impl Drop for Scene {
     fn drop(&mut self) {
-        // SAFETY: `new` has made both, and only this function releases them; the monitor is dropped after this
-        // function.
+        // SAFETY: `new` has made both, and only this releases them; the monitor is dropped later.
         unsafe {
             (self.api.release_scene)(self.handle);
             (self.api.release_device)(self.device);

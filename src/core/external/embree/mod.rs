@@ -195,8 +195,7 @@ impl<const ROBUST: bool> Accel for Embree<ROBUST> {
         }
     }
 
-    /// As counted by Embree's memory monitor, including buffers of corners; the shares of nodes and triangles are
-    /// unknown.
+    /// As counted by Embree's memory monitor, including buffers of corners.
     fn footprint(&self) -> Footprint {
         let references = size_of_val(&self.ids[..]);
         Footprint { references, other: self.scene.bytes(), ..Footprint::default() }
@@ -207,8 +206,7 @@ impl<const ROBUST: bool> Accel for Embree<ROBUST> {
     }
 }
 
-/// The result of Embree's triangle test without a traversal: a scene of one triangle. Takes a fraction of a
-/// millisecond.
+/// The result of Embree's triangle test without a traversal: a scene of one triangle. Takes up to a millisecond.
 pub fn alone<const ROBUST: bool>(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
     let mesh = Arc::new(Mesh::new(corners.into(), vec![[0, 1, 2]]).ok()?);
     let config = EmbreeConfig { quality: Quality::Medium, ..Default::default() };

@@ -1,7 +1,6 @@
 //! Rays in Embree's format: one, eight or sixteen.
 //!
-//! A query reads the rays, overwrites the ends of their intervals (`tfar`) and writes the hits, so each query gets a
-//! copy.
+//! A query overwrites the ends of the intervals (`tfar`) and writes the hits, so each query gets a copy.
 
 use std::ffi::c_int;
 use std::mem::offset_of;

@@ -33,8 +33,7 @@ impl Tree for CwBvh {
         size_of_val(&self.nodes[..])
     }
 
-    /// Follows the links as a traversal does: a child with triangles has the number of the first and a bit for each, an
-    /// inner child has its index among the inner ones.
+    /// Follows the links as a traversal does: children have triangles (the first, a bit for each) or an index.
     fn leads_inside(&self, triangles: usize) -> bool {
         self.nodes.iter().all(|node| {
             (0..8).filter(|&child| !node.is_child_empty(child)).all(|child| {

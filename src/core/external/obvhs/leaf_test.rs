@@ -10,8 +10,7 @@ use crate::simd::Lanes;
 use crate::triangle::decided_at_once::decided_at_once;
 use crate::triangle::{Depth, TriangleTest};
 
-/// A triangle test in the format of obvhs: infinity for a miss. The test also enforces the start of the interval, which
-/// obvhs' own traversals do not check.
+/// A triangle test in the format of obvhs: infinity for a miss. It also enforces the start of the interval.
 pub trait LeafTest: Send + Sync + 'static {
     /// The name of the triangle test.
     const NAME: &'static str;
@@ -26,8 +25,7 @@ pub trait LeafTest: Send + Sync + 'static {
     /// Prepares a ray.
     fn prepare(ray: &Ray) -> Self::Ray;
 
-    /// The `tmax` to give to obvhs for a ray with the exclusive end `t_max`: obvhs rejects hits whose rounded `t`
-    /// equals its `tmax`.
+    /// The `tmax` to give to obvhs for a ray with the exclusive end `t_max`: it rejects a rounded `t` equal to it.
     #[inline(always)]
     fn end(t_max: f32) -> f32 {
         t_max

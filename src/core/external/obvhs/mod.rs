@@ -1,5 +1,4 @@
-//! The baseline: the BVHs of the crate `obvhs`. The adapter does not handicap them. No other module of this crate
-//! imports it.
+//! The baseline: the BVHs of the crate `obvhs`. The adapter does not handicap them.
 //!
 //! Each BVH is offered over the triangle tests of this crate and over obvhs' own [`RtTest`], which is its fastest
 //! configuration. Triangles are stored in the order of the tree, so no traversal follows an index; the number of the
@@ -8,8 +7,7 @@
 //!
 //! The adapter gives these trees the same advantages as the trees of this crate: arrays on large pages, triangles
 //! converted on all threads, no bounds checks. The traversals are obvhs' own without its checks: the links that they
-//! follow are checked once, when the tree is built. obvhs itself converts the binary tree to the 8-wide tree, on one
-//! thread.
+//! follow are checked once, when the tree is built.
 //!
 //! Known defects of obvhs 0.4.0, which validation shows: `CwBvh` misses every ray with a direction component of -0.0
 //! and loses hits with t < 1e-4; both BVHs lose axis-parallel rays close to a box face, and rays with short directions;
@@ -61,8 +59,7 @@ pub trait Tree: Send + Sync + Sized + 'static {
     /// Builds it.
     fn build(triangles: &[Triangle], params: BvhBuildParams) -> Self;
 
-    /// Moves the nodes to their final memory; returns the triangle for each place in the tree, which the tree does not
-    /// keep.
+    /// Moves the nodes to their final memory; takes the triangle for each place out of the tree.
     fn settle(&mut self) -> Vec<u32>;
 
     /// Bytes of its nodes.

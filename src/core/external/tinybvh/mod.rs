@@ -124,8 +124,7 @@ impl Prepare for TinyBvh {
     }
 }
 
-/// The size of the stacks of its traversal and of the conversion to its fastest layout, which do not check for
-/// overflow.
+/// The size of the stacks of its traversal and of its conversion, which do not check for overflow.
 const STACK: usize = 256;
 
 /// The shape, and the maximum number of nodes on a stack: in the traversal all children except one of every node of a

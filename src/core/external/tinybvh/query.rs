@@ -42,8 +42,7 @@ pub struct Tree {
     object: *const c_void,
 }
 
-// SAFETY: the tree owns its nodes and triangles; both queries are `const` in C++, read them and write only to the
-// caller's ray.
+// SAFETY: the tree owns its data; both queries are `const` in C++, and write only to the ray of the caller.
 unsafe impl Send for Tree {}
 // SAFETY: as for `Send`.
 unsafe impl Sync for Tree {}
@@ -63,8 +62,7 @@ unsafe extern "C" {
 impl Tree {
     pub fn new(owner: bvh8_cpu::BVH) -> Self {
         const { assert!(size_of::<bvh8_cpu::BVH>() == size_of::<*const c_void>()) };
-        // SAFETY: the crate's tree has one field, C++'s `unique_ptr`, which is a pointer; by its size it contains
-        // nothing else.
+        // SAFETY: the crate's tree is as large as its only field, C++'s `unique_ptr`, which is a pointer.
         let object = unsafe { mem::transmute_copy::<bvh8_cpu::BVH, *const c_void>(&owner) };
         assert!(!object.is_null(), "a converted tree has an object");
         Self { _owner: owner, object }
@@ -84,8 +82,7 @@ impl Tree {
     #[inline]
     pub fn any(&self, ray: &RayHead) -> bool {
         let whole = FullRay { head: *ray, custom: [0; 8] };
-        // SAFETY: the object lives as long as `self`; the ray has the size and alignment of its type in C++, and this
-        // query writes nothing.
+        // SAFETY: the object lives as long as `self`; the ray is as in `closest`, and this query only reads it.
         unsafe { is_occluded(self.object, &raw const whole) }
     }
 }

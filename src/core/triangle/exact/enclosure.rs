@@ -66,8 +66,7 @@ pub(super) fn look(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     Bounds::Hit { low: low.store()[0], high: high.store()[0] }
 }
 
-/// Like [`look`], for a line that passes exactly through a corner and certainly not along the plane: it meets the
-/// triangle there. `None` for other lines.
+/// Like [`look`], for a line exactly through a corner and certainly not along the plane; `None` for others.
 #[inline(always)]
 pub(super) fn look_at_corners(ray: &Ray, corners: [Vec3; 3]) -> Option<Bounds> {
     let corner = corners.into_iter().find(|&corner| exact::passes_through(ray, corner))?;
@@ -96,8 +95,7 @@ fn at_height(point: Vec3, ray: &Ray, axis: usize) -> Bounds {
 }
 
 /// Whether the line misses the triangle, from det, whose sign is certain, and u, v and w with their errors, in the
-/// notation of [`look`]: whether one of these has not the sign of det, which is their sum. For a ray through an edge
-/// only the value of that edge is uncertain.
+/// notation of [`look`]: whether one of these has not the sign of det, which is their sum.
 #[inline(always)]
 fn passes_by(ray: &Ray, [a, b, c]: [Vec3; 3], det: f64, [u, v, w]: [(f64, f64); 3]) -> bool {
     let sign = det.total_cmp(&0.0);
@@ -133,8 +131,7 @@ pub(super) fn place<const N: usize, L: Lanes<N>>(
     (times(det_error, 1024.0).le(det.flip_sign(det)), low, high)
 }
 
-/// Like [`place`], for a line and a triangle in an axis-aligned plane, such as floors and walls; `None` for other
-/// triangles, or a line along the plane.
+/// Like [`place`], for a line and a triangle in an axis-aligned plane, such as floors; `None` for others.
 #[inline(always)]
 pub(super) fn place_in_axis_plane(ray: &Ray, [a, b, c]: &[Vec3; 3]) -> Option<Bounds> {
     let across = a.cmpeq(*b) & a.cmpeq(*c) & ray.direction.cmpne(Vec3::ZERO);
@@ -178,8 +175,7 @@ pub(super) fn place_closely(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     Bounds::Hit { low: low.store()[0], high: high.store()[0] }
 }
 
-/// |h/d - h'/d'| <= (dh + |h'/d'| dd) / (|d'| - dd), where dd is at most 2^-10 |d'|; the remaining rounding is within
-/// 2^-50.
+/// |h/d - h'/d'| <= (dh + |h'/d'| dd) / (|d'| - dd), where dd <= 2^-10 |d'|; the rest is within 2^-50.
 #[inline(always)]
 fn divide<const N: usize, D: Arithmetic<N, Scalar = f64>>(height: D, height_error: D, det: D, det_error: D) -> (D, D) {
     let abs = |x: D| x.flip_sign(x);

@@ -10,8 +10,7 @@ use crate::simd::{EightLanes, LaneVec3, indexed};
 use crate::triangle::corners::Place;
 use crate::triangle::{BETWEEN_BOUNDS, DIRECTION, Depth, INPUTS, ORIGIN};
 
-/// The exact position of a hit along its ray: bounds of its `t` in `f32`, and the triangle, in case these do not
-/// decide.
+/// The exact position of a hit along its ray: bounds of its `t` in `f32`, and the triangle if these do not decide.
 #[derive(Clone, Copy, Debug)]
 pub struct ExactDepth<'a> {
     low: f32,

@@ -184,8 +184,7 @@ fn in_f64(ray: &Ray, triangle: Place, met: bool) -> Option<(f32, f32)> {
         .unwrap_or_else(|| exactly(ray, corners))
 }
 
-/// Whether a hit with these bounds lies in the interval of `ray`, and if it does, its bounds in `f32`; `None` if the
-/// bounds do not decide it.
+/// Whether a hit with these bounds lies in the interval of `ray`, and its bounds in `f32`; `None` if undecided.
 #[inline(always)]
 fn within(ray: &Ray, bounds: Bounds) -> Option<Option<(f32, f32)>> {
     let (start, end) = (f64::from(ray.interval().0), ray.end());
@@ -236,8 +235,7 @@ impl Kernel for Crowd<'_> {
     }
 }
 
-/// A quick test whether the triangle is axis-aligned, such as floors and walls, and the ray parallel to its plane or in
-/// it.
+/// A quick test whether the triangle is axis-aligned, such as floors and walls, and the ray parallel to its plane.
 #[inline(always)]
 fn runs_along(ray: &Ray, [a, b, c]: &[Vec3; 3]) -> bool {
     (a.cmpeq(*b) & a.cmpeq(*c) & ray.direction.cmpeq(Vec3::ZERO)).any()

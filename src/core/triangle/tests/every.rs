@@ -95,8 +95,7 @@ fn exact_on_a_grid<T: TriangleTest>() {
     assert!(hits > 1_000, "the grid must produce hits, or the test proves nothing: {hits}");
 }
 
-/// For any numbers the test does not crash, and returns no `t` outside the interval. A `t` near the end may be rounded
-/// to the end.
+/// For any numbers the test does not crash, and returns no `t` outside the interval, except one rounded to the end.
 fn survives_all_numbers<T: TriangleTest>() {
     let mut rng = Pcg32::seed_from_u64(4);
     for _ in 0..30_000 {
@@ -110,8 +109,7 @@ fn survives_all_numbers<T: TriangleTest>() {
     }
 }
 
-/// If a test gives the true `t`, and that is a float: an interval contains it if it begins there, and not if it ends
-/// there.
+/// If a test gives the true `t`, and that is a float: an interval has it if it begins there, not if it ends there.
 fn intervals_are_half_open<T: TriangleTest>() {
     let mut rng = Pcg32::seed_from_u64(13);
     let mut hits = 0;

@@ -5,8 +5,7 @@ use super::*;
 use crate::exact::ExactT;
 use crate::simd::{EightLanes, Kernel, Level, dispatch};
 
-/// The result of the first stage for one triangle, in lane 3 of 8: whether it is a candidate, and the bounds of `t` if
-/// it is certain of the hit.
+/// The result of the first stage for one triangle, in lane 3 of 8: whether it is a candidate, and sure bounds of `t`.
 struct Look<'a>(&'a Ray, [Vec3; 3], f32);
 
 impl Kernel for Look<'_> {
@@ -22,8 +21,7 @@ impl Kernel for Look<'_> {
     }
 }
 
-/// Aims at or beside a triangle from a few times its size away, in scenes of sizes whose products neither overflow nor
-/// underflow.
+/// Aims at or beside a triangle from a few times its size away, in scenes without overflow and underflow.
 fn near(rng: &mut Pcg32) -> (Ray, [Vec3; 3]) {
     let scale = libm::exp2f((rng.next_u32() % 80) as f32 - 50.0);
     let corners = triangle(rng, unit).map(|p| p * scale);
