@@ -11,8 +11,7 @@ use crate::geometry::{Hit, Ray};
 /// [`Accel::TRIANGLE_TEST`](super::Accel::TRIANGLE_TEST).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Capabilities {
-    /// Whether it has its own any-hit query. If not, the any-hit query falls back to the closest-hit query. The
-    /// fallback only serves to draw pictures: it is neither checked nor timed.
+    /// Whether it has its own any-hit query. If not, the closest-hit query replaces it, neither checked nor timed.
     pub any_hit: bool,
     /// Whether it ignores hits before a `t_min` above 0.
     pub t_min: bool,

@@ -79,28 +79,21 @@ mod tests {
 
     use super::*;
 
-    /// Inner nodes and leaves in the notation of a test.
-    enum Tree {
-        Node(Vec<Tree>),
-        Leaf(usize),
-    }
-
-    fn shape(tree: &Tree) -> TreeShape {
-        let unit = Aabb { min: Vec3::ZERO, max: Vec3::ONE };
-        TreeShape::of(Some((tree, unit)), |tree, bounds| match tree {
-            Tree::Leaf(references) => Part::Leaf(*references),
-            Tree::Node(children) => {
-                let (mut low, mut high) = (*bounds, *bounds);
-                (low.max.x, high.min.x) = (bounds.centre().x, bounds.centre().x);
-                Part::Inner(children.iter().zip([low, high]).collect())
-            }
-        })
-    }
+    const UNIT: Aabb = Aabb { min: Vec3::ZERO, max: Vec3::ONE };
 
     #[test]
     fn nodes_are_counted_and_weighed_by_their_area() {
-        use Tree::{Leaf, Node};
-        let shape = shape(&Node(vec![Node(vec![Leaf(2), Leaf(0)]), Leaf(3)]));
+        let halved = |bounds: &Aabb, children: [u32; 2]| {
+            let (low, high) = bounds.cut(0, bounds.centre().x);
+            Part::Inner(children.into_iter().zip([low, high]).collect())
+        };
+        let shape = TreeShape::of(Some((0, UNIT)), |node, bounds| match node {
+            0 => halved(bounds, [1, 2]),
+            1 => halved(bounds, [3, 4]),
+            2 => Part::Leaf(3),
+            3 => Part::Leaf(2),
+            _ => Part::Leaf(0),
+        });
         assert_eq!((shape.inner, shape.leaves, shape.empty, shape.references), (2, 3, 1, 5));
         assert_eq!((shape.depth, shape.largest_leaf), (2, 3));
         // Half areas 3, 2 and 1.5: (1.2 * 3 + 1.2 * 2 + 2 * 1.5 + 3 * 2) / 3.
@@ -110,6 +103,6 @@ mod tests {
     #[test]
     fn no_tree_and_a_single_leaf_have_a_shape() {
         assert_eq!(TreeShape::of(None::<((), Aabb)>, |_, _| Part::Leaf(0)), TreeShape::default());
-        assert_eq!(shape(&Tree::Leaf(1)).sah_cost, Some(1.0));
+        assert_eq!(TreeShape::of(Some(((), UNIT)), |(), _| Part::Leaf(1)).sah_cost, Some(1.0));
     }
 }

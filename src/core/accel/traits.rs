@@ -58,13 +58,11 @@ pub trait Accel: Sized + Send + Sync + 'static {
     /// Build parameters. The names of their serialised fields are the keys on the command line and in exports.
     type Config: Clone + Debug + Default + Serialize + DeserializeOwned + Send + Sync + 'static;
 
-    /// Name of the triangle test that determines the results. Structures with the same test must return the same bits
-    /// of `t`. A structure with a private test keeps `"own"`.
+    /// Name of the triangle test: with the same test, structures return the same bits of `t`; `"own"` is private.
     const TRIANGLE_TEST: &'static str = "own";
 
     /// Deliberate deviations from the contract, one clause each; `sahara list` prints them. If a deviation changes
-    /// hits, also declare it in [`CAPABILITIES`](Accel::CAPABILITIES); then it does not count as an error. A defect
-    /// belongs in neither constant.
+    /// hits, also declare it in [`CAPABILITIES`](Accel::CAPABILITIES); then it is no error. Not for defects.
     const CONVENTIONS: &'static [&'static str] = &[];
 
     /// The events that the structure reports to the observer.
@@ -119,10 +117,9 @@ pub trait Accel: Sized + Send + Sync + 'static {
 
     /// Loads a batch of rays for many queries. Loading happens before the clock starts, so it is not timed.
     ///
-    /// The default keeps the rays unchanged, and every query prepares them in its timed region. This is right for every
-    /// structure that traces a [`Ray`] directly, such as all structures of this crate. An adapter to a library with its
-    /// own ray type converts the rays here, once, so the conversion is not timed. Prepare here only data that can
-    /// be computed from the rays without the tree; do not traverse.
+    /// The default keeps the rays unchanged, and every query prepares them in its timed region. An adapter to a library
+    /// with its own ray type converts the rays here, once, so the conversion is not timed. Prepare here only data that
+    /// can be computed from the rays without the tree; do not traverse.
     fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
         Box::new(RayBatch { accel: self, rays })
     }
