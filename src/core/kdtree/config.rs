@@ -22,8 +22,7 @@ pub struct KdConfig {
     pub leaf: u32,
     /// Whether a node of exactly `leaf` triangles may be split; the report does not specify it.
     pub limit: Limit,
-    /// `T` of [`Stop::Report`]: a split is discarded if at least this share of the triangles would lie on both sides.
-    /// In (0, 1]; 0.7 in the report's main table.
+    /// `T` of [`Stop::Report`]: the share of triangles on both sides that discards a split. In (0, 1].
     pub threshold: f32,
     /// The triangles to which the share `threshold` refers.
     pub count: CountOf,
@@ -47,8 +46,7 @@ pub struct KdConfig {
     pub sample: u32,
     /// Share of the cost that a split saves if it cuts off empty space, in [0, 1); Wald and Havran use 0.2.
     pub empty_bonus: f32,
-    /// Maximum number of references, as a multiple of the triangles: a limit for meshes in which splits would multiply
-    /// the references. At least 1.
+    /// Maximum number of references, as a multiple of the triangles. At least 1.
     pub duplication: f32,
 }
 
@@ -233,8 +231,7 @@ impl KdConfig {
         self.check_unread()
     }
 
-    /// Rejects an option that this combination does not read, unless its value is the value of [`REPORT`](Self::REPORT)
-    /// or [`SAH`](Self::SAH): any other value has no effect.
+    /// Rejects an option without effect whose value is not that of [`REPORT`](Self::REPORT) or [`SAH`](Self::SAH).
     fn check_unread(&self) -> Result<(), BuildError> {
         let is_median = !matches!(self.plane, Plane::SahBinned | Plane::SahSweep);
         let is_binned = self.plane == Plane::SahBinned;

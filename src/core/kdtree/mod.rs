@@ -4,7 +4,6 @@
 mod config;
 mod median;
 mod node;
-mod plan;
 #[cfg(test)]
 mod tests;
 mod traverse;

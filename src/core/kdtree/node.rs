@@ -6,7 +6,7 @@ use crate::accel::BuildError;
 pub(super) struct Node {
     /// Inner node: the bits of the split coordinate. Leaf: its first reference while building, then its first block.
     payload: u32,
-    /// The two low bits are the axis, or 3 for a leaf; the others number the child above or the references.
+    /// The two low bits are the axis, or 3 for a leaf; the others are the child above or the number of references.
     tag: u32,
 }
 

@@ -4,7 +4,7 @@ use glam::Vec3;
 use rand_core::SeedableRng;
 
 use super::node::Limits;
-use super::plan::{Plan, plan};
+use super::tree::{Plan, plan};
 use super::*;
 use crate::accel::{Accel, BuildError, Counts};
 use crate::brute_force::BruteForce;

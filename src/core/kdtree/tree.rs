@@ -1,9 +1,11 @@
 use std::sync::Arc;
 
-use super::config::KdConfig;
+use super::config::{KdConfig, Plane};
+use super::median::Triangles;
 use super::node::{Limits, Node};
-use super::plan::{Plan, plan};
 use crate::accel::{Accel, BuildError, Footprint, Part, TreeShape};
+use crate::build::cells::{Binned, Content, Context, Tree, grow};
+use crate::build::cut::Cut;
 use crate::geometry::{Aabb, Mesh};
 use crate::traversal::leaf::LeafBlock;
 use crate::traversal::pages;
@@ -27,8 +29,7 @@ pub struct KdTree<T: TriangleTest> {
 
 impl<T: TriangleTest> KdTree<T> {
     /// Turns the references of a plan into blocks, leaf by leaf.
-    fn finish(mesh: &Mesh, config: &KdConfig, plan: Plan) -> Self {
-        let Plan { mut nodes, references } = plan;
+    fn finish(mesh: &Mesh, config: &KdConfig, Plan { mut nodes, references }: Plan) -> Self {
         let leaves = nodes.iter().filter(|node| node.is_leaf());
         let count = leaves.map(|leaf| (leaf.references() as usize).div_ceil(BLOCK)).sum();
         let mut blocks = pages::with_capacity(count);
@@ -72,5 +73,67 @@ impl<T: TriangleTest> Accel for KdTree<T> {
             let (below, above) = cell.cut(node.axis(), node.split());
             Part::Inner(vec![(at + 1, below), (node.above() as usize, above)])
         })
+    }
+}
+
+/// A tree whose leaves refer to triangles, not blocks.
+#[derive(Default)]
+pub(super) struct Plan {
+    pub nodes: Vec<Node>,
+    pub references: Vec<u32>,
+}
+
+/// Grows the tree of `config`, if it stays within the limits.
+pub(super) fn plan(mesh: &Mesh, config: &KdConfig, limits: &Limits) -> Result<Plan, BuildError> {
+    config.check()?;
+    // Every triangle takes at least one reference: reject a hopeless build at once.
+    limits.check(1, mesh.solid().count())?;
+    let rules = config.rules();
+    let plan: Plan = match config.plane {
+        Plane::VertexMedian | Plane::SpatialMedian | Plane::CentroidMedian => {
+            let context = Context::new(mesh, rules, config);
+            grow(&context, Triangles::all(&context))
+        }
+        Plane::SahBinned | Plane::SahSweep => {
+            let sah = config.sah();
+            let context = Context::new(mesh, rules, &sah);
+            grow(&context, Binned::all(&context))
+        }
+    };
+    // The numbers in nodes only grow: if the last one fits, all of them fit.
+    limits.check(plan.nodes.len(), plan.references.len())?;
+    Ok(plan)
+}
+
+impl<C: Content> Tree<C> for Plan {
+    const SKIPS_EMPTY: bool = false;
+
+    fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    fn leaf(&mut self, content: C) {
+        self.nodes.push(Node::leaf(self.references.len() as u32, content.len() as u32));
+        self.references.extend(content.ids());
+    }
+
+    fn open(&mut self) {
+        self.nodes.push(Node::leaf(0, 0));
+    }
+
+    fn close(&mut self, inner: usize, cut: Cut, second: usize) {
+        self.nodes[inner] = Node::inner(cut.axis, cut.plane, second as u32);
+    }
+
+    fn append(&mut self, other: Self) {
+        let (nodes, references) = (self.nodes.len() as u32, self.references.len() as u32);
+        self.nodes.extend(other.nodes.into_iter().map(|node| {
+            if node.is_leaf() {
+                Node::leaf(node.first() + references, node.references())
+            } else {
+                Node::inner(node.axis(), node.split(), node.above() + nodes)
+            }
+        }));
+        self.references.extend(other.references);
     }
 }
