@@ -15,8 +15,7 @@ const CORNERS: usize = 9;
 /// corners around it, at any angle between the plane and an edge with computed ends.
 const ERROR: f64 = 128.0 / (1u64 << 53) as f64;
 
-/// A box that contains the part of the triangle `corners` in `cell`, inside `cell` and inside `known`, a box of the
-/// part in some larger cell.
+/// A box of the part of a triangle in `cell`, inside `cell` and `known`, a box of the part in some larger cell.
 ///
 /// Clips in f64 (Sutherland, Hodgman 1974) and rounds outward: the box contains the whole part. If rounding leaves no
 /// polygon at all, the result is `known` cut by the cell: a triangle that reaches into the cell is never dropped.

@@ -1,6 +1,4 @@
-//! The common parts of builders: references and their clipping, the cost model of the surface area heuristic, planes
-//! and groups of triangles that may split a node, searches for the cheapest of them, reinsertion of subtrees of a
-//! finished tree, and the resulting binary tree.
+//! The common parts of builders: clipped references, costs, the search for splits, binary trees, reinsertion.
 
 mod axes;
 pub(crate) mod binary_tree;

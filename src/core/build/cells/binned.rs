@@ -8,6 +8,7 @@ use crate::build::axes::on_axes;
 use crate::build::cut::Cut;
 use crate::build::part::{Part, at_plane};
 use crate::build::planes::{PLANES, Planes};
+use crate::build::reference::Reference;
 use crate::build::sah_cost::SideAreas;
 use crate::build::sample::Sample;
 use crate::geometry::Aabb;
@@ -54,6 +55,13 @@ impl Binned {
         match self {
             Self::Coarse(part) => part,
             Self::Fine(events) => Part::new(events.references),
+        }
+    }
+
+    fn references(&self) -> &[Reference] {
+        match self {
+            Self::Coarse(part) => &part.references,
+            Self::Fine(events) => &events.references,
         }
     }
 
@@ -130,18 +138,11 @@ impl Content for Binned {
     type Config = CellConfig;
 
     fn len(&self) -> usize {
-        match self {
-            Self::Coarse(part) => part.references.len(),
-            Self::Fine(events) => events.len(),
-        }
+        self.references().len()
     }
 
     fn ids(&self) -> impl Iterator<Item = u32> {
-        let references = match self {
-            Self::Coarse(part) => &part.references[..],
-            Self::Fine(events) => &events.references[..],
-        };
-        references.iter().map(|r| r.id())
+        self.references().iter().map(|r| r.id())
     }
 
     fn choose(&self, context: &Context<CellConfig>, place: &Place) -> Option<Cut> {

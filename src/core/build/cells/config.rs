@@ -18,8 +18,7 @@ impl CellConfig {
     pub const ALL_PLANES: u32 = u32::MAX;
 
     /// The cells of a wide tree. Steps are cheap, because three of them are one step of that tree, and all planes are
-    /// tried only in small nodes or never: in larger nodes the cheapest plane often cuts off empty space, which a tight
-    /// box does not need.
+    /// tried only in small nodes or never: the cheapest plane of a large node often cuts off empty space.
     pub fn new(quality: Quality) -> Self {
         let (exact, candidates, sample, step) = match quality {
             Quality::Fast => (0, 12, 512, 1.0),

@@ -55,8 +55,7 @@ pub(crate) fn reinsert(tree: BinaryTree, passes: u32) -> BinaryTree {
 
 /// The `count` nodes below the root with the largest boxes, the largest first.
 fn largest(links: &Links, count: usize) -> Vec<u32> {
-    // As shares of the root's area, large areas fit an `f32` in any unit of length; equal shares keep the order of the
-    // tree. They are not negative: their bits are in the same order.
+    // Shares of the root's area fit an `f32` in any unit of length. They are not negative: their bits have their order.
     let whole = Some(links[0].area).filter(|&whole| whole > 0.0).unwrap_or(1.0);
     let key = |at: u32| {
         let share = (links[at].area / whole) as f32;

@@ -1,14 +1,24 @@
 use crate::build::quality::Quality;
 use crate::build::sah_cost::CostModel;
 
+/// In addition to object splits, spatial splits are tried if the children of the best object split overlap by more than
+/// this share of the root's area. The paper uses 1e-5; a larger share builds faster.
+pub(super) const ALPHA: f32 = 1e-3;
+
+/// Cost of the overlap of an object split that competes with a spatial one, as a multiple of testing the triangles of
+/// the smaller side in the overlap. 0 in the paper; trees between 2 and 10 are equally fast.
+pub(super) const OVERLAP_COST: f32 = 3.0;
+
+/// Maximum number of references of a leaf.
+pub(super) const LEAF: usize = 64;
+
 /// The configuration of a binary tree of tight boxes. [`SbvhConfig::new`] has the tuned values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SbvhConfig {
     pub splits: Splits,
     /// Candidate planes and bins per axis, in 2..=62; more finds cheaper splits and takes longer.
     pub candidates: u32,
-    /// Nodes with at most this many references try every object split; larger ones try `candidates`. The cheapest split
-    /// is not the best for the tree: a larger number raises the final SAH cost.
+    /// Nodes with at most this many references try every object split; larger ones try `candidates`.
     pub exact: u32,
     /// Nodes with at most this many references clip triangles to the slabs of a spatial split; others cut boxes.
     pub sliced: u32,
@@ -16,19 +26,8 @@ pub(crate) struct SbvhConfig {
     pub refined: u32,
     /// Larger nodes use a sample of about this many references. At least 16.
     pub sample: u32,
-    /// In addition to object splits, spatial splits are tried if the children of the best object split overlap by more
-    /// than this share of the root's area, in [0, 1]. The paper uses 1e-5; a larger share builds faster.
-    pub alpha: f32,
-    /// Cost of the overlap of an object split that competes with a spatial one, as a multiple of testing the triangles
-    /// of the smaller side in the overlap. At least 0, as in the paper; trees between 2 and 10 are equally fast.
-    pub overlap_cost: f32,
-    /// Cost of a step from a node to its two children. Positive; a higher cost gives larger leaves. A step of an 8-wide
-    /// tree is about three of these.
+    /// Cost of a step to two children, in blocks of triangles. Positive; a step of an 8-wide tree is about three.
     pub node_cost: f32,
-    /// Cost of testing a block of eight triangles. Positive; a higher cost gives smaller leaves.
-    pub block_cost: f32,
-    /// Maximum number of references of a leaf, in 8..=64.
-    pub leaf: u32,
     /// Maximum number of references of a build, as a multiple of the triangles. At least 1.
     pub duplication: f32,
 }
@@ -58,23 +57,10 @@ impl SbvhConfig {
             Quality::Fast => 0.4,
             Quality::Balanced | Quality::High => 0.3,
         };
-        Self {
-            splits,
-            candidates,
-            exact,
-            sliced,
-            refined,
-            sample,
-            alpha: 1e-3,
-            overlap_cost: 3.0,
-            node_cost,
-            block_cost: 1.0,
-            leaf: 64,
-            duplication: 4.0,
-        }
+        Self { splits, candidates, exact, sliced, refined, sample, node_cost, duplication: 4.0 }
     }
 
     pub(super) fn costs(&self) -> CostModel {
-        CostModel::new(self.node_cost, self.block_cost, 0.0)
+        CostModel::new(self.node_cost, 1.0, 0.0)
     }
 }

@@ -1,6 +1,6 @@
 //! Grows the tree.
 
-use super::config::{SbvhConfig, Splits};
+use super::config::{ALPHA, LEAF, OVERLAP_COST, SbvhConfig, Splits};
 use super::object::cheapest_group;
 use super::offer::{Context, Offer};
 use super::spatial::{Slots, cheapest_cut};
@@ -90,13 +90,13 @@ fn choose(
     place: Place,
     slots: &mut Slots,
 ) -> Option<(Split, [usize; 2])> {
-    let (area, count, config) = (extent.half_area(), references.len(), context.config);
+    let (area, count) = (extent.half_area(), references.len());
     if count <= BLOCK && !context.is_large(area) {
         return None;
     }
     // A split of a single block is tried even if it costs more: one further down may pay, and `merge` undoes it if not.
     let leaf_cost = if count <= BLOCK { f64::INFINITY } else { context.unsplit_cost(area, count) };
-    let full = count > config.leaf as usize;
+    let full = count > LEAF;
     if place.depth < context.depth
         && let Some(offer) = cheapest(context, references, extent, place.budget, slots)
         && (offer.cost < leaf_cost || full)
@@ -124,7 +124,7 @@ fn cheapest(
         Splits::SpatialAndObject => {
             let set = set();
             let overlap = set.as_ref().map(|o| o.sides[0].overlap(o.sides[1]));
-            if overlap.is_some_and(|area| area <= f64::from(context.config.alpha) * context.root_area) {
+            if overlap.is_some_and(|area| area <= f64::from(ALPHA) * context.root_area) {
                 return set;
             }
             match (set, space()) {
@@ -148,19 +148,18 @@ fn overlap_cost(context: &Context, count: usize, object: &Offer<Split>, spatial:
         return 0.0;
     }
     let fewer = object.counts[0].min(object.counts[1]);
-    f64::from(context.config.overlap_cost) * context.costs.box_leaf(object.sides[0].overlap(object.sides[1]), fewer)
+    f64::from(OVERLAP_COST) * context.costs.box_leaf(object.sides[0].overlap(object.sides[1]), fewer)
 }
 
 /// Merges the subtree at `own` into one leaf if that is cheaper; returns its cost then.
 fn merge(context: &Context, tree: &mut BinaryTree, own: usize, first: usize, area: f64, cost: f64) -> Option<f64> {
-    let most = context.config.leaf as usize;
-    if tree.references.len() - first > 2 * most {
+    if tree.references.len() - first > 2 * LEAF {
         return None;
     }
     let mut ids = tree.references[first..].to_vec();
     ids.sort_unstable();
     ids.dedup();
-    if ids.len() > most || context.unsplit_cost(area, ids.len()) > cost {
+    if ids.len() > LEAF || context.unsplit_cost(area, ids.len()) > cost {
         return None;
     }
     tree.references.truncate(first);

@@ -6,8 +6,7 @@ use crate::build::sah_cost::CostModel;
 use crate::geometry::Mesh;
 use crate::triangle::BLOCK;
 
-/// A box is large if its half area is more than this share of the root's: so few are that splitting their blocks adds
-/// little memory.
+/// A box is large above this share of the root's half area: so few are that splitting their blocks costs little.
 const LARGE: f64 = 1.0 / 2048.0;
 
 /// The inputs of every step of a build.

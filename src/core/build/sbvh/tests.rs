@@ -31,7 +31,7 @@ fn every_point_of_every_triangle_is_in_a_leaf_and_spatial_splits_alone_partition
             let references = tree.references.len();
             assert!(config.splits != Splits::Object || references == mesh.len(), "{config:?}: {references}");
             if config.splits == Splits::Spatial {
-                let leaves = leaves(&tree, config.leaf);
+                let leaves = leaves(&tree, 64);
                 assert!(leaves.len() > 30, "too few leaves to prove anything");
                 disjoint(&leaves);
             }
@@ -63,7 +63,7 @@ fn no_input_explodes() {
             for config in configs().map(|c| SbvhConfig { duplication, ..c }) {
                 let count = mesh.solid().count();
                 let tree = build(&mesh, &config);
-                let leaves = leaves(&tree, config.leaf);
+                let leaves = leaves(&tree, 64);
                 let references = tree.references.len();
                 assert!(references as f32 <= duplication * count as f32, "{name} {config:?}: {references}");
                 let mut seen = vec![false; mesh.len()];
@@ -105,7 +105,7 @@ fn a_floor_and_a_wall_are_separate_leaves_and_tiles_of_a_floor_are_not() {
         let tree = build(&scene, &config);
         // Planes leave them in several blocks together with parts of the object, and in fast builds a step costs more.
         let groups = config.splits != Splits::Spatial && config.exact > 0;
-        for (_, ids) in leaves(&tree, config.leaf).iter().filter(|_| groups) {
+        for (_, ids) in leaves(&tree, 64).iter().filter(|_| groups) {
             let has = |part: [u32; 2]| part.iter().any(|id| ids.contains(id));
             assert!(!(has([0, 1]) && has([2, 3])), "{config:?}: {ids:?}");
         }
@@ -127,7 +127,7 @@ fn nothing_and_next_to_nothing_build() {
         for scale in [1.0, 1e-30, 1e-38, 1e-42] {
             let mesh = mesh(400, |i| huge.map(|p| p * scale * (1.0 - i as f32 / 400.0)));
             let tree = build(&mesh, &config);
-            let held: usize = leaves(&tree, config.leaf).iter().map(|leaf| leaf.1.len()).sum();
+            let held: usize = leaves(&tree, 64).iter().map(|leaf| leaf.1.len()).sum();
             assert!(held >= mesh.solid().count(), "{scale}");
         }
     }
