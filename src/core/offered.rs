@@ -1,17 +1,22 @@
 //! The structures that the registry offers by name, each over each of its triangle tests. This crate compiles their
 //! builds and traversals once, with its own settings; otherwise each user of a generic structure would again.
 //!
-//! To add a structure of this crate, add its type to `offered_over!`, or to `offered!` if it has one triangle test. In
-//! `src/registry/builtin.rs`, add a bound and a line `.offering` to `over`, or only the line to `builtin`. The tests
-//! require that the structure works over every triangle test of `offered_over!`, returns the lowest primitive number at
-//! equal `t`, loses no hit in the ranked hard cases, and returns the same bits at every SIMD level.
+//! To add a structure of this crate, add its type to `offered_over!`, or to `offered!` if it has one triangle test.
+//! Tests then require that it works over every test of `offered_over!`, returns the lowest primitive number at equal
+//! `t`, loses no hit in the ranked hard cases, and returns the same bits at every SIMD level.
 
 use std::sync::Arc;
 
 use crate::accel::{Accel, BuildError, DynAccel};
 use crate::brute_force::BruteForce;
 use crate::bvh8::Bvh8;
+#[cfg(feature = "peer-bvh")]
+use crate::external::bvh::{SvenstaroBvh, SvenstaroTest};
+#[cfg(feature = "peer-embree")]
+use crate::external::embree::Embree;
 use crate::external::obvhs::{Native, ObvhsBvh2, ObvhsCwBvh, Over, RtTest};
+#[cfg(feature = "peer-parry")]
+use crate::external::parry::{ParryBvh, ParryTest};
 use crate::geometry::Mesh;
 use crate::kdtree::KdTree;
 use crate::triangle::{BaldwinWeber, EdgeF64, Exact, MollerTrumbore, MollerTrumboreF64, Plucker, Watertight};
@@ -57,23 +62,13 @@ offered!(
 );
 
 #[cfg(feature = "peer-bvh")]
-mod svenstaro {
-    use super::*;
-    use crate::external::bvh::{SvenstaroBvh, SvenstaroTest};
-
-    offered!(SvenstaroBvh<SvenstaroTest>, SvenstaroBvh<MollerTrumbore>, SvenstaroBvh<Exact>, BruteForce<SvenstaroTest>,);
-}
+offered!(SvenstaroBvh<SvenstaroTest>, SvenstaroBvh<MollerTrumbore>, SvenstaroBvh<Exact>, BruteForce<SvenstaroTest>);
 
 #[cfg(feature = "peer-parry")]
-mod parry {
-    use super::*;
-    use crate::external::parry::{ParryBvh, ParryTest};
-
-    offered!(ParryBvh<ParryTest>, ParryBvh<MollerTrumbore>, ParryBvh<Exact>, BruteForce<ParryTest>);
-}
+offered!(ParryBvh<ParryTest>, ParryBvh<MollerTrumbore>, ParryBvh<Exact>, BruteForce<ParryTest>);
 
 #[cfg(feature = "peer-tinybvh")]
 offered!(crate::external::tinybvh::TinyBvh);
 
 #[cfg(feature = "peer-embree")]
-offered!(crate::external::embree::Embree<false>, crate::external::embree::Embree<true>);
+offered!(Embree<false>, Embree<true>);

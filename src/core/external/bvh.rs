@@ -215,8 +215,7 @@ impl<T: TriangleTest> Accel for SvenstaroBvh<T> {
 
 /// The triangle test of the crate: Möller-Trumbore over a unit direction; it culls back faces.
 ///
-/// Wrapped as a test of this crate: it runs for both windings, and `t` is divided by the length of the direction. It
-/// rejects determinants and distances below the float's epsilon, at any scale of the scene.
+/// Wrapped for both windings; `t` is divided by the direction's length. Rejects determinants and `t` below epsilon.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SvenstaroTest;
 

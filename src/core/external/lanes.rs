@@ -1,7 +1,5 @@
 //! Blocks of triangles for tests of other projects, which have no lanes.
 
-use std::array;
-
 use glam::Vec3;
 
 use crate::simd::{Lanes, indexed};
@@ -9,7 +7,7 @@ use crate::simd::{Lanes, indexed};
 /// A block of `triangles`, which `make` converts to the format of the test; unused lanes have no area.
 pub(super) fn block<B, const N: usize>(triangles: &[[Vec3; 3]], make: impl Fn([Vec3; 3]) -> B) -> [B; N] {
     assert!(triangles.len() <= N, "a block of {N} lanes cannot hold {} triangles", triangles.len());
-    array::from_fn(|lane| make(triangles.get(lane).copied().unwrap_or_default()))
+    std::array::from_fn(|lane| make(triangles.get(lane).copied().unwrap_or_default()))
 }
 
 /// The lanes with `t` in the interval, and all `t`; a miss is infinitely far.

@@ -3,9 +3,8 @@
 //!
 //! - **Rays** are converted to the peer's format once, before the clock starts
 //!   ([`Accel::load`](crate::accel::Accel::load)): its own ray with unit or inverse direction if it has one, and the
-//!   input of the triangle test. The timed region still contains the computations of the library's own traversal, and a
-//!   copy to the stack if the library writes into the ray. For rays that mostly miss, this saves a fifth of the time
-//!   or more. The structures of this crate prepare rays inside the timed region, so the comparison favours the peers.
+//!   input of the triangle test. The structures of this crate prepare rays inside the timed region, so the comparison
+//!   favours the peers.
 //! - **Triangle tests**: the peer's own test, wrapped as a test of this crate if its API exposes it, which makes brute
 //!   force over it a possible reference; and the tests of this crate if the peer takes a closure.
 //! - **Triangles without area** are left out, as for all structures. An empty scene returns misses without a call to

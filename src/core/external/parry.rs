@@ -149,8 +149,6 @@ impl<T: TriangleTest> Accel for ParryBvh<T> {
 }
 
 /// The triangle test of parry: Möller-Trumbore by the triangle's normal, two-sided, without an epsilon.
-///
-/// Wrapped as a test of this crate.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ParryTest;
 

@@ -54,22 +54,16 @@ pub(crate) use prepared_queries;
 /// [`Accel::load`] of a structure that implements [`Prepare`].
 pub(crate) fn load<'a, S: Prepare>(structure: &'a S, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
     if structure.prepares_loaded() {
-        Box::new(PreparedBatch::new(structure, &rays))
+        Box::new(PreparedBatch { structure, rays: rays.iter().map(|ray| structure.ready(ray)).collect() })
     } else {
         Box::new(RayBatch { accel: structure, rays })
     }
 }
 
 /// A batch of such rays.
-pub(crate) struct PreparedBatch<'a, S: Prepare> {
+struct PreparedBatch<'a, S: Prepare> {
     structure: &'a S,
     rays: Vec<Option<S::Ready>>,
-}
-
-impl<'a, S: Prepare> PreparedBatch<'a, S> {
-    pub fn new(structure: &'a S, rays: &[Ray]) -> Self {
-        Self { structure, rays: rays.iter().map(|ray| structure.ready(ray)).collect() }
-    }
 }
 
 impl<S: Prepare> Loaded for PreparedBatch<'_, S> {

@@ -1,7 +1,7 @@
 //! The required functions of Embree 4, looked up in its shared library when the first structure is built.
 
 use std::env;
-use std::ffi::{OsString, c_char, c_int, c_uint, c_void};
+use std::ffi::{OsStr, c_char, c_int, c_uint, c_void};
 use std::sync::OnceLock;
 
 use libloading::Library;
@@ -21,7 +21,7 @@ pub type OnError = unsafe extern "C" fn(*mut c_void, c_int, *const c_char);
 /// Receives changes of memory: the pointer given with the function, bytes, whether it has happened. May refuse.
 pub type OnMemory = unsafe extern "C" fn(*mut c_void, isize, bool) -> bool;
 
-/// The options of a query: the head of `RTCIntersectArguments` and `RTCOccludedArguments`, with space.
+/// The options of a query: the head of `RTCIntersectArguments` and `RTCOccludedArguments`, and some space.
 #[repr(C)]
 pub struct Arguments {
     pub flags: c_uint,
@@ -95,28 +95,18 @@ pub fn api() -> Result<&'static Api, String> {
 
 fn load() -> Result<(Library, Api), String> {
     let named = env::var_os(VARIABLE).filter(|path| !path.is_empty());
-    let candidates: Vec<OsString> = match &named {
-        Some(path) => vec![path.clone()],
-        None => NAMES.map(OsString::from).into(),
-    };
-    let mut failure = None;
-    let library = candidates.iter().find_map(|name| {
-        // SAFETY: loading runs the initialisers of the library. It is the one that the user names, or the system's.
-        let loaded = unsafe { Library::new(name) };
-        loaded.map_err(|error| failure = Some(error)).ok()
-    });
-    let Some(library) = library else {
-        return Err(match named {
-            Some(path) => format!(
-                "Embree 4 cannot be loaded from {} ({VARIABLE}): {}",
-                path.display(),
-                failure.map_or("no reason is given".into(), |error| error.to_string())
-            ),
-            None => format!(
+    // SAFETY: loading runs the initialisers of the library. It is the one that the user names, or the system's own
+    // Embree: both are trusted to be the named library.
+    let open = |name: &OsStr| unsafe { Library::new(name) };
+    let library = match &named {
+        Some(path) => open(path)
+            .map_err(|error| format!("Embree 4 cannot be loaded from {} ({VARIABLE}): {error}", path.display()))?,
+        None => NAMES.iter().find_map(|name| open(name.as_ref()).ok()).ok_or_else(|| {
+            format!(
                 "Embree 4 is not installed: the system finds no {}; install it, or set {VARIABLE} to the path of the library",
                 NAMES[0]
-            ),
-        });
+            )
+        })?,
     };
     let other = |what: &str| {
         let place = named.as_ref().map_or(NAMES[0].into(), |path| path.display().to_string());

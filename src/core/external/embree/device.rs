@@ -1,5 +1,4 @@
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
-use std::ptr;
 use std::sync::atomic::{AtomicIsize, Ordering};
 use std::sync::{Arc, Mutex};
 
@@ -68,7 +67,7 @@ impl Scene {
         unsafe {
             let device = (api.new_device)(options.as_ptr());
             if device.is_null() {
-                let code = (api.device_error)(ptr::null_mut());
+                let code = (api.device_error)(std::ptr::null_mut());
                 return Err(BuildError::Unavailable(format!("Embree could not create a device (error {code})")));
             }
             let monitor: Arc<Monitor> = Arc::default();

@@ -4,10 +4,8 @@
 //! Its flag ROBUST changes both the triangle test and the box test, so there are two structures: `embree` and
 //! `embree-robust`. Only its own triangle test is available; brute force over it uses a scene of one triangle for each
 //! tested triangle ([`alone`]). Rays and packets of eight or sixteen are converted to its format before the clock
-//! starts: 48, 384 and 768 bytes, all that it reads. A query overwrites the end of the ray (`tfar`) and writes the hit
-//! behind it, so each query gets a copy on the stack, followed by an empty hit. This is the cheapest way to repeat the
-//! same rays, and a renderer does the same if it generates rays on demand. Builds run on the threads of the caller. The
-//! shape of its tree is unknown, so the adapter reports one leaf.
+//! starts: 48, 384 and 768 bytes, all that it reads. Each query gets a copy on the stack, followed by an empty hit.
+//! Builds run on the threads of the caller. The shape of its tree is unknown, so the adapter reports one leaf.
 //!
 //! # References
 //! Wald, Woop, Benthin, Johnson, Ernst: Embree: a kernel framework for efficient CPU ray tracing. SIGGRAPH 2014.
@@ -210,6 +208,5 @@ impl<const ROBUST: bool> Accel for Embree<ROBUST> {
 pub fn alone<const ROBUST: bool>(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
     let mesh = Arc::new(Mesh::new(corners.into(), vec![[0, 1, 2]]).ok()?);
     let config = EmbreeConfig { quality: Quality::Medium, ..Default::default() };
-    let scene = Embree::<ROBUST>::build(&mesh, &config).ok()?;
-    scene.closest_hit(ray, &mut ()).map(|hit| hit.t)
+    Embree::<ROBUST>::build(&mesh, &config).ok()?.closest_hit(ray, &mut ()).map(|hit| hit.t)
 }

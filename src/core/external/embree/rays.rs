@@ -48,11 +48,6 @@ pub struct Packet<const LANES: usize> {
     rays: RayLanes<LANES>,
 }
 
-/// The last `t` that a ray that ends before `t_max` may have: Embree's end is closed.
-fn last(t_max: f32) -> f32 {
-    if t_max == f32::INFINITY { t_max } else { t_max.next_down() }
-}
-
 impl<const LANES: usize> Packet<LANES> {
     /// # Panics
     /// If there are more than `LANES` rays.
@@ -76,7 +71,8 @@ impl<const LANES: usize> Packet<LANES> {
                 packet.direction[axis][lane] = ray.direction[axis];
             }
             packet.t_near[lane] = t_min;
-            packet.t_far[lane] = last(t_max);
+            // Embree's end is closed.
+            packet.t_far[lane] = if t_max == f32::INFINITY { t_max } else { t_max.next_down() };
             valid[lane] = -1;
         }
         Self { valid, rays: packet }

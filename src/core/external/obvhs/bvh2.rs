@@ -42,8 +42,7 @@ impl Tree for Bvh2 {
         })
     }
 
-    /// The traversal of obvhs, step by step, without the assertion at every node that its children exist, and with an
-    /// observer. A test compares its hits with the hits of obvhs.
+    /// The traversal of obvhs, step by step, without its assertions, and with an observer. A test compares the hits.
     #[inline(always)]
     unsafe fn walk<const ANY: bool>(
         &self,

@@ -14,7 +14,6 @@
 //! the build takes quadratic time on coincident triangles.
 
 mod bvh2;
-mod config;
 mod cwbvh;
 mod leaf_test;
 mod leaves;
@@ -28,8 +27,8 @@ use obvhs::bvh2::Bvh2;
 use obvhs::cwbvh::CwBvh;
 use obvhs::ray::{Ray as PreparedRay, RayHit};
 use obvhs::triangle::Triangle;
+use serde::{Deserialize, Serialize};
 
-pub use config::{ObvhsConfig, Preset, Rays};
 pub use leaf_test::{LeafTest, Native, Over, RtTest};
 
 use crate::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
@@ -48,6 +47,55 @@ pub struct Obvhs<B, T: LeafTest> {
     tree: B,
     leaves: Leaves<T>,
     rays: Rays,
+}
+
+/// The build options of obvhs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ObvhsConfig {
+    /// One of the crate's presets.
+    pub preset: Preset,
+    /// When its rays are prepared.
+    pub rays: Rays,
+}
+
+/// When a ray is converted to the ray of obvhs, with its inverse direction.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Rays {
+    /// In the query, inside the timed region, like the structures of this crate.
+    #[default]
+    Asked,
+    /// When a batch is loaded, before the clock starts.
+    Loaded,
+}
+
+/// The presets of obvhs, from the fastest build to the best tree. Only `slow` and `very-slow` split large triangles, so
+/// only these two compare fairly with a KD-tree.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub enum Preset {
+    Fastest,
+    VeryFast,
+    Fast,
+    Medium,
+    Slow,
+    #[default]
+    VerySlow,
+}
+
+impl Preset {
+    fn params(self) -> BvhBuildParams {
+        match self {
+            Self::Fastest => BvhBuildParams::fastest_build(),
+            Self::VeryFast => BvhBuildParams::very_fast_build(),
+            Self::Fast => BvhBuildParams::fast_build(),
+            Self::Medium => BvhBuildParams::medium_build(),
+            Self::Slow => BvhBuildParams::slow_build(),
+            Self::VerySlow => BvhBuildParams::very_slow_build(),
+        }
+    }
 }
 
 fn aabb(bounds: obvhs::aabb::Aabb) -> Aabb {

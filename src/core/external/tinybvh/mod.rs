@@ -1,12 +1,9 @@
-//! [tinybvh](https://github.com/jbikker/tinybvh) 1.6.8 by the crate `tinybvh-rs` 0.1: an 8-wide BVH with four triangles
-//! per leaf (`BVH8_CPU`), which is its fastest layout on a processor with AVX2.
+//! [tinybvh](https://github.com/jbikker/tinybvh) 1.6.8 by the crate `tinybvh-rs` 0.1: `BVH8_CPU`, its fastest layout.
 //!
-//! A C++ compiler builds it, for the instructions of this machine. The crate only provides the closest hit, and
-//! declares a ray of 64 bytes instead of C++'s 128. Therefore only the builders are called through the crate; both
-//! queries call the linked C++ library directly, by symbol name, with a ray of the full size ([`query`]). The ray (unit
-//! direction, inverse) is made before the clock starts; for a closest hit it is copied to the stack, because the hit is
-//! written into it. Triangles are copied as corners of 16 bytes, the format of tinybvh, which builds large scenes on
-//! its own threads.
+//! A C++ compiler builds it, for the instructions of this machine. Only the builders are called through the crate; both
+//! queries call the linked C++ library ([`query`]). The ray (unit direction, inverse) is made before the clock starts;
+//! for a closest hit it is copied to the stack, because the hit is written into it. Triangles are copied as corners of
+//! 16 bytes, the format of tinybvh, which builds large scenes on its own threads.
 //!
 //! # References
 //! Fuetterling, Lojewski, Pfreundt, Ebert: Accelerated single ray tracing for wide vector units. HPG 2017.
