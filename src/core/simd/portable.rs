@@ -14,6 +14,16 @@ macro_rules! lanewise {
     )*};
 }
 
+/// Functions that are always inlined.
+macro_rules! inlined {
+    ($(fn $name:ident($($parameter:tt)*) -> $result:ty { $($body:tt)* })*) => {$(
+        #[inline(always)]
+        fn $name($($parameter)*) -> $result {
+            $($body)*
+        }
+    )*};
+}
+
 macro_rules! arithmetic {
     ($scalar:ty, $sign:literal) => {
         impl<const N: usize> Portable<N, $scalar> {
@@ -31,14 +41,19 @@ macro_rules! arithmetic {
         impl<const N: usize> Arithmetic<N> for Portable<N, $scalar> {
             type Scalar = $scalar;
 
-            #[inline(always)]
-            fn splat(value: $scalar) -> Self {
-                Self([value; N])
-            }
-
-            #[inline(always)]
-            fn store(self) -> [$scalar; N] {
-                self.0
+            inlined! {
+                fn splat(value: $scalar) -> Self {
+                    Self([value; N])
+                }
+                fn store(self) -> [$scalar; N] {
+                    self.0
+                }
+                fn mul_add_loosely(self, factor: Self, term: Self) -> Self {
+                    self.mul(factor).add(term)
+                }
+                fn mul_sub_loosely(self, factor: Self, term: Self) -> Self {
+                    self.mul(factor).sub(term)
+                }
             }
 
             lanewise! {
@@ -57,16 +72,6 @@ macro_rules! arithmetic {
                 le: |a, b| a <= b,
                 lt: |a, b| a < b,
             }
-
-            #[inline(always)]
-            fn mul_add_loosely(self, factor: Self, term: Self) -> Self {
-                self.mul(factor).add(term)
-            }
-
-            #[inline(always)]
-            fn mul_sub_loosely(self, factor: Self, term: Self) -> Self {
-                self.mul(factor).sub(term)
-            }
         }
     };
 }
@@ -77,19 +82,16 @@ arithmetic!(f64, 0x8000_0000_0000_0000);
 impl<const N: usize> Lanes<N> for Portable<N> {
     type Double = Portable<N, f64>;
 
-    #[inline(always)]
-    fn load(values: &[f32; N]) -> Self {
-        Self(*values)
-    }
-
-    #[inline(always)]
-    fn widen(self) -> Portable<N, f64> {
-        Portable(each(&self.0, |&x| f64::from(x)))
-    }
-
-    #[inline(always)]
-    fn narrow(wide: Portable<N, f64>) -> Self {
-        Self(each(&wide.0, |&x| x as f32))
+    inlined! {
+        fn load(values: &[f32; N]) -> Self {
+            Self(*values)
+        }
+        fn widen(self) -> Portable<N, f64> {
+            Portable(each(&self.0, |&x| f64::from(x)))
+        }
+        fn narrow(wide: Portable<N, f64>) -> Self {
+            Self(each(&wide.0, |&x| x as f32))
+        }
     }
 }
 
@@ -138,68 +140,45 @@ impl EightLanes for Portable<8> {
         set
     }
 
-    #[inline(always)]
-    fn transpose(rows: [Self; 8]) -> [Self; 8] {
-        indexed(|i| Self(indexed(|j| rows[j].0[i])))
-    }
-
-    #[inline(always)]
-    fn cmp_le(self, other: Self) -> u32 {
-        self.le(other)
-    }
-
-    #[inline(always)]
-    fn cmp_lt(self, other: Self) -> u32 {
-        self.lt(other)
-    }
-
-    #[inline(always)]
-    fn mask(bits: u32) -> u32 {
-        bits
-    }
-
-    #[inline(always)]
-    fn bits(mask: u32) -> u32 {
-        mask
-    }
-
-    #[inline(always)]
-    fn both(one: u32, other: u32) -> u32 {
-        one & other
-    }
-
-    #[inline(always)]
-    fn either(one: u32, other: u32) -> u32 {
-        one | other
-    }
-
-    #[inline(always)]
-    fn choose(self, other: Self, mask: u32) -> Self {
-        Self(indexed(|i| if mask >> i & 1 == 1 { self.0[i] } else { other.0[i] }))
-    }
-
-    #[inline(always)]
-    fn numbers(numbers: &[u32; 8]) -> [u32; 8] {
-        *numbers
-    }
-
-    #[inline(always)]
-    fn splat_number(number: u32) -> [u32; 8] {
-        [number; 8]
-    }
-
-    #[inline(always)]
-    fn store_numbers(numbers: [u32; 8]) -> [u32; 8] {
-        numbers
-    }
-
-    #[inline(always)]
-    fn cmp_le_numbers(one: [u32; 8], other: [u32; 8]) -> u32 {
-        (0..8).fold(0, |bits, i| bits | u32::from(one[i] <= other[i]) << i)
-    }
-
-    #[inline(always)]
-    fn choose_numbers(one: [u32; 8], other: [u32; 8], mask: u32) -> [u32; 8] {
-        indexed(|i| if mask >> i & 1 == 1 { one[i] } else { other[i] })
+    inlined! {
+        fn transpose(rows: [Self; 8]) -> [Self; 8] {
+            indexed(|i| Self(indexed(|j| rows[j].0[i])))
+        }
+        fn cmp_le(self, other: Self) -> u32 {
+            self.le(other)
+        }
+        fn cmp_lt(self, other: Self) -> u32 {
+            self.lt(other)
+        }
+        fn mask(bits: u32) -> u32 {
+            bits
+        }
+        fn bits(mask: u32) -> u32 {
+            mask
+        }
+        fn both(one: u32, other: u32) -> u32 {
+            one & other
+        }
+        fn either(one: u32, other: u32) -> u32 {
+            one | other
+        }
+        fn choose(self, other: Self, mask: u32) -> Self {
+            Self(indexed(|i| if mask >> i & 1 == 1 { self.0[i] } else { other.0[i] }))
+        }
+        fn numbers(numbers: &[u32; 8]) -> [u32; 8] {
+            *numbers
+        }
+        fn splat_number(number: u32) -> [u32; 8] {
+            [number; 8]
+        }
+        fn store_numbers(numbers: [u32; 8]) -> [u32; 8] {
+            numbers
+        }
+        fn cmp_le_numbers(one: [u32; 8], other: [u32; 8]) -> u32 {
+            (0..8).fold(0, |bits, i| bits | u32::from(one[i] <= other[i]) << i)
+        }
+        fn choose_numbers(one: [u32; 8], other: [u32; 8], mask: u32) -> [u32; 8] {
+            indexed(|i| if mask >> i & 1 == 1 { one[i] } else { other[i] })
+        }
     }
 }
