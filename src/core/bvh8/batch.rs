@@ -13,8 +13,7 @@ use crate::traversal::leaf::Nearest;
 use crate::traversal::walk::{silent, single};
 use crate::triangle::{Depth, INPUTS, TriangleTest, last_bits};
 
-/// Rays of a slice that are traced before the next window begins: so many that the end of a window, where few rays are
-/// active, hardly matters.
+/// Rays of a slice in one window: so many that its end, where few rays are active, hardly matters.
 const WINDOW: usize = 4096;
 
 /// Groups of a window, by index in ascending order; the last one may be shorter.
@@ -241,8 +240,7 @@ pub(super) fn answer<const ANY: bool, T: TriangleTest, A, O: Observer>(
 
 /// Traces the groups of a window that form no packet.
 ///
-/// Interleaving hides the time that rays wait for memory, but costs instructions: trees that fit into a cache do not
-/// gain from it, and any-hit queries end too early (`papers/TUNING.md`).
+/// Interleaving hides latency but costs instructions: it pays neither in cached trees nor for any hit (TUNING.md).
 fn answer_apart<const ANY: bool, T: TriangleTest, A>(
     level: Level,
     tree: &Bvh8<T>,

@@ -1,6 +1,5 @@
 //! The order in which rays visit the children of a node. For the closest hit, the build stores one order per octant of
-//! directions, and the traversal (`stack.rs`) follows it. For any hit, the traversal visits the lanes from the last to
-//! the first.
+//! directions, which the traversal follows. For any hit, it visits the lanes from the last to the first.
 
 use super::collapse::Collapse;
 

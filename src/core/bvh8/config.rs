@@ -19,11 +19,9 @@ pub struct Bvh8Config {
     pub quality: Quality,
     /// SAH cost of a block of eight triangles, relative to a node. Positive; a higher cost gives smaller leaves.
     pub block_cost: f32,
-    /// Maximum number of references, as a multiple of the triangles: a limit for meshes in which splits would multiply
-    /// the references. At least 1; [`Quality::Fast`] uses at most 1.75.
+    /// Maximum number of references, as a multiple of the triangles. At least 1; [`Quality::Fast`] uses at most 1.75.
     pub duplication: f32,
-    /// How a slice of rays is traced. Must be [`Batch::Single`] with triangle tests that are not
-    /// [`BATCHED`](TriangleTest::BATCHED).
+    /// How a slice of rays is traced: [`Batch::Single`] unless the test is [`BATCHED`](TriangleTest::BATCHED).
     pub batch: Batch,
 }
 

@@ -113,7 +113,9 @@ impl<'a, T: TriangleTest> Piece<'a, T> {
                 let mut node = Node { orders: children.orders, ..Node::EMPTY };
                 let parts = children.parts();
                 for (lane, &part) in (WIDTH - parts.len()..).zip(parts) {
-                    let child = if self.is_left(part) {
+                    // Another thread writes small subtrees.
+                    let is_left = matches!(part, Part::Node(_)) && self.collapse.references(part).len() <= self.cut;
+                    let child = if is_left {
                         self.cuts.push(Cut { part, parent: own, lane, depth: depth + 1 });
                         Child::NOTHING
                     } else {
@@ -125,10 +127,6 @@ impl<'a, T: TriangleTest> Piece<'a, T> {
                 Child::node(own)
             }
         }
-    }
-
-    fn is_left(&self, part: Part) -> bool {
-        matches!(part, Part::Node(_)) && self.collapse.references(part).len() <= self.cut
     }
 
     fn leaf(&mut self, part: Part) -> Child {

@@ -28,8 +28,7 @@ impl Limits {
     /// Checks before the build that `triangles` triangles with on average at most `duplication` references are allowed.
     ///
     /// # Errors
-    /// If the binary tree might have more nodes or references than it can number: it has fewer than two nodes per
-    /// reference.
+    /// If the binary tree, with fewer than two nodes per reference, might have more than it can number.
     pub fn admit(&self, triangles: usize, duplication: f32) -> Result<(), BuildError> {
         let most = 2.0 * f64::from(duplication) * triangles as f64;
         if most <= self.binary as f64 {

@@ -3,8 +3,7 @@
 //! **The same hits as one ray at a time.** A packet visits the children of a node in the order of the octant that its
 //! rays share. A ray participates in a visit if and only if its own box test, with its own end, passes. The test of the
 //! whole packet rejects only boxes that each of its rays rejects (see [`Frustum`]). So every ray visits all leaves that
-//! it visits on its own, in the same order, and perhaps some behind its hit, because eight rays at once bound the `t`
-//! of a hit less closely.
+//! it visits on its own, in the same order, and perhaps some behind its hit.
 //!
 //! A leaf that nearly all rays visit is searched triangle by triangle, eight rays at once; other leaves are searched
 //! ray by ray. If the test of eight rays cannot decide whether a ray meets a triangle, or which of two hits is nearer,
@@ -83,7 +82,7 @@ impl<T: TriangleTest> Bvh8<T> {
                 }
             }
             loop {
-                if len == 0 || state.unfinished() == 0 {
+                if len == 0 || state.unfinished == 0 {
                     state.answer::<ANY, L>(level, &packet, |i, hit| answers[i] = form(hit));
                     return true;
                 }
@@ -93,7 +92,7 @@ impl<T: TriangleTest> Bvh8<T> {
                     let entry = stack.get_unchecked(len).assume_init();
                     (entry, self.nodes.get_unchecked(entry.parent as usize))
                 };
-                active = entry.rays & state.unfinished();
+                active = entry.rays & state.unfinished;
                 if active != 0 {
                     active &= packet.meet(node, entry.lane as usize);
                 }

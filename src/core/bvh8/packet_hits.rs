@@ -35,8 +35,7 @@ pub(super) struct HitLanes<L: EightLanes> {
 }
 
 impl<L: EightLanes> HitLanes<L> {
-    /// Updates the lanes of `active` with the hits of triangle `id` at `place` that are nearer, or as near with a lower
-    /// number. Returns the undecided lanes, as bits.
+    /// Updates the lanes of `active` with nearer hits of triangle `id` at `place`. Returns undecided lanes, as bits.
     #[inline(always)]
     pub fn offer<T: TriangleTest>(&mut self, active: L::Mask, found: &EightHits<L>, id: u32, place: u32) -> u32 {
         let id = L::splat_number(id);

@@ -23,7 +23,7 @@ pub(super) struct PacketState<'a, T: TriangleTest> {
     t_min: [f32; RAYS],
     candidates: [MaybeUninit<BlockCandidates<T>>; RAYS],
     /// The rays that still search, as bits.
-    unfinished: u16,
+    pub unfinished: u16,
 }
 
 /// The lanes of a block that a ray may hit, and the values of the first stage.
@@ -44,11 +44,6 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
             candidates: [const { MaybeUninit::uninit() }; RAYS],
             unfinished: u16::MAX,
         }
-    }
-
-    #[inline(always)]
-    pub fn unfinished(&self) -> u16 {
-        self.unfinished
     }
 
     /// Passes the hit of each ray to `answer`.

@@ -26,8 +26,7 @@ pub(super) struct RayPacket<L> {
     pub octant: usize,
 }
 
-/// The eight numbers of eight rays, transposed: a row for each number. A function, because a closure as large as this
-/// is not always inlined, and then is not compiled for the level.
+/// The eight numbers of eight rays, transposed: a row for each number. No closure: it might not be inlined.
 #[inline(always)]
 fn numbers<L: EightLanes>(rays: &[Ray]) -> [L; 8] {
     let mut rows = [L::zero(); WIDTH];

@@ -10,8 +10,7 @@ pub(super) const SIZE: usize = DEPTH * (WIDTH - 1) + WIDTH;
 /// The bottom, the remaining children of all nodes of a path except the last one, and its eight children.
 const _: () = assert!(1 + (DEPTH - 1) * (WIDTH - 1) + WIDTH <= SIZE);
 
-/// Children to visit, the next one on top, and the parameters at which the ray enters them. Not initialised, because
-/// that would cost more than a short traversal.
+/// Children to visit, the next one on top, and the parameters at which the ray enters them; not initialised for speed.
 ///
 /// The address matters: eight entries are written at once, and a store across the border of two pages is slow. If the
 /// first few dozen entries cross a border, a traversal takes 1.25 to 1.4 times as long (Xeon). So the stack of a single
@@ -80,8 +79,8 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
         self.len
     }
 
-    /// Pushes the children whose boxes are met, but returns the first to visit instead of pushing it. With `ANY` the
-    /// order is the order of the lanes, the highest first, otherwise the order of the octant.
+    /// Pushes the children whose boxes are met, except the first, which it returns: in the order of the octant, or with
+    /// `ANY` from the highest lane to the lowest.
     ///
     /// The first child is found by a branch for each place, not by a table look-up: a branch is predicted, and the
     /// processor continues in the next node while the boxes of this one are still being tested.
@@ -126,8 +125,7 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
     pub fn pop(&mut self, end: f32) -> Option<Child> {
         while self.len > 0 {
             self.len -= 1;
-            // SAFETY: by the contract of `of`, `push` has written the entries below `len`: for any-hit searches only
-            // their children, and only these are read.
+            // SAFETY: by the contract of `of`, `push` has written the entries below `len`; if `ANY`, the children.
             unsafe {
                 if ANY || self.entries.enters.get_unchecked(self.len).assume_init() <= end {
                     return Some(self.entries.children.get_unchecked(self.len).assume_init());

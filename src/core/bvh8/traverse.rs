@@ -71,8 +71,7 @@ impl<T: TriangleTest> Bvh8<T> {
         observer: &mut O,
     ) -> Option<Child> {
         observer.inner();
-        // SAFETY: a path has at most `DEPTH` nodes (invariants of `Bvh8`), and by the contract of this function each is
-        // pushed once.
+        // SAFETY: a path has at most `DEPTH` nodes (invariants of `Bvh8`), each pushed once by contract.
         unsafe {
             let node = self.nodes.get_unchecked(node.index());
             stack.push::<L>(node, prepared_ray.octant, prepared_ray.cross(node, end))
@@ -101,8 +100,7 @@ impl<T: TriangleTest> Bvh8<T> {
                     held = blocks.iter().map(|block| block.len()).sum();
                     observer.leaf(held);
                 }
-                // Without the black box, the compiler loads the prepared ray into registers before the first node. This
-                // is wasted work: many rays meet no leaf, and a call spills these registers anyway.
+                // Keeps the compiler from loading the prepared ray before the first node: many rays meet no leaf.
                 let prepared = std::hint::black_box(prepared);
                 search::<ANY, L, T, O>(blocks, held, prepared, t_min, nearest, &mut None, observer);
                 if ANY && nearest.found() {
@@ -111,8 +109,7 @@ impl<T: TriangleTest> Bvh8<T> {
                 end = after(nearest.t);
                 None
             } else {
-                // SAFETY: a child that is no leaf names one of `nodes` (invariants of `Bvh8`), and this traversal
-                // enters each of them once.
+                // SAFETY: a child that is no leaf names one of `nodes` (invariants of `Bvh8`), entered once.
                 unsafe { self.enter::<ANY, L, O>(child, prepared_ray, end, stack, observer) }
             };
             match next.or_else(|| stack.pop(end)) {

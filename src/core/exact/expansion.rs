@@ -9,8 +9,7 @@ use smallvec::SmallVec;
 /// largest term is within 2^-53 of the whole.
 ///
 /// Exact as long as nothing overflows or underflows: products of six differences of `f32` numbers do neither, because
-/// they are below 2^780 and multiples of 2^-894. Products rely on the fused multiplication of the machine, or of the C
-/// library on machines without it.
+/// they are below 2^780 and multiples of 2^-894. Products rely on fused multiplication.
 ///
 /// # References
 /// Shewchuk: Adaptive precision floating-point arithmetic and fast robust geometric predicates. Discrete &

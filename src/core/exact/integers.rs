@@ -74,8 +74,7 @@ pub(super) fn height(origin: Vec3, [a, b, c]: [Vec3; 3]) -> Option<f64> {
     Some(Expansion::of_integer(height, 3 * unit).approximate())
 }
 
-/// Vectors as multiples of 2 to the power of one number, that number, and the number of used places; `None` if these
-/// are more than an integer has.
+/// Vectors as multiples of 2 to the power of one number, that number, and the used places; `None` if too many.
 fn integers<const N: usize>(vectors: [Vec3; N]) -> Option<([[i64; 3]; N], i32, Places)> {
     let (mut lowest, mut highest) = (i32::MAX, i32::MIN);
     for x in vectors.iter().flat_map(|vector| vector.to_array()).filter(|&x| x != 0.0) {

@@ -25,8 +25,7 @@ pub struct ExactT {
 /// The parameter at which the line of `ray` meets the closed triangle; `None` if it misses or lies in the plane.
 ///
 /// The function ignores the interval of the ray: see [`ExactT::is_within`]. Numbers that are not finite hit nothing.
-/// Costs 50 nanoseconds if the significant bits of origin and corners span at most forty binary places, and so do the
-/// bits of the direction; otherwise about a microsecond.
+/// Costs 50 nanoseconds, or a microsecond if the significant bits of the numbers span more than forty places.
 ///
 /// The line meets the closed triangle if no two of the three signed volumes with its edges have opposite signs.
 ///
@@ -40,8 +39,7 @@ pub fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactT> {
 }
 
 /// Six times the volume of the tetrahedron of `origin` and a triangle, (a - origin) . (e x f), with a relative error
-/// below 2^-49: the numerator of the `t` at which lines from `origin` meet the plane. Zero if and only if `origin` lies
-/// in the plane. For finite numbers.
+/// below 2^-49: the numerator of `t`. Zero if and only if `origin` lies in the plane. For finite numbers.
 ///
 /// Costs a quarter of [`hit`].
 pub fn height(origin: Vec3, corners: [Vec3; 3]) -> f64 {
@@ -72,8 +70,7 @@ fn side_of_any_size(ray: &Ray, edge: [Vec3; 2]) -> Ordering {
 
 /// Whether the line of `ray` passes exactly through a point. For finite numbers.
 ///
-/// Costs a few nanoseconds, except if rounding hides whether the line passes through the point and the difference of
-/// the point and the origin is not exact in `f64`.
+/// Costs a few nanoseconds, unless rounding hides whether the line passes through the point.
 #[inline(always)]
 pub fn passes_through(ray: &Ray, point: Vec3) -> bool {
     let (direction, offset) = (ray.direction.as_dvec3(), point.as_dvec3() - ray.origin.as_dvec3());
@@ -185,8 +182,7 @@ impl ExactT {
             return 0.0;
         }
         let near = self.approximate() as f32;
-        // Rounded twice, it may be the neighbour of the nearest one: compare with the middles between them, where `f64`
-        // is exact. Infinity represents 2^128.
+        // Rounded twice, it may be the neighbour of the nearest one: compare exactly in `f64`. Infinity is 2^128.
         let wide = |x: f32| if x.is_infinite() { f64::from(x.signum()) * 2.0_f64.powi(128) } else { f64::from(x) };
         let middle = |x: f32, y: f32| (wide(x) + wide(y)) / 2.0;
         let is_even = near.to_bits() & 1 == 0;

@@ -18,13 +18,7 @@ impl Aabb {
     /// The smallest box that contains these points.
     #[inline]
     pub fn of_points(points: impl IntoIterator<Item = Vec3>) -> Self {
-        points.into_iter().fold(Self::EMPTY, Self::with_point)
-    }
-
-    /// The smallest box that also contains `point`.
-    #[inline]
-    pub fn with_point(self, point: Vec3) -> Self {
-        Self { min: self.min.min(point), max: self.max.max(point) }
+        points.into_iter().fold(Self::EMPTY, |all, p| Self { min: all.min.min(p), max: all.max.max(p) })
     }
 
     /// The smallest box that contains both boxes.
@@ -55,8 +49,7 @@ impl Aabb {
         self.min * 0.5 + self.max * 0.5
     }
 
-    /// Half of the surface area, the measure of the surface area heuristic (Goldsmith, Salmon 1987); 0 if empty. The
-    /// result is an `f64`, so the area of no finite box overflows.
+    /// Half of the surface area, in `f64`, which no finite box overflows; 0 if empty (Goldsmith, Salmon 1987).
     #[inline]
     pub fn half_area(&self) -> f64 {
         half_area(self.min.as_dvec3(), self.max.as_dvec3())

@@ -17,17 +17,15 @@ pub struct Mesh {
 
 /// The reason why [`Mesh::new`] rejects its input. Numbers start at 0.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs)] // of the fields
 pub enum MeshError {
     /// A coordinate is infinite or NaN.
-    #[allow(missing_docs)]
     #[error("vertex {vertex} has the coordinates ({x}, {y}, {z}): every coordinate must be a finite number")]
     NotFinite { vertex: usize, x: f32, y: f32, z: f32 },
     /// A triangle refers to a vertex that does not exist.
-    #[allow(missing_docs)]
     #[error("triangle {triangle} refers to vertex {index}, but there are only {vertices} vertices")]
     OutOfRange { triangle: usize, index: u32, vertices: usize },
     /// There are more vertices or triangles than a mesh can index: more than 2^30.
-    #[allow(missing_docs)]
     #[error("{count} {what} exceed the limit of {limit} per mesh: split the scene")]
     TooMany { what: &'static str, count: usize, limit: usize },
 }

@@ -6,8 +6,7 @@ use glam::{DMat3, DVec3, Vec3};
 ///
 /// `R = Rz * Ry * Rx` with `Rx = [1 0 0; 0 c s; 0 -s c]`, `Ry = [c 0 -s; 0 1 0; s 0 c]` and
 /// `Rz = [c s 0; -s c 0; 0 0 1]` (rows). Each matrix rotates in the opposite sense to the usual right-handed rotation.
-/// Sines come from `libm`; everything is computed in `f64` and rounded once, so a placed vertex has the same bits on
-/// every machine.
+/// Sines come from `libm`; everything is in `f64` and rounded once: the same bits on every machine.
 ///
 /// A placement that [mirrors](Self::is_mirror) reverses the order of corners; the caller must reverse it back.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,8 +42,7 @@ impl Transform {
     /// `R * S * normal` at unit length, or zero if it has no length.
     ///
     /// The course transforms normals with the matrix of the points, not with its inverse transpose, so normals tilt the
-    /// wrong way under a non-uniform scale. Its scenes scale only flat squares non-uniformly, and the normals of these
-    /// squares remain correct.
+    /// wrong way under a non-uniform scale. Its scenes scale only flat squares so, whose normals remain right.
     pub fn normal(&self, normal: Vec3) -> Vec3 {
         (self.linear * normal.as_dvec3()).normalize_or_zero().as_vec3()
     }

@@ -102,8 +102,7 @@ impl Mailbox {
     }
 }
 
-/// Searches the `count` triangles in the blocks of one leaf; the observer counts each tested block. With `ANY`, returns
-/// at the first block with a hit in the interval.
+/// Searches the `count` triangles of a leaf; the observer counts blocks. With `ANY`, returns at the first hit.
 #[inline(always)]
 pub(crate) fn search<'a, const ANY: bool, L: EightLanes, T: TriangleTest, O: Observer>(
     blocks: &'a [LeafBlock<T>],

@@ -1,9 +1,7 @@
 //! Memory: large arrays on large pages, and prefetching.
 
 /// Memory for `len` values that are read at random places, in huge pages if possible: a traversal of a few megabytes in
-/// pages of four kilobytes misses the translation cache at nearly every node.
-///
-/// Only Linux receives this advice, and it may decline; the values are the same.
+/// pages of four kilobytes misses the translation cache at nearly every node. Only Linux is asked, and may decline.
 pub(crate) fn with_capacity<T>(len: usize) -> Vec<T> {
     let values = Vec::with_capacity(len);
     advise(values.as_ptr(), len * size_of::<T>());

@@ -33,8 +33,7 @@ pub(crate) fn silent<const ANY: bool, L: EightLanes, W: Walk>(structure: &W, ray
     }
 }
 
-/// A traversal with an observer. It runs on portable lanes, so counts are the same on every machine; counting need not
-/// be fast. Out of line, so there is only one copy.
+/// A traversal with an observer: portable, so counts are the same everywhere; out of line, so there is one copy.
 #[inline(never)]
 fn watched<const ANY: bool, W: Walk, O: Observer>(structure: &W, ray: &Ray, observer: &mut O) -> Option<Hit> {
     structure.walk::<ANY, Portable<8>, O>(ray, observer)
