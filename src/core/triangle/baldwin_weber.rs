@@ -10,8 +10,7 @@ use crate::simd::{LaneVec3, Lanes, indexed};
 /// the world's origin and errors grow with the distance from it (at 1e3 extents, every second hit is lost); closed
 /// meshes may leak at edges. 48 bytes per triangle.
 ///
-/// Instead of the paper's nine numbers and an axis, a block stores all twelve numbers of the matrix: lanes may then
-/// have different axes. They are computed in `f64` and rounded once.
+/// A block stores all twelve numbers of the matrix, so lanes may have different axes; in `f64`, rounded once.
 ///
 /// # References
 /// Baldwin, Weber: Fast ray-triangle intersections by coordinate transformation. Journal of Computer Graphics

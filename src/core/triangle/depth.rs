@@ -25,8 +25,7 @@ pub trait Depth: Copy {
     /// The `t` to return for a hit of `ray`: the nearest float.
     fn t(&self, ray: &Ray) -> f32;
 
-    /// Whether `t` is computed from the depth in a further step, which is faster for eight hits at once. Such a depth
-    /// implements [`inputs`](Self::inputs) and [`ts`](Self::ts).
+    /// Whether `t` takes a further step, faster for eight hits at once: [`inputs`](Self::inputs) and [`ts`](Self::ts).
     const LATE: bool = false;
 
     /// The inputs of `ts` for a hit of `ray`: corners, origin, direction, and the distance between the bounds.

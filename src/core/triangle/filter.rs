@@ -2,7 +2,6 @@
 
 use glam::{Vec3, Vec3Swizzles as _};
 
-use super::corners::Place;
 use super::{Corners, EightRays};
 use crate::geometry::Ray;
 use crate::simd::{EightLanes, LaneVec3, Lanes};
@@ -30,12 +29,10 @@ struct Scaling {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct FilterBlock<const N: usize> {
-    corners: Corners<N>,
-    /// The largest component of the two edges, which bounds the rounding; infinite if an overflow cannot be ruled out,
-    /// negative in unused lanes.
+    pub(super) corners: Corners<N>,
+    /// The largest component of the two edges; infinite if an overflow is possible, negative in unused lanes.
     extents: [f32; N],
-    /// 10 units of 2^-24 of the largest component of the normal, with the magnitudes of its two products added. It
-    /// bounds the rounding of heights and determinants more closely than the extent does.
+    /// 10 units of 2^-24 of the largest component of the normal, with the magnitudes of its two products added.
     areas: [f32; N],
 }
 
@@ -67,17 +64,14 @@ pub struct CandidateBounds<const N: usize> {
 const UNIT: f32 = f32::EPSILON / 2.0;
 /// Twice the 40 units of 2^-24 of the argument at [`filter_block`], times 2 for the direction.
 const SLACK: f32 = 2.0 * 40.0 * 2.0 * UNIT;
-/// The error of the height in units of N |s|, and this multiple of it the error of det in units of N: 8.1 and 43 units,
-/// derived below.
+/// The error of the height in units of N |s|, and as a multiple of it that of det in units of N, derived below.
 const HEIGHT: f32 = 10.0 * UNIT;
 const DETERMINANT: f32 = 6.0;
 /// More than all underflows together: each loses at most 2^-150, and the underflows of u, v and det add up to less than
-/// (4 |s| + 12 E + 42) 2^-150, while TINY (1 + |s| + 2 E) is added. Far more than necessary, but the smallest number
-/// that is not denormal: some processors take a hundred cycles for a sum with a denormal.
+/// (4 |s| + 12 E + 42) 2^-150, while TINY (1 + |s| + 2 E) is added. Not denormal, because sums would then be slow.
 const TINY: f32 = f32::MIN_POSITIVE;
 const _: () = assert!(TINY.is_normal());
-/// Coordinates up to here cannot overflow: with them E is at most 2^41, |s| below 2^43, and no intermediate exceeds 2 E
-/// E |s|.
+/// Coordinates up to here cannot overflow: E is at most 2^41, |s| below 2^43, and intermediates at most 2 E E |s|.
 const LARGE: f32 = (1_u64 << 40) as f32;
 
 impl Scaling {
@@ -119,16 +113,6 @@ impl<const N: usize> FilterBlock<N> {
             areas[lane] = (normal.max_element() as f32 * HEIGHT).next_up().max(f32::MIN_POSITIVE);
         }
         Self { corners, extents, areas }
-    }
-
-    #[inline(always)]
-    pub(super) fn corners(&self) -> &Corners<N> {
-        &self.corners
-    }
-
-    #[inline(always)]
-    pub(super) fn place(&self, lane: usize) -> Place<'_> {
-        self.corners.place(lane)
     }
 }
 

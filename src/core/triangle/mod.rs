@@ -82,8 +82,7 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// If there are more than `N` triangles.
     fn block<const N: usize>(triangles: &[[Vec3; 3]]) -> Self::Block<N>;
 
-    /// The largest `t` that a hit may have on a valid ray with the exclusive end `t_max`: the float below `t_max` if
-    /// hits are ordered by their rounded `t`.
+    /// The largest `t` of a hit on a valid ray up to `t_max`: the float below, if hits are ordered by rounded `t`.
     #[inline(always)]
     fn last(t_max: f32) -> f32 {
         // A valid ray ends after 0, so this is `next_down`, without the cases that cost each ray a dozen instructions.
@@ -149,8 +148,7 @@ pub trait TriangleTest: Send + Sync + 'static {
         unreachable!("depths that need the ray to be ordered have an order of their own")
     }
 
-    /// Whether the first stage decides everything. Then [`decide`](Self::decide) accepts every candidate, and
-    /// [`Depth::of`] makes every depth.
+    /// Whether the first stage decides everything: [`decide`](Self::decide) accepts all, [`Depth::of`] makes depths.
     const ONE_STAGE: bool = false;
 
     /// Whether structures can trace several rays of a slice at once over this test. Each batch strategy is compiled for

@@ -8,9 +8,8 @@ use crate::simd::{EightLanes, LaneVec3, Lanes};
 ///
 /// Guarantees: edges and vertices belong to the triangle (all comparisons include equality); there is no epsilon; NaN
 /// never hits. Not guaranteed: closed meshes may leak at edges, because the two neighbours round their barycentrics
-/// independently; `t` of a grazing ray may be off by thousands of ulps. Cost: one division per eight tests; per
-/// triangle 2.4 ns scalar and 1.0 ns in blocks of eight, on the machine of the README's table (`cargo bench --bench
-/// kernels`).
+/// independently; `t` of a grazing ray may be off by thousands of ulps. Cost: one division per eight tests
+/// (`cargo bench --bench kernels`).
 ///
 /// # References
 /// Möller, Trumbore: Fast, minimum storage ray/triangle intersection. Journal of Graphics Tools 2(1), 1997.

@@ -1,8 +1,7 @@
 use super::{Corners, TriangleTest};
 use crate::simd::{Arithmetic, LaneVec3, Lanes, each};
 
-/// [`MollerTrumbore`](super::MollerTrumbore) in `f64` over corners in `f32`, widened by its own rounding error; the
-/// final `t` is rounded to `f32`.
+/// [`MollerTrumbore`](super::MollerTrumbore) in `f64`, widened by its own rounding error; `t` is rounded to `f32`.
 ///
 /// Proved, where D, E and |s| are the sums of the magnitudes of the components of the direction, of both edges at the
 /// first corner, and of the vector from this corner to the origin, and det = e1 . (d x e2):
@@ -11,14 +10,12 @@ use crate::simd::{Arithmetic, LaneVec3, Lanes, each};
 /// - If it reports a hit, no barycentric is below -2^-46 D E (|s| + 2 E) / |det|, and the error of `t` is at most 2^-51
 ///   E E (|s| + |t| D) / |det|, plus half an ulp of the final rounding.
 ///
-/// So it loses a ray through an edge or a vertex of a closed mesh only if the triangles are needles that the ray
-/// grazes.
+/// So it loses a ray through an edge or a vertex of a closed mesh only at needles that the ray grazes.
 ///
 /// The errors are small for triangles of ordinary shape, but not for needles and slivers: |det| is twice the area times
 /// the sine of the angle to the plane times the length of the direction. Measured on single triangles: a false hit
 /// 4.5e-11 outside a sliver of aspect ratio 10,000; a missed hit on a needle of aspect ratio 10,000,000, which the ray
-/// meets along its length; a `t` that is off by 115 ulps on another needle. [`Exact`](super::Exact) is right in these
-/// cases.
+/// meets along its length; a `t` that is off by 115 ulps on another needle. [`Exact`](super::Exact) is right.
 ///
 /// Cost: two to three times the `f32` test in blocks.
 ///

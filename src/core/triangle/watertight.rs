@@ -10,12 +10,10 @@ use crate::simd::{Lanes, each, indexed};
 /// Guarantees: a corner is sheared to the same point for every triangle that contains it, and the sign of an edge is
 /// exact for the sheared corners, so no ray passes between the triangles of a closed mesh, including edges and
 /// vertices. Not guaranteed: the sheared corners are rounded, so a ray within an ulp of an edge may go to either side
-/// (it may miss a single triangle at its rim), and `t` of slivers may be off by thousands of ulps. Cost: about the same
-/// as Möller-Trumbore.
+/// (it may miss a single triangle at its rim), and `t` of slivers may be off by thousands of ulps.
 ///
 /// Range: any size of scene in which differences of coordinates do not overflow; below 1e-15 and above 1e6 units the
-/// test is slower. It may lose rays whose largest direction component is below 3e-39 or above 8e37, and hits beyond t =
-/// 3e26.
+/// test is slower. It may lose rays with a largest component below 3e-39 or above 8e37, and hits beyond 3e26.
 ///
 /// # References
 /// Woop, Benthin, Wald: Watertight ray/triangle intersection. Journal of Computer Graphics Techniques 2(1), 2013.

@@ -139,8 +139,7 @@ pub(super) fn place_in_axis_plane(ray: &Ray, [a, b, c]: &[Vec3; 3]) -> Option<Bo
     Some(at_height(*a, ray, axis))
 }
 
-/// Bounds of the exact `t` of lines at the planes of triangles that they are known to meet, from the width of the
-/// filter's bounds; everything if these are infinitely far apart.
+/// Bounds of the exact `t` of lines at triangles that they are known to meet, from the width of the filter's bounds.
 ///
 /// **Bounds.** The errors here are the filter's errors, with 2^-53 instead of 2^-24: for the same N, |s| and D the
 /// error of the height is less than 8.1 units of N |s|, of the determinant less than 7.1 of 3 D N. The filter has used

@@ -120,10 +120,7 @@ impl Depth for ExactDepth<'_> {
     #[inline(always)]
     fn t(&self, ray: &Ray) -> f32 {
         let corners = self.triangle.corners();
-        match rounded(bounds_of_hit(ray, corners)) {
-            Some(t) => t,
-            None => exact_t(ray, corners),
-        }
+        rounded(bounds_of_hit(ray, corners)).unwrap_or_else(|| exact_t(ray, corners))
     }
 
     const LATE: bool = true;

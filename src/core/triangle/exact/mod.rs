@@ -94,8 +94,8 @@ impl TriangleTest for Exact {
             // The bounds may come from `look_closer`, and must not be mistaken for the filter's.
             return decided.map(ExactDepth::looked_up);
         }
-        let (low, high) = in_f64(&ray.ray, block.place(lane), bounds.sure >> lane & 1 == 1)?;
-        Some(ExactDepth::new(block.place(lane), low, high).looked_up())
+        let (low, high) = in_f64(&ray.ray, block.corners.place(lane), bounds.sure >> lane & 1 == 1)?;
+        Some(ExactDepth::new(block.corners.place(lane), low, high).looked_up())
     }
 
     #[inline(always)]
@@ -106,19 +106,19 @@ impl TriangleTest for Exact {
         bounds: &CandidateBounds<N>,
     ) -> Option<Option<ExactDepth<'a>>> {
         if bounds.sure >> lane & 1 == 0 {
-            return runs_along(&ray.ray, &block.place(lane).corners()).then_some(None);
+            return runs_along(&ray.ray, &block.corners.place(lane).corners()).then_some(None);
         }
         let (low, high, (start, end)) = (bounds.low[lane], bounds.high[lane], ray.ray.interval());
         if start <= low && high < end {
-            return Some(Some(ExactDepth::new(block.place(lane), low, high)));
+            return Some(Some(ExactDepth::new(block.corners.place(lane), low, high)));
         }
         if high < start || end <= low {
             return Some(None);
         }
         // Rays that leave a floor or a wall come here for each of its triangles that their lines meet.
-        let bounds = place_in_axis_plane(&ray.ray, &block.place(lane).corners())?;
+        let bounds = place_in_axis_plane(&ray.ray, &block.corners.place(lane).corners())?;
         let inside = within(&ray.ray, bounds)?;
-        Some(inside.map(|(low, high)| ExactDepth::new(block.place(lane), low, high).looked_up()))
+        Some(inside.map(|(low, high)| ExactDepth::new(block.corners.place(lane), low, high).looked_up()))
     }
 
     #[inline(always)]
@@ -155,7 +155,7 @@ impl TriangleTest for Exact {
 
     #[inline(always)]
     fn depth_between<const N: usize>(block: &FilterBlock<N>, lane: usize, low: f32, high: f32) -> ExactDepth<'_> {
-        ExactDepth::new(block.place(lane), low, high)
+        ExactDepth::new(block.corners.place(lane), low, high)
     }
 
     #[inline(always)]
@@ -196,8 +196,7 @@ fn within(ray: &Ray, bounds: Bounds) -> Option<Option<(f32, f32)>> {
     }
 }
 
-/// Refines in `f64` the candidates of a block if more than two are too close to the nearest hit or the start of the ray
-/// for `f32`: returns the remaining candidates and their bounds.
+/// Refines in `f64` the candidates of a block if more than two are too close for `f32`: those left, and their bounds.
 struct Crowd<'a> {
     ray: &'a Ray,
     block: &'a FilterBlock<8>,
@@ -219,7 +218,7 @@ impl Kernel for Crowd<'_> {
             return None;
         }
         let last = nearest.map_or(f64::INFINITY, |hit| hit.latest(ray));
-        let corners = block.corners().load::<L>();
+        let corners = block.corners.load::<L>();
         let (placed, low, high) = place(LaneVec3::splat(ray.origin), LaneVec3::splat(ray.direction), corners);
         let known = candidates & bounds.sure & placed;
         let splat = L::Double::splat;

@@ -150,36 +150,25 @@ fn a_t_beyond_the_largest_float_is_no_hit<T: TriangleTest>() {
 }
 
 macro_rules! every_test {
-    (@$module:ident: $test:ty [$($check:ident)*]) => {
-        mod $module {
-            use super::*;
-
-            $(
-                #[test]
-                fn $check() {
-                    super::$check::<$test>();
-                }
-            )*
+    ($($name:ident: $test:ty, [$($more:ident)*];)*) => {$(
+        #[test]
+        fn $name() {
+            all_widths_agree::<$test>();
+            right_away_from_edges::<$test>();
+            survives_all_numbers::<$test>();
+            intervals_are_half_open::<$test>();
+            a_t_beyond_the_largest_float_is_no_hit::<$test>();
+            $($more::<$test>();)*
         }
-    };
-    ($($module:ident: $test:ty [$($more:ident)*];)*) => {$(
-        every_test!(@$module: $test [
-            all_widths_agree
-            right_away_from_edges
-            survives_all_numbers
-            intervals_are_half_open
-            a_t_beyond_the_largest_float_is_no_hit
-            $($more)*
-        ]);
     )*};
 }
 
 every_test! {
-    moller_trumbore: MollerTrumbore [exact_on_a_grid];
-    moller_trumbore_f64: MollerTrumboreF64 [exact_on_a_grid];
-    plucker: Plucker [exact_on_a_grid];
-    edge_f64: EdgeF64 [exact_on_a_grid];
-    watertight: Watertight [];
-    baldwin_weber: BaldwinWeber [];
-    exact: Exact [exact_on_a_grid];
+    moller_trumbore: MollerTrumbore, [exact_on_a_grid];
+    moller_trumbore_f64: MollerTrumboreF64, [exact_on_a_grid];
+    plucker: Plucker, [exact_on_a_grid];
+    edge_f64: EdgeF64, [exact_on_a_grid];
+    watertight: Watertight, [];
+    baldwin_weber: BaldwinWeber, [];
+    exact: Exact, [exact_on_a_grid];
 }
