@@ -78,19 +78,18 @@ impl OutputFile {
     /// The same file, if it is not one of `inputs`, under any path.
     pub fn apart_from<'a>(self, inputs: impl IntoIterator<Item = &'a Path>) -> Result<Self, OutputError> {
         let is_own = |input: &Path| self.regular.is_some() && input.canonicalize().ok() == self.regular;
-        match inputs.into_iter().any(is_own) {
-            true => Err(OutputError::place(&self.path, "it is an input file: name another file")),
-            false => Ok(self),
+        if inputs.into_iter().any(is_own) {
+            return Err(OutputError::place(&self.path, "it is an input file: name another file"));
         }
+        Ok(self)
     }
 
     /// Rejects two results with the same place, under any paths.
     pub fn are_apart<'a>(files: impl IntoIterator<Item = &'a Self>) -> Result<(), OutputError> {
         let mut places = HashSet::new();
         let mut files = files.into_iter().filter(|file| file.regular.is_some() || file.path == Path::new(STDOUT));
-        files.find(|file| !places.insert(&file.regular)).map_or(Ok(()), |file| {
-            Err(OutputError::place(&file.path, "two results would go there: name another file for one of them"))
-        })
+        let Some(twice) = files.find(|file| !places.insert(&file.regular)) else { return Ok(()) };
+        Err(OutputError::place(&twice.path, "two results would go there: name another file for one of them"))
     }
 
     /// Standard output never fails here: missing output is reported when the command ends, and a closed one is not an

@@ -40,16 +40,15 @@ pub struct Args {
 
 pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
     let &Session { suite, terminal, .. } = session;
-    let common =
-        Common { dir: Some(args.dir.clone()), fresh: args.fresh, in_process: args.in_process, ..Common::default() };
+    let Args { dir, fresh, in_process, .. } = args.clone();
+    let common = Common { dir: Some(dir), fresh, in_process, ..Common::default() };
     if !args.scenes.is_empty() {
         // Reject missing scenes before any study is measured.
         let _waiting = spinner("loading scenes", terminal);
         scenes(&suite.registry, &args.scenes)?;
     }
-    let mut outcome = Status::Right;
+    let (mut outcome, mut rows) = (Status::Right, vec![]);
     let effort = if args.quick { Effort::Quick } else { Effort::Full };
-    let mut rows = vec![];
     let studies: Vec<&Study> = suite.studies.iter().collect();
     for (i, study) in studies.iter().enumerate() {
         let rest: Vec<&str> = studies[i + 1..].iter().map(|study| study.name).collect();
@@ -78,21 +77,17 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
         let took = duration(start.elapsed().as_nanos() as f64);
         rows.push([study.name.into(), took, words.into(), format!("{}/", study.name)]);
     }
-    let title = format!("All studies in {}", args.dir.escaped());
-    // Without the cases that were measured before.
-    let mut table = Table::of_texts(&title, ["study", "time taken", "result", "journal"], rows);
-    table.notes.push(format!("{} `sahara report {} -o OUT` writes the page.", left(outcome), args.dir.escaped()));
-    terminal.print_table(&table);
-    Ok(outcome)
-}
-
-/// The remaining work. Scenes may have failed in addition to wrong hits, which take precedence.
-fn left(outcome: Status) -> &'static str {
-    match outcome {
+    let left = match outcome {
         Status::Failed => "The same command retries what failed.",
+        // Scenes may have failed in addition to wrong hits, which take precedence.
         Status::Wrong => "The same command retries anything that failed.",
         _ => "Everything is measured.",
-    }
+    };
+    let dir = args.dir.escaped();
+    // Without the cases that were measured before.
+    let table = Table::of_texts(&format!("All studies in {dir}"), ["study", "time taken", "result", "journal"], rows);
+    terminal.print_table(&table.noted([format!("{left} `sahara report {dir} -o OUT` writes the page.")]));
+    Ok(outcome)
 }
 
 /// Whether the next studies would fail as well: the folder of journals is not writable, or another run measures in it,

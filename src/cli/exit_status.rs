@@ -58,22 +58,16 @@ fn of_error(error: &anyhow::Error) -> u8 {
     if is_wrong { 2 } else { 1 }
 }
 
-fn moved(message: &clap::Error) -> Option<String> {
-    match (message.kind(), message.get(ContextKind::InvalidArg)?) {
-        (ErrorKind::UnknownArgument, ContextValue::String(option)) => {
-            moved::said("option", &moved::OPTIONS, option.split('=').next().unwrap_or(option))
-        }
-        _ => None,
-    }
-}
-
 /// Prints a message of the parser. Help and version are not errors.
 pub(super) fn told(message: clap::Error) -> ExitCode {
-    if let Some(sentence) = moved(&message) {
+    if let (ErrorKind::UnknownArgument, Some(ContextValue::String(option))) =
+        (message.kind(), message.get(ContextKind::InvalidArg))
+        && let Some(sentence) = moved::said("option", &moved::OPTIONS, option.split('=').next().unwrap_or(option))
+    {
         output::tell_error(sentence);
         return ended(1);
     }
-    let message = shown(advised(message));
+    let message = shown(message);
     let printed = message.print().and_then(|()| io::stdout().flush());
     if !message.use_stderr() {
         output::note(printed);
@@ -81,26 +75,17 @@ pub(super) fn told(message: clap::Error) -> ExitCode {
     ended(message.use_stderr().into())
 }
 
-/// Removes tips that do not help: no command takes an option after `--`.
-fn advised(mut message: clap::Error) -> clap::Error {
-    if let Some(ContextValue::StyledStrs(mut tips)) = message.remove(ContextKind::Suggested) {
-        tips.retain(|tip| !tip.to_string().contains("as a value, use"));
-        message.insert(ContextKind::Suggested, ContextValue::StyledStrs(tips));
-    }
-    message
-}
-
-/// The message contains the typed text: escape it.
+/// The message with the typed text escaped, and without tips that do not help: no command takes an option after `--`.
 fn shown(mut message: clap::Error) -> clap::Error {
-    let typed: Vec<(ContextKind, String)> = message
-        .context()
-        .filter_map(|(kind, value)| match value {
-            ContextValue::String(text) => Some((kind, text.escaped().to_string())),
-            _ => None,
-        })
-        .collect();
-    for (kind, text) in typed {
-        message.insert(kind, ContextValue::String(text));
+    let context: Vec<(ContextKind, ContextValue)> =
+        message.context().map(|(kind, value)| (kind, value.clone())).collect();
+    for (kind, mut value) in context {
+        match &mut value {
+            ContextValue::String(typed) => *typed = typed.escaped().to_string(),
+            ContextValue::StyledStrs(tips) => tips.retain(|tip| !tip.to_string().contains("as a value, use")),
+            _ => {}
+        }
+        message.insert(kind, value);
     }
     message
 }

@@ -31,10 +31,10 @@ pub struct Args {
 
 pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     let folder = args.data.clone().unwrap_or_else(real_mesh_folder);
-    let mut files = vec![];
-    for scene in scenes(&args.scenes)? {
-        files.extend(scene.objects.into_iter().filter_map(|object| object.real).map(|real| (scene.name.clone(), real)));
-    }
+    let real_meshes = |scene: SceneFile| {
+        scene.objects.into_iter().filter_map(|object| object.real).map(move |real| (scene.name.clone(), real))
+    };
+    let files = scenes(&args.scenes)?.into_iter().flat_map(real_meshes);
     // A repeated name counts once.
     let files = each_once_by(files, |one, other| (&one.0, &one.1.file) == (&other.0, &other.1.file));
     if files.is_empty() {

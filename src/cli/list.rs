@@ -32,7 +32,7 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
         Some("structures") => structures(registry),
         Some("studies") => studies(suite),
         Some("hard") => {
-            terminal.print_lines(&described());
+            terminal.print_lines(described());
             return Ok(Status::Right);
         }
         Some(name) => {
@@ -114,15 +114,11 @@ fn declined(entry: &Entry) -> Vec<&'static str> {
 }
 
 /// How a structure deviates from the contract by design, and the reason why it is absent.
-fn remarks(entry: &Entry) -> Vec<String> {
-    let name = &entry.name;
-    let mut remarks = vec![];
-    if !entry.conventions.is_empty() {
-        remarks
-            .push(format!("{name} deviates by design from the contract of `Accel`: {}.", entry.conventions.join("; ")));
-    }
-    remarks.extend(entry.absence().map(|absence| format!("{name} is not available: {absence}.")));
-    remarks
+fn remarks(entry: &Entry) -> impl Iterator<Item = String> {
+    let (name, conventions) = (&entry.name, entry.conventions.join("; "));
+    let deviation = format!("{name} deviates by design from the contract of `Accel`: {conventions}.");
+    let absence = entry.absence().map(|absence| format!("{name} is not available: {absence}."));
+    (!conventions.is_empty()).then_some(deviation).into_iter().chain(absence)
 }
 
 fn keys(registry: &Registry, name: &str) -> Table {
@@ -137,10 +133,10 @@ fn keys(registry: &Registry, name: &str) -> Table {
     for [key, default, meaning, values] in rows {
         let short = values.chars().count() <= 28;
         shown.push([key.clone(), default, if short { values.clone() } else { "see below".into() }]);
-        let said = if short { String::new() } else { values };
-        let words: Vec<String> = [meaning, said].into_iter().filter(|words| !words.is_empty()).collect();
+        let said = [meaning, if short { String::new() } else { values }];
+        let words = said.into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join(": ");
         if !words.is_empty() {
-            notes.push(format!("{key}: {}.", words.join(": ")));
+            notes.push(format!("{key}: {words}."));
         }
     }
     let declined = declined(first);

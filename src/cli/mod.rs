@@ -45,10 +45,6 @@ use crate::study::{Case, Status, Studies, Study};
 use progress::OnTerminal;
 use terminal::{Colour, Terminal};
 
-const ABOUT: &str = "Benchmark, validate and image-test ray-tracing acceleration structures.";
-
-const USAGE: &str = "sahara [COMMAND] [OPTIONS]  (no command: compare on the built-in scenes)";
-
 /// One screen of 80 x 24, including the prompt. The options of all commands are in the help of each command.
 const SCREEN: &str = "\
 {about}
@@ -154,7 +150,6 @@ const COMPARE: &str = "compare";
 const REPLICATE: &str = "replicate";
 
 const STUDY: &str = "study";
-
 const REPORT: &str = "report";
 
 /// The message without HTML and figures.
@@ -163,19 +158,21 @@ pub(crate) const NO_PAGE: &str = "this sahara was built without the feature `pag
 /// The commands that the help lists.
 fn shown(studies: &Studies) -> clap::Command {
     let whole = clap::Command::new("sahara").version(env!("CARGO_PKG_VERSION")).max_term_width(100);
-    // The options bring their own description: set it again.
-    let whole = Global::augment_args(whole).about(ABOUT).long_about(None);
-    let mut command = whole.override_usage(USAGE).help_template(SCREEN).after_help(EXAMPLES);
-    command = command.subcommands(studies.find(COMPARE).map(study::command));
-    command = command.subcommands(studies.find(REPLICATE).map(study::command));
-    let all = clap::Command::new(all::NAME);
+    let command = Global::augment_args(whole)
+        // The options bring their own description: set it again.
+        .about("Benchmark, validate and image-test ray-tracing acceleration structures.")
+        .long_about(None)
+        .override_usage("sahara [COMMAND] [OPTIONS]  (no command: compare on the built-in scenes)")
+        .help_template(SCREEN)
+        .after_help(EXAMPLES)
+        .subcommands([COMPARE, REPLICATE].into_iter().filter_map(|name| studies.find(name)).map(study::command));
     let listed = clap::Command::new(STUDY)
         .about("Run a study, or plan its jobs for a cluster")
         .subcommand_required(true)
         .arg_required_else_help(true)
         // An unknown study gets an error with the known ones.
         .allow_external_subcommands(true)
-        .subcommand(all::Args::augment_args(all))
+        .subcommand(all::Args::augment_args(clap::Command::new(all::NAME)))
         .subcommand(plan::Args::augment_args(clap::Command::new(plan::NAME)))
         .subcommands(studies.iter().map(study::command));
     Command::augment_subcommands(command.subcommand(listed))
@@ -233,7 +230,7 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, starts_proc
     if let Some(level) = global.level {
         level.choose();
     }
-    let terminal = Terminal::new(global.color, global.quiet).verbose(global.verbose);
+    let terminal = Terminal::new(global.color, global.quiet, global.verbose);
     // A child of `validate --hard` reports a panic to its parent by ending with one.
     let may_panic = matches.subcommand_name() == Some(validate::CHILD);
     let level = global.level.iter().flat_map(|level| ["--level", level.name()]).map(OsString::from);
@@ -257,14 +254,14 @@ fn not_text(args: &[OsString]) -> anyhow::Error {
     anyhow::anyhow!("{} is not UTF-8 text: only names of files and folders may contain such bytes", names.join(" or "))
 }
 
+/// Measures one case of a run, for the run or for a scheduler.
 fn measure_case(
-    session: &Session,
+    &Session { suite, terminal, .. }: &Session,
     process: &Process,
     case: &Case,
     out: &Path,
     args: Vec<OsString>,
 ) -> anyhow::Result<Status> {
-    let &Session { suite, terminal, .. } = session;
     if !process.cores.is_empty() {
         keep_to(&process.cores);
     }
@@ -276,12 +273,12 @@ fn measure_case(
         }
         return Ok(Status::Right);
     }
-    let tell = |what: &str| crate::output::tell(format_args!("{} {what}", out.escaped()));
-    match measure_into(case, out, &suite.registry, &watch, &mut OnTerminal::of_job(terminal))? {
-        Written::Now => {}
-        Written::Before => tell("already holds this case: nothing is measured."),
-        Written::Meanwhile => tell("was written by another process in the meantime: its case is kept."),
-    }
+    let what = match measure_into(case, out, &suite.registry, &watch, &mut OnTerminal::new(terminal, true))? {
+        Written::Now => return Ok(Status::Right),
+        Written::Before => "already holds this case: nothing is measured.",
+        Written::Meanwhile => "was written by another process in the meantime: its case is kept.",
+    };
+    crate::output::tell(format_args!("{} {what}", out.escaped()));
     Ok(Status::Right)
 }
 

@@ -49,15 +49,14 @@ impl Args {
     /// The requested studies and the options of the studies. A repeated option is rejected, as clap rejects one before
     /// `rest`.
     fn split(&self) -> anyhow::Result<(Self, Vec<OsString>, Vec<OsString>)> {
-        let (mut own, mut names, mut options) = (self.clone(), vec![], vec![]);
+        let (mut own, mut options) = (self.clone(), vec![]);
         // To clap the studies' options after scenes are scenes, and without a name the first one is the name.
         let scenes = own.scenes.iter().take_while(|word| !word.starts_with("-")).count();
         let behind = own.scenes.split_off(scenes);
         anyhow::ensure!(scenes > 0 || behind.is_empty(), NO_SCENE);
         let mut rest = self.name.iter().chain(&self.rest).chain(&behind).peekable();
-        while let Some(word) = rest.next_if(|word| !word.starts_with("-")) {
-            names.push(word.clone());
-        }
+        let is_option = |word: &OsString| word.starts_with("-");
+        let mut names: Vec<OsString> = std::iter::from_fn(|| rest.next_if(|word| !is_option(word)).cloned()).collect();
         if names.is_empty() {
             names.push(super::all::NAME.into());
         }
@@ -76,9 +75,7 @@ impl Args {
                 ("--scenes", value) => {
                     let before = own.scenes.len();
                     own.scenes.extend(value.map(OsString::from));
-                    while let Some(scene) = rest.next_if(|word| !word.starts_with("-")) {
-                        own.scenes.push(scene.clone());
-                    }
+                    own.scenes.extend(std::iter::from_fn(|| rest.next_if(|word| !is_option(word)).cloned()));
                     anyhow::ensure!(own.scenes.len() > before, NO_SCENE);
                 }
                 _ => options.push(word.clone()),
@@ -95,23 +92,20 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
     {
         anyhow::bail!("{name} follows an option: put the names of studies first, `sahara study plan {name} ..`");
     }
-    let output = options.iter().find(|word| {
-        let name = word.split_once("=").map_or(&***word, |(name, _)| name);
-        OUTPUTS.iter().any(|output| name == *output)
-    });
-    if let Some(output) = output {
-        anyhow::bail!(
+    for word in &options {
+        let name = word.split_once("=").map_or(&**word, |(name, _)| name);
+        anyhow::ensure!(
+            !OUTPUTS.iter().any(|output| name == *output),
             "{} needs a whole study, but each job measures one case: pass it to the study when all jobs are done",
-            output.escaped()
+            word.escaped()
+        );
+        anyhow::ensure!(
+            word != "--fresh",
+            "--fresh needs a whole study, but each job measures one case: choose another folder with --dir"
         );
     }
-    anyhow::ensure!(
-        !options.iter().any(|word| word == "--fresh"),
-        "--fresh needs a whole study, but each job measures one case: choose another folder with --dir"
-    );
     let named = names.iter().filter(|name| *name != super::all::NAME);
-    let named: Vec<&Study> =
-        named.map(|name| super::find(suite, &name.to_string_lossy())).collect::<anyhow::Result<_>>()?;
+    let named = named.map(|name| super::find(suite, &name.to_string_lossy())).collect::<anyhow::Result<Vec<_>>>()?;
     let whole = named.len() < names.len();
     let studies = if whole { suite.studies.iter().collect() } else { named };
     let dir = args.dir.as_deref().unwrap_or(Path::new(RUNS));
@@ -127,19 +121,23 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
         commands.push((study, words, parsed?));
     }
     let (mut lines, mut warnings) = (String::new(), vec![]);
+    let level = level.iter().flat_map(|level| ["--level", level.name()]);
+    let program: Vec<&str> = ["sahara"].into_iter().chain(level).collect();
     for (study, words, matches) in commands {
         let waiting = spinner(format!("planning {}", study.name), terminal);
         let plan = (study.plan)(&matches, &suite.registry)?;
         drop(waiting);
         warnings.extend(plan.warnings);
-        let own =
-            ["sahara", "study", study.name].map(OsStr::new).into_iter().chain(words.iter().map(OsString::as_os_str));
-        let own = own.map(quoted).collect::<Vec<String>>().join(" ");
+        let command =
+            line(["sahara", "study", study.name].map(OsStr::new).into_iter().chain(words.iter().map(|own| &**own)));
         for case in plan.cases {
             let threads = Threads::unstarted(case.settings.threads);
             let provenance = Provenance { process_per_epoch: true, ..Provenance::of(&threads) };
             let file = dir.join(study.name).join(file_name(&case, &provenance) + ".json");
-            lines += &(line(level, &Case { command: own.clone(), ..case }, &file) + "\n");
+            let case = serde_json::to_string(&Case { command: command.clone(), ..case }).expect("a case has text keys");
+            let options = [&*format!("--{CASE}={case}"), &*format!("--{OUT}")];
+            let words = program.iter().chain(&options).map(OsStr::new).chain([file.as_os_str()]);
+            lines += &(line(words) + "\n");
         }
     }
     // Several studies may measure the same scene.
@@ -159,11 +157,7 @@ fn words(study: &Study, args: &Args, whole: bool, options: &[OsString]) -> Vec<O
     words
 }
 
-/// A shell line with the command, a case and a file.
-fn line(level: Option<Level>, case: &Case, file: &Path) -> String {
-    let text = serde_json::to_string(case).expect("a case has text keys");
-    let (case, out) = (format!("--{CASE}={text}"), format!("--{OUT}"));
-    let level = level.iter().flat_map(|level| ["--level", level.name()]);
-    let words = ["sahara"].into_iter().chain(level).chain([case.as_str(), &out]).map(OsStr::new);
-    words.chain([file.as_os_str()]).map(quoted).collect::<Vec<String>>().join(" ")
+/// A line for a shell.
+fn line<'a>(words: impl Iterator<Item = &'a OsStr>) -> String {
+    words.map(quoted).collect::<Vec<String>>().join(" ")
 }

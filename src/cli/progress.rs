@@ -11,9 +11,6 @@ use super::terminal::Terminal;
 use crate::report::Table;
 use crate::study::{Screen, Stage};
 
-const SPINNER: &str = "{elapsed_precise} {wide_msg}";
-const BAR: &str = "{bar:24} {percent:>3}% {elapsed_precise}, {eta} left {wide_msg}";
-
 fn style(template: &str) -> ProgressStyle {
     ProgressStyle::with_template(template).expect("the template is valid")
 }
@@ -35,7 +32,7 @@ const TICK: Duration = Duration::from_secs(1);
 
 /// Shows a step and its duration until it is dropped; only for work that is not timed.
 pub fn spinner(what: impl Into<String>, terminal: &Terminal) -> ProgressBar {
-    let bar = bar(None, SPINNER, terminal).with_message(what.into());
+    let bar = bar(None, "{elapsed_precise} {wide_msg}", terminal).with_message(what.into());
     bar.enable_steady_tick(TICK);
     bar
 }
@@ -73,22 +70,15 @@ pub struct OnTerminal<'a> {
     log: LogLines,
     /// Warnings that were shown.
     warned: Vec<String>,
-    /// Whether it shows a job: a single case, without results before it is measured.
+    /// Whether it shows a job, a single case without earlier results: it prints the case in a line, also in a log.
     is_job: bool,
 }
 
 impl<'a> OnTerminal<'a> {
-    pub fn new(terminal: &'a Terminal) -> Self {
+    pub fn new(terminal: &'a Terminal, is_job: bool) -> Self {
         let bar = spinner("loading scenes", terminal);
         let (case, log) = (String::new(), LogLines::new(terminal));
-        Self { terminal, bar, case, work: 0, done: 0, log, warned: vec![], is_job: false }
-    }
-
-    /// The screen of a job, which prints its case in a line, also in a log.
-    pub fn of_job(terminal: &'a Terminal) -> Self {
-        let mut own = Self::new(terminal);
-        own.is_job = true;
-        own
+        Self { terminal, bar, case, work: 0, done: 0, log, warned: vec![], is_job }
     }
 
     fn log(&mut self, text: &str) {
@@ -101,7 +91,7 @@ impl Screen for OnTerminal<'_> {
     fn begin(&mut self, work: u64) {
         self.bar.reset();
         self.bar.set_length(work * STEPS);
-        self.bar.set_style(style(BAR));
+        self.bar.set_style(style("{bar:24} {percent:>3}% {elapsed_precise}, {eta} left {wide_msg}"));
         if !self.is_job {
             // Ctrl-C ends all commands at once, except a measuring run.
             interrupt::listen(true);

@@ -8,9 +8,9 @@ use indicatif::ProgressBar;
 
 use super::progress::spinner;
 use super::terminal::Terminal;
-use crate::accel::{DynAccel, Observed};
+use crate::accel::Observed;
 use crate::escaped::Escaped as _;
-use crate::registry::{Choice, Registry};
+use crate::registry::Registry;
 use crate::render::{ErrorMap, ViewError, ViewKind, coarse_size, costs, draw, hottest, png, with_heat_bar};
 use crate::report::number::count;
 use crate::request::{self, BRUTE_FORCE, OUTPUT, SAH_TREE, STRUCTURES, ViewArgs, is_large};
@@ -56,7 +56,10 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let accel = choice.build(&scene.mesh)?;
     let scaled_alone = args.hottest.is_none() && is_large(scene.mesh.len());
     let scale = match (args.view, args.hottest) {
-        (ViewKind::Heat, None) if scaled_alone => own_scale(&choice, &scene, accel.as_ref())?,
+        (ViewKind::Heat, None) if scaled_alone => {
+            let costs = guarded(|| costs(&scene, accel.as_ref(), coarse_size(&scene)));
+            hottest(&costs.with_context(|| format!("{}: {PANICKED}", choice.label))??).max(1)
+        }
         (ViewKind::Heat, None) => common_scale(registry, &scene, &waiting)?,
         (_, hottest) => hottest.unwrap_or(1),
     };
@@ -74,23 +77,18 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let mut legend = String::new();
     if args.view == ViewKind::Heat {
         picture = with_heat_bar(picture, scale);
-        legend = format!(
-            "; the colour bar runs from 0 to {} tests and steps, with ticks at 1 and every power of ten",
-            count(scale)
-        );
+        let most = count(scale);
+        legend =
+            format!("; the colour bar runs from 0 to {most} tests and steps, with ticks at 1 and every power of ten");
     }
     file.write(&png(&picture))?;
 
     let what = format!("{} view of {} by {}", args.view.name(), scene.name, choice.label);
-    terminal.print(&format!(
-        "{}: {} x {} pixels, {what}{legend}\n",
-        args.output.escaped(),
-        picture.width(),
-        picture.height()
-    ));
+    let (file, width, height) = (args.output.escaped(), picture.width(), picture.height());
+    terminal.print(&format!("{file}: {width} x {height} pixels, {what}{legend}\n"));
     terminal.print_notes(scene.notes.iter().map(|note| format!("{}: {note}", scene.name)));
     if args.view == ViewKind::Heat && scaled_alone {
-        terminal.print_lines(&[format!(
+        terminal.print_lines([format!(
             "{}: the scale is this structure's own (building all structures would take minutes); --hottest sets a common \
              scale",
             scene.name
@@ -112,12 +110,6 @@ fn is_png(path: &Path) -> anyhow::Result<()> {
         ending.escaped()
     );
     Ok(())
-}
-
-fn own_scale(choice: &Choice, scene: &Scene, accel: &dyn DynAccel) -> anyhow::Result<u64> {
-    let costs =
-        guarded(|| costs(scene, accel, coarse_size(scene))).with_context(|| format!("{}: {PANICKED}", choice.label))?;
-    Ok(hottest(&costs?).max(1))
 }
 
 /// One scale for the heat of all structures: the maximum over the trees. Brute force would darken all of them.

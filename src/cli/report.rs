@@ -56,7 +56,7 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
     }
 
     if !document.answer.banner.is_empty() {
-        terminal.print_lines(std::slice::from_ref(&document.answer.banner));
+        terminal.print_lines([&document.answer.banner]);
     }
     terminal.print(&format!("{} {}.\n", document.title, document.answer.verdict));
     for number in &document.answer.numbers {
@@ -72,9 +72,13 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
             all.len()
         )),
     }
-    let written = folder.iter().map(|folder| folder.path.join("index.html"));
-    for path in written.chain(results.iter().flat_map(ResultsFolder::paths)) {
-        terminal.print(&format!("{}\n", path.escaped()));
+    if let Some(folder) = folder {
+        terminal.print(&format!("{}\n", folder.path.join("index.html").escaped()));
+    }
+    if let Some(ResultsFolder { paper, data, readme, .. }) = results {
+        for file in [paper, data].into_iter().chain(readme.map(|(file, _)| file)) {
+            terminal.print(&format!("{}\n", file.path.escaped()));
+        }
     }
     Ok(Status::Right)
 }
@@ -119,10 +123,5 @@ impl ResultsFolder {
             file.write(text.as_bytes())?;
         }
         Ok(())
-    }
-
-    fn paths(&self) -> Vec<PathBuf> {
-        let files = [&self.paper, &self.data].into_iter().chain(self.readme.iter().map(|(file, _)| file));
-        files.map(|file| file.path.clone()).collect()
     }
 }

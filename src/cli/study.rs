@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+#[cfg(feature = "page")]
+use anyhow::Context;
 use clap::{ArgMatches, Args as _, FromArgMatches};
 
 use super::progress::OnTerminal;
@@ -9,7 +11,7 @@ use super::{NO_PAGE, Session};
 use crate::escaped::Escaped as _;
 use crate::output::{OutputFile, STDOUT};
 #[cfg(feature = "page")]
-use crate::report::{Figure, Report, plot::WIDTH};
+use crate::report::{Figure, plot::WIDTH};
 use crate::report::{csv, markdown};
 use crate::request::{MEASURING, OUTPUT};
 use crate::study::{self, Run, RunOutcome, Status, Study};
@@ -46,7 +48,6 @@ pub struct Common {
     pub plot: Vec<PathBuf>,
 }
 
-#[derive(Default)]
 struct Files {
     json: Option<OutputFile>,
     csv: Option<OutputFile>,
@@ -75,11 +76,12 @@ impl Common {
         let file = |path: &PathBuf| -> anyhow::Result<OutputFile> {
             Ok(OutputFile::check(path)?.apart_from(inputs.iter().map(PathBuf::as_path))?)
         };
-        let check = |path: &Option<PathBuf>| path.as_ref().map(file).transpose();
-        let (json, csv, markdown) =
-            (check(&self.export_json)?, check(&self.export_csv)?, check(&self.export_markdown)?);
-        let plots = self.plot.iter().map(file).collect::<anyhow::Result<_>>()?;
-        let files = Files { json, csv, markdown, plots };
+        let files = Files {
+            json: self.export_json.as_ref().map(file).transpose()?,
+            csv: self.export_csv.as_ref().map(file).transpose()?,
+            markdown: self.export_markdown.as_ref().map(file).transpose()?,
+            plots: self.plot.iter().map(file).collect::<anyhow::Result<_>>()?,
+        };
         let tables = [&files.json, &files.csv, &files.markdown].into_iter().flatten();
         OutputFile::are_apart(tables.chain(&files.plots))?;
         Ok(files)
@@ -87,33 +89,15 @@ impl Common {
 }
 
 /// Options that few people need: `--help` shows them, `-h` does not.
-const RARE: [&str; 18] = [
-    "camera",
-    "inside",
-    "size",
-    "quality",
-    "runner_limit",
-    "reference",
-    "only",
-    "like",
-    "runs",
-    "budget",
-    "threads",
-    "seed",
-    "build_limit",
-    "fresh",
-    "in_process",
-    "export_csv",
-    "export_markdown",
-    "plot",
-];
+const RARE: &str = "camera inside size quality runner_limit reference only like runs budget threads seed build_limit \
+                    fresh in_process export_csv export_markdown plot";
 
 pub fn command(study: &Study) -> clap::Command {
     let command = Common::augment_args((study.options)().name(study.name));
     // The doc comments of the options have replaced the description: set it again.
     let command = command.about(study.question).long_about(None);
     command.mut_args(|option| {
-        let is_rare = RARE.contains(&option.get_id().as_str());
+        let is_rare = RARE.split(' ').any(|rare| option.get_id() == rare);
         option.hide_short_help(is_rare)
     })
 }
@@ -126,7 +110,7 @@ pub fn run(session: &Session, study: &Study, matches: &ArgMatches) -> anyhow::Re
 pub fn run_as(session: &Session, study: &Study, matches: &ArgMatches, common: &Common) -> anyhow::Result<Status> {
     let &Session { suite, terminal, .. } = session;
     let folder = common.dir.clone().unwrap_or_else(|| RUNS.into());
-    let mut screen = OnTerminal::new(terminal);
+    let mut screen = OnTerminal::new(terminal, false);
     common.check_places()?;
     let plan = (study.plan)(matches, &suite.registry)?;
     let files = common.check(&plan.inputs)?;
@@ -158,18 +142,11 @@ pub fn run_as(session: &Session, study: &Study, matches: &ArgMatches, common: &C
             file.write(markdown::report(&report, &[notes, foot].concat()).as_bytes())?;
         }
         #[cfg(feature = "page")]
-        plot(study, &report, files.plots)?;
+        for file in files.plots {
+            let chart = report.figures().find_map(Figure::chart);
+            let chart = chart.with_context(|| format!("study {} has no figure: omit --plot", study.name))?;
+            file.write(chart.svg(WIDTH).as_bytes())?;
+        }
     }
     Ok(status)
-}
-
-/// Draws the first figure of a study.
-#[cfg(feature = "page")]
-fn plot(study: &Study, report: &Report, plots: Vec<OutputFile>) -> anyhow::Result<()> {
-    for file in plots {
-        let chart = report.figures().find_map(Figure::chart);
-        let chart = chart.ok_or_else(|| anyhow::anyhow!("study {} has no figure: omit --plot", study.name))?;
-        file.write(chart.svg(WIDTH).as_bytes())?;
-    }
-    Ok(())
 }

@@ -1,6 +1,7 @@
 //! The place and the appearance of output.
 
 use std::cell::RefCell;
+use std::collections::HashSet;
 use std::io::{self, IsTerminal, Write};
 
 use clap::ValueEnum;
@@ -31,12 +32,12 @@ pub struct Terminal {
     pub quiet: bool,
     /// Whether tables are printed with all their columns and notes.
     pub verbose: bool,
-    /// Notes that were not printed, without duplicates.
-    hidden: RefCell<Vec<String>>,
+    /// Notes that were not printed.
+    hidden: RefCell<HashSet<String>>,
 }
 
 impl Terminal {
-    pub fn new(colour: Colour, quiet: bool) -> Self {
+    pub fn new(colour: Colour, quiet: bool, verbose: bool) -> Self {
         let shown = io::stdout().is_terminal();
         let no_color = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
         let colour = match colour {
@@ -46,12 +47,7 @@ impl Terminal {
         };
         // Some terminals do not know their width, and report zero.
         let width = if shown { Probe::new().width().filter(|&width| width > 0) } else { None };
-        Self { screen: Screen { width, colour }, shown, quiet, verbose: false, hidden: RefCell::default() }
-    }
-
-    /// The same terminal; if `verbose`, it prints tables with all their columns and notes.
-    pub fn verbose(self, verbose: bool) -> Self {
-        Self { verbose, ..self }
+        Self { screen: Screen { width, colour }, shown, quiet, verbose, hidden: RefCell::default() }
     }
 
     /// Whether a person may want to see intermediate results.
@@ -89,40 +85,30 @@ impl Terminal {
             return self.print_table(table);
         }
         let mut table = terminal::with_short_names(table.clone().without_details());
-        self.hide(std::mem::take(&mut table.notes));
+        self.print_notes(std::mem::take(&mut table.notes));
         self.print(&(terminal::table(&table, self.screen) + "\n"));
     }
 
     /// Prints explanations of results if `verbose`; otherwise [`print_note_count`](Self::print_note_count) mentions
     /// them.
-    pub fn print_notes(&self, notes: impl IntoIterator<Item = String>) {
-        let notes: Vec<String> = notes.into_iter().collect();
-        if self.verbose { self.print_lines(&notes) } else { self.hide(notes) }
-    }
-
-    fn hide(&self, notes: Vec<String>) {
-        let mut hidden = self.hidden.borrow_mut();
-        for note in notes {
-            if !hidden.contains(&note) {
-                hidden.push(note);
-            }
-        }
+    pub fn print_notes(&self, notes: impl IntoIterator<Item = impl Into<String>>) {
+        let notes = notes.into_iter().map(Into::into);
+        if self.verbose { self.print_lines(notes) } else { self.hidden.borrow_mut().extend(notes) }
     }
 
     /// Prints how many notes were hidden, if any.
     pub fn print_note_count(&self) {
-        match self.hidden.borrow().len() {
-            0 => {}
-            n => {
-                self.print(&format!("{}: --verbose shows {}\n", plural(n, "note"), if n == 1 { "it" } else { "them" }))
-            }
+        let hidden = self.hidden.borrow().len();
+        if hidden > 0 {
+            let them = if hidden == 1 { "it" } else { "them" };
+            self.print(&format!("{}: --verbose shows {them}\n", plural(hidden, "note")));
         }
     }
 
     /// Prints lines of text, wrapped at the width of the screen.
-    pub fn print_lines(&self, lines: &[String]) {
+    pub fn print_lines(&self, lines: impl IntoIterator<Item = impl AsRef<str>>) {
         let width = usize::from(self.screen.width.unwrap_or(120));
-        let lines = lines.iter().flat_map(|line| wrapped(&line.escaped().to_string(), width));
+        let lines = lines.into_iter().flat_map(|line| wrapped(&line.as_ref().escaped().to_string(), width));
         self.print(&lines.map(|line| line + "\n").collect::<String>());
     }
 }

@@ -1,8 +1,8 @@
 //! No help, message, document or comment has a phrase that the glossary replaces.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use super::documented::files;
 use crate::study::Studies;
 
 const GLOSSARY: &str = include_str!("../../papers/GLOSSARY.md");
@@ -52,60 +52,33 @@ fn helps(command: &mut clap::Command, into: &mut Vec<String>) {
 /// The string literals of a source before its tests, each in one line.
 fn literals(source: &str) -> Vec<String> {
     let source = source.split("\n#[cfg(test)]\n").next().unwrap_or(source);
-    let (mut found, mut rest) = (vec![], source);
-    while let Some(at) = rest.find(['"', '\'', '/']) {
-        let tail = &rest[at..];
-        if tail.starts_with("//") {
-            rest = tail.split_once('\n').map_or("", |(_, after)| after);
-        } else if let Some(text) = tail.strip_prefix('"') {
-            let ends = text.char_indices().scan(false, |is_escaped, (i, c)| {
-                let is_end = c == '"' && !*is_escaped;
-                *is_escaped = c == '\\' && !*is_escaped;
-                Some((i, is_end))
-            });
-            let end = ends.filter(|(_, is_end)| *is_end).map(|(i, _)| i).next().unwrap_or(text.len());
-            let words: Vec<&str> = text[..end].split_whitespace().filter(|word| *word != "\\").collect();
-            found.push(words.join(" "));
-            rest = text.get(end + 1..).unwrap_or("");
-        } else {
-            // A quote in a character literal begins no string.
-            let skipped = if tail.starts_with("'\"'") { 3 } else { 1 };
-            rest = &tail[skipped..];
-        }
-    }
-    found
+    let code = source.lines().map(|line| format!(" {line}").split(" // ").next().unwrap_or_default().to_owned());
+    let code = code.filter(|line| !line.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n");
+    // What remains of quotes begins or ends a literal.
+    let code = code.replace("\\\\", "").replace("\\\"", "").replace("'\"'", "");
+    let in_a_line = |text: &str| text.split_whitespace().filter(|word| *word != "\\").collect::<Vec<_>>().join(" ");
+    code.split('"').skip(1).step_by(2).map(in_a_line).collect()
 }
 
 /// The comments of a source, each with the number of its first line. Consecutive lines with the same slashes are one
 /// comment. Code in backticks is left out.
-fn comments(source: &str) -> Vec<(usize, &str, String)> {
-    let mut found: Vec<(usize, &str, String)> = vec![];
+fn comments(source: &str) -> Vec<(usize, String)> {
+    let slashes = |comment: &str| comment.split(' ').next().map(String::from);
+    let mut found: Vec<(usize, String)> = vec![];
     let mut end = 0;
     for (number, line) in source.lines().enumerate() {
         let is_code = |at: &usize| line[..*at].matches('"').count() % 2 == 0;
         let Some(at) = line.match_indices("//").map(|(at, _)| at).find(is_code) else { continue };
-        let text = line[at..].trim_start_matches('/').trim_start_matches('!');
-        let slashes = &line[at..line.len() - text.len()];
-        match found.last_mut().filter(|last| end == number && last.1 == slashes && line[..at].trim().is_empty()) {
-            Some((.., last)) => *last += text,
-            None => found.push((number + 1, slashes, text.trim().to_owned())),
+        let (before, comment) = line.split_at(at);
+        let continues = end == number && before.trim().is_empty();
+        match found.last_mut().filter(|(_, last)| continues && slashes(last) == slashes(comment)) {
+            Some((_, last)) => *last += comment.trim_start_matches(['/', '!']),
+            None => found.push((number + 1, comment.to_owned())),
         }
         end = number + 1;
     }
-    let prose = |text: &str| text.split('`').step_by(2).collect::<Vec<_>>().join("{}");
-    found.into_iter().map(|(line, slashes, text)| (line, slashes, prose(&text))).collect()
-}
-
-fn sources(folder: &Path, into: &mut Vec<(PathBuf, String)>) {
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            sources(&path, into);
-        } else if path.extension().is_some_and(|extension| extension == "rs") && !path.ends_with("wording.rs") {
-            let text = fs::read_to_string(&path).unwrap();
-            into.push((path, text));
-        }
-    }
+    let prose = |text: String| text.split('`').step_by(2).collect::<Vec<_>>().join("{}");
+    found.into_iter().map(|(line, text)| (line, prose(text))).collect()
 }
 
 /// The text of a document without what a run fills in.
@@ -137,69 +110,55 @@ fn phrases_and_literals_are_found() {
     assert_eq!(found(&phrases, "Nothing is lost.").len(), 1);
     let source =
         "let a = \"one \\\n    two\"; // \"no\"\nlet b = ('\"', \"a \\\" b\");\n#[cfg(test)]\nmod tests { \"x\" }";
-    assert_eq!(literals(source), ["one two", "a \\\" b"]);
+    assert_eq!(literals(source), ["one two", "a b"]);
     let source = "/// One\n/// `anew` two.\n//! Three\nlet a = \"//\"; // four";
-    let expected = [(1, "///", "One {} two."), (3, "//!", "Three"), (4, "//", "four")];
-    assert_eq!(comments(source), expected.map(|(line, slashes, text)| (line, slashes, text.to_owned())));
+    let expected = [(1, "/// One {} two."), (3, "//! Three"), (4, "// four")];
+    assert_eq!(comments(source), expected.map(|(line, text)| (line, text.to_owned())));
 }
 
 #[test]
-fn help_fits_a_screen_and_it_and_messages_have_no_phrase_that_the_glossary_replaces() {
-    let phrases = not_used();
+fn helps_fit_a_screen_and_no_text_has_a_phrase_that_the_glossary_replaces() {
+    // Texts with their places.
+    let (mut messages, mut prose, mut documents) = (vec![], vec![], vec![]);
     let mut helps_of_all = vec![];
     helps(&mut super::command(&Studies::builtin()), &mut helps_of_all);
-    assert!(helps_of_all.len() > 40, "{} helps", helps_of_all.len());
-    let too_long: Vec<&str> =
-        helps_of_all.iter().flat_map(|help| help.lines()).filter(|line| line.chars().count() > 80).collect();
+    let lines = helps_of_all.iter().flat_map(|help| help.lines());
+    let too_long: Vec<&str> = lines.filter(|line| line.chars().count() > 80).collect();
     assert!(too_long.is_empty(), "{too_long:#?}");
-    let mut used: Vec<String> = helps_of_all.iter().flat_map(|help| found(&phrases, help)).collect();
+    let helps = helps_of_all.into_iter().map(|help| ("a help".to_owned(), help)).collect();
 
-    let mut files = vec![];
-    sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut files);
-    files.retain(|(path, _)| !path.ends_with("tests.rs") && !path.iter().any(|part| part == "tests"));
-    let mut count = 0;
-    for (path, text) in &files {
-        // No user reads the sentence of an `expect`.
-        let shown = literals(&text.replace(".expect(\"", ".expect(//"));
-        count += shown.len();
-        let of_literal = |own: &String| found(&phrases, own);
-        used.extend(shown.iter().flat_map(of_literal).map(|phrase| format!("{}: {phrase}", path.display())));
-    }
-    assert!(count > 2000, "{count} literals");
-    assert!(used.is_empty(), "{used:#?}");
-}
-
-#[test]
-fn comments_have_no_phrase_that_the_glossary_replaces() {
-    let (phrases, root) = (not_used(), Path::new(env!("CARGO_MANIFEST_DIR")));
-    let mut files = vec![];
-    ["src", "tests", "benches"].iter().for_each(|folder| sources(&root.join(folder), &mut files));
-    let (mut count, mut used) = (0, vec![]);
-    for (path, text) in &files {
-        for (line, slashes, comment) in comments(text) {
-            count += 1;
-            let opening = comment.split_whitespace().next().filter(|word| OPENINGS.contains(word) && slashes != "//");
-            let opening = opening.map(|word| format!("{word:?} as the first word"));
-            let place = |phrase: String| format!("{}:{line}: {phrase}", path.strip_prefix(root).unwrap().display());
-            used.extend(found(&phrases, &comment).into_iter().chain(opening).map(place));
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for (path, text) in ["src", "tests", "benches"].iter().flat_map(|folder| files(&root.join(folder), ".rs")) {
+        if path.ends_with("wording.rs") {
+            continue;
+        }
+        let path = path.strip_prefix(root).unwrap();
+        let place = path.display();
+        prose.extend(comments(&text).into_iter().map(|(line, comment)| (format!("{place}:{line}"), comment)));
+        if path.starts_with("src") && !path.ends_with("tests.rs") && !path.iter().any(|part| part == "tests") {
+            // No user reads the sentence of an `expect`.
+            let shown = literals(&text.replace(".expect(\"", " // "));
+            messages.extend(shown.into_iter().map(|literal| (place.to_string(), literal)));
         }
     }
-    assert!(count > 5000, "{count} comments");
-    assert!(used.is_empty(), "{used:#?}");
-}
+    for (path, text) in files(root, ".md") {
+        // Exceptions: notes on papers, and results that a run has written.
+        if !path.starts_with(root.join("papers")) && !path.ends_with(CLAIMS) {
+            documents.push((path.display().to_string(), written(&text)));
+        }
+    }
 
-/// Exceptions: notes on papers, and results that a run has written.
-#[test]
-fn documents_have_no_phrase_that_the_glossary_replaces() {
-    let (phrases, root) = (not_used(), Path::new(env!("CARGO_MANIFEST_DIR")));
-    let mut paths = vec![];
-    super::documented::documents(root, &mut paths);
-    paths.retain(|path| !path.starts_with(root.join("papers")) && !path.ends_with(CLAIMS));
-    assert!(paths.len() > 10, "{paths:?}");
-    let read = |path: &Path| written(&fs::read_to_string(path).unwrap());
-    let of =
-        |path: &Path| found(&phrases, &read(path)).into_iter().map(|own| own.chars().take(200).collect::<String>());
-    let used: Vec<String> =
-        paths.iter().flat_map(|path| of(path).map(|own| format!("{}: {own}", path.display()))).collect();
+    let phrases = not_used();
+    let mut used = vec![];
+    for (texts, least) in [(helps, 40), (messages, 2000), (prose, 5000), (documents, 10)] {
+        assert!(texts.len() > least, "{} texts, not more than {least}", texts.len());
+        for (place, text) in texts {
+            let doc = text.strip_prefix("///").or(text.strip_prefix("//!")).unwrap_or_default();
+            let opening = doc.split_whitespace().next().filter(|word| OPENINGS.contains(word));
+            let opening = opening.map(|word| format!("{word:?} as the first word"));
+            let faults = found(&phrases, &text).into_iter().chain(opening);
+            used.extend(faults.map(|fault| format!("{place}: {}", fault.chars().take(200).collect::<String>())));
+        }
+    }
     assert!(used.is_empty(), "{used:#?}");
 }

@@ -65,7 +65,14 @@ impl Client {
     fn download(&self, file: &DataFile, out: &mut fs::File, progress: &mut dyn FnMut(u64)) -> Result<u64, FetchError> {
         let url = || file.url.clone();
         let connection = |cause: String| FetchError::Connection { url: url(), cause };
-        let response = self.0.get(&file.url).call().map_err(|cause| connection(sentence(&cause)))?;
+        let response = self.0.get(&file.url).call().map_err(|error| {
+            connection(match error {
+                ureq::Error::TooManyRedirects => {
+                    format!("it redirects more than {REDIRECTS} times, perhaps in a loop")
+                }
+                other => other.to_string(),
+            })
+        })?;
         let status = response.status().as_u16();
         if status != 200 {
             return Err(FetchError::Status { url: url(), status });
@@ -96,12 +103,5 @@ impl Client {
             }
             _ => Ok(got),
         }
-    }
-}
-
-fn sentence(error: &ureq::Error) -> String {
-    match error {
-        ureq::Error::TooManyRedirects => format!("it redirects more than {REDIRECTS} times, perhaps in a loop"),
-        other => other.to_string(),
     }
 }

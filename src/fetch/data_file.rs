@@ -21,20 +21,15 @@ impl DataFile {
     /// # Errors
     /// If there is no hash to verify it, or its URL is not HTTP.
     pub fn new(real: &RealMesh, folder: &Path) -> Result<Self, FetchError> {
-        let (url, path) = (real.url.clone(), folder.join(&real.file));
-        if real.unpack.is_none() && !["https://", "http://"].iter().any(|scheme| url.starts_with(scheme)) {
-            return Err(FetchError::Address { file: real.file.clone(), url });
+        let RealMesh { file, url, sha256, unpack, bytes, .. } = real.clone();
+        if unpack.is_none() && !["https://", "http://"].iter().any(|scheme| url.starts_with(scheme)) {
+            return Err(FetchError::Address { file, url });
         }
-        match &real.sha256 {
-            Some(sha256) if real.unpack.is_none() => {
-                Ok(Self { url, path, sha256: sha256.to_lowercase(), bytes: real.bytes })
+        match sha256 {
+            Some(sha256) if unpack.is_none() => {
+                Ok(Self { url, path: folder.join(file), sha256: sha256.to_lowercase(), bytes })
             }
-            _ => Err(FetchError::NoHash {
-                file: real.file.clone(),
-                url,
-                unpack: real.unpack.clone(),
-                folder: folder.into(),
-            }),
+            _ => Err(FetchError::NoHash { file, url, unpack, folder: folder.into() }),
         }
     }
 
@@ -47,10 +42,10 @@ impl DataFile {
             return Ok(false);
         }
         let found = hash(&self.path)?;
-        match found == self.sha256 {
-            true => Ok(true),
-            false => Err(FetchError::Other { path: self.path.clone(), found, expected: self.sha256.clone() }),
+        if found == self.sha256 {
+            return Ok(true);
         }
+        Err(FetchError::Other { path: self.path.clone(), found, expected: self.sha256.clone() })
     }
 
     /// Checks that the download at `part` has the expected contents.

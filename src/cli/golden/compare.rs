@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use rayon::prelude::*;
 
-use super::{Outputs, tally};
+use super::{Outputs, VERDICTS, tally};
 use crate::cli::progress::spinner;
 use crate::cli::terminal::Terminal;
 use crate::escaped::Escaped as _;
@@ -77,8 +77,7 @@ impl Args {
     fn how(&self) -> Match {
         match (self.max_flip, self.max_difference, self.allow_pixels) {
             (Some(mean), ..) => {
-                let pixels_per_degree = self.pixels_per_degree.unwrap_or(PIXELS_PER_DEGREE);
-                Match::Flip { mean, pixels_per_degree }
+                Match::Flip { mean, pixels_per_degree: self.pixels_per_degree.unwrap_or(PIXELS_PER_DEGREE) }
             }
             (None, None, None) => Match::Exact,
             (None, difference, pixels) => {
@@ -118,12 +117,11 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     let inputs = pairs.iter().flat_map(|pair| pair.expected.iter().chain(&pair.actual)).chain(&args.mask);
     let outputs = args.outputs.check(inputs.map(PathBuf::as_path))?;
     if let Some(page) = &args.outputs.page {
-        let is_in = |folder: &PathBuf| {
-            std::path::absolute(page)
-                .is_ok_and(|page| std::path::absolute(folder).is_ok_and(|folder| page.starts_with(folder)))
+        let contains_page = |folder: &&PathBuf| {
+            let [page, folder] = [page, folder].map(std::path::absolute);
+            page.is_ok_and(|page| folder.is_ok_and(|folder| page.starts_with(folder)))
         };
-        let inside = [&args.expected, &args.actual].into_iter().find(|folder| is_in(folder));
-        if let Some(folder) = inside {
+        if let Some(folder) = [&args.expected, &args.actual].into_iter().find(contains_page) {
             anyhow::bail!("the next comparison would include the page: choose a --page outside {}", folder.escaped());
         }
     }
@@ -144,7 +142,7 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
         terminal.print_table(&table);
     }
     let failures = comparisons.iter().filter(|own| own.fails());
-    terminal.print_lines(&failures.map(|own| format!("{}: {}", own.name, own.said.join("; "))).collect::<Vec<_>>());
+    terminal.print_lines(failures.map(|own| format!("{}: {}", own.name, own.said.join("; "))));
     terminal.print(&format!("{}\n", tally(&comparisons)));
     outputs.export(&comparisons, terminal)?;
     Ok(match comparisons.iter().map(|own| own.verdict).min() {
@@ -178,25 +176,18 @@ fn compare(
     let only = |verdict, [own, other]: [&Path; 2]| {
         Comparison::said(&name, verdict, format!("exists in {} but not in {}", own.escaped(), other.escaped()))
     };
-    let mut refused = None;
-    let mut picture = |path: &Option<PathBuf>| match path.as_deref().map(read).transpose() {
-        Ok(picture) => picture,
-        Err(cause) => {
-            refused = Some(Comparison::said(&name, Verdict::Failed, cause.to_string()));
-            None
-        }
-    };
-    let [expected, actual] = [picture(&pair.expected), picture(&pair.actual)];
+    let pictures = [&pair.expected, &pair.actual].map(|path| path.as_deref().map(read).transpose());
+    let unreadable = pictures.iter().filter_map(|picture| picture.as_ref().err()).next_back();
+    let [expected, actual] = pictures.each_ref().map(|picture| picture.as_ref().ok()?.as_ref());
     let [wanted, found] = [&args.expected, &args.actual].map(PathBuf::as_path);
-    let (comparison, maps) = match (&expected, &actual, refused) {
-        (_, _, Some(refused)) => (refused, None),
+    let (comparison, maps) = match (expected, actual, unreadable) {
+        (_, _, Some(cause)) => (Comparison::said(&name, Verdict::Failed, cause.to_string()), None),
         (Some(expected), Some(actual), None) => golden::compare(&name, [expected, actual], args.how(), mask),
         (Some(_), None, None) => (only(Verdict::Missing, [wanted, found]), None),
         (None, _, None) => (only(Verdict::Additional, [found, wanted]), None),
     };
     if let Some(page) = page {
-        let sides = Sides { expected: expected.as_ref(), actual: actual.as_ref(), values: Values::Colours };
-        page.add(number, &comparison, sides, maps.as_ref())?;
+        page.add(number, &comparison, Sides { expected, actual, values: Values::Colours }, maps.as_ref())?;
     }
     Ok(comparison)
 }
@@ -215,7 +206,7 @@ fn table(comparisons: &[Comparison]) -> Table {
         rows,
         &[
             ("picture", &|own: &&Comparison| (&own.name).into()),
-            ("verdict", &|own| verdict(own.verdict)),
+            ("verdict", &|own| verdict(own)),
             ("pixels", &|own| known(own, |own| own.difference.pixels.into())),
             ("over", &|own| known(own, |own| own.pixels_over.into())),
             ("largest", &|own| known(own, |own| own.difference.largest.into())),
@@ -230,14 +221,7 @@ fn table(comparisons: &[Comparison]) -> Table {
     .without_empty_columns()
 }
 
-fn verdict(verdict: Verdict) -> Cell {
-    let text = match verdict {
-        Verdict::Differs => "differs",
-        Verdict::Failed => "failed",
-        Verdict::Missing => "missing",
-        Verdict::Additional => "additional",
-        Verdict::Accepted => "accepted",
-        Verdict::Identical => "identical",
-    };
-    Cell::from(text).with(if verdict < Verdict::Accepted { Tone::Wrong } else { Tone::Plain })
+fn verdict(own: &Comparison) -> Cell {
+    let name = VERDICTS.iter().find(|(verdict, ..)| *verdict == own.verdict).map_or("", |(_, name, _)| name);
+    Cell::from(name).with(if own.fails() { Tone::Wrong } else { Tone::Plain })
 }

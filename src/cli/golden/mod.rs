@@ -7,7 +7,7 @@ mod scenes;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use serde::Serialize;
+use serde_json::json;
 
 use super::terminal::Terminal;
 use crate::escaped::Escaped as _;
@@ -61,13 +61,6 @@ struct CheckedOutputs {
     json: Option<OutputFile>,
 }
 
-/// The file of --export-json.
-#[derive(Serialize)]
-struct Export<'a> {
-    schema: &'static str,
-    comparisons: &'a [Comparison],
-}
-
 impl Outputs {
     /// Rejects outputs that cannot be written or that contain `inputs`.
     fn check<'a>(&self, inputs: impl Iterator<Item = &'a Path> + Clone) -> anyhow::Result<CheckedOutputs> {
@@ -82,22 +75,19 @@ impl Outputs {
 }
 
 impl CheckedOutputs {
-    /// The result of `compare`, which may add to the page.
-    fn with_page<T>(
-        &self,
-        title: &str,
-        compare: impl FnOnce(Option<&Page>) -> io::Result<T>,
-    ) -> Result<T, OutputError> {
+    /// The result of `run`, which may add to the page.
+    fn with_page<T>(&self, title: &str, run: impl FnOnce(Option<&Page>) -> io::Result<T>) -> Result<T, OutputError> {
         match &self.page {
-            Some(folder) => page::write(folder, title, |page| compare(Some(page))),
-            None => Ok(compare(None).expect("nothing is written")),
+            Some(folder) => page::write(folder, title, |page| run(Some(page))),
+            None => Ok(run(None).expect("nothing is written")),
         }
     }
 
     /// Writes the JSON, and prints the place of the page.
     fn export(&self, comparisons: &[Comparison], terminal: &Terminal) -> anyhow::Result<()> {
         if let Some(json) = &self.json {
-            json.write(&serde_json::to_vec_pretty(&Export { schema: "sahara-golden-1", comparisons })?)?;
+            let run = json!({ "schema": "sahara-golden-1", "comparisons": comparisons });
+            json.write(&serde_json::to_vec_pretty(&run)?)?;
         }
         if let Some(folder) = &self.page {
             terminal.print(&format!("{}\n", page::index(&folder.path).escaped()));
@@ -106,17 +96,20 @@ impl CheckedOutputs {
     }
 }
 
+/// Verdicts in tables and in tallies, the worst first.
+const VERDICTS: [(Verdict, &str, &str); 6] = [
+    (Verdict::Differs, "differs", "different"),
+    (Verdict::Failed, "failed", "failed"),
+    (Verdict::Missing, "missing", "missing"),
+    (Verdict::Additional, "additional", "additional"),
+    (Verdict::Accepted, "accepted", "accepted"),
+    (Verdict::Identical, "identical", "identical"),
+];
+
 /// The number of comparisons by verdict.
 fn tally(comparisons: &[Comparison]) -> String {
-    let said = [
-        (Verdict::Differs, "different"),
-        (Verdict::Failed, "failed"),
-        (Verdict::Missing, "missing"),
-        (Verdict::Additional, "additional"),
-        (Verdict::Accepted, "accepted"),
-        (Verdict::Identical, "identical"),
-    ];
     let number = |verdict| comparisons.iter().filter(|own| own.verdict == verdict).count() as u64;
-    let parts = said.map(|(verdict, name)| (number(verdict), name)).into_iter().filter(|(number, _)| *number > 0);
+    let parts =
+        VERDICTS.map(|(verdict, _, name)| (number(verdict), name)).into_iter().filter(|(number, _)| *number > 0);
     parts.map(|(number, name)| format!("{} {name}", count(number))).collect::<Vec<_>>().join(", ")
 }

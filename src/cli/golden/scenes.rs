@@ -130,15 +130,10 @@ impl Targets {
         let word = if scene.stand_ins.is_empty() { name.into() } else { stand_in(&name) };
         Ok(Target::new(scene, golden, word))
     }
-
-    /// The input files, without golden images.
-    fn inputs(&self, registry: &Registry) -> Vec<PathBuf> {
-        request::scene_files(registry, &self.scenes)
-    }
 }
 
 pub fn check(registry: &Registry, args: &CheckArgs, terminal: &Terminal) -> anyhow::Result<Status> {
-    let inputs = args.targets.inputs(registry);
+    let inputs = request::scene_files(registry, &args.targets.scenes);
     let outputs = args.outputs.check(inputs.iter().map(PathBuf::as_path))?;
     // A golden image belongs to the scene: all structures with one triangle test must return the same bytes.
     let choices: Vec<Choice> = if args.structure.is_empty() {

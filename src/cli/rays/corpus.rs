@@ -7,16 +7,15 @@ use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use rayon::prelude::*;
-
 use indicatif::ProgressBar;
+use rayon::prelude::*;
 
 use crate::accel::Query;
 use crate::cli::progress::spinner;
 use crate::cli::terminal::Terminal;
 use crate::escaped::Escaped as _;
 use crate::exact;
-use crate::geometry::{Mesh, Ray};
+use crate::geometry::Ray;
 use crate::measure::program::digest;
 use crate::oracle::Oracle;
 use crate::output::OutputFolder;
@@ -88,7 +87,8 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     }
 
     waiting.set_message(format!("writing {}", folder.path.escaped()));
-    let sums = sums(&files);
+    // One line per file, in the format of `sha256sum`.
+    let sums: String = files.iter().map(|(name, bytes)| format!("{}  {name}\n", digest(bytes))).collect();
     let digest_of_sums = digest(sums.as_bytes());
     files.insert(SUMS.into(), sums.into_bytes());
     folder.write(&files.into_iter().collect::<Vec<_>>())?;
@@ -98,24 +98,22 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let note = format!("{}: stand-in meshes, whether or not the real ones are present.", listed(&stand_ins));
     let notes = if stand_ins.is_empty() { vec![] } else { vec![note] };
     terminal.print_table(&Table::new(title, ["scene", "triangles", "rays", "hits", "bytes"], rows).noted(notes));
-    verdict(args, &digest_of_sums, terminal)
+    Ok(verdict(args, &digest_of_sums, terminal))
 }
 
 /// Prints the hash, and whether it is the expected one.
-fn verdict(args: &Args, digest: &str, terminal: &Terminal) -> anyhow::Result<Status> {
-    let (status, said) = match args.is_default() {
-        false => (Status::Right, ""),
-        true if digest == CORPUS_SHA256 => (Status::Right, ", as published"),
-        true => (Status::Wrong, ""),
-    };
-    if status == Status::Wrong {
-        terminal.print_lines(&[format!(
+fn verdict(args: &Args, digest: &str, terminal: &Terminal) -> Status {
+    let is_published = digest == CORPUS_SHA256;
+    let is_wrong = args.is_default() && !is_published;
+    if is_wrong {
+        terminal.print_lines([format!(
             "This corpus differs from the published one, whose {SUMS} has the SHA-256 {CORPUS_SHA256}: do not compare \
              its numbers with published ones, and report this as a bug."
         )]);
     }
-    terminal.print(&format!("SHA-256 of {SUMS}: {digest}{said}\n"));
-    Ok(status)
+    let published = if args.is_default() && is_published { ", as published" } else { "" };
+    terminal.print(&format!("SHA-256 of {SUMS}: {digest}{published}\n"));
+    if is_wrong { Status::Wrong } else { Status::Right }
 }
 
 struct Part {
@@ -140,12 +138,9 @@ fn part(scene: &Scene, args: &Args, waiting: &ProgressBar) -> anyhow::Result<Par
     let oracle = Oracle::new(&scene.mesh);
     for kind in RayKind::ALL {
         let name = kind.name();
-        waiting.set_message(format!(
-            "{}: computing exact hits of {}: {name}",
-            scene.name,
-            plural(args.rays as usize, "ray")
-        ));
-        let (file, truth) = answered(scene, kind, args.rays as usize, args.seed, &oracle)
+        let rays = args.rays as usize;
+        waiting.set_message(format!("{}: computing exact hits of {}: {name}", scene.name, plural(rays, "ray")));
+        let (file, truth) = answered(scene, kind, rays, args.seed, &oracle)
             .map_err(|problem| anyhow::anyhow!("{} has no {name} rays: {problem}: scale the mesh", scene.name))?;
         part.rays += truth.hits.len();
         part.hits += truth.hits.iter().flatten().count();
@@ -166,20 +161,13 @@ fn answered(
     let workload = Workload { name: kind.name().into(), query: Query::Closest, rays: kind.rays(scene, count, seed) };
     RayFile::check(&workload.rays)?;
     RayFile::check_names(&scene.name, &workload.name)?;
-    let answers = workload.rays.par_iter().map(|ray| exact_answer(oracle, &scene.mesh, ray)).collect();
-    let truth = ExactHitFile::new(&workload, answers);
+    // The distance of the nearest hit, with a relative error below 2^-50, and all triangles that are hit there.
+    let exact_answer = |ray: &Ray| {
+        let ids = oracle.nearest(ray)?.ids;
+        // Take the last bits from the triangle with the lowest number, whichever the oracle has found first.
+        let t = exact::hit(ray, scene.mesh.corners(ids[0])).expect("the oracle has found it");
+        Some((t.approximate(), ids))
+    };
+    let truth = ExactHitFile::new(&workload, workload.rays.par_iter().map(exact_answer).collect());
     Ok((RayFile { scene: scene.name.clone(), scene_hash: None, workload }, truth))
-}
-
-/// The distance of the nearest hit, with a relative error below 2^-50, and all triangles that are hit there.
-fn exact_answer(oracle: &Oracle, mesh: &Mesh, ray: &Ray) -> Option<(f64, Vec<u32>)> {
-    let ids = oracle.nearest(ray)?.ids;
-    // Take the last bits from the triangle with the lowest number, whichever the oracle has found first.
-    let t = exact::hit(ray, mesh.corners(ids[0])).expect("the oracle has found it");
-    Some((t.approximate(), ids))
-}
-
-/// One line per file, in the format of `sha256sum`.
-fn sums(files: &Files) -> String {
-    files.iter().map(|(name, bytes)| format!("{}  {name}\n", digest(bytes))).collect()
 }

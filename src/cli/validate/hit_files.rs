@@ -1,5 +1,4 @@
-//! Hits in files: writes the hits of a structure for other programs, and compares the hits of other programs with the
-//! reference.
+//! Hits in files: those of a structure for other programs, and those of other programs against the reference.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -11,7 +10,7 @@ use super::Run;
 use super::outcome::Outcome;
 use super::reference::closest_hits;
 use super::table::{note_on_reference, scene_table};
-use crate::accel::{DynAccel, Query};
+use crate::accel::Query;
 use crate::escaped::Escaped as _;
 use crate::geometry::{Hit, Ray};
 use crate::report::number::plural;
@@ -49,7 +48,10 @@ impl Run<'_> {
         let (mut hits, limit) = (vec![], args.query_limit(accel.as_ref()));
         for batch in workload.rays.chunks(BATCH) {
             let (accel, query, batch) = (Arc::clone(&accel), workload.query, batch.to_vec());
-            let traced = watched(limit, move || traced(accel.as_ref(), query, &batch));
+            let traced = watched(limit, move || match query {
+                Query::Closest => accel.closest(&batch),
+                Query::Any => accel.any(&batch).into_iter().map(|any| any.then(|| Hit::new(0.0, 0))).collect(),
+            });
             let advice = || format!("{label}: run the same command without --export-hits to find the ray");
             hits.extend(traced.with_context(advice)?);
         }
@@ -100,12 +102,5 @@ impl Run<'_> {
         self.terminal.print_table(&scene_table(scene, &rays, &reference_name, outcomes, faults));
         self.terminal.print_notes(notes);
         Ok(outcome)
-    }
-}
-
-fn traced(accel: &dyn DynAccel, query: Query, rays: &[Ray]) -> Vec<Option<Hit>> {
-    match query {
-        Query::Closest => accel.closest(rays),
-        Query::Any => accel.any(rays).into_iter().map(|any| any.then(|| Hit::new(0.0, 0))).collect(),
     }
 }

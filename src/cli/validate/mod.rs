@@ -1,6 +1,5 @@
 //! `validate`.
 
-mod export;
 mod hard;
 mod hit_files;
 mod outcome;
@@ -28,7 +27,6 @@ use crate::scene::Scene;
 use crate::study::Status;
 use crate::validate::{LIMIT, watched};
 
-use export::Export;
 use outcome::{BuildFailure, Outcome};
 use reference::{DEFAULT_RAYS, ReferenceChoice};
 use table::{LEGEND, RETRACE};
@@ -161,14 +159,14 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     };
 
     if outcomes.iter().any(Outcome::has_example) {
-        terminal.print_lines(&[RETRACE].map(String::from));
+        terminal.print_lines([RETRACE]);
     }
-    terminal.print_notes(LEGEND.map(String::from));
+    terminal.print_notes(LEGEND);
     let verdicts = outcome::verdicts(&outcomes);
-    terminal.print_lines(&outcome::sentences(&verdicts));
+    terminal.print_lines(outcome::sentences(&verdicts));
     if let Some(file) = json {
-        let results = outcomes.iter().map(Outcome::record).collect();
-        file.write(&serde_json::to_vec_pretty(&Export::new(&verdicts, results))?)?;
+        let results: Vec<_> = outcomes.iter().map(Outcome::record).collect();
+        file.write(&outcome::export(&verdicts, &results)?)?;
     }
     Ok(outcomes.iter().fold(Status::Right, |status, own| status.and(own.status(args.strict))))
 }

@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::accel::BuildError;
+use crate::measure::Provenance;
 use crate::names::named;
 use crate::registry::{Choice, plain_name};
 use crate::request::known_defect;
@@ -153,4 +154,17 @@ pub fn verdicts(outcomes: &[Outcome]) -> Vec<Verdicts> {
 /// One sentence about each structure that a user brings.
 pub fn sentences(verdicts: &[Verdicts]) -> Vec<String> {
     verdicts.iter().filter(|own| own.is_brought).map(Verdicts::sentence).collect()
+}
+
+/// A run as JSON, with `results` by scene or case, then by structure; `study/SCHEMA.md` describes it.
+pub fn export(verdicts: &[Verdicts], results: &[Value]) -> serde_json::Result<Vec<u8>> {
+    let verdict = |own: &Verdicts| json!({ "label": own.label, "verdict": own.verdict, "sentence": own.sentence() });
+    serde_json::to_vec_pretty(&json!({
+        // 3: verdicts, and every mode of `validate`.
+        "schema": 3,
+        // Every structure traces on one thread.
+        "provenance": Provenance::capture(1),
+        "verdicts": verdicts.iter().map(verdict).collect::<Vec<_>>(),
+        "results": results,
+    }))
 }

@@ -163,7 +163,7 @@ mod tests {
     #[test]
     fn one_structure_for_all_tests_that_round_is_built_and_traced_once() {
         let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
-        let waiting = spinner(String::new(), &Terminal::new(Colour::Never, true));
+        let waiting = spinner(String::new(), &Terminal::new(Colour::Never, true, false));
         for (choice, is_shared) in choices([BRUTE_FORCE, "sah-kd"]).iter().zip([false, true]) {
             let mut references = References { scene: &scene, rays: &[], choice, known: BTreeMap::new() };
             let [one, other, again, exact] = ["plucker", "watertight", "plucker", "exact"]

@@ -102,20 +102,15 @@ fn answer(accel: &Arc<dyn DynAccel>, ray: &Ray, mesh: &Mesh, limit: Duration) ->
     }
     let (own, ray) = (Arc::clone(accel), *ray);
     match watched(limit, move || own.closest(&[ray])[0]) {
-        Ok(_) if has_replied(accel.as_ref()).is_err() => no_answer(),
-        Err(_) => no_answer(),
-        Ok(None) => vec!["no hit".into()],
-        Ok(Some(hit)) => {
+        Ok(Some(hit)) if has_replied(accel.as_ref()).is_ok() => {
             let index = hit.prim.index();
             let weights = ((index as usize) < mesh.len()).then(|| barycentrics(&ray, mesh.corners(index)));
             let [u, v] = [weights.map(|w| w.y), weights.map(|w| w.z)].map(|x| x.map(|x| format!("{x:.9}")).into());
             vec![hit.t.to_string().into(), index.to_string().into(), u, v]
         }
+        Ok(None) if has_replied(accel.as_ref()).is_ok() => vec!["no hit".into()],
+        _ => vec![Cell::from("no answer").with(Tone::Wrong)],
     }
-}
-
-fn no_answer() -> Vec<Cell> {
-    vec![Cell::from("no answer").with(Tone::Wrong)]
 }
 
 const ANSWERS: [&str; 6] = ["structure", "ray", "t", "triangle", "u", "v"];

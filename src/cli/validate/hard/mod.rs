@@ -3,17 +3,14 @@
 mod child;
 mod record;
 mod table;
-mod verdict;
 
-use std::io;
 use std::sync::Mutex;
 use std::thread;
 
 use anyhow::Context;
 
 use super::Args;
-use super::export::Export;
-use super::outcome::{Verdicts, sentences};
+use super::outcome::{Verdicts, export, sentences};
 use crate::cli::progress::{LogLines, spinner};
 use crate::cli::terminal::Terminal;
 use crate::output::OutputFile;
@@ -23,10 +20,9 @@ use crate::report::words::each_once_by;
 use crate::request::{self, known_defect};
 use crate::study::{Status, Verdict};
 use crate::triangle::{Exact, TriangleTest};
-use crate::validate::hard_cases::{Answers, CaseTruth, Content, Failure, HardCase, Score, catalogue, find_all};
-use record::record;
+use crate::validate::hard_cases::{CaseTruth, Content, Failure, HardCase, Score, catalogue, find_all};
+use record::{record, verdict};
 use table::{Column, LEGEND, summary, tables};
-use verdict::verdict;
 
 pub use child::{Args as ChildArgs, COMMAND as CHILD, run_child};
 
@@ -64,16 +60,13 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
     }
     drop(waiting);
 
-    if terminal.verbose {
-        tables(&cases, &columns).iter().for_each(|table| terminal.print_table(table));
-    } else {
-        summary(&cases, &columns).iter().for_each(|table| terminal.print_table(table));
-    }
-    terminal.print_notes(LEGEND.map(String::from));
+    let tables = if terminal.verbose { tables } else { summary };
+    tables(&cases, &columns).iter().for_each(|table| terminal.print_table(table));
+    terminal.print_notes(LEGEND);
     let verdicts: Vec<Verdicts> = columns.iter().map(|column| verdicts(&cases, column)).collect();
-    terminal.print_lines(&sentences(&verdicts));
+    terminal.print_lines(sentences(&verdicts));
     if let Some(file) = json {
-        file.write(&serde_json::to_vec_pretty(&Export::new(&verdicts, records))?)?;
+        file.write(&export(&verdicts, &records)?)?;
     }
     let all = columns.iter().flat_map(|own| own.scores.iter().map(|score| status(own.choice, score, args.strict)));
     Ok(all.fold(Status::Right, Status::and))
@@ -81,12 +74,11 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
 
 /// The verdict on a structure over all cases.
 fn verdicts(cases: &[&HardCase], column: &Column) -> Verdicts {
-    let all = column.scores.iter().map(verdict).fold(Verdict::default(), Verdict::and);
     let unchecked = |(case, score): (&&HardCase, &Score)| Some((case.name.to_owned(), refusal(score)?.to_owned()));
     Verdicts {
         label: plain_name(&column.choice.label).into(),
         is_brought: !column.choice.entry.is_builtin,
-        verdict: all,
+        verdict: column.scores.iter().map(verdict).fold(Verdict::default(), Verdict::and),
         unchecked: cases.iter().zip(&column.scores).find_map(unchecked),
     }
 }
@@ -99,25 +91,17 @@ fn refusal(score: &Score) -> Option<&str> {
     }
 }
 
-/// The exit status of a score. A runner that refuses a case was not checked. A structure in Rust must build over every
-/// mesh, so its refusal is an error.
+/// The exit status of a score. A structure with a known defect has no wrong scores. A runner that refuses a case was not
+/// checked. A structure in Rust must build over every mesh, so its refusal is an error.
 fn status(choice: &Choice, score: &Score, strict: bool) -> Status {
-    if choice.command().is_some() && refusal(score).is_some() {
-        Status::Refused
-    } else if is_wrong(choice, score, strict) {
-        Status::Wrong
-    } else {
-        Status::Right
-    }
-}
-
-/// Whether a score is wrong: the structure has wrong hits, broke a property or failed in another way than by declining;
-/// its test is exact and it has inexact hits; or `strict` is set and it has rounded hits. A structure with a known
-/// defect has no wrong scores.
-fn is_wrong(choice: &Choice, score: &Score, strict: bool) -> bool {
     let is_inexact = choice.triangle_test() == Exact::NAME && score.rays().is_some_and(|rays| rays.inexact > 0);
     let rounds = strict && verdict(score).rounded > 0;
-    (!score.is_sound() || is_inexact || rounds) && known_defect(&choice.entry.name).is_none()
+    match () {
+        () if choice.command().is_some() && refusal(score).is_some() => Status::Refused,
+        () if known_defect(&choice.entry.name).is_some() => Status::Right,
+        () if !score.is_sound() || is_inexact || rounds => Status::Wrong,
+        () => Status::Right,
+    }
 }
 
 /// Each of the structures over all `tests` that it offers. Structures that offer none of them, have known defects or
@@ -143,35 +127,26 @@ fn choices(registry: &Registry, structures: Vec<Choice>, tests: &[String]) -> an
 
 /// Runs a case on all structures, several at a time, and computes the exact hits meanwhile.
 fn scores(case: &HardCase, choices: &[Choice], rays: u32, limits: child::Limits) -> anyhow::Result<Vec<Score>> {
-    let waiting = Mutex::new(choices.iter().enumerate());
-    let worker = || -> io::Result<Vec<(usize, Result<Answers, Failure>)>> {
-        let mut done = vec![];
-        loop {
-            let next = waiting.lock().expect("no worker panics").next();
-            let Some((index, choice)) = next else { return Ok(done) };
-            done.push((index, child::answers(case, choice, rays, limits)?));
+    let mut answers: Vec<_> = choices.iter().map(|_| None).collect();
+    let waiting = Mutex::new(choices.iter().zip(&mut answers));
+    let next = || waiting.lock().expect("no worker panics").next();
+    let worker = || {
+        while let Some((choice, answers)) = next() {
+            *answers = Some(child::answers(case, choice, rays, limits)?);
         }
+        std::io::Result::Ok(())
     };
-    let (mut truth, mut answers) = thread::scope(|scope| -> anyhow::Result<_> {
+    let mut truth = thread::scope(|scope| {
         let workers: Vec<_> = (0..CHILDREN).map(|_| scope.spawn(worker)).collect();
         let truth = CaseTruth::new(case, rays as usize);
-        let mut answers = vec![];
-        for worker in workers {
-            let done = worker.join().expect("a worker only waits");
-            answers.extend(done.context("no process can be started for a structure")?);
-        }
-        Ok((truth, answers))
+        let done = workers.into_iter().try_for_each(|worker| worker.join().expect("a worker only waits"));
+        done.map(|()| truth).context("no process can be started for a structure")
     })?;
-
-    answers.sort_by_key(|(index, _)| *index);
-    let mut scores = vec![];
-    for (index, answers) in answers {
-        scores.push(match answers {
-            Ok(answers) => truth.score(choices[index].triangle_test(), answers)?,
-            Err(failure) => Score::Failed(failure),
-        });
-    }
-    Ok(scores)
+    let score = |(choice, answers): (&Choice, _)| match answers {
+        Ok(answers) => Ok(truth.score(choice.triangle_test(), answers)?),
+        Err(failure) => Ok(Score::Failed(failure)),
+    };
+    choices.iter().zip(answers.into_iter().flatten()).map(score).collect()
 }
 
 /// The cases, and the reasons why ray tracers fail on them.

@@ -1,15 +1,16 @@
-//! Scores as data.
+//! Scores as verdicts and as data.
 
 use serde_json::{Value, json};
 
-use super::verdict::verdict;
 use crate::registry::Choice;
-use crate::validate::hard_cases::{HardCase, Score};
+use crate::study::Verdict;
+use crate::validate::hard_cases::{Failure, HardCase, Score};
+use crate::validate::{ErrorCounts, Kind};
 
 /// One structure on one case. Unknown numbers are null.
 pub fn record(case: &HardCase, choice: &Choice, score: &Score) -> Value {
     let rays = score.rays();
-    let judged = rays.map(|rays| &rays.judged);
+    let judged = |number: fn(&ErrorCounts) -> u64| rays.map(|rays| number(&rays.judged));
     json!({
         "number": case.number,
         "case": case.name,
@@ -23,20 +24,20 @@ pub fn record(case: &HardCase, choice: &Choice, score: &Score) -> Value {
             _ => "answered",
         },
         "clean": score.is_clean(),
-        "rays": judged.map(|judged| judged.rays),
-        "hits": judged.map(|judged| judged.hits),
-        "missed": judged.map(|judged| judged.missed),
-        "false_hits": judged.map(|judged| judged.false_hits),
+        "rays": judged(|own| own.rays),
+        "hits": judged(|own| own.hits),
+        "missed": judged(|own| own.missed),
+        "false_hits": judged(|own| own.false_hits),
         // By more than 4 ulps and more than 1e-6.
-        "wrong_depth": judged.map(|judged| judged.wrong_depth),
+        "wrong_depth": judged(|own| own.wrong_depth),
         // Wrong by more than 1 %, or 0.1 % at another primitive.
         "coarse_depth": rays.map(|rays| rays.coarse_depth),
-        "wrong_primitive": judged.map(|judged| judged.wrong_primitive),
+        "wrong_primitive": judged(|own| own.wrong_primitive),
         "structure_errors": rays.filter(|rays| rays.knows_structure_errors).map(|rays| rays.validation.structure_errors),
         "verdict": verdict(score),
         "contradictions": rays.map(|rays| rays.contradictions),
         "inexact": rays.map(|rays| rays.inexact),
-        "ulps": judged.and_then(|judged| judged.ulps),
+        "ulps": rays.and_then(|rays| rays.judged.ulps),
         "slowness": rays.and_then(|rays| rays.slowness),
         "build_ns": rays.map(|rays| rays.build_ns),
         // Only for a case that is a property.
@@ -45,4 +46,20 @@ pub fn record(case: &HardCase, choice: &Choice, score: &Score) -> Value {
             _ => None,
         },
     })
+}
+
+/// The verdict of a score on a structure. A property counts as the rays of its check.
+pub fn verdict(score: &Score) -> Verdict {
+    let failed = |fault| Verdict { rays: 1, wrong: 1, rounded: 0, fault };
+    match score {
+        Score::Rays(score) => {
+            let verdict = Verdict::from(&score.validation);
+            let fault = verdict.fault.or((score.contradictions > 0).then_some(Kind::AnyHitDisagrees));
+            Verdict { wrong: (verdict.wrong + score.contradictions).min(verdict.rays), fault, ..verdict }
+        }
+        Score::Property(property) => Verdict { rays: property.checked, wrong: property.broken, ..Verdict::default() },
+        Score::Failed(Failure::Hang) => failed(Some(Kind::Hangs)),
+        Score::Failed(Failure::Panic | Failure::Crash) => failed(Some(Kind::Panicked)),
+        Score::Failed(Failure::Refused(_) | Failure::Declined(_)) => Verdict::default(),
+    }
 }
