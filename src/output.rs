@@ -38,16 +38,14 @@ impl OutputError {
         Self::Place { path: path.into(), problem: problem.into() }
     }
 
-    /// A failed write of `path`. Only the kind of an error of tempfile is kept, because its text names a temporary
-    /// path.
+    /// A failed write of `path`. An error of tempfile keeps only its kind: its text names a temporary path.
     fn write(path: &Path, error: io::Error) -> Self {
         let cause = if error.get_ref().is_some() { error.kind().into() } else { error };
         Self::Write { path: path.into(), cause }
     }
 }
 
-/// A file for results, or standard output if its name is [`STDOUT`]. Special files (a pipe, `/dev/stdout`) are written
-/// directly.
+/// A file for results, or standard output if its name is [`STDOUT`]. Special files, such as pipes, are written directly.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OutputFile {
     pub path: PathBuf,
@@ -136,8 +134,7 @@ pub struct OutputFolder {
 }
 
 impl OutputFolder {
-    /// Checks that `path` may be written: it does not exist, is empty or contains only earlier output. Leaves no file
-    /// behind.
+    /// Checks that `path` may be written: it is missing, empty or has only earlier output. Leaves no file behind.
     pub fn check(path: &Path) -> Result<Self, OutputError> {
         if path.exists() && !path.is_dir() {
             return Err(OutputError::place(path, "it is a file: name a folder that does not exist yet"));
@@ -163,8 +160,7 @@ impl OutputFolder {
         Err(OutputError::place(&self.path, problem))
     }
 
-    /// Writes files, given by their paths in the folder with `/`. They replace the old contents, which stay unchanged
-    /// after a failure.
+    /// Writes files, given by their paths in the folder with `/`. They replace the old contents, which a failure keeps.
     pub fn write(&self, files: &[(String, Vec<u8>)]) -> Result<(), OutputError> {
         self.write_in(|folder| {
             files.iter().try_for_each(|(name, bytes)| {
@@ -175,8 +171,7 @@ impl OutputFolder {
         })
     }
 
-    /// Like [`write`](Self::write), for files that `fill` writes one by one into the given folder: they may be larger
-    /// than memory.
+    /// Like [`write`](Self::write), for files that `fill` writes into the given folder: they may be larger than memory.
     pub fn write_in<T>(&self, fill: impl FnOnce(&Path) -> io::Result<T>) -> Result<T, OutputError> {
         let replace = || {
             let new = temporary_folder(&self.resolved)?;

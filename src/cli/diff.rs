@@ -39,11 +39,9 @@ pub struct Args {
     export_markdown: Option<PathBuf>,
 }
 
-fn percent(text: &str) -> Result<f64, String> {
-    let percent = text.trim_end_matches('%').parse::<f64>().ok();
-    percent
-        .filter(|percent| *percent > 0.0 && *percent <= 1000.0)
-        .ok_or("give a percentage above 0 and at most 1000".into())
+fn percent(text: &str) -> Result<f64, &'static str> {
+    let percent = text.trim_end_matches('%').parse().ok().filter(|percent: &f64| *percent > 0.0 && *percent <= 1000.0);
+    percent.ok_or("give a percentage above 0 and at most 1000")
 }
 
 pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {

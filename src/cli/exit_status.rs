@@ -62,7 +62,7 @@ fn of_error(error: &anyhow::Error) -> u8 {
 pub(super) fn told(message: clap::Error) -> ExitCode {
     if let (ErrorKind::UnknownArgument, Some(ContextValue::String(option))) =
         (message.kind(), message.get(ContextKind::InvalidArg))
-        && let Some(sentence) = moved::said("option", &moved::OPTIONS, option.split('=').next().unwrap_or(option))
+        && let Err(sentence) = moved::check("option", &moved::OPTIONS, option.split('=').next().unwrap_or(option))
     {
         output::tell_error(sentence);
         return ended(1);

@@ -102,13 +102,11 @@ fn fetch(real: &RealMesh, folder: &Path, terminal: &Terminal) -> anyhow::Result<
 #[cfg(not(feature = "fetch"))]
 fn fetch(real: &RealMesh, folder: &Path, terminal: &Terminal) -> anyhow::Result<()> {
     let file = DataFile::new(real, folder)?;
-    if file.is_there()? {
-        terminal.print(&format!("{}: present, SHA-256 verified\n", file.path.escaped()));
-        return Ok(());
-    }
-    anyhow::bail!(
-        "this sahara was built without the feature `fetch`: download {} to {} yourself, or rebuild with `--features fetch`",
-        file.url,
-        file.path.escaped()
-    )
+    let (url, path, is_there) = (&file.url, file.path.escaped(), file.is_there()?);
+    anyhow::ensure!(
+        is_there,
+        "this sahara was built without the feature `fetch`: download {url} to {path} yourself, or rebuild with `--features fetch`"
+    );
+    terminal.print(&format!("{path}: present, SHA-256 verified\n"));
+    Ok(())
 }

@@ -30,19 +30,20 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
         None => names(suite),
         Some("scenes") => scenes()?,
         Some("structures") => structures(registry),
-        Some("studies") => studies(suite),
+        Some("studies") => {
+            let rows = suite.studies.iter().map(|study| [study.name, study.question].map(String::from)).collect();
+            Table::of_texts("Studies", ["name", "what it does"], rows)
+        }
         Some("hard") => {
             terminal.print_lines(described());
             return Ok(Status::Right);
         }
         Some(name) => {
             let known = registry.names();
+            let (near, all, lists) = (suggestion(name, known.iter().copied()), known.join(", "), KINDS.join(", "));
             anyhow::ensure!(
                 known.iter().any(|known| known.eq_ignore_ascii_case(name)),
-                "there is no structure {name:?}{}; the structures are: {}; other lists: {}",
-                suggestion(name, known.iter().copied()),
-                known.join(", "),
-                KINDS.join(", ")
+                "there is no structure {name:?}{near}; the structures are: {all}; other lists: {lists}"
             );
             keys(registry, name)
         }
@@ -78,9 +79,9 @@ fn scenes() -> anyhow::Result<Table> {
         let meshes = if scene.stand_ins.is_empty() { "" } else { "stand-in" };
         let mirrors = if scene.has_mirrors() { "yes" } else { "no" };
         let (triangles, lights) = (count(scene.mesh.len() as u64), scene.lights.len().to_string());
-        rows.push([builtin.name, &difficulty, &triangles, &lights, mirrors, meshes].map(Cell::from).into());
+        rows.push([builtin.name, &difficulty, &triangles, &lights, mirrors, meshes].map(String::from));
     }
-    Ok(Table::new("Scenes", ["name", "difficulty", "triangles", "lights", "mirrors", "meshes"], rows))
+    Ok(Table::of_texts("Scenes", ["name", "difficulty", "triangles", "lights", "mirrors", "meshes"], rows))
 }
 
 /// One row per structure: its triangle tests, the default first, and the features that it does not support by design.
@@ -146,9 +147,4 @@ fn keys(registry: &Registry, name: &str) -> Table {
     notes.extend(remarks(first));
     let title = format!("{}: options, as in --structure {}:key=value,..", first.name, first.name);
     Table::of_texts(&title, ["key", "default", "values"], shown).noted(notes)
-}
-
-fn studies(suite: &Suite) -> Table {
-    let rows = suite.studies.iter().map(|study| [study.name.to_owned(), study.question.to_owned()]).collect();
-    Table::of_texts("Studies", ["name", "what it does"], rows)
 }

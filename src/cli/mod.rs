@@ -129,7 +129,8 @@ enum Command {
     /// Check every structure's hits against a reference
     Validate(Box<validate::Args>),
     /// Record, import and print ray files; write a corpus of meshes, rays and exact hits
-    Rays(rays::Args),
+    #[command(subcommand)]
+    Rays(rays::Action),
     /// Write the results of runs as a web page, Markdown and CSV
     #[cfg(feature = "page")]
     Report(report::Args),
@@ -138,7 +139,8 @@ enum Command {
     /// Render a picture of a scene
     Render(render::Args),
     /// Check or update golden images, or compare any pictures
-    Golden(golden::Args),
+    #[command(subcommand)]
+    Golden(golden::Action),
     /// List scenes, structures and studies, or a structure's options
     List(list::Args),
     /// Print a shell completion script or the manual page
@@ -199,8 +201,7 @@ fn with_statuses(command: clap::Command) -> clap::Command {
     if own { command.after_long_help(exit_status::STATUSES) } else { command }
 }
 
-/// Runs the command line of this process with these structures and the studies of this crate, or with a whole
-/// [`Suite`].
+/// Runs the command line of this process with a registry and the studies of this crate, or with a whole [`Suite`].
 pub fn main(suite: impl Into<Suite>) -> ExitCode {
     interrupt::watch();
     run_with(&suite.into(), std::env::args_os(), true)
@@ -220,9 +221,8 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, starts_proc
     program::started();
     let args: Vec<OsString> = args.into_iter().collect();
     let parsed = command(&suite.studies).try_get_matches_from(&args);
-    let parsed = parsed
-        .and_then(|matches| Ok((Global::from_arg_matches(&matches)?, Process::from_arg_matches(&matches)?, matches)));
-    let (global, process, matches) = match parsed {
+    let options = |matches| Ok((Global::from_arg_matches(&matches)?, Process::from_arg_matches(&matches)?, matches));
+    let (global, process, matches) = match parsed.and_then(options) {
         Ok(parsed) => parsed,
         Err(message) if message.kind() == ErrorKind::InvalidUtf8 => return exit_status::of(Err(not_text(&args))),
         Err(message) => return exit_status::told(message),
@@ -268,9 +268,7 @@ fn measure_case(
     let watch = build_watch(case, args);
     if process.listen {
         let measured = measure_into(case, out, &suite.registry, &watch, &mut Listened::new());
-        if let Err(error) = measured {
-            process::report_failure(&error)?;
-        }
+        measured.map(drop).or_else(|error| process::report_failure(&error))?;
         return Ok(Status::Right);
     }
     let what = match measure_into(case, out, &suite.registry, &watch, &mut OnTerminal::new(terminal, true))? {
@@ -291,45 +289,39 @@ fn dispatch(session: &Session, matches: &ArgMatches, global: &Global) -> anyhow:
             return study::run_as(session, compare, &compare.defaults(), &study::Common::default());
         }
         Some((name @ (COMPARE | REPLICATE), matches)) => return study::run(session, find(suite, name)?, matches),
-        Some((STUDY, matches)) => match matches.subcommand() {
-            Some((all::NAME, matches)) => return all::run(session, &all::Args::from_arg_matches(matches)?),
-            Some((plan::NAME, matches)) => {
-                return plan::run(session, &plan::Args::from_arg_matches(matches)?, global.level);
-            }
-            Some((name, matches)) => return study::run(session, find(suite, name)?, matches),
-            None => {}
-        },
+        Some((STUDY, matches)) => {
+            return match matches.subcommand().expect("clap asks for a study") {
+                (all::NAME, matches) => all::run(session, &all::Args::from_arg_matches(matches)?),
+                (plan::NAME, matches) => plan::run(session, &plan::Args::from_arg_matches(matches)?, global.level),
+                (name, matches) => study::run(session, find(suite, name)?, matches),
+            };
+        }
         Some((validate::CHILD, matches)) => {
             return validate::run_child(registry, &validate::ChildArgs::from_arg_matches(matches)?);
         }
         Some((REPORT, _)) if !cfg!(feature = "page") => anyhow::bail!("{REPORT}: {NO_PAGE}"),
-        Some((name, _)) => {
-            if let Some(sentence) = moved::said("command", &moved::COMMANDS, name) {
-                anyhow::bail!(sentence);
-            }
-        }
+        Some((name, _)) => moved::check("command", &moved::COMMANDS, name)?,
     }
     match Command::from_arg_matches(matches)? {
         Command::Diff(args) => diff::run(&args, terminal),
         Command::Validate(args) => validate::run(registry, &args, terminal),
-        Command::Rays(args) => rays::run(registry, &args, terminal),
+        Command::Rays(action) => rays::run(registry, &action, terminal),
         #[cfg(feature = "page")]
         Command::Report(args) => report::run(suite, &args, terminal),
         Command::Fetch(args) => fetch::run(&args, terminal),
         Command::Render(args) => render::run(registry, &args, terminal),
-        Command::Golden(args) => golden::run(registry, &args, terminal),
+        Command::Golden(action) => golden::run(registry, &action, terminal),
         Command::List(args) => list::run(suite, &args, terminal),
         Command::Completions(args) => completions::run(suite, &args, terminal),
     }
 }
 
 fn find<'a>(suite: &'a Suite, study: &str) -> anyhow::Result<&'a Study> {
-    suite.studies.find(study).ok_or_else(|| {
-        if let Some(sentence) = moved::said("study", &moved::STUDIES, study) {
-            return anyhow::anyhow!(sentence);
-        }
-        let names: Vec<&str> = suite.studies.iter().map(|study| study.name).chain([all::NAME, plan::NAME]).collect();
-        let suggestion = suggestion(study, names.iter().copied());
-        anyhow::anyhow!("there is no study {study:?}{suggestion}; the studies are: {}", names.join(", "))
-    })
+    if let Some(known) = suite.studies.find(study) {
+        return Ok(known);
+    }
+    moved::check("study", &moved::STUDIES, study)?;
+    let names: Vec<&str> = suite.studies.iter().map(|study| study.name).chain([all::NAME, plan::NAME]).collect();
+    let suggestion = suggestion(study, names.iter().copied());
+    anyhow::bail!("there is no study {study:?}{suggestion}; the studies are: {}", names.join(", "))
 }

@@ -29,7 +29,10 @@ pub const OPTIONS: [(&str, &str); 2] = [
     ("--baseline", "use `sahara diff A.json B.json --fail-on-regression PERCENT`"),
 ];
 
-pub fn said(kind: &str, names: &[(&str, &str)], name: &str) -> Option<String> {
-    let (name, now) = names.iter().find(|(old, _)| *old == name)?;
-    Some(format!("the {kind} `{name}` was removed; {now}"))
+/// Rejects a name in `names`.
+pub fn check(kind: &str, names: &[(&str, &str)], name: &str) -> anyhow::Result<()> {
+    match names.iter().find(|(old, _)| *old == name) {
+        Some((name, now)) => anyhow::bail!("the {kind} `{name}` was removed; {now}"),
+        None => Ok(()),
+    }
 }

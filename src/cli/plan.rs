@@ -15,7 +15,7 @@ use crate::request::{MEASURING, OUTPUT, SCENES};
 use crate::simd::Level;
 use crate::study::journal::file_name;
 use crate::study::process::{CASE, OUT};
-use crate::study::{Case, Effort, Status, Study};
+use crate::study::{Case, Effort, Status};
 
 pub const NAME: &str = "plan";
 
@@ -116,7 +116,13 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
             terminal.tell(&format!("{}: has its own scenes and ignores --scenes", study.name));
         }
         // Reject options that a study does not accept before loading scenes for another study.
-        let words = words(study, &args, whole, &options);
+        let mut words = match (args.quick, whole) {
+            (true, _) => study.preset(Effort::Quick, &args.scenes),
+            (false, true) => study.preset(Effort::Full, &args.scenes),
+            (false, false) if study.names_scenes() => args.scenes.clone(),
+            (false, false) => vec![],
+        };
+        words.extend(options.iter().cloned());
         let parsed = command::command(study).no_binary_name(true).try_get_matches_from(&words);
         commands.push((study, words, parsed?));
     }
@@ -144,17 +150,6 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
     each_once(warnings).iter().for_each(|warning| terminal.tell(&format!("warning: {warning}")));
     terminal.print(&lines);
     Ok(Status::Right)
-}
-
-fn words(study: &Study, args: &Args, whole: bool, options: &[OsString]) -> Vec<OsString> {
-    let mut words = match (args.quick, whole) {
-        (true, _) => study.preset(Effort::Quick, &args.scenes),
-        (false, true) => study.preset(Effort::Full, &args.scenes),
-        (false, false) if study.names_scenes() => args.scenes.clone(),
-        (false, false) => vec![],
-    };
-    words.extend(options.iter().cloned());
-    words
 }
 
 /// A line for a shell.

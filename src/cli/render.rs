@@ -103,11 +103,10 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
 /// Rejects a file name of another format than PNG.
 fn is_png(path: &Path) -> anyhow::Result<()> {
     let ending = path.extension().unwrap_or("png".as_ref());
+    let (path, format) = (path.escaped(), ending.escaped());
     anyhow::ensure!(
         ending.eq_ignore_ascii_case("png"),
-        "cannot write {} as {}: pictures are PNG files; end the name in .png, or pass - for standard output",
-        path.escaped(),
-        ending.escaped()
+        "cannot write {path} as {format}: pictures are PNG files; end the name in .png, or pass - for standard output"
     );
     Ok(())
 }

@@ -100,15 +100,14 @@ impl ResultsFolder {
             "there is no folder {}: create it, or name another one with --results=DIR",
             folder.escaped()
         );
-        let readme = folder.canonicalize()?.parent().map(|parent| parent.join("README.md"));
-        let readme = readme.and_then(|path| Some((fs::read_to_string(&path).ok()?, path)));
-        let readme = readme.filter(|(text, _)| text.contains(results::OPEN));
+        let readme = folder.canonicalize()?.with_file_name("README.md");
+        let text = fs::read_to_string(&readme).ok().filter(|text| text.contains(results::OPEN));
         Ok(Self {
             figures: OutputFolder::check(&folder.join(results::FIGURES))?,
             tables: OutputFolder::check(&folder.join(results::TABLES))?,
             paper: OutputFile::check(&folder.join(results::PAPER))?,
             data: OutputFile::check(&folder.join(results::DATA))?,
-            readme: readme.map(|(text, path)| anyhow::Ok((OutputFile::check(&path)?, text))).transpose()?,
+            readme: text.map(|text| anyhow::Ok((OutputFile::check(&readme)?, text))).transpose()?,
         })
     }
 

@@ -55,35 +55,28 @@ struct Files {
     plots: Vec<OutputFile>,
 }
 
+impl Files {
+    fn iter(&self) -> impl Iterator<Item = &OutputFile> {
+        [&self.json, &self.csv, &self.markdown].into_iter().flatten().chain(&self.plots)
+    }
+}
+
 impl Common {
-    /// Rejects files that cannot be written. It runs before scenes are loaded, which takes seconds, and before the
-    /// input files are known.
-    fn check_places(&self) -> anyhow::Result<()> {
-        let exports = [&self.export_json, &self.export_csv, &self.export_markdown].into_iter().flatten();
-        for path in exports.chain(&self.plot) {
-            OutputFile::check(path)?;
-        }
+    /// Rejects files that cannot be written. It runs before scenes are loaded, which takes seconds.
+    fn files(&self) -> anyhow::Result<Files> {
+        let check = |path: &PathBuf| OutputFile::check(path);
+        let files = Files {
+            json: self.export_json.as_ref().map(check).transpose()?,
+            csv: self.export_csv.as_ref().map(check).transpose()?,
+            markdown: self.export_markdown.as_ref().map(check).transpose()?,
+            plots: self.plot.iter().map(check).collect::<Result<_, _>>()?,
+        };
+        OutputFile::are_apart(files.iter())?;
         let is_svg = |path: &&PathBuf| path.as_os_str() == STDOUT || path.extension().is_some_and(|end| end == "svg");
         if let Some(path) = self.plot.iter().find(|path| !is_svg(path)) {
             anyhow::bail!("cannot plot to {}: give a file name that ends in .svg", path.escaped());
         }
-        Ok(())
-    }
-
-    /// Checks all files before the long run; none of them may be one of `inputs`.
-    fn check(&self, inputs: &[PathBuf]) -> anyhow::Result<Files> {
         anyhow::ensure!(self.plot.is_empty() || cfg!(feature = "page"), "--plot: {NO_PAGE}");
-        let file = |path: &PathBuf| -> anyhow::Result<OutputFile> {
-            Ok(OutputFile::check(path)?.apart_from(inputs.iter().map(PathBuf::as_path))?)
-        };
-        let files = Files {
-            json: self.export_json.as_ref().map(file).transpose()?,
-            csv: self.export_csv.as_ref().map(file).transpose()?,
-            markdown: self.export_markdown.as_ref().map(file).transpose()?,
-            plots: self.plot.iter().map(file).collect::<anyhow::Result<_>>()?,
-        };
-        let tables = [&files.json, &files.csv, &files.markdown].into_iter().flatten();
-        OutputFile::are_apart(tables.chain(&files.plots))?;
         Ok(files)
     }
 }
@@ -111,9 +104,9 @@ pub fn run_as(session: &Session, study: &Study, matches: &ArgMatches, common: &C
     let &Session { suite, terminal, .. } = session;
     let folder = common.dir.clone().unwrap_or_else(|| RUNS.into());
     let mut screen = OnTerminal::new(terminal, false);
-    common.check_places()?;
+    let files = common.files()?;
     let plan = (study.plan)(matches, &suite.registry)?;
-    let files = common.check(&plan.inputs)?;
+    files.iter().try_for_each(|file| file.clone().apart_from(plan.inputs.iter().map(PathBuf::as_path)).map(drop))?;
     let mut run = Run {
         registry: &suite.registry,
         folder: &folder,

@@ -89,8 +89,7 @@ impl Terminal {
         self.print(&(terminal::table(&table, self.screen) + "\n"));
     }
 
-    /// Prints explanations of results if `verbose`; otherwise [`print_note_count`](Self::print_note_count) mentions
-    /// them.
+    /// Prints explanations of results if `verbose`; otherwise [`print_note_count`](Self::print_note_count) counts them.
     pub fn print_notes(&self, notes: impl IntoIterator<Item = impl Into<String>>) {
         let notes = notes.into_iter().map(Into::into);
         if self.verbose { self.print_lines(notes) } else { self.hidden.borrow_mut().extend(notes) }

@@ -41,12 +41,10 @@ impl Client {
         Self(config.into())
     }
 
-    /// Downloads `file`, verifies it and moves it to its place in one step. `progress` is called with the number of bytes
-    /// so far.
+    /// Downloads `file`, verifies it and moves it to its place in one step. `progress` gets the number of bytes so far.
     ///
     /// # Errors
-    /// If the file exists with other contents, or the server does not send it or sends other contents: nothing of it is
-    /// kept.
+    /// If the file exists with other contents, or the server does not send the expected ones: nothing of them is kept.
     pub fn fetch(&self, file: &DataFile, progress: &mut dyn FnMut(u64)) -> Result<FetchOutcome, FetchError> {
         if file.is_there()? {
             return Ok(FetchOutcome::AlreadyThere);

@@ -1,6 +1,7 @@
 //! `golden compare`.
 
 use std::io;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
@@ -33,18 +34,18 @@ pub struct Args {
     actual: PathBuf,
     /// Accept differences of at most N per channel, in 1/255 of full scale at any bit depth; in floating-point
     /// pictures, in units of the stored values [default: 0]
-    #[arg(long, help_heading = TOLERANCE, value_name = "N", value_parser = at_least_0, allow_negative_numbers = true)]
+    #[arg(long, help_heading = TOLERANCE, value_name = "N", value_parser = within(0.0..=f64::MAX, "give a number of at least 0"), allow_negative_numbers = true)]
     max_difference: Option<f64>,
     /// Accept N pixels, or P percent of the pixels, that differ by more than --max-difference
     #[arg(long, help_heading = TOLERANCE, value_name = "N|P%", value_parser = allowed)]
     allow_pixels: Option<Allowed>,
     /// Instead of --max-difference and --allow-pixels: accept a mean FLIP error (visible differences) of at most X,
     /// from 0 to 1
-    #[arg(long, help_heading = TOLERANCE, value_name = "X", value_parser = from_0_to_1, conflicts_with_all = ["max_difference", "allow_pixels"],
+    #[arg(long, help_heading = TOLERANCE, value_name = "X", value_parser = within(0.0..=1.0, "give a number from 0 to 1"), conflicts_with_all = ["max_difference", "allow_pixels"],
         allow_negative_numbers = true)]
     max_flip: Option<f64>,
     /// Pixels per degree of visual angle for --max-flip [default: 67, a 0.7 m screen of 3840 pixels seen from 0.7 m]
-    #[arg(long, help_heading = TOLERANCE, value_name = "N", value_parser = pixels_per_degree, requires = "max_flip", allow_negative_numbers = true)]
+    #[arg(long, help_heading = TOLERANCE, value_name = "N", value_parser = within(1.0..=1000.0, "give a number from 1 to 1000"), requires = "max_flip", allow_negative_numbers = true)]
     pixels_per_degree: Option<f64>,
     /// Picture of the same size whose black pixels are not compared
     #[arg(long, help_heading = TOLERANCE, value_name = "M.png")]
@@ -53,16 +54,9 @@ pub struct Args {
     outputs: Outputs,
 }
 
-fn at_least_0(text: &str) -> Result<f64, &'static str> {
-    text.parse().ok().filter(|&number: &f64| number >= 0.0 && number.is_finite()).ok_or("give a number of at least 0")
-}
-
-fn from_0_to_1(text: &str) -> Result<f64, &'static str> {
-    text.parse().ok().filter(|number| (0.0..=1.0).contains(number)).ok_or("give a number from 0 to 1")
-}
-
-fn pixels_per_degree(text: &str) -> Result<f64, &'static str> {
-    text.parse().ok().filter(|number| (1.0..=1000.0).contains(number)).ok_or("give a number from 1 to 1000")
+/// A parser of the numbers in a range; all other texts get `advice`.
+fn within(range: RangeInclusive<f64>, advice: &'static str) -> impl Fn(&str) -> Result<f64, &'static str> + Clone {
+    move |text: &str| text.parse().ok().filter(|number| range.contains(number)).ok_or(advice)
 }
 
 fn allowed(text: &str) -> Result<Allowed, &'static str> {
@@ -92,22 +86,18 @@ impl Args {
         if let Some(missing) = [expected, actual].into_iter().find(|path| !path.exists()) {
             anyhow::bail!("there is no {}: name two folders or two pictures", missing.escaped());
         }
+        let both = format!("{} and {}", expected.escaped(), actual.escaped());
         match (expected.is_dir(), actual.is_dir()) {
             (true, true) => {
-                let two = || format!("{} and {}", expected.escaped(), actual.escaped());
-                let pairs = pairs(expected, actual).with_context(|| format!("cannot read {}", two()))?;
-                anyhow::ensure!(!pairs.is_empty(), "{} contain no pictures: name folders with pictures", two());
+                let pairs = pairs(expected, actual).with_context(|| format!("cannot read {both}"))?;
+                anyhow::ensure!(!pairs.is_empty(), "{both} contain no pictures: name folders with pictures");
                 Ok(pairs)
             }
             (false, false) => {
                 let name = actual.file_name().unwrap_or(actual.as_os_str()).into();
                 Ok(vec![Pair { name, expected: Some(expected.clone()), actual: Some(actual.clone()) }])
             }
-            _ => anyhow::bail!(
-                "{} and {} are a folder and a file: name two folders or two pictures",
-                expected.escaped(),
-                actual.escaped()
-            ),
+            _ => anyhow::bail!("{both} are a folder and a file: name two folders or two pictures"),
         }
     }
 }
@@ -155,13 +145,10 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
 fn read_mask(path: &Path, terminal: &Terminal) -> anyhow::Result<Mask> {
     let mask = Mask::new(&read(path)?);
     let [masked, all] = [mask.masked(), mask.size.map(|side| side as usize).iter().product()];
-    anyhow::ensure!(
-        masked < all,
-        "the mask {} is all black, so nothing would be compared: use another mask",
-        path.escaped()
-    );
+    let path = path.escaped();
+    anyhow::ensure!(masked < all, "the mask {path} is all black, so nothing would be compared: use another mask");
     let are = if masked == 1 { "is" } else { "are" };
-    terminal.print(&format!("{}: {} of {} {are} masked\n", path.escaped(), count(masked as u64), plural(all, "pixel")));
+    terminal.print(&format!("{path}: {} of {} {are} masked\n", count(masked as u64), plural(all, "pixel")));
     Ok(mask)
 }
 

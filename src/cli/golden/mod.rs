@@ -19,14 +19,8 @@ use crate::report::number::count;
 use crate::request::OUTPUT;
 use crate::study::Status;
 
-#[derive(Debug, clap::Args)]
-pub struct Args {
-    #[command(subcommand)]
-    action: Action,
-}
-
 #[derive(Debug, clap::Subcommand)]
-enum Action {
+pub enum Action {
     /// Check that structures reproduce the golden images of scenes byte for byte
     Check(scenes::CheckArgs),
     /// Create or update golden images of scenes
@@ -35,8 +29,8 @@ enum Action {
     Compare(compare::Args),
 }
 
-pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
-    match &args.action {
+pub fn run(registry: &Registry, action: &Action, terminal: &Terminal) -> anyhow::Result<Status> {
+    match action {
         Action::Check(args) => scenes::check(registry, args, terminal),
         Action::Update(args) => scenes::update(registry, args, terminal),
         Action::Compare(args) => compare::run(args, terminal),

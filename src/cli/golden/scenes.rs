@@ -108,23 +108,20 @@ impl Targets {
         // A real mesh on this machine must not change the picture.
         let mut scene = builtin.scene(None)?;
         scene.size = SIZE;
-        let is_default = self.from.is_default() && self.view == ViewKind::Shaded;
         let scene = self.from.seen(scene)?;
         let name = builtin.name.to_lowercase();
         let golden = match &self.goldens {
             Some(folder) => SceneGolden::file(folder, &name, self.view, &scene),
+            None if self.from.is_default() && self.view == ViewKind::Shaded => SceneGolden::builtin(&name)
+                .with_context(|| format!("{name} has no built-in golden image: name a folder with --goldens DIR"))?,
             None => {
-                anyhow::ensure!(
-                    is_default,
-                    "built-in golden images exist only for the shaded view, {} x {} pixels, from the scene's camera; for the \
-                     {} view{} pass --goldens DIR",
-                    SIZE[0],
-                    SIZE[1],
-                    self.view.name(),
-                    if self.from.is_default() { String::new() } else { format!(" with {}", self.from.words()) }
-                );
-                SceneGolden::builtin(&name)
-                    .with_context(|| format!("{name} has no built-in golden image: name a folder with --goldens DIR"))?
+                let ([width, height], view) = (SIZE, self.view.name());
+                let options = self.from.words();
+                let with = if self.from.is_default() { String::new() } else { format!(" with {options}") };
+                anyhow::bail!(
+                    "built-in golden images exist only for the shaded view, {width} x {height} pixels, from the scene's \
+                     camera; for the {view} view{with} pass --goldens DIR"
+                )
             }
         };
         let word = if scene.stand_ins.is_empty() { name.into() } else { stand_in(&name) };

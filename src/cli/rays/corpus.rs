@@ -20,9 +20,9 @@ use crate::measure::program::digest;
 use crate::oracle::Oracle;
 use crate::output::OutputFolder;
 use crate::registry::Registry;
+use crate::report::Table;
 use crate::report::number::{bytes, count, plural};
 use crate::report::words::{listed, slug};
-use crate::report::{Cell, Table};
 use crate::request::{self, OUTPUT, RAYS as HEADING, RayKind, stand_in};
 use crate::scene::files::{ExactHitFile, RayFile, mesh_bytes};
 use crate::scene::{BUILTIN, Builtin, Scene, Workload};
@@ -75,15 +75,17 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     // One scene at a time: an oracle takes much more memory than its scene and files.
     let (mut files, mut rows, mut stand_ins) = (Files::new(), vec![], vec![]);
     for scene in scenes {
-        let part = part(&scene, args, &waiting)?;
-        if let Some(twice) = part.files.keys().find(|name| files.contains_key(*name)) {
+        let (own, [rays, hits]) = part(&scene, args, &waiting)?;
+        if let Some(twice) = own.keys().find(|name| files.contains_key(*name)) {
             anyhow::bail!("two of these scenes would write the same file, {twice}: rename one scene");
         }
-        rows.push(part.row(&scene));
+        let [triangles, rays, hits] = [scene.mesh.len(), rays, hits].map(|n| count(n as u64));
+        let size = bytes(own.values().map(Vec::len).sum());
+        rows.push([scene.name.clone(), triangles, rays, hits, size]);
         if !scene.stand_ins.is_empty() {
             stand_ins.push(scene.name);
         }
-        files.extend(part.files);
+        files.extend(own);
     }
 
     waiting.set_message(format!("writing {}", folder.path.escaped()));
@@ -97,7 +99,8 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let title = format!("{}: {} workloads with exact hits", args.output.escaped(), RayKind::ALL.len());
     let note = format!("{}: stand-in meshes, whether or not the real ones are present.", listed(&stand_ins));
     let notes = if stand_ins.is_empty() { vec![] } else { vec![note] };
-    terminal.print_table(&Table::new(title, ["scene", "triangles", "rays", "hits", "bytes"], rows).noted(notes));
+    let columns = ["scene", "triangles", "rays", "hits", "bytes"];
+    terminal.print_table(&Table::of_texts(&title, columns, rows).noted(notes));
     Ok(verdict(args, &digest_of_sums, terminal))
 }
 
@@ -116,24 +119,11 @@ fn verdict(args: &Args, digest: &str, terminal: &Terminal) -> Status {
     if is_wrong { Status::Wrong } else { Status::Right }
 }
 
-struct Part {
-    files: Files,
-    rays: usize,
-    hits: usize,
-}
-
-impl Part {
-    fn row(&self, scene: &Scene) -> Vec<Cell> {
-        let counts = [scene.mesh.len(), self.rays, self.hits].map(|n| count(n as u64));
-        let size = bytes(self.files.values().map(Vec::len).sum());
-        [scene.name.clone()].into_iter().chain(counts).chain([size]).map(Cell::from).collect()
-    }
-}
-
-fn part(scene: &Scene, args: &Args, waiting: &ProgressBar) -> anyhow::Result<Part> {
+/// The files of a scene, and their numbers of rays and hits.
+fn part(scene: &Scene, args: &Args, waiting: &ProgressBar) -> anyhow::Result<(Files, [usize; 2])> {
     let stem = slug(&scene.name);
-    let mut part = Part { files: Files::new(), rays: 0, hits: 0 };
-    part.files.insert(format!("{stem}.ply"), mesh_bytes(&scene.mesh));
+    let (mut files, mut counts) = (Files::new(), [0, 0]);
+    files.insert(format!("{stem}.ply"), mesh_bytes(&scene.mesh));
     waiting.set_message(format!("{}: building the oracle", scene.name));
     let oracle = Oracle::new(&scene.mesh);
     for kind in RayKind::ALL {
@@ -142,22 +132,18 @@ fn part(scene: &Scene, args: &Args, waiting: &ProgressBar) -> anyhow::Result<Par
         waiting.set_message(format!("{}: computing exact hits of {}: {name}", scene.name, plural(rays, "ray")));
         let (file, truth) = answered(scene, kind, rays, args.seed, &oracle)
             .map_err(|problem| anyhow::anyhow!("{} has no {name} rays: {problem}: scale the mesh", scene.name))?;
-        part.rays += truth.hits.len();
-        part.hits += truth.hits.iter().flatten().count();
-        part.files.insert(format!("{stem}-{name}.rays"), file.to_bytes());
-        part.files.insert(format!("{stem}-{name}.truth"), truth.to_bytes());
+        counts[0] += truth.hits.len();
+        counts[1] += truth.hits.iter().flatten().count();
+        files.insert(format!("{stem}-{name}.rays"), file.to_bytes());
+        files.insert(format!("{stem}-{name}.truth"), truth.to_bytes());
     }
-    Ok(part)
+    Ok((files, counts))
 }
 
+type Answered = (RayFile, ExactHitFile);
+
 /// The rays of one kind and their exact hits. They name no scene, so they fit the mesh in the folder.
-fn answered(
-    scene: &Scene,
-    kind: RayKind,
-    count: usize,
-    seed: u64,
-    oracle: &Oracle,
-) -> Result<(RayFile, ExactHitFile), String> {
+fn answered(scene: &Scene, kind: RayKind, count: usize, seed: u64, oracle: &Oracle) -> Result<Answered, String> {
     let workload = Workload { name: kind.name().into(), query: Query::Closest, rays: kind.rays(scene, count, seed) };
     RayFile::check(&workload.rays)?;
     RayFile::check_names(&scene.name, &workload.name)?;

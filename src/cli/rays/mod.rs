@@ -21,14 +21,8 @@ use crate::scene::files::RayFile;
 use crate::scene::{Sampling, Workload, WorkloadKind};
 use crate::study::Status;
 
-#[derive(Debug, clap::Args)]
-pub struct Args {
-    #[command(subcommand)]
-    action: Action,
-}
-
 #[derive(Debug, Subcommand)]
-enum Action {
+pub enum Action {
     /// Write the rays of a workload that `compare` would trace
     Record(Record),
     /// Convert text to a ray file, one ray per line: "ox,oy,oz dx,dy,dz [t_min,t_max]", with spaces or commas
@@ -40,7 +34,7 @@ enum Action {
 }
 
 #[derive(Debug, clap::Args)]
-struct Record {
+pub struct Record {
     /// Built-in scene, scene file (.toml) or mesh file
     #[arg(value_name = "SCENE|FILE")]
     scene: OsString,
@@ -59,7 +53,7 @@ struct Record {
 }
 
 #[derive(Debug, clap::Args)]
-struct Import {
+pub struct Import {
     /// Text file; empty lines and `#` comments are ignored
     text: PathBuf,
     /// Ray file to write
@@ -77,7 +71,7 @@ struct Import {
 }
 
 #[derive(Debug, clap::Args)]
-struct Show {
+pub struct Show {
     /// Ray file
     file: PathBuf,
     /// Print only the rays, as text
@@ -85,8 +79,8 @@ struct Show {
     text: bool,
 }
 
-pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
-    match &args.action {
+pub fn run(registry: &Registry, action: &Action, terminal: &Terminal) -> anyhow::Result<Status> {
+    match action {
         Action::Record(args) => record(registry, args, terminal),
         Action::Import(args) => import(registry, args, terminal),
         Action::Show(args) => show(args, terminal),
@@ -105,12 +99,8 @@ fn record(registry: &Registry, args: &Record, terminal: &Terminal) -> anyhow::Re
     let sampling = Sampling::some(&scene, args.rays, args.seed);
     let workload = Workload::new(&scene, args.workload, &sampling, guide.as_ref());
     drop(waiting);
-    anyhow::ensure!(
-        !workload.rays.is_empty(),
-        "{} has no {} rays to record: name another workload",
-        scene.name,
-        workload.name
-    );
+    let (name, kind) = (&scene.name, &workload.name);
+    anyhow::ensure!(!workload.rays.is_empty(), "{name} has no {kind} rays to record: name another workload");
     finish(&RayFile::new(&scene, workload), &output, terminal)
 }
 
@@ -133,14 +123,10 @@ fn import(registry: &Registry, args: &Import, terminal: &Terminal) -> anyhow::Re
 }
 
 fn parse(text: &str) -> Result<Vec<Ray>, String> {
-    let mut rays = vec![];
-    for (number, line) in text.lines().enumerate() {
-        let line = line.split('#').next().unwrap_or("").trim();
-        if line.is_empty() {
-            continue;
-        }
-        rays.push(Ray::parse_valid(line).map_err(|error| format!("line {}: {error}", number + 1))?);
-    }
+    let lines = text.lines().map(|line| line.split('#').next().unwrap_or("").trim());
+    let lines = lines.zip(1_usize..).filter(|(line, _)| !line.is_empty());
+    let ray = |(line, number)| Ray::parse_valid(line).map_err(|error| format!("line {number}: {error}"));
+    let rays = lines.map(ray).collect::<Result<Vec<Ray>, String>>()?;
     RayFile::check(&rays).map(|()| rays)
 }
 

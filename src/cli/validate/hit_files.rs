@@ -1,4 +1,4 @@
-//! Hits in files: those of a structure for other programs, and those of other programs against the reference.
+//! Hits in files: writes a structure's hits for other programs, and compares other programs' hits with the reference.
 
 use std::path::Path;
 use std::sync::Arc;

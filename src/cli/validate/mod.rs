@@ -8,7 +8,7 @@ mod scene;
 mod table;
 
 use std::ffi::OsString;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -119,8 +119,8 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         return hard::run(registry, args, cases, terminal);
     }
     let structures = args.structures(registry)?;
-    let json = args.export_json.as_deref().map(|to| request::output(registry, to, &args.scenes, args.source().file()));
-    let json = json.transpose()?;
+    let output = |path: &Path| request::output(registry, path, &args.scenes, args.source().file());
+    let json = args.export_json.as_deref().map(output).transpose()?;
     let reference = ReferenceChoice::named(registry, &args.against)?;
     let run = Run { registry, args, structures, reference, terminal };
     let waiting = spinner("loading scenes", terminal);
@@ -151,11 +151,8 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
             }
         };
         drop(waiting);
-        let mut outcomes = vec![];
-        for scene in &scenes {
-            outcomes.extend(run.validate(scene, recorded.as_deref())?);
-        }
-        outcomes
+        let outcomes = scenes.iter().map(|scene| run.validate(scene, recorded.as_deref()));
+        outcomes.collect::<anyhow::Result<Vec<_>>>()?.into_iter().flatten().collect()
     };
 
     if outcomes.iter().any(Outcome::has_example) {
@@ -163,11 +160,8 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     }
     terminal.print_notes(LEGEND);
     let verdicts = outcome::verdicts(&outcomes);
-    terminal.print_lines(outcome::sentences(&verdicts));
-    if let Some(file) = json {
-        let results: Vec<_> = outcomes.iter().map(Outcome::record).collect();
-        file.write(&outcome::export(&verdicts, &results)?)?;
-    }
+    let results: Vec<_> = outcomes.iter().map(Outcome::record).collect();
+    outcome::finish(&verdicts, &results, json, terminal)?;
     Ok(outcomes.iter().fold(Status::Right, |status, own| status.and(own.status(args.strict))))
 }
 

@@ -3,8 +3,10 @@
 use serde_json::{Value, json};
 
 use crate::accel::BuildError;
+use crate::cli::terminal::Terminal;
 use crate::measure::Provenance;
 use crate::names::named;
+use crate::output::OutputFile;
 use crate::registry::{Choice, plain_name};
 use crate::request::known_defect;
 use crate::study::{Status, Verdict};
@@ -137,34 +139,35 @@ pub fn verdicts(outcomes: &[Outcome]) -> Vec<Verdicts> {
             Err(BuildFailure::Refused(why)) => Some((outcome.scene.clone(), why.to_string())),
             _ => None,
         };
-        match named(&mut all, &outcome.label, |own| &own.label) {
-            Some(own) => {
-                own.verdict = own.verdict.and(verdict);
-                own.unchecked = own.unchecked.take().or(unchecked);
-            }
-            None => {
-                let (label, is_brought) = (outcome.label.clone(), outcome.is_brought);
-                all.push(Verdicts { label, is_brought, verdict, unchecked });
-            }
+        if let Some(own) = named(&mut all, &outcome.label, |own| &own.label) {
+            own.verdict = own.verdict.and(verdict);
+            own.unchecked = own.unchecked.take().or(unchecked);
+        } else {
+            let (label, is_brought) = (outcome.label.clone(), outcome.is_brought);
+            all.push(Verdicts { label, is_brought, verdict, unchecked });
         }
     }
     all
 }
 
-/// One sentence about each structure that a user brings.
-pub fn sentences(verdicts: &[Verdicts]) -> Vec<String> {
-    verdicts.iter().filter(|own| own.is_brought).map(Verdicts::sentence).collect()
-}
-
-/// A run as JSON, with `results` by scene or case, then by structure; `study/SCHEMA.md` describes it.
-pub fn export(verdicts: &[Verdicts], results: &[Value]) -> serde_json::Result<Vec<u8>> {
+/// Prints a sentence about each structure that a user brings, and writes the run as JSON, with `results` by scene or
+/// case, then by structure; `study/SCHEMA.md` describes it.
+pub fn finish(
+    verdicts: &[Verdicts],
+    results: &[Value],
+    json: Option<OutputFile>,
+    terminal: &Terminal,
+) -> anyhow::Result<()> {
+    terminal.print_lines(verdicts.iter().filter(|own| own.is_brought).map(Verdicts::sentence));
+    let Some(file) = json else { return Ok(()) };
     let verdict = |own: &Verdicts| json!({ "label": own.label, "verdict": own.verdict, "sentence": own.sentence() });
-    serde_json::to_vec_pretty(&json!({
+    let run = json!({
         // 3: verdicts, and every mode of `validate`.
         "schema": 3,
         // Every structure traces on one thread.
         "provenance": Provenance::capture(1),
         "verdicts": verdicts.iter().map(verdict).collect::<Vec<_>>(),
         "results": results,
-    }))
+    });
+    Ok(file.write(&serde_json::to_vec_pretty(&run)?)?)
 }

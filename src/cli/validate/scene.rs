@@ -12,7 +12,7 @@ use crate::registry::Choice;
 use crate::report::number::plural;
 use crate::request::{self, RaySource, Structures, known_defect, left_out};
 use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
-use crate::validate::{Stratum, Validation, validate_remote, validate_watched};
+use crate::validate::{Stratum, validate_remote, validate_watched};
 
 impl Run<'_> {
     /// Compares all structures with the reference, on recorded or other rays, and prints the table.
@@ -78,16 +78,15 @@ impl Run<'_> {
             ));
         }
         let number = args.rays.clone().unwrap_or(RaySource::Count(affordable));
+        let seed = args.seed.unwrap_or(1);
         if args.adversarial {
             let each = number.number()?.div_ceil(Stratum::ALL.len());
-            return Ok(Stratum::ALL
-                .iter()
-                .flat_map(|stratum| stratum.rays(&scene.mesh, each, args.seed.unwrap_or(1)))
-                .collect());
+            let of_stratum = |stratum: Stratum| stratum.rays(&scene.mesh, each, seed);
+            return Ok(Stratum::ALL.into_iter().flat_map(of_stratum).collect());
         }
         let tracer = request::guide(registry)?.build(&scene.mesh)?;
         let limit = number.count().div_ceil(WorkloadKind::ALL.len());
-        let sampling = Sampling::some(scene, limit, args.seed.unwrap_or(1));
+        let sampling = Sampling::some(scene, limit, seed);
         let of_kind = |&kind| Workload::new(scene, kind, &sampling, tracer.as_ref()).rays;
         Ok(WorkloadKind::ALL.iter().flat_map(of_kind).collect())
     }
@@ -95,12 +94,12 @@ impl Run<'_> {
 
 /// The reason why a structure has no row of numbers, or the ray with its wrong hit; known defects need no ray.
 fn fault(choice: &Choice, outcome: &Outcome) -> Option<String> {
-    let label = &choice.label;
-    match &outcome.found {
+    let fault = match &outcome.found {
         Ok(_) if outcome.has_known_defect => None,
-        Ok(found) => found.worst.first().map(|worst| format!("{label}: {worst}")),
-        Err(failure) => Some(format!("{label}: {failure}")),
-    }
+        Ok(found) => found.worst.first().map(ToString::to_string),
+        Err(failure) => Some(failure.to_string()),
+    };
+    fault.map(|fault| format!("{}: {fault}", choice.label))
 }
 
 /// The notes that explain the row of an outcome.
@@ -109,16 +108,13 @@ fn notes_on(choice: &Choice, outcome: &Outcome) -> Vec<String> {
     let label = &choice.label;
     let defect = known_defect(&choice.entry.name).filter(|_| found.errors() > 0);
     let defect = defect.map(|defect| format!("{label}: known defects (they do not change the exit status): {defect}"));
-    let notes = [defect, declined(choice, found), note_on_reference(label, found)].into_iter().flatten();
-    let others = found.worst.iter().skip(usize::from(!outcome.has_known_defect));
-    notes.chain(others.map(|worst| format!("{label}: {worst}"))).collect()
-}
-
-fn declined(choice: &Choice, found: &Validation) -> Option<String> {
-    let what = choice.entry.capabilities.declined();
-    let rays = match found.declined {
+    let declined = choice.entry.capabilities.declined().join(", ");
+    let not_traced = match found.declined {
         0 => String::new(),
         n => format!(": {} not traced", plural(n as usize, "ray")),
     };
-    (!what.is_empty()).then(|| format!("{} declines {}{rays}", choice.label, what.join(", ")))
+    let declines = (!declined.is_empty()).then(|| format!("{label} declines {declined}{not_traced}"));
+    let notes = [defect, declines, note_on_reference(label, found)].into_iter().flatten();
+    let others = found.worst.iter().skip(usize::from(!outcome.has_known_defect));
+    notes.chain(others.map(|worst| format!("{label}: {worst}"))).collect()
 }

@@ -11,10 +11,8 @@ const DOCUMENT: &str = include_str!("../../../scene/files/FORMAT.md");
 
 #[test]
 fn the_document_states_the_hash_of_the_corpus() {
-    assert!(
-        DOCUMENT.lines().any(|line| line == format!("`{CORPUS_SHA256}`")),
-        "FORMAT.md does not contain {CORPUS_SHA256}"
-    );
+    let line = format!("`{CORPUS_SHA256}`");
+    assert!(DOCUMENT.lines().any(|own| own == line), "FORMAT.md does not contain {line}");
     let defaults = Args { scenes: vec![], output: "d".into(), rays: RAYS, seed: SEED };
     let others = [
         Args { scenes: vec!["cube".into()], output: "d".into(), ..defaults },
@@ -40,6 +38,9 @@ fn the_python_of_the_document_counts_the_errors_that_we_count() {
         path
     };
     let script = write("judge.py", code.as_bytes());
+    let judge = |truth: &ExactHitFile, hits: &PathBuf| {
+        Command::new("python3").args([&script, &write("f.truth", &truth.to_bytes()), hits]).output().unwrap()
+    };
 
     let scene = Builtin::find("cornellbox").unwrap().scene(None).unwrap();
     let oracle = Oracle::new(&scene.mesh);
@@ -54,8 +55,7 @@ fn the_python_of_the_document_counts_the_errors_that_we_count() {
         let hits_path = folder.path().join("f.hits");
         hits.write(&crate::output::OutputFile::check(&hits_path).unwrap()).unwrap();
 
-        let judged = Command::new("python3").args([&script, &write("f.truth", &truth.to_bytes()), &hits_path]).output();
-        let judged = judged.unwrap();
+        let judged = judge(&truth, &hits_path);
         assert!(judged.status.success(), "{}", String::from_utf8_lossy(&judged.stderr));
         let expected = format!(
             "missed {}\nfalse hits {}\nwrong depth {}\nwrong primitive {}\n",
@@ -67,7 +67,6 @@ fn the_python_of_the_document_counts_the_errors_that_we_count() {
     assert!(wrong > 0, "without wrong hits, a program that finds no errors would pass");
 
     let other = answered(&scene, RayKind::Uniform, 10, 3, &oracle).unwrap().1;
-    let args = [&script, &write("f.truth", &other.to_bytes()), &folder.path().join("f.hits")];
-    let refused = Command::new("python3").args(args).output().unwrap();
+    let refused = judge(&other, &folder.path().join("f.hits"));
     assert!(String::from_utf8_lossy(&refused.stderr).contains("the hits belong to other rays"));
 }

@@ -5,6 +5,7 @@ use std::process::{Command, Output};
 use std::time::Duration;
 
 use crate::accel::BuildError;
+use crate::cli::validate;
 use crate::measure::process_group::{end_with_parent, output_within};
 use crate::measure::{SystemClock, program};
 use crate::registry::{Choice, Registry};
@@ -20,13 +21,11 @@ pub const COMMAND: &str = "hard-answer";
 pub struct Args {
     /// Name of a hard case
     name: String,
-    /// A structure, with keys that differ from their defaults
     #[arg(required_unless_present = "runner")]
     structure: Option<String>,
     /// Command of a runner, instead of a structure
     #[arg(long, allow_hyphen_values = true)]
     runner: Option<String>,
-    /// Timeout in seconds for each reply of the program
     #[arg(long, default_value_t = RUNNER_LIMIT)]
     runner_limit: Seconds,
     /// Maximum number of rays
@@ -45,33 +44,27 @@ pub fn run_child(registry: &Registry, args: &Args) -> anyhow::Result<Status> {
         (None, Some(structure)) => registry.choose(structure)?,
         (None, None) => anyhow::bail!("a structure or a runner is needed"),
     };
-    match run(case, &choice.subject(), args.rays as usize, &SystemClock::start()) {
-        Ok(answers) => {
-            crate::output::print(&serde_json::to_vec(&answers)?);
-            Ok(Status::Right)
-        }
+    let answers = match run(case, &choice.subject(), args.rays as usize, &SystemClock::start()) {
         // The registry has caught the panic; the parent recognises the exit status of a panic.
         Err(BuildError::Panic) => std::panic::resume_unwind(Box::new("a builder panicked")),
-        Err(refused) => Err(refused.into()),
-    }
+        answers => answers?,
+    };
+    crate::output::print(&serde_json::to_vec(&answers)?);
+    Ok(Status::Right)
 }
 
-/// The time limits of a case.
-#[derive(Clone, Copy)]
-pub struct Limits {
-    pub structure: Duration,
-    pub reply: Seconds,
-}
-
-/// The parent's side: runs a case with at most `rays` rays in a child. The time limit of a structure is
-/// `limits.structure` for the whole case, and of a runner `limits.reply` for each reply. The outer result is an error
-/// if no child can be started.
-pub fn answers(case: &HardCase, choice: &Choice, rays: u32, limits: Limits) -> io::Result<Result<Answers, Failure>> {
-    let (rays, level) = (rays.to_string(), Level::current().name());
-    let reply = limits.reply.to_string();
+/// The parent's side: runs a case with at most `rays` rays in a child. A structure has a time limit for the whole case,
+/// and a runner for each reply. The outer result is an error if no child can be started.
+pub fn answers(
+    case: &HardCase,
+    choice: &Choice,
+    rays: u32,
+    limits: &validate::Args,
+) -> io::Result<Result<Answers, Failure>> {
+    let (rays, level, reply) = (rays.to_string(), Level::current().name(), limits.runner_limit.to_string());
     let (structure, limit) = match choice.command() {
         Some(command) => (vec!["--runner", command, "--runner-limit", &reply], Duration::MAX),
-        None => (vec![&*choice.label], limits.structure),
+        None => (vec![&*choice.label], limits.limit.duration()),
     };
     let mut command = Command::new(program::executable());
     command.args([COMMAND, case.name, "--rays", &rays, "--level", level]).args(structure);

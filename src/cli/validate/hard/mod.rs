@@ -10,7 +10,7 @@ use std::thread;
 use anyhow::Context;
 
 use super::Args;
-use super::outcome::{Verdicts, export, sentences};
+use super::outcome::{Verdicts, finish};
 use crate::cli::progress::{LogLines, spinner};
 use crate::cli::terminal::Terminal;
 use crate::output::OutputFile;
@@ -39,20 +39,18 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
     };
     // A case that is given by its name and by its number counts once.
     let cases = each_once_by(cases, |one, other| one.name == other.name);
-    let structures = args.structures(registry)?;
-    let choices = choices(registry, structures, &args.test)?;
+    let choices = choices(registry, args.structures(registry)?, &args.test)?;
     let rays = u32::try_from(args.source().number()?.min(MOST_RAYS))?;
     let json = args.export_json.as_deref().map(OutputFile::check).transpose()?;
 
     let mut columns: Vec<Column> = choices.iter().map(|choice| Column { choice, scores: vec![] }).collect();
     let (waiting, mut log) = (spinner(String::new(), terminal), LogLines::new(terminal));
-    let limits = child::Limits { structure: args.limit.duration(), reply: args.runner_limit };
     let mut records = vec![];
     for (i, case) in cases.iter().enumerate() {
         let message = format!("{} of {}: {}", i + 1, cases.len(), case.name);
         log.tell(&message);
         waiting.set_message(message);
-        let scores = scores(case, &choices, rays, limits)?;
+        let scores = scores(case, &choices, rays, args)?;
         for (column, score) in columns.iter_mut().zip(scores) {
             records.push(record(case, column.choice, &score));
             column.scores.push(score);
@@ -61,13 +59,11 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
     drop(waiting);
 
     let tables = if terminal.verbose { tables } else { summary };
-    tables(&cases, &columns).iter().for_each(|table| terminal.print_table(table));
+    let tables = tables(&cases, &columns);
+    tables.iter().filter(|table| !table.rows.is_empty()).for_each(|table| terminal.print_table(table));
     terminal.print_notes(LEGEND);
     let verdicts: Vec<Verdicts> = columns.iter().map(|column| verdicts(&cases, column)).collect();
-    terminal.print_lines(sentences(&verdicts));
-    if let Some(file) = json {
-        file.write(&export(&verdicts, &records)?)?;
-    }
+    finish(&verdicts, &records, json, terminal)?;
     let all = columns.iter().flat_map(|own| own.scores.iter().map(|score| status(own.choice, score, args.strict)));
     Ok(all.fold(Status::Right, Status::and))
 }
@@ -126,7 +122,7 @@ fn choices(registry: &Registry, structures: Vec<Choice>, tests: &[String]) -> an
 }
 
 /// Runs a case on all structures, several at a time, and computes the exact hits meanwhile.
-fn scores(case: &HardCase, choices: &[Choice], rays: u32, limits: child::Limits) -> anyhow::Result<Vec<Score>> {
+fn scores(case: &HardCase, choices: &[Choice], rays: u32, limits: &Args) -> anyhow::Result<Vec<Score>> {
     let mut answers: Vec<_> = choices.iter().map(|_| None).collect();
     let waiting = Mutex::new(choices.iter().zip(&mut answers));
     let next = || waiting.lock().expect("no worker panics").next();

@@ -24,25 +24,21 @@ pub const LEGEND: [&str; 4] = [
      Plus: added after the survey; not in the totals.",
 ];
 
-/// The nonempty tables of a run: hits, errors of t, times of invalid rays, properties, totals.
+/// The tables of a run: hits, errors of t, times of invalid rays, properties, totals.
 pub fn tables(cases: &[&HardCase], columns: &[Column]) -> Vec<Table> {
     let is_property = |case: &HardCase| matches!(case.content, Content::Property(_));
-    let of_rays = table(cases, columns, "Answers", |case, score| (!is_property(case)).then(|| outcome(score)));
-    let of_properties =
-        table(cases, columns, "Properties: failures", |case, score| is_property(case).then(|| outcome(score)));
     let ulps = |_: &HardCase, score: &Score| {
         let ulps = score.rays()?.judged.ulps?;
         Some([ulps.median, ulps.p99, ulps.max].map(figures).join("/").into())
     };
     let slowness = |_: &HardCase, score: &Score| Some(format!("{} x", figures(score.rays()?.slowness?)).into());
-    let all = [
-        of_rays.noted(notes(cases, columns, |case| !is_property(case))),
+    vec![
+        outcomes(cases, columns, "Answers", |case| !is_property(case)),
         table(cases, columns, "Error of t in ulps on the correct primitive: median/p99/max", ulps),
         table(cases, columns, "Time of invalid rays relative to valid rays on the same mesh", slowness),
-        of_properties.noted(notes(cases, columns, is_property)),
+        outcomes(cases, columns, "Properties: failures", is_property),
         totals(cases, columns),
-    ];
-    all.into_iter().filter(|table| !table.rows.is_empty()).collect()
+    ]
 }
 
 /// The summary: the cases in which a structure fails, with the reasons; the totals.
@@ -50,12 +46,9 @@ pub fn summary(cases: &[&HardCase], columns: &[Column]) -> Vec<Table> {
     let is_failed = |(i, _): &(usize, &&HardCase)| {
         columns.iter().any(|column| known_defect(&column.choice.entry.name).is_none() && !column.scores[*i].is_sound())
     };
-    let failed: Vec<&HardCase> = cases.iter().enumerate().filter(is_failed).map(|(_, case)| *case).collect();
-    let is_shown = |case: &HardCase| failed.iter().any(|own| own.name == case.name);
+    let failed: Vec<&str> = cases.iter().enumerate().filter(is_failed).map(|(_, case)| case.name).collect();
     let title = format!("Failures: {} of {}", failed.len(), plural(cases.len(), "case"));
-    let failures = table(cases, columns, &title, |case, score| is_shown(case).then(|| outcome(score)));
-    let all = [failures.noted(notes(cases, columns, is_shown)), totals(cases, columns)];
-    all.into_iter().filter(|table| !table.rows.is_empty()).collect()
+    vec![outcomes(cases, columns, &title, |case| failed.contains(&case.name)), totals(cases, columns)]
 }
 
 /// Rows for the cases with a nonempty `cell`.
@@ -82,26 +75,23 @@ fn table(
     Table::new(title, std::iter::once("case").chain(names), rows)
 }
 
-/// The worst ray, the first failure or the reason, for every score that has one.
-fn notes(cases: &[&HardCase], columns: &[Column], is_shown: impl Fn(&HardCase) -> bool) -> Vec<String> {
+/// The outcomes of cases, with the worst ray, the first failure or the reason for every score that has one.
+fn outcomes(cases: &[&HardCase], columns: &[Column], title: &str, is_shown: impl Fn(&HardCase) -> bool) -> Table {
     let mut notes = vec![];
     for (i, case) in cases.iter().enumerate().filter(|(_, case)| is_shown(case)) {
         for column in columns {
             // Skip the wrong rays of structures with known defects.
             let has_defects = known_defect(&column.choice.entry.name).is_some();
             let sentence = match &column.scores[i] {
-                Score::Failed(Failure::Refused(sentence) | Failure::Declined(sentence)) => sentence,
-                Score::Property(Property { example: Some(example), .. }) if !has_defects => example,
-                Score::Rays(score) if !has_defects => match score.example() {
-                    Some(example) => &example.clone(),
-                    None => continue,
-                },
-                _ => continue,
+                Score::Failed(Failure::Refused(sentence) | Failure::Declined(sentence)) => Some(sentence.clone()),
+                Score::Property(Property { example, .. }) if !has_defects => example.clone(),
+                Score::Rays(score) if !has_defects => score.example(),
+                _ => None,
             };
-            notes.push(format!("{} on {}: {sentence}", column.choice.label, case.name));
+            notes.extend(sentence.map(|own| format!("{} on {}: {own}", column.choice.label, case.name)));
         }
     }
-    notes
+    table(cases, columns, title, |case, score| is_shown(case).then(|| outcome(score))).noted(notes)
 }
 
 fn outcome(score: &Score) -> Cell {
