@@ -41,15 +41,21 @@ pub fn stderr(output: &Output) -> String {
 /// The output of a successful command.
 #[track_caller]
 pub fn prints(args: &[&str]) -> String {
-    printed(&mut command(args))
+    ends(RIGHT, &mut command(args)).0
 }
 
-/// Like [`prints`], for a prepared command.
+/// The output and the messages of a command, which must end with this status.
 #[track_caller]
-pub fn printed(command: &mut Command) -> String {
+pub fn ends(status: i32, command: &mut Command) -> (String, String) {
     let output = command.output().expect("the command runs");
-    assert_eq!(output.status.code(), Some(RIGHT), "{command:?}: {}{}", stdout(&output), stderr(&output));
-    stdout(&output)
+    let (text, messages) = (stdout(&output), stderr(&output));
+    assert_eq!(output.status.code(), Some(status), "{command:?}: {text}{messages}");
+    (text, messages)
+}
+
+/// A text in one line: the terminal breaks lines anywhere.
+pub fn unwrapped(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// Checks that a command has failed with one message that contains all of `parts`, which is returned, and that it
@@ -92,11 +98,25 @@ pub fn json(path: impl AsRef<Path>) -> Value {
     serde_json::from_slice(&fs::read(path).unwrap()).unwrap()
 }
 
+/// The path of a file in a folder.
+pub fn at(folder: &TempDir, name: &str) -> String {
+    path_text(&folder.path().join(name))
+}
+
 /// The path of a new file.
-pub fn write(directory: &TempDir, name: &str, text: &str) -> String {
-    let path = directory.path().join(name);
-    fs::write(&path, text).unwrap();
-    path_text(&path)
+pub fn write(folder: &TempDir, name: &str, text: &str) -> String {
+    fs::write(folder.path().join(name), text).unwrap();
+    at(folder, name)
+}
+
+/// The path of a new executable file.
+#[cfg(unix)]
+pub fn program(folder: &TempDir, name: &str, text: &str) -> String {
+    use std::os::unix::fs::PermissionsExt;
+    fs::create_dir_all(folder.path().join(name).parent().unwrap()).unwrap();
+    let path = write(folder, name, text);
+    fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
+    path
 }
 
 pub fn path_text(path: &Path) -> String {

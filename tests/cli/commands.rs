@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::command::{
-    RIGHT, SQUARE, USAGE, command, path_text, prints, refuses, refuses_in_a_line, sahara, small, stderr, stdout, words,
-    write,
+    RIGHT, SQUARE, USAGE, at, command, ends, path_text, prints, refuses, refuses_in_a_line, sahara, small, stderr,
+    unwrapped, words, write,
 };
 
 #[test]
@@ -93,14 +93,14 @@ fn bad_files_are_named_with_the_place_of_the_fault() {
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
          element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n",
     );
-    refuses_in_a_line(&["render", &cut, "-o", &path_text(&directory.path().join("x.png"))], &["cut.ply"]);
+    refuses_in_a_line(&["render", &cut, "-o", &at(&directory, "x.png")], &["cut.ply"]);
     assert!(!directory.path().join("x.png").exists());
 }
 
 #[test]
 fn what_cannot_be_written_is_refused_before_the_long_run() {
     let directory = tempfile::tempdir().unwrap();
-    let missing = path_text(&directory.path().join("no/r.json"));
+    let missing = at(&directory, "no/r.json");
     for flag in ["--export-json", "--export-csv", "--export-markdown"] {
         refuses_in_a_line(&["compare", flag, &missing], &["no/r.json"]);
     }
@@ -117,9 +117,8 @@ fn lists_and_completions_name_everything() {
     }
     assert!(list.lines().count() < 24, "it fits a screen: {list}");
     let keys = prints(&["list", "Median-KD"]);
-    for words in ["threshold  0.7", "vertex-median, spatial-median", "split plane of a node", "exact, moller"] {
-        let said = keys.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(said.contains(&words.replace("  ", " ")), "{words} is not in {keys}");
+    for words in ["threshold 0.7", "vertex-median, spatial-median", "split plane of a node", "exact, moller"] {
+        assert!(unwrapped(&keys).contains(words), "{words} is not in {keys}");
     }
     refuses_in_a_line(&["list", "octree"], &["octree", "median-kd", "scenes"]);
     for kind in ["scenes", "structures", "studies"] {
@@ -127,17 +126,14 @@ fn lists_and_completions_name_everything() {
     }
     assert!(prints(&["completions", "zsh"]).contains("attribution"));
     for line in ["--help", "--version", "compare --help", "completions man"] {
-        let output = sahara(&words(line));
-        assert_eq!(output.status.code(), Some(RIGHT));
-        assert!(stderr(&output).is_empty() && stdout(&output).contains("sahara"), "{line}");
+        let (text, messages) = ends(RIGHT, &mut command(&words(line)));
+        assert!(messages.is_empty() && text.contains("sahara"), "{line}");
     }
 }
 
 /// The lines of a help on a screen of 80 columns.
 fn help(line: &str) -> Vec<String> {
-    let output = command(&words(line)).env("COLUMNS", "80").output().unwrap();
-    assert_eq!(output.status.code(), Some(RIGHT), "{line}: {}", stderr(&output));
-    stdout(&output).lines().map(String::from).collect()
+    ends(RIGHT, command(&words(line)).env("COLUMNS", "80")).0.lines().map(String::from).collect()
 }
 
 #[test]

@@ -7,28 +7,23 @@ use std::path::PathBuf;
 use sahara::image;
 
 use super::command::{
-    RIGHT, SQUARE, path_text, prints, refuses, refuses_in_a_line, sahara, small, stderr, stdout, write,
+    NOT_BUILT, RIGHT, SQUARE, at, command, ends, json, prints, refuses, refuses_in_a_line, sahara, small, stdout,
+    unwrapped, write,
 };
 use super::journal::rows;
-
-/// A warning, or the progress of a long run.
-fn is_line_of_log(line: &str) -> bool {
-    line.starts_with("warning: ") || line.contains(" %: ")
-}
 
 #[test]
 fn results_go_to_files_that_read_back() {
     let directory = tempfile::tempdir().unwrap();
-    let file = |name: &str| path_text(&directory.path().join(name));
-    let (json, csv, markdown) = (file("r.json"), file("r.csv"), file("r.md"));
+    let [export, csv, markdown] = ["r.json", "r.csv", "r.md"].map(|name| at(&directory, name));
     let mut args = small("Cube");
-    args.extend(["--export-json", &json, "--export-csv", &csv, "--export-markdown", &markdown]);
-    let output = sahara(&args);
-    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
-    let told = stderr(&output);
+    args.extend(["--export-json", &export, "--export-csv", &csv, "--export-markdown", &markdown]);
+    let (printed, told) = ends(RIGHT, &mut command(&args));
+    // A warning, or the progress of a long run.
+    let is_line_of_log = |line: &str| line.starts_with("warning: ") || line.contains(" %: ");
     assert!(told.lines().all(is_line_of_log), "no bar where nobody looks: {told}");
 
-    let rows = rows(&json);
+    let rows = rows(&export);
     let ours = ["brute-force", "median-kd", "sah-kd", "sah-kd-wide", "sah-kd-tight", "sah-hybrid"];
     let structures = [&ours[..], &["sah-hybrid:batch=packets", "sah-bvh", "obvhs-bvh2", "obvhs-cwbvh"]].concat();
     assert_eq!(rows.len(), structures.len() * 2);
@@ -39,8 +34,8 @@ fn results_go_to_files_that_read_back() {
         assert_eq!(row["checked"]["errors"], 0, "{row}");
         assert!(row["ns"][0].as_u64().unwrap() > 0 && row["build_ns"].as_u64().unwrap() > 0, "{row}");
     }
-    let command = super::command::json(&json)["provenance"]["command"].as_str().unwrap().to_owned();
-    assert!(command.contains("--export-json"), "{command}");
+    let provenance = &json(&export)["provenance"];
+    assert!(provenance["command"].as_str().unwrap().contains("--export-json"), "{provenance}");
 
     let mut reader = csv::Reader::from_path(&csv).unwrap();
     let names = reader.headers().unwrap().clone();
@@ -50,7 +45,6 @@ fn results_go_to_files_that_read_back() {
     assert_eq!(reader.records().map(Result::unwrap).count(), rows.len());
 
     let text = fs::read_to_string(&markdown).unwrap();
-    let printed = stdout(&output);
     for structure in structures {
         let short = structure.split(':').next_back().unwrap();
         assert!(text.contains(&format!("| {structure} |")) && printed.contains(short), "{text}\n{printed}");
@@ -58,7 +52,7 @@ fn results_go_to_files_that_read_back() {
     assert!(!printed.contains('\x1b'), "no colour where nobody looks");
     let mut left: Vec<PathBuf> = fs::read_dir(directory.path()).unwrap().map(|entry| entry.unwrap().path()).collect();
     left.sort();
-    assert_eq!(left, [&csv, &json, &markdown].map(PathBuf::from), "nothing else is left behind");
+    assert_eq!(left, [&csv, &export, &markdown].map(PathBuf::from), "nothing else is left behind");
 }
 
 #[test]
@@ -72,7 +66,7 @@ fn a_file_without_camera_is_compared_and_rendered() {
     let text = prints(&small(&flat));
     assert!(text.contains("1 triangle (1 degenerate)"), "{text}");
 
-    let picture = path_text(&directory.path().join("square.png"));
+    let picture = at(&directory, "square.png");
     prints(&["render", &square, "-o", &picture, "--size", "20x10", "--view", "primitive"]);
     let decoded = image::open(&picture).unwrap().into_rgb8();
     assert_eq!(decoded.dimensions(), (20, 10));
@@ -83,8 +77,7 @@ fn a_file_without_camera_is_compared_and_rendered() {
 #[test]
 fn compare_says_who_won_and_relates_to_what_is_asked_for() {
     let args = [&small("cube")[..], &["-s", "sah-kd", "-s", "sah-bvh"]].concat();
-    // Lines wrap at the screen's width.
-    let said = |args: &[&str]| stdout(&sahara(args)).split_whitespace().collect::<Vec<_>>().join(" ");
+    let said = |args: &[&str]| unwrapped(&stdout(&sahara(args)));
     let text = said(&args);
     assert!(text.contains("x sah-kd") && !text.contains("x median"), "{text}");
     assert!(
@@ -97,19 +90,15 @@ fn compare_says_who_won_and_relates_to_what_is_asked_for() {
     assert!(last.contains("median-kd:leaf=8"), "that sentence is about the reference: {last}");
 }
 
-/// The blocks of an output between blank lines.
-fn blocks(text: &str) -> Vec<Vec<&str>> {
-    text.trim_end().split("\n\n").map(|block| block.lines().collect()).collect()
-}
-
 #[test]
 fn tables_stand_alone_and_notes_are_counted_unless_all_is_asked_for() {
     let run = ["compare", "cube", "starters", "-s", "sah-kd", "-s", "sah-hybrid", "-s", "sah-hybrid:batch=packets"];
     let run = [&run[..], &["-w", "primary", "--rays", "256", "--epochs", "2", "--budget", "1"]].concat();
     let brief = prints(&run);
-    let (foot, tables) = blocks(&brief).split_last().map(|(foot, rest)| (foot.clone(), rest.to_vec())).unwrap();
+    let mut blocks: Vec<Vec<&str>> = brief.trim_end().split("\n\n").map(|block| block.lines().collect()).collect();
+    let foot = blocks.pop().unwrap();
     // The title, the header and a row for each structure.
-    assert!(tables.len() == 3 && tables.iter().all(|table| table.len() == 2 + 3), "{brief}");
+    assert!(blocks.len() == 3 && blocks.iter().all(|table| table.len() == 2 + 3), "{brief}");
     let (count, foot) = foot.split_last().unwrap();
     assert!(foot.len() <= 5 && count.ends_with(" notes: --verbose shows them"), "{brief}");
     let number: usize = count.split(' ').next().unwrap().parse().unwrap();
@@ -128,7 +117,7 @@ fn tables_stand_alone_and_notes_are_counted_unless_all_is_asked_for() {
 fn tables_fit_80_columns_and_wide_ones_have_the_rest() {
     let four = ["compare", "cube", "--rays", "400", "--epochs", "2", "--budget", "1"];
     let directory = tempfile::tempdir().unwrap();
-    let markdown = path_text(&directory.path().join("r.md"));
+    let markdown = at(&directory, "r.md");
     let brief = stdout(&sahara(&[&four[..], &["--export-markdown", &markdown]].concat()));
     let wide = stdout(&sahara(&[&four[..], &["--wide"]].concat()));
     let columns = |text: &str| text.lines().find(|line| line.contains("structure")).unwrap().to_owned();
@@ -149,7 +138,7 @@ fn tables_fit_80_columns_and_wide_ones_have_the_rest() {
 fn a_quick_comparison_says_that_it_is_coarse_in_colour_as_asked() {
     for (colour, is_there) in [("always", true), ("never", false)] {
         let quick = ["compare", "cube", "-s", "sah-kd", "-s", "sah-bvh", "--quick", "--verbose", "--color", colour];
-        let text = stdout(&sahara(&quick)).split_whitespace().collect::<Vec<_>>().join(" ");
+        let text = unwrapped(&stdout(&sahara(&quick)));
         assert!(text.contains("Coarse: ") && text.contains("Wrong hits: 0 in "), "{text}");
         assert_eq!(text.contains("\x1b["), is_there, "{text}");
     }
@@ -159,7 +148,7 @@ fn a_quick_comparison_says_that_it_is_coarse_in_colour_as_asked() {
 #[test]
 fn rays_that_no_scene_has_are_no_result() {
     let folder = tempfile::tempdir().unwrap();
-    let json = path_text(&folder.path().join("none.json"));
+    let json = at(&folder, "none.json");
     let mirror = ["compare", "cube", "-w", "mirror", "--quick", "-s", "sah-kd", "--export-json", &json];
     refuses_in_a_line(&mirror, &["nothing was measured: these scenes have no rays of these workloads"]);
     assert!(!folder.path().join("none.json").exists());
@@ -170,8 +159,7 @@ fn rays_that_no_scene_has_are_no_result() {
 #[test]
 fn a_build_that_takes_too_long_is_refused_and_the_others_are_measured() {
     let small = ["compare", "icosphere:6", "-w", "primary", "--rays", "256", "--epochs", "2", "--size", "16x16"];
-    let output = sahara(&[&small[..], &["-s", "sah-kd", "-s", "brute-force", "--build-limit", "0.001"]].concat());
-    let said = stdout(&output);
-    assert_eq!(output.status.code(), Some(5), "{said}");
+    let args = [&small[..], &["-s", "sah-kd", "-s", "brute-force", "--build-limit", "0.001"]].concat();
+    let (said, _) = ends(NOT_BUILT, &mut command(&args));
     assert!(said.contains("Refused: ") && said.contains("--build-limit"), "{said}");
 }

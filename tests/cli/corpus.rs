@@ -7,22 +7,21 @@ use std::process::Command;
 
 use sahara::scene::files::RayFile;
 
-use super::command::{RIGHT, SQUARE, command, path_text, prints, refuses, refuses_in_a_line, stderr, stdout, write};
+use super::command::{
+    RIGHT, SQUARE, at, command, ends, path_text, prints, refuses, refuses_in_a_line, stderr, stdout, write,
+};
 
 /// All files of a folder.
-fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+pub fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap());
     entries.map(|entry| (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap())).collect()
 }
 
 /// The output of `sha256sum -c` for the files of a folder; `None` if the program is missing.
 fn checked(folder: &Path) -> Option<String> {
-    let output = Command::new("sha256sum")
-        .args(["-c", "--strict", "SHA256SUMS"])
-        .env("LC_ALL", "C")
-        .current_dir(folder)
-        .output()
-        .ok()?;
+    let mut sha256sum = Command::new("sha256sum");
+    sha256sum.args(["-c", "--strict", "SHA256SUMS"]).env("LC_ALL", "C").current_dir(folder);
+    let output = sha256sum.output().ok()?;
     assert!(output.status.success(), "{}{}", stdout(&output), stderr(&output));
     Some(stdout(&output))
 }
@@ -46,11 +45,8 @@ fn a_corpus_is_the_same_again_and_what_it_says() {
     }
 
     // Replaces the old one, with another number of threads and other instructions; a repeated scene counts once.
-    let again = command(&["rays", "corpus", "CUBE", "cube", "-o", &out, "--rays", "40", "--level", "portable"])
-        .env("RAYON_NUM_THREADS", "1")
-        .output()
-        .unwrap();
-    assert_eq!((again.status.code(), stdout(&again)), (Some(RIGHT), printed), "{}", stderr(&again));
+    let mut again = command(&["rays", "corpus", "CUBE", "cube", "-o", &out, "--rays", "40", "--level", "portable"]);
+    assert_eq!(ends(RIGHT, again.env("RAYON_NUM_THREADS", "1")).0, printed);
     assert!(files(&folder) == first, "it is another one");
     prints(&["rays", "corpus", "cube", "-o", &out, "--rays", "40", "--seed", "2"]);
     assert!(files(&folder) != first, "the seed changes nothing");
@@ -63,17 +59,17 @@ fn a_corpus_is_the_same_again_and_what_it_says() {
     assert_eq!(hash, rays.workload.hash());
 
     // From the mesh of a corpus: the same rays, whose hash is in the exact hits, except those from the camera.
-    let beside = parent.path().join("e");
-    prints(&["rays", "corpus", &mesh, "-o", &path_text(&beside), "--rays", "40", "--seed", "2"]);
+    let beside = at(&parent, "e");
+    prints(&["rays", "corpus", &mesh, "-o", &beside, "--rays", "40", "--seed", "2"]);
     for name in ["cube.ply", "cube-vertex.truth", "cube-offset.truth"] {
-        assert!(files(&folder)[name] == files(&beside)[name], "{name}");
+        assert!(files(&folder)[name] == files(Path::new(&beside))[name], "{name}");
     }
 }
 
 #[test]
 fn what_a_corpus_cannot_be_made_of_is_refused_and_nothing_of_others_is_replaced() {
     let parent = tempfile::tempdir().unwrap();
-    let out = path_text(&parent.path().join("d"));
+    let out = at(&parent, "d");
     refuses(&["rays", "corpus", "cube"], &["--output"]);
     for count in ["0", "many", "99999999"] {
         refuses(&["rays", "corpus", "cube", "-o", &out, "--rays", count], &["--rays"]);
@@ -83,10 +79,8 @@ fn what_a_corpus_cannot_be_made_of_is_refused_and_nothing_of_others_is_replaced(
     let other = write(&parent, "cube.obj", SQUARE);
     refuses_in_a_line(&["rays", "corpus", "cube", &other, "-o", &out], &["two different scenes have the name cube"]);
     let [spaced, joined] = ["a square.obj", "a-square.obj"].map(|name| write(&parent, name, SQUARE));
-    refuses_in_a_line(
-        &["rays", "corpus", &spaced, &joined, "-o", &out, "--rays", "3"],
-        &["write the same file, a-square-"],
-    );
+    let both = ["rays", "corpus", &spaced, &joined, "-o", &out, "--rays", "3"];
+    refuses_in_a_line(&both, &["write the same file, a-square-"]);
     assert!(!Path::new(&out).exists(), "what was refused has left a folder");
 
     let foreign = tempfile::tempdir().unwrap();

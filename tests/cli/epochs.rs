@@ -11,44 +11,33 @@ use std::time::{Duration, Instant};
 use serde_json::Value;
 use tempfile::TempDir;
 
-use super::command::{RIGHT, command, json, prints, stderr, words};
+use super::command::{RIGHT, command, ends, json, prints, stderr, words};
 use super::journal::{answers, cases};
-
-/// A study that takes no time, in a folder.
-fn small<'a>(study: &'a [&'a str], folder: &'a str) -> Vec<&'a str> {
-    let sizes = ["-w", "primary", "--rays", "64", "--runs", "1", "--budget", "1", "--dir", folder];
-    [study, &sizes[..]].concat()
-}
 
 #[test]
 fn a_study_goes_on_where_it_stopped_and_repeats_what_it_said() {
     for (name, study) in [
-        ("scaling", &["study", "scaling", "cube", "--finest", "2", "-s", "median-kd", "-s", "sah-bvh"][..]),
-        ("compare", &["compare", "cube", "torus", "-s", "median-kd", "-s", "sah-kd"]),
+        ("scaling", "study scaling cube --finest 2 -s median-kd -s sah-bvh"),
+        ("compare", "compare cube torus -s median-kd -s sah-kd"),
     ] {
         let folder = TempDir::new().unwrap();
         let dir = folder.path().to_str().unwrap();
         let cases = || cases(folder.path(), name);
-        let one = [&small(study, dir)[..], &["--epochs", "1"]].concat();
-        let first = prints(&one);
-        let measured = cases().len();
-        assert!(measured > 0, "{study:?}");
-        assert_eq!(prints(&one), first, "{study:?} measures nothing again");
-        assert_eq!(cases().len(), measured);
-
+        let run = |options: &str| {
+            let small = format!("{study} -w primary --rays 64 --runs 1 --budget 1 --dir {dir} --epochs {options}");
+            (prints(&words(&small)), cases().len())
+        };
+        let (first, measured) = run("1");
+        assert!(measured > 0, "{study}");
+        assert_eq!(run("1"), (first, measured), "{study} measures nothing again");
         // A second epoch doubles the number of cases.
-        let two = [&small(study, dir)[..], &["--epochs", "2"]].concat();
-        prints(&two);
-        assert_eq!(cases().len(), 2 * measured, "{study:?}");
+        assert_eq!(run("2").1, 2 * measured, "{study}");
         // A removed case is measured again.
         fs::remove_file(&cases()[0]).unwrap();
-        prints(&two);
-        assert_eq!(cases().len(), 2 * measured, "{study:?}");
+        assert_eq!(run("2").1, 2 * measured, "{study}");
         // Files of other settings lie beside, and a repeated measurement keeps the old file.
-        prints(&[&one[..], &["--seed", "2"]].concat());
-        assert_eq!(cases().len(), 3 * measured, "{study:?}");
-        prints(&[&one[..], &["--fresh"]].concat());
-        assert_eq!(cases().len(), 4 * measured, "{study:?}");
+        assert_eq!(run("1 --seed 2").1, 3 * measured, "{study}");
+        assert_eq!(run("1 --fresh").1, 4 * measured, "{study}");
     }
 }
 
@@ -57,12 +46,6 @@ fn study(dir: &Path) -> Command {
     let mut command = command(&words("study attribution cube --rays 64 --runs 1 --budget 1 --epochs 12 --quiet --dir"));
     command.arg(dir).stdout(Stdio::piped()).stderr(Stdio::piped());
     command
-}
-
-#[track_caller]
-fn finish(dir: &Path) {
-    let output = study(dir).output().expect("the command runs");
-    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
 }
 
 /// Kills it as `kill -9` does, as soon as the journal has `wanted` cases.
@@ -81,7 +64,7 @@ fn kill_at(mut child: Child, dir: &Path, wanted: usize) {
 fn a_killed_study_ends_as_one_that_was_left_alone() {
     let folder = TempDir::new().unwrap();
     let (alone, killed) = (folder.path().join("alone"), folder.path().join("killed"));
-    finish(&alone);
+    ends(RIGHT, &mut study(&alone));
 
     // Once with one case, and once with another.
     kill_at(study(&killed).spawn().unwrap(), &killed, 1);
@@ -90,14 +73,13 @@ fn a_killed_study_ends_as_one_that_was_left_alone() {
     fs::write(killed.join("attribution/.sahara-1234.part"), "{\"schema\":4,\"pr").unwrap();
     let before = cases(&killed, "attribution").len();
 
-    finish(&killed);
+    ends(RIGHT, &mut study(&killed));
     assert!(before < cases(&killed, "attribution").len());
     assert_eq!(answers(&alone, "attribution").len(), 12);
     assert_eq!(answers(&killed, "attribution"), answers(&alone, "attribution"));
 }
 
-const TWO_SCENES: [&str; 13] =
-    ["compare", "cube", "torus", "-s", "sah-kd", "-s", "sah-bvh", "-w", "diffuse", "--rays", "256", "--epochs", "2"];
+const TWO_SCENES: &str = "compare cube torus -s sah-kd -s sah-bvh -w diffuse --rays 256 --epochs 2 --dir";
 
 /// The numbers of the processes that measured the cases of a journal.
 fn processes(folder: &Path) -> BTreeSet<u64> {
@@ -109,7 +91,7 @@ fn processes(folder: &Path) -> BTreeSet<u64> {
 fn each_epoch_of_a_scene_has_a_process_and_one_process_answers_the_same() {
     let folder = TempDir::new().unwrap();
     let [apart, one] = ["apart", "one"].map(|name| folder.path().join(name));
-    let run = |dir: &Path, more: &[&str]| prints(&[&TWO_SCENES[..], &["--dir", dir.to_str().unwrap()], more].concat());
+    let run = |dir: &Path, more: &[&str]| prints(&[&words(TWO_SCENES)[..], &[dir.to_str().unwrap()], more].concat());
     run(&apart, &[]);
     run(&one, &["--in-process"]);
     assert_eq!((processes(&apart).len(), processes(&one).len()), (4, 1), "two epochs of two scenes");
@@ -135,7 +117,7 @@ fn said(case: &Value, out: &Path) -> Vec<Value> {
 #[test]
 fn a_process_measures_its_case_alone_and_says_what_it_does() {
     let folder = TempDir::new().unwrap();
-    prints(&[&TWO_SCENES[..], &["--dir", folder.path().to_str().unwrap()]].concat());
+    prints(&[&words(TWO_SCENES)[..], &[folder.path().to_str().unwrap()]].concat());
     let first = json(&cases(folder.path(), "compare")[0]);
     let out = folder.path().join("again.json");
     let lines = said(&first["case"], &out);

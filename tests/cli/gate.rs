@@ -2,12 +2,11 @@
 #![cfg(unix)]
 
 use std::fs;
-use std::os::unix::fs::PermissionsExt;
 use std::process::{Command, Output};
 
 use tempfile::TempDir;
 
-use super::command::{REGRESSION, RIGHT, path_text, prints, stderr, stdout, write};
+use super::command::{REGRESSION, RIGHT, at, prints, program, stderr, stdout, write};
 use super::runner::NOTHING;
 
 const DOCUMENT: &str = include_str!("../../src/study/diff/GATE.md");
@@ -33,20 +32,17 @@ fn arguments(nth: usize) -> &'static str {
     DOCUMENT.lines().filter_map(|line| line.trim().strip_prefix("- run: sh gate.sh ")).nth(nth).unwrap()
 }
 
-/// Writes an executable file into a folder.
-fn program(folder: &TempDir, name: &str, text: &str) -> String {
-    fs::create_dir_all(folder.path().join(name).parent().unwrap()).unwrap();
-    let path = write(folder, name, text);
-    fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
-    path
-}
-
 /// Makes a file of 64 rays that miss the cube.
 fn misses(folder: &TempDir) -> String {
-    let (text, rays) =
-        (write(folder, "away.txt", &"9,9,9 0,0,1\n".repeat(64)), path_text(&folder.path().join("away.rays")));
+    let (text, rays) = (write(folder, "away.txt", &"9,9,9 0,0,1\n".repeat(64)), at(folder, "away.rays"));
     prints(&["rays", "import", &text, "-o", &rays, "--scene", "cube"]);
     rays
+}
+
+/// Runs a line of the document in a folder.
+fn shell(folder: &TempDir, line: &str) -> Output {
+    let mut shell = Command::new("sh");
+    shell.args(["-c", line]).env("RUNNER_TEMP", folder.path()).current_dir(folder.path()).output().unwrap()
 }
 
 /// Runs the `nth` command of the document that runs the script, with prescribed seconds per pass on both sides, for
@@ -70,12 +66,10 @@ fn gate(nth: usize, base: [f64; 2], branch: [f64; 2]) -> (Output, usize) {
     // The programs of both sides, at the place of the workflow's builds.
     let sides = command.split_whitespace().take(2).map(|word| word.trim_matches('"').replace("$RUNNER_TEMP/", ""));
     for (path, [even, odd]) in sides.zip([base, branch]) {
-        let starts = path_text(&folder.path().join(path.replace('/', "-") + ".starts"));
+        let starts = at(&folder, &(path.replace('/', "-") + ".starts"));
         program(&path, &format!("#!/bin/sh\nexport STARTS={starts} EVEN={even} ODD={odd}\nexec {sahara} \"$@\"\n"));
     }
-    let mut shell = Command::new("sh");
-    shell.args(["-c", &format!("sh gate.sh {command}")]).env("RUNNER_TEMP", folder.path());
-    let output = shell.current_dir(folder.path()).output().unwrap();
+    let output = shell(&folder, &format!("sh gate.sh {command}"));
     let epochs = fs::read_dir(folder.path().join("runs-branch/compare")).map_or(0, Iterator::count);
     (output, epochs)
 }
@@ -106,9 +100,7 @@ fn one_sahara_gates_a_program() {
         program(&folder, "bvh-base", NOTHING);
         program(&folder, "bvh", &NOTHING.replace("passed 0.001", &format!("passed {seconds}")));
         program(&folder, "bin/sahara", &format!("#!/bin/sh\nexec {} \"$@\"\n", env!("CARGO_BIN_EXE_sahara")));
-        let mut shell = Command::new("sh");
-        shell.args(["-c", &format!("PATH=$PWD/bin:$PATH sh gate.sh {}", arguments(2))]);
-        let output = shell.env("RUNNER_TEMP", folder.path()).current_dir(folder.path()).output().unwrap();
+        let output = shell(&folder, &format!("PATH=$PWD/bin:$PATH sh gate.sh {}", arguments(2)));
         let said = stdout(&output) + &stderr(&output);
         assert!(output.status.code() == Some(status) && said.contains(verdict), "{seconds}: {said}");
     }

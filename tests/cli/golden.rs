@@ -10,7 +10,7 @@ use sahara::image::{DynamicImage, GrayImage, Luma, Rgb, RgbImage};
 use tempfile::TempDir;
 
 use super::command::{
-    RIGHT, USAGE, WRONG, json, path_text, prints, refuses, refuses_in_a_line, sahara, stdout, words, write,
+    RIGHT, USAGE, WRONG, at, command, ends, json, prints, refuses, refuses_in_a_line, unwrapped, words, write,
 };
 
 /// Folders of pictures, `expected` and `actual`.
@@ -22,19 +22,18 @@ impl Folders {
     }
 
     fn path(&self, name: &str) -> String {
-        path_text(&self.0.path().join(name))
+        at(&self.0, name)
     }
 
     fn add(&self, name: &str, picture: impl Into<DynamicImage>) {
         write_picture(Path::new(&self.path(name)), &picture.into()).unwrap();
     }
 
-    /// Compares the folders; returns the status and the output.
-    fn compare(&self, options: &str) -> (Option<i32>, String) {
-        let (expected, actual) = (self.path("expected"), self.path("actual"));
-        let options: Vec<&str> = options.split_whitespace().collect();
-        let output = sahara(&[&["golden", "compare", &expected, &actual], &options[..]].concat());
-        (output.status.code(), stdout(&output))
+    /// Compares the folders, which must end with this status; returns the output.
+    #[track_caller]
+    fn compare(&self, options: &str, status: i32) -> String {
+        let line = format!("golden compare {} {} {options}", self.path("expected"), self.path("actual"));
+        ends(status, &mut command(&words(line.trim_end()))).0
     }
 }
 
@@ -56,13 +55,10 @@ fn folders_of_pictures_are_compared_by_name() {
         folders.add(&format!("{side}/deep/er.png"), if side == "actual" { changed(9, 2) } else { picture() });
         fs::write(folders.path(&format!("{side}/notes.txt")), side).unwrap();
     }
-    let (status, text) = folders.compare("");
-    assert_eq!(status, Some(WRONG), "{text}");
-    assert!(
-        text.contains("deep/er.png: 9 of 1,200 pixels differ, first at column 0, row 0, by up to 2 of 255"),
-        "{text}"
-    );
-    assert!(text.contains("1 different, 1 identical") && !text.contains("notes"), "{text}");
+    let text = folders.compare("", WRONG);
+    let difference = "deep/er.png: 9 of 1,200 pixels differ, first at column 0, row 0, by up to 2 of 255";
+    assert!(text.contains(difference) && text.contains("1 different, 1 identical"), "{text}");
+    assert!(!text.contains("notes"), "{text}");
     for (options, accepted) in [
         ("--max-difference 2", true),
         ("--max-difference 1.9", false),
@@ -74,8 +70,7 @@ fn folders_of_pictures_are_compared_by_name() {
         ("--max-flip 0.01", true),
         ("--max-flip 0.00001", false),
     ] {
-        let (status, text) = folders.compare(options);
-        assert_eq!(status, Some(if accepted { RIGHT } else { WRONG }), "{options}: {text}");
+        let text = folders.compare(options, if accepted { RIGHT } else { WRONG });
         assert_eq!(text.contains("1 accepted, 1 identical"), accepted, "{options}: {text}");
     }
 
@@ -89,11 +84,8 @@ fn folders_of_pictures_are_compared_by_name() {
         ),
         ("--max-flip 0", "the mean of FLIP is 0.00", serde_json::json!({ "max_flip": 0.0 })),
     ] {
-        let (status, text) = folders.compare(&format!("{options} --export-json {json_file}"));
-        assert_eq!(status, Some(WRONG), "{text}");
-        // The terminal breaks lines.
-        let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(line.contains(&format!("; {sentence}")), "{text}");
+        let text = folders.compare(&format!("{options} --export-json {json_file}"), WRONG);
+        assert!(unwrapped(&text).contains(&format!("; {sentence}")), "{text}");
         let own = &json(&json_file)["comparisons"][0];
         assert!(own["said"][1].as_str().unwrap().starts_with(sentence), "{own}");
         let is_equal = |(name, value): (&String, &serde_json::Value)| own["limit"][name] == *value;
@@ -103,14 +95,12 @@ fn folders_of_pictures_are_compared_by_name() {
     // A picture that is missing in one folder is a failure, and less severe than a difference.
     folders.add("expected/gone.png", picture());
     folders.add("actual/new.png", picture());
-    let (status, text) = folders.compare(&format!("--max-difference 2 --export-json {json_file}"));
-    assert_eq!(status, Some(USAGE), "{text}");
+    let text = folders.compare(&format!("--max-difference 2 --export-json {json_file}"), USAGE);
     assert!(text.contains("gone.png: exists in") && text.contains("new.png: exists in"), "{text}");
     assert!(text.contains("1 missing, 1 additional, 1 accepted, 1 identical"), "{text}");
     let run = json(&json_file);
-    let verdicts = ["accepted", "missing", "additional", "identical"];
-    for (i, verdict) in verdicts.iter().enumerate() {
-        assert_eq!(run["comparisons"][i]["verdict"], *verdict, "{run}");
+    for (i, verdict) in ["accepted", "missing", "additional", "identical"].into_iter().enumerate() {
+        assert_eq!(run["comparisons"][i]["verdict"], verdict, "{run}");
     }
     let measures = &run["comparisons"][0]["measures"];
     assert_eq!([&measures["pixels"], &measures["pixels_over"], &measures["compared"]], [9, 0, 1200]);
@@ -118,10 +108,10 @@ fn folders_of_pictures_are_compared_by_name() {
 
     // A damaged picture fails, and all others are compared.
     fs::write(folders.path("actual/same.png"), "no picture").unwrap();
-    let (status, text) = folders.compare("--max-difference 2");
-    assert_eq!(status, Some(USAGE));
+    let text = folders.compare("--max-difference 2", USAGE);
     assert!(text.contains("same.png: cannot read") && text.contains("1 failed"), "{text}");
-    assert_eq!(folders.compare("").0, Some(WRONG), "a difference weighs more");
+    // A difference is more severe.
+    folders.compare("", WRONG);
 }
 
 #[test]
@@ -136,24 +126,23 @@ fn pictures_of_another_layout_and_what_cannot_be_compared_are_told() {
         ("deep", "RGB with 16", "convert one of the pictures, or replace"),
         ("small", "4 x 4 pixels", "at the size of the golden image, or replace"),
     ] {
-        let paths = [folders.path("a.png"), folders.path(&format!("{other}.png"))];
-        let output = sahara(&["golden", "compare", &paths[0], &paths[1], "--max-difference", "255"]);
-        assert_eq!(output.status.code(), Some(WRONG));
-        let text = stdout(&output);
+        let [one, other] = ["a", other].map(|name| folders.path(&format!("{name}.png")));
+        let mut compare = command(&["golden", "compare", &one, &other, "--max-difference", "255"]);
+        let (text, _) = ends(WRONG, &mut compare);
         assert!(["40 x 30 pixels of RGB with 8 bits", words, advice].iter().all(|part| text.contains(part)), "{text}");
     }
     // The same picture in other bytes is identical.
     let file = fs::File::create(folders.path("again.png")).unwrap();
     let theirs = PngEncoder::new_with_quality(file, CompressionType::Uncompressed, FilterType::NoFilter);
     picture().write_with_encoder(theirs).unwrap();
-    assert!(fs::read(folders.path("a.png")).unwrap() != fs::read(folders.path("again.png")).unwrap());
-    assert_eq!(prints(&["golden", "compare", &folders.path("a.png"), &folders.path("again.png")]), "1 identical\n");
+    let [a, again, none, folder] = ["a.png", "again.png", "none.png", ""].map(|name| folders.path(name));
+    assert!(fs::read(&a).unwrap() != fs::read(&again).unwrap());
+    assert_eq!(prints(&["golden", "compare", &a, &again]), "1 identical\n");
 
-    let [a, none, folder] = ["a.png", "none.png", ""].map(|name| folders.path(name));
     refuses_in_a_line(&["golden", "compare", &a, &none], &["none.png", "there is no"]);
     refuses_in_a_line(&["golden", "compare", &a, &folder], &["a folder and a file"]);
-    fs::create_dir(folders.path("empty")).unwrap();
     let empty = folders.path("empty");
+    fs::create_dir(&empty).unwrap();
     refuses_in_a_line(&["golden", "compare", &empty, &empty], &["no pictures"]);
     refuses(&["golden", "compare", &a, &a, "--max-flip", "1", "--allow-pixels", "1"], &["cannot be used with"]);
     refuses(&["golden", "compare", &a, &a, "--max-flip", "5"], &["--max-flip", "give a number from 0 to 1"]);
@@ -176,16 +165,14 @@ fn what_is_black_in_the_mask_is_not_compared() {
     folders.add("a.png", picture());
     folders.add("b.png", other);
     let [a, b, mask] = ["a.png", "b.png", "mask.png"].map(|name| folders.path(name));
-    assert_eq!(sahara(&["golden", "compare", &a, &b]).status.code(), Some(WRONG));
+    ends(WRONG, &mut command(&["golden", "compare", &a, &b]));
     folders.add("mask.png", GrayImage::from_fn(40, 30, |_, y| Luma([u8::from(y > 9)])));
     let text = prints(&["golden", "compare", &a, &b, "--mask", &mask]);
     assert!(text.contains("mask.png: 400 of 1,200 pixels are masked") && text.contains("1 identical"), "{text}");
     folders.add("mask.png", GrayImage::new(40, 30));
     refuses_in_a_line(&["golden", "compare", &a, &b, "--mask", &mask], &["mask.png", "all black"]);
     folders.add("mask.png", GrayImage::from_pixel(4, 3, Luma([9])));
-    let output = sahara(&["golden", "compare", &a, &b, "--mask", &mask]);
-    let message = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(USAGE));
+    let (_, message) = ends(USAGE, &mut command(&["golden", "compare", &a, &b, "--mask", &mask]));
     assert!(message.contains("the mask has 4 x 3 pixels"), "{message}");
 }
 
@@ -193,7 +180,7 @@ fn what_is_black_in_the_mask_is_not_compared() {
 fn depths_and_triangles_are_compared_as_numbers() {
     let directory = TempDir::new().unwrap();
     let scene = write(&directory, "mine.toml", SCENE);
-    let export = path_text(&directory.path().join("run.json"));
+    let export = at(&directory, "run.json");
     for (view, changed, words) in [
         ("depth", 100f32.to_bits(), "the golden image has t = 100, and sah-kd gives t = "),
         ("depth", f32::INFINITY.to_bits(), "the golden image has no hit, and sah-kd gives t = "),
@@ -205,10 +192,8 @@ fn depths_and_triangles_are_compared_as_numbers() {
         let mut numbers = unpacked(&read(&golden).unwrap()).unwrap();
         numbers[12 * 32 + 16] = changed;
         write_picture(&golden, &packed([32, 24], &numbers)).unwrap();
-        let output =
-            sahara(&[&["golden", "check", &scene, "-s", "sah-kd", "--export-json", &export], &own[..]].concat());
-        let text = stdout(&output);
-        assert_eq!(output.status.code(), Some(WRONG), "{text}");
+        let check = ["golden", "check", &scene, "-s", "sah-kd", "--export-json", &export];
+        let (text, _) = ends(WRONG, &mut command(&[&check, &own[..]].concat()));
         assert!(text.contains("1 of 768 pixels differs, first at column 16, row 12") && text.contains(words), "{text}");
         let measures = &json(&export)["comparisons"][0]["measures"];
         assert!(measures["flip"].is_null() && measures["pixels"] == 1, "{measures}");
@@ -250,11 +235,12 @@ fn scene_files_and_meshes_have_golden_images_beside_them() {
     prints(&check("shaded"));
 
     // In a folder.
-    let goldens = path_text(&directory.path().join("goldens"));
-    prints(&["golden", "update", "cube", "--size", "16x16", "--view", "normal", "--goldens", &goldens]);
-    assert!(Path::new(&goldens).join("cube.normal.golden.png").exists());
-    let own = ["--size", "16x16", "--view", "normal", "--goldens", &goldens, "-s", "sah-hybrid"];
-    prints(&[&["golden", "check", "cube"], &own[..]].concat());
+    let goldens = at(&directory, "goldens");
+    let own = ["cube", "--size", "16x16", "--view", "normal", "--goldens", &goldens, "-s", "sah-hybrid"];
+    for action in ["update", "check"] {
+        prints(&[&["golden", action], &own[..]].concat());
+        assert!(Path::new(&goldens).join("cube.normal.golden.png").exists());
+    }
     refuses_in_a_line(&["golden", "check", "cube", "--view", "depth"], &["160 x 160", "depth", "--goldens DIR"]);
     refuses_in_a_line(&["golden", "check", "icosphere:2"], &["icosphere:2", "--goldens DIR"]);
 }
@@ -276,20 +262,17 @@ fn a_wrong_pixel_is_named_with_its_ray_and_who_is_right() {
     picture.put_pixel(16, 12, Rgb([1, 2, 3]));
     write_picture(&golden, &picture.into()).unwrap();
 
-    let page = path_text(&directory.path().join("page"));
-    let export = path_text(&directory.path().join("run.json"));
-    let args =
-        ["golden", "check", &scene, "--size", "32x24", "-s", "sah-kd", "--page", &page, "--export-json", &export];
-    let output = super::command::command(&args).current_dir(directory.path()).output().unwrap();
-    let text = stdout(&output);
-    assert_eq!(output.status.code(), Some(WRONG), "{text}");
-    assert!(
-        text.contains("Mine with sah-kd: differs from")
-            && text.contains("1 of 768 pixels differs, first at column 16, row 12"),
-        "{text}"
-    );
-    assert!(text.contains("the golden image has 1, 2, 3, and sah-kd gives"), "{text}");
-    assert!(text.contains("exact arithmetic confirms sah-kd: the golden image is out of date"), "{text}");
+    let [page, export] = ["page", "run.json"].map(|name| at(&directory, name));
+    let line = format!("golden check {scene} --size 32x24 -s sah-kd --page {page} --export-json {export}");
+    let (text, _) = ends(WRONG, command(&words(&line)).current_dir(directory.path()));
+    for part in [
+        "Mine with sah-kd: differs from",
+        "1 of 768 pixels differs, first at column 16, row 12",
+        "the golden image has 1, 2, 3, and sah-kd gives",
+        "exact arithmetic confirms sah-kd: the golden image is out of date",
+    ] {
+        assert!(text.contains(part), "{part:?} is not in {text}");
+    }
     let command = text.lines().find_map(|line| line.trim().strip_prefix("sahara validate ")).expect("a command");
     let (words_before, ray) = command.split_once(" \"").unwrap();
     let traced = prints(&[&["validate"], &words(words_before)[..], &[ray.trim_end_matches('"')]].concat());

@@ -3,7 +3,9 @@
 
 use std::fs;
 
-use super::command::{path_text, prints, refuses, refuses_in_a_line, write};
+use serde_json::Value;
+
+use super::command::{at, prints, refuses, refuses_in_a_line, words, write};
 use super::journal::rows;
 use crate::conformance::TREES;
 
@@ -11,10 +13,11 @@ use crate::conformance::TREES;
 fn render_and_compare_print_what_was_left_out() {
     let folder = tempfile::tempdir().unwrap();
     let mesh = write(&folder, "a.obj", "mtllib no.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2\n");
-    let picture = folder.path().join("a.png");
-    let rendered = prints(&["render", &mesh, "-o", picture.to_str().unwrap(), "--size", "8x8", "--verbose"]);
-    let counted = prints(&["compare", &mesh, "--verbose", "-s", "median-kd", "-w", "primary", "--rays", "16"]);
-    for printed in [rendered, counted] {
+    for line in [
+        format!("render {mesh} -o {} --size 8x8 --verbose", at(&folder, "a.png")),
+        format!("compare {mesh} --verbose -s median-kd -w primary --rays 16"),
+    ] {
+        let printed = prints(&words(&line));
         assert!(printed.contains("1 face with fewer than three corners: ignored"), "{printed}");
         assert!(printed.contains("cannot read the materials in"), "{printed}");
     }
@@ -23,10 +26,10 @@ fn render_and_compare_print_what_was_left_out() {
 #[test]
 fn what_cannot_be_shown_is_refused_by_its_reason() {
     let folder = tempfile::tempdir().unwrap();
-    let picture = folder.path().join("a.png");
+    let picture = at(&folder, "a.png");
     let refused = |file: &str, parts: &[&str]| {
-        refuses_in_a_line(&["render", file, "-o", picture.to_str().unwrap()], parts);
-        assert!(!picture.exists());
+        refuses_in_a_line(&["render", file, "-o", &picture], parts);
+        assert!(!fs::exists(&picture).unwrap());
     };
     let far = write(&folder, "far.obj", "v -3e38 0 0\nv 3e38 0 0\nv 0 3e38 0\nf 1 2 3\n");
     refused(&far, &["far", "its coordinates range from", "3e38"]);
@@ -54,18 +57,17 @@ fn builds_hold_less_than_200_bytes_a_triangle() {
     let triangles = 200_000;
     let folder = tempfile::tempdir().unwrap();
     let scene = write(&folder, "ground.toml", &terrain(&triangles.to_string()));
-    let export = path_text(&folder.path().join("r.json"));
-    let mut args = vec!["compare", &scene, "--quick", "--in-process", "-w", "primary", "--size", "16x16"];
-    args.extend(["--export-json", &export]);
-    TREES.iter().for_each(|name| args.extend(["-s", name]));
-    prints(&args);
+    let export = at(&folder, "r.json");
+    let trees: String = TREES.iter().map(|name| format!(" -s {name}")).collect();
+    let quick = "--quick --in-process -w primary --size 16x16";
+    prints(&words(&format!("compare {scene} {quick} --export-json {export}{trees}")));
     let records = rows(&export);
     assert_eq!(records.len(), TREES.len());
     for record in &records {
         assert_eq!(record["triangles"], triangles);
-        let peak =
-            record["build_peak_bytes"].as_f64().expect("the command counts what it holds") / f64::from(triangles);
-        let finished = record["shape"]["bytes"].as_f64().unwrap() / f64::from(triangles);
+        let per_triangle =
+            |bytes: &Value| bytes.as_f64().expect("the command counts what it holds") / f64::from(triangles);
+        let [peak, finished] = [&record["build_peak_bytes"], &record["shape"]["bytes"]].map(per_triangle);
         assert!(finished <= peak && peak < BOUND, "{}: {peak} bytes a triangle", record["structure"]);
     }
 }
@@ -73,9 +75,7 @@ fn builds_hold_less_than_200_bytes_a_triangle() {
 #[test]
 fn a_terrain_needs_no_file_and_a_wrong_one_is_refused() {
     let folder = tempfile::tempdir().unwrap();
-    let scene = folder.path().join("ground.toml");
-    let (file, picture) = (path_text(&scene), path_text(&folder.path().join("p.png")));
-    fs::write(&scene, terrain("1001")).unwrap();
+    let (file, picture) = (write(&folder, "ground.toml", &terrain("1001")), at(&folder, "p.png"));
     let told = prints(&["validate", &file, "-s", "sah-bvh", "--rays", "200"]);
     assert!(told.contains("1,001 triangles"), "{told}");
     prints(&["render", &file, "-o", &picture, "--size", "8x8"]);
@@ -84,7 +84,7 @@ fn a_terrain_needs_no_file_and_a_wrong_one_is_refused() {
         ("10, seed = -1", ["ground.toml, line 10", "u32"]),
         ("10 }\nmesh = \"cube\" # { 1", ["objects[0].terrain", "it excludes"]),
     ] {
-        fs::write(&scene, terrain(wrong)).unwrap();
+        write(&folder, "ground.toml", &terrain(wrong));
         refuses(&["render", &file, "-o", &picture], &parts);
     }
 }

@@ -1,10 +1,9 @@
 //! Tables appear scene by scene, and a run interrupted by Ctrl-C shows its results; a journal resumes it.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::io::{BufRead, BufReader, Read};
 use std::os::unix::process::{CommandExt, ExitStatusExt};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread;
 use std::time::Duration;
@@ -12,7 +11,8 @@ use std::time::Duration;
 use nix::sys::signal::{self, SigHandler, Signal, kill};
 use nix::unistd::Pid;
 
-use super::command::{RIGHT, command};
+use super::command::{RIGHT, command, ends, words};
+use super::corpus::files;
 use super::plan::{file, job, plan};
 use super::runner::nothing;
 
@@ -20,8 +20,8 @@ const CASES: usize = 16;
 
 /// A comparison of some seconds, the larger scene named first.
 fn compare(folder: &Path, more: &[&str]) -> Command {
-    let small = ["compare", "torus", "cube", "-s", "sah-kd", "-s", "sah-bvh", "-w", "primary", "--rays", "256"];
-    let mut command = command(&[&small[..], &["--epochs", "8"], more].concat());
+    let small = words("compare torus cube -s sah-kd -s sah-bvh -w primary --rays 256 --epochs 8");
+    let mut command = command(&[&small, more].concat());
     command.current_dir(folder).stdout(Stdio::piped()).stderr(Stdio::piped());
     command
 }
@@ -102,15 +102,11 @@ fn a_journal_that_was_interrupted_is_only_added_to() {
     let dir = ["--dir", "kept"];
     let before = measured(&interrupted(folder.path(), &dir));
     let journal = folder.path().join("kept/compare");
-    let files = || -> BTreeMap<PathBuf, Vec<u8>> {
-        let paths = fs::read_dir(&journal).unwrap().map(|entry| entry.unwrap().path());
-        paths.map(|path| (path.clone(), fs::read(path).unwrap())).collect()
-    };
-    let kept = files();
+    let kept = files(&journal);
     assert_eq!(kept.len(), before);
-    assert_eq!(compare(folder.path(), &dir).output().unwrap().status.code(), Some(RIGHT));
-    let whole = files();
-    assert!(whole.len() == CASES && kept.iter().all(|(path, bytes)| whole.get(path) == Some(bytes)));
+    ends(RIGHT, &mut compare(folder.path(), &dir));
+    let whole = files(&journal);
+    assert!(whole.len() == CASES && kept.iter().all(|(name, bytes)| whole.get(name) == Some(bytes)));
 }
 
 /// A process prints this and is ended by a signal at once, as if the signal had not been caught: a shell then ends its
@@ -129,8 +125,7 @@ fn ends_by(signal: Signal, command: Command, said: &str) {
 fn a_job_ends_at_once_and_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
     // Half a minute of samples.
-    let long = ["attribution", "--scenes", "sphere", "--runs", "1000", "--budget", "30", "--epochs", "2"];
-    let lines = plan(folder.path(), &long);
+    let lines = plan(folder.path(), "attribution --scenes sphere --runs 1000 --budget 30 --epochs 2");
     for signal in [Signal::SIGINT, Signal::SIGKILL] {
         ends_by(signal, job(&lines[1]), "measuring attribution, epoch 2 of 2: Sphere\n");
         assert_eq!(fs::read_dir(file(&lines[1]).parent().unwrap()).unwrap().count(), 0);

@@ -4,9 +4,9 @@ use std::ffi::{OsStr, OsString};
 use std::fs;
 use std::os::unix::ffi::OsStrExt;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Command;
 
-use super::command::{RIGHT, SQUARE, USAGE, command, stderr, stdout};
+use super::command::{RIGHT, SQUARE, USAGE, command, ends, stderr};
 
 /// Bytes that are not text, an escape sequence with a line break, and their printed forms.
 const NAMES: [(&[u8], &str); 2] = [(b"gr\xfcn", "gr\\xfcn"), (b"a\x1b[31m\nb", "a\\u{1b}[31m\\nb")];
@@ -17,20 +17,17 @@ fn with_ending(name: &OsStr, ending: &str) -> OsString {
     name
 }
 
-/// A line of words; `@.obj` is the file with that name and extension.
-fn run(folder: &Path, name: &OsStr, line: &str) -> Output {
+/// The output and messages of a line of words, which contain no terminal controls from the name; `@.obj` is the file
+/// with that name and extension.
+#[track_caller]
+fn run(folder: &Path, name: &OsStr, line: &str, status: i32) -> String {
     let word = |word: &str| match word.strip_prefix('@') {
         Some(ending) => with_ending(name, ending),
         None => word.into(),
     };
-    command(&["--quiet"]).args(line.split(' ').map(word)).current_dir(folder).output().unwrap()
-}
-
-/// Checks that neither output contains terminal controls from the name.
-#[track_caller]
-fn is_plain(output: &Output) -> String {
-    // Both are UTF-8.
-    let said = stdout(output) + &stderr(output);
+    let mut command = command(&["--quiet"]);
+    let (text, messages) = ends(status, command.args(line.split(' ').map(word)).current_dir(folder));
+    let said = text + &messages;
     assert!(!said.contains('\u{1b}') && !said.contains('\u{fffd}'), "{said:?}");
     said
 }
@@ -62,9 +59,7 @@ fn files_of_any_name_are_taken_and_shown_escaped() {
             ("report @.runs -o @.page --no-pictures", &[shown]),
             ("fetch @.toml --list", &["nothing to fetch"]),
         ] {
-            let output = run(folder.path(), name, line);
-            let said = is_plain(&output);
-            assert_eq!(output.status.code(), Some(RIGHT), "{line}: {said}");
+            let said = run(folder.path(), name, line, RIGHT);
             assert!(parts.iter().all(|part| said.contains(part)), "{line}: {said}");
         }
         for made in [".json", ".png", "-2.png", ".rays", "-2.rays", ".hits", ".corpus/SHA256SUMS", ".page/index.html"] {
@@ -81,36 +76,29 @@ fn files_of_any_name_are_taken_and_shown_escaped() {
             "report @-none -o x",
             "fetch @-bad.toml",
         ] {
-            let output = run(folder.path(), name, line);
-            let said = is_plain(&output);
-            assert_eq!(output.status.code(), Some(USAGE), "{line}: {said}");
+            let said = run(folder.path(), name, line, USAGE);
             assert!(said.lines().count() == 1 && said.contains(shown), "{line}: {said}");
         }
 
         // A plan names files for a shell; the second time the case exists.
         let plan = "study plan compare --dir @.jobs --scenes @.obj --rays 16 --epochs 1 -s sah-kd";
-        let plan = run(folder.path(), name, plan);
-        let line = is_plain(&plan);
-        assert!(plan.status.success() && line.lines().count() == 1, "{line}");
+        let line = run(folder.path(), name, plan, RIGHT);
+        assert_eq!(line.lines().count(), 1, "{line}");
         let program = env!("CARGO_BIN_EXE_sahara");
         let script = line.trim_end().replacen("sahara", &format!("'{program}' --quiet"), 1);
         let Ok(done) = Command::new("bash").args(["-c", &script]).current_dir(folder.path()).output() else { continue };
         assert_eq!(done.status.code(), Some(RIGHT), "{script}: {}", stderr(&done));
-        let again = run(folder.path(), name, "study compare @.obj --rays 16 --epochs 1 -s sah-kd --dir @.jobs");
-        assert_eq!(again.status.code(), Some(RIGHT), "{}", stderr(&again));
+        run(folder.path(), name, "study compare @.obj --rays 16 --epochs 1 -s sah-kd --dir @.jobs", RIGHT);
     }
 }
 
 #[test]
 fn what_must_be_text_is_named_where_it_is_none() {
-    let args = [OsStr::new("compare"), OsStr::new("cube"), OsStr::new("-s"), OsStr::from_bytes(b"sah\xff")];
-    let output = command(&[]).args(args).output().unwrap();
-    let said = is_plain(&output);
-    assert_eq!(output.status.code(), Some(USAGE));
+    let mut compare = command(&["compare", "cube", "-s"]);
+    let (_, said) = ends(USAGE, compare.arg(OsStr::from_bytes(b"sah\xff")));
     assert!(said.lines().count() == 1 && said.contains("$'sah\\xff' is not UTF-8"), "{said}");
     for args in [&["compare", "\u{1b}[31m"][..], &["\u{1b}[31m"], &["compare", "cube", "--\u{1b}[31m"]] {
-        let output = command(args).output().unwrap();
-        assert!(is_plain(&output).contains("\\u{1b}[31m"), "{args:?}");
-        assert_eq!(output.status.code(), Some(USAGE));
+        let (_, said) = ends(USAGE, &mut command(args));
+        assert!(said.contains("\\u{1b}[31m") && !said.contains('\u{1b}'), "{args:?}: {said}");
     }
 }

@@ -3,9 +3,7 @@
 use std::fs::File;
 use std::process::Stdio;
 
-use super::command::{RIGHT, USAGE, WRONG, command, path_text, stderr, stdout, words, write};
-
-const REFUSED: i32 = 5;
+use super::command::{NOT_BUILT, RIGHT, USAGE, WRONG, at, command, ends, stderr, words, write};
 
 /// The status with this standard output.
 fn status(line: &str, out: impl Into<Stdio>) -> i32 {
@@ -48,7 +46,7 @@ fn a_verdict_outlives_the_reader_of_its_output() {
         ("study accuracy cube -s sah-kd --rays 64 --in-process", RIGHT),
         (wrong, WRONG),
         ("validate --hard cube_random -s sah-kd --rays 64", RIGHT),
-        (&refused, REFUSED),
+        (&refused, NOT_BUILT),
         ("compare sponsa", USAGE),
     ] {
         // No process can have read anything.
@@ -65,16 +63,13 @@ fn a_verdict_outlives_the_reader_of_its_output() {
 fn a_builder_that_panics_is_a_sentence_and_no_backtrace() {
     let folder = tempfile::tempdir().unwrap();
     let huge = huge(&folder);
-    let all = ["-s", "obvhs-cwbvh", "-s", "sah-kd", "--rays", "10"];
-    for command_name in ["validate", "compare"] {
-        let args = [&["--quiet", command_name, &huge], &all[..]].concat();
-        let output = command(&args).env("RUST_BACKTRACE", "1").output().unwrap();
-        assert_eq!((stderr(&output), output.status.code()), (String::new(), Some(REFUSED)), "{command_name}");
-        assert_eq!(stdout(&output).matches("its builder panicked on this mesh").count(), 1, "{}", stdout(&output));
+    let run = |line: &str, status| ends(status, command(&words(line)).env("RUST_BACKTRACE", "1"));
+    for command in ["validate", "compare"] {
+        let line = format!("--quiet {command} {huge} -s obvhs-cwbvh -s sah-kd --rays 10");
+        let (text, message) = run(&line, NOT_BUILT);
+        assert_eq!(message, "", "{command}");
+        assert_eq!(text.matches("its builder panicked on this mesh").count(), 1, "{text}");
     }
-    let picture = path_text(&folder.path().join("x.png"));
-    let args = ["render", &huge, "-s", "obvhs-cwbvh", "-o", &picture];
-    let output = command(&args).env("RUST_BACKTRACE", "1").output().unwrap();
-    let message = stderr(&output);
+    let (_, message) = run(&format!("render {huge} -s obvhs-cwbvh -o {}", at(&folder, "x.png")), USAGE);
     assert!(message.lines().count() == 1 && message.contains("its builder panicked"), "{message}");
 }

@@ -8,58 +8,57 @@ use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
 
 use super::command::{
-    RIGHT, SQUARE, command, json, prints, refused_in_a_line, refuses, refuses_in_a_line, sahara, stderr, stdout, write,
+    RIGHT, SQUARE, command, ends, json, prints, refused_in_a_line, refuses, refuses_in_a_line, stderr, words, write,
 };
 use super::journal::answers;
 
 /// A study of seconds.
-const SMALL: [&str; 9] = ["attribution", "--rays", "64", "--runs", "1", "--budget", "1", "--epochs", "2"];
-const SCENES: [&str; 3] = ["--scenes", "cube", "sphere"];
+const SMALL: &str = "attribution --rays 64 --runs 1 --budget 1 --epochs 2";
 
 /// The lines of a plan.
-pub fn plan(folder: &Path, args: &[&str]) -> Vec<String> {
-    let dir = folder.to_str().unwrap();
-    let text = prints(&[&["study", "plan"], args, &["--dir", dir]].concat());
-    text.lines().map(String::from).collect()
+pub fn plan(folder: &Path, args: &str) -> Vec<String> {
+    let args = [words("study plan"), words(args), vec!["--dir", folder.to_str().unwrap()]].concat();
+    prints(&args).lines().map(String::from).collect()
 }
 
-/// The words that a shell makes of a line.
-fn words(line: &str) -> Vec<String> {
+/// The words that a shell makes of a line of a plan.
+fn shell_words(line: &str) -> Vec<String> {
     let words = shlex::split(line).unwrap_or_else(|| panic!("{line}"));
     assert_eq!(words[0], "sahara", "{line}");
     words
 }
 
 pub fn file(line: &str) -> PathBuf {
-    let words = words(line);
+    let words = shell_words(line);
     assert_eq!(words[words.len() - 2], "--out", "{line}");
     words[words.len() - 1].clone().into()
 }
 
 /// A job, as a shell on some machine would start it.
 pub fn job(line: &str) -> Command {
-    let words = words(line);
+    let words = shell_words(line);
     let mut command = command(&words[1..].iter().map(String::as_str).collect::<Vec<_>>());
     command.stdout(Stdio::piped()).stderr(Stdio::piped());
     command
 }
 
-fn run(line: &str) -> Output {
-    job(line).output().unwrap()
+/// Runs a job, which must succeed; returns its log.
+fn done(line: &str) -> String {
+    let (text, log) = ends(RIGHT, &mut job(line));
+    assert!(text.is_empty() && file(line).is_file());
+    log
 }
 
-fn done(line: &str) {
-    let output = run(line);
-    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
-    assert!(output.stdout.is_empty() && file(line).is_file());
-    assert!(stderr(&output).starts_with("measuring "), "its log says what it was: {}", stderr(&output));
+#[track_caller]
+fn refused(line: &str, parts: &[&str]) {
+    refused_in_a_line(&job(line).output().unwrap(), parts);
 }
 
 #[test]
 fn a_plan_is_one_command_a_case_with_a_file_of_its_own() {
     let folder = TempDir::new().unwrap();
     let dir = folder.path().join("my runs");
-    let args = [&SMALL[..], &SCENES].concat();
+    let args = format!("{SMALL} --scenes cube sphere");
     let lines = plan(&dir, &args);
     assert_eq!(lines.len(), 4, "two epochs of two scenes");
     assert_eq!(plan(&dir, &args), lines, "the same plan has the same names");
@@ -72,10 +71,8 @@ fn a_plan_is_one_command_a_case_with_a_file_of_its_own() {
     assert!(files.len() == 4 && !dir.exists(), "nothing is made");
 
     // A repeated study is planned once; scenes add up, as in all commands.
-    let planned = |names: &[&str]| plan(&dir, &[names, &["--scenes", "cube"]].concat());
-    assert_eq!(planned(&["compare", "compare"]), planned(&["compare"]));
-    let torus = ["compare", "--scenes", "torus"];
-    assert_eq!(planned(&torus), plan(&dir, &[&torus[..], &["cube"]].concat()));
+    assert_eq!(plan(&dir, "compare compare --scenes cube"), plan(&dir, "compare --scenes cube"));
+    assert_eq!(plan(&dir, "compare --scenes torus --scenes cube"), plan(&dir, "compare --scenes torus cube"));
 
     // All studies, in the quick version.
     let text = prints(&["study", "plan", "--quick", "--dir", "r"]);
@@ -88,7 +85,7 @@ fn a_plan_is_one_command_a_case_with_a_file_of_its_own() {
 
 #[test]
 fn what_cannot_be_planned_is_one_sentence() {
-    let plan = |line: &'static str| [&["study", "plan"], &line.split(' ').collect::<Vec<_>>()[..]].concat();
+    let plan = |line: &'static str| [words("study plan"), words(line)].concat();
     // A repeated option, at any place; one of them may come from the preset.
     let twice = "cannot be used multiple times";
     for (line, parts) in [
@@ -119,20 +116,21 @@ fn what_cannot_be_planned_is_one_sentence() {
 fn jobs_in_any_order_are_the_study() {
     let folder = TempDir::new().unwrap();
     let [apart, one] = ["apart", "one"].map(|name| folder.path().join(name));
-    let lines = plan(&apart, &[&SMALL[..], &SCENES].concat());
+    let lines = plan(&apart, &format!("{SMALL} --scenes cube sphere"));
     // The last one first.
-    lines.iter().rev().for_each(|line| done(line));
-    let study = |dir: &Path, more: &[&str]| {
-        let own = ["study", "attribution", "cube", "sphere", "--dir", dir.to_str().unwrap()];
-        prints(&[&own[..], &SMALL[1..], more].concat())
-    };
-    study(&one, &["--in-process"]);
+    for line in lines.iter().rev() {
+        let log = done(line);
+        assert!(log.starts_with("measuring "), "its log says what it was: {log}");
+    }
+    let study =
+        |dir: &Path, more: &str| prints(&words(&format!("study {SMALL} --dir {}{more} cube sphere", dir.display())));
+    study(&one, " --in-process");
     assert_eq!(answers(&apart, "attribution").len(), 4);
     assert_eq!(answers(&apart, "attribution"), answers(&one, "attribution"));
 
     // The files are the journal of the study: nothing remains to be measured, and nothing changes.
     let before: Vec<Vec<u8>> = lines.iter().map(|line| fs::read(file(line)).unwrap()).collect();
-    assert!(study(&apart, &[]).contains("Cube"));
+    assert!(study(&apart, "").contains("Cube"));
     assert_eq!(lines.iter().map(|line| fs::read(file(line)).unwrap()).collect::<Vec<_>>(), before);
     assert_eq!(fs::read_dir(apart.join("attribution")).unwrap().count(), 4);
 
@@ -146,30 +144,10 @@ fn jobs_in_any_order_are_the_study() {
 }
 
 #[test]
-fn a_report_shows_the_newest_of_each_scene_and_names_what_else_there_is() {
-    let folder = TempDir::new().unwrap();
-    let [runs, page] = ["runs", "page"].map(|name| folder.path().join(name));
-    let own = ["-s", "sah-kd", "-s", "obvhs-bvh2", "-w", "primary", "--rays", "256", "--epochs", "2", "--budget", "1"];
-    let lines = plan(&runs, &[&["compare", "--scenes", "cube", "torus"][..], &own].concat());
-    lines.iter().for_each(|line| done(line));
-    // As if another machine had measured one of them before.
-    let mut case = json(file(&lines[2]));
-    case["provenance"]["cpu"] = "Another Processor".into();
-    case["provenance"]["date"] = "2020-01-01T00:00:00Z".into();
-    fs::write(runs.join("compare/other.json"), case.to_string()).unwrap();
-    let output = sahara(&["report", "--no-pictures", "-o", page.to_str().unwrap(), runs.to_str().unwrap()]);
-    assert_eq!(output.status.code(), Some(RIGHT), "{}", stderr(&output));
-    let told = stdout(&output);
-    assert!(told.contains("not measured"), "{told}");
-    let csv = fs::read_to_string(page.join("data/compare.csv")).unwrap();
-    assert!(csv.lines().count() == 5, "{csv}");
-}
-
-#[test]
 fn a_job_measures_once_and_refuses_what_is_not_its_own() {
     let folder = TempDir::new().unwrap();
     let mesh = write(&folder, "square.obj", SQUARE);
-    let lines = plan(folder.path(), &[&SMALL[..], &["--scenes", &mesh]].concat());
+    let lines = plan(folder.path(), &format!("{SMALL} --scenes {mesh}"));
     // Of two jobs for one file one wins, and both succeed.
     let both = [0, 1].map(|_| job(&lines[0]).spawn().unwrap());
     let both = both.map(|child| child.wait_with_output().unwrap());
@@ -185,33 +163,31 @@ fn a_job_measures_once_and_refuses_what_is_not_its_own() {
     // A repeated job loads nothing.
     let away = folder.path().join("away.obj");
     fs::rename(&mesh, &away).unwrap();
-    let again = run(&lines[0]);
-    assert_eq!(again.status.code(), Some(RIGHT), "{}", stderr(&again));
-    assert!(stderr(&again).contains("nothing is measured") && stderr(&again).lines().count() == 1);
-    refused_in_a_line(&run(&lines[1]), &[&mesh]);
+    let log = done(&lines[0]);
+    assert!(log.contains("nothing is measured") && log.lines().count() == 1, "{log}");
+    refused(&lines[1], &[&mesh]);
     fs::rename(&away, &mesh).unwrap();
 
-    let refused = |line: &str, part: &str| refused_in_a_line(&run(line), &[part]);
-    refused(&lines[1].replace(file(&lines[1]).to_str().unwrap(), path.to_str().unwrap()), "holds another case");
+    refused(&lines[1].replace(file(&lines[1]).to_str().unwrap(), path.to_str().unwrap()), &["holds another case"]);
     assert_eq!(fs::read(&path).unwrap(), before);
     // Its scene must be unchanged since the plan, and each thread needs a core.
     let hash = lines[1].split("\"hash\":\"").nth(1).unwrap()[..16].to_owned();
-    refused(&lines[1].replace(&hash, "0123456789abcdef"), "plan it again");
-    refused(&lines[1].replace(&format!("\"word\":\"{mesh}"), "\"word\":\"torus"), "plan it again");
+    refused(&lines[1].replace(&hash, "0123456789abcdef"), &["plan it again"]);
+    refused(&lines[1].replace(&format!("\"word\":\"{mesh}"), "\"word\":\"torus"), &["plan it again"]);
     let cores = std::thread::available_parallelism().unwrap().get();
-    let threads = (cores + 1).to_string();
-    let many = plan(folder.path(), &[&SMALL[..], &["--scenes", &mesh, "--threads", &threads]].concat());
-    refused_in_a_line(&run(&many[0]), &["cannot be measured", &format!("{threads} threads share {cores} core")]);
+    let threads = cores + 1;
+    let many = plan(folder.path(), &format!("{SMALL} --scenes {mesh} --threads {threads}"));
+    refused(&many[0], &["cannot be measured", &format!("{threads} threads share {cores} core")]);
     assert!(!file(&lines[1]).exists() && !file(&many[0]).exists());
 }
 
 #[test]
 fn what_cannot_be_written_is_one_sentence_and_no_file() {
     let folder = TempDir::new().unwrap();
-    let lines = plan(&folder.path().join("runs"), &[&SMALL[..], &["--scenes", "cube"]].concat());
+    let lines = plan(&folder.path().join("runs"), &format!("{SMALL} --scenes cube"));
     // A file has the place of the folder.
     fs::write(folder.path().join("runs"), "x").unwrap();
-    refused_in_a_line(&run(&lines[0]), &["cannot write", "runs/attribution"]);
+    refused(&lines[0], &["cannot write", "runs/attribution"]);
     fs::remove_file(folder.path().join("runs")).unwrap();
 
     // As on a full disk: the system accepts at most a thousand bytes per file.

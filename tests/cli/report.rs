@@ -5,7 +5,7 @@ use std::path::Path;
 
 use tempfile::TempDir;
 
-use super::command::{prints, refuses_in_a_line, words};
+use super::command::{at, prints, refuses_in_a_line, unwrapped, words};
 
 fn text(path: &Path) -> &str {
     path.to_str().expect("the path is UTF-8")
@@ -14,9 +14,8 @@ fn text(path: &Path) -> &str {
 /// A folder with a comparison of the torus.
 fn runs() -> TempDir {
     let folder = TempDir::new().unwrap();
-    let file = folder.path().join("compare.json");
     let small = "compare torus -s median-kd -s sah-kd --rays 500 --runs 1 --epochs 1 --export-json";
-    prints(&[words(small), vec![text(&file)]].concat());
+    prints(&[words(small), vec![&at(&folder, "compare.json")]].concat());
     folder
 }
 
@@ -30,14 +29,8 @@ fn a_report_is_written_whole_with_pictures_and_again_in_its_place() {
         assert_eq!(parts.map(|part| said.matches(part).count()), [1; 3], "{said}");
     }
     let page = fs::read_to_string(output.join("index.html")).unwrap();
-    for part in [
-        "data:image/png;base64,",
-        "heat-torus",
-        "speed-torus",
-        "<svg viewBox",
-        "type=\"range\"",
-        "prefers-color-scheme",
-    ] {
+    for part in words("data:image/png;base64, heat-torus speed-torus <svg viewBox type=\"range\" prefers-color-scheme")
+    {
         assert!(page.contains(part), "{part}");
     }
     for file in ["report.md", "data/compare.csv", "figures/speed-torus.svg", "figures/scenes-1.png"] {
@@ -52,11 +45,9 @@ fn a_report_is_written_whole_with_pictures_and_again_in_its_place() {
 
     // Heat has one scale on the page and in a picture: the costliest tree is on the page.
     let scale: u64 = page.split("--hottest ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
-    let said = prints(&["render", "torus", "--view", "heat", "-o", text(&place.path().join("heat.png"))]);
-    assert!(
-        said.contains("512 x 527 pixels") && said.contains(&format!("colour bar runs from 0 to {scale} ")),
-        "{said}"
-    );
+    let said = prints(&["render", "torus", "--view", "heat", "-o", &at(&place, "heat.png")]);
+    let bar = format!("colour bar runs from 0 to {scale} ");
+    assert!(said.contains("512 x 527 pixels") && said.contains(&bar), "{said}");
 }
 
 #[test]
@@ -73,9 +64,6 @@ fn what_cannot_be_reported_leaves_everything_as_it_was() {
     let bytes = fs::read(runs.path().join("compare.json")).unwrap();
     fs::write(runs.path().join("torn.json"), &bytes[..bytes.len() / 2]).unwrap();
     refuses_in_a_line(&["report", run, "-o", text(&new)], &["torn.json", "cannot be parsed"]);
-    refuses_in_a_line(&["report", text(&place.path().join("none")), "-o", text(&new)], &["none"]);
-    let empty = TempDir::new().unwrap();
-    refuses_in_a_line(&["report", text(empty.path()), "-o", text(&new)], &["no run", "sahara study all"]);
     assert_eq!(fs::read_dir(place.path()).unwrap().count(), 1);
 }
 
@@ -92,10 +80,8 @@ fn results_are_written_with_the_numbers_of_the_readme_beside_them() {
     fs::write(&readme, marked).unwrap();
     prints(&["report", text(runs.path()), &results]);
     let filled = fs::read_to_string(&readme).unwrap();
-    // Lines wrap anywhere.
-    let words = filled.split_whitespace().collect::<Vec<_>>().join(" ");
     for part in ["by another tree, brute force and exact arithmetic", "(`sahara study replicate --dir runs`)"] {
-        assert!(words.contains(part), "{filled}");
+        assert!(unwrapped(&filled).contains(part), "{filled}");
     }
     let paper = fs::read_to_string(papers.join("RESULTS.md")).unwrap();
     assert!(paper.starts_with("# Results\n") && paper.contains("Not measured in this run: "), "{paper}");

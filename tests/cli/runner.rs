@@ -1,7 +1,6 @@
 //! `sahara compare --runner`: other programs, good and bad ones.
 
 use std::fs;
-use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::process::Command;
 
@@ -9,7 +8,8 @@ use serde_json::Value;
 use tempfile::TempDir;
 
 use super::command::{
-    NOT_BUILT, RIGHT, WRONG, path_text, prints, refuses_in_a_line, sahara, stderr, stdout, words, write,
+    NOT_BUILT, RIGHT, WRONG, at, command, ends, path_text, prints, program, refuses_in_a_line, sahara, stderr,
+    unwrapped, words, write,
 };
 
 const EXAMPLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/runner/brute_force.cpp");
@@ -31,12 +31,12 @@ fn compiled(folder: &TempDir, name: &str, change: impl Fn(String) -> String) -> 
 const SMALL: [&str; 13] =
     ["compare", "cube", "-s", "sah-kd", "-w", "primary", "-w", "shadow", "--rays", "400", "--epochs", "2", "--runner"];
 
-fn records(folder: &TempDir, args: &[&str]) -> (Option<i32>, String, Vec<Value>) {
-    let file = path_text(&folder.path().join("r.json"));
-    let output = sahara(&[args, &["--export-json", &file]].concat());
-    let records = super::journal::rows(file);
-    let words = stdout(&output) + &stderr(&output);
-    (output.status.code(), words.split_whitespace().collect::<Vec<_>>().join(" "), records)
+/// The outputs in one line, and the rows of a run, which must end with this status.
+#[track_caller]
+fn records(folder: &TempDir, args: &[&str], status: i32) -> (String, Vec<Value>) {
+    let file = at(folder, "r.json");
+    let (text, messages) = ends(status, &mut command(&[args, &["--export-json", &file]].concat()));
+    (unwrapped(&(text + &messages)), super::journal::rows(file))
 }
 
 #[test]
@@ -47,8 +47,8 @@ fn the_example_of_the_document_is_timed_beside_ours() {
     let document = include_str!("../../src/scene/files/FORMAT.md");
     assert!(lines <= 71 && document.contains("tests/runner/brute_force.cpp") && document.contains("70 lines"));
 
-    let (status, text, records) = records(&folder, &[&SMALL[..], &[&format!("'{program}' --any-argument")]].concat());
-    assert_eq!(status, Some(RIGHT), "{text}");
+    let with_argument = format!("'{program}' --any-argument");
+    let (text, records) = records(&folder, &[&SMALL[..], &[&with_argument]].concat(), RIGHT);
     assert!(text.contains("brute_force --any-argument (own clock)"), "{text}");
     let (ours, theirs) = records.split_at(records.len() / 2);
     assert_eq!((theirs.len(), &theirs[0]["name"]), (2, &"runner".into()), "{text}");
@@ -73,8 +73,7 @@ fn the_example_of_the_document_is_timed_beside_ours() {
 fn wrong_hits_of_a_program_cost_it_all_its_times_and_nobody_else() {
     let folder = TempDir::new().unwrap();
     let Some(program) = compiled(&folder, "loses", |text| text.replace("u >= 0 &&", "u >= 0.5 &&")) else { return };
-    let (status, text, records) = records(&folder, &[&SMALL[..], &[&program]].concat());
-    assert_eq!(status, Some(WRONG), "{text}");
+    let (text, records) = records(&folder, &[&SMALL[..], &[&program]].concat(), WRONG);
     assert!(text.contains("loses (own clock)") && text.contains(" wrong"), "{text}");
     // A single cube throws no shadow on itself: those rays are right, but a wrong tree has no time.
     let timed: Vec<bool> = records.iter().map(|record| !record["ns"].as_array().unwrap().is_empty()).collect();
@@ -86,9 +85,7 @@ fn wrong_hits_of_a_program_cost_it_all_its_times_and_nobody_else() {
 pub const NOTHING: &str = include_str!("../runner/nothing.sh");
 
 pub fn nothing(folder: &TempDir) -> String {
-    let path = write(folder, "nothing.sh", NOTHING);
-    fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
-    path
+    program(folder, "nothing.sh", NOTHING)
 }
 
 #[test]
@@ -109,8 +106,8 @@ fn a_program_that_fails_is_refused_in_a_sentence_and_the_others_go_on() {
     let commands: Vec<String> = failures.iter().map(|(how, _)| format!("{program} {how}")).collect();
     let runners: Vec<&str> = commands.iter().flat_map(|command| ["--runner", command]).collect();
     let small = ["compare", "cube", "-s", "sah-kd", "-w", "primary", "--rays", "256", "--epochs", "2"];
-    let (status, text, records) = records(&folder, &[&small[..], &["--runner-limit", "5"], &runners].concat());
-    assert_eq!(status, Some(5), "{text}");
+    let args = [&small[..], &["--runner-limit", "5"], &runners].concat();
+    let (text, records) = records(&folder, &args, NOT_BUILT);
     assert!(!text.contains("panicked"), "{text}");
     for (how, sentence) in failures {
         let label = format!("nothing.sh {how} (own clock): ");
@@ -136,12 +133,10 @@ fn a_program_that_fails_is_not_checked_and_not_wrong() {
         ("dies", "it ended instead of replying to \"pass 0\" (exit status: 3)."),
         ("hangs", "it does not reply to \"pass 0\" within 0.5 s: raise --runner-limit."),
     ] {
-        let command = format!("{program} {how}");
+        let runner = format!("{program} {how}");
         for what in [&scene[..], &cases] {
-            let args = [&["validate", "--runner", &command, "--runner-limit", "0.5"], what].concat();
-            let output = sahara(&args);
-            let said = stdout(&output);
-            assert_eq!(output.status.code(), Some(NOT_BUILT), "{args:?}: {said}");
+            let args = [&["validate", "--runner", &runner, "--runner-limit", "0.5"], what].concat();
+            let (said, _) = ends(NOT_BUILT, &mut command(&args));
             let last = said.split("was not checked: ").nth(1).unwrap_or_else(|| panic!("{args:?}: {said}"));
             assert!(last.starts_with(sentence) && !last.contains("write messages"), "{args:?}: {said}");
         }
@@ -163,7 +158,7 @@ fn a_slow_program_has_time_for_each_reply() {
 fn a_clock_that_disagrees_with_ours_is_told_and_what_it_declines_is_not_asked() {
     let folder = TempDir::new().unwrap();
     let program = nothing(&folder);
-    let rays = path_text(&folder.path().join("away.rays"));
+    let rays = at(&folder, "away.rays");
     let text = write(&folder, "away.txt", &"9,9,9 0,0,1\n".repeat(100));
     for (how, any, part) in
         [("liar", None, "times as long as it reports"), ("honest", Some("--any"), "declines any hit")]
@@ -172,8 +167,8 @@ fn a_clock_that_disagrees_with_ours_is_told_and_what_it_declines_is_not_asked() 
         prints(&import.into_iter().chain(any).collect::<Vec<_>>());
         let own = ["--rays", &rays, "--runner", &format!("{program} {how}")];
         let args = [&words("compare -s sah-kd --epochs 2 --runs 2 --verbose")[..], &own].concat();
-        let (status, text, records) = records(&folder, &args);
-        assert_eq!((status, records.len()), (Some(RIGHT), 2), "{text}");
+        let (text, records) = records(&folder, &args, RIGHT);
+        assert_eq!(records.len(), 2, "{text}");
         assert!(text.contains(&format!("nothing.sh {how} (own clock)")) && text.contains(part), "{text}");
         assert_eq!(records[1]["ns"].as_array().unwrap().is_empty(), any.is_some(), "{text}");
     }
@@ -198,18 +193,13 @@ fn what_is_no_runner_is_refused_before_anything_is_measured() {
         refuses_in_a_line(&["compare", "cube", "--runner", command], parts);
     }
     let folder = TempDir::new().unwrap();
-    let one = nothing(&folder);
-    fs::create_dir(folder.path().join("b")).unwrap();
-    let other = path_text(&folder.path().join("b/nothing.sh"));
-    fs::copy(Path::new(&one), &other).unwrap();
+    let (one, other) = (nothing(&folder), program(&folder, "b/nothing.sh", NOTHING));
     let suites = format!("SAH-kd={one}");
     for command in ["compare", "validate"] {
         let both = [command, "cube", "--runner", &one, "--runner", &other];
         refuses_in_a_line(&both, &["another runner share the name nothing.sh: rename the runner with NAME=COMMAND"]);
-        refuses_in_a_line(
-            &[command, "cube", "--runner", &suites],
-            &["another structure share the name SAH-kd: rename"],
-        );
+        let named = [command, "cube", "--runner", &suites];
+        refuses_in_a_line(&named, &["another structure share the name SAH-kd: rename"]);
     }
 }
 
@@ -217,11 +207,10 @@ fn what_is_no_runner_is_refused_before_anything_is_measured() {
 fn another_build_of_a_program_is_another_structure() {
     let folder = TempDir::new().unwrap();
     let program = nothing(&folder);
-    let dir = path_text(&folder.path().join("runs"));
-    let own =
-        ["-s", "sah-kd", "-w", "primary", "--rays", "256", "--epochs", "1", "--budget", "1", "--runner", &program];
+    let dir = at(&folder, "runs");
+    let own = words("compare cube -s sah-kd -w primary --rays 256 --epochs 1 --budget 1 --runner");
     // With any status: a program that finds nothing is wrong.
-    let run = || sahara(&[&["compare", "cube", "--dir", &dir][..], &own].concat());
+    let run = || sahara(&[&own[..], &[&program, "--dir", &dir]].concat());
     let cases = || super::journal::cases(Path::new(&dir), "compare").len();
     run();
     run();

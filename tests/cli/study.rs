@@ -4,19 +4,17 @@ use std::fs;
 
 use serde_json::Value;
 
-use super::command::{command, json, path_text, prints, refused_in_a_line, sahara, small, stderr, words};
+use super::command::{at, command, json, prints, refused_in_a_line, sahara, small, stderr, words};
 use super::journal;
 
 #[test]
 fn accuracy_prints_exports_and_draws_what_it_finds() {
     let directory = tempfile::tempdir().unwrap();
-    let file = |name: &str| path_text(&directory.path().join(name));
-    let (export, svg) = (file("a.json"), file("a.svg"));
+    let [export, svg, dir] = ["a.json", "a.svg", "runs"].map(|name| at(&directory, name));
     let small = "study accuracy cube --rays 300 --runs 2 --budget 1 --workload vertex --workload uniform";
     let over = "-s sah-kd -t exact -t moller-trumbore";
-    let dir = file("runs");
-    let files = ["--export-json", &export, "--plot", &svg, "--dir", &dir];
-    let printed = prints(&[words(small), words(over), files.into()].concat());
+    let files = format!("--export-json {export} --plot {svg} --dir {dir}");
+    let printed = prints(&words(&format!("{small} {over} {files}")));
     for text in [
         "vertex: 300 rays through vertices",
         "uniform: 300 camera rays and random lines",

@@ -1,7 +1,7 @@
 //! `sahara validate`, including its hard cases.
 
 use super::command::{
-    RIGHT, SQUARE, WRONG, json, path_text, prints, refuses, refuses_in_a_line, sahara, stdout, words, write,
+    RIGHT, SQUARE, WRONG, at, command, ends, json, prints, refuses, refuses_in_a_line, unwrapped, words, write,
 };
 
 #[test]
@@ -15,7 +15,7 @@ fn validation_tells_right_from_wrong() {
     assert!(printed.contains("obvhs-cwbvh: known defects (they do not change the exit status)"), "{printed}");
     assert!(printed.contains("0.5,0.25,5.0 -0.0,0.0,-1.0"), "the ray can be asked again: {printed}");
     // The hit of each structure is printed, right or wrong: the cube's front face is at z = 1.
-    let both = stdout(&sahara(&[&ray[..], &["sah-kd", "-s", "obvhs-cwbvh"]].concat()));
+    let both = prints(&[&ray[..], &["sah-kd", "-s", "obvhs-cwbvh"]].concat());
     let row = |name: &str| -> Vec<String> {
         let answers = both.split("Cube: hits").nth(1).expect("a table of hits");
         let row = answers.lines().find(|line| line.trim_start().starts_with(name)).expect("a row");
@@ -36,16 +36,12 @@ fn validation_against_exact_answers_judges_depths_strictly() {
     let corners = "v -405851.38 785724.8 -466819.28\nv 405851.56 -785725.3 466820.28\nv 365266.44 -707152.8 420138.3\n";
     let mesh = write(&directory, "needle.obj", &format!("{corners}f 1 2 3\n"));
     let ray = "49.000397,-704.82355,176.40697 -9731.703,19450.404,-11313.292";
-    let asked = |structure: &str| {
-        let against = ["--against", "brute-force:test=exact", "--strict"];
-        sahara(&[&["validate", &mesh, "--ray", ray, "-s", structure], &against[..]].concat())
-    };
-    let f64s = asked("sah-kd:test=moller-trumbore-f64");
-    assert_eq!(f64s.status.code(), Some(WRONG), "{}", stdout(&f64s));
-    let told = stdout(&f64s).split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(told.contains("115 ulps away"), "{told}");
-    let exact = asked("sah-kd:test=exact");
-    assert_eq!(exact.status.code(), Some(RIGHT), "{}", stdout(&exact));
+    for (structure, status) in [("sah-kd:test=moller-trumbore-f64", WRONG), ("sah-kd:test=exact", RIGHT)] {
+        let strict = ["--against", "brute-force:test=exact", "--strict"];
+        let args = [&["validate", &mesh, "--ray", ray, "-s", structure], &strict[..]].concat();
+        let text = unwrapped(&ends(status, &mut command(&args)).0);
+        assert_eq!(text.contains("115 ulps away"), status == WRONG, "{text}");
+    }
 }
 
 #[test]
@@ -57,10 +53,10 @@ fn hard_cases_are_named_and_tell_what_each_structure_gets_wrong() {
     assert!(list.contains("41 duplicates_20000: 200 rays\n") && list.contains("84 limits: a property\n"), "{list}");
 
     let directory = tempfile::tempdir().unwrap();
-    let export = path_text(&directory.path().join("hard.json"));
+    let export = at(&directory, "hard.json");
     let hard = "validate --hard cube_axis_negzero limits --rays 50 -s sah-kd -s obvhs-cwbvh --verbose --export-json";
     // Known defects of a baseline do not fail the run.
-    let text = prints(&[words(hard), vec![export.as_str()]].concat());
+    let text = prints(&[words(hard), vec![&export]].concat());
     let row = text.lines().find(|line| line.trim_start().starts_with("cube_axis_negzero")).expect("a row");
     assert_eq!(row.split_whitespace().collect::<Vec<_>>(), ["cube_axis_negzero", ".", "m", "100", "S", "100"]);
 
@@ -77,25 +73,23 @@ fn hard_cases_are_named_and_tell_what_each_structure_gets_wrong() {
     assert!(of("limits", "sah-kd")["rays"].is_null());
 
     // They run over the requested tests.
-    let text =
-        prints(&words("validate --hard one_triangle --rays 20 --test exact --test edge-f64 -s median-kd --verbose"));
+    let tests = "--test exact --test edge-f64 -s median-kd --verbose";
+    let text = prints(&words(&format!("validate --hard one_triangle --rays 20 {tests}")));
     assert!(text.contains("median-kd  median-kd:test=edge-f64"), "{text}");
 }
 
 #[test]
 fn what_is_named_twice_counts_once() {
-    let text = prints(&["validate", "cube", "Cube", "--rays", "100", "-s", "sah-kd"]);
-    assert_eq!(text.matches("12 triangles").count(), 1, "{text}");
-    let text = prints(&["validate", "--hard", "limits", "limits", "-s", "sah-kd", "--verbose"]);
-    let rows = text.lines().filter(|line| line.trim_start().starts_with("limits+ ")).count();
-    assert_eq!(rows, 1, "{text}");
-    let text =
-        prints(&["validate", "--hard", "one_triangle", "-s", "sah-kd", "-t", "exact", "-t", "EXACT", "--verbose"]);
-    let columns: Vec<&str> = text.lines().filter(|line| line.contains("case ")).collect();
-    assert!(!columns.is_empty() && columns.iter().all(|line| line.matches("sah-kd").count() == 1), "{columns:?}");
-    let text = prints(&words("compare cube -w primary -w primary --quick -s sah-kd --export-csv -"));
-    assert_eq!(text.lines().count(), 2, "{text}");
-    assert_eq!(prints(&["golden", "check", "cube", "Cube"]).lines().count(), 1);
+    for (line, once) in [
+        ("validate cube Cube --rays 100 -s sah-kd", "12 triangles"),
+        ("validate --hard limits limits -s sah-kd --verbose", " limits+ "),
+        ("validate --hard one_triangle -s sah-kd -t exact -t EXACT --verbose", "\n  sah-kd "),
+        ("compare cube -w primary -w primary --quick -s sah-kd --export-csv -", "\nCube,"),
+        ("golden check cube Cube", "Cube: "),
+    ] {
+        let text = prints(&words(line));
+        assert_eq!(text.matches(once).count(), 1, "{line}: {text}");
+    }
 }
 
 #[test]
@@ -129,7 +123,7 @@ fn a_wrong_reference_is_no_error_of_a_triangle_test() {
     let directory = tempfile::tempdir().unwrap();
     let huge = write(&directory, "huge.obj", "v 1e30 0 0\nv 1e30 1e30 0\nv 0 1e30 1e30\nf 1 2 3\n");
     let reference = "brute-force:test=moller-trumbore";
-    let text = prints(&["validate", &huge, "-s", "sah-kd", "--rays", "300", "--against", reference, "--verbose"]);
+    let text = prints(&words(&format!("validate {huge} -s sah-kd --rays 300 --against {reference} --verbose")));
     let row: Vec<&str> = text.lines().find(|line| line.contains("  sah-kd ")).unwrap().split_whitespace().collect();
     assert_eq!(row, ["sah-kd", "exact", "0", "0", "0", "0", "0", "0", "0", "0"], "{text}");
     assert!(text.contains("rays the reference is wrong, not sah-kd"), "{text}");

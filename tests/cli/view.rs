@@ -4,7 +4,7 @@ use sahara::image;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use super::command::{path_text, prints, refuses, refuses_in_a_line, write};
+use super::command::{at, prints, refuses, refuses_in_a_line, words, write};
 
 /// A closed box that is longer than it is wide, with its fronts inside.
 fn room(folder: &TempDir) -> String {
@@ -14,15 +14,14 @@ fn room(folder: &TempDir) -> String {
     write(folder, "room.obj", &(corners + walls))
 }
 
-const PRIMARY: [&str; 11] =
-    ["-s", "sah-kd", "-w", "primary", "--epochs", "1", "--budget", "1", "--size", "20x10", "--verbose"];
-
 #[test]
 fn a_room_is_seen_from_outside_and_says_so_or_from_inside() {
     let folder = TempDir::new().unwrap();
-    let (room, json) = (room(&folder), path_text(&folder.path().join("r.json")));
+    let (room, json) = (room(&folder), at(&folder, "r.json"));
     let compared = |view: &[&str]| {
-        let text = prints(&[&["compare", &room], &PRIMARY[..], &["--export-json", &json], view].concat());
+        let primary = "-s sah-kd -w primary --epochs 1 --budget 1 --size 20x10 --verbose";
+        let line = format!("compare {room} {primary} --export-json {json}");
+        let text = prints(&[&words(&line)[..], view].concat());
         let row = &super::journal::rows(&json)[0];
         let number = |value: &Value| value.as_u64().unwrap();
         (text.contains("from outside"), number(&row["all"]), number(&row["counts"]["hits"]))
@@ -39,15 +38,15 @@ fn a_room_is_seen_from_outside_and_says_so_or_from_inside() {
 #[test]
 fn validate_and_render_look_from_there_as_well() {
     let folder = TempDir::new().unwrap();
-    let (room, picture) = (room(&folder), path_text(&folder.path().join("p.png")));
-    let inside = [&room, "-s", "sah-kd", "--inside", "--size", "20x10"];
-    let validated = prints(&[&["validate"], &inside[..], &["--rays", "600", "--verbose"]].concat());
-    let outside = prints(&["validate", &room, "-s", "sah-kd", "--size", "20x10", "--rays", "600", "--verbose"]);
-    assert!(!validated.contains("from outside") && outside.contains("from outside"), "{outside}");
-    prints(&[&["render"], &inside[..], &["-o", &picture, "--view", "primitive"]].concat());
+    let (room, picture) = (room(&folder), at(&folder, "p.png"));
+    let [outside, inside] = ["", " --inside"].map(|inside| format!("{room} -s sah-kd --size 20x10{inside}"));
+    for (view, is_outside) in [(&outside, true), (&inside, false)] {
+        let text = prints(&words(&format!("validate {view} --rays 600 --verbose")));
+        assert_eq!(text.contains("from outside"), is_outside, "{text}");
+    }
+    prints(&words(&format!("render {inside} -o {picture} --view primitive")));
     assert_eq!(image::image_dimensions(&picture).unwrap(), (20, 10));
-    let errors = ["render", "cube", "-o", &picture, "--size", "24x24", "--view", "error", "-s", "sah-kd:test=exact"];
-    let text = prints(&errors);
+    let text = prints(&words(&format!("render cube -o {picture} --size 24x24 --view error -s sah-kd:test=exact")));
     assert!(text.contains("missed 0 (vermilion)"), "what its colours mean: {text}");
     assert_eq!(image::image_dimensions(&picture).unwrap(), (24, 24));
 
