@@ -52,14 +52,6 @@ impl Span {
     pub fn outward(low: f64, high: f64) -> Self {
         Self { low: low - low.abs() * OUTWARD, high: high + high.abs() * OUTWARD }
     }
-
-    /// The `f32` nearest to the `t` inside, if all numbers of the span round to it. Rounding is monotonic, so the ends
-    /// decide.
-    pub fn rounded(self) -> Option<f32> {
-        let (low, high) = (self.low as f32, self.high as f32);
-        // Make zero positive, as the rounding of exact `t` does.
-        (low == high).then_some(low + 0.0)
-    }
 }
 
 /// A triple product and a bound of its error.
@@ -151,7 +143,6 @@ mod tests {
                 // The approximation has two roundings fewer than the span allows.
                 let near = Span::outward(t.approximate(), t.approximate());
                 assert!(span.low <= near.high && near.low <= span.high, "{span:?} {near:?}");
-                assert!(span.rounded().is_none_or(|rounded| rounded == t.round()), "{span:?} {t:?}");
             }
             Proof::Undecided => return None,
         }
@@ -191,15 +182,5 @@ mod tests {
             }
         }
         assert!(undecided > 1000, "{undecided}");
-    }
-
-    #[test]
-    fn a_span_that_is_narrow_is_rounded() {
-        assert_eq!(Span::outward(0.1, 0.1).rounded(), Some(0.1));
-        assert_eq!(Span::outward(-0.0, 0.0).rounded().map(f32::to_bits), Some(0));
-        // Halfway between two floats.
-        let half = 1.0 + f64::from(f32::EPSILON) * 0.5;
-        assert_eq!(Span::outward(half, half).rounded(), None);
-        assert_eq!(Span::outward(1e39, 1e40).rounded(), Some(f32::INFINITY));
     }
 }

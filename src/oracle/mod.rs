@@ -3,22 +3,40 @@
 //! [`Oracle`] is fast; [`nearest`] is its brute-force reference, which tests every triangle exactly.
 
 mod filter;
-mod naive;
 mod nearest_search;
 mod tree;
-mod truth;
 
+use std::cmp::Ordering;
 use std::sync::Arc;
 
+use crate::exact::{self, ExactT};
 use crate::geometry::{Mesh, Ray};
 
-pub use naive::nearest;
-pub use truth::Truth;
+/// The exact nearest hit of a ray.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Truth {
+    /// The exact `t`.
+    pub t: ExactT,
+    /// The numbers of all triangles that are hit there, ascending; at least one.
+    pub ids: Vec<u32>,
+}
+
+impl Truth {
+    /// The `f32` nearest to `t`, ties to even.
+    pub fn rounded(&self) -> f32 {
+        self.t.round()
+    }
+
+    /// The rounded `t` and the lowest number, which an exact triangle test must return.
+    pub fn first(&self) -> (f32, u32) {
+        (self.rounded(), self.ids[0])
+    }
+}
 
 /// Finds the exact hits of rays in one mesh, in some microseconds per ray.
 ///
 /// It has three stages: a tree of boxes that loses no hit, `f64` arithmetic with a proven error bound, and exact sums
-/// of floats ([`exact`](crate::exact)) if that bound does not decide. It shares these sums with the triangle test
+/// of floats ([`exact`]) if that bound does not decide. It shares these sums with the triangle test
 /// [`Exact`](crate::triangle::Exact), and no other code with the structures and tests that it checks. The tests compare
 /// both with `exact::rational`.
 pub struct Oracle {
@@ -41,9 +59,26 @@ impl Oracle {
             return None;
         }
         let mut search = nearest_search::NearestSearch::new(ray, &self.mesh);
-        self.tree.visit(ray, &mut search);
+        self.tree.visit(ray, ray.end(), |id| search.triangle(id));
         search.truth()
     }
+}
+
+/// Like [`Oracle::nearest`], but tests every triangle exactly: for small meshes, and as the reference for [`Oracle`].
+pub fn nearest(ray: &Ray, mesh: &Mesh) -> Option<Truth> {
+    if !ray.is_valid() {
+        return None;
+    }
+    let mut nearest: Option<Truth> = None;
+    for id in mesh.solid() {
+        let Some(t) = exact::hit(ray, mesh.corners(id)).filter(|t| t.is_within(ray)) else { continue };
+        match nearest.as_mut().map(|best| (t.cmp(&best.t), best)) {
+            Some((Ordering::Greater, _)) => {}
+            Some((Ordering::Equal, best)) => best.ids.push(id),
+            Some((Ordering::Less, _)) | None => nearest = Some(Truth { t, ids: vec![id] }),
+        }
+    }
+    nearest
 }
 
 #[cfg(test)]

@@ -4,7 +4,6 @@ use glam::Vec3;
 
 use super::Truth;
 use super::filter::{Proof, Span, classify};
-use super::tree::Visitor;
 use crate::exact::{self, ExactT};
 use crate::geometry::{Mesh, Ray};
 
@@ -35,10 +34,24 @@ impl<'a> NearestSearch<'a> {
     pub fn truth(self) -> Option<Truth> {
         let mut found = self.nearest?;
         found.compute_t(self.ray);
-        let t = found.t?;
-        let rounded = found.span.rounded().unwrap_or_else(|| t.round()).to_bits();
         found.ids.sort_unstable();
-        Some(Truth { t, ids: found.ids, rounded })
+        Some(Truth { t: found.t?, ids: found.ids })
+    }
+
+    /// Tests triangle `id`. Returns the `t` beyond which there is no nearer hit.
+    pub fn triangle(&mut self, id: u32) -> f64 {
+        // A triangle with the corners of the nearest one is hit at the same `t`.
+        if let Some(nearest) = self.nearest.as_mut().filter(|n| n.corners == self.mesh.corners(id)) {
+            nearest.ids.push(id);
+        } else if let Some(mut found) = self.find(id) {
+            let order = self.nearest.as_mut().map_or(Ordering::Less, |nearest| found.compare(nearest, self.ray));
+            match (order, &mut self.nearest) {
+                (Ordering::Equal, Some(nearest)) => nearest.ids.push(id),
+                (Ordering::Less, _) => self.nearest = Some(found),
+                _ => {}
+            }
+        }
+        self.nearest.as_ref().map_or(self.t_max, |nearest| nearest.span.high)
     }
 
     /// The hit of triangle `id`, if it lies within the interval of the ray.
@@ -63,27 +76,6 @@ impl<'a> NearestSearch<'a> {
             return found.t.as_ref().is_some_and(|t| t.is_within(self.ray)).then_some(found);
         }
         Some(found)
-    }
-}
-
-impl Visitor for NearestSearch<'_> {
-    fn triangle(&mut self, id: u32) {
-        // A triangle with the corners of the nearest one is hit at the same `t`.
-        if let Some(nearest) = self.nearest.as_mut().filter(|n| n.corners == self.mesh.corners(id)) {
-            nearest.ids.push(id);
-            return;
-        }
-        let Some(mut found) = self.find(id) else { return };
-        let order = self.nearest.as_mut().map_or(Ordering::Less, |nearest| found.compare(nearest, self.ray));
-        match (order, &mut self.nearest) {
-            (Ordering::Equal, Some(nearest)) => nearest.ids.push(id),
-            (Ordering::Less, _) => self.nearest = Some(found),
-            _ => {}
-        }
-    }
-
-    fn bound(&self) -> f64 {
-        self.nearest.as_ref().map_or(self.t_max, |nearest| nearest.span.high)
     }
 }
 

@@ -46,13 +46,6 @@ const LEAF: usize = 4;
 /// The maximum number of nodes on the stack: one per level, and 2^30 triangles halved 28 times fit in a leaf.
 const STACK: usize = 32;
 
-/// Tests the triangles that the ray may hit.
-pub trait Visitor {
-    fn triangle(&mut self, id: u32);
-    /// Nodes beyond this `t` are skipped. It may only decrease.
-    fn bound(&self) -> f64;
-}
-
 impl Tree {
     pub fn new(mesh: &Mesh) -> Self {
         let mut boxes: Vec<(u32, Aabb)> = mesh.solid().map(|id| (id, mesh.triangle_bounds(id))).collect();
@@ -83,13 +76,13 @@ impl Tree {
         self.grow(second);
     }
 
-    /// Calls `visitor` for every triangle that `ray` hits in its interval up to the visitor's bound, and for some that
-    /// it misses. `ray` must be valid.
-    pub fn visit(&self, ray: &Ray, visitor: &mut impl Visitor) {
+    /// Calls `test` for every triangle that `ray` hits in its interval up to `bound`, and for some that it misses. `test`
+    /// returns the bound for the remaining triangles, which may only decrease. `ray` must be valid.
+    pub fn visit(&self, ray: &Ray, mut bound: f64, mut test: impl FnMut(u32) -> f64) {
         let enter = |index: u32, bound: f64| Some((index, near(ray, &self.nodes.get(index as usize)?.bounds, bound)?));
         let mut stack = [(0, 0.0); STACK];
         let mut waiting = 0;
-        let mut next = enter(0, visitor.bound());
+        let mut next = enter(0, bound);
         loop {
             let Some((index, near)) = next.take().or_else(|| {
                 waiting = usize::checked_sub(waiting, 1)?;
@@ -98,17 +91,16 @@ impl Tree {
                 return;
             };
             // The bound may have decreased since the node was pushed.
-            if near > visitor.bound() {
+            if near > bound {
                 continue;
             }
             match self.nodes[index as usize].kind {
                 NodeKind::Leaf { first, count } => {
                     for id in &self.ids[first as usize..][..count as usize] {
-                        visitor.triangle(*id);
+                        bound = test(*id);
                     }
                 }
                 NodeKind::Inner { second } => {
-                    let bound = visitor.bound();
                     next = match (enter(index + 1, bound), enter(second, bound)) {
                         (Some(a), Some(b)) => {
                             let (near, far) = if b.1 < a.1 { (b, a) } else { (a, b) };
@@ -153,18 +145,6 @@ mod tests {
     use crate::exact;
     use crate::oracle::tests::Numbers;
 
-    struct All(Vec<u32>);
-
-    impl Visitor for All {
-        fn triangle(&mut self, id: u32) {
-            self.0.push(id);
-        }
-
-        fn bound(&self) -> f64 {
-            f64::INFINITY
-        }
-    }
-
     #[test]
     fn every_triangle_that_is_hit_is_visited_once() {
         let mut hits = 0;
@@ -178,16 +158,16 @@ mod tests {
                 if !ray.is_valid() {
                     continue;
                 }
-                let mut all = All(vec![]);
-                tree.visit(&ray, &mut all);
-                let visited = all.0.len();
-                all.0.sort_unstable();
-                all.0.dedup();
-                assert_eq!(all.0.len(), visited, "no triangle is visited twice");
+                let mut visits = vec![0; mesh.len()];
+                tree.visit(&ray, f64::INFINITY, |id| {
+                    visits[id as usize] += 1;
+                    f64::INFINITY
+                });
+                assert!(visits.iter().all(|&visits| visits < 2), "no triangle is visited twice");
                 for id in mesh.solid() {
                     if exact::hit(&ray, mesh.corners(id)).is_some_and(|t| t.is_within(&ray)) {
                         hits += 1;
-                        assert!(all.0.binary_search(&id).is_ok(), "{ray:?} loses triangle {id}");
+                        assert_eq!(visits[id as usize], 1, "{ray:?} loses triangle {id}");
                     }
                 }
             }

@@ -48,10 +48,7 @@ fn strata_hold_what_they_promise() {
     assert!(far.iter().all(|r| r.origin.length() > 900.0));
 
     // A hit just before the float at which the interval ends, including the largest float.
-    let before_its_end = |ray: &&Ray| match oracle::nearest(ray, &mesh) {
-        Some((t, _)) => t.round() == ray.t_max,
-        None => false,
-    };
+    let before_its_end = |ray: &&Ray| oracle::nearest(ray, &mesh).is_some_and(|truth| truth.rounded() == ray.t_max);
     let rounded = Stratum::RoundedEnds.rays(&mesh, 400, 3);
     let found: Vec<&Ray> = rounded.iter().filter(before_its_end).collect();
     let largest = found.iter().filter(|ray| ray.t_max == f32::MAX).count();
