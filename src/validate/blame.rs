@@ -2,201 +2,222 @@
 
 use std::cmp::Ordering;
 
+use glam::Vec3;
+
 use super::rounding::{Margin, Precision, nearest_sure};
 use super::{DepthRule, Kind, Reference, ScalarTest};
 use crate::exact::{self, ExactT};
 use crate::geometry::{Hit, Mesh, PrimId, Ray};
 
-/// The verdict on a difference.
-pub(super) struct Blame {
-    pub kind: Kind,
-    pub sentence: String,
+/// The verdict on a difference, and its reason in one sentence.
+pub(super) type Blame = (Kind, String);
+
+/// The hits of a structure and of its reference for one ray.
+pub(super) struct Dispute<'a> {
+    pub reference: &'a Reference,
+    pub mesh: &'a Mesh,
+    pub ray: &'a Ray,
+    pub expected: Option<Hit>,
+    pub found: Option<Hit>,
 }
 
-/// Judges the hit `found` for which the reference has `expected`; `None` if they agree.
-pub(super) fn blame(
-    reference: &Reference,
-    mesh: &Mesh,
-    ray: &Ray,
-    expected: Option<Hit>,
-    found: Option<Hit>,
-) -> Option<Blame> {
-    match (reference.test, expected, found) {
-        (_, None, None) => None,
-        (_, Some(e), Some(f)) if e.same_bits(f) => None,
-        (Some(test), ..) => Some(same_test(test, mesh, ray, expected, found)),
-        (None, Some(e), Some(f)) if e.prim == f.prim && DepthRule::STRICT.allows(e.t.into(), f.t, true) => None,
-        (None, ..) => {
-            let verdict = other_test(reference.precision, mesh, ray, expected, found)?;
-            Some(match reference.disputed {
-                Some(own) => own_test(own, mesh, ray, expected, found, verdict),
-                None => verdict,
-            })
+impl Dispute<'_> {
+    /// Judges the hit of the structure; `None` if both agree.
+    pub fn blame(&self) -> Option<Blame> {
+        match (self.reference.test, self.expected, self.found) {
+            (_, None, None) => None,
+            (_, Some(e), Some(f)) if e.same_bits(f) => None,
+            (Some(test), ..) => Some(self.same_test(test)),
+            (None, Some(e), Some(f)) if e.prim == f.prim && DepthRule::STRICT.allows(e.t.into(), f.t, true) => None,
+            (None, ..) => {
+                let blame = self.other_test()?;
+                Some(match self.reference.disputed {
+                    Some(own) => self.own_test(own, blame),
+                    None => blame,
+                })
+            }
         }
     }
-}
 
-/// The verdict for two different tests. The structure's own test decides about the disputed triangles.
-fn own_test(own: ScalarTest, mesh: &Mesh, ray: &Ray, expected: Option<Hit>, found: Option<Hit>, other: Blame) -> Blame {
-    let exists = |hit: &Hit| (hit.prim.index() as usize) < mesh.len();
-    let of = |hit: Option<Hit>| hit.filter(exists).and_then(|hit| own(ray, mesh.corners(hit.prim.index())));
-    let by_the_test = |sentence: &str| verdict(Kind::TriangleTest, format!("{}, but {sentence}", other.sentence));
-    match (other.kind, found) {
-        // No traversal can return a hit that its test does not find, or does not find in front of the returned one.
-        (Kind::Lost | Kind::NearerLost, _) => match (of(expected), found) {
-            (None, _) => by_the_test("the structure's own triangle test misses it"),
-            (Some(t), Some(f)) if t >= f.t => {
-                by_the_test(&format!("the structure's own triangle test hits it at t = {t:?}"))
-            }
+    /// The verdict for two different tests. The structure's own test decides about the disputed triangles.
+    fn own_test(&self, own: ScalarTest, other: Blame) -> Blame {
+        let of = |hit: Option<Hit>| hit.and_then(|hit| own(self.ray, self.corners(hit.prim)?));
+        let by_the_test = |sentence: &str| (Kind::TriangleTest, format!("{}, but {sentence}", other.1));
+        match (other.0, self.found) {
+            // No traversal can return a hit that its test does not find, or does not find in front of the returned one.
+            (Kind::Lost | Kind::NearerLost, found) => match (of(self.expected), found) {
+                (None, _) => by_the_test("the structure's own triangle test misses it"),
+                (Some(t), Some(f)) if t >= f.t => {
+                    by_the_test(&format!("the structure's own triangle test hits it at t = {t:?}"))
+                }
+                _ => other,
+            },
+            // It may return what its test returns, right or wrong.
+            (Kind::WrongT | Kind::Invented, Some(f)) => match of(self.found) {
+                Some(t) if DepthRule::COARSE.allows(t.into(), f.t, true) => {
+                    by_the_test("the structure's own triangle test gives the same result")
+                }
+                _ => other,
+            },
             _ => other,
-        },
-        // It may return what its test returns, right or wrong.
-        (Kind::WrongT | Kind::Invented, Some(f)) => match of(found) {
-            Some(t) if DepthRule::COARSE.allows(t.into(), f.t, true) => {
-                by_the_test("the structure's own triangle test gives the same result")
-            }
-            _ => other,
-        },
-        _ => other,
+        }
     }
-}
 
-/// Relative distance of two hits.
-pub(super) fn gap(expected: Option<Hit>, found: Option<Hit>) -> f64 {
-    match (expected, found) {
-        (Some(e), Some(f)) => (f64::from(e.t) - f64::from(f.t)).abs() / f64::from(e.t.abs().max(f32::MIN_POSITIVE)),
-        _ => f64::INFINITY,
-    }
-}
-
-/// Both must return the same bits, and the reference has tested every triangle.
-fn same_test(test: ScalarTest, mesh: &Mesh, ray: &Ray, expected: Option<Hit>, found: Option<Hit>) -> Blame {
-    // The test must return this hit at this primitive.
-    if let Some(f) = found {
-        let solid = (f.prim.index() as usize) < mesh.len() && !mesh.is_degenerate(f.prim.index());
-        let tested = if solid { test(ray, mesh.corners(f.prim.index())) } else { None };
-        let right_t = expected.is_some_and(|e| e.t.to_bits() == f.t.to_bits());
-        match tested {
-            Some(t) if t.to_bits() == f.t.to_bits() => {}
-            _ if right_t => {
-                let there = tested.map_or("no hit".into(), |t| format!("t = {t:?}"));
-                return verdict(Kind::WrongPrimitive, format!("the triangle test gives {there} at {:?}", f.prim));
+    /// Both must return the same bits, and the reference has tested every triangle.
+    fn same_test(&self, test: ScalarTest) -> Blame {
+        // The test must return this hit at this primitive.
+        if let Some(f) = self.found {
+            let solid = self.corners(f.prim).filter(|_| !self.mesh.is_degenerate(f.prim.index()));
+            let right_t = self.expected.is_some_and(|e| e.t.to_bits() == f.t.to_bits());
+            match solid.and_then(|corners| test(self.ray, corners)) {
+                Some(t) if t.to_bits() == f.t.to_bits() => {}
+                tested if right_t => {
+                    let there = tested.map_or("no hit".into(), |t| format!("t = {t:?}"));
+                    return (Kind::WrongPrimitive, format!("the triangle test gives {there} at {:?}", f.prim));
+                }
+                Some(t) => {
+                    let ulps = t.to_bits().abs_diff(f.t.to_bits());
+                    let sentence = format!("the triangle test gives t = {t:?} at {:?}, {ulps} ulps away", f.prim);
+                    return (Kind::WrongT, sentence);
+                }
+                None => {
+                    let sentence = format!("the triangle test gives no hit at {:?}{}", f.prim, outside(self.ray, f));
+                    return (Kind::Invented, sentence);
+                }
             }
-            Some(t) => {
-                let ulps = t.to_bits().abs_diff(f.t.to_bits());
-                let sentence = format!("the triangle test gives t = {t:?} at {:?}, {ulps} ulps away", f.prim);
-                return verdict(Kind::WrongT, sentence);
+        }
+        match (self.expected, self.found) {
+            (Some(e), Some(f)) if f.t == e.t => self.tie(e, f),
+            (Some(e), found) if found.is_none_or(|f| f.t > e.t) => self.lost(e),
+            _ => (Kind::Invented, "the reference has no such hit".into()),
+        }
+    }
+
+    /// The structure returns less than its test found: an error if the missing hit is real.
+    fn lost(&self, expected: Hit) -> Blame {
+        let Some(nearer) = self.true_hit(expected) else {
+            let sentence = format!("by exact arithmetic the ray does not hit {:?} in its interval", expected.prim);
+            return (Kind::TriangleTest, sentence);
+        };
+        let sure = exactly(expected.prim, nearer.round());
+        let Some(f) = self.found else { return (Kind::Lost, sure) };
+        if nearer.compare(f.t).is_some_and(Ordering::is_ge) {
+            // It may cull hits behind the computed one.
+            let sentence =
+                format!("{sure}, which is not before the computed t of {:?}: the traversal may skip it", f.prim);
+            return (Kind::TriangleTest, sentence);
+        }
+        match self.true_hit(f) {
+            Some(t) if t <= nearer => (Kind::TriangleTest, format!("{sure} and {:?} no later", f.prim)),
+            Some(t) => (Kind::NearerLost, format!("{sure} and {:?} later, at t = {:?}", f.prim, t.round())),
+            None => (Kind::NearerLost, format!("{sure} and does not hit {:?} in its interval", f.prim)),
+        }
+    }
+
+    /// The same computed `t` at two primitives. The lower number must win if the traversal had to visit it.
+    fn tie(&self, expected: Hit, found: Hit) -> Blame {
+        let lower = self.true_hit(expected).filter(|t| t.compare(found.t).is_some_and(Ordering::is_le));
+        if lower.is_some() && expected.prim.index() < found.prim.index() {
+            let sentence = format!("by exact arithmetic the ray also hits {:?}, at this t or before", expected.prim);
+            return (Kind::HigherId, sentence);
+        }
+        (Kind::Tie, "both primitives have this computed t".into())
+    }
+
+    /// The nearest of both hits that is exactly a hit.
+    fn nearest(&self) -> Option<(ExactT, PrimId)> {
+        let truths = [self.expected, self.found].map(|hit| Some((self.true_hit(hit?)?, hit?.prim)));
+        truths.into_iter().flatten().min_by(|(a, _), (b, _)| a.cmp(b))
+    }
+
+    /// The structure and the reference have different tests. Exact arithmetic judges structure and test together;
+    /// differences that rounding in this precision explains are blamed on the test.
+    fn other_test(&self) -> Option<Blame> {
+        let (truth, found) = (self.nearest(), self.found);
+        if let Some(blame) = found.and_then(|hit| self.no_hit(hit, truth.as_ref())) {
+            return Some(blame);
+        }
+        // The structure compares computed depths: it has lost a hit that is computed before this one.
+        let limit = found.map_or(f64::INFINITY, |hit| hit.t.into());
+        let is_found = |t: &ExactT, prim| {
+            found.is_some_and(|f| f.prim == prim || DepthRule::STRICT.allows(t.approximate(), f.t, false))
+        };
+        if let Some((t, prim)) = truth.as_ref().filter(|(t, prim)| !is_found(t, *prim)) {
+            let margin = self.margin(*prim);
+            let kind = if found.is_some() { Kind::NearerLost } else { Kind::Lost };
+            if margin.latest() < limit && !margin.may_miss(self.ray) {
+                return Some((kind, exactly(*prim, t.round())));
+            }
+            // A test may miss the nearest triangle or place it behind a later one, but may not return a hit behind that
+            // one.
+            if self.reference.precision == Precision::Single
+                && let Some((t, prim)) = nearest_sure(self.mesh, self.ray, limit)
+            {
+                return Some((kind, exactly(prim, t as f32)));
+            }
+        }
+        self.rounded(truth)
+    }
+
+    /// The reason why no test of this precision returns that hit; `None` if one may return it.
+    fn no_hit(&self, found: Hit, truth: Option<&(ExactT, PrimId)>) -> Option<Blame> {
+        let prim = found.prim;
+        let is_there =
+            truth.is_some_and(|(t, near)| *near != prim && DepthRule::COARSE.allows(t.approximate(), found.t, false));
+        let wrong = |kind, sentence| Some((if is_there { Kind::WrongPrimitive } else { kind }, sentence));
+        if self.corners(prim).is_none() {
+            return wrong(Kind::Invented, format!("the mesh has no {prim:?}"));
+        }
+        let margin = self.margin(prim);
+        match self.true_hit(found) {
+            Some(t) if DepthRule::STRICT.allows(t.approximate(), found.t, true) || margin.may_round_to(found.t) => None,
+            Some(t) => wrong(Kind::WrongT, exactly_but_off(prim, t.round(), found.t)),
+            None if margin.may_hit(self.ray, found.t) => None,
+            None => {
+                let why = outside(self.ray, found);
+                wrong(Kind::Invented, format!("by exact arithmetic the ray does not hit {prim:?} in its interval{why}"))
+            }
+        }
+    }
+
+    /// Rounding may explain every lost or invented hit: decides whether structure or reference is wrong.
+    fn rounded(&self, truth: Option<(ExactT, PrimId)>) -> Option<Blame> {
+        let is_right = |hit: Option<Hit>| match (&truth, hit) {
+            (None, None) => true,
+            (Some((t, _)), Some(hit)) => DepthRule::STRICT.allows(t.approximate(), hit.t, true),
+            _ => false,
+        };
+        let sure = match &truth {
+            Some((t, prim)) => exactly(*prim, t.round()),
+            None => "by exact arithmetic the ray hits no such triangle in its interval".into(),
+        };
+        match (is_right(self.expected), is_right(self.found), &truth, self.found) {
+            (true, true, ..) => None,
+            (false, true, ..) => Some((Kind::Reference, sure)),
+            (_, false, Some((t, prim)), Some(f)) if *prim == f.prim => {
+                Some((Kind::Depth, exactly_but_off(*prim, t.round(), f.t)))
             }
             _ => {
-                let sentence = format!("the triangle test gives no hit at {:?}{}", f.prim, outside(ray, f));
-                return verdict(Kind::Invented, sentence);
+                let sentence = format!("{sure}; rounding in single precision may explain the difference");
+                Some((Kind::TriangleTest, sentence))
             }
         }
     }
 
-    let Some(e) = expected else {
-        return verdict(Kind::Invented, "the reference has no such hit".into());
-    };
-    match found {
-        Some(f) if f.t == e.t => tie(mesh, ray, e, f),
-        Some(f) if f.t < e.t => verdict(Kind::Invented, "the reference has no such hit".into()),
-        _ => lost(mesh, ray, e, found),
+    /// The corners of a primitive, if the mesh has it.
+    fn corners(&self, prim: PrimId) -> Option<[Vec3; 3]> {
+        ((prim.index() as usize) < self.mesh.len()).then(|| self.mesh.corners(prim.index()))
     }
-}
 
-/// The structure returns less than its test found: an error if the missing hit is real.
-fn lost(mesh: &Mesh, ray: &Ray, expected: Hit, found: Option<Hit>) -> Blame {
-    let Some(nearer) = true_hit(mesh, ray, expected) else {
-        let sentence = format!("by exact arithmetic the ray does not hit {:?} in its interval", expected.prim);
-        return verdict(Kind::TriangleTest, sentence);
-    };
-    let sure = exactly(expected.prim, nearer.round());
-    let Some(f) = found else { return verdict(Kind::Lost, sure) };
-    if nearer.compare(f.t).is_some_and(Ordering::is_ge) {
-        // It may cull hits behind the computed one.
-        let sentence = format!("{sure}, which is not before the computed t of {:?}: the traversal may skip it", f.prim);
-        return verdict(Kind::TriangleTest, sentence);
+    /// The possible rounding of the structure's test at a primitive of the mesh.
+    fn margin(&self, prim: PrimId) -> Margin {
+        Margin::new(self.ray, self.mesh.corners(prim.index()), self.reference.precision)
     }
-    match true_hit(mesh, ray, f) {
-        Some(t) if t <= nearer => verdict(Kind::TriangleTest, format!("{sure} and {:?} no later", f.prim)),
-        Some(t) => verdict(Kind::NearerLost, format!("{sure} and {:?} later, at t = {:?}", f.prim, t.round())),
-        None => verdict(Kind::NearerLost, format!("{sure} and does not hit {:?} in its interval", f.prim)),
-    }
-}
 
-/// The same computed `t` at two primitives. The lower number must win if the traversal had to visit it.
-fn tie(mesh: &Mesh, ray: &Ray, expected: Hit, found: Hit) -> Blame {
-    let lower = true_hit(mesh, ray, expected).filter(|t| t.compare(found.t).is_some_and(Ordering::is_le));
-    if lower.is_some() && expected.prim.index() < found.prim.index() {
-        return verdict(
-            Kind::HigherId,
-            format!("by exact arithmetic the ray also hits {:?}, at this t or before", expected.prim),
-        );
-    }
-    verdict(Kind::Tie, "both primitives have this computed t".into())
-}
-
-/// The nearest of two hits that is exactly a hit.
-fn nearest(mesh: &Mesh, ray: &Ray, expected: Option<Hit>, found: Option<Hit>) -> Option<(ExactT, PrimId)> {
-    let truths = [expected, found].map(|hit| Some((true_hit(mesh, ray, hit?)?, hit?.prim)));
-    truths.into_iter().flatten().min_by(|(a, _), (b, _)| a.cmp(b))
-}
-
-/// The structure and the reference have different tests. Exact arithmetic judges structure and test together;
-/// differences that rounding in this precision explains are blamed on the test.
-fn other_test(
-    precision: Precision,
-    mesh: &Mesh,
-    ray: &Ray,
-    expected: Option<Hit>,
-    found: Option<Hit>,
-) -> Option<Blame> {
-    let truth = nearest(mesh, ray, expected, found);
-    if let Some(blame) = found.and_then(|hit| no_hit(precision, mesh, ray, hit, truth.as_ref())) {
-        return Some(blame);
-    }
-    // The structure compares computed depths: it has lost a hit that is computed before this one.
-    let limit = found.map_or(f64::INFINITY, |hit| hit.t.into());
-    let is_found = |t: &ExactT, prim| {
-        found.is_some_and(|f| f.prim == prim || DepthRule::STRICT.allows(t.approximate(), f.t, false))
-    };
-    if let Some((t, prim)) = truth.as_ref().filter(|(t, prim)| !is_found(t, *prim)) {
-        let margin = Margin::new(ray, mesh.corners(prim.index()), precision);
-        let kind = if found.is_some() { Kind::NearerLost } else { Kind::Lost };
-        if margin.latest() < limit && !margin.may_miss(ray) {
-            return Some(verdict(kind, exactly(*prim, t.round())));
-        }
-        // A test may miss the nearest triangle or place it behind a later one, but may not return a hit behind that
-        // one.
-        if precision == Precision::Single
-            && let Some((t, prim)) = nearest_sure(mesh, ray, limit)
-        {
-            return Some(verdict(kind, exactly(prim, t as f32)));
-        }
-    }
-    rounded(truth, expected, found)
-}
-
-/// The reason why no test of this precision returns that hit; `None` if one may return it.
-fn no_hit(precision: Precision, mesh: &Mesh, ray: &Ray, found: Hit, truth: Option<&(ExactT, PrimId)>) -> Option<Blame> {
-    let is_there =
-        truth.is_some_and(|(t, prim)| *prim != found.prim && DepthRule::COARSE.allows(t.approximate(), found.t, false));
-    let wrong = |kind, sentence| Some(verdict(if is_there { Kind::WrongPrimitive } else { kind }, sentence));
-    if found.prim.index() as usize >= mesh.len() {
-        return wrong(Kind::Invented, format!("the mesh has no {:?}", found.prim));
-    }
-    let margin = Margin::new(ray, mesh.corners(found.prim.index()), precision);
-    match true_hit(mesh, ray, found) {
-        Some(t) if DepthRule::STRICT.allows(t.approximate(), found.t, true) || margin.may_round_to(found.t) => None,
-        Some(t) => {
-            let ulps = t.round().to_bits().abs_diff(found.t.to_bits());
-            wrong(Kind::WrongT, format!("{}, {ulps} ulps away", exactly(found.prim, t.round())))
-        }
-        None if margin.may_hit(ray, found.t) => None,
-        None => {
-            let (prim, why) = (found.prim, outside(ray, found));
-            wrong(Kind::Invented, format!("by exact arithmetic the ray does not hit {prim:?} in its interval{why}"))
-        }
+    /// The exact `t` of the primitive of a hit, if the ray meets it in its interval.
+    fn true_hit(&self, hit: Hit) -> Option<ExactT> {
+        let corners = self.corners(hit.prim).filter(|_| self.ray.is_valid())?;
+        exact::hit(self.ray, corners).filter(|t| t.is_within(self.ray))
     }
 }
 
@@ -210,42 +231,12 @@ fn outside(ray: &Ray, found: Hit) -> String {
     format!(", and t = {:?} is not in [{t_min:?}, {t_max:?}){rule}", found.t)
 }
 
-/// Rounding may explain every lost or invented hit: decides whether structure or reference is wrong.
-fn rounded(truth: Option<(ExactT, PrimId)>, expected: Option<Hit>, found: Option<Hit>) -> Option<Blame> {
-    let is_right = |hit: Option<Hit>| match (&truth, hit) {
-        (None, None) => true,
-        (Some((t, _)), Some(hit)) => DepthRule::STRICT.allows(t.approximate(), hit.t, true),
-        _ => false,
-    };
-    let sure = match &truth {
-        Some((t, prim)) => exactly(*prim, t.round()),
-        None => "by exact arithmetic the ray hits no such triangle in its interval".into(),
-    };
-    match (is_right(expected), is_right(found), &truth, found) {
-        (true, true, ..) => None,
-        (false, true, ..) => Some(verdict(Kind::Reference, sure)),
-        (_, false, Some((t, prim)), Some(f)) if *prim == f.prim => {
-            let ulps = t.round().to_bits().abs_diff(f.t.to_bits());
-            Some(verdict(Kind::Depth, format!("{sure}, {ulps} ulps away")))
-        }
-        _ => Some(verdict(
-            Kind::TriangleTest,
-            format!("{sure}; rounding in single precision may explain the difference"),
-        )),
-    }
-}
-
 /// An exact hit as a clause.
 fn exactly(prim: PrimId, t: f32) -> String {
     format!("by exact arithmetic the ray hits {prim:?} at t = {t:?}")
 }
 
-fn verdict(kind: Kind, sentence: String) -> Blame {
-    Blame { kind, sentence }
-}
-
-/// The exact `t` of the primitive of a hit, if the ray meets it in its interval.
-fn true_hit(mesh: &Mesh, ray: &Ray, hit: Hit) -> Option<ExactT> {
-    let exists = (hit.prim.index() as usize) < mesh.len() && ray.is_valid();
-    exists.then(|| exact::hit(ray, mesh.corners(hit.prim.index())))?.filter(|t| t.is_within(ray))
+/// An exact hit as a clause, and its distance from the one that was found.
+fn exactly_but_off(prim: PrimId, t: f32, found: f32) -> String {
+    format!("{}, {} ulps away", exactly(prim, t), t.to_bits().abs_diff(found.to_bits()))
 }

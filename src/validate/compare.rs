@@ -5,17 +5,75 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::blame::{Blame, blame, gap};
-use super::query_clock::{Call, QueryClock, message};
+use super::blame::Dispute;
+use super::query_clock::{Call, QueryClock};
 use super::rounding::{Precision, may_be_hit, nearest_sure};
 use super::{Kind, Reference, Validation, WorstRay};
 use crate::accel::DynAccel;
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::oracle::Oracle;
-use crate::panics::caught;
 
 /// Rays per batch. The result may depend on the batch size, so the size is fixed and does not follow the thread count.
 pub(super) const BATCH: usize = 256;
+
+/// Rays over a mesh, and the hits of a reference for them, which several comparisons can share.
+#[derive(Clone, Copy)]
+pub struct ExpectedHits<'a> {
+    pub reference: &'a Reference,
+    pub mesh: &'a Arc<Mesh>,
+    pub rays: &'a [Ray],
+    /// One per ray; the comparisons panic otherwise.
+    pub hits: &'a [Option<Hit>],
+}
+
+impl ExpectedHits<'_> {
+    fn batches(&self) -> Vec<Self> {
+        assert_eq!(self.rays.len(), self.hits.len(), "one hit per ray");
+        let batches = self.rays.chunks(BATCH).zip(self.hits.chunks(BATCH));
+        batches.map(|(rays, hits)| Self { rays, hits, ..*self }).collect()
+    }
+
+    /// The sums before the first difference.
+    fn no_difference(&self) -> Validation {
+        let hits = self.hits.iter().flatten().count() as u64;
+        Validation { rays: self.rays.len() as u64, hits, ..Validation::default() }
+    }
+
+    /// The ray with this index, for which the structure returns `found`.
+    pub(super) fn worst(&self, index: usize, found: Option<Hit>, kind: Kind, verdict: String) -> WorstRay {
+        WorstRay { index: index as u64, ray: self.rays[index], expected: self.hits[index], found, kind, verdict }
+    }
+
+    /// The sums of a batch that `kind`, a panic or an endless loop, has ended at a ray, or at the first ray of a whole
+    /// batch.
+    pub(super) fn ended(&self, call: Call, kind: Kind, why: String) -> Validation {
+        let rays = self.rays.len();
+        let (index, verdict) = match call {
+            Call::Ray(index) => (index, why),
+            Call::Batch => {
+                (0, format!("{why}; no single ray causes it, but the batch of {rays} rays that begins with this ray"))
+            }
+        };
+        Validation {
+            rays: rays as u64,
+            panics: u64::from(kind == Kind::Panicked),
+            hangs: u64::from(kind == Kind::Hangs),
+            worst: vec![self.worst(index, None, kind, verdict)],
+            ..Validation::default()
+        }
+    }
+
+    fn dispute(&self, index: usize, found: Option<Hit>) -> Dispute<'_> {
+        let Self { reference, mesh, rays, hits } = self;
+        Dispute { reference, mesh, ray: &rays[index], expected: hits[index], found }
+    }
+
+    /// Adds a hit of the structure to the sums.
+    fn tally(&self, sums: &mut Validation, index: usize, found: Option<Hit>) {
+        let Some((kind, verdict)) = self.dispute(index, found).blame() else { return };
+        sums.note(self.worst(index, found, kind, verdict), self.reference.knows_structure_errors());
+    }
+}
 
 /// Compares `subject` with `reference` on every ray. Three checks: the closest hit equals the reference's; the any-hit
 /// result agrees with the closest hit; the ray has the same hits on its own and in a batch. Batches are loaded with
@@ -26,26 +84,17 @@ pub(super) const BATCH: usize = 256;
 /// threads of the pool; the result does not depend on their number.
 /// Cost per ray: two closest-hit and two any-hit queries of `subject` and one closest-hit query of `reference`; a few
 /// microseconds more for a ray on which the hits differ.
-pub fn validate(subject: &dyn DynAccel, reference: &Reference, mesh: &Mesh, rays: &[Ray]) -> Validation {
-    validate_known(subject, reference, &reference.closest_hits(rays), mesh, rays)
+pub fn validate(subject: &dyn DynAccel, reference: &Reference, mesh: &Arc<Mesh>, rays: &[Ray]) -> Validation {
+    validate_known(subject, &ExpectedHits { reference, mesh, rays, hits: &reference.closest_hits(rays) })
 }
 
-/// Like [`validate`], but receives the hits of `reference` in `expected`: several structures can share them.
-///
-/// # Panics
-/// If there is not one hit per ray.
-pub fn validate_known(
-    subject: &dyn DynAccel,
-    reference: &Reference,
-    expected: &[Option<Hit>],
-    mesh: &Mesh,
-    rays: &[Ray],
-) -> Validation {
-    let (admitted, expected) = admitted(subject, rays, expected);
-    let batches = admitted.par_chunks(BATCH).zip(expected.par_chunks(BATCH));
-    let of_batch = |(rays, expected)| validate_batch(subject, reference, expected, mesh, rays, &QueryClock::default());
-    let batches: Vec<Validation> = batches.map(of_batch).collect();
-    Validation::of_batches(rays.len() - admitted.len(), batches)
+/// Like [`validate`], but receives the hits of the reference.
+pub fn validate_known(subject: &dyn DynAccel, expected: &ExpectedHits) -> Validation {
+    let (rays, hits) = admitted(subject, expected.rays, expected.hits);
+    let batches = ExpectedHits { rays: &rays, hits: &hits, ..*expected }.batches();
+    let of_batch = |batch| validate_batch(subject, batch, &QueryClock::default());
+    let batches: Vec<Validation> = batches.par_iter().map(of_batch).collect();
+    Validation::of_batches(expected.rays.len() - rays.len(), batches)
 }
 
 /// The rays that `subject` does not decline, and the hits of the reference for them.
@@ -56,56 +105,35 @@ pub(super) fn admitted(subject: &dyn DynAccel, rays: &[Ray], expected: &[Option<
     known.filter(|(ray, _)| capabilities.declines(ray).is_none()).unzip()
 }
 
-/// Compares `found`, closest hits from elsewhere, with `expected`, the hits of `reference`. It makes the first check of
-/// [`validate`] and not the two checks that query the structure.
+/// Compares `found`, closest hits from elsewhere, with those of the reference. It makes the first check of [`validate`]
+/// and not the two checks that query the structure.
 ///
 /// # Panics
 /// If there is not one hit per ray.
-pub fn validate_hits(
-    reference: &Reference,
-    expected: &[Option<Hit>],
-    mesh: &Mesh,
-    rays: &[Ray],
-    found: &[Option<Hit>],
-) -> Validation {
-    assert!(rays.len() == found.len() && rays.len() == expected.len(), "one hit per ray");
-    let batches = rays.par_chunks(BATCH).zip(found.par_chunks(BATCH)).zip(expected.par_chunks(BATCH));
-    let batches: Vec<Validation> = batches
-        .map(|((rays, found), expected)| {
-            let hits = expected.iter().flatten().count() as u64;
-            let mut sums = Validation { rays: rays.len() as u64, hits, ..Validation::default() };
-            for (index, ray) in rays.iter().enumerate() {
-                tally(&mut sums, reference, mesh, index, ray, expected[index], found[index]);
-            }
-            sums.keep_worst();
-            sums
-        })
-        .collect();
+pub fn validate_hits(expected: &ExpectedHits, found: &[Option<Hit>]) -> Validation {
+    assert_eq!(expected.rays.len(), found.len(), "one hit per ray");
+    let of_batch = |(batch, found): (&ExpectedHits, &[Option<Hit>])| {
+        let mut sums = batch.no_difference();
+        for (index, found) in found.iter().enumerate() {
+            batch.tally(&mut sums, index, *found);
+        }
+        sums.keep_worst();
+        sums
+    };
+    let batches: Vec<Validation> = expected.batches().par_iter().zip(found.par_chunks(BATCH)).map(of_batch).collect();
     Validation::of_batches(0, batches)
 }
 
-/// The indices of the rays on which `found` differs from `expected`, each with the kind of the difference. `expected`
-/// are the hits of another tree over the triangle test of `reference`; the kind presumes that this tree is right.
-/// Differences within the depth rule of `reference` are left out.
-pub fn differences(
-    reference: &Reference,
-    mesh: &Mesh,
-    rays: &[Ray],
-    expected: &[Option<Hit>],
-    found: &[Option<Hit>],
-) -> Vec<(usize, Kind)> {
-    let differs = |index: usize| {
-        let (expected, found) = (expected[index], found[index]);
-        if same(expected, found) {
-            return None;
-        }
-        Some((index, blame(reference, mesh, &rays[index], expected, found)?.kind))
-    };
-    (0..rays.len()).into_par_iter().filter_map(differs).collect()
+/// The indices of the rays on which `found` differs from the expected hits, each with the kind of the difference. The
+/// expected hits are those of another tree over the triangle test of the reference; the kind presumes that this tree is
+/// right. Differences within the depth rule of the reference are left out.
+pub fn differences(expected: &ExpectedHits, found: &[Option<Hit>]) -> Vec<(usize, Kind)> {
+    let differs = |index: usize| Some((index, expected.dispute(index, found[index]).blame()?.0));
+    (0..expected.rays.len()).into_par_iter().filter_map(differs).collect()
 }
 
-/// Compares `found`, any-hit results from elsewhere, with `expected`, the closest hits of `reference`. The exact oracle
-/// judges the rays on which they differ.
+/// Compares `found`, any-hit results from elsewhere, with the closest hits of the reference. The exact oracle judges the
+/// rays on which they differ.
 ///
 /// If structure and reference share the triangle test, a hit that the reference lacks is `Invented`, even if the oracle
 /// has a hit there. If rounding may explain a result, the structure `subject` also traces this ray with the closest-hit
@@ -113,27 +141,17 @@ pub fn differences(
 ///
 /// # Panics
 /// If there is not one result per ray.
-pub fn validate_any_hits(
-    reference: &Reference,
-    expected: &[Option<Hit>],
-    mesh: &Arc<Mesh>,
-    rays: &[Ray],
-    found: &[bool],
-    subject: Option<&dyn DynAccel>,
-) -> Validation {
-    assert!(rays.len() == found.len() && rays.len() == expected.len(), "one hit per ray");
-    let hits = expected.iter().flatten().count() as u64;
-    let mut sums = Validation { rays: rays.len() as u64, hits, ..Validation::default() };
+pub fn validate_any_hits(expected: &ExpectedHits, found: &[bool], subject: Option<&dyn DynAccel>) -> Validation {
+    let ExpectedHits { reference, mesh, rays, hits } = *expected;
+    assert!(rays.len() == found.len() && rays.len() == hits.len(), "one hit per ray");
+    let mut sums = expected.no_difference();
     let shares_test = reference.test.is_some();
+    // A test in single precision may find a hit that does not exist, or miss one.
+    let rounds = !shares_test && reference.precision == Precision::Single;
     let (mut oracle, mut excused) = (None, vec![]);
-    for (index, (ray, &found)) in rays.iter().zip(found).enumerate() {
-        let expected = expected[index];
-        if found == expected.is_some() {
-            continue;
-        }
+    for (index, ray) in rays.iter().enumerate().filter(|(index, _)| found[*index] != hits[*index].is_some()) {
+        let found = found[index];
         let truth = oracle.get_or_insert_with(|| Oracle::new(mesh)).nearest(ray);
-        // A test in single precision may find a hit that does not exist, or miss one.
-        let rounds = !shares_test && reference.precision == Precision::Single;
         let kind = match (found, truth.is_some()) {
             (true, _) if shares_test => Kind::Invented,
             (true, false) if rounds && may_be_hit(mesh, ray) => Kind::TriangleTest,
@@ -143,26 +161,21 @@ pub fn validate_any_hits(
             _ if shares_test => Kind::TriangleTest,
             _ => Kind::Reference,
         };
-        let verdict = match truth {
-            Some(truth) => {
-                format!("the any-hit query returns {found}; exact arithmetic finds a hit at t = {:?}", truth.rounded())
-            }
-            None => format!("the any-hit query returns {found}; exact arithmetic finds no hit in the interval"),
-        };
-        let (at, gap) = (index as u64, f64::INFINITY);
-        let ray = WorstRay { index: at, ray: *ray, expected, found: None, kind, verdict, gap };
+        let exact =
+            truth.map_or("no hit in the interval".into(), |truth| format!("a hit at t = {:?}", truth.rounded()));
+        let verdict = format!("the any-hit query returns {found}; exact arithmetic finds {exact}");
+        let ray = expected.worst(index, None, kind, verdict);
         if rounds && kind == Kind::TriangleTest { excused.push(ray) } else { sums.note(ray, shares_test) }
     }
 
     // Rounding excuses these results only if the closest-hit query rounds the same way: otherwise the two queries
     // disagree.
     let rays: Vec<Ray> = excused.iter().map(|own| own.ray).collect();
-    let closest = subject.filter(|_| !rays.is_empty()).map(|subject| subject.closest(&rays));
+    let closest = subject.filter(|_| !rays.is_empty()).map_or(vec![], |subject| subject.closest(&rays));
     for (place, mut own) in excused.into_iter().enumerate() {
-        let is_found = found[own.index as usize];
-        match closest.as_ref().map(|closest| closest[place]) {
-            Some(hit) if hit.is_some() != is_found => {
-                (own.kind, own.found) = (Kind::AnyHitDisagrees, hit);
+        match closest.get(place) {
+            Some(hit) if hit.is_some() != found[own.index as usize] => {
+                (own.kind, own.found) = (Kind::AnyHitDisagrees, *hit);
                 sums.any_hit_errors += 1;
                 sums.worst.push(own);
             }
@@ -174,61 +187,46 @@ pub fn validate_any_hits(
 }
 
 /// Compares one batch. `clock` shows the running query to another thread.
-pub(super) fn validate_batch(
-    subject: &dyn DynAccel,
-    reference: &Reference,
-    expected: &[Option<Hit>],
-    mesh: &Mesh,
-    rays: &[Ray],
-    clock: &QueryClock,
-) -> Validation {
-    let mut sums = Validation { rays: rays.len() as u64, ..Validation::default() };
-
+pub(super) fn validate_batch(subject: &dyn DynAccel, batch: &ExpectedHits, clock: &QueryClock) -> Validation {
     // Trace each ray on its own before the batch: a panic or hang then has a known ray.
-    let mut single = Vec::with_capacity(rays.len());
-    for (index, ray) in rays.iter().enumerate() {
-        match returned(clock, Call::Ray(index), || traced_alone(subject, ray)) {
+    let mut single = Vec::with_capacity(batch.rays.len());
+    for (index, ray) in batch.rays.iter().enumerate() {
+        match clock.run(Call::Ray(index), || traced_alone(subject, ray)) {
             Ok(hits) => single.push(hits),
-            Err(message) => return sums.ended(expected[index], rays, Call::Ray(index), Kind::Panicked, message),
+            Err(message) => return batch.ended(Call::Ray(index), Kind::Panicked, message),
         }
     }
     // Trace the loaded batch, as the timing does.
-    let (found, any) = match returned(clock, Call::Batch, || traced_loaded(subject, rays)) {
+    let (found, any) = match clock.run(Call::Batch, || traced_loaded(subject, batch.rays)) {
         Ok(hits) => hits,
-        Err(message) => return sums.ended(expected[0], rays, Call::Batch, Kind::Panicked, message),
+        Err(message) => return batch.ended(Call::Batch, Kind::Panicked, message),
     };
 
-    sums.hits = expected.iter().flatten().count() as u64;
+    let mut sums = batch.no_difference();
     let capabilities = subject.capabilities();
     let checks_any = capabilities.any_hit;
-    for (index, ray) in rays.iter().enumerate() {
-        let (expected, found, any) = (expected[index], found[index], any[index]);
-        if capabilities.excuses(ray, expected) {
+    for (index, ray) in batch.rays.iter().enumerate() {
+        let (found, any) = (found[index], any[index]);
+        if capabilities.excuses(ray, batch.hits[index]) {
             sums.declined += 1;
             continue;
         }
-        let mut note = |kind, verdict: String| {
-            let index = index as u64;
-            sums.worst.push(WorstRay { index, ray: *ray, expected, found, kind, verdict, gap: gap(expected, found) });
-        };
-
         // A hit that is not repeatable gets no further check.
         let (on_its_own, any_alone) = single[index];
         if !same(on_its_own, found) || checks_any && any_alone != any {
             let closest = on_its_own.map_or("none".to_owned(), |hit| format!("t = {:?} at {:?}", hit.t, hit.prim));
-            note(
-                Kind::Unrepeatable,
-                format!("traced on its own, the ray has the closest hit {closest} and the any-hit result {any_alone}"),
-            );
+            let verdict =
+                format!("traced on its own, the ray has the closest hit {closest} and the any-hit result {any_alone}");
+            sums.worst.push(batch.worst(index, found, Kind::Unrepeatable, verdict));
             sums.unrepeatable += 1;
             continue;
         }
         if checks_any && any != found.is_some() {
-            note(Kind::AnyHitDisagrees, format!("the any-hit query returns {any}"));
+            let verdict = format!("the any-hit query returns {any}");
+            sums.worst.push(batch.worst(index, found, Kind::AnyHitDisagrees, verdict));
             sums.any_hit_errors += 1;
         }
-
-        tally(&mut sums, reference, mesh, index, ray, expected, found);
+        batch.tally(&mut sums, index, found);
     }
     sums.keep_worst();
     sums
@@ -255,29 +253,6 @@ fn traced_loaded(subject: &dyn DynAccel, rays: &[Ray]) -> (Vec<Option<Hit>>, Vec
     let mut any: Vec<bool> = found.iter().map(Option::is_none).collect();
     loaded.any_hits(&mut any);
     (found, any)
-}
-
-/// The result of a query, or the message of its panic.
-fn returned<R>(clock: &QueryClock, call: Call, query: impl FnOnce() -> R) -> Result<R, String> {
-    clock.begin(call);
-    let result = caught(query);
-    clock.end();
-    result.map_err(|payload| message(payload.as_ref()))
-}
-
-fn tally(
-    sums: &mut Validation,
-    reference: &Reference,
-    mesh: &Mesh,
-    index: usize,
-    ray: &Ray,
-    expected: Option<Hit>,
-    found: Option<Hit>,
-) {
-    let Some(Blame { kind, sentence: verdict }) = blame(reference, mesh, ray, expected, found) else { return };
-    let (index, gap) = (index as u64, gap(expected, found));
-    let ray = WorstRay { index, ray: *ray, expected, found, kind, verdict, gap };
-    sums.note(ray, reference.knows_structure_errors());
 }
 
 pub(super) fn same(a: Option<Hit>, b: Option<Hit>) -> bool {

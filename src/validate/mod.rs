@@ -24,7 +24,7 @@ mod validation;
 mod watchdog;
 
 pub use adversarial::Stratum;
-pub use compare::{differences, validate, validate_any_hits, validate_hits, validate_known};
+pub use compare::{ExpectedHits, differences, validate, validate_any_hits, validate_hits, validate_known};
 pub use degenerate::{degenerate_meshes, stacked_sheets};
 pub use error_counts::{DepthRule, ErrorCounts, Outcome, Ulps, count_errors, outcome};
 pub use rate::Rate;

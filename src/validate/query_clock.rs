@@ -4,10 +4,12 @@ use std::any::Any;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
+use crate::panics::caught;
+
 /// The message of a panic.
 pub(super) fn message(payload: &(dyn Any + Send)) -> String {
-    let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());
-    let text = text.or_else(|| payload.downcast_ref::<String>().cloned());
+    let text = payload.downcast_ref::<&str>().copied();
+    let text = text.or_else(|| payload.downcast_ref::<String>().map(String::as_str));
     text.map_or("there is no message".into(), |text| format!("the message is {text:?}"))
 }
 
@@ -20,17 +22,16 @@ pub(super) enum Call {
     Batch,
 }
 
-/// The running query of a thread and its start, visible to other threads.
 #[derive(Default)]
 pub(super) struct QueryClock(Mutex<Option<(Call, Instant)>>);
 
 impl QueryClock {
-    pub fn begin(&self, call: Call) {
+    /// The result of a query, or the message of its panic.
+    pub fn run<R>(&self, call: Call, query: impl FnOnce() -> R) -> Result<R, String> {
         self.set(Some((call, Instant::now())));
-    }
-
-    pub fn end(&self) {
+        let result = caught(query);
         self.set(None);
+        result.map_err(|payload| message(payload.as_ref()))
     }
 
     fn set(&self, state: Option<(Call, Instant)>) {

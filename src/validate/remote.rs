@@ -1,11 +1,9 @@
 //! Compares a program in any language with the reference.
 
-use std::sync::Arc;
-
 use super::compare::same;
-use super::{Kind, Reference, Validation, WorstRay, validate_hits};
+use super::{ExpectedHits, Kind, Validation, validate_hits};
 use crate::accel::{BuildError, DynAccel};
-use crate::geometry::{Hit, Mesh, Ray};
+use crate::geometry::Ray;
 use crate::measure::spread;
 
 /// Rays that are traced again in another batch.
@@ -16,33 +14,24 @@ const AGAIN: usize = 256;
 ///
 /// # Errors
 /// If its program has failed: then no ray is checked.
-pub fn validate_remote(
-    subject: &dyn DynAccel,
-    reference: &Reference,
-    expected: &[Option<Hit>],
-    mesh: &Arc<Mesh>,
-    rays: &[Ray],
-) -> Result<Validation, BuildError> {
+pub fn validate_remote(subject: &dyn DynAccel, expected: &ExpectedHits) -> Result<Validation, BuildError> {
+    let rays = expected.rays;
     let found = subject.closest(rays);
-    let any = if subject.capabilities().any_hit { Some(subject.any(rays)) } else { None };
+    let any = if subject.capabilities().any_hit { subject.any(rays) } else { vec![] };
     let some: Vec<usize> = spread(&(0..rays.len()).collect::<Vec<_>>(), AGAIN);
-    let again = subject.closest(&some.iter().map(|&index| rays[index]).collect::<Vec<_>>());
+    let again = subject.closest(&some.iter().map(|&index| rays[index]).collect::<Vec<Ray>>());
     has_replied(subject)?;
 
-    let mut sums = validate_hits(reference, expected, mesh, rays, &found);
-    for (index, ray) in rays.iter().enumerate() {
-        if let Some(any) = any.as_ref().map(|any| any[index])
-            && any != found[index].is_some()
-        {
-            let verdict = format!("the any-hit query returns {any}");
-            sums.worst.push(worst(index, ray, expected[index], found[index], Kind::AnyHitDisagrees, verdict));
-            sums.any_hit_errors += 1;
-        }
+    let mut sums = validate_hits(expected, &found);
+    for (index, any) in any.into_iter().enumerate().filter(|(index, any)| *any != found[*index].is_some()) {
+        let verdict = format!("the any-hit query returns {any}");
+        sums.worst.push(expected.worst(index, found[index], Kind::AnyHitDisagrees, verdict));
+        sums.any_hit_errors += 1;
     }
-    for (&index, again) in some.iter().zip(again).filter(|(index, again)| !same(found[**index], *again)) {
-        let alone = again.map_or("a miss".to_owned(), |hit| format!("t = {:?} at {:?}", hit.t, hit.prim));
-        let verdict = format!("in another batch, the closest-hit query returns {alone}");
-        sums.worst.push(worst(index, &rays[index], expected[index], found[index], Kind::Unrepeatable, verdict));
+    for (index, again) in some.into_iter().zip(again).filter(|(index, again)| !same(found[*index], *again)) {
+        let again = again.map_or("a miss".to_owned(), |hit| format!("t = {:?} at {:?}", hit.t, hit.prim));
+        let verdict = format!("in another batch, the closest-hit query returns {again}");
+        sums.worst.push(expected.worst(index, found[index], Kind::Unrepeatable, verdict));
         sums.unrepeatable += 1;
     }
     sums.keep_worst();
@@ -56,8 +45,4 @@ pub fn validate_remote(
 pub fn has_replied(subject: &dyn DynAccel) -> Result<(), BuildError> {
     let failure = subject.remote().and_then(|remote| remote.failure());
     failure.map_or(Ok(()), |why| Err(BuildError::Remote(why)))
-}
-
-fn worst(index: usize, ray: &Ray, expected: Option<Hit>, found: Option<Hit>, kind: Kind, verdict: String) -> WorstRay {
-    WorstRay { index: index as u64, ray: *ray, expected, found, kind, verdict, gap: f64::INFINITY }
 }

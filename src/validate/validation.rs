@@ -4,7 +4,6 @@ use std::fmt::{Display, Formatter};
 
 use serde::{Deserialize, Serialize};
 
-use super::query_clock::Call;
 use crate::geometry::{Hit, Ray};
 use crate::names::named_enum;
 
@@ -62,8 +61,6 @@ pub struct WorstRay {
     pub kind: Kind,
     /// The exact result, in one sentence.
     pub verdict: String,
-    /// Relative distance of the two `t`; infinite for a hit and a miss.
-    pub gap: f64,
 }
 
 named_enum! {
@@ -125,25 +122,22 @@ impl Validation {
         self.worst.first().filter(|w| w.kind.is_error())
     }
 
-    /// The sum of all batches; `declined` further rays were not traced.
+    /// The sum of all batches, in the order of their rays; `declined` further rays were not traced.
     pub(super) fn of_batches(declined: usize, batches: impl IntoIterator<Item = Self>) -> Self {
         let mut whole = Self { declined: declined as u64, ..Self::default() };
-        batches.into_iter().for_each(|batch| whole.append(batch));
+        for mut batch in batches {
+            for ray in &mut batch.worst {
+                ray.index += whole.rays;
+            }
+            macro_rules! add {
+                ($($count:ident),*) => { $(whole.$count += batch.$count;)* };
+            }
+            add!(rays, declined, hits, differing, structure_errors, test_errors, reference_errors, answer_errors);
+            add!(depth_errors, any_hit_errors, unrepeatable, panics, hangs, ties, higher_ids);
+            whole.worst.append(&mut batch.worst);
+            whole.keep_worst();
+        }
         whole
-    }
-
-    /// Adds a comparison of further rays, which come after these.
-    pub fn append(&mut self, mut later: Self) {
-        for ray in &mut later.worst {
-            ray.index += self.rays;
-        }
-        macro_rules! add {
-            ($($count:ident),*) => { $(self.$count += later.$count;)* };
-        }
-        add!(rays, declined, hits, differing, structure_errors, test_errors, reference_errors, answer_errors);
-        add!(depth_errors, any_hit_errors, unrepeatable, panics, hangs, ties, higher_ids);
-        self.worst.append(&mut later.worst);
-        self.keep_worst();
     }
 
     /// Counts a ray on which structure and reference differ. `tells_structure_errors`: an error of the structure can be
@@ -165,37 +159,19 @@ impl Validation {
         self.worst.push(ray);
     }
 
-    /// The sums of a batch that `kind`, a panic or an endless loop, has ended at a ray, or at the first ray of a whole
-    /// batch. The reference returns `expected` for that ray.
-    pub(super) fn ended(mut self, expected: Option<Hit>, rays: &[Ray], call: Call, kind: Kind, why: String) -> Self {
-        let (index, verdict) = match call {
-            Call::Ray(index) => (index, why),
-            Call::Batch => (
-                0,
-                format!(
-                    "{why}; no single ray causes it, but the batch of {} rays that begins with this ray",
-                    rays.len()
-                ),
-            ),
-        };
-        let ray = WorstRay {
-            index: index as u64,
-            ray: rays[index],
-            expected,
-            found: None,
-            kind,
-            verdict,
-            gap: f64::INFINITY,
-        };
-        self.worst.push(ray);
-        self.panics += u64::from(kind == Kind::Panicked);
-        self.hangs += u64::from(kind == Kind::Hangs);
-        self
-    }
-
     pub(super) fn keep_worst(&mut self) {
-        self.worst.sort_by(|a, b| a.kind.cmp(&b.kind).then(b.gap.total_cmp(&a.gap)).then(a.index.cmp(&b.index)));
+        self.worst.sort_by(|a, b| a.kind.cmp(&b.kind).then(b.gap().total_cmp(&a.gap())).then(a.index.cmp(&b.index)));
         self.worst.truncate(Self::WORST);
+    }
+}
+
+impl WorstRay {
+    /// Relative distance of the two `t`; infinite for a hit and a miss.
+    fn gap(&self) -> f64 {
+        match (self.expected, self.found) {
+            (Some(e), Some(f)) => (f64::from(e.t) - f64::from(f.t)).abs() / f64::from(e.t.abs().max(f32::MIN_POSITIVE)),
+            _ => f64::INFINITY,
+        }
     }
 }
 

@@ -10,8 +10,8 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
 
-use super::compare::{BATCH, admitted, validate_batch};
-use super::query_clock::{Call, QueryClock, message};
+use super::compare::{BATCH, ExpectedHits, admitted, validate_batch};
+use super::query_clock::{QueryClock, message};
 use super::{Kind, Reference, Validation};
 use crate::accel::DynAccel;
 use crate::geometry::{Hit, Mesh, Ray};
@@ -69,14 +69,9 @@ struct ThreadState {
 }
 
 impl Comparison {
-    /// Rays, and the hits of the reference for them.
-    fn batch(&self, number: usize) -> Option<(&[Ray], &[Option<Hit>])> {
-        self.rays.chunks(BATCH).zip(self.expected.chunks(BATCH)).nth(number)
-    }
-
-    fn run(&self, number: usize, clock: &QueryClock) -> Option<Validation> {
-        let (rays, expected) = self.batch(number)?;
-        Some(validate_batch(self.subject.as_ref(), &self.reference, expected, &self.mesh, rays, clock))
+    fn batch(&self, number: usize) -> Option<ExpectedHits<'_>> {
+        let (rays, hits) = self.rays.chunks(BATCH).zip(self.expected.chunks(BATCH)).nth(number)?;
+        Some(ExpectedHits { reference: &self.reference, mesh: &self.mesh, rays, hits })
     }
 }
 
@@ -115,7 +110,8 @@ pub fn validate_watched(
                 loop {
                     let number = comparison.next.fetch_add(1, Ordering::Relaxed);
                     state.batch.store(number, Ordering::Relaxed);
-                    let Some(done) = comparison.run(number, &state.clock) else { return };
+                    let Some(batch) = comparison.batch(number) else { return };
+                    let done = validate_batch(comparison.subject.as_ref(), &batch, &state.clock);
                     if sender.send((number, done)).is_err() {
                         return;
                     }
@@ -138,11 +134,8 @@ pub fn validate_watched(
         };
         // Batches are taken in order: report the first of several hanging ones.
         if let Some((number, call)) = states.iter().filter_map(overdue).min_by_key(|(number, _)| *number) {
-            let (rays, expected) = comparison.batch(number).expect("a thread compares it");
-            let sums = Validation { rays: rays.len() as u64, ..Validation::default() };
-            let why = format!("no result within {limit:?}");
-            let first = if let Call::Ray(index) = call { index } else { 0 };
-            batches.insert(number, sums.ended(expected[first], rays, call, Kind::Hangs, why));
+            let batch = comparison.batch(number).expect("a thread compares it");
+            batches.insert(number, batch.ended(call, Kind::Hangs, format!("no result within {limit:?}")));
             return Validation::of_batches(declined, batches.into_values());
         }
     }

@@ -18,7 +18,7 @@ use crate::request;
 use crate::scene::Scene;
 use crate::scene::files::{HitFile, RayFile};
 use crate::study::Status;
-use crate::validate::{has_replied, validate_any_hits, validate_hits, watched};
+use crate::validate::{ExpectedHits, has_replied, validate_any_hits, validate_hits, watched};
 
 /// Rays per batch. The rays of a batch share one time limit.
 const BATCH: usize = 256;
@@ -78,12 +78,10 @@ impl Run<'_> {
         let reference = choice.build(scene, test)?;
         let reference_name = choice.name_for_file(&reference, test);
         let expected = closest_hits(&reference, scene, &rays, &reference_name, &waiting);
+        let expected = ExpectedHits { reference: &reference, mesh: &scene.mesh, rays: &rays, hits: &expected };
         let found = match hit_file.rays.query {
-            Query::Closest => validate_hits(&reference, &expected, &scene.mesh, &rays, &hits),
-            Query::Any => {
-                let any: Vec<bool> = hits.iter().map(Option::is_some).collect();
-                validate_any_hits(&reference, &expected, &scene.mesh, &rays, &any, None)
-            }
+            Query::Closest => validate_hits(&expected, &hits),
+            Query::Any => validate_any_hits(&expected, &hits.iter().map(Option::is_some).collect::<Vec<bool>>(), None),
         };
         drop(waiting);
         let mut notes: Vec<String> =

@@ -12,7 +12,7 @@ use crate::registry::Choice;
 use crate::report::number::plural;
 use crate::request::{self, RaySource, Structures, known_defect, left_out};
 use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
-use crate::validate::{Stratum, validate_remote, validate_watched};
+use crate::validate::{ExpectedHits, Stratum, validate_remote, validate_watched};
 
 impl Run<'_> {
     /// Compares all structures with the reference, on recorded or other rays, and prints the table.
@@ -38,7 +38,10 @@ impl Run<'_> {
                     of_structures.push(answers(&choice.label, &accel, &rays, &scene.mesh, limit));
                 }
                 match accel.remote() {
-                    Some(_) => Ok(validate_remote(accel.as_ref(), reference, expected, &scene.mesh, &rays)?),
+                    Some(_) => {
+                        let expected = ExpectedHits { reference, mesh: &scene.mesh, rays: &rays, hits: expected };
+                        Ok(validate_remote(accel.as_ref(), &expected)?)
+                    }
                     None => Ok(validate_watched(&accel, reference, expected, &scene.mesh, &rays, limit)),
                 }
             });

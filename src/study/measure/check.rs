@@ -10,7 +10,7 @@ use crate::request::BRUTE_FORCE;
 use crate::scene::{Scene, Workload};
 use crate::study::epoch::Checked;
 use crate::study::{Stage, StudyError};
-use crate::validate::{Reference, Validation, validate_any_hits, validate_hits, validate_known};
+use crate::validate::{ExpectedHits, Reference, Validation, validate_any_hits, validate_hits, validate_known};
 
 /// The feature of a workload that a structure does not support, if any: then it has no time.
 pub fn declined(accel: &dyn DynAccel, workload: &Workload) -> Option<&'static str> {
@@ -108,10 +108,11 @@ impl Checks<'_> {
             let step = rays.len().div_ceil(most).max(1);
             let rays: Vec<Ray> = rays.iter().copied().step_by(step).collect();
             let answers: Vec<Option<Hit>> = answers.iter().copied().step_by(step).collect();
+            let expected = ExpectedHits { reference, mesh: &self.scene.mesh, rays: &rays, hits: &answers };
             let accel = built.accel.as_ref();
             let found = match accel.remote() {
-                Some(_) => validate_remote(accel, reference, &answers, self.scene, &rays, workload.query),
-                None => validate_known(accel, reference, &answers, &self.scene.mesh, &rays),
+                Some(_) => validate_remote(accel, &expected, workload.query),
+                None => validate_known(accel, &expected),
             };
             (found.panics == 0).then(|| Checked::from(&found))
         };
@@ -120,18 +121,11 @@ impl Checks<'_> {
 }
 
 /// Like [`validate_known`], for a runner, where each query takes time: only the timed query is sent, once.
-fn validate_remote(
-    accel: &dyn DynAccel,
-    reference: &Reference,
-    expected: &[Option<Hit>],
-    scene: &Scene,
-    rays: &[Ray],
-    query: Query,
-) -> Validation {
+fn validate_remote(accel: &dyn DynAccel, expected: &ExpectedHits, query: Query) -> Validation {
     match query {
-        Query::Closest => validate_hits(reference, expected, &scene.mesh, rays, &accel.closest(rays)),
+        Query::Closest => validate_hits(expected, &accel.closest(expected.rays)),
         Query::Any if !accel.capabilities().any_hit => Validation::default(),
-        Query::Any => validate_any_hits(reference, expected, &scene.mesh, rays, &accel.any(rays), Some(accel)),
+        Query::Any => validate_any_hits(expected, &accel.any(expected.rays), Some(accel)),
     }
 }
 

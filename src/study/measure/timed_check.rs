@@ -16,7 +16,7 @@ use crate::registry::Registry;
 use crate::scene::{Scene, Workload};
 use crate::study::epoch::Checked;
 use crate::triangle::{Exact, TriangleTest};
-use crate::validate::{Kind, Reference, differences, validate_any_hits, validate_hits};
+use crate::validate::{ExpectedHits, Kind, Reference, differences, validate_any_hits, validate_hits};
 
 /// The minimum number of disputed rays of a workload that brute force judges.
 const FEWEST: usize = 64;
@@ -121,7 +121,7 @@ impl<'a> TimedCheck<'a> {
         let accused: Vec<usize> = match found {
             QueryResults::Any(found) => (0..rays.len()).filter(|&i| found[i] != expected[i].is_some()).collect(),
             QueryResults::Closest(found) => {
-                let differing = differences(tree, mesh, rays, expected, found);
+                let differing = differences(&ExpectedHits { reference: tree, mesh, rays, hits: expected }, found);
                 let rounds = |kind: Kind| matches!(kind, Kind::Depth | Kind::TriangleTest);
                 checked.rounded = differing.iter().filter(|(_, kind)| rounds(*kind)).count();
                 differing.into_iter().filter(|(_, kind)| kind.is_error()).map(|(index, _)| index).collect()
@@ -134,14 +134,15 @@ impl<'a> TimedCheck<'a> {
         let some = spread(&accused, (self.tests / mesh.len().max(1)).max(FEWEST));
         let disputed: Vec<Ray> = some.iter().map(|&index| rays[index]).collect();
         let truth = judge.closest_hits(&disputed);
+        let expected = ExpectedHits { reference: judge, mesh, rays: &disputed, hits: &truth };
         let judged = Checked::from(&match found {
             QueryResults::Closest(found) => {
                 let found: Vec<Option<Hit>> = some.iter().map(|&index| found[index]).collect();
-                validate_hits(judge, &truth, mesh, &disputed, &found)
+                validate_hits(&expected, &found)
             }
             QueryResults::Any(found) => {
                 let found: Vec<bool> = some.iter().map(|&index| found[index]).collect();
-                validate_any_hits(judge, &truth, mesh, &disputed, &found, Some(built.accel.as_ref()))
+                validate_any_hits(&expected, &found, Some(built.accel.as_ref()))
             }
         });
         Checked { rays: rays.len(), rounded: checked.rounded + judged.rounded, ..judged }

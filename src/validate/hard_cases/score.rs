@@ -9,7 +9,7 @@ use super::case::{HardCase, Property};
 use super::set::Set;
 use crate::accel::BuildError;
 use crate::oracle::{Oracle, Truth};
-use crate::validate::{DepthRule, ErrorCounts, Reference, Validation, count_errors, validate_hits};
+use crate::validate::{DepthRule, ErrorCounts, ExpectedHits, Reference, Validation, count_errors, validate_hits};
 
 /// The mesh, rays and exact hits of one case, computed once for all structures.
 pub struct CaseTruth {
@@ -103,12 +103,12 @@ impl CaseTruth {
             self.references.insert(test, Reference::of_test(test, &set.mesh)?);
         }
         let reference = &self.references[test];
-        let expected = reference.closest_hits(&set.rays);
-        let validation = validate_hits(reference, &expected, &set.mesh, &set.rays, &answers.hits);
+        let (mesh, rays, hits) = (&set.mesh, &set.rays, &reference.closest_hits(&set.rays));
+        let validation = validate_hits(&ExpectedHits { reference, mesh, rays, hits }, &answers.hits);
 
         let inexact = truths.iter().zip(&answers.hits).filter(|(truth, hit)| match (truth, hit) {
             (Some(truth), Some(hit)) => {
-                hit.t.to_bits() != truth.rounded().to_bits() || hit.prim.index() != truth.ids[0]
+                (hit.t.to_bits(), hit.prim.index()) != (truth.rounded().to_bits(), truth.ids[0])
             }
             (truth, hit) => truth.is_some() != hit.is_some(),
         });
