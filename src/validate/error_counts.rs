@@ -1,7 +1,7 @@
 //! Error counts: hits compared with the exact ones, for any structure and triangle test.
 
-use super::Rate;
 use crate::geometry::Hit;
+use crate::measure::beta_quantile;
 use crate::oracle::Truth;
 
 /// The condition for a wrong depth.
@@ -90,11 +90,32 @@ impl ErrorCounts {
         self.missed + self.false_hits + self.wrong_depth
     }
 
-    /// The share of rays with a wrong hit.
-    pub fn error(&self) -> Rate {
-        Rate { events: self.errors(), of: self.rays }
+    /// The share of rays with an error; `None` without rays.
+    pub fn error_share(&self) -> Option<f64> {
+        (self.rays > 0).then(|| self.errors() as f64 / self.rays as f64)
+    }
+
+    /// The upper bound of the true share with 95 % confidence, at most 1; `None` without rays.
+    ///
+    /// One-sided: at this rate so few errors would occur in 5 % of the cases. Without an error it is 1 - 0.05^(1 / n),
+    /// about 3 / n.
+    ///
+    /// # References
+    /// Clopper, Pearson: The use of confidence or fiducial limits illustrated in the case of the binomial. Biometrika
+    /// 26, 1934. Hanley, Lippman-Hand: If nothing goes wrong, is everything all right? J. Am. Med. Assoc. 249, 1983.
+    pub fn error_bound(&self) -> Option<f64> {
+        let (errors, others) = (self.errors() as f64, (self.rays - self.errors()) as f64);
+        match self.rays {
+            0 => None,
+            rays if errors == 0.0 => Some(-libm::expm1(libm::log(LEVEL) / rays as f64)),
+            _ if others == 0.0 => Some(1.0),
+            _ => Some(beta_quantile(1.0 - LEVEL, errors + 1.0, others)),
+        }
     }
 }
+
+/// The probability that the true share exceeds its bound.
+const LEVEL: f64 = 0.05;
 
 /// Counts the wrong hits on some rays.
 ///
@@ -114,7 +135,8 @@ pub fn count_errors(truths: &[Option<Truth>], answers: &[Option<Hit>], rule: Dep
         counts.hits += u64::from(truth.is_some());
         if let (Some(truth), Some(hit)) = (truth, answer) {
             if names(truth, *hit) {
-                ulps.push(off(truth, hit.t) / ulp(truth.t.approximate()));
+                let t = truth.t.approximate();
+                ulps.push((f64::from(hit.t) - t).abs() / ulp(t));
             } else {
                 counts.wrong_primitive += 1;
             }
@@ -143,11 +165,6 @@ pub fn outcome(truth: Option<&Truth>, answer: Option<Hit>, rule: DepthRule) -> O
 
 fn names(truth: &Truth, hit: Hit) -> bool {
     truth.ids.binary_search(&hit.prim.index()).is_ok()
-}
-
-/// The distance of `t` from the exact one.
-fn off(truth: &Truth, t: f32) -> f64 {
-    (f64::from(t) - truth.t.approximate()).abs()
 }
 
 /// The distance between floats around `t`, which is not negative; for numbers below the normal range, the distance
@@ -223,9 +240,27 @@ mod tests {
         let counts = count_errors(&truths, &answers, DepthRule::STRICT);
         assert_eq!((counts.hits, counts.missed, counts.false_hits), (4, 1, 1));
         assert_eq!((counts.wrong_depth, counts.wrong_primitive), (1, 1));
-        assert_eq!(counts.error(), Rate { events: 3, of: 6 });
+        assert_eq!(counts.error_share(), Some(0.5));
         assert_eq!(counts.ulps, Some(Ulps { median: 0.0, p99: 2.0, max: 2.0 }));
         assert_eq!(count_errors(&[], &[], DepthRule::STRICT), ErrorCounts::default());
+    }
+
+    #[test]
+    fn bounds_are_those_of_printed_tables_and_about_three_in_n_without_an_error() {
+        let bound = |missed, rays| ErrorCounts { missed, rays, ..ErrorCounts::default() }.error_bound();
+        for (missed, rays, printed) in
+            [(0, 10, 0.2589), (0, 100, 0.02951), (1, 10, 0.3942), (5, 10, 0.7776), (9, 10, 0.9949), (10, 10, 1.0)]
+        {
+            let found = bound(missed, rays).unwrap();
+            assert!((found - printed).abs() < 5e-5, "{missed} of {rays}: {found}");
+        }
+        assert_eq!(bound(0, 0), None);
+        for n in [100_u64, 1_000_000, 1_000_000_000] {
+            let bound = bound(0, n).unwrap();
+            // At this rate no error would occur in 5 % of the runs.
+            assert!((libm::exp(n as f64 * libm::log1p(-bound)) - 0.05).abs() < 1e-9, "{n}: {bound}");
+            assert!((bound * n as f64 - 2.9957).abs() < 0.05, "{n}: {bound}");
+        }
     }
 
     #[test]

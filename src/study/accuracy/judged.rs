@@ -70,7 +70,7 @@ impl<'a> Judged<'a> {
     fn of(structure: &'a Structure, kind: &str) -> Option<Self> {
         let rays = structure.rays.iter().find(|rays| rays.workload == kind)?;
         let errors = rays.errors.as_ref()?;
-        let (error, error_bound) = (errors.error().share()?, errors.error().bound()?);
+        let (error, error_bound) = (errors.error_share()?, errors.error_bound()?);
         let ns_per_ray = median(&rays.ns_per_ray(rays.rays))?;
         Some(Self { structure, rays, errors, ns_per_ray, error, error_bound, dominated_by: None })
     }
