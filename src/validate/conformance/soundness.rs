@@ -7,41 +7,44 @@ use std::time::Duration;
 use super::{Named, SEED, Subject, outcome};
 use crate::accel::{Counts, DynAccel};
 use crate::geometry::{Hit, Ray};
+use crate::validate::compare::same;
 use crate::validate::{Stratum, WatchError, watched};
 
-/// Hits with and without counting, and hits of loaded rays.
-struct Traced {
-    plain: Vec<Option<Hit>>,
-    loaded: Vec<Option<Hit>>,
-    counted: Vec<Option<Hit>>,
-    counts: Counts,
+/// The results of both queries.
+#[derive(Clone)]
+struct Hits {
+    closest: Vec<Option<Hit>>,
     any: Vec<bool>,
-    any_loaded: Vec<bool>,
-    any_counted: Vec<bool>,
-    any_counts: Counts,
+}
+
+/// Hits with and without counting, hits of loaded rays, and the counts of both queries.
+struct Traced {
+    plain: Hits,
+    loaded: Hits,
+    counted: Hits,
+    counts: [Counts; 2],
 }
 
 /// Runs every query within a time limit; any hit only if the structure supports it.
 fn trace(accel: &Arc<dyn DynAccel>, rays: &[Ray], limit: Duration) -> Result<Traced, WatchError> {
     let (accel, rays) = (Arc::clone(accel), rays.to_vec());
     watched(limit, move || {
-        let (none, no) = (vec![None; rays.len()], vec![false; rays.len()]);
+        let none = Hits { closest: vec![None; rays.len()], any: vec![false; rays.len()] };
         let (mut plain, mut loaded, mut counted) = (none.clone(), none.clone(), none);
-        let (mut any, mut any_loaded, mut any_counted) = (no.clone(), no.clone(), no);
-        let (mut counts, mut any_counts) = (Counts::default(), Counts::default());
-        let kept = accel.load(Cow::Borrowed(&rays));
-        accel.closest_hits(&rays, &mut plain);
-        kept.closest_hits(&mut loaded);
-        accel.closest_hits_counted(&rays, &mut counted, &mut counts);
+        let mut counts = [Counts::default(); 2];
+        let kept = accel.load(Cow::Owned(rays.clone()));
+        accel.closest_hits(&rays, &mut plain.closest);
+        kept.closest_hits(&mut loaded.closest);
+        accel.closest_hits_counted(&rays, &mut counted.closest, &mut counts[0]);
         if accel.capabilities().any_hit {
-            accel.any_hits(&rays, &mut any);
-            kept.any_hits(&mut any_loaded);
+            accel.any_hits(&rays, &mut plain.any);
+            kept.any_hits(&mut loaded.any);
             // Query again after both: loaded rays must stay unchanged.
-            kept.closest_hits(&mut loaded);
-            accel.any_hits_counted(&rays, &mut any_counted, &mut any_counts);
+            kept.closest_hits(&mut loaded.closest);
+            accel.any_hits_counted(&rays, &mut counted.any, &mut counts[1]);
         }
         drop(kept);
-        Traced { plain, loaded, counted, counts, any, any_loaded, any_counted, any_counts }
+        Traced { plain, loaded, counted, counts }
     })
 }
 
@@ -55,7 +58,7 @@ pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(),
     let mut lines = vec![];
     for (name, mesh) in meshes {
         let accel = subject.built(name, mesh)?;
-        let (observed, asks_any) = (accel.observed(), accel.capabilities().any_hit);
+        let observed = accel.observed();
         for stratum in Stratum::ALL {
             let rays = stratum.rays(mesh, count, SEED);
             let rays = accel.capabilities().admitted(&rays);
@@ -73,36 +76,33 @@ pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(),
             // The choice among several primitives at one `t` is free, unless the lowest is promised.
             let number = |h: Hit| if subject.lowest_id { h.prim.index() } else { 0 };
             let answer = |hit: Option<Hit>| hit.map(|h| (h.t, number(h)));
-            let differ = traced.plain.iter().zip(&traced.counted).position(|(a, b)| answer(*a) != answer(*b));
-            let differ = differ.or_else(|| traced.any.iter().zip(&traced.any_counted).position(|(a, b)| a != b));
-            if let Some(i) = differ {
-                lines.push(format!("{place}: counting changes the hit of ray \"{}\"", rays[i]));
+            let agree = |a: Option<Hit>, b: Option<Hit>| answer(a) == answer(b);
+            let plain = &traced.plain;
+            let differ = |other: &Hits, agree: &dyn Fn(Option<Hit>, Option<Hit>) -> bool| {
+                let same = |i: usize| agree(plain.closest[i], other.closest[i]) && plain.any[i] == other.any[i];
+                (0..rays.len()).find(|&i| !same(i))
+            };
+            let counting = differ(&traced.counted, &agree).map(|i| ("counting", i));
+            for (what, i) in counting.into_iter().chain(differ(&traced.loaded, &same).map(|i| ("loading", i))) {
+                lines.push(format!("{place}: {what} changes the hit of ray \"{}\"", rays[i]));
             }
 
-            let bits = |hit: Option<Hit>| hit.map(|h| (h.t.to_bits(), h.prim));
-            let differ = traced.plain.iter().zip(&traced.loaded).position(|(a, b)| bits(*a) != bits(*b));
-            let differ = differ.or_else(|| traced.any.iter().zip(&traced.any_loaded).position(|(a, b)| a != b));
-            if let Some(i) = differ {
-                lines.push(format!("{place}: loading changes the hit of ray \"{}\"", rays[i]));
-            }
-
-            let hit = traced.plain.iter().any(Option::is_some);
-            let mut all = vec![("closest", traced.counts)];
-            all.extend(asks_any.then_some(("any", traced.any_counts)));
-            for (which, c) in all {
-                if !observed.steps && c.steps() > 0 || !observed.tests && c.tests > 0 {
-                    lines.push(format!(
-                        "{place}: the {which}-hit query counts events that `OBSERVED` does not declare: {c:?}"
-                    ));
-                }
-                if hit && (observed.steps && c.steps() == 0 || observed.tests && c.tests == 0) {
-                    lines.push(format!(
-                        "{place}: the {which}-hit query finds hits, but counts no step or no test: {c:?}"
-                    ));
-                }
-                if c.empty_leaves > c.leaves {
-                    lines.push(format!("{place}: the {which}-hit query counts more empty leaves than leaves: {c:?}"));
-                }
+            let hit = plain.closest.iter().any(Option::is_some);
+            let queries = if accel.capabilities().any_hit { &["closest", "any"][..] } else { &["closest"] };
+            for (which, c) in queries.iter().zip(&traced.counts) {
+                let wrong = [
+                    (
+                        !observed.steps && c.steps() > 0 || !observed.tests && c.tests > 0,
+                        "counts events that `OBSERVED` does not declare",
+                    ),
+                    (
+                        hit && (observed.steps && c.steps() == 0 || observed.tests && c.tests == 0),
+                        "finds hits, but counts no step or no test",
+                    ),
+                    (c.empty_leaves > c.leaves, "counts more empty leaves than leaves"),
+                ];
+                let wrong = wrong.into_iter().filter(|(is_wrong, _)| *is_wrong);
+                lines.extend(wrong.map(|(_, what)| format!("{place}: the {which}-hit query {what}: {c:?}")));
             }
         }
     }
@@ -134,9 +134,8 @@ pub fn shapes(subject: &Subject, meshes: &[Named]) -> Result<(), String> {
             (shape.sah_cost.is_some_and(|cost| cost.is_nan() || cost < 0.0), "a SAH cost that is NaN or negative"),
             (solid > 0 && footprint.total() == 0, "no bytes"),
         ];
-        for (_, what) in wrong.iter().filter(|(wrong, _)| *wrong) {
-            lines.push(format!("{} on {name:?}: {what}: {shape:?}, {footprint:?}", subject.name));
-        }
+        let wrong = wrong.into_iter().filter(|(is_wrong, _)| *is_wrong);
+        lines.extend(wrong.map(|(_, what)| format!("{} on {name:?}: {what}: {shape:?}, {footprint:?}", subject.name)));
     }
     outcome(lines)
 }
