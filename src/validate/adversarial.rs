@@ -2,12 +2,8 @@
 
 use glam::Vec3;
 
-mod rounded_ends;
-
-pub use rounded_ends::{near_the_largest_t, rounded_ends};
-
 use super::Sampler;
-use crate::exact;
+use crate::exact::{self, ExactT};
 use crate::geometry::{Aabb, Mesh, Ray};
 use crate::names::named_enum;
 use crate::triangle::{MollerTrumbore, scalar_hit};
@@ -108,8 +104,7 @@ impl<'a> Generator<'a> {
             }
             Stratum::FarOrigins => {
                 let (target, away) = (self.on_surface(), self.sampler.pick(&[1e3, 1e4, 1e5, 1e6, 1e7, 1e8]));
-                let direction = self.sampler.direction();
-                let direction = if self.sampler.coin() { self.axis_of(direction) } else { direction };
+                let direction = self.direction_or_axis();
                 Ray::new(target - direction * (self.size * away), direction)
             }
             Stratum::NearSurface => {
@@ -143,8 +138,8 @@ impl<'a> Generator<'a> {
     }
 
     fn on_surface(&mut self) -> Vec3 {
-        let ([a, b, c], [u, v, w]) = (self.corners(), self.sampler.barycentric());
-        a * u + b * v + c * w
+        let corners = self.corners();
+        self.sampler.point_of(corners)
     }
 
     fn rotated(&mut self) -> [Vec3; 3] {
@@ -209,6 +204,11 @@ impl<'a> Generator<'a> {
         along
     }
 
+    fn direction_or_axis(&mut self) -> Vec3 {
+        let direction = self.sampler.direction();
+        if self.sampler.coin() { self.axis_of(direction) } else { direction }
+    }
+
     fn any_direction(&mut self, origin: Vec3) -> Vec3 {
         let direction = self.sampler.direction();
         match self.sampler.below(4) {
@@ -236,8 +236,7 @@ impl<'a> Generator<'a> {
     fn face_plane(&mut self) -> Ray {
         let bounds = if self.sampler.coin() { self.bounds } else { Aabb::of_points(self.corners()) };
         let axis = self.sampler.below(3);
-        let direction = self.sampler.direction();
-        let direction = if self.sampler.coin() { self.axis_of(direction) } else { direction };
+        let direction = self.direction_or_axis();
         let mut ray = Ray::new(self.origin(), direction);
         ray.origin[axis] = if self.sampler.coin() { bounds.min[axis] } else { bounds.max[axis] };
         ray.direction[axis] = self.sampler.zero();
@@ -266,8 +265,7 @@ impl<'a> Generator<'a> {
 
     fn grazing(&mut self) -> Ray {
         let [a, b, c] = self.rotated();
-        let [u, v, w] = self.sampler.barycentric();
-        let target = a * u + b * v + c * w;
+        let target = self.sampler.point_of([a, b, c]);
         let along = (b - a) * self.sampler.signed() + (c - a) * self.sampler.signed();
         let along = if along == Vec3::ZERO { self.sampler.direction() } else { along };
         let slope = self.sampler.pick(&[0.0, 1e-3, 1e-5, 1e-6, 1e-7]);
@@ -278,10 +276,9 @@ impl<'a> Generator<'a> {
 
     /// Uses the `t` of Möller-Trumbore at the target triangle; other tests agree within their rounding.
     fn window(&mut self) -> Ray {
-        let [a, b, c] = self.corners();
-        let [u, v, w] = self.sampler.barycentric();
-        let ray = self.towards(|_| a * u + b * v + c * w);
-        let t = scalar_hit::<MollerTrumbore>(&ray, [a, b, c]).unwrap_or(1.0);
+        let corners = self.corners();
+        let ray = self.towards(|own| own.sampler.point_of(corners));
+        let t = scalar_hit::<MollerTrumbore>(&ray, corners).unwrap_or(1.0);
         let (t_min, t_max) = match self.sampler.below(7) {
             0 => (0.0, t),
             1 => (0.0, t.next_up()),
@@ -312,17 +309,29 @@ impl<'a> Generator<'a> {
 
     /// Some origins are so far away that a direction short enough for the largest `t` is not denormal.
     fn rounded_end(&mut self) -> Ray {
-        let [a, b, c] = self.corners();
-        let ([u, v, w], away) = (self.sampler.barycentric(), self.sampler.pick(&[1.0, 30.0, 1e3]));
-        let target = a * u + b * v + c * w;
+        let corners = self.corners();
+        let (target, away) = (self.sampler.point_of(corners), self.sampler.pick(&[1.0, 30.0, 1e3]));
         let back = (self.origin() - target) * away;
         let mut ray = Ray::new(target + back, -back * (0.5 + self.sampler.unit()));
         let (is_far, end) = (self.sampler.coin(), self.sampler.below(3) / 2);
         if is_far {
-            ray = exact::hit(&ray, [a, b, c]).map_or(ray, |t| near_the_largest_t(&ray, t.approximate()));
+            ray = exact::hit(&ray, corners).map_or(ray, |t| near_the_largest_t(&ray, t.approximate()));
         }
-        exact::hit(&ray, [a, b, c]).map_or(ray.until(f32::MAX), |t| rounded_ends(&ray, &t)[end])
+        exact::hit(&ray, corners).map_or(ray.until(f32::MAX), |t| rounded_ends(&ray, &t)[end])
     }
+}
+
+/// `ray` with two intervals: up to the float to which `t` rounds, and from that float on. If `t` is below that float, a
+/// hit at `t` belongs to the first interval and not to the second.
+pub fn rounded_ends(ray: &Ray, t: &ExactT) -> [Ray; 2] {
+    let end = t.round();
+    [ray.until(end), Ray { t_min: end, ..*ray }]
+}
+
+/// `ray` with a direction so short that its hit at `t` moves close to the largest float, as precisely as the direction
+/// can be rounded.
+pub fn near_the_largest_t(ray: &Ray, t: f64) -> Ray {
+    Ray { direction: (ray.direction.as_dvec3() * (t / f64::from(f32::MAX))).as_vec3(), ..*ray }
 }
 
 #[cfg(test)]

@@ -92,9 +92,6 @@ impl Reference {
     }
 
     /// Brute force with a triangle test that the structure shares.
-    ///
-    /// # Errors
-    /// If it cannot be built over the mesh.
     pub(super) fn brute_force<T: TriangleTest>(mesh: &Arc<Mesh>) -> Result<Self, BuildError>
     where
         BruteForce<T>: Offered<Config = BruteForceConfig>,

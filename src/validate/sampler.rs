@@ -62,6 +62,12 @@ impl Sampler {
         }
     }
 
+    /// A point of a triangle.
+    pub fn point_of(&mut self, [a, b, c]: [Vec3; 3]) -> Vec3 {
+        let [u, v, w] = self.barycentric();
+        a * u + b * v + c * w
+    }
+
     /// Weights of three corners: not negative, with the sum 1 up to rounding.
     pub fn barycentric(&mut self) -> [f32; 3] {
         let (mut u, mut v) = (self.unit(), self.unit());

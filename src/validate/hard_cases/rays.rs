@@ -292,8 +292,7 @@ pub(super) fn along_needle(sampler: &mut Sampler, target: Vec3) -> Ray {
 pub(super) fn before_the_end(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     loop {
         let corners = triangle(mesh, sampler);
-        let [u, v, w] = sampler.barycentric();
-        let target = corners[0] * u + corners[1] * v + corners[2] * w;
+        let target = sampler.point_of(corners);
         let from = target + sampler.direction() * sampler.pick(&[8.0, 64.0, 1024.0]);
         let mut ray = Ray::new(from, (target - from) * (0.5 + sampler.unit()));
         if sampler.coin() {

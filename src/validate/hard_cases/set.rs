@@ -55,6 +55,6 @@ pub(super) fn on_edge(mesh: &Mesh, sampler: &mut Sampler) -> Vec3 {
 }
 
 pub(super) fn on_surface(mesh: &Mesh, sampler: &mut Sampler) -> Vec3 {
-    let ([a, b, c], [u, v, w]) = (triangle(mesh, sampler), sampler.barycentric());
-    a * u + b * v + c * w
+    let corners = triangle(mesh, sampler);
+    sampler.point_of(corners)
 }
