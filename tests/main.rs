@@ -5,7 +5,6 @@ use sahara::measure::CountingAllocator;
 mod alone;
 mod browser;
 mod cli;
-mod cluster;
 mod conformance;
 mod controls;
 mod fetch;
