@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 use tempfile::TempDir;
@@ -125,6 +125,19 @@ impl Chromium {
 
     pub fn text(&mut self, expression: &str) -> String {
         self.evaluate(expression).as_str().unwrap_or_else(|| panic!("{expression} is no text")).to_owned()
+    }
+
+    /// The text of an expression, once `is_wanted` accepts it.
+    pub fn text_once(&mut self, expression: &str, is_wanted: impl Fn(&str) -> bool) -> String {
+        let begun = Instant::now();
+        loop {
+            let text = self.text(expression);
+            if is_wanted(&text) {
+                return text;
+            }
+            assert!(begun.elapsed() < HANGS, "{expression} stays {text}");
+            thread::sleep(Duration::from_millis(10));
+        }
     }
 
     pub fn press(&mut self, key: &str) {

@@ -39,15 +39,13 @@ fn page() -> PathBuf {
 
 /// The text for the pixel in a comparison, once its values are loaded.
 fn pixel(browser: &mut Chromium, number: usize) -> String {
-    browser.text(&format!(
-        "new Promise((done) => {{ const look = () => {{ \
-         const said = document.querySelector('#comparison-{number} .pixel').textContent; \
-         if (said.includes('expected')) done(said); else setTimeout(look, 10); }}; look(); }})"
-    ))
+    let text = format!("document.querySelector('#comparison-{number} .pixel').textContent");
+    browser.text_once(&text, |said| said.contains("expected"))
 }
 
-fn property(browser: &mut Chromium, number: usize, name: &str) -> String {
-    browser.text(&format!("document.querySelector('#comparison-{number} .stage').style.getPropertyValue('--{name}')"))
+/// A style property of the first comparison.
+fn property(name: &str) -> String {
+    format!("document.querySelector('#comparison-0 .stage').style.getPropertyValue('--{name}')")
 }
 
 #[test]
@@ -60,11 +58,9 @@ fn failing_comparisons_are_first_and_all_is_reached_by_keyboard_alone() {
 
     // The values of the worst pixel and of its neighbour are loaded from another file than the picture.
     let (right, others) = pictures();
-    let values = |picture: &sahara::image::DynamicImage, [x, y]: [u32; 2]| {
-        picture.as_rgb8().unwrap().get_pixel(x, y).0.map(|value| value.to_string()).join(", ")
-    };
     let said = |[x, y]: [u32; 2]| {
-        let [expected, actual] = [&right, &others[0].1].map(|picture| values(picture, [x, y]));
+        let [expected, actual] = [&right, &others[0].1]
+            .map(|picture| picture.as_rgb8().unwrap().get_pixel(x, y).0.map(|value| value.to_string()).join(", "));
         format!("Column {x}, row {y}: expected {expected}; actual {actual}")
     };
     assert_eq!(pixel(&mut browser, 0), said([100, 80]));
@@ -74,27 +70,23 @@ fn failing_comparisons_are_first_and_all_is_reached_by_keyboard_alone() {
     assert_eq!(pixel(&mut browser, 0), said([101, 79]));
 
     // Zoom, the worst pixel, and blinking: one picture whole, and then the other.
-    assert!(property(&mut browser, 0, "zoom").ends_with("scale(1)"));
+    assert!(browser.text(&property("zoom")).ends_with("scale(1)"));
     browser.press("w");
     assert_eq!(pixel(&mut browser, 0), said([100, 80]));
-    assert!(property(&mut browser, 0, "zoom").ends_with("scale(12)"), "{}", SIZE[1] / 16);
+    assert!(browser.text(&property("zoom")).ends_with("scale(12)"), "{}", SIZE[1] / 16);
     browser.press("z");
-    assert!(property(&mut browser, 0, "zoom").ends_with("scale(1)"));
-    assert_eq!(property(&mut browser, 0, "cut"), "50%");
+    assert!(browser.text(&property("zoom")).ends_with("scale(1)"));
+    assert_eq!(browser.text(&property("cut")), "50%");
     browser.press("b");
     for cut in ["100%", "0%", "100%"] {
-        let seen = format!(
-            "new Promise((done) => {{ const look = () => {{ const cut = document.querySelector('#comparison-0 .stage')\
-             .style.getPropertyValue('--cut'); if (cut === '{cut}') done(cut); else setTimeout(look, 10); }}; look(); }})"
-        );
-        browser.text(&seen);
+        browser.text_once(&property("cut"), |own| own == cut);
     }
     browser.press("b");
-    assert_eq!(property(&mut browser, 0, "cut"), "50%");
+    assert_eq!(browser.text(&property("cut")), "50%");
     // The slider.
     tab_to(&mut browser, "#comparison-0 input");
     browser.press("ArrowLeft");
-    assert_eq!(property(&mut browser, 0, "cut"), "49%");
+    assert_eq!(browser.text(&property("cut")), "49%");
 
     // The next comparison, with its maps selected.
     browser.press("n");
@@ -114,9 +106,8 @@ fn the_pointer_shows_values_and_the_page_is_read_in_light_and_dark_on_a_desk_and
         browser.click("#comparison-2 .stage", [0.25, 0.75]);
         let said = pixel(browser, 2);
         let [column, row] = [SIZE[0] / 4, SIZE[1] * 3 / 4];
-        let near = |at: u32| (at - 1..=at + 1).collect::<Vec<u32>>();
-        let is_near =
-            near(column).iter().any(|x| near(row).iter().any(|y| said.starts_with(&format!("Column {x}, row {y}:"))));
+        let at = |x: u32, y: u32| said.starts_with(&format!("Column {x}, row {y}:"));
+        let is_near = (column - 1..=column + 1).any(|x| (row - 1..=row + 1).any(|y| at(x, y)));
         assert!(is_near, "{said}");
         let broken = "[...document.images].filter((own) => own.complete && !own.naturalWidth).length";
         assert_eq!(browser.evaluate(broken), 0);

@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-use crate::cli::command::prints;
+use crate::cli::command::{prints, sahara, stdout};
 use chromium::Chromium;
 
 /// A report on a torus, with a structure that has wrong hits in some pixels.
@@ -65,8 +65,7 @@ fn asked_again(browser: &mut Chromium, figure: &str) -> String {
     let command = browser.text(&format!("document.querySelector('{figure} .inspector code').textContent"));
     let (words, ray) = command.split_once(" \"").expect("the ray is quoted");
     let words: Vec<&str> = words.split(' ').skip(1).chain([ray.trim_end_matches('"')]).collect();
-    let output = crate::cli::command::sahara(&words);
-    crate::cli::command::stdout(&output)
+    stdout(&sahara(&words))
 }
 
 #[test]
@@ -80,9 +79,8 @@ fn the_ray_inspector_works_by_keyboard_alone_and_shows_what_the_command_prints()
     {
         let before = pixel(&mut browser, HEAT);
         browser.press(key);
-        let [column, row] = pixel(&mut browser, HEAT);
-        let moved = [column - before[0], row - before[1]];
-        assert_eq!(moved.map(i64::signum), [across, down], "{key}");
+        let after = pixel(&mut browser, HEAT);
+        assert_eq!([0, 1].map(|i| i64::signum(after[i] - before[i])), [across, down], "{key}");
     }
     assert_eq!(pixel(&mut browser, HEAT), start);
 
@@ -108,10 +106,8 @@ fn the_ray_inspector_works_by_keyboard_alone_and_shows_what_the_command_prints()
 
     browser.press("Enter");
     // The clipboard replies late.
-    let said = browser.text(&format!(
-        "new Promise((done) => {{ const look = () => {{ const said = document.querySelector('{HEAT} .pixel').textContent; \
-         if (said.startsWith('Command ')) done(said); else setTimeout(look, 10); }}; look(); }})"
-    ));
+    let text = format!("document.querySelector('{HEAT} .pixel').textContent");
+    let said = browser.text_once(&text, |said| said.starts_with("Command "));
     assert!(said.contains("copied") || said.contains("selected"), "{said}");
     assert_eq!(browser.complaints(), Vec::<String>::new());
 }
