@@ -32,14 +32,10 @@ pub enum Fault {
     WrongId,
     /// Boxes without thickness are missed.
     DegenerateBox,
-    /// The traversal turns back at a depth.
-    DepthLimit,
     /// The stack is too small, and nodes beyond it are dropped.
     OverflowedStack,
     /// A ray in the plane of a triangle hits it at a NaN depth.
     NotANumber,
-    /// The third triangle of a leaf is not tested.
-    OneOfABlock,
     /// Depths are a thousandth too large.
     TOff,
 }
@@ -129,14 +125,11 @@ impl Faulty {
         (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t >= least && t < ray.t_max).then_some(t)
     }
 
-    fn traverse(&self, ray: &Ray, place: usize, left: [usize; 2], best: &mut Option<Hit>) {
+    fn traverse(&self, ray: &Ray, place: usize, stack: usize, best: &mut Option<Hit>) {
         match &self.nodes[place] {
             Node::Leaf(triangles) => {
                 let count = triangles.len() - usize::from(self.fault == Fault::LastTriangle && triangles.len() > 1);
-                for (number, &index) in triangles[..count].iter().enumerate() {
-                    if self.fault == Fault::OneOfABlock && number == 2 {
-                        continue;
-                    }
+                for &index in &triangles[..count] {
                     let Some(t) = self.hit(ray, index) else { continue };
                     let id = if self.fault == Fault::WrongId { place as u32 % self.mesh.len() as u32 } else { index };
                     match best {
@@ -147,10 +140,6 @@ impl Faulty {
                 }
             }
             Node::Inner(children) => {
-                let [depth, stack] = left;
-                if depth == 0 && self.fault == Fault::DepthLimit {
-                    return;
-                }
                 let end = |best: &Option<Hit>| match best {
                     Some(hit) if self.fault != Fault::StaleTMax => hit.t,
                     _ => ray.t_max,
@@ -167,7 +156,7 @@ impl Faulty {
                 for (t, child) in entered {
                     let had = best.is_some();
                     if t <= end(best) && !(had && self.fault == Fault::ChildOrder) {
-                        self.traverse(ray, child, [depth.saturating_sub(1), stack.saturating_sub(pushes)], best);
+                        self.traverse(ray, child, stack.saturating_sub(pushes), best);
                     }
                 }
             }
@@ -177,7 +166,7 @@ impl Faulty {
     fn closest(&self, ray: &Ray) -> Option<Hit> {
         let mut best = None;
         if ray.is_valid() && !self.mesh.is_empty() {
-            self.traverse(ray, 0, [DEEP, STACK], &mut best);
+            self.traverse(ray, 0, STACK, &mut best);
         }
         best
     }
