@@ -25,48 +25,47 @@ pub struct Finding {
     pub kind: Kind,
 }
 
+/// A ray that hits the box of a grid, and that no structure loses.
+pub const LOST: Finding = Finding { cause: "", structures: &[], mesh: "box of a grid", ray: "", kind: Kind::Lost };
+
 const FINDINGS: [Finding; 6] = [
     Finding {
         cause: "negative zero: the octant is found by d < 0, the inverse by 1 / d: with -0.0 the two disagree",
         structures: &CWBVH,
-        mesh: "box of a grid",
         ray: "0.25,0.125,-3.0 -0.0,-0.0,1.0",
-        kind: Kind::Lost,
+        ..LOST
     },
     Finding {
         cause: "small t: a box must be left after t = 1e-4, an absolute bound",
         structures: &CWBVH,
-        mesh: "box of a grid",
         ray: "0.3,0.2,1.00005 0.1,0.2,-1.0",
         kind: Kind::NearerLost,
+        ..LOST
     },
     Finding {
         cause: "in a box face: 1 / 0 is replaced by a large number, which makes boxes half-open: a ray in the far face leaves at t = 0",
         structures: &BOTH,
-        mesh: "box of a grid",
         ray: "0.375,3.875,1.0 0.0,-1.0,0.0",
-        kind: Kind::Lost,
+        ..LOST
     },
     Finding {
         cause: "short direction: direction components below 1.2e-7 are replaced by 1.2e-7",
         structures: &BOTH,
-        mesh: "box of a grid",
         ray: "0.2,0.3,3.0 1e-10,2e-10,-1e-9",
-        kind: Kind::Lost,
+        ..LOST
     },
     Finding {
         cause: "box without a margin: box entry and exit are rounded without slack, so that a hit at a corner of the box falls out",
         structures: &BOTH,
-        mesh: "box of a grid",
         ray: "3.6959038,2.4580703,-0.22391748 -4.645062,-1.4580703,-0.7760825",
-        kind: Kind::Lost,
+        ..LOST
     },
     Finding {
         cause: "far origin: the same rounding, which grows with the distance: boxes are missed from afar",
         structures: &BOTH,
         mesh: "one triangle",
         ray: "0.055807248,2499999.5,0.341033 0.0,-1.0,0.0",
-        kind: Kind::Lost,
+        ..LOST
     },
 ];
 

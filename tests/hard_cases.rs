@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use sahara::measure::SystemClock;
 use sahara::registry::{Choice, Registry};
 use sahara::request::known_defect;
-use sahara::validate::hard_cases::{CaseTruth, Content, HardCase, Rank, Score, catalogue, run};
+use sahara::validate::hard_cases::{CaseTruth, Content, HardCase, Rank, catalogue, run};
 
 /// Rays of a case.
 const RAYS: usize = 200;
@@ -37,19 +37,16 @@ fn faults<'a>(case: &HardCase, choices: impl IntoIterator<Item = &'a Choice>) ->
     let mut truth = CaseTruth::new(case, rays);
     let mut faults = vec![];
     for choice in choices {
+        let test = choice.triangle_test();
         let fault = match run(case, &choice.subject(), rays, &SystemClock::start()) {
             Err(error) => Some(error.to_string()),
-            Ok(answers) => match truth.score(choice.triangle_test(), answers).unwrap() {
-                Score::Rays(score) => {
-                    let lost = score.validation.errors() > 0 || score.contradictions > 0;
-                    let inexact = choice.triangle_test() == "exact" && score.inexact > 0;
-                    let wrong = score.judged.missed + score.judged.false_hits + score.judged.wrong_depth;
-                    let f64_is_wrong = IN_F64.contains(&choice.triangle_test()) && ranked && wrong > 0;
-                    (lost || inexact || f64_is_wrong).then(|| format!("{score:?}"))
-                }
-                Score::Property(property) => (property.broken > 0).then(|| format!("{property:?}")),
-                Score::Failed(failure) => Some(failure.name().into()),
-            },
+            Ok(answers) => {
+                let score = truth.score(test, answers).unwrap();
+                let is_wrong = score.rays().is_some_and(|rays| {
+                    test == "exact" && rays.inexact > 0 || IN_F64.contains(&test) && ranked && rays.judged.errors() > 0
+                });
+                (is_wrong || !score.is_sound()).then(|| format!("{score:?}"))
+            }
         };
         faults.extend(fault.map(|fault| format!("{} on {}: {fault}", choice.label, case.name)));
     }

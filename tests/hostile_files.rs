@@ -164,14 +164,8 @@ fn gltf_files() -> Vec<(Files, [&'static str; 2])> {
         gltf(&document, 36)
     };
     let list = |start: &str, item: &str, times: usize| {
-        text(
-            [
-                format!("{{\"asset\":{{\"version\":\"2.0\"}},{start}[").as_bytes(),
-                &item.as_bytes().repeat(times),
-                b"{}]}",
-            ]
-            .concat(),
-        )
+        let start = format!("{{\"asset\":{{\"version\":\"2.0\"}},{start}[");
+        text([start.as_bytes(), &item.as_bytes().repeat(times), b"{}]}"].concat())
     };
 
     // Large data is named often, and there is one more fault.

@@ -95,14 +95,13 @@ impl Sources {
 
     /// Imports of crates outside their permitted folders.
     fn escaped(&self) -> Vec<String> {
-        let mut faults = vec![];
-        for (module, text) in &self.0 {
-            let crates = imports(text).into_iter().map(|used| used.path.trim_start_matches(':').to_owned());
-            let crates: BTreeSet<String> = crates.map(|path| top(&path).to_owned()).collect();
-            let is_fault = |(name, folder): &&(&str, &str)| crates.contains(*name) && !is_in(module, folder);
-            faults.extend(ENCLOSED.iter().filter(is_fault).map(|(name, _)| format!("{module} imports {name}")));
-        }
-        faults
+        let faults = self.0.iter().flat_map(|(module, text)| {
+            let crates = imports(text).into_iter().map(|used| top(used.path.trim_start_matches(':')).to_owned());
+            let crates: BTreeSet<String> = crates.collect();
+            let wrong = ENCLOSED.iter().filter(move |(name, folder)| crates.contains(*name) && !is_in(module, folder));
+            wrong.map(move |(name, _)| format!("{module} imports {name}"))
+        });
+        faults.collect()
     }
 
     /// The files that each file imports.
@@ -234,14 +233,12 @@ fn upward(graph: &Graph) -> Vec<String> {
 
 /// The files that import each other in circles, or lie between two circles: those that remain after repeatedly removing
 /// files that import none of the remaining ones, and files that none of them imports.
-fn circles(graph: &Graph) -> Vec<&str> {
-    let mut left: Vec<&str> = graph.keys().map(String::as_str).collect();
+fn circles(graph: &Graph) -> BTreeSet<&str> {
+    let mut left: BTreeSet<&str> = graph.keys().map(String::as_str).collect();
     loop {
-        let imports = |from: &str, to: &str| graph[from].contains(to);
-        let is_bound = |name: &&str| {
-            left.iter().any(|other| imports(name, other)) && left.iter().any(|other| imports(other, name))
-        };
-        let bound: Vec<&str> = left.iter().copied().filter(is_bound).collect();
+        let imported: BTreeSet<&str> = left.iter().flat_map(|name| &graph[*name]).map(String::as_str).collect();
+        let is_bound = |name: &&&str| imported.contains(**name) && graph[**name].iter().any(|to| left.contains(&**to));
+        let bound: BTreeSet<&str> = left.iter().filter(is_bound).copied().collect();
         if bound.len() == left.len() {
             return left;
         }

@@ -44,11 +44,6 @@ fn scene(name: &str) -> Scene {
     Builtin::find(name).unwrap().scene(None).unwrap()
 }
 
-#[track_caller]
-fn assert_many(hits: usize) {
-    assert!(hits > 20_000, "too few hits to prove anything: {hits}");
-}
-
 #[test]
 fn all_levels_return_the_same() {
     if !alone("levels::all_levels_return_the_same") {
@@ -78,7 +73,7 @@ fn all_levels_return_the_same() {
             hits += first.0.iter().filter(|(_, any)| *any).count();
         }
     }
-    assert_many(hits);
+    assert!(hits > 20_000, "too few hits to prove anything: {hits}");
 }
 
 /// Adversarial rays in an order that makes packets of one octant, and the same in their original order.
@@ -168,5 +163,5 @@ fn packets_and_interleaved_rays_return_what_single_rays_do() {
             hits += single.iter().filter(|(_, any)| *any).count();
         }
     }
-    assert_many(hits);
+    assert!(hits > 20_000, "too few hits to prove anything: {hits}");
 }
