@@ -30,14 +30,9 @@ impl Grid {
         // One layer of blocks is one task; the layers are independent.
         let mut values = vec![0.0; size[0] * size[1] * size[2]];
         let layer_size = size[0] * size[1] * BLOCK;
-        let fill = |(z, layer): (usize, &mut [f32])| {
-            let mut lists = Vec::with_capacity(blocks[0] * blocks[1]);
-            for y in 0..blocks[1] {
-                for x in 0..blocks[0] {
-                    lists.push(fill_block(sdf, origin, step, [x, y, z], size, layer));
-                }
-            }
-            lists
+        let fill = |(z, layer): (usize, &mut [f32])| -> Vec<Active> {
+            let places = (0..blocks[1]).flat_map(|y| (0..blocks[0]).map(move |x| [x, y, z]));
+            places.map(|block| fill_block(sdf, origin, step, block, size, layer)).collect()
         };
         let active = values.par_chunks_mut(layer_size).enumerate().map(fill).flatten_iter().collect();
         Self { origin, step, size, values, blocks, active }
@@ -47,8 +42,8 @@ impl Grid {
         (z * self.size[1] + y) * self.size[0] + x
     }
 
-    pub fn place(&self, [x, y, z]: [usize; 3]) -> Vec3 {
-        self.origin + Vec3::new(x as f32, y as f32, z as f32) * self.step
+    pub fn place(&self, at: [usize; 3]) -> Vec3 {
+        self.origin + Vec3::from(at.map(|n| n as f32)) * self.step
     }
 
     /// The primitives that can affect the surface near `p`.
@@ -58,37 +53,17 @@ impl Grid {
         &self.active[(z * self.blocks[1] + y) * self.blocks[0] + x]
     }
 
-    /// Which of the eight corners of a cell are inside; bit 1 is the next x, 2 the next y, 4 the next z.
-    pub fn corners(&self, [x, y, z]: [usize; 3]) -> u8 {
-        let mut mask = 0;
-        for corner in 0..8 {
-            let at = [x + (corner & 1), y + (corner >> 1 & 1), z + (corner >> 2)];
-            mask |= u8::from(self.values[self.index(at)] < 0.0) << corner;
-        }
-        mask
+    /// Which of the eight corners of a cell are inside, as bits.
+    fn corners(&self, cell: [usize; 3]) -> u8 {
+        (0..8).fold(0, |mask, i| mask | u8::from(self.values[self.index(corner(cell, i))] < 0.0) << i)
     }
 
     /// Cells that the surface passes, ascending.
     pub fn cells(&self) -> Vec<[usize; 3]> {
         let [nx, ny, nz] = self.size;
-        let layer = |z: usize| {
-            let mut found = Vec::new();
-            for y in 0..ny - 1 {
-                let rows = [[0, y, z], [0, y + 1, z], [0, y, z + 1], [0, y + 1, z + 1]]
-                    .map(|start| &self.values[self.index(start)..self.index(start) + nx]);
-                let inside = |x: usize| rows.iter().filter(|row| row[x] < 0.0).count();
-                let mut before = inside(0);
-                for x in 0..nx - 1 {
-                    let after = inside(x + 1);
-                    if !matches!(before + after, 0 | 8) {
-                        found.push([x, y, z]);
-                    }
-                    before = after;
-                }
-            }
-            found
-        };
-        (0..nz - 1).into_par_iter().map(layer).flatten_iter().collect()
+        let layer = |z| (0..ny - 1).flat_map(move |y| (0..nx - 1).map(move |x| [x, y, z]));
+        let passed = |cell: &[usize; 3]| !matches!(self.corners(*cell), 0 | u8::MAX);
+        (0..nz - 1).into_par_iter().flat_map_iter(|z| layer(z).filter(passed)).collect()
     }
 
     /// Fills corners until the surface passes every cell in one piece: one vertex per cell then gives a closed
@@ -96,21 +71,25 @@ impl Grid {
     pub fn simplify(&mut self) {
         let simple: Vec<bool> = (0..=255).map(|mask| connected(mask) && connected(!mask)).collect();
         let mut queue = self.cells();
-        while let Some([x, y, z]) = queue.pop() {
-            if simple[self.corners([x, y, z]) as usize] {
+        while let Some(cell) = queue.pop() {
+            if simple[self.corners(cell) as usize] {
                 continue;
             }
-            let corners = [0, 1, 2, 3, 4, 5, 6, 7].map(|c: usize| [x + (c & 1), y + (c >> 1 & 1), z + (c >> 2)]);
-            let outside = corners.into_iter().filter(|&c| self.values[self.index(c)] >= 0.0);
-            let nearest = outside.min_by(|&a, &b| self.values[self.index(a)].total_cmp(&self.values[self.index(b)]));
-            let [x, y, z] = nearest.expect("a cell without a corner outside is simple");
-            let index = self.index([x, y, z]);
+            let value = |at: &[usize; 3]| self.values[self.index(*at)];
+            let outside = (0..8).map(|i| corner(cell, i)).filter(|at| value(at) >= 0.0);
+            let nearest = outside.min_by(|a, b| value(a).total_cmp(&value(b)));
+            let nearest = nearest.expect("a cell without a corner outside is simple");
+            let index = self.index(nearest);
             self.values[index] = -0.01 * self.step;
-            for c in 0..8 {
-                queue.push([x - (c & 1), y - (c >> 1 & 1), z - (c >> 2)]);
-            }
+            let before = nearest.map(|n| n - 1);
+            queue.extend((0..8).rev().map(|i| corner(before, i)));
         }
     }
+}
+
+/// Corner `i` of a cell: bit 1 of `i` is the next x, 2 the next y, 4 the next z.
+pub fn corner([x, y, z]: [usize; 3], i: usize) -> [usize; 3] {
+    [x + (i & 1), y + (i >> 1 & 1), z + (i >> 2)]
 }
 
 /// Samples one block into its layer of blocks, and returns its primitives.
@@ -127,7 +106,7 @@ fn fill_block(sdf: &Sdf, origin: Vec3, step: f32, block: [usize; 3], size: [usiz
         for y in 0..BLOCK {
             let row = (z * size[1] + block[1] * BLOCK + y) * size[0] + block[0] * BLOCK;
             for x in 0..BLOCK {
-                let p = first + Vec3::new(x as f32, y as f32, z as f32) * step;
+                let p = first + Vec3::from([x, y, z].map(|n| n as f32)) * step;
                 layer[row + x] = if far { middle } else { sdf.distance(&active, p) };
             }
         }
@@ -138,17 +117,10 @@ fn fill_block(sdf: &Sdf, origin: Vec3, step: f32, block: [usize; 3], size: [usiz
 /// Whether the corners in `mask` are connected along the edges of a cube.
 fn connected(mask: u8) -> bool {
     let mut reached = mask & mask.wrapping_neg();
-    loop {
-        let mut next = reached;
-        for corner in (0..8).filter(|c| reached >> c & 1 == 1) {
-            for axis in [1, 2, 4] {
-                next |= 1 << (corner ^ axis);
-            }
-        }
-        next &= mask;
-        if next == reached {
-            return reached == mask;
-        }
-        reached = next;
+    // No path is longer than the number of corners.
+    for _ in 0..8 {
+        let neighbours = (0..8).filter(|c| reached >> c & 1 == 1).flat_map(|c| [1, 2, 4].map(|axis| 1 << (c ^ axis)));
+        reached |= mask & neighbours.fold(0, |all, corner: u8| all | corner);
     }
+    reached == mask
 }

@@ -7,7 +7,7 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use super::Sdf;
-use super::grid::Grid;
+use super::grid::{Grid, corner};
 use crate::geometry::Aabb;
 use crate::scene::{Model, meshes::normals};
 
@@ -18,9 +18,8 @@ impl Sdf {
         let mut grid = Grid::sample(self, bounds, step);
         grid.simplify();
         let (mut positions, quads) = net(&grid);
-        let neighbours = neighbours(positions.len(), &quads);
         for _ in 0..relax {
-            positions = relaxed(self, &grid, &positions, &quads, &neighbours);
+            positions = relaxed(self, &grid, &positions, &quads);
         }
 
         let mut triangles = Vec::with_capacity(2 * quads.len());
@@ -110,14 +109,12 @@ fn net(grid: &Grid) -> (Vec<Vec3>, Vec<[u32; 4]>) {
             if inside(cell) == inside(next) {
                 continue;
             }
-            let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
-            let around = [(1, 1), (0, 1), (0, 0), (1, 0)].map(|(du, dv)| {
+            let [a, b, c, d] = [(1, 1), (0, 1), (0, 0), (1, 0)].map(|(du, dv)| {
                 let mut other = cell;
-                other[u] -= du;
-                other[v] -= dv;
+                other[(axis + 1) % 3] -= du;
+                other[(axis + 2) % 3] -= dv;
                 vertex_of[grid.index(other)]
             });
-            let [a, b, c, d] = around;
             quads.push(if inside(cell) { [a, b, c, d] } else { [d, c, b, a] });
         }
     }
@@ -127,10 +124,8 @@ fn net(grid: &Grid) -> (Vec<Vec3>, Vec<[u32; 4]>) {
 fn middle(grid: &Grid, cell: [usize; 3]) -> Vec3 {
     let (mut sum, mut count) = (Vec3::ZERO, 0.0);
     for axis in 0..3 {
-        for corner in (0..8).filter(|c| c >> axis & 1 == 0) {
-            let low = [cell[0] + (corner & 1), cell[1] + (corner >> 1 & 1), cell[2] + (corner >> 2)];
-            let mut high = low;
-            high[axis] += 1;
+        for i in (0..8).filter(|i| i >> axis & 1 == 0) {
+            let [low, high] = [i, i | 1 << axis].map(|i| corner(cell, i));
             let (a, b) = (grid.values[grid.index(low)], grid.values[grid.index(high)]);
             if (a < 0.0) != (b < 0.0) {
                 sum += grid.place(low).lerp(grid.place(high), a / (a - b));
@@ -141,50 +136,26 @@ fn middle(grid: &Grid, cell: [usize; 3]) -> Vec3 {
     sum / count
 }
 
-/// The vertices next to each vertex, by quad edges, as one list with its starts.
-fn neighbours(vertices: usize, quads: &[[u32; 4]]) -> (Vec<u32>, Vec<u32>) {
-    let mut starts = vec![0u32; vertices + 1];
-    for quad in quads {
-        quad.iter().for_each(|&v| starts[v as usize + 1] += 1);
-    }
-    for i in 0..vertices {
-        starts[i + 1] += starts[i];
-    }
-
-    // In a closed surface every edge is walked once in each direction, so following edges forward finds all of them.
-    let mut next = starts.clone();
-    let mut list = vec![0; 4 * quads.len()];
-    for quad in quads {
-        for i in 0..4 {
-            let from = quad[i] as usize;
-            list[next[from] as usize] = quad[(i + 1) % 4];
-            next[from] += 1;
-        }
-    }
-    (starts, list)
-}
-
 /// Moves every vertex along the surface towards the mean of its neighbours, and back onto the surface.
-fn relaxed(
-    sdf: &Sdf,
-    grid: &Grid,
-    positions: &[Vec3],
-    quads: &[[u32; 4]],
-    (starts, list): &(Vec<u32>, Vec<u32>),
-) -> Vec<Vec3> {
-    let mut normals = vec![Vec3::ZERO; positions.len()];
+fn relaxed(sdf: &Sdf, grid: &Grid, positions: &[Vec3], quads: &[[u32; 4]]) -> Vec<Vec3> {
+    // Sums at each vertex: normals, neighbours and the number of neighbours. In a closed surface every edge is walked
+    // once in each direction, so the next corners of all quads are all neighbours.
+    let mut around = vec![(Vec3::ZERO, Vec3::ZERO, 0.0); positions.len()];
     for quad in quads {
         let [a, b, c, d] = quad.map(|i| positions[i as usize]);
         let normal = (c - a).cross(d - b);
-        quad.iter().for_each(|&v| normals[v as usize] += normal);
+        for (&vertex, next) in quad.iter().zip([b, c, d, a]) {
+            let (normals, neighbours, count) = &mut around[vertex as usize];
+            *normals += normal;
+            *neighbours += next;
+            *count += 1.0;
+        }
     }
 
     let step = grid.step;
-    let moved = |i: usize| {
-        let (p, n) = (positions[i], normals[i].normalize_or(Vec3::Y));
-        let around = &list[starts[i] as usize..starts[i + 1] as usize];
-        let mean = around.iter().map(|&v| positions[v as usize]).sum::<Vec3>() / around.len() as f32;
-        let pull = (mean - p) * 0.4;
+    let moved = |(&p, &(normals, neighbours, count)): (&Vec3, &(Vec3, Vec3, f32))| {
+        let n = normals.normalize_or(Vec3::Y);
+        let pull = (neighbours / count - p) * 0.4;
         let slid = p + pull - n * pull.dot(n);
 
         // One secant step back to the surface, along the normal and never far.
@@ -197,5 +168,5 @@ fn relaxed(
         let slope = ((here - there) / here).clamp(0.4, 2.0);
         slid - n * (here / slope).clamp(-0.5 * step, 0.5 * step)
     };
-    (0..positions.len()).into_par_iter().map(moved).collect()
+    positions.par_iter().zip(&around).map(moved).collect()
 }
