@@ -1,32 +1,32 @@
 //! The serpent body with its scales, the crest of spines along the back, and the legs.
 
-use glam::Vec3;
+use glam::{Vec3, Vec4, vec4};
 
-use crate::scene::meshes::sdf::{Blend, Frame, Knot, Sdf, Tube, cosine, sine};
+use crate::scene::meshes::sdf::{Blend, Frame, Sdf, Tube, cosine, sine};
 
-const SPINE: [Knot; 22] = [
-    Knot(0.62, 0.62, 0.84, 0.03),
-    Knot(0.78, 0.34, 0.80, 0.05),
-    Knot(0.55, 0.13, 0.74, 0.07),
-    Knot(0.05, 0.11, 0.70, 0.095),
-    Knot(-0.55, 0.14, 0.66, 0.125),
-    Knot(-1.15, 0.17, 0.58, 0.155),
-    Knot(-1.62, 0.22, 0.30, 0.185),
-    Knot(-1.80, 0.42, -0.06, 0.21),
-    Knot(-1.66, 0.80, -0.34, 0.235),
-    Knot(-1.30, 1.02, -0.48, 0.26),
-    Knot(-0.90, 0.86, -0.46, 0.285),
-    Knot(-0.55, 0.70, -0.34, 0.32),
-    Knot(-0.15, 0.78, -0.20, 0.335),
-    Knot(0.25, 0.98, -0.10, 0.325),
-    Knot(0.62, 1.02, 0.00, 0.335),
-    Knot(0.95, 1.06, 0.05, 0.335),
-    Knot(1.22, 1.28, 0.06, 0.285),
-    Knot(1.27, 1.62, 0.03, 0.235),
-    Knot(1.08, 1.92, 0.00, 0.205),
-    Knot(0.95, 2.18, 0.02, 0.19),
-    Knot(1.05, 2.40, 0.08, 0.185),
-    Knot(1.26, 2.44, 0.17, 0.18),
+const SPINE: [Vec4; 22] = [
+    vec4(0.62, 0.62, 0.84, 0.03),
+    vec4(0.78, 0.34, 0.80, 0.05),
+    vec4(0.55, 0.13, 0.74, 0.07),
+    vec4(0.05, 0.11, 0.70, 0.095),
+    vec4(-0.55, 0.14, 0.66, 0.125),
+    vec4(-1.15, 0.17, 0.58, 0.155),
+    vec4(-1.62, 0.22, 0.30, 0.185),
+    vec4(-1.80, 0.42, -0.06, 0.21),
+    vec4(-1.66, 0.80, -0.34, 0.235),
+    vec4(-1.30, 1.02, -0.48, 0.26),
+    vec4(-0.90, 0.86, -0.46, 0.285),
+    vec4(-0.55, 0.70, -0.34, 0.32),
+    vec4(-0.15, 0.78, -0.20, 0.335),
+    vec4(0.25, 0.98, -0.10, 0.325),
+    vec4(0.62, 1.02, 0.00, 0.335),
+    vec4(0.95, 1.06, 0.05, 0.335),
+    vec4(1.22, 1.28, 0.06, 0.285),
+    vec4(1.27, 1.62, 0.03, 0.235),
+    vec4(1.08, 1.92, 0.00, 0.205),
+    vec4(0.95, 2.18, 0.02, 0.19),
+    vec4(1.05, 2.40, 0.08, 0.185),
+    vec4(1.26, 2.44, 0.17, 0.18),
 ];
 
 /// Curve pieces between two points of the centre line.
@@ -79,7 +79,7 @@ fn scales(row: f32, x: f32, y: f32) -> f32 {
     let part = row * 0.6 - (row * 0.6).floor();
     let plate = (1.0 - (2.0 * part - 1.0) * (2.0 * part - 1.0)).sqrt();
 
-    // Knot scales elsewhere, each row shifted by half a scale and lying over the next.
+    // Round scales elsewhere, each row shifted by half a scale and lying over the next.
     let mut scale = 0.0f32;
     for step in -1..=1 {
         let line = row.floor() + step as f32;
@@ -100,8 +100,8 @@ fn crest(sdf: &mut Sdf, tube: &Tube, frames: &[Frame]) {
     sdf.group(Blend::undisplaced(0.035));
     let mut since = 0.0;
     for (i, frame) in frames.iter().enumerate().take(tube.pieces() - 3).skip(4) {
-        since += tube.centres[i].distance(tube.centres[i - 1]);
-        let radius = tube.radii[i];
+        since += tube.centre(i).distance(tube.centre(i - 1));
+        let radius = tube.0[i].w;
         if since < 0.06 + 0.28 * radius {
             continue;
         }
@@ -117,9 +117,7 @@ fn crest(sdf: &mut Sdf, tube: &Tube, frames: &[Frame]) {
 
 fn tail_tuft(sdf: &mut Sdf, tube: &Tube) {
     sdf.group(Blend::undisplaced(0.03));
-    let tip = tube.centres[0];
-    let away = -tube.tangent(0);
-    let frame = Frame::looking(tip, away, Vec3::X);
+    let frame = Frame::looking(tube.centre(0), -tube.tangent(0), Vec3::X);
     for (side, length) in [(-0.85, 0.2), (-0.42, 0.3), (0.0, 0.38), (0.42, 0.3), (0.85, 0.2)] {
         let bend = frame.at(side * 0.12, 0.0, 0.5 * length - 0.06);
         sdf.cone(frame.at(0.0, 0.0, -0.04), 0.035, bend, 0.04);

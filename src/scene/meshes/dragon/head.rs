@@ -1,8 +1,8 @@
 //! The head: open jaws with teeth and tongue, brows, eyes, horns, a frill, a beard and whiskers.
 
-use glam::Vec3;
+use glam::{Vec3, vec4};
 
-use crate::scene::meshes::sdf::{Blend, Frame, Knot, Sdf};
+use crate::scene::meshes::sdf::{Blend, Frame, Sdf};
 
 /// Adds the head at the end of the neck.
 pub fn model(sdf: &mut Sdf, neck: Frame) {
@@ -22,35 +22,33 @@ fn skull(sdf: &mut Sdf, head: &Frame) {
     sdf.ellipsoid_in(head, [0.0, 0.03, 0.0], [0.20, 0.19, 0.25]);
     sdf.group(Blend { displacement: 0.4, ..Blend::smooth(0.07) });
     sdf.cone(head.at(0.0, 0.02, 0.10), 0.16, head.at(0.0, 0.0, 0.50), 0.105);
-    sdf.group(Blend::undisplaced(0.05));
-    sdf.ellipsoid_in(head, [0.0, 0.07, 0.53], [0.095, 0.075, 0.085]);
+    sdf.group(Blend::undisplaced(0.05)).ellipsoid_in(head, [0.0, 0.07, 0.53], [0.095, 0.075, 0.085]);
 }
 
 fn jaws(sdf: &mut Sdf, head: &Frame) {
     // The lower jaw hangs open; the palate is hollowed out above it.
     sdf.group(Blend { displacement: 0.4, ..Blend::smooth(0.04) });
     sdf.cone(head.at(0.0, -0.10, 0.02), 0.12, head.at(0.0, -0.36, 0.36), 0.062);
-    sdf.group(Blend::subtract(0.03));
-    sdf.cone(head.at(0.0, -0.12, 0.16), 0.075, head.at(0.0, -0.19, 0.58), 0.125);
+    sdf.group(Blend::subtract(0.03)).cone(head.at(0.0, -0.12, 0.16), 0.075, head.at(0.0, -0.19, 0.58), 0.125);
 
     // Lips.
     sdf.group(Blend::undisplaced(0.02));
     for side in [-1.0, 1.0] {
         let lip = [
-            Knot(side * 0.135, -0.06, 0.12, 0.03),
-            Knot(side * 0.125, -0.045, 0.30, 0.028),
-            Knot(side * 0.085, -0.05, 0.48, 0.026),
-            Knot(0.0, -0.05, 0.575, 0.026),
+            vec4(side * 0.135, -0.06, 0.12, 0.03),
+            vec4(side * 0.125, -0.045, 0.30, 0.028),
+            vec4(side * 0.085, -0.05, 0.48, 0.026),
+            vec4(0.0, -0.05, 0.575, 0.026),
         ];
         sdf.tube_in(head, &lip, 4);
     }
     sdf.group(Blend::undisplaced(0.02));
     let tongue = [
-        Knot(0.0, -0.16, 0.12, 0.05),
-        Knot(0.0, -0.20, 0.30, 0.042),
-        Knot(0.0, -0.26, 0.44, 0.034),
-        Knot(0.0, -0.25, 0.54, 0.024),
-        Knot(0.0, -0.18, 0.60, 0.013),
+        vec4(0.0, -0.16, 0.12, 0.05),
+        vec4(0.0, -0.20, 0.30, 0.042),
+        vec4(0.0, -0.26, 0.44, 0.034),
+        vec4(0.0, -0.25, 0.54, 0.024),
+        vec4(0.0, -0.18, 0.60, 0.013),
     ];
     sdf.tube_in(head, &tongue, 4);
 }
@@ -70,25 +68,25 @@ fn horns(sdf: &mut Sdf, head: &Frame) {
     for side in [-1.0, 1.0] {
         sdf.group(Blend::undisplaced(0.03));
         let horn = [
-            Knot(side * 0.10, 0.17, 0.00, 0.062),
-            Knot(side * 0.15, 0.34, -0.10, 0.052),
-            Knot(side * 0.20, 0.46, -0.28, 0.040),
-            Knot(side * 0.23, 0.50, -0.48, 0.027),
-            Knot(side * 0.22, 0.60, -0.64, 0.013),
+            vec4(side * 0.10, 0.17, 0.00, 0.062),
+            vec4(side * 0.15, 0.34, -0.10, 0.052),
+            vec4(side * 0.20, 0.46, -0.28, 0.040),
+            vec4(side * 0.23, 0.50, -0.48, 0.027),
+            vec4(side * 0.22, 0.60, -0.64, 0.013),
         ];
         sdf.tube_in(head, &horn, 5);
         sdf.group(Blend::undisplaced(0.02));
         let prong = [
-            Knot(side * 0.16, 0.38, -0.14, 0.034),
-            Knot(side * 0.21, 0.50, -0.14, 0.026),
-            Knot(side * 0.24, 0.60, -0.20, 0.013),
+            vec4(side * 0.16, 0.38, -0.14, 0.034),
+            vec4(side * 0.21, 0.50, -0.14, 0.026),
+            vec4(side * 0.24, 0.60, -0.20, 0.013),
         ];
         sdf.tube_in(head, &prong, 4);
         sdf.group(Blend::smooth(0.03));
         let ear = [
-            Knot(side * 0.19, 0.08, -0.08, 0.045),
-            Knot(side * 0.31, 0.12, -0.18, 0.05),
-            Knot(side * 0.42, 0.17, -0.30, 0.013),
+            vec4(side * 0.19, 0.08, -0.08, 0.045),
+            vec4(side * 0.31, 0.12, -0.18, 0.05),
+            vec4(side * 0.42, 0.17, -0.30, 0.013),
         ];
         sdf.tube_in(head, &ear, 4);
     }
@@ -100,9 +98,9 @@ fn frill(sdf: &mut Sdf, head: &Frame) {
         for (rise, out, length) in [(-0.42, 0.10, 0.30), (-0.24, 0.2, 0.36), (-0.05, 0.26, 0.34), (0.12, 0.22, 0.3)] {
             let foot = [side * 0.15, rise * 0.35, -0.04];
             let blade = [
-                Knot(foot[0], foot[1], foot[2], 0.045),
-                Knot(side * (0.15 + out * 0.7), rise * 0.7, -0.06 - length * 0.5, 0.042),
-                Knot(side * (0.15 + out), rise + 0.04, -0.08 - length, 0.013),
+                vec4(foot[0], foot[1], foot[2], 0.045),
+                vec4(side * (0.15 + out * 0.7), rise * 0.7, -0.06 - length * 0.5, 0.042),
+                vec4(side * (0.15 + out), rise + 0.04, -0.08 - length, 0.013),
             ];
             sdf.tube_in(head, &blade, 4);
         }
@@ -137,12 +135,12 @@ fn hair(sdf: &mut Sdf, head: &Frame) {
     }
     for side in [-1.0, 1.0] {
         let whisker = [
-            Knot(side * 0.08, 0.04, 0.54, 0.026),
-            Knot(side * 0.20, 0.06, 0.60, 0.023),
-            Knot(side * 0.32, -0.04, 0.56, 0.020),
-            Knot(side * 0.40, -0.16, 0.42, 0.018),
-            Knot(side * 0.46, -0.20, 0.24, 0.015),
-            Knot(side * 0.54, -0.14, 0.10, 0.012),
+            vec4(side * 0.08, 0.04, 0.54, 0.026),
+            vec4(side * 0.20, 0.06, 0.60, 0.023),
+            vec4(side * 0.32, -0.04, 0.56, 0.020),
+            vec4(side * 0.40, -0.16, 0.42, 0.018),
+            vec4(side * 0.46, -0.20, 0.24, 0.015),
+            vec4(side * 0.54, -0.14, 0.10, 0.012),
         ];
         sdf.tube_in(head, &whisker, 5);
     }

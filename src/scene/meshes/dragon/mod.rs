@@ -18,10 +18,8 @@ const BOUNDS: Aabb = Aabb { min: Vec3::new(-0.102, 0.0, -0.046), max: Vec3::new(
 
 const STEP: f32 = 0.0221;
 
-/// An evenly tessellated, closed dragon of 130,858 triangles with smooth normals, about 0.2 wide, standing on y = 0.
-///
-/// It is modelled 20 times as large, as the scene shows it. It looks to +x and a little to +z. The displacement is of
-/// scales on the body and pebbles elsewhere.
+/// An evenly tessellated, closed dragon of 130,858 triangles with smooth normals, about 0.2 wide, standing on y = 0. It
+/// looks to +x and a little to +z, and is modelled 20 times as large, as the scene shows it.
 pub fn dragon() -> Model {
     let mut sdf = Sdf::new(0.012, pebbled);
     let spine = body::model(&mut sdf);

@@ -1,8 +1,8 @@
 //! Head with hair, neck, arms and hands, and the torch.
 
-use glam::Vec3;
+use glam::{Vec3, Vec4, vec4};
 
-use crate::scene::meshes::sdf::{Blend, Frame, Knot, Sdf, cosine, sine};
+use crate::scene::meshes::sdf::{Blend, Frame, Sdf, cosine, sine};
 
 /// Adds the whole figure.
 pub fn model(sdf: &mut Sdf) {
@@ -17,8 +17,7 @@ pub fn model(sdf: &mut Sdf) {
 }
 
 fn face(sdf: &mut Sdf, head: &Frame) {
-    sdf.group(Blend::smooth(0.2));
-    sdf.ellipsoid_in(head, [0.0, 0.12, 0.0], [0.76, 0.92, 0.86]);
+    sdf.group(Blend::smooth(0.2)).ellipsoid_in(head, [0.0, 0.12, 0.0], [0.76, 0.92, 0.86]);
     sdf.group(Blend::smooth(0.3)).cone(head.at(0.0, -0.35, 0.3), 0.48, head.at(0.0, -0.72, 0.55), 0.25);
     for side in [-1.0, 1.0] {
         sdf.group(Blend::subtract(0.14)).ellipsoid_in(head, [side * 0.30, 0.04, 0.92], [0.19, 0.12, 0.16]);
@@ -28,8 +27,7 @@ fn face(sdf: &mut Sdf, head: &Frame) {
         sdf.group(Blend::smooth(0.2)).sphere(head.at(side * 0.36, -0.26, 0.55), 0.24);
     }
     sdf.group(Blend::smooth(0.15)).ellipsoid_in(head, [0.0, -0.45, 0.55], [0.36, 0.30, 0.29]);
-    sdf.group(Blend::smooth(0.08));
-    sdf.cone(head.at(0.0, 0.16, 0.84), 0.07, head.at(0.0, -0.18, 0.97), 0.10);
+    sdf.group(Blend::smooth(0.08)).cone(head.at(0.0, 0.16, 0.84), 0.07, head.at(0.0, -0.18, 0.97), 0.10);
     sdf.group(Blend::smooth(0.04));
     sdf.ellipsoid_in(head, [0.0, -0.455, 0.83], [0.25, 0.055, 0.08]);
     sdf.ellipsoid_in(head, [0.0, -0.575, 0.80], [0.20, 0.06, 0.08]);
@@ -45,23 +43,21 @@ fn hair(sdf: &mut Sdf, head: &Frame) {
             let parting = Vec3::new(0.02 * side, 0.78 - 0.1 * s, 0.62 - 1.2 * s);
             let temple = Vec3::new(side * (1.5 - 0.6 * s), 0.8 * s - 0.35, 0.75 - 1.5 * s);
             let knot = Vec3::new(side * 0.1, -0.25 + 0.2 * s, -1.0);
-            let strand: Vec<Knot> = (0..9)
-                .map(|k| {
-                    let t = k as f32 / 8.0;
-                    let way = parting * (1.0 - t) * (1.0 - t) + temple * 2.0 * t * (1.0 - t) + knot * t * t;
-                    let p = way.normalize() * (0.87 + 0.035 * sine(11.0 * t + 4.0 * s));
-                    Knot(p.x, p.y + 0.26, p.z - 0.14, 0.10 + 0.02 * sine(3.0 * t))
-                })
-                .collect();
+            let strand: [Vec4; 9] = std::array::from_fn(|k| {
+                let t = k as f32 / 8.0;
+                let way = parting * (1.0 - t) * (1.0 - t) + temple * 2.0 * t * (1.0 - t) + knot * t * t;
+                let p = way.normalize() * (0.87 + 0.035 * sine(11.0 * t + 4.0 * s));
+                vec4(p.x, p.y + 0.26, p.z - 0.14, 0.10 + 0.02 * sine(3.0 * t))
+            });
             sdf.tube_in(head, &strand, 3);
         }
         let lock = [
-            Knot(side * 0.55, -0.35, -0.55, 0.17),
-            Knot(side * 0.68, -0.9, -0.42, 0.19),
-            Knot(side * 0.60, -1.4, -0.2, 0.18),
-            Knot(side * 0.72, -1.85, 0.15, 0.17),
-            Knot(side * 0.64, -2.3, 0.42, 0.15),
-            Knot(side * 0.70, -2.75, 0.62, 0.09),
+            vec4(side * 0.55, -0.35, -0.55, 0.17),
+            vec4(side * 0.68, -0.9, -0.42, 0.19),
+            vec4(side * 0.60, -1.4, -0.2, 0.18),
+            vec4(side * 0.72, -1.85, 0.15, 0.17),
+            vec4(side * 0.64, -2.3, 0.42, 0.15),
+            vec4(side * 0.70, -2.75, 0.62, 0.09),
         ];
         sdf.tube_in(head, &lock, 5);
     }
@@ -74,12 +70,10 @@ fn hair(sdf: &mut Sdf, head: &Frame) {
     }
     // A diadem.
     sdf.group(Blend::smooth(0.03));
-    let band: Vec<Knot> = (-8..=8)
-        .map(|i| {
-            let angle = i as f32 * 0.17;
-            Knot(0.88 * sine(angle), 0.62, 0.88 * cosine(angle) - 0.14, 0.1)
-        })
-        .collect();
+    let band: [Vec4; 17] = std::array::from_fn(|i| {
+        let angle = (i as f32 - 8.0) * 0.17;
+        vec4(0.88 * sine(angle), 0.62, 0.88 * cosine(angle) - 0.14, 0.1)
+    });
     sdf.tube_in(head, &band, 2);
     for i in -3..=3 {
         let angle = i as f32 * 0.3;
@@ -137,13 +131,10 @@ fn grip(sdf: &mut Sdf, at: Vec3, handle: f32) {
     sdf.group(Blend::smooth(0.03));
     for i in 0..4 {
         let up = 0.2 * (i as f32 - 1.5);
-        let ring: Vec<Knot> = (0..6)
-            .map(|k| {
-                let angle = 0.6 + k as f32 * 0.62;
-                let r = handle + 0.12;
-                Knot(at.x + r * cosine(angle), at.y + up, at.z + r * sine(angle) - 0.05, 0.12)
-            })
-            .collect();
+        let ring: [Vec4; 6] = std::array::from_fn(|k| {
+            let (angle, r) = (0.6 + k as f32 * 0.62, handle + 0.12);
+            vec4(at.x + r * cosine(angle), at.y + up, at.z + r * sine(angle) - 0.05, 0.12)
+        });
         sdf.tube(&ring, 3);
     }
     sdf.cone(at + Vec3::new(0.28, 0.1, -0.1), 0.14, at + Vec3::new(0.12, 0.48, 0.22), 0.11);
@@ -166,7 +157,7 @@ fn torch(sdf: &mut Sdf) {
     for (i, height) in [(0, 1.0), (1, 0.8), (2, 1.15), (3, 0.72), (4, 0.9)] {
         let angle = 1.256_637 * i as f32;
         let (c, s) = (cosine(angle), sine(angle));
-        let curl = |y: f32, r: f32, thick: f32| Knot(x + r * c - 0.1 * y * s, 21.6 + y, z + r * s + 0.1 * y * c, thick);
+        let curl = |y: f32, r: f32, thick: f32| vec4(x + r * c - 0.1 * y * s, 21.6 + y, z + r * s + 0.1 * y * c, thick);
         let tongue = [
             curl(0.0, 0.38, 0.24),
             curl(0.4 * height, 0.44, 0.25),

@@ -1,28 +1,26 @@
 //! The gown: a body of elliptic sections with folds, an overfold, a belt, a sash, and cloth that hangs from the arm.
 
-use glam::Vec3;
+use glam::{Vec3, vec4};
 
 use crate::scene::meshes::{
     noise,
-    sdf::{Blend, Knot, Sdf, rounded_intersection, sine},
+    sdf::{Blend, Sdf, rounded_intersection, sine},
 };
 
-/// One horizontal section: height, half width, half depth, and its middle in x and z.
-struct Section(f32, f32, f32, f32, f32);
-
-const BODY: [Section; 12] = [
-    Section(1.2, 2.45, 2.15, 0.0, 0.05),
-    Section(2.0, 2.35, 2.05, 0.0, 0.05),
-    Section(3.2, 2.05, 1.80, 0.0, 0.05),
-    Section(5.5, 1.82, 1.55, 0.0, 0.05),
-    Section(8.0, 1.72, 1.42, 0.0, 0.0),
-    Section(10.0, 1.70, 1.36, -0.05, -0.05),
-    Section(11.3, 1.45, 1.20, -0.10, -0.05),
-    Section(12.6, 1.18, 0.98, -0.10, 0.0),
-    Section(14.0, 1.38, 1.12, -0.03, 0.05),
-    Section(15.2, 1.50, 1.05, 0.0, 0.0),
-    Section(16.0, 1.42, 0.75, 0.0, -0.05),
-    Section(16.7, 0.75, 0.50, 0.0, -0.05),
+/// Horizontal sections: height, half width, half depth, and the middle in x and z.
+const BODY: [[f32; 5]; 12] = [
+    [1.2, 2.45, 2.15, 0.0, 0.05],
+    [2.0, 2.35, 2.05, 0.0, 0.05],
+    [3.2, 2.05, 1.80, 0.0, 0.05],
+    [5.5, 1.82, 1.55, 0.0, 0.05],
+    [8.0, 1.72, 1.42, 0.0, 0.0],
+    [10.0, 1.70, 1.36, -0.05, -0.05],
+    [11.3, 1.45, 1.20, -0.10, -0.05],
+    [12.6, 1.18, 0.98, -0.10, 0.0],
+    [14.0, 1.38, 1.12, -0.03, 0.05],
+    [15.2, 1.50, 1.05, 0.0, 0.0],
+    [16.0, 1.42, 0.75, 0.0, -0.05],
+    [16.7, 0.75, 0.50, 0.0, -0.05],
 ];
 
 /// Adds the gown.
@@ -46,12 +44,11 @@ fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
 
 /// Distance to the side of the body made `wider`, and the angle around it: 0 in front, growing to +x.
 fn section_distance(p: Vec3, wider: f32) -> (f32, f32) {
-    let i = BODY.iter().rposition(|s| s.0 <= p.y).unwrap_or(0).min(BODY.len() - 2);
+    let i = BODY.iter().rposition(|section| section[0] <= p.y).unwrap_or(0).min(BODY.len() - 2);
     let (low, high) = (&BODY[i], &BODY[i + 1]);
-    let t = smoothstep(low.0, high.0, p.y) * 0.5 + 0.5 * ((p.y - low.0) / (high.0 - low.0)).clamp(0.0, 1.0);
-    let mix = |a: f32, b: f32| a + (b - a) * t;
-    let (a, b) = (mix(low.1, high.1) + wider, mix(low.2, high.2) + wider);
-    let (x, z) = (p.x - mix(low.3, high.3), p.z - mix(low.4, high.4));
+    let t = smoothstep(low[0], high[0], p.y) * 0.5 + 0.5 * ((p.y - low[0]) / (high[0] - low[0])).clamp(0.0, 1.0);
+    let [_, a, b, x, z]: [f32; 5] = std::array::from_fn(|k| low[k] + (high[k] - low[k]) * t);
+    let (a, b, x, z) = (a + wider, b + wider, p.x - x, p.z - z);
     let k = ((x / a) * (x / a) + (z / b) * (z / b)).sqrt();
     let slope = ((x / (a * a)) * (x / (a * a)) + (z / (b * b)) * (z / (b * b))).sqrt();
     let distance = if slope < 1e-6 { -a.min(b) } else { k * (k - 1.0) / slope };
@@ -62,7 +59,7 @@ fn capped(side: f32, y: f32, low: f32, high: f32) -> f32 {
     side.max(low - y).max(y - high)
 }
 
-/// Knot ridges with sharp valleys between them, from 0 to 1.
+/// Round ridges with sharp valleys between them, from 0 to 1.
 fn pleat(phase: f32) -> f32 {
     sine(phase).abs()
 }
@@ -88,11 +85,11 @@ fn folds(p: Vec3, turn: f32) -> f32 {
 fn legs(sdf: &mut Sdf) {
     let v = Vec3::new;
     let leg = [
-        Knot(0.70, 10.2, 0.20, 0.95),
-        Knot(0.85, 8.4, 0.62, 0.86),
-        Knot(0.93, 6.7, 0.90, 0.74),
-        Knot(0.95, 4.8, 0.86, 0.58),
-        Knot(0.95, 2.6, 0.60, 0.42),
+        vec4(0.70, 10.2, 0.20, 0.95),
+        vec4(0.85, 8.4, 0.62, 0.86),
+        vec4(0.93, 6.7, 0.90, 0.74),
+        vec4(0.95, 4.8, 0.86, 0.58),
+        vec4(0.95, 2.6, 0.60, 0.42),
     ];
     sdf.group(Blend::smooth(0.55)).tube(&leg, 8);
     sdf.group(Blend::smooth(0.06));
@@ -127,17 +124,15 @@ fn overfold(sdf: &mut Sdf) {
 
 fn bodice(sdf: &mut Sdf) {
     let v = Vec3::new;
-    sdf.group(Blend::smooth(0.25));
-    sdf.sphere(v(0.56, 14.6, 0.80), 0.58).sphere(v(-0.56, 14.6, 0.80), 0.58);
-    sdf.group(Blend::smooth(0.4));
-    sdf.cone(v(-1.35, 15.85, -0.05), 0.52, v(1.35, 15.8, -0.05), 0.52);
+    sdf.group(Blend::smooth(0.25)).sphere(v(0.56, 14.6, 0.80), 0.58).sphere(v(-0.56, 14.6, 0.80), 0.58);
+    sdf.group(Blend::smooth(0.4)).cone(v(-1.35, 15.85, -0.05), 0.52, v(1.35, 15.8, -0.05), 0.52);
     sdf.group(Blend::smooth(0.12));
     let neckline = [
-        Knot(-1.0, 16.3, 0.25, 0.11),
-        Knot(-0.62, 15.75, 0.78, 0.11),
-        Knot(0.0, 15.3, 1.08, 0.11),
-        Knot(0.62, 15.75, 0.78, 0.11),
-        Knot(1.0, 16.3, 0.25, 0.11),
+        vec4(-1.0, 16.3, 0.25, 0.11),
+        vec4(-0.62, 15.75, 0.78, 0.11),
+        vec4(0.0, 15.3, 1.08, 0.11),
+        vec4(0.62, 15.75, 0.78, 0.11),
+        vec4(1.0, 16.3, 0.25, 0.11),
     ];
     sdf.tube(&neckline, 5);
 }
@@ -148,16 +143,16 @@ fn sash(sdf: &mut Sdf) {
     for i in 0..4 {
         let down = 0.24 * i as f32;
         let strand = [
-            Knot(0.75, 15.9 - down, -1.15, 0.17),
-            Knot(1.15 - 0.2 * down, 16.45 - 0.5 * down, -0.2, 0.18),
-            Knot(0.98 - 0.5 * down, 15.75 - 0.6 * down, 0.85, 0.17),
-            Knot(0.35 - 0.4 * down, 14.75 - down, 1.32, 0.17),
-            Knot(-0.45 - 0.1 * down, 13.7 - down, 1.25, 0.17),
-            Knot(-1.15, 12.85 - down, 0.85, 0.18),
-            Knot(-1.52, 12.2 - down, 0.0, 0.19),
-            Knot(-1.1, 12.3 - down, -0.95, 0.18),
-            Knot(0.0, 13.4 - down, -1.3, 0.17),
-            Knot(0.75, 15.9 - down, -1.15, 0.17),
+            vec4(0.75, 15.9 - down, -1.15, 0.17),
+            vec4(1.15 - 0.2 * down, 16.45 - 0.5 * down, -0.2, 0.18),
+            vec4(0.98 - 0.5 * down, 15.75 - 0.6 * down, 0.85, 0.17),
+            vec4(0.35 - 0.4 * down, 14.75 - down, 1.32, 0.17),
+            vec4(-0.45 - 0.1 * down, 13.7 - down, 1.25, 0.17),
+            vec4(-1.15, 12.85 - down, 0.85, 0.18),
+            vec4(-1.52, 12.2 - down, 0.0, 0.19),
+            vec4(-1.1, 12.3 - down, -0.95, 0.18),
+            vec4(0.0, 13.4 - down, -1.3, 0.17),
+            vec4(0.75, 15.9 - down, -1.15, 0.17),
         ];
         sdf.tube(&strand, 6);
     }
@@ -172,11 +167,11 @@ fn hanging_cloth(sdf: &mut Sdf) {
         let sway = 0.05 * sine(2.1 * s);
         let foot = 4.7 + 0.42 * s + 0.15 * sine(2.6 * s);
         let pleat = [
-            Knot(x, 12.75 + 0.03 * s, z, 0.22),
-            Knot(x + 0.12, 11.6, z + 0.02, 0.20),
-            Knot(x + 0.06 + sway, 9.6, z - 0.05, 0.19),
-            Knot(x + 0.02 - sway, 7.8, z + 0.05, 0.22),
-            Knot(x + 0.1 + sway, foot, z, 0.20),
+            vec4(x, 12.75 + 0.03 * s, z, 0.22),
+            vec4(x + 0.12, 11.6, z + 0.02, 0.20),
+            vec4(x + 0.06 + sway, 9.6, z - 0.05, 0.19),
+            vec4(x + 0.02 - sway, 7.8, z + 0.05, 0.22),
+            vec4(x + 0.1 + sway, foot, z, 0.20),
         ];
         sdf.tube(&pleat, 5);
     }

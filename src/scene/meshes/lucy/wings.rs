@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use crate::scene::meshes::sdf::{Blend, Frame, Knot, RoundCone, Sdf, rounded_intersection};
+use crate::scene::meshes::sdf::{Blend, Frame, RoundCone, Sdf, rounded_intersection};
 
 /// Adds both wings.
 pub fn model(sdf: &mut Sdf) {
@@ -40,10 +40,7 @@ fn along<const N: usize>(line: &[[f32; N]], t: f32) -> [f32; N] {
 
 fn wing(sdf: &mut Sdf, side: f32) {
     sdf.group(Blend::smooth(0.15));
-    let arm = ARM.map(|[out, up, radius]| {
-        let p = place(side, out, up, 0.05);
-        Knot(p.x, p.y, p.z, radius)
-    });
+    let arm = ARM.map(|[out, up, radius]| place(side, out, up, 0.05).extend(radius));
     sdf.tube(&arm, 5);
 
     // Rows from long to short: number of feathers, length, half width, thickness.
@@ -60,19 +57,13 @@ fn wing(sdf: &mut Sdf, side: f32) {
     }
     // The smallest feathers: scales on the arm.
     sdf.group(Blend::smooth(0.04));
-    for row in 0..2 {
+    for row in [0.0, 1.0] {
         for i in 0..15 {
-            let t = (i as f32 + 0.5 + 0.5 * row as f32) / 15.5;
+            let t = (i as f32 + 0.5 + 0.5 * row) / 15.5;
             let [out, up, radius] = along(&ARM, t);
-            let start = place(side, out, up + 0.2 - 0.35 * row as f32, 0.0);
-            feather(
-                sdf,
-                side,
-                start,
-                start + Vec3::new(side * 0.12, -0.85, -0.1),
-                0.27,
-                radius + 0.02 - 0.06 * row as f32,
-            );
+            let root = place(side, out, up + 0.2 - 0.35 * row, 0.0);
+            let tip = root + Vec3::new(side * 0.12, -0.85, -0.1);
+            feather(sdf, side, root, tip, 0.27, radius + 0.02 - 0.06 * row);
         }
     }
 }

@@ -12,7 +12,7 @@ mod surface_nets;
 
 use glam::Vec3;
 
-pub use primitives::{Frame, Knot, RoundCone, Tube, cosine, rounded_intersection, sine};
+pub use primitives::{Frame, RoundCone, Tube, cosine, rounded_intersection, sine};
 pub use split::split_to;
 #[cfg(test)]
 pub use surface_nets::pieces;
@@ -93,10 +93,7 @@ impl Sdf {
         self
     }
 
-    /// Adds a primitive that lies in the sphere of `radius` around `centre`.
-    ///
-    /// # Panics
-    /// When no group was started.
+    /// Adds a primitive that lies in the sphere of `radius` around `centre` to the last group.
     pub fn primitive(
         &mut self,
         centre: Vec3,
@@ -111,13 +108,10 @@ impl Sdf {
     /// The primitives that can change the surface within `radius` of `centre`.
     fn near(&self, centre: Vec3, radius: f32) -> Active {
         let mut active = Active::new();
-        for (i, group) in self.groups.iter().enumerate() {
+        for (i, group) in (0..).zip(&self.groups) {
             let reach = radius + group.blend.smoothing + self.highest;
-            for (j, primitive) in group.primitives.iter().enumerate() {
-                if primitive.centre.distance(centre) < primitive.radius + reach {
-                    active.push((i as u16, j as u16));
-                }
-            }
+            let is_near = |own: &Primitive| own.centre.distance(centre) < own.radius + reach;
+            active.extend((0..).zip(&group.primitives).filter(|(_, own)| is_near(own)).map(|(j, _)| (i, j)));
         }
         active
     }

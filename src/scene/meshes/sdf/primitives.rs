@@ -1,6 +1,6 @@
 //! The primitives: ellipsoids, round cones, tubes along splines, and frames to place them in.
 
-use glam::Vec3;
+use glam::{Vec3, Vec4};
 
 use super::Sdf;
 
@@ -82,71 +82,50 @@ impl RoundCone {
     }
 }
 
-/// One point of a tube: x, y, z and radius.
-#[derive(Clone, Copy, Debug)]
-pub struct Knot(pub f32, pub f32, pub f32, pub f32);
-
-impl Knot {
-    fn place(self) -> Vec3 {
-        Vec3::new(self.0, self.1, self.2)
-    }
-}
-
-/// A tube along a smooth curve through given points.
-pub struct Tube {
-    pub centres: Vec<Vec3>,
-    pub radii: Vec<f32>,
-}
+/// Points of a tube along a smooth curve: x, y, z and radius.
+pub struct Tube(pub Vec<Vec4>);
 
 impl Tube {
-    /// The Catmull-Rom curve through `points`, in `steps` pieces between two of them.
-    pub fn through(points: &[Knot], steps: usize) -> Self {
-        let at = |i: isize| points[i.clamp(0, points.len() as isize - 1) as usize];
-        let (mut centres, mut radii) = (Vec::new(), Vec::new());
-        for i in 0..points.len() as isize - 1 {
-            let four = [at(i - 1), at(i), at(i + 1), at(i + 2)];
-            for s in 0..steps {
-                let t = s as f32 / steps as f32;
-                centres.push(catmull_rom(four.map(Knot::place), t));
-                radii.push(catmull_rom(four.map(|r| Vec3::splat(r.3)), t).x.max(0.5 * four[1].3.min(four[2].3)));
-            }
-        }
-        let last = at(isize::MAX);
-        centres.push(last.place());
-        radii.push(last.3);
-        Self { centres, radii }
+    /// The Catmull-Rom curve through `knots`, in `steps` pieces between two of them.
+    pub fn through(knots: &[Vec4], steps: usize) -> Self {
+        let at = |i: usize| knots[i.min(knots.len() - 1)];
+        let piece = |i: usize| {
+            let four @ [_, b, c, _] = [at(i.saturating_sub(1)), at(i), at(i + 1), at(i + 2)];
+            let points = (0..steps).map(move |s| catmull_rom(four, s as f32 / steps as f32));
+            points.map(move |p| p.with_w(p.w.max(0.5 * b.w.min(c.w))))
+        };
+        Self((0..knots.len() - 1).flat_map(piece).chain(knots.last().copied()).collect())
+    }
+
+    pub fn centre(&self, i: usize) -> Vec3 {
+        self.0[i].truncate()
     }
 
     /// Unit tangent at point `i`.
     pub fn tangent(&self, i: usize) -> Vec3 {
-        let last = self.centres.len() - 1;
-        (self.centres[(i + 1).min(last)] - self.centres[i.saturating_sub(1)]).normalize()
+        (self.centre((i + 1).min(self.pieces())) - self.centre(i.saturating_sub(1))).normalize()
     }
 
     /// Frames along the tube that do not twist about it; the one at point `start` has `up` on top.
     pub fn frames(&self, start: usize, up: Vec3) -> Vec<Frame> {
-        let count = self.centres.len();
-        let mut frames = vec![Frame::looking(self.centres[start], self.tangent(start), up); count];
-        for i in start + 1..count {
-            frames[i] = Frame::looking(self.centres[i], self.tangent(i), frames[i - 1].up);
-        }
-        for i in (0..start).rev() {
-            frames[i] = Frame::looking(self.centres[i], self.tangent(i), frames[i + 1].up);
-        }
+        let frame = |i: usize, up: Vec3| Frame::looking(self.centre(i), self.tangent(i), up);
+        let mut frames = vec![frame(start, up); self.0.len()];
+        (start + 1..frames.len()).for_each(|i| frames[i] = frame(i, frames[i - 1].up));
+        (0..start).rev().for_each(|i| frames[i] = frame(i, frames[i + 1].up));
         frames
     }
 
     /// The piece between points `i` and `i + 1`.
     pub fn piece(&self, i: usize) -> RoundCone {
-        RoundCone::new(self.centres[i], self.radii[i], self.centres[i + 1], self.radii[i + 1])
+        RoundCone::new(self.centre(i), self.0[i].w, self.centre(i + 1), self.0[i + 1].w)
     }
 
     pub fn pieces(&self) -> usize {
-        self.centres.len() - 1
+        self.0.len() - 1
     }
 }
 
-fn catmull_rom([a, b, c, d]: [Vec3; 4], t: f32) -> Vec3 {
+fn catmull_rom([a, b, c, d]: [Vec4; 4], t: f32) -> Vec4 {
     let (t2, t3) = (t * t, t * t * t);
     (b * 2.0 + (c - a) * t + (a * 2.0 - b * 5.0 + c * 4.0 - d) * t2 + (b * 3.0 - a - c * 3.0 + d) * t3) * 0.5
 }
@@ -195,8 +174,8 @@ impl Sdf {
         self.primitive((a + b) * 0.5, radius, move |p| cone.distance(p))
     }
 
-    /// A tube through `knots`, in `steps` cones between two of them.
-    pub fn tube(&mut self, knots: &[Knot], steps: usize) -> &mut Self {
+    /// A tube through `knots`, given by place and radius, in `steps` cones between two of them.
+    pub fn tube(&mut self, knots: &[Vec4], steps: usize) -> &mut Self {
         let tube = Tube::through(knots, steps);
         for i in 0..tube.pieces() {
             let piece = tube.piece(i);
@@ -206,11 +185,8 @@ impl Sdf {
     }
 
     /// A tube through `knots` that are given in `frame`.
-    pub fn tube_in(&mut self, frame: &Frame, knots: &[Knot], steps: usize) -> &mut Self {
-        let outside = |&Knot(x, y, z, radius): &Knot| {
-            let p = frame.at(x, y, z);
-            Knot(p.x, p.y, p.z, radius)
-        };
+    pub fn tube_in(&mut self, frame: &Frame, knots: &[Vec4], steps: usize) -> &mut Self {
+        let outside = |knot: &Vec4| frame.at(knot.x, knot.y, knot.z).extend(knot.w);
         self.tube(&knots.iter().map(outside).collect::<Vec<_>>(), steps)
     }
 }

@@ -2,13 +2,8 @@
 
 use crate::scene::Model;
 
-/// Splits the longest edges at their middles until there are exactly `count` triangles.
-///
-/// A split adds two triangles, so `count` must be even and not below the present number. Among equal edges the first
-/// one is split.
-///
-/// # Panics
-/// If the mesh has more than `count` triangles, or the difference is odd.
+/// Splits the longest edges at their middles, the first of equal ones, until there are exactly `count` triangles. A split
+/// adds two, so `count` must be even and not below the present number.
 pub fn split_to(model: &mut Model, count: usize) {
     loop {
         let have = model.triangles.len();
@@ -24,37 +19,31 @@ pub fn split_to(model: &mut Model, count: usize) {
 fn split_longest(model: &mut Model, limit: usize) {
     // Find both triangles of every edge: sorting puts the two half-edges next to each other.
     let mut halves = Vec::with_capacity(3 * model.triangles.len());
-    for (t, triangle) in model.triangles.iter().enumerate() {
-        for i in 0..3 {
-            let (a, b) = (triangle[i], triangle[(i + 1) % 3]);
-            halves.push((a.min(b), a.max(b), t as u32));
-        }
+    for (t, &[a, b, c]) in (0..).zip(&model.triangles) {
+        halves.extend([(a, b), (b, c), (c, a)].map(|(p, q)| (p.min(q), p.max(q), t)));
     }
     halves.sort_unstable();
     let length = |a: u32, b: u32| model.positions[a as usize].distance_squared(model.positions[b as usize]);
-    let mut edges: Vec<_> =
-        halves.chunks_exact(2).map(|h| (length(h[0].0, h[0].1), h[0].0, h[0].1, [h[0].2, h[1].2])).collect();
+    let edge = |[(a, b, t), (.., u)]: &[(u32, u32, usize); 2]| (length(*a, *b), *a, *b, [*t, *u]);
+    let mut edges: Vec<_> = halves.as_chunks().0.iter().map(edge).collect();
     edges.sort_unstable_by(|x, y| y.0.total_cmp(&x.0).then((x.1, x.2).cmp(&(y.1, y.2))));
 
     let mut used = vec![false; model.triangles.len()];
-    let mut left = limit;
+    let mut splits = 0;
     for (_, a, b, both) in edges {
-        if left == 0 {
-            break;
-        }
-        if both.iter().any(|&t| used[t as usize]) {
+        if splits == limit || both.iter().any(|&t| used[t]) {
             continue;
         }
-        left -= 1;
+        splits += 1;
         let middle = model.positions.len() as u32;
         let [pa, pb] = [a, b].map(|i| model.positions[i as usize]);
         let normal = (model.normals[a as usize] + model.normals[b as usize]).normalize_or(model.normals[a as usize]);
         model.positions.push((pa + pb) * 0.5);
         model.normals.push(normal);
         for t in both {
-            used[t as usize] = true;
-            let old = model.triangles[t as usize];
-            model.triangles[t as usize] = old.map(|v| if v == b { middle } else { v });
+            used[t] = true;
+            let old = model.triangles[t];
+            model.triangles[t] = old.map(|v| if v == b { middle } else { v });
             model.triangles.push(old.map(|v| if v == a { middle } else { v }));
         }
     }
