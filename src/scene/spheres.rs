@@ -24,7 +24,7 @@ pub fn triangles(level: u32) -> usize {
 pub fn generate(parameters: &str) -> anyhow::Result<Scene> {
     let level = parameters.parse::<u32>().ok().filter(|level| *level <= FINEST);
     let level = level.ok_or_else(|| anyhow::anyhow!("give a level from 0 to {FINEST}, such as icosphere:5"))?;
-    let scene = Scene::framed(&format!("icosphere {level}"), meshes::divided_icosphere(STEPS[level as usize]))?;
+    let scene = Scene::framed(&format!("icosphere {level}"), meshes::icosphere(STEPS[level as usize]))?;
     let camera = Camera::new(Vec3::new(0.0, 0.0, 5.0), Vec3::ZERO, Vec3::Y, 60.0)?;
     let light = Light { position: Vec3::new(2.0, 5.0, 3.0), colour: Vec3::ONE, linear: 0.0, quadratic: 0.0 };
     Ok(Scene { camera, lights: vec![light], ..scene })

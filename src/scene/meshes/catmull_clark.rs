@@ -15,45 +15,37 @@ struct Around {
 }
 
 struct Edge {
-    number: u32,
     ends: [u32; 2],
     faces: u32,
     face_points: DVec3,
 }
 
-/// Splits every polygon of a surface into as many quadrilaterals as it has corners, and smooths.
-///
-/// The new points are the moved old vertices, then one point per edge, then one per face. Boundary edges are split in
-/// the middle and boundary vertices follow the cubic B-spline of the boundary.
+/// Splits every polygon of a surface into as many quadrilaterals as it has corners, and smooths: the new points are the
+/// moved old vertices, then one point per edge, then one per face. The boundary becomes a cubic B-spline.
 ///
 /// # References
 /// Catmull, Clark: Recursively generated B-spline surfaces on arbitrary topological meshes (1978).
 pub fn subdivide(points: &[DVec3], faces: &[Vec<u32>]) -> (Vec<DVec3>, Vec<[u32; 4]>) {
     let point = |i: u32| points[i as usize];
-    let face_points: Vec<DVec3> =
-        faces.iter().map(|f| f.iter().map(|&i| point(i)).sum::<DVec3>() / f.len() as f64).collect();
+    let middle = |face: &Vec<u32>| face.iter().map(|&i| point(i)).sum::<DVec3>() / face.len() as f64;
+    let face_points: Vec<DVec3> = faces.iter().map(middle).collect();
 
-    // Number the edges in the order of the faces.
+    // Number the edges in the order of the faces, and gather the neighbourhood of each vertex.
     let mut numbers = HashMap::new();
     let mut edges: Vec<Edge> = Vec::new();
-    for (face, &face_point) in faces.iter().zip(&face_points) {
-        for ends in sides(face) {
-            let number = *numbers.entry(key(ends)).or_insert(edges.len() as u32);
-            if number as usize == edges.len() {
-                edges.push(Edge { number, ends, faces: 0, face_points: DVec3::ZERO });
-            }
-            let edge = &mut edges[number as usize];
-            edge.faces += 1;
-            edge.face_points += face_point;
-        }
-    }
-
-    // Gather the neighbourhood of each vertex.
     let mut around = vec![Around::default(); points.len()];
     for (face, &face_point) in faces.iter().zip(&face_points) {
-        for &corner in face {
-            around[corner as usize].faces += 1.0;
-            around[corner as usize].face_points += face_point;
+        for ends in sides(face) {
+            let number = *numbers.entry(key(ends)).or_insert(edges.len());
+            if number == edges.len() {
+                edges.push(Edge { ends, faces: 0, face_points: DVec3::ZERO });
+            }
+            let edge = &mut edges[number];
+            edge.faces += 1;
+            edge.face_points += face_point;
+            let vertex = &mut around[ends[0] as usize];
+            vertex.faces += 1.0;
+            vertex.face_points += face_point;
         }
     }
     for edge in &edges {
@@ -84,15 +76,13 @@ pub fn subdivide(points: &[DVec3], faces: &[Vec<u32>]) -> (Vec<DVec3>, Vec<[u32;
     new_points.extend(&face_points);
 
     // Connect each corner with the middles of its edges and of its face.
-    let first_edge = points.len() as u32;
-    let first_face = first_edge + edges.len() as u32;
+    let first_face = points.len() + edges.len();
     let mut quads = Vec::new();
     for (number, face) in faces.iter().enumerate() {
-        let middles: Vec<u32> =
-            sides(face).map(|ends| first_edge + edges[numbers[&key(ends)] as usize].number).collect();
+        let middles: Vec<u32> = sides(face).map(|ends| (points.len() + numbers[&key(ends)]) as u32).collect();
         for (corner, &vertex) in face.iter().enumerate() {
             let before = middles[(corner + face.len() - 1) % face.len()];
-            quads.push([vertex, middles[corner], first_face + number as u32, before]);
+            quads.push([vertex, middles[corner], (first_face + number) as u32, before]);
         }
     }
     (new_points, quads)

@@ -3,7 +3,8 @@
 
 use glam::Vec3;
 
-use super::{cube, flat, net, noise};
+use super::plane::cube;
+use super::{flat, net, noise};
 use crate::scene::Model;
 
 /// Two cities on one ground: the square with corners (+-1, 0, +-1), which one city divides into 32 x 32 cells and the

@@ -1,33 +1,73 @@
-//! The sphere made by dividing the sides of an icosahedron.
+//! The icosahedron, seen from outside and from inside, and the sphere made by dividing its sides.
 
 use std::collections::HashMap;
 
 use glam::DVec3;
 
-use super::{icosahedron, smooth};
+use super::{flat, smooth};
 use crate::scene::Model;
 
-/// The [`divided_icosphere`] with edges in `2^subdivisions` parts: `20 * 4^subdivisions` triangles.
+/// Corners with the poles on the y axis, as in the course's files: a unit icosahedron, truncated to steps of 1/200,000.
 ///
-/// # Panics
-/// Above 12 subdivisions, which exceed the triangles of a mesh.
-pub fn icosphere(subdivisions: u32) -> Model {
-    assert!(subdivisions <= 12, "an icosphere has at most 12 subdivisions, not {subdivisions}");
-    divided_icosphere(1 << subdivisions)
+/// The truncation affects the report's ray counts: the mirroring room of Infinitycandy is one of these.
+fn corners() -> Vec<DVec3> {
+    const HEIGHT: f64 = 0.447215;
+    let lower = [[0.7236, 0.52572], [-0.276385, 0.85064], [-0.894425, 0.0], [-0.276385, -0.85064], [0.7236, -0.52572]];
+    let mut corners = vec![-DVec3::Y];
+    corners.extend(lower.map(|[x, z]| DVec3::new(x, -HEIGHT, z)));
+    corners.extend(lower.map(|[x, z]| DVec3::new(-x, HEIGHT, -z)));
+    corners.push(DVec3::Y);
+    corners
+}
+
+fn sides() -> Vec<[u32; 3]> {
+    let lower = |i: u32| 1 + i % 5;
+    // The corner above the edge from lower corner i to the next one.
+    let upper = |i: u32| 6 + (i + 3) % 5;
+    let gore = |i: u32| {
+        let [a, b, c, d] = [lower(i), lower(i + 1), upper(i), upper(i + 1)];
+        [[0, a, b], [b, a, c], [b, c, d], [d, c, 11]]
+    };
+    (0..5).flat_map(gore).collect()
+}
+
+/// The icosahedron of radius 1 with poles on the y axis, flat: 20 triangles.
+///
+/// Each triangle has its own normal, as in the course's file. A normal computed from the placed and rounded corners
+/// differs a little, and after eight mirrors a ray or two more would hit an edge.
+pub fn icosahedron() -> Model {
+    let points = corners();
+    let normal = |triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(|i| points[i as usize]);
+        (b - a).cross(c - a).normalize().as_vec3()
+    };
+    let triangles = sides();
+    Model {
+        normals: triangles.iter().map(normal).collect(),
+        normal_indices: (0..triangles.len() as u32).map(|i| [i; 3]).collect(),
+        ..flat(points.iter().map(|c| c.as_vec3()).collect(), triangles)
+    }
+}
+
+/// The same, looking inward.
+pub fn inside_out_icosahedron() -> Model {
+    let mut model = icosahedron();
+    model.triangles.iter_mut().for_each(|t| t.swap(1, 2));
+    model.normals.iter_mut().for_each(|n| *n = -*n);
+    model
 }
 
 /// A closed, smooth sphere of radius 1: `20 * steps^2` triangles, `10 * steps^2 + 2` vertices.
 ///
 /// Each side of the icosahedron is divided into a flat, even net of `steps` steps along each edge, whose points are
-/// then projected onto the sphere. The silhouette of the report's scene shows that the course's sphere was made in this
-/// way. (Halving the edges and projecting after each halving gives another sphere.)
+/// then projected onto the sphere, not after each halving: so the silhouette of the report's scene shows.
 ///
 /// # Panics
 /// If `steps` is 0 or above 4096, which exceeds the triangles of a mesh.
-pub fn divided_icosphere(steps: u32) -> Model {
+pub fn icosphere(steps: u32) -> Model {
     assert!((1..=4096).contains(&steps), "an icosphere has 1 to 4096 steps, not {steps}");
-    let mut net = Net { points: icosahedron::corners(), rows: HashMap::new(), steps };
-    let triangles = icosahedron::sides().into_iter().flat_map(|side| net.divide(side)).collect();
+    let mut net = Net { points: corners(), rows: HashMap::new(), steps };
+    let triangles = sides().into_iter().flat_map(|side| net.divide(side)).collect();
     smooth(net.points, triangles)
 }
 
@@ -56,11 +96,8 @@ impl Net {
             let row = self.row(key.0, key.1, self.steps);
             self.rows.insert(key, row);
         }
-        let mut row = self.rows[&key].clone();
-        if first > last {
-            row.reverse();
-        }
-        row
+        let row = self.rows[&key].iter().copied();
+        if first < last { row.collect() } else { row.rev().collect() }
     }
 
     fn divide(&mut self, [a, b, c]: [u32; 3]) -> Vec<[u32; 3]> {

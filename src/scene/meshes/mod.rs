@@ -5,7 +5,6 @@ mod coincident;
 mod creatures;
 mod dragon;
 mod fit;
-mod icosahedron;
 mod icosphere;
 mod lucy;
 mod noise;
@@ -16,8 +15,7 @@ mod sdf;
 mod sponza;
 mod teapot;
 mod terrain;
-mod torus;
-mod uv_sphere;
+mod turned;
 
 #[cfg(test)]
 mod tests;
@@ -26,18 +24,11 @@ use glam::{DVec3, Vec3};
 
 use super::Model;
 
-pub use coincident::{fan, growing_shells, near_duplicates, shared_faces, tiled_floor, two_cities};
-pub use creatures::{elephant, fox, rabbit};
-pub use dragon::dragon;
-pub use icosahedron::{icosahedron, inside_out_icosahedron};
-pub use icosphere::{divided_icosphere, icosphere};
-pub use lucy::lucy;
-pub use plane::{cornellbox, cube, plane_y};
-pub use sponza::sponza;
+pub use coincident::fan;
+pub use icosphere::icosphere;
 pub use teapot::teapot;
 pub use terrain::Terrain;
-pub use torus::torus;
-pub use uv_sphere::uv_sphere;
+pub use turned::uv_sphere;
 
 /// A mesh generator and its name in scene files.
 pub struct Generator {
@@ -47,46 +38,32 @@ pub struct Generator {
 
 /// All generators that a scene file can name.
 pub const GENERATORS: &[Generator] = &[
-    Generator { name: "cube", make: cube },
-    Generator { name: "plane_y", make: plane_y },
-    Generator { name: "cornellbox", make: cornellbox },
-    Generator { name: "icosahedron", make: icosahedron },
-    Generator { name: "inside_out_icosahedron", make: inside_out_icosahedron },
-    Generator { name: "icosphere", make: || icosphere(3) },
+    Generator { name: "cube", make: plane::cube },
+    Generator { name: "plane_y", make: plane::plane_y },
+    Generator { name: "cornellbox", make: plane::cornellbox },
+    Generator { name: "icosahedron", make: icosphere::icosahedron },
+    Generator { name: "inside_out_icosahedron", make: icosphere::inside_out_icosahedron },
+    Generator { name: "icosphere", make: || icosphere(8) },
     Generator { name: "uv_sphere", make: || uv_sphere(40, 26) },
-    Generator { name: "torus", make: || torus(48, 24, 0.37) },
+    Generator { name: "torus", make: turned::torus },
     Generator { name: "teapot", make: teapot },
-    Generator { name: "rabbit", make: rabbit },
-    Generator { name: "fox", make: fox },
-    Generator { name: "elephant", make: elephant },
-    Generator { name: "dragon", make: dragon },
-    Generator { name: "lucy", make: lucy },
-    Generator { name: "sponza", make: sponza },
-    Generator { name: "two_cities", make: two_cities },
-    Generator { name: "shared_faces", make: shared_faces },
-    Generator { name: "tiled_floor", make: tiled_floor },
+    Generator { name: "rabbit", make: creatures::rabbit },
+    Generator { name: "fox", make: creatures::fox },
+    Generator { name: "elephant", make: creatures::elephant },
+    Generator { name: "dragon", make: dragon::dragon },
+    Generator { name: "lucy", make: lucy::lucy },
+    Generator { name: "sponza", make: sponza::sponza },
+    Generator { name: "two_cities", make: coincident::two_cities },
+    Generator { name: "shared_faces", make: coincident::shared_faces },
+    Generator { name: "tiled_floor", make: coincident::tiled_floor },
     Generator { name: "fan", make: || fan(1500) },
-    Generator { name: "near_duplicates", make: near_duplicates },
-    Generator { name: "growing_shells", make: growing_shells },
+    Generator { name: "near_duplicates", make: coincident::near_duplicates },
+    Generator { name: "growing_shells", make: coincident::growing_shells },
 ];
 
 /// The mesh called `name`; `None` if there is no such generator.
 pub fn by_name(name: &str) -> Option<Model> {
     GENERATORS.iter().find(|g| g.name == name).map(|g| (g.make)())
-}
-
-/// Cosine and sine of `step` of `steps` equal parts of a full turn, exact at the quarters.
-fn on_circle(step: u32, steps: u32) -> (f64, f64) {
-    match (4 * u64::from(step % steps), u64::from(steps)) {
-        (0, _) => (1.0, 0.0),
-        (s, n) if s == n => (0.0, 1.0),
-        (s, n) if s == 2 * n => (-1.0, 0.0),
-        (s, n) if s == 3 * n => (0.0, -1.0),
-        _ => {
-            let (sine, cosine) = libm::sincos(f64::from(step) * std::f64::consts::TAU / f64::from(steps));
-            (cosine, sine)
-        }
-    }
 }
 
 /// A smooth model with the normals of the course's mesh files.

@@ -33,11 +33,8 @@ pub fn pebbles(p: Vec3, salt: u32) -> (f32, f32) {
         let c = base + IVec3::new(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
         let jitter = |n| 0.15 + 0.7 * cell(c.x, c.y, c.z, salt + n);
         let d = (c.as_vec3() + Vec3::new(jitter(0), jitter(1), jitter(2))).distance_squared(p);
-        if d < first {
-            (first, second) = (d, first);
-        } else if d < second {
-            second = d;
-        }
+        second = second.min(d.max(first));
+        first = first.min(d);
     }
     (first.sqrt(), second.sqrt())
 }

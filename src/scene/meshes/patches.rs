@@ -22,14 +22,12 @@ pub struct Patches {
 
 impl Patches {
     /// Sets the material of all later parts; it is looked up by its name.
-    pub fn of(&mut self, material: &Material) -> &mut Self {
+    pub fn of(&mut self, material: &Material) {
         let known = self.model.materials.iter().position(|m| m.name == material.name);
-        let number = known.unwrap_or_else(|| {
+        self.material = known.unwrap_or(self.model.materials.len()) as u32;
+        if known.is_none() {
             self.model.materials.push(material.clone());
-            self.model.materials.len() - 1
-        });
-        self.material = number as u32;
-        self
+        }
     }
 
     /// A net of `columns` x `rows` quads, two triangles each, over the points `at(column, row)`; the front is the side
@@ -40,10 +38,10 @@ impl Patches {
         round: bool,
         finish: Finish,
         at: impl Fn(usize, usize) -> Vec3,
-    ) -> &mut Self {
+    ) {
         let across = if round { columns } else { columns + 1 };
-        let positions: Vec<Vec3> =
-            (0..=rows).flat_map(|row| (0..across).map(move |c| (c, row))).map(|(c, r)| at(c, r)).collect();
+        let places = (0..across * (rows + 1)).map(|i| at(i % across, i / across));
+        let positions: Vec<Vec3> = places.collect();
         let corner = |column: u32, row: u32| row * across as u32 + column % across as u32;
         let quad = |r: u32, c: u32| [corner(c, r), corner(c + 1, r), corner(c + 1, r + 1), corner(c, r + 1)];
         let triangles = net(rows as u32, columns as u32, quad);
@@ -60,21 +58,15 @@ impl Patches {
         model.triangles.extend(shifted(model.positions.len()));
         model.positions.extend(positions);
         model.material_of.resize(model.triangles.len(), self.material);
-        self
     }
 
     /// A flat quad; the corners run counter-clockwise when seen from the front.
-    pub fn quad(&mut self, [a, b, c, d]: [Vec3; 4]) -> &mut Self {
-        self.patch([1, 1], false, Finish::Flat, |column, row| match (column, row) {
-            (0, 0) => a,
-            (1, 0) => b,
-            (1, 1) => c,
-            _ => d,
-        })
+    pub fn quad(&mut self, [a, b, c, d]: [Vec3; 4]) {
+        self.patch([1, 1], false, Finish::Flat, |column, row| [[a, b], [d, c]][row][column]);
     }
 
     /// A box between two corners given in the coordinates of `frame`, low one first.
-    pub fn block(&mut self, frame: &Frame, low: [f32; 3], high: [f32; 3]) -> &mut Self {
+    pub fn block(&mut self, frame: &Frame, low: [f32; 3], high: [f32; 3]) {
         let at = |corner: usize| {
             let [x, y, z] = std::array::from_fn(|i| if corner >> i & 1 == 1 { high[i] } else { low[i] });
             frame.at(x, y, z)
@@ -82,25 +74,22 @@ impl Patches {
         for [a, b, c, d] in [[4, 5, 7, 6], [1, 0, 2, 3], [5, 1, 3, 7], [0, 4, 6, 2], [6, 7, 3, 2], [0, 1, 5, 4]] {
             self.quad([at(a), at(b), at(c), at(d)]);
         }
-        self
     }
 
     /// A turned body around the vertical through `foot`: (radius, height) from bottom to top.
-    pub fn lathe(&mut self, foot: Vec3, profile: &[[f32; 2]], sides: usize) -> &mut Self {
+    pub fn lathe(&mut self, foot: Vec3, profile: &[[f32; 2]], sides: usize) {
         self.patch([sides, profile.len() - 1], true, Finish::Smooth, |column, row| {
             let [radius, height] = profile[row];
             let (sine, cosine) = turn(column, sides);
             foot + Vec3::new(radius * sine, height, radius * cosine)
-        })
+        });
     }
 
     /// A straight moulding along the right axis of `frame`: (height, depth) from bottom to top.
-    pub fn moulding(&mut self, frame: &Frame, [from, to]: [f32; 2], profile: &[[f32; 2]]) -> &mut Self {
-        for pair in profile.windows(2) {
-            let [[y0, z0], [y1, z1]] = [pair[0], pair[1]];
+    pub fn moulding(&mut self, frame: &Frame, [from, to]: [f32; 2], profile: &[[f32; 2]]) {
+        for &[[y0, z0], [y1, z1]] in profile.array_windows() {
             self.quad([frame.at(from, y0, z0), frame.at(to, y0, z0), frame.at(to, y1, z1), frame.at(from, y1, z1)]);
         }
-        self
     }
 }
 

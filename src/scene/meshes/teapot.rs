@@ -66,10 +66,11 @@ fn welded_patches() -> (Vec<DVec3>, Vec<Vec<u32>>) {
                 let p = evaluate(&patch.map(|i| controls[i - 1]), row, column);
                 // Neighbours compute their common points in different orders: compare them rounded.
                 let key = (shell(number), (p * 1e6).round().as_i64vec3());
-                vertices.push(*known.entry(key).or_insert_with(|| {
+                let vertex = *known.entry(key).or_insert(points.len() as u32);
+                if vertex as usize == points.len() {
                     points.push(p);
-                    points.len() as u32 - 1
-                }));
+                }
+                vertices.push(vertex);
             }
         }
         for corner in (0..STEPS * STEPS).map(|cell| cell / STEPS * (STEPS + 1) + cell % STEPS) {
@@ -116,6 +117,8 @@ fn along_longer_diagonal(points: &[DVec3], [a, b, c, d]: [u32; 4]) -> [[u32; 3];
 
 #[cfg(test)]
 mod tests {
+    use std::collections::HashSet;
+
     use super::*;
 
     #[test]
@@ -142,31 +145,18 @@ mod tests {
         let (ours, theirs) = (teapot(), crate::scene::load(&path).unwrap());
 
         // Match each vertex with the nearest.
-        let mut worst = 0.0f32;
-        let nearest: Vec<u32> = (ours.positions.iter())
-            .map(|p| {
-                let by_distance = |q: &Vec3| p.distance(*q);
-                let mut candidates = theirs.positions.iter().map(by_distance).enumerate();
-                let first = candidates.next().unwrap();
-                let (index, distance) = candidates.fold(first, |a, b| if b.1 < a.1 { b } else { a });
-                worst = worst.max(distance);
-                index as u32
-            })
-            .collect();
-        let distinct: std::collections::HashSet<u32> = nearest.iter().copied().collect();
-        eprintln!("largest distance of a vertex: {worst}");
+        let gap = |p: &Vec3, i: u32| p.distance(theirs.positions[i as usize]);
+        let all = || 0..theirs.positions.len() as u32;
+        let nearest_of = |p: &Vec3| all().min_by(|&i, &j| gap(p, i).total_cmp(&gap(p, j))).unwrap();
+        let nearest: Vec<u32> = ours.positions.iter().map(nearest_of).collect();
+        let worst = ours.positions.iter().zip(&nearest).map(|(p, &i)| gap(p, i)).fold(0.0, f32::max);
         assert!(worst < 1e-5, "a vertex is {worst} off");
-        assert_eq!(distinct.len(), theirs.positions.len());
+        assert_eq!(nearest.iter().copied().collect::<HashSet<u32>>(), all().collect());
 
         // Compare the triangles as sets, and the normals of their corners.
-        let from_least = |t: [u32; 3]| {
-            let first = (0..3).min_by_key(|&i| t[i]).unwrap();
-            [t[first], t[(first + 1) % 3], t[(first + 2) % 3]]
-        };
-        let matched: std::collections::HashSet<_> =
-            ours.triangles.iter().map(|t| from_least(t.map(|i| nearest[i as usize]))).collect();
-        let given: std::collections::HashSet<_> = theirs.triangles.iter().map(|&t| from_least(t)).collect();
-        assert_eq!(matched, given);
+        let from_least = |[a, b, c]: [u32; 3]| [[a, b, c], [b, c, a], [c, a, b]].into_iter().min();
+        let matched: HashSet<_> = ours.triangles.iter().map(|t| from_least(t.map(|i| nearest[i as usize]))).collect();
+        assert_eq!(matched, theirs.triangles.iter().map(|&t| from_least(t)).collect());
 
         let mut normal_of = vec![Vec3::ZERO; theirs.positions.len()];
         for (corners, normals) in theirs.triangles.iter().zip(&theirs.normal_indices) {
@@ -174,7 +164,6 @@ mod tests {
         }
         let turned = |(i, n): (usize, &Vec3)| n.distance(normal_of[nearest[i] as usize]);
         let worst = ours.normals.iter().enumerate().map(turned).fold(0.0, f32::max);
-        eprintln!("largest distance of a normal: {worst}");
         assert!(worst < 1e-4, "a normal is {worst} off");
     }
 }

@@ -89,7 +89,7 @@ fn bounces_leave_on_the_side_they_came_from() {
 #[test]
 fn bounces_off_a_framed_convex_mesh_hit_nothing_at_any_size_and_place() {
     let hidden = |offset: Option<Offset>, radius: f32, centre: f32| {
-        let mut model = meshes::icosphere(2);
+        let mut model = meshes::icosphere(4);
         model.positions.iter_mut().for_each(|p| *p = *p * radius + centre);
         model.normal_indices.clear();
         let framed = Scene::framed("sphere", model).unwrap();

@@ -58,10 +58,8 @@ impl Column {
             [1.26, 2.3],
         ];
         patches.lathe(foot, &neck.map(|[x, y]| [x * r, high + y * r]), self.sides);
-        for row in 0..2 {
-            for leaf in 0..self.leaves {
-                self.leaf(patches, foot + Vec3::Y * (high + (0.18 + 0.65 * row as f32) * r), 2 * leaf + row);
-            }
+        for (row, up) in [0.18, 0.18 + 0.65].into_iter().enumerate() {
+            (0..self.leaves).for_each(|leaf| self.leaf(patches, foot + Vec3::Y * (high + up * r), 2 * leaf + row));
         }
         for corner in 0..4 {
             self.volute(patches, foot + Vec3::Y * (high + 1.25 * r), corner);

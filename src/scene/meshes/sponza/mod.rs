@@ -28,11 +28,8 @@ const EAVES: f32 = 900.0;
 /// Column spacing below; above, columns stand twice as close.
 const BAY: f32 = 208.0;
 
-/// A building of 174,838 triangles with an open court, 3721 long (x), 1555 high and 2288 wide, its court floor at y =
-/// 0.
-///
-/// Flat stone is flat-shaded, turned and curved stone has smooth normals. Not closed. Materials by name: floor, brick,
-/// column_a, column_b, arch, trim, ornament, ceiling, wood, roof.
+/// A building of 174,838 triangles with an open court, 3721 long (x), 1555 high and 2288 wide; the court's floor is at
+/// y = 0. Flat stone is flat-shaded, turned and curved stone has smooth normals. Not closed.
 pub fn sponza() -> Model {
     let mut patches = Patches::default();
     let [half_length, half_width, middle] = COURT;

@@ -36,12 +36,8 @@ pub fn walk(patches: &mut Patches, frame: &Frame, bays: usize, bay: f32) {
     patches.of(&material("floor", [0.86, 0.80, 0.72]));
     patches.quad([at(from, UPPER, 30.0), at(to, UPPER, 30.0), at(to, UPPER, -WALK), at(from, UPPER, -WALK)]);
     patches.of(&material("ceiling", [0.95, 0.90, 0.80]));
-    patches.quad([
-        at(from, EAVES - 18.0, -WALK),
-        at(to, EAVES - 18.0, -WALK),
-        at(to, EAVES - 18.0, 16.0),
-        at(from, EAVES - 18.0, 16.0),
-    ]);
+    let top = EAVES - 18.0;
+    patches.quad([at(from, top, -WALK), at(to, top, -WALK), at(to, top, 16.0), at(from, top, 16.0)]);
 }
 
 /// A groin vault over one bay of the lower walk: the higher of two crossing barrels.
@@ -71,11 +67,8 @@ fn doorway(patches: &mut Patches, frame: &Frame, middle: f32, floor: f32, size: 
         let u = middle + side * (wide + 7.0);
         patches.block(frame, [u - 8.0, floor, back], [u + 8.0, floor + high, back + 12.0]);
     }
-    patches.block(
-        frame,
-        [middle - wide - 20.0, floor + high, back],
-        [middle + wide + 20.0, floor + high + 16.0, back + 16.0],
-    );
+    let (left, right, top) = (middle - wide - 20.0, middle + wide + 20.0, floor + high);
+    patches.block(frame, [left, top, back], [right, top + 16.0, back + 16.0]);
 }
 
 /// Court floor, ground outside, outer walls.
@@ -104,54 +97,41 @@ pub fn grounds(patches: &mut Patches) {
     patches.block(&Frame::WORLD, [-1800.0, -126.0, near], [left, 980.0, far]);
     patches.block(&Frame::WORLD, [right, -126.0, near], [1700.0, 980.0, far]);
     patches.of(&material("floor", [0.86, 0.80, 0.72]));
-    patches.quad([
-        v(-1921.0, -126.0, 1105.0),
-        v(1800.0, -126.0, 1105.0),
-        v(1800.0, -126.0, -1183.0),
-        v(-1921.0, -126.0, -1183.0),
-    ]);
+    let at = |x: f32, z: f32| v(x, -126.0, z);
+    patches.quad([at(-1921.0, 1105.0), at(1800.0, 1105.0), at(1800.0, -1183.0), at(-1921.0, -1183.0)]);
 }
 
-/// One slope of a roof: eaves from `from` to `to`, ridge above and behind.
-struct Slope {
-    from: Vec3,
-    to: Vec3,
-    /// From the eaves to the ridge.
-    up: Vec3,
-}
+/// One slope of a roof: both ends of its eaves, and the way from the eaves to the ridge.
+type Slope = [Vec3; 3];
 
-/// Roofs around the court; their tiles use the remaining `triangles`.
-///
-/// # Panics
-/// If no triangles remain, or more than the roofs can take.
+/// Roofs around the court; their tiles use the remaining `triangles`, which must fit on them.
 pub fn roofs(patches: &mut Patches, triangles: usize) {
     let [half_length, half_width, middle] = COURT;
     let v = Vec3::new;
     let eaves = EAVES + 62.0;
-    let slope = |from, to, up| Slope { from, to, up };
     let (x, z) = (half_length - 60.0, half_width - 60.0);
     let rise = 1429.0 - eaves;
     let slopes = [
-        slope(v(-x, eaves, middle - z), v(x, eaves, middle - z), v(0.0, rise, -560.0)),
-        slope(v(x, eaves, middle + z), v(-x, eaves, middle + z), v(0.0, rise, 560.0)),
-        slope(v(-x, eaves, middle + z), v(-x, eaves, middle - z), v(-440.0, 0.8 * rise, 0.0)),
-        slope(v(x, eaves, middle - z), v(x, eaves, middle + z), v(440.0, 0.8 * rise, 0.0)),
+        [v(-x, eaves, middle - z), v(x, eaves, middle - z), v(0.0, rise, -560.0)],
+        [v(x, eaves, middle + z), v(-x, eaves, middle + z), v(0.0, rise, 560.0)],
+        [v(-x, eaves, middle + z), v(-x, eaves, middle - z), v(-440.0, 0.8 * rise, 0.0)],
+        [v(x, eaves, middle - z), v(x, eaves, middle + z), v(440.0, 0.8 * rise, 0.0)],
     ];
     patches.of(&material("roof", [0.95, 0.60, 0.44]));
-    for Slope { from, to, up } in &slopes {
-        patches.quad([*from, *to, *to + *up, *from + *up]);
+    for [from, to, up] in slopes {
+        patches.quad([from, to, to + up, from + up]);
         // The underside, slightly lower, is the part of the eaves visible from the court.
         let down = v(0.0, -4.0, 0.0);
-        patches.quad([*to + down, *from + down, *from + *up + down, *to + *up + down]);
-        patches.quad([*from + down, *to + down, *to, *from]);
+        patches.quad([to + down, from + down, from + up + down, to + up + down]);
+        patches.quad([from + down, to + down, to, from]);
     }
 
     let built = patches.model.triangles.len();
     assert!(built < triangles, "the building without tiles has {built} triangles already");
     let mut left = triangles - built;
     for row in 0..ROWS {
-        for slope in &slopes {
-            let columns = ((slope.to - slope.from).length() / TILE) as usize;
+        for slope @ [from, to, _] in &slopes {
+            let columns = ((to - from).length() / TILE) as usize;
             for column in 0..columns {
                 let sides = 3.min(left / 2);
                 if sides == 0 {
@@ -170,11 +150,11 @@ const ROWS: usize = 11;
 const TILE: f32 = 44.0;
 
 /// A half-round tile, lifted at its lower end where it lies on the next.
-fn tile(patches: &mut Patches, slope: &Slope, [column, columns]: [usize; 2], row: usize, sides: usize) {
-    let along = (slope.to - slope.from) / columns as f32;
-    let step = slope.up / ROWS as f32;
+fn tile(patches: &mut Patches, [from, to, up]: &Slope, [column, columns]: [usize; 2], row: usize, sides: usize) {
+    let along = (to - from) / columns as f32;
+    let step = up / ROWS as f32;
     let normal = along.cross(step).normalize();
-    let foot = slope.from + along * (column as f32 + 0.5) + step * row as f32;
+    let foot = from + along * (column as f32 + 0.5) + step * row as f32;
     patches.patch([sides, 1], false, Finish::Smooth, |side, end| {
         let (height, across) = turn(sides - side, 2 * sides);
         let lift = if end == 0 { 6.0 } else { 1.0 };
