@@ -4,10 +4,11 @@ use image::RgbImage;
 use rayon::prelude::*;
 
 use super::picture::from_pixels;
+use super::view::primary;
 use crate::accel::DynAccel;
 use crate::geometry::{Hit, Ray};
 use crate::oracle::{Oracle, Truth};
-use crate::scene::{Scene, View};
+use crate::scene::Scene;
 use crate::validate::{DepthRule, Outcome, outcome};
 
 /// The primary rays of a picture, row by row, with their exact hits. One serves all structures.
@@ -21,7 +22,7 @@ impl ExactPicture {
     /// Takes some microseconds per pixel.
     pub fn new(scene: &Scene, size: [u32; 2]) -> Self {
         let oracle = Oracle::new(&scene.mesh);
-        let rays = scene.primary_rays(size, View::CENTRE, 0..size[0] * size[1]);
+        let rays = primary(scene, size);
         let truths = rays.par_iter().map(|ray| oracle.nearest(ray)).collect();
         Self { size, rays, truths }
     }
@@ -90,7 +91,7 @@ impl ErrorMap {
         format!("{}, correct {right} (grey, brighter where nearer); errors are three pixels wide", painted.join(", "))
     }
 
-    /// The errors: their name, number of pixels and colour (red, green, blue).
+    /// The errors: name, number of pixels and colour (red, green, blue).
     pub fn colours(&self) -> [(&'static str, usize, [u8; 3]); 4] {
         PAINTED.map(|(outcome, name, _, colour)| (name, self.count(outcome), colour))
     }
@@ -100,12 +101,10 @@ impl ErrorMap {
         let right = |(outcome, hit): &(Outcome, Option<Hit>)| hit.filter(|_| *outcome == Outcome::Right);
         let nearest = self.pixels.iter().filter_map(right).fold(f32::INFINITY, |near, hit| near.min(hit.t));
         let colour = |pixel: &(Outcome, Option<Hit>)| {
-            if let Some((_, _, _, colour)) = PAINTED.iter().find(|(outcome, ..)| *outcome == pixel.0) {
-                return *colour;
-            }
             // Far hits keep a third of the light, which distinguishes them from misses.
             let light = |hit: Hit| 1.0 / 3.0 + 2.0 / 3.0 * if hit.t > nearest { nearest / hit.t } else { 1.0 };
-            [pixel.1.map_or(0, |hit| (BRIGHTEST * light(hit)) as u8); 3]
+            let grey = pixel.1.map_or(0, |hit| (BRIGHTEST * light(hit)) as u8);
+            PAINTED.iter().find(|(outcome, ..)| *outcome == pixel.0).map_or([grey; 3], |(.., colour)| *colour)
         };
         let mut colours: Vec<[u8; 3]> = self.pixels.iter().map(colour).collect();
         // A single pixel is too small to see in a large picture: draw errors three pixels wide and high, without hiding
@@ -139,22 +138,16 @@ mod tests {
     use crate::triangle::Exact;
 
     #[test]
-    fn exact_hits_are_all_grey() {
-        let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
-        let tree = KdTree::<Exact>::build(&scene.mesh, &KdConfig::SAH).unwrap();
-        let map = ErrorMap::new(&scene, &tree, [48, 48]);
-        assert!(map.count(Outcome::Right) > 0 && map.count(Outcome::Nothing) > 0, "{}", map.legend());
-        assert_eq!(map.count(Outcome::Right) + map.count(Outcome::Nothing), 48 * 48);
-        assert!(map.picture().pixels().all(|Rgb([r, g, b])| r == g && g == b && f32::from(*r) <= BRIGHTEST));
-        assert_eq!(map.picture().get_pixel(0, 0), &Rgb([0; 3]));
-    }
-
-    #[test]
-    fn errors_have_their_colours() {
+    fn right_hits_are_grey_and_errors_have_their_colours() {
         let mut scene = Builtin::find("cube").unwrap().scene(None).unwrap();
         let tree = KdTree::<Exact>::build(&scene.mesh, &KdConfig::SAH).unwrap();
         let size = [24, 24];
-        let hits = ErrorMap::new(&scene, &tree, size).count(Outcome::Right);
+        let map = ErrorMap::new(&scene, &tree, size);
+        let (hits, picture) = (map.count(Outcome::Right), map.picture());
+        assert!(hits > 0 && hits < 24 * 24, "{}", map.legend());
+        assert_eq!(hits + map.count(Outcome::Nothing), 24 * 24);
+        assert!(picture.pixels().all(|Rgb([r, g, b])| r == g && g == b && f32::from(*r) <= BRIGHTEST));
+        assert_eq!(picture.get_pixel(0, 0), &Rgb([0; 3]));
 
         // The hits and the exact hits belong to different meshes.
         let empty = Arc::new(Mesh::new(vec![], vec![]).unwrap());

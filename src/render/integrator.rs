@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use crate::accel::DynAccel;
 use crate::geometry::{Hit, Ray};
-use crate::scene::{Light, Material, Scene, Surface, View};
+use crate::scene::{Light, Material, Scene, Surface};
 
 /// The numbers of rays of each kind in an image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -18,45 +18,23 @@ pub struct RayCounts {
     pub shadow: u64,
 }
 
-impl RayCounts {
-    pub fn total(&self) -> u64 {
-        self.primary + self.mirror + self.shadow
-    }
-}
+/// Pixels in a batch of rays.
+const CHUNK: usize = 4096;
 
-/// Pixels in a batch of rays. The image does not depend on it.
-const CHUNK: u32 = 4096;
-
-/// Renders `scene` with rays traced by `accel`, which must be built over the scene's mesh.
-///
-/// The colours are linear RGB, row by row, the top row first.
-///
-/// The rays of one kind and level of a few thousand pixels are traced as one batch. Chunks of pixels run in parallel;
-/// the image does not depend on the number of threads.
-pub fn render(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> (Vec<Vec3>, RayCounts) {
-    let pixels = size[0] * size[1];
-    let chunks: Vec<(Vec<Vec3>, RayCounts)> = (0..pixels.div_ceil(CHUNK))
-        .into_par_iter()
-        .map(|chunk| {
-            let range = chunk * CHUNK..pixels.min((chunk + 1) * CHUNK);
-            trace(scene, accel, scene.primary_rays(size, View::CENTRE, range))
-        })
-        .collect();
-
-    let mut counts = RayCounts::default();
-    let mut colours = Vec::with_capacity(pixels as usize);
-    for (chunk, rays) in chunks {
-        colours.extend(chunk);
-        counts.primary += rays.primary;
-        counts.mirror += rays.mirror;
-        counts.shadow += rays.shadow;
-    }
-    (colours, counts)
-}
-
-/// The colours of `render` for the pixels of these primary rays.
+/// The colours, linear RGB, of the pixels of these primary rays, traced by `accel` over the scene's mesh. The rays of one
+/// kind and level of a few thousand pixels are one batch; the colours do not depend on batches and threads.
 pub fn shade(scene: &Scene, accel: &dyn DynAccel, rays: &[Ray]) -> Vec<Vec3> {
-    rays.par_chunks(CHUNK as usize).flat_map_iter(|chunk| trace(scene, accel, chunk.to_vec()).0).collect()
+    rays.par_chunks(CHUNK).flat_map_iter(|chunk| trace(scene, accel, chunk.to_vec()).0).collect()
+}
+
+/// The numbers of rays that [`shade`] traces.
+pub fn count_rays(scene: &Scene, accel: &dyn DynAccel, rays: &[Ray]) -> RayCounts {
+    let counts = rays.par_chunks(CHUNK).map(|chunk| trace(scene, accel, chunk.to_vec()).1);
+    counts.reduce(RayCounts::default, |a, b| RayCounts {
+        primary: a.primary + b.primary,
+        mirror: a.mirror + b.mirror,
+        shadow: a.shadow + b.shadow,
+    })
 }
 
 #[derive(Default)]
@@ -67,12 +45,11 @@ struct MirrorLevel {
     mirrors: Vec<(usize, f32)>,
 }
 
-fn trace(scene: &Scene, accel: &dyn DynAccel, rays: Vec<Ray>) -> (Vec<Vec3>, RayCounts) {
+fn trace(scene: &Scene, accel: &dyn DynAccel, mut rays: Vec<Ray>) -> (Vec<Vec3>, RayCounts) {
     let mut counts = RayCounts { primary: rays.len() as u64, ..RayCounts::default() };
 
     // Forward: the mirror rays of each level are the rays of the next.
     let mut levels = vec![];
-    let mut rays = rays;
     while !rays.is_empty() {
         let follow = (levels.len() as u32) < scene.recursion_limit;
         let (level, mirrored) = shade_level(scene, accel, &rays, follow, &mut counts);

@@ -14,7 +14,7 @@ mod tests;
 
 pub use colour_map::{heat as heat_colour, ramp as ramp_colour, with_bar as with_heat_bar};
 pub use error_map::{ErrorMap, ExactPicture, error_name};
-pub use integrator::{RayCounts, render, shade};
+pub use integrator::{RayCounts, count_rays, shade};
 pub use picture::{from_pixels, of_colours, png, png_encoder};
 pub use view::{
     ViewError, ViewKind, coarse_size, costs, depth_picture, draw, hottest, identity, normal_colour, size_of,

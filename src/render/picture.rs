@@ -9,9 +9,8 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 /// A picture of RGB pixels, row by row, the top row first.
 ///
 /// # Panics
-/// If the number of `pixels` is not width times height of `size`.
-pub fn from_pixels(size: [u32; 2], pixels: Vec<[u8; 3]>) -> RgbImage {
-    let [width, height] = size;
+/// If the number of `pixels` is not width times height.
+pub fn from_pixels([width, height]: [u32; 2], pixels: Vec<[u8; 3]>) -> RgbImage {
     assert_eq!(pixels.len() as u64, u64::from(width) * u64::from(height), "one colour a pixel");
     RgbImage::from_raw(width, height, pixels.into_flattened()).expect("all pixels are there")
 }

@@ -1,6 +1,7 @@
 //! Checks the rays and pictures of the renderer.
 
-use super::{RayCounts, render};
+use super::view::primary;
+use super::{RayCounts, count_rays, shade};
 use crate::accel::Accel;
 use crate::brute_force::BruteForce;
 use crate::kdtree::{KdConfig, KdTree};
@@ -11,9 +12,9 @@ use crate::triangle::{Exact, MollerTrumbore};
 fn rays_are_cast_for_what_a_scene_needs_and_no_more() {
     let mut scene = Builtin::find("infinitycandy").unwrap().scene(None).unwrap();
     let all = BruteForce::<MollerTrumbore>::build(&scene.mesh, &Default::default()).unwrap();
-    let mut count = |change: &dyn Fn(&mut crate::scene::Scene)| {
+    let mut count = |change: &dyn Fn(&mut Scene)| {
         change(&mut scene);
-        render(&scene, &all, [16, 16]).1
+        count_rays(&scene, &all, &primary(&scene, [16, 16]))
     };
     let three = count(&|scene| scene.recursion_limit = 3);
     assert!(three.mirror > 2 * 256 && three.mirror <= 3 * 256, "{three:?}");
@@ -29,7 +30,8 @@ fn the_picture_does_not_depend_on_threads() {
     let tree = KdTree::<MollerTrumbore>::build(&scene.mesh, &KdConfig::SAH).unwrap();
     let with = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| render(&scene, &tree, [90, 70]))
+        let rays = primary(&scene, [90, 70]);
+        pool.install(|| (shade(&scene, &tree, &rays), count_rays(&scene, &tree, &rays)))
     };
     assert_eq!(with(1), with(3));
 }
@@ -39,7 +41,7 @@ fn picture_workloads_hold_the_rays_that_the_renderer_counts() {
     let scene = Builtin::find("infinitycandy").unwrap().scene(None).unwrap();
     let size = [40, 40];
     let tree = KdTree::<MollerTrumbore>::build(&scene.mesh, &KdConfig::SAH).unwrap();
-    let counts = render(&scene, &tree, size).1;
+    let counts = count_rays(&scene, &tree, &primary(&scene, size));
     let sampling = Sampling { size, ..Sampling::of(&scene) };
     let count = |kind| Workload::new(&scene, kind, &sampling, &tree).rays.len() as u64;
     assert!(counts.mirror > 5 * counts.primary);
@@ -59,7 +61,7 @@ fn a_mirrored_cube_looks_as_the_cube_itself() {
         std::fs::write(&path, text).unwrap();
         let scene = Scene::read(&path, None).unwrap();
         let all = BruteForce::<Exact>::build(&scene.mesh, &Default::default()).unwrap();
-        render(&scene, &all, [48, 48]).0
+        shade(&scene, &all, &primary(&scene, [48, 48]))
     };
     let plain = picture("[1, 1, 1]");
     for sca in ["[-1, 1, 1]", "[1, 1, -1]", "[-1, -1, -1]", "[-1, -1, 1]"] {

@@ -5,7 +5,7 @@ use std::str::FromStr;
 use image::RgbImage;
 
 use super::picture::{from_pixels, of_colours, quantised};
-use super::{ErrorMap, Work, colour_map, render};
+use super::{ErrorMap, Work, colour_map, shade};
 use crate::accel::{DynAccel, Observed};
 use crate::geometry::{Hit, Ray};
 use crate::names::{Unknown, find, named_enum};
@@ -58,14 +58,20 @@ pub fn draw(
     size: [u32; 2],
     hottest: u64,
 ) -> Result<RgbImage, ViewError> {
+    let rays = primary(scene, size);
+    let hits = || accel.closest_by_chunks(&rays, 4096).into_iter();
+    let of_hits = |colour: &dyn Fn(&Ray, Hit) -> [u8; 3]| {
+        let colours = rays.iter().zip(hits()).map(|(ray, hit)| hit.map_or([0; 3], |hit| colour(ray, hit)));
+        from_pixels(size, colours.collect())
+    };
     Ok(match view {
-        ViewKind::Shaded => of_colours(size, &render(scene, accel, size).0),
+        ViewKind::Shaded => of_colours(size, &shade(scene, accel, &rays)),
         ViewKind::Depth => {
-            let depth = |(_, hit): (Ray, Option<Hit>)| hit.map_or(f32::INFINITY, |hit| hit.t);
-            depth_picture(size, &hits(scene, accel, size).into_iter().map(depth).collect::<Vec<f32>>())
+            let depths = hits().map(|hit| hit.map_or(f32::INFINITY, |hit| hit.t));
+            depth_picture(size, &depths.collect::<Vec<f32>>())
         }
-        ViewKind::Normal => from_hits(size, &hits(scene, accel, size), |ray, hit| normal_colour(scene, ray, hit)),
-        ViewKind::Primitive => from_hits(size, &hits(scene, accel, size), |_, hit| identity(hit.prim.index())),
+        ViewKind::Normal => of_hits(&|ray, hit| normal_colour(scene, ray, hit)),
+        ViewKind::Primitive => of_hits(&|_, hit| identity(hit.prim.index())),
         ViewKind::Heat => {
             let colours = costs(scene, accel, size)?.into_iter().map(|cost| colour_map::heat(cost, hottest));
             from_pixels(size, colours.collect())
@@ -106,18 +112,9 @@ pub fn coarse_size(scene: &Scene) -> [u32; 2] {
     size_of(scene, 320)
 }
 
-fn primary(scene: &Scene, size: [u32; 2]) -> Vec<Ray> {
+/// The rays through the centres of all pixels, row by row.
+pub fn primary(scene: &Scene, size: [u32; 2]) -> Vec<Ray> {
     scene.primary_rays(size, View::CENTRE, 0..size[0] * size[1])
-}
-
-fn hits(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Vec<(Ray, Option<Hit>)> {
-    let rays = primary(scene, size);
-    let hits = accel.closest_by_chunks(&rays, 4096);
-    rays.into_iter().zip(hits).collect()
-}
-
-fn from_hits(size: [u32; 2], hits: &[(Ray, Option<Hit>)], colour: impl Fn(&Ray, Hit) -> [u8; 3]) -> RgbImage {
-    from_pixels(size, hits.iter().map(|(ray, hit)| hit.map_or([0; 3], |hit| colour(ray, hit))).collect())
 }
 
 /// The colour of a hit of `ray` in the normal view.
