@@ -3,11 +3,24 @@
 use image::{DynamicImage, RgbImage};
 use serde::Serialize;
 
-use super::judgement::{Judgement, Match, Verdict};
-use super::limit::{Limit, differ};
 use super::measures::{FlipMap, Measures};
+use super::rule::{Limit, Match, NoFlip, differ};
 use super::{Difference, Layout, Mask, difference_picture};
 use crate::plural::{count, plural};
+
+/// The result of comparing two pictures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    Differs,
+    /// It could not be read, or this measure does not support the pictures.
+    Failed,
+    Missing,
+    Additional,
+    /// It differs, but within the tolerance.
+    Accepted,
+    Identical,
+}
 
 /// Two pictures of one name, or one picture without a partner.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -72,28 +85,25 @@ pub fn compare(
     }
     if let Some(mask) = mask.filter(|mask| mask.size != wanted.size) {
         let [width, height] = mask.size;
-        let sentence = format!(
-            "the mask has {width} x {height} pixels, but the picture has {wanted}: use a mask of the same \
-                     size"
-        );
-        return said(Verdict::Failed, sentence);
+        let masked = format!("the mask has {width} x {height} pixels, but the picture has {wanted}");
+        return said(Verdict::Failed, format!("{masked}: use a mask of the same size"));
+    }
+    if matches!(how, Match::Flip { .. }) && wanted.is_float() {
+        return said(Verdict::Failed, NoFlip.to_string());
     }
     let masked = mask.map(|mask| mask.applied(expected, actual.clone()));
     let pictures = [expected, masked.as_ref().unwrap_or(actual)];
-    let mut judged = match Judgement::new(pictures, how, mask) {
-        Err(refused) => return said(Verdict::Failed, refused.to_string()),
-        Ok(None) => return said(Verdict::Identical, "all values are equal".into()),
-        Ok(Some(judged)) => judged,
+    let Some(difference) = Difference::between(pictures[0], pictures[1]) else {
+        return said(Verdict::Identical, "all values are equal".into());
     };
-    let comparison = Comparison {
-        name: name.into(),
-        verdict: if judged.accepted { Verdict::Accepted } else { Verdict::Differs },
-        said: judged.said(),
-        command: None,
-        limit: judged.limit,
-        measures: Some(judged.measures()),
-    };
-    let flip = judged.flip().cloned();
+    let flip = FlipMap::new(pictures[0], pictures[1], how.pixels_per_degree());
+    let limit = how.limit(pictures, flip.as_ref(), mask);
+    let is_met = limit.is_some_and(|limit| limit.is_met());
+    let verdict = if is_met { Verdict::Accepted } else { Verdict::Differs };
+    let mut comparison = Comparison::said(name, verdict, difference.sentence(wanted.size));
+    comparison.said.extend(limit.map(|limit| limit.sentence(&wanted)));
+    comparison.limit = limit;
+    comparison.measures = Some(Measures::new(pictures, difference, how.difference(), flip.as_ref(), mask));
     (comparison, Some(Maps { difference: difference_picture(pictures[0], pictures[1]), flip }))
 }
 
@@ -122,30 +132,19 @@ mod tests {
     use super::*;
     use crate::golden::Allowed;
 
-    fn verdict(pictures: [&DynamicImage; 2], how: Match) -> Verdict {
-        compare("a", pictures, how, None).0.verdict
-    }
-
     #[test]
     fn floats_are_accepted_by_their_own_difference_and_not_by_flip() {
         let float = |value| DynamicImage::from(Rgb32FImage::from_pixel(12, 12, Rgb([value, 0.0, 7.0])));
         let [one, other] = [float(2.0), float(2.5)];
-        assert_eq!(
-            [0.4, 0.5].map(|most| verdict([&one, &other], Match::within(most))),
-            [Verdict::Differs, Verdict::Accepted]
-        );
+        let verdict = |most| compare("a", [&one, &other], Match::within(most), None).0.verdict;
+        assert_eq!([0.4, 0.5].map(verdict), [Verdict::Differs, Verdict::Accepted]);
         let (refused, maps) = compare("a", [&one, &other], Match::flip(1.0), None);
-        assert!(
-            refused.verdict == Verdict::Failed && refused.said[0].contains("floats") && maps.is_none(),
-            "{refused:?}"
-        );
+        assert_eq!((refused.verdict, maps.is_none()), (Verdict::Failed, true));
+        assert!(refused.said[0].contains("floats"), "{refused:?}");
         let (found, maps) = compare("a", [&one, &float(f32::NAN)], Match::Exact, None);
         assert!(found.measures.unwrap().flip.is_none() && maps.unwrap().flip.is_none());
-        let text = serde_json::to_value(&found).unwrap();
-        assert!(
-            text["measures"]["largest"].is_null() && text["measures"]["pixels"] == 144,
-            "infinity is no JSON: {text}"
-        );
+        let measures = &serde_json::to_value(&found).unwrap()["measures"];
+        assert!(measures["largest"].is_null() && measures["pixels"] == 144, "infinity is no JSON: {measures}");
     }
 
     #[test]

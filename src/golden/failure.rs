@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 
 use image::DynamicImage;
 
-use super::comparison::compare;
-use super::judgement::{Judgement, Match};
+use super::comparison::{Verdict, compare};
+use super::measures::Measures;
 use super::page::{self, Sides, Values};
+use super::rule::{Match, NoFlip};
 use super::{GoldenError, Layout, PictureError};
 use crate::output::OutputFolder;
 
@@ -16,30 +17,33 @@ use crate::output::OutputFolder;
 pub fn check(
     path: &Path,
     label: &str,
-    [expected, actual]: [&DynamicImage; 2],
+    pictures @ [expected, actual]: [&DynamicImage; 2],
     how: Match,
     values: Values,
     shown: &Path,
     remedy: &'static str,
 ) -> Result<(), GoldenError> {
-    let path = path.to_path_buf();
-    let [wanted, found] = [expected, actual].map(Layout::of);
-    let refusal = if found == wanted {
-        match Judgement::new([expected, actual], how, None)? {
-            Some(judged) if !judged.accepted => {
-                let (said, difference) = (judged.said().join("; "), Box::new(judged.difference));
-                GoldenError::Differs { label: label.into(), path, said, difference, shown: page::index(shown) }
-            }
-            _ => return Ok(()),
+    let [wanted, found] = pictures.map(Layout::of);
+    // A picture within a tolerance needs no other measures, which take long.
+    let is_tolerance = matches!(how, Match::Tolerance { .. }) && wanted == found;
+    if is_tolerance && how.limit(pictures, None, None).is_some_and(|limit| limit.is_met()) {
+        return Ok(());
+    }
+    let (comparison, maps) = compare(label, pictures, how, None);
+    let (path, index) = (path.to_path_buf(), page::index(shown));
+    let refusal = match (comparison.verdict, comparison.measures) {
+        (Verdict::Identical | Verdict::Accepted, _) => return Ok(()),
+        (Verdict::Failed, _) => return Err(NoFlip.into()),
+        (_, Some(Measures { difference, .. })) => {
+            let (said, difference) = (comparison.said.join("; "), Box::new(difference));
+            GoldenError::Differs { label: label.into(), path, said, difference, shown: index }
         }
-    } else {
-        GoldenError::Layout { path, expected: wanted, found, shown: page::index(shown), remedy }
+        _ => GoldenError::Layout { path, expected: wanted, found, shown: index, remedy },
     };
     let leave = || -> Result<(), PictureError> {
         let folder = shown.parent().unwrap_or(shown);
         fs::create_dir_all(folder).map_err(|cause| PictureError::Directory { path: folder.into(), cause })?;
         Ok(page::write(&OutputFolder::check(shown)?, label, |page| {
-            let (comparison, maps) = compare(label, [expected, actual], how, None);
             page.add(0, &comparison, Sides { expected: Some(expected), actual: Some(actual), values }, maps.as_ref())
         })?)
     };

@@ -1,6 +1,6 @@
 //! Pictures of two folders, by their names.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -22,19 +22,18 @@ pub struct Pair {
 /// # Errors
 /// If a folder cannot be read.
 pub fn pairs(expected: &Path, actual: &Path) -> io::Result<Vec<Pair>> {
-    let [wanted, mut found] = [pictures(expected)?, pictures(actual)?];
-    let mut pairs: Vec<Pair> = vec![];
-    for (name, expected) in wanted {
-        let actual = found.remove(&name);
-        pairs.push(Pair { name, expected: Some(expected), actual });
-    }
-    pairs.extend(found.into_iter().map(|(name, actual)| Pair { name, expected: None, actual: Some(actual) }));
-    pairs.sort_by(|one, other| one.name.cmp(&other.name));
-    Ok(pairs)
+    let [wanted, found] = [pictures(expected)?, pictures(actual)?];
+    let pair = |name: &PathBuf| Pair {
+        expected: wanted.contains(name).then(|| expected.join(name)),
+        actual: found.contains(name).then(|| actual.join(name)),
+        name: name.clone(),
+    };
+    Ok(wanted.union(&found).map(pair).collect())
 }
 
-fn pictures(folder: &Path) -> io::Result<BTreeMap<PathBuf, PathBuf>> {
-    let (mut found, mut left) = (BTreeMap::new(), vec![PathBuf::new()]);
+/// The names of the pictures in a folder.
+fn pictures(folder: &Path) -> io::Result<BTreeSet<PathBuf>> {
+    let (mut found, mut left) = (BTreeSet::new(), vec![PathBuf::new()]);
     while let Some(below) = left.pop() {
         for entry in fs::read_dir(folder.join(&below))? {
             let entry = entry?;
@@ -44,7 +43,7 @@ fn pictures(folder: &Path) -> io::Result<BTreeMap<PathBuf, PathBuf>> {
             if entry.file_type()?.is_dir() {
                 left.push(name);
             } else if ENDINGS.contains(&ending.as_str()) {
-                found.insert(name, entry.path());
+                found.insert(name);
             }
         }
     }

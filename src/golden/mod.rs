@@ -9,13 +9,12 @@ mod difference;
 mod failure;
 mod file;
 mod folders;
-mod judgement;
 mod layout;
-mod limit;
 mod mask;
 pub mod measures;
 pub mod numbers;
 pub mod page;
+mod rule;
 mod scene;
 
 use std::path::PathBuf;
@@ -23,14 +22,13 @@ use std::path::PathBuf;
 use crate::escaped::Escaped as _;
 
 pub use assert::{UPDATE, assert_image, check_image};
-pub use comparison::{Comparison, Maps, compare};
+pub use comparison::{Comparison, Maps, Verdict, compare};
 pub use difference::{Difference, difference_picture, pixels_over};
 pub use file::{PictureError, read, write};
 pub use folders::{Pair, pairs};
-pub use judgement::{Allowed, Match, NoFlip, Verdict};
 pub use layout::Layout;
-pub use limit::Limit;
 pub use mask::Mask;
+pub use rule::{Allowed, Limit, Match, NoFlip};
 pub use scene::{Overwrite, SIZE, SceneGolden, TRIANGLE_TEST, Update, VIEWS};
 
 /// The reason why a picture is not accepted. `remedy` explains how to create golden images.
@@ -55,10 +53,7 @@ pub enum GoldenError {
         path.escaped()
     )]
     Camera { path: PathBuf, golden: String, asked: String },
-    #[error(
-        "{} was not written by `sahara golden update`: pass --force to replace it",
-        .0.escaped()
-    )]
+    #[error("{} was not written by `sahara golden update`: pass --force to replace it", .0.escaped())]
     Foreign(PathBuf),
     #[error(
         "the golden images of built-in scenes are compiled into the program and can only be updated in its source \

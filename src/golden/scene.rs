@@ -1,13 +1,13 @@
 //! Golden images of scenes: their files, and how they are rendered, checked and updated.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use image::DynamicImage;
 
-use super::judgement::Judgement;
 use super::{Difference, GoldenError, Layout, Match, failure, file, numbers};
 use crate::accel::DynAccel;
-use crate::geometry::Ray;
+use crate::geometry::{Hit, Ray};
 use crate::render::{ViewKind, from_pixels, normal_colour, of_colours, shade};
 use crate::scene::{Camera, Scene, View};
 use crate::triangle::{Exact, TriangleTest};
@@ -23,25 +23,14 @@ pub const VIEWS: [ViewKind; 4] = [ViewKind::Shaded, ViewKind::Depth, ViewKind::N
 
 const REMEDY: &str = "create the golden images with `sahara golden update`";
 
-/// The golden image of a built-in scene.
-struct BuiltinGolden {
-    name: &'static str,
-    bytes: &'static [u8],
-    /// The file in the source tree, which may be missing at run time.
-    path: &'static str,
-}
-
 macro_rules! builtin {
     ($($folder:literal)*) => {
-        [$(BuiltinGolden {
-            name: $folder,
-            bytes: include_bytes!(concat!("../../scenes/", $folder, "/golden.png")),
-            path: concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/", $folder, "/golden.png"),
-        }),*]
+        [$(($folder, include_bytes!(concat!("../../scenes/", $folder, "/golden.png")))),*]
     };
 }
 
-static BUILTIN: [BuiltinGolden; 12] = builtin! {
+/// The built-in scenes and their golden images.
+static BUILTIN: [(&str, &[u8]); 12] = builtin! {
     "cube" "sphere" "torus" "teapot" "billards" "cornellbox" "infinitycandy" "metallic" "starters" "dragon" "lucy" "sponza"
 };
 
@@ -71,9 +60,10 @@ impl SceneGolden {
     /// The golden image of a built-in scene, which this program contains: shaded, of [`SIZE`]. [`update`](Self::update)
     /// writes it to the source tree. `None` if there is no such scene.
     pub fn builtin(name: &str) -> Option<Self> {
-        let own = BUILTIN.iter().find(|own| own.name.eq_ignore_ascii_case(name))?;
-        let (path, bytes) = (own.path.into(), Some(own.bytes));
-        Some(Self { view: ViewKind::Shaded, size: SIZE, path, bytes, note: None })
+        let (folder, bytes) = BUILTIN.into_iter().find(|(own, _)| own.eq_ignore_ascii_case(name))?;
+        // The source tree may be missing at run time.
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(folder).join("golden.png");
+        Some(Self { view: ViewKind::Shaded, size: SIZE, path, bytes: Some(bytes), note: None })
     }
 
     /// The golden image of a view in a folder, with the size and camera of `scene`. The file is `NAME.golden.png` for
@@ -106,21 +96,15 @@ impl SceneGolden {
     /// # Errors
     /// If there is none, it cannot be decoded, or its size or camera differs.
     pub fn expected(&self) -> Result<DynamicImage, GoldenError> {
-        let read;
-        let bytes = match self.bytes {
-            Some(bytes) => bytes,
-            None => {
-                let missing = |cause| GoldenError::Missing { cause, remedy: REMEDY };
-                read = file::read_bytes(&self.path).map_err(missing)?;
-                &read
-            }
-        };
-        let picture = file::decode(&self.path, bytes)?;
+        let missing = |cause| GoldenError::Missing { cause, remedy: REMEDY };
+        let read = || file::read_bytes(&self.path).map_err(missing);
+        let bytes = self.bytes.map_or_else(|| read().map(Cow::from), |bytes| Ok(bytes.into()))?;
+        let picture = file::decode(&self.path, &bytes)?;
         let size = [picture.width(), picture.height()];
         if size != self.size {
             return Err(GoldenError::Size { path: self.path.clone(), golden: size, asked: self.size });
         }
-        match (file::note(bytes), &self.note) {
+        match (file::note(&bytes), &self.note) {
             (Some(golden), Some(asked)) if golden != asked => {
                 let [golden, asked] = [golden, asked].map(String::from);
                 Err(GoldenError::Camera { path: self.path.clone(), golden, asked })
@@ -185,8 +169,7 @@ impl SceneGolden {
             return Ok(Update::Layout(Layout::of(&old)));
         }
         let [old, new] = [old, picture].map(|picture| self.comparable(picture));
-        let judged = Judgement::new([&old, &new], Match::Exact, None).expect("FLIP is not asked for");
-        Ok(judged.map_or(Update::New, |judged| Update::Changed(judged.difference)))
+        Ok(Difference::between(&old, &new).map_or(Update::New, Update::Changed))
     }
 
     /// The values of a picture of one pixel. For a miss: infinity in the views depth and primitive, the background in
@@ -232,20 +215,15 @@ fn draw(scene: &Scene, accel: &dyn DynAccel, view: ViewKind, size: [u32; 2], ray
         return of_colours(size, &shade(scene, accel, rays)).into();
     }
     let hits = accel.closest_by_chunks(rays, 4096).into_iter();
-    match view {
-        ViewKind::Depth => {
-            let depths = hits.map(|hit| hit.map_or(f32::INFINITY, |hit| hit.t).to_bits());
-            numbers::packed(size, &depths.collect::<Vec<u32>>())
-        }
-        ViewKind::Primitive => {
-            let primitives = hits.map(|hit| hit.map_or(numbers::MISS, |hit| hit.prim.index()));
-            numbers::packed(size, &primitives.collect::<Vec<u32>>())
-        }
+    let number: fn(Option<Hit>) -> u32 = match view {
+        ViewKind::Depth => |hit| hit.map_or(f32::INFINITY, |hit| hit.t).to_bits(),
+        ViewKind::Primitive => |hit| hit.map_or(numbers::MISS, |hit| hit.prim.index()),
         _ => {
             let colour = |(ray, hit): (&Ray, Option<_>)| hit.map_or([0; 3], |hit| normal_colour(scene, ray, hit));
-            from_pixels(size, rays.iter().zip(hits).map(colour).collect()).into()
+            return from_pixels(size, rays.iter().zip(hits).map(colour).collect()).into();
         }
-    }
+    };
+    numbers::packed(size, &hits.map(number).collect::<Vec<u32>>())
 }
 
 #[cfg(test)]
@@ -312,8 +290,8 @@ mod tests {
             assert_eq!(golden.expected().unwrap(), file::read(golden.path()).unwrap());
         }
         // Without the source tree, `check` works and `update` fails.
-        let installed =
-            SceneGolden { path: "/no/such/cube/golden.png".into(), ..SceneGolden::builtin("Cube").unwrap() };
+        let mut installed = SceneGolden::builtin("Cube").unwrap();
+        installed.path = "/no/such/cube/golden.png".into();
         installed.check(&scene, "sah-kd", &tree, Path::new("/no/such/out")).unwrap();
         let refused = installed.update(&scene, &tree, Overwrite::Any).unwrap_err();
         assert!(matches!(refused, GoldenError::NoSources), "{refused}");

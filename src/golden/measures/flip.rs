@@ -120,13 +120,9 @@ impl Seen {
 
         let y = Plane::new(width, y.values.iter().map(|y| (y + 16.0) / 116.0).collect());
         let strength = |derived: &[f64]| -> Vec<f64> {
-            let [across, down] = [y.convolved(derived, &filters.smooth), y.convolved(&filters.smooth, derived)];
-            across
-                .values
-                .iter()
-                .zip(&down.values)
-                .map(|(across, down)| (across * across + down * down).sqrt())
-                .collect()
+            let [across, down] =
+                [[derived, &filters.smooth], [&filters.smooth, derived]].map(|[a, b]| y.convolved(a, b));
+            across.values.iter().zip(down.values).map(|(x, y)| (x * x + y * y).sqrt()).collect()
         };
         Self { lab, edges: strength(&filters.edge), points: strength(&filters.point) }
     }

@@ -55,8 +55,7 @@ impl FlipMap {
     /// FLIP of two pictures of one layout; `None` for floats, which this FLIP does not support.
     pub fn new(one: &DynamicImage, other: &DynamicImage, pixels_per_degree: f64) -> Option<Self> {
         let layout = Layout::of(one);
-        let values = || flip::flip(one, other, pixels_per_degree);
-        (!layout.is_float()).then(|| Self { size: layout.size, values: values() })
+        (!layout.is_float()).then(|| Self { size: layout.size, values: flip::flip(one, other, pixels_per_degree) })
     }
 
     /// The summary over the unmasked pixels.

@@ -12,8 +12,7 @@ use std::sync::{Mutex, PoisonError};
 use image::DynamicImage;
 use serde::Serialize;
 
-use super::comparison::{Comparison, Maps};
-use super::judgement::Verdict;
+use super::comparison::{Comparison, Maps, Verdict};
 use crate::output::{OutputError, OutputFolder};
 use crate::render::{from_pixels, ramp_colour};
 use side::{shown, values};

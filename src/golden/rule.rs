@@ -1,9 +1,90 @@
-//! The number that decides whether a picture is accepted, with its limit.
+//! The rule by which a picture is accepted as a replacement of another one, and the number that decides.
 
+use image::DynamicImage;
 use serde::Serialize;
 
+use super::difference::pixels_over;
 use super::layout::Layout;
+use super::mask::Mask;
+use super::measures::{FlipMap, PIXELS_PER_DEGREE};
 use crate::plural::{count, plural};
+
+/// The condition for accepting a picture. Size, channels and bits per channel must always be equal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Match {
+    /// All values are equal, as with a deterministic renderer.
+    Exact,
+    /// Few pixels have a channel that differs by more than `difference`: in 1/255 of full scale at any depth, for
+    /// floats in their own unit. Noise passes, a lost triangle does not.
+    Tolerance { difference: f64, pixels: Allowed },
+    /// The mean of FLIP is at most `mean`: the visible difference for a person who flips between the pictures. Not for
+    /// floats.
+    Flip { mean: f64, pixels_per_degree: f64 },
+}
+
+/// The number of pixels that may differ by more than the tolerance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Allowed {
+    Pixels(usize),
+    /// A percentage of the compared pixels.
+    Percent(f64),
+}
+
+impl Match {
+    /// No channel of any pixel differs by more than this.
+    pub fn within(difference: f64) -> Self {
+        Self::Tolerance { difference, pixels: Allowed::Pixels(0) }
+    }
+
+    /// FLIP on the screen that its authors assume.
+    pub fn flip(mean: f64) -> Self {
+        Self::Flip { mean, pixels_per_degree: PIXELS_PER_DEGREE }
+    }
+
+    /// The number that decides about two pictures of one layout, with its limit; `None` if all values must be equal.
+    /// Masked pixels must already be equal: [`Mask::applied`].
+    pub(super) fn limit(
+        self,
+        [expected, actual]: [&DynamicImage; 2],
+        flip: Option<&FlipMap>,
+        mask: Option<&Mask>,
+    ) -> Option<Limit> {
+        match self {
+            Self::Exact => None,
+            Self::Tolerance { difference, pixels } => Some(Limit::Pixels {
+                max_difference: difference,
+                pixels_over: pixels_over(expected, actual, difference),
+                allow_pixels: pixels.of(Layout::of(expected).pixels() - mask.map_or(0, Mask::masked)),
+            }),
+            Self::Flip { mean, .. } => {
+                flip.map(|flip| Limit::Flip { flip_mean: flip.summary(mask).mean, max_flip: mean })
+            }
+        }
+    }
+
+    pub(super) fn difference(self) -> f64 {
+        if let Self::Tolerance { difference, .. } = self { difference } else { 0.0 }
+    }
+
+    pub(super) fn pixels_per_degree(self) -> f64 {
+        if let Self::Flip { pixels_per_degree, .. } = self { pixels_per_degree } else { PIXELS_PER_DEGREE }
+    }
+}
+
+impl Allowed {
+    fn of(self, compared: usize) -> usize {
+        match self {
+            Self::Pixels(pixels) => pixels,
+            // Only whole pixels differ: the fraction has no effect.
+            Self::Percent(percent) => (percent * compared as f64 / 100.0) as usize,
+        }
+    }
+}
+
+/// FLIP does not support floats.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("FLIP needs pictures of 8 or 16 bits per channel, and these are floats: use --max-difference instead")]
+pub struct NoFlip;
 
 /// A number of a picture and the largest accepted one. JSON has the names of the measures and of the options.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
