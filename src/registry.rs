@@ -151,38 +151,30 @@ impl Registry {
             let suggestion = suggestion(name, known.iter().copied());
             return Err(ChoiceError::Unknown { name: name.into(), suggestion, known: known.join(", ") });
         };
-        let entry = match test {
-            None => first,
-            Some(test) => {
-                named.iter().find(|e| e.triangle_test.eq_ignore_ascii_case(test)).copied().ok_or_else(|| {
-                    ChoiceError::Test {
-                        name: first.name.clone(),
-                        test: test.into(),
-                        suggestion: suggestion(test, named.iter().map(|e| e.triangle_test)),
-                        known: named.iter().map(|e| e.triangle_test).collect::<Vec<_>>().join(", "),
-                    }
-                })?
-            }
+        let Some(test) = test else { return Choice::of(first, &overrides, false) };
+        let Some(entry) = named.iter().find(|e| e.triangle_test.eq_ignore_ascii_case(test)) else {
+            let known: Vec<&str> = named.iter().map(|e| e.triangle_test).collect();
+            let suggestion = suggestion(test, known.iter().copied());
+            let name = first.name.clone();
+            return Err(ChoiceError::Test { name, test: test.into(), suggestion, known: known.join(", ") });
         };
-        Choice::of(entry, &overrides, !std::ptr::eq(entry, first))
+        Choice::of(entry, &overrides, !std::ptr::eq(*entry, first))
     }
 
     /// The default choice of every entry, in order.
     pub fn all(&self) -> Vec<Choice> {
-        let first = |e: &Entry| self.entries.iter().find(|f| f.name == e.name).is_some_and(|f| std::ptr::eq(f, e));
-        let default = |e| Choice::of(e, &[], !first(e)).expect("a default configuration is accepted");
+        let default = |e| Choice::of(e, &[], !self.is_first(e)).expect("a default configuration is accepted");
         self.entries.iter().map(default).collect()
     }
 
     /// Names without repetition, in order.
     pub fn names(&self) -> Vec<&str> {
-        let mut names: Vec<&str> = vec![];
-        for entry in &self.entries {
-            if !names.contains(&entry.name.as_str()) {
-                names.push(&entry.name);
-            }
-        }
-        names
+        self.entries.iter().filter(|e| self.is_first(e)).map(|e| e.name.as_str()).collect()
+    }
+
+    /// Whether the name alone selects this entry.
+    fn is_first(&self, entry: &Entry) -> bool {
+        self.entries.iter().find(|e| e.name == entry.name).is_some_and(|e| std::ptr::eq(e, entry))
     }
 }
 

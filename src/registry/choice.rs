@@ -50,35 +50,24 @@ impl Choice {
     pub(super) fn of(entry: &Entry, overrides: &[(&str, &str)], name_test: bool) -> Result<Self, ChoiceError> {
         let mut config = entry.config.clone();
         let keys = config.as_object_mut().expect("checked when it was registered");
-        let mut shown = vec![];
-        if name_test {
-            shown.push(format!("test={}", entry.triangle_test));
-        }
+        let mut shown: Vec<String> = vec![];
+        shown.extend(name_test.then(|| format!("test={}", entry.triangle_test)));
         for &(key, text) in overrides {
-            let known: Vec<&str> = ["test"].into_iter().chain(keys.keys().map(String::as_str)).collect();
-            let unknown = || ChoiceError::Key {
-                name: entry.name.clone(),
-                key: key.into(),
-                suggestion: suggestion(key, known.iter().copied()),
-                known: known.join(", "),
-            };
+            let name = entry.name.clone();
             if !keys.contains_key(key) {
-                return Err(unknown());
+                let known: Vec<&str> = ["test"].into_iter().chain(keys.keys().map(String::as_str)).collect();
+                let suggestion = suggestion(key, known.iter().copied());
+                return Err(ChoiceError::Key { name, key: key.into(), suggestion, known: known.join(", ") });
             }
             let value = serde_json::from_str(text).unwrap_or_else(|_| Value::String(text.into()));
             entry.takes(key, &value).map_err(|reason| {
-                let (name, given) = (entry.name.clone(), format!("{key}={text}"));
+                let given = format!("{key}={text}");
                 if let Some(&(.., instead)) = REMOVED.iter().find(|removed| (removed.0, removed.1) == (key, text)) {
                     return ChoiceError::Removed { name, given, instead };
                 }
                 let values = entry.values(key);
-                ChoiceError::Value {
-                    name,
-                    given,
-                    reason: reason.split(", expected").next().unwrap_or_default().into(),
-                    suggestion: suggestion(text, values.split(", ")),
-                    values,
-                }
+                let reason = reason.split(", expected").next().unwrap_or_default().into();
+                ChoiceError::Value { name, given, reason, suggestion: suggestion(text, values.split(", ")), values }
             })?;
             if keys[key] != value {
                 shown.push(format!("{key}={text}"));

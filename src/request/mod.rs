@@ -1,7 +1,6 @@
 //! The inputs that commands share: scenes, structures, rays and views, as options and as data that another process
 //! reads.
 
-mod headings;
 mod measuring;
 mod os_text;
 mod ray_kind;
@@ -12,7 +11,6 @@ mod seconds;
 mod structures;
 mod view;
 
-pub use headings::{MEASURING, OUTPUT, RAYS, SCENES, STRUCTURES};
 pub use measuring::{Limit, Measuring};
 pub use ray_kind::RayKind;
 pub use rays::{RaySource, Rays, WORKLOADS, WorkloadRequest, each_kind, rays_or_all, recorded, replayed};
@@ -26,3 +24,10 @@ pub use structures::{
     is_large, is_obvhs, known_defect, known_tests, left_out, specs, structure, structures, structures_at, with_twin,
 };
 pub use view::ViewArgs;
+
+// The groups of options in the help of commands.
+pub const SCENES: &str = "Scenes";
+pub const STRUCTURES: &str = "Structures";
+pub const RAYS: &str = "Rays";
+pub const MEASURING: &str = "Measuring";
+pub const OUTPUT: &str = "Output";

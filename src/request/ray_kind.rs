@@ -13,23 +13,13 @@ named_enum! {
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
     #[serde(rename_all = "kebab-case")]
     pub enum RayKind {
-        /// Half from the camera, half random lines through the box ([`Stratum::Random`]): the rays of pictures.
         Uniform = "uniform",
-        /// Through points of edges ([`Stratum::Edges`]).
         Edge = "edge",
-        /// Through vertices ([`Stratum::Vertices`]).
         Vertex = "vertex",
-        /// Along the axes, with coordinates of vertices ([`Stratum::AxisParallel`]).
         Axis = "axis",
-        /// Nearly in the plane of a triangle ([`Stratum::Grazing`]).
         Grazing = "grazing",
-        /// With directions 1e-30 to 1e30 long ([`Stratum::Lengths`]).
         Scale = "scale",
-        /// From 1e3 to 1e6 box sizes away: the nearer rays of [`Stratum::FarOrigins`]. Farther away, one step of an
-        /// `f32` is as large as the mesh, and a traversal that loses no hit visits nearly everything.
         Offset = "offset",
-        /// From points of triangles ([`Stratum::FromSurface`]): a test must distinguish the surface of the origin from
-        /// other triangles in its plane.
         Surface = "surface",
     }
 }
@@ -37,30 +27,29 @@ named_enum! {
 impl RayKind {
     /// A short description of the rays.
     pub fn description(self) -> &'static str {
+        self.meaning().1
+    }
+
+    /// The stratum that generates the rays, and their description.
+    fn meaning(self) -> (Stratum, &'static str) {
         match self {
-            Self::Uniform => "camera rays and random lines, half of each",
-            Self::Edge => "rays through points on edges",
-            Self::Vertex => "rays through vertices",
-            Self::Axis => "axis-parallel rays through vertex coordinates",
-            Self::Grazing => "rays almost in the plane of a triangle",
-            Self::Scale => "rays with directions 1e-30 to 1e30 long",
-            Self::Offset => "rays from 1e3 to 1e6 scene sizes away",
-            Self::Surface => "rays from points on triangles",
+            // The rays of pictures.
+            Self::Uniform => (Stratum::Random, "camera rays and random lines, half of each"),
+            Self::Edge => (Stratum::Edges, "rays through points on edges"),
+            Self::Vertex => (Stratum::Vertices, "rays through vertices"),
+            Self::Axis => (Stratum::AxisParallel, "axis-parallel rays through vertex coordinates"),
+            Self::Grazing => (Stratum::Grazing, "rays almost in the plane of a triangle"),
+            Self::Scale => (Stratum::Lengths, "rays with directions 1e-30 to 1e30 long"),
+            // Farther away, one step of an `f32` is as large as the mesh, and a traversal that loses no hit visits
+            // nearly everything.
+            Self::Offset => (Stratum::FarOrigins, "rays from 1e3 to 1e6 scene sizes away"),
+            // A test must distinguish the surface of the origin from other triangles in its plane.
+            Self::Surface => (Stratum::FromSurface, "rays from points on triangles"),
         }
     }
 
     /// `count` rays of this kind for `scene`.
     pub fn rays(self, scene: &Scene, count: usize, seed: u64) -> Vec<Ray> {
-        let stratum = match self {
-            Self::Uniform => Stratum::Random,
-            Self::Edge => Stratum::Edges,
-            Self::Vertex => Stratum::Vertices,
-            Self::Axis => Stratum::AxisParallel,
-            Self::Grazing => Stratum::Grazing,
-            Self::Scale => Stratum::Lengths,
-            Self::Offset => Stratum::FarOrigins,
-            Self::Surface => Stratum::FromSurface,
-        };
         if self == Self::Offset {
             return near_enough(&scene.mesh, count, seed);
         }
@@ -69,7 +58,7 @@ impl RayKind {
             let pixels = scene.size[0] * scene.size[1];
             rays = spread(&scene.primary_rays(scene.size, View::CENTRE, 0..pixels), count / 2);
         }
-        rays.extend(stratum.rays(&scene.mesh, count - rays.len(), seed));
+        rays.extend(self.meaning().0.rays(&scene.mesh, count - rays.len(), seed));
         rays
     }
 }

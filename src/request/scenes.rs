@@ -33,18 +33,12 @@ pub struct SceneRequest {
     pub triangles: usize,
 }
 
-/// Digits of the hash of a scene in requests and keys.
-const DIGITS: usize = 16;
-
 /// Suffix after `NAME:` that selects the stand-in mesh of a built-in scene instead of the real one.
 const STAND_IN: &str = "stand-in";
 
 /// The word for a built-in scene with its stand-in.
 pub fn stand_in(name: impl AsRef<OsStr>) -> OsString {
-    let mut word = name.as_ref().to_owned();
-    word.push(":");
-    word.push(STAND_IN);
-    word
+    [name.as_ref(), OsStr::new(":"), OsStr::new(STAND_IN)].into_iter().collect()
 }
 
 impl SceneRequest {
@@ -54,7 +48,7 @@ impl SceneRequest {
             word: word.into(),
             view: view.clone(),
             name: scene.name.clone(),
-            hash: scene.hash()[..DIGITS].into(),
+            hash: scene.hash()[..16].into(),
             stand_in: !scene.stand_ins.is_empty(),
             triangles: scene.mesh.len(),
         }
@@ -83,7 +77,7 @@ pub fn scenes(registry: &Registry, named: &[OsString]) -> anyhow::Result<Vec<Sce
     Ok(loaded(registry, &words(named))?.into_iter().map(|(_, scene)| scene).collect())
 }
 
-/// The named words; without any, all built-in scenes.
+/// The words `named`; without any, all built-in scenes.
 fn words(named: &[OsString]) -> Vec<OsString> {
     if named.is_empty() { BUILTIN.iter().map(|builtin| builtin.name.into()).collect() } else { named.to_vec() }
 }
@@ -91,28 +85,22 @@ fn words(named: &[OsString]) -> Vec<OsString> {
 /// The distinct scenes, each with its word.
 fn loaded(registry: &Registry, words: &[OsString]) -> anyhow::Result<Vec<(OsString, Scene)>> {
     // Load in parallel, because large meshes take seconds; report the first failure in the order of `words`.
-    let load = |word: &OsString| Ok((word.clone(), scene(registry, word)?));
-    let scenes: Vec<anyhow::Result<(OsString, Scene)>> = words.par_iter().map(load).collect();
+    let scenes: Vec<_> = words.par_iter().map(|word| Ok((word.clone(), scene(registry, word)?))).collect();
     distinct(scenes.into_iter().collect::<anyhow::Result<_>>()?)
-}
-
-fn is_scene_file(path: &Path) -> bool {
-    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
-}
-
-fn same_name(one: &Scene, other: &Scene) -> bool {
-    one.name.eq_ignore_ascii_case(&other.name) && one.stand_ins.is_empty() == other.stand_ins.is_empty()
 }
 
 /// The distinct scenes. Two different scenes with one name are rejected.
 fn distinct(scenes: Vec<(OsString, Scene)>) -> anyhow::Result<Vec<(OsString, Scene)>> {
     let mut each: Vec<(OsString, Scene)> = vec![];
     for (word, scene) in scenes {
-        let Some((_, other)) = each.iter().find(|(_, other)| same_name(other, &scene)) else {
-            each.push((word, scene));
-            continue;
+        let is_namesake = |(_, other): &&(OsString, Scene)| {
+            other.name.eq_ignore_ascii_case(&scene.name) && other.stand_ins.is_empty() == scene.stand_ins.is_empty()
         };
-        anyhow::ensure!(other.hash() == scene.hash(), "two different scenes have the name {}: rename one", scene.name);
+        match each.iter().find(is_namesake) {
+            None => each.push((word, scene)),
+            Some((_, other)) if other.hash() == scene.hash() => {}
+            Some(_) => anyhow::bail!("two different scenes have the name {}: rename one", scene.name),
+        }
     }
     Ok(each)
 }
@@ -123,8 +111,8 @@ fn distinct(scenes: Vec<(OsString, Scene)>) -> anyhow::Result<Vec<(OsString, Sce
 /// # Errors
 /// If there is no such scene, or a file cannot be loaded.
 pub fn scene(registry: &Registry, word: impl AsRef<OsStr>) -> anyhow::Result<Scene> {
-    let real_meshes = real_mesh_folder();
-    let path = Path::new(word.as_ref());
+    let (path, real_meshes) = (Path::new(word.as_ref()), real_mesh_folder());
+    let is_scene_file = || path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
     let parts = path.to_str().and_then(|word| word.split_once(':'));
     if let Some((name, parameters)) = parts.filter(|_| !path.exists()) {
         if let (Ok(builtin), STAND_IN) = (Builtin::find(name), parameters) {
@@ -139,7 +127,7 @@ pub fn scene(registry: &Registry, word: impl AsRef<OsStr>) -> anyhow::Result<Sce
         Err(unknown) if path.extension().is_none() && path.components().count() < 2 && !path.exists() => {
             Err(unknown.into())
         }
-        Err(_) if is_scene_file(path) => Ok(Scene::read(path, Some(&real_meshes))?),
+        Err(_) if is_scene_file() => Ok(Scene::read(path, Some(&real_meshes))?),
         Err(_) => Ok(Scene::framed(&stem(path), load(path)?)?),
     }
 }
@@ -276,9 +264,7 @@ mod tests {
             assert!(refused.contains(word) && refused.contains("plan it again"), "{refused}");
         }
         assert!(scene(&registry, "icosphere:99").is_err() && scene(&registry, "icosphere:").is_err());
-        assert_eq!(
-            scene_files(&registry, &["cube".into(), "icosphere:1".into(), "a.ply".into()]),
-            [Path::new("a.ply")]
-        );
+        let words = ["cube", "icosphere:1", "a.ply"].map(Into::into);
+        assert_eq!(scene_files(&registry, &words), [Path::new("a.ply")]);
     }
 }

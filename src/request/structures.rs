@@ -86,14 +86,10 @@ pub fn is_brought(name: &str, triangle_test: &str) -> bool {
 
 /// The named structures, with [`ALL`] expanded; without names, every name.
 pub fn specs(registry: &Registry, named: &[String]) -> Vec<String> {
-    let names = || registry.names().into_iter().map(String::from);
-    if named.is_empty() {
-        return names().collect();
-    }
-    named
-        .iter()
-        .flat_map(|spec| if spec.eq_ignore_ascii_case(ALL) { names().collect() } else { vec![spec.clone()] })
-        .collect()
+    let all = [ALL.to_owned()];
+    let specs = if named.is_empty() { &all } else { named }.iter();
+    let each = specs.flat_map(|spec| if spec.eq_ignore_ascii_case(ALL) { registry.names() } else { vec![&spec[..]] });
+    each.map(String::from).collect()
 }
 
 /// The distinct named structures; without names, the first of every name.
@@ -203,12 +199,10 @@ pub fn with_twin(mut structures: Vec<StructureRequest>) -> Vec<StructureRequest>
     structures
 }
 
-/// With more triangles brute force takes at least ten milliseconds per ray: it runs only if it is named.
-const MANY: usize = 1 << 22;
-
-/// Whether there are so many triangles that work proportional to their number is sampled or left out.
+/// Whether there are so many triangles that work proportional to their number is sampled or left out: brute force takes
+/// at least ten milliseconds per ray.
 pub fn is_large(triangles: usize) -> bool {
-    triangles > MANY
+    triangles > 1 << 22
 }
 
 /// The note for a scene with so many triangles.

@@ -1,6 +1,5 @@
 //! The options of the camera, shared by all commands with camera rays.
 
-use std::fmt;
 use std::str::FromStr;
 
 use anyhow::Context;
@@ -15,7 +14,7 @@ use crate::scene::{Camera, Scene};
 #[command(next_help_heading = super::SCENES)]
 pub struct ViewArgs {
     /// Eye, target and vertical field of view in degrees [default: the scene's; a bare mesh fills the picture]
-    #[arg(long, value_name = "ex,ey,ez tx,ty,tz [fov]", allow_hyphen_values = true)]
+    #[arg(long, value_name = "ex,ey,ez tx,ty,tz [fov]", allow_hyphen_values = true, value_parser = Look::parse)]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     camera: Option<Look>,
     /// View the scene from the middle of its bounding box, along its longer horizontal side; a bare mesh is lit from
@@ -36,10 +35,9 @@ impl FromStr for Size {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let sides = text.split_once('x').and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
-        let admitted = |side: &u32| (1..=16384).contains(side);
-        let sides = sides.filter(|sides: &[u32; 2]| sides.iter().all(admitted));
-        sides.map(Self).ok_or_else(|| "write WIDTHxHEIGHT, both from 1 to 16384, for example 640x480".into())
+        let side = |text: &str| text.parse().ok().filter(|side| (1..=16384).contains(side));
+        let sides = text.split_once('x').and_then(|(width, height)| Some(Self([side(width)?, side(height)?])));
+        sides.ok_or_else(|| "write WIDTHxHEIGHT, both from 1 to 16384, for example 640x480".into())
     }
 }
 
@@ -51,39 +49,30 @@ struct Look {
     vertical_fov: Option<f32>,
 }
 
-impl fmt::Display for Look {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let point = |at: Vec3| at.to_array().map(|x| x.to_string()).join(",");
-        let fov = self.vertical_fov.map_or(String::new(), |fov| format!(" {fov}"));
-        write!(f, "{} {}{fov}", point(self.eye), point(self.target))
-    }
-}
-
 impl From<Look> for String {
-    fn from(look: Look) -> Self {
-        look.to_string()
+    fn from(Look { eye, target, vertical_fov }: Look) -> Self {
+        let point = |at: Vec3| at.to_array().map(|x| x.to_string()).join(",");
+        let fov = vertical_fov.map_or(Self::new(), |fov| format!(" {fov}"));
+        format!("{} {}{fov}", point(eye), point(target))
     }
 }
 
 impl TryFrom<String> for Look {
-    type Error = String;
+    type Error = &'static str;
 
-    fn try_from(text: String) -> Result<Self, String> {
-        text.parse()
+    fn try_from(text: String) -> Result<Self, Self::Error> {
+        Self::parse(&text)
     }
 }
 
-impl FromStr for Look {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let refusal = || "write \"ex,ey,ez tx,ty,tz\" and optionally a field of view in degrees".to_owned();
-        match numbers(text).map_err(|_| refusal())?[..] {
-            [ex, ey, ez, tx, ty, tz, ref rest @ ..] if rest.len() < 2 => {
+impl Look {
+    fn parse(text: &str) -> Result<Self, &'static str> {
+        match numbers(text).as_deref() {
+            Ok(&[ex, ey, ez, tx, ty, tz, ref rest @ ..]) if rest.len() < 2 => {
                 let vertical_fov = rest.first().copied();
                 Ok(Self { eye: Vec3::new(ex, ey, ez), target: Vec3::new(tx, ty, tz), vertical_fov })
             }
-            _ => Err(refusal()),
+            _ => Err("write \"ex,ey,ez tx,ty,tz\" and optionally a field of view in degrees"),
         }
     }
 }
@@ -132,7 +121,7 @@ impl ViewArgs {
 
     /// The options as arguments for a shell; empty without one.
     pub fn words(&self) -> String {
-        let camera = self.camera.filter(|_| !self.inside).map(|look| format!("--camera '{look}'"));
+        let camera = self.camera.filter(|_| !self.inside).map(|look| format!("--camera '{}'", String::from(look)));
         let inside = self.inside.then(|| "--inside".to_owned());
         let size = self.size.map(|Size([width, height])| format!("--size {width}x{height}"));
         [camera, inside, size].into_iter().flatten().collect::<Vec<String>>().join(" ")
@@ -165,11 +154,13 @@ mod tests {
     #[test]
     fn cameras() {
         let (eye, target) = (Vec3::new(-1.0, 2.0, 3.5), Vec3::ZERO);
-        assert_eq!("-1,2,3.5 0,0,0".parse(), Ok(Look { eye, target, vertical_fov: None }));
-        assert_eq!("-1 2 3.5, 0 0 0, 45".parse(), Ok(Look { eye, target, vertical_fov: Some(45.0) }));
-        assert_eq!("-1,2,3.5 0,0,0 45".parse(), Ok(Look { eye, target, vertical_fov: Some(45.0) }));
+        for (text, vertical_fov) in
+            [("-1,2,3.5 0,0,0", None), ("-1 2 3.5, 0 0 0, 45", Some(45.0)), ("-1,2,3.5 0,0,0 45", Some(45.0))]
+        {
+            assert_eq!(Look::parse(text), Ok(Look { eye, target, vertical_fov }), "{text}");
+        }
         for wrong in ["", "1,2,3", "1,2 3,4,5", "1,2,3 4,5,6 7 8", "1,2,3 4,5,6 7,8", "1,2,3, ,4,5,6", "a,b,c 1,2,3"] {
-            assert!(wrong.parse::<Look>().is_err(), "{wrong}");
+            assert!(Look::parse(wrong).is_err(), "{wrong}");
         }
     }
 
