@@ -1,9 +1,11 @@
-//! Changes of time, each with the outcome of its interval.
+//! Changes of time, each with the outcome of its interval. Times are relative to the times of obvhs in the same rounds:
+//! comparable between days and machines.
 
-use super::relative::{references, relative, weighted};
-use super::{Change, Finding};
-use crate::measure::{AaNoise, Estimate, Rerun, cut_to_shared_epochs, epoch_values};
-use crate::report::words::each_once;
+use std::slice::from_ref;
+
+use super::{Change, Finding, has_reference_role};
+use crate::measure::{AaNoise, Estimate, Rerun, Variance, cut_to_shared_epochs, epoch_values};
+use crate::report::words::{distinct, each_once};
 use crate::study::measurement::{Measurement, trace_noise};
 
 /// The changes of the structures, each looked at `looks` times, and of their cells.
@@ -16,57 +18,43 @@ pub(super) fn all(
 ) -> (Vec<Change>, Vec<Change>) {
     let references = references(pairs);
     let noises = [old, new].map(trace_noise);
+    let change = |old: &[_], new: &[_]| change(old, new, &noises, references.len());
     let (mut structures, mut cells): (Vec<Change>, Vec<Change>) = (vec![], vec![]);
-    let labels = each_once(pairs.iter().map(|(_, new)| new.label.as_str()));
-    let labels: Vec<&str> = labels.into_iter().filter(|label| !references.iter().any(|one| one == label)).collect();
+    let mut labels = each_once(pairs.iter().map(|(_, new)| new.label.as_str()));
+    labels.retain(|label| !references.iter().any(|one| one == label));
     // The intervals of structures are corrected for their number and for the looks; cells decide nothing.
     let looks = looks * labels.len();
     for label in labels {
-        let mut all: (Vec<_>, Vec<_>) = (vec![], vec![]);
-        let mut missing = false;
-        let own = || pairs.iter().filter(|(_, new)| new.label == label);
-        for (before, after) in own() {
-            let times = || {
-                Some((relative(before, old, after, new, &references)?, relative(after, new, before, old, &references)?))
-            };
-            let times = times();
-            let time = times.as_ref().and_then(|(old, new)| {
-                change(std::slice::from_ref(old), std::slice::from_ref(new), &noises, references.len())
-            });
-            cells.push(Change {
-                structure: label.into(),
-                scene: Some(before.scene_title()),
-                workload: Some(before.workload.clone()),
-                cells: usize::from(time.is_some()),
-                checked_rays: after.checked_rays,
-                time,
-                finding: finding(time, threshold),
-            });
-            // Without an old time, of itself or of a reference, it is not missing.
-            missing |= !before.samples_ns.is_empty() && after.samples_ns.is_empty();
-            if let Some((old, new)) = times {
-                all.0.push(old);
-                all.1.push(new);
-            }
-        }
-        let n = all.0.len();
-        cut_to_shared_epochs(&mut all.0);
-        cut_to_shared_epochs(&mut all.1);
-        let time = if missing { None } else { change(&all.0, &all.1, &noises, references.len()) };
-        let time = time.map(|time| time.ratio_among(looks));
-        // Without any time, as for wrong hits, there is nothing to change.
-        if n == 0 && !missing {
-            continue;
-        }
-        structures.push(Change {
+        let of = |cell: Option<&Measurement>, cells, checked_rays, time| Change {
             structure: label.into(),
-            scene: None,
-            workload: None,
-            cells: n,
-            checked_rays: own().map(|(_, new)| new.checked_rays).sum(),
+            scene: cell.map(Measurement::scene_title),
+            workload: cell.map(|cell| cell.workload.clone()),
+            cells,
+            checked_rays,
             time,
             finding: finding(time, threshold),
-        });
+        };
+        let (mut old_times, mut new_times, mut checked_rays, mut missing) = (vec![], vec![], 0, false);
+        for (before, after) in pairs.iter().filter(|(_, new)| new.label == label) {
+            let times =
+                relative(before, old, after, new, &references).zip(relative(after, new, before, old, &references));
+            let time = times.as_ref().and_then(|(old, new)| change(from_ref(old), from_ref(new)));
+            cells.push(of(Some(before), usize::from(time.is_some()), after.checked_rays, time));
+            checked_rays += after.checked_rays;
+            // Without an old time, of itself or of a reference, it is not missing.
+            missing |= !before.samples_ns.is_empty() && after.samples_ns.is_empty();
+            let (old, new) = times.unzip();
+            old_times.extend(old);
+            new_times.extend(new);
+        }
+        // Without any time, as for wrong hits, there is nothing to change.
+        if old_times.is_empty() && !missing {
+            continue;
+        }
+        cut_to_shared_epochs(&mut old_times);
+        cut_to_shared_epochs(&mut new_times);
+        let time = if missing { None } else { change(&old_times, &new_times) };
+        structures.push(of(None, old_times.len(), checked_rays, time.map(|time| time.ratio_among(looks))));
     }
     (structures, cells)
 }
@@ -88,4 +76,58 @@ pub(super) fn finding(time: Option<Estimate>, threshold: Option<f64>) -> Finding
         () if time.is_above(1.0) => Finding::Slower,
         () => Finding::NoDifference,
     }
+}
+
+/// The variance that the A/A noise of a run adds to a mean over `cells` cells of times relative to `references`
+/// references: the noise of each cell is independent.
+fn weighted(noise: &AaNoise, references: usize, cells: usize) -> Variance {
+    let mut weights = vec![-1.0 / references.max(1) as f64; references];
+    weights.push(1.0);
+    noise.weighted(&weights).times(1.0 / libm::sqrt(cells.max(1) as f64))
+}
+
+/// Labels of the structures that normalise both runs.
+pub(super) fn references(pairs: &[(&Measurement, &Measurement)]) -> Vec<String> {
+    let is_timed =
+        |(old, new): &&(&Measurement, &Measurement)| !old.samples_ns.is_empty() && !new.samples_ns.is_empty();
+    let timed = pairs.iter().filter(is_timed).map(|(old, _)| old);
+    distinct(timed.filter(|old| has_reference_role(old)).map(|old| &old.label))
+}
+
+/// ln(time of `own` / geometric mean of the references' times), by epoch and round; ln(time) without a reference. A
+/// reference counts only if it has a time in the same cell of `others`, so both runs are divided by the same
+/// structures. `None` without a time.
+fn relative(
+    own: &Measurement,
+    all: &[Measurement],
+    other: &Measurement,
+    others: &[Measurement],
+    references: &[String],
+) -> Option<Vec<Vec<f64>>> {
+    if own.samples_ns.is_empty() || other.samples_ns.is_empty() {
+        return None;
+    }
+    let is_shared = |label: &&String| beside(label, other, others).is_some();
+    let rivals: Vec<_> = references.iter().filter(is_shared).filter_map(|label| beside(label, own, all)).collect();
+    if rivals.is_empty() {
+        return references.is_empty().then(|| absolute(own));
+    }
+    // Speed of each reference relative to `own`.
+    let logs = rivals.iter().map(|rival| rival.speed_against(own)).collect::<Option<Vec<_>>>()?;
+    let mut sum = logs.into_iter().reduce(|sum, logs| {
+        sum.iter().zip(&logs).map(|(a, b)| a.iter().zip(b).map(|(a, b)| a + b).collect()).collect()
+    })?;
+    let share = 1.0 / rivals.len() as f64;
+    sum.iter_mut().flatten().for_each(|log| *log *= share);
+    Some(sum)
+}
+
+fn beside<'a>(label: &str, own: &Measurement, all: &'a [Measurement]) -> Option<&'a Measurement> {
+    let same = |r: &&Measurement| r.label == label && r.scene == own.scene && r.workload == own.workload;
+    all.iter().find(same).filter(|r| !r.samples_ns.is_empty())
+}
+
+fn absolute(own: &Measurement) -> Vec<Vec<f64>> {
+    let logs: Vec<f64> = own.samples_ns.iter().map(|ns| libm::log(ns / own.rays as f64)).collect();
+    logs.chunks((logs.len() / own.epochs.max(1)).max(1)).map(<[f64]>::to_vec).collect()
 }

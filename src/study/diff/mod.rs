@@ -13,9 +13,7 @@
 #![doc = include_str!("GATE.md")]
 
 mod changes;
-mod keys;
 mod read;
-mod relative;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -25,14 +23,14 @@ use serde::Serialize;
 
 use super::measurement::{Measurement, measurements, trace_noise};
 use super::{Dataset, Status, measurement};
-use crate::measure::{AaNoise, Estimate, Provenance, Rerun, epoch_values};
+use crate::measure::{Estimate, Provenance, Rerun, epoch_values};
 use crate::registry::is_named;
 use crate::report::words::each_once;
 use crate::request::{REPORT_TREE, known_defect};
-use keys::other_keys;
 
 pub use read::read;
 pub use table::{cautions, sentences, tables};
+use unlike::other_keys;
 pub use unlike::{Unlike, settings, unlike, unlike_plan};
 
 /// One of the two runs.
@@ -174,7 +172,7 @@ impl Comparison {
         let threshold = threshold_percent.map(|percent| libm::log1p(percent / 100.0));
         let (structures, cells) = changes::all(old, new, &pairs, threshold, looks);
         Self {
-            references: relative::references(&pairs),
+            references: changes::references(&pairs),
             threshold_percent,
             looks,
             structures,
@@ -217,15 +215,14 @@ fn pairs<'a>(old: &'a [Measurement], new: &'a [Measurement]) -> Vec<(&'a Measure
 /// If none exists because its keys have changed, the only structure of the same name without a counterpart; `None` if
 /// several qualify in either run.
 fn counterpart<'a>(own: &Measurement, run: &[Measurement], others: &'a [Measurement]) -> Option<&'a Measurement> {
+    fn cell(own: &Measurement) -> (&str, bool, &str, &str) {
+        (&own.scene, own.stand_in, &own.workload, &own.role)
+    }
     fn labelled<'a>(own: &Measurement, others: &'a [Measurement]) -> Option<&'a Measurement> {
-        let cell = |m: &Measurement| (m.scene.clone(), m.stand_in, m.workload.clone(), m.role.clone());
         others.iter().find(|other| other.label == own.label && cell(other) == cell(own))
     }
     labelled(own, others).or_else(|| {
-        let is_rival = |other: &&Measurement| {
-            (&other.scene, other.stand_in, &other.workload, &other.role, &other.structure)
-                == (&own.scene, own.stand_in, &own.workload, &own.role, &own.structure)
-        };
+        let is_rival = |other: &&Measurement| other.structure == own.structure && cell(other) == cell(own);
         let mut left = others.iter().filter(is_rival).filter(|other| labelled(other, run).is_none());
         let is_alone = run.iter().filter(is_rival).filter(|one| labelled(one, others).is_none()).count() == 1;
         left.next().filter(|_| is_alone && left.next().is_none())
@@ -236,18 +233,16 @@ fn counterpart<'a>(own: &Measurement, run: &[Measurement], others: &'a [Measurem
 fn differences(pairs: &[(&Measurement, &Measurement)]) -> Vec<String> {
     let of_pair = |(old, new): &(&Measurement, &Measurement)| {
         let mut found = other_keys(&old.config, &new.config);
-        if old.triangle_test != new.triangle_test {
-            found.push(("triangle test".into(), old.triangle_test.clone(), new.triangle_test.clone()));
-        }
+        let [before, after] = [old, new].map(|own| own.triangle_test.clone());
+        found.extend((before != after).then(|| ("triangle test".into(), before, after)));
         let name = new.structure.clone();
-        found.into_iter().map(move |(key, old, new)| format!("{key} of {name} {old}, now {new}"))
+        found.into_iter().map(move |(key, old, now)| format!("{key} of {name} {old}, now {now}"))
     };
     each_once(pairs.iter().flat_map(of_pair))
 }
 
 fn other_machine(old: &Provenance, new: &Provenance) -> Option<[String; 2]> {
-    let machine = |own: &Provenance| format!("{} ({})", own.cpu, own.simd);
-    let machines = [old, new].map(machine);
+    let machines = [old, new].map(|own| format!("{} ({})", own.cpu, own.simd));
     (machines[0] != machines[1]).then_some(machines)
 }
 
@@ -262,24 +257,21 @@ fn wrong(old: &Measurement, new: &Measurement) -> Option<Wrong> {
     // errors of a structure with known defects do not count.
     let known = known_defect(&new.structure).is_some();
     let more = errors > 0 && !known && (old.wrong_hits == 0 || rate(new) > 2.0 * rate(old));
-    let what = if more {
-        format!(
-            "{errors} of {checked} rays have a wrong hit; in the old run {} of {}",
-            old.wrong_hits, old.checked_rays
-        )
-    } else if old.triangle_test != new.triangle_test {
+    let is_changed = || old.hit_checksum.zip(new.hit_checksum).is_some_and(|(old, new)| old != new);
+    let what = match () {
+        () if more => {
+            let before = format!("{} of {}", old.wrong_hits, old.checked_rays);
+            format!("{errors} of {checked} rays have a wrong hit; in the old run {before}")
+        }
         // Another triangle test has other hits; each run checks its hits against its own test.
-        return None;
-    } else if old.counted_rays == new.counted_rays && old.hits != new.hits {
-        format!("{} of {} rays hit; in the old run {}", new.hits, new.counted_rays, old.hits)
-    } else if old.rays == new.rays
-        && old.hit_checksum.is_some()
-        && new.hit_checksum.is_some()
-        && old.hit_checksum != new.hit_checksum
-    {
-        "some hits have another t or primitive than in the old run".into()
-    } else {
-        return None;
+        () if old.triangle_test != new.triangle_test => return None,
+        () if old.counted_rays == new.counted_rays && old.hits != new.hits => {
+            format!("{} of {} rays hit; in the old run {}", new.hits, new.counted_rays, old.hits)
+        }
+        () if old.rays == new.rays && is_changed() => {
+            "some hits have another t or primitive than in the old run".into()
+        }
+        () => return None,
     };
     Some(Wrong { structure: new.label.clone(), case: cell_title(new), what })
 }
@@ -287,23 +279,20 @@ fn wrong(old: &Measurement, new: &Measurement) -> Option<Wrong> {
 /// Compares the ratios of each run with the intervals of the other run, cell by cell: the ratios of every structure to
 /// the report's tree and to each reference.
 fn reproduced(old: &[Measurement], new: &[Measurement]) -> Reproduced {
-    let noises = [old, new].map(trace_noise);
+    let [noise_a, noise_b] = [old, new].map(|run| trace_noise(run).of_ratio());
+    let values = |own: &Measurement, base: &Measurement| epoch_values(&[own.speed_against(base)?]);
+    let ratio = |values: &[f64], epochs: usize, noise| {
+        Some(Rerun::in_epochs(values, epochs, noise)?.ratio()).filter(|ratio| ratio.interval.is_some())
+    };
     let mut found = Reproduced::default();
     for (own, own_new) in pairs(old, new) {
-        let to = |base: &&Measurement| {
+        let is_base = |base: &&Measurement| {
             let same = base.scene == own.scene && base.workload == own.workload && base.label != own.label;
             same && (base.label == REPORT_TREE || has_reference_role(base))
         };
-        for base in old.iter().filter(to) {
-            let values = |own: &Measurement, base: &Measurement| epoch_values(&[own.speed_against(base)?]);
-            let values = || Some([values(own, base)?, values(own_new, counterpart(base, old, new)?)?]);
-            let Some([a, b]) = values() else { continue };
-            let [noise_a, noise_b] = noises.each_ref().map(AaNoise::of_ratio);
-            let ratio = |values: &[f64], epochs: usize, noise| {
-                Rerun::in_epochs(values, epochs, noise)
-                    .map(|rerun| rerun.ratio())
-                    .filter(|ratio| ratio.interval.is_some())
-            };
+        for base in old.iter().filter(is_base) {
+            let new_values = counterpart(base, old, new).and_then(|base| values(own_new, base));
+            let Some((a, b)) = values(own, base).zip(new_values) else { continue };
             let change = Rerun::change(&a, &b, [noise_a, noise_b]).map(|change| change.ratio());
             let (a, b) = (ratio(&a, b.len(), noise_a), ratio(&b, a.len(), noise_b));
             let (Some(a), Some(b), Some(change)) = (a, b, change) else { continue };

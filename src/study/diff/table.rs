@@ -13,13 +13,13 @@ pub fn tables(comparison: &Comparison) -> Vec<Table> {
 
 /// Conditions that affect the reading of the tables: other hits, machines or settings, and times without a reference.
 pub fn cautions(comparison: &Comparison) -> Vec<String> {
-    let mut cautions: Vec<String> =
-        comparison.wrong.iter().map(|wrong| format!("Wrong: {}: {}.", wrong.case, wrong.what)).collect();
-    if comparison.references.is_empty() {
-        let sentence = "Times are not normalised, because the runs share no obvhs structure with its own triangle \
-                        test: a slower machine counts as a change.";
-        cautions.push(sentence.into());
-    }
+    let wrong = comparison.wrong.iter().map(|wrong| format!("Wrong: {}: {}.", wrong.case, wrong.what));
+    let mut cautions: Vec<String> = wrong.collect();
+    cautions.extend(comparison.references.is_empty().then(|| {
+        "Times are not normalised, because the runs share no obvhs structure with its own triangle test: a slower \
+         machine counts as a change."
+            .into()
+    }));
     cautions.extend(comparison.machines.as_ref().map(|[old, new]| {
         // The SIMD level stands in parentheses.
         let cpu = |machine: &String| machine.rsplit_once(" (").map(|(cpu, _)| cpu.to_owned());
@@ -63,7 +63,7 @@ fn slower(time: Estimate) -> String {
     let (of, word): (fn(f64) -> f64, _) =
         if time.estimate < 1.0 { (|x| 100.0 * (1.0 - x), "less time") } else { (|x| 100.0 * (x - 1.0), "slower") };
     let ends = time.interval.map_or(String::new(), |interval| {
-        let mut ends = [of(interval.low), of(interval.high)];
+        let mut ends = [interval.low, interval.high].map(of);
         ends.sort_by(f64::total_cmp);
         format!(" [{:.1}, {:.1}]", ends[0], ends[1])
     });
@@ -78,32 +78,26 @@ fn structures(comparison: &Comparison) -> Table {
         let worst = worst.map_or(Cell::empty(), |cell| percent(cell).noted(place(cell)));
         vec![Cell::from(&change.structure), percent(change), word(change), change.cells.into(), worst]
     });
-    let looked_for = comparison.threshold_percent.map(|percent| {
-        let percent = figures(percent);
-        format!(
-            "Regression: {percent}% slower or more, with an interval above 0. Inconclusive: otherwise, if the interval contains {percent}%."
-        )
-    });
     let mut notes = vec![];
     if !comparison.references.is_empty() {
         notes.push(format!("Normalised by {}, measured in the same rounds.", comparison.references.join(" and ")));
     }
-    notes.push(format!(
-        "The 95 % intervals hold jointly for {}{}.",
-        plural(comparison.structures.len(), "structure"),
-        if comparison.looks > 1 { format!(" and up to {} looks", comparison.looks) } else { String::new() }
-    ));
-    notes.extend(looked_for);
+    let judged = plural(comparison.structures.len(), "structure");
+    let looks = if comparison.looks > 1 { format!(" and up to {} looks", comparison.looks) } else { String::new() };
+    notes.push(format!("The 95 % intervals hold jointly for {judged}{looks}."));
+    notes.extend(comparison.threshold_percent.map(figures).map(|percent| {
+        format!(
+            "Regression: {percent}% slower or more, with an interval above 0. Inconclusive: otherwise, if the interval \
+             contains {percent}%."
+        )
+    }));
     for (only, whose) in [(&comparison.only_old, "old"), (&comparison.only_new, "new")] {
         if let Some(first) = only.first() {
             notes.push(format!("{} only in the {whose} run, e.g. {first}.", plural(only.len(), "case")));
         }
     }
-    let differ = if comparison.differences.is_empty() {
-        String::new()
-    } else {
-        format!("; differs: {}", comparison.differences.join("; "))
-    };
+    let differ = comparison.differences.join("; ");
+    let differ = if differ.is_empty() { differ } else { format!("; differs: {differ}") };
     let columns = ["structure", "time", "finding", "cells", "worst cell"];
     let title = format!("Change of time, geometric mean over cells, with 95 % interval{differ}");
     Table::new(title, columns, rows).noted(notes)
@@ -116,25 +110,19 @@ fn cells(comparison: &Comparison) -> Table {
     let rows = places.iter().map(|row| {
         let of = |change: &Change| {
             let own = |cell: &&Change| cell.structure == change.structure && place(cell) == *row;
-            comparison.cells.iter().find(own).map_or(Cell::empty(), |cell| {
-                let tone = if cell.finding == Finding::Regression { Tone::Wrong } else { Tone::Plain };
-                percent(cell).with(tone)
-            })
+            let Some(cell) = comparison.cells.iter().find(own) else { return Cell::empty() };
+            percent(cell).with(if cell.finding == Finding::Regression { Tone::Wrong } else { Tone::Plain })
         };
-        let mut cells: Vec<Cell> = vec![row.as_str().into()];
-        cells.extend(comparison.structures.iter().map(of));
-        cells
+        [row.as_str().into()].into_iter().chain(comparison.structures.iter().map(of)).collect::<Vec<Cell>>()
     });
     let Reproduced { ratios, old_in_new, new_in_old, unchanged } = comparison.reproduced;
-    let share = |n: usize| format!("{n} of {ratios} ({}%)", figures(100.0 * n as f64 / ratios as f64));
     let reproduced = (ratios > 0).then(|| {
+        let [old, new, unchanged] = [old_in_new, new_in_old, unchanged]
+            .map(|n| format!("{n} of {ratios} ({}%)", figures(100.0 * n as f64 / ratios as f64)));
         format!(
-            "Ratios to the report's tree and to the references: {} of the old run lie within the new run's intervals, \
-             {} of the new run within the old run's; for {} the interval of the change, which includes the spread of \
-             both runs, contains 1 (no change).",
-            share(old_in_new),
-            share(new_in_old),
-            share(unchanged)
+            "Ratios to the report's tree and to the references: {old} of the old run lie within the new run's \
+             intervals, {new} of the new run within the old run's; for {unchanged} the interval of the change, which \
+             includes the spread of both runs, contains 1 (no change)."
         )
     });
     Table::new("Change of time, cell by cell", columns, rows).noted(reproduced)

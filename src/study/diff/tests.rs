@@ -20,17 +20,9 @@ fn side(all: Vec<Measurement>) -> Side {
 
 /// A run on a machine that is slower by `slow`, with a SAH tree that is slower by `sah`.
 fn run(slow: f64, sah: f64) -> Vec<Measurement> {
-    ["primary", "shadow"]
-        .into_iter()
-        .flat_map(|workload| {
-            [
-                record("median-kd", workload, 9e6 * slow),
-                record("sah-kd", workload, 2e6 * slow * sah),
-                record("obvhs-bvh2", workload, 2e6 * slow),
-                record("obvhs-cwbvh", workload, 1e6 * slow),
-            ]
-        })
-        .collect()
+    let times = [("median-kd", 9e6), ("sah-kd", 2e6 * sah), ("obvhs-bvh2", 2e6), ("obvhs-cwbvh", 1e6)];
+    let of = |workload| times.map(|(label, ns)| record(label, workload, ns * slow));
+    ["primary", "shadow"].map(of).concat()
 }
 
 fn compare(old: &[Measurement], new: &[Measurement], threshold: Option<f64>, looks: usize) -> Comparison {
@@ -41,14 +33,22 @@ fn change_of<'a>(comparison: &'a Comparison, structure: &str) -> &'a Change {
     comparison.structures.iter().find(|change| change.structure == structure).unwrap()
 }
 
+#[track_caller]
+fn assert_time(comparison: &Comparison, structure: &str, expected: f64) {
+    let time = change_of(comparison, structure).time.unwrap();
+    assert!((time.estimate - expected).abs() < 1e-9, "{structure}: {time:?}");
+}
+
 #[test]
 fn a_slower_machine_is_no_slower_structure() {
     let comparison = compare(&run(1.0, 1.0), &run(1.5, 1.1), Some(5.0), 1);
     assert_eq!(comparison.references, ["obvhs-bvh2", "obvhs-cwbvh"]);
-    let (median, sah) = (change_of(&comparison, "median-kd"), change_of(&comparison, "sah-kd"));
-    assert!((sah.time.unwrap().estimate - 1.1).abs() < 1e-9 && sah.cells == 2);
-    assert!((median.time.unwrap().estimate - 1.0).abs() < 1e-9);
-    assert_eq!((sah.finding, median.finding), (Finding::Regression, Finding::NoDifference));
+    for (structure, time, finding) in [("sah-kd", 1.1, Finding::Regression), ("median-kd", 1.0, Finding::NoDifference)]
+    {
+        assert_time(&comparison, structure, time);
+        let change = change_of(&comparison, structure);
+        assert_eq!((change.finding, change.cells), (finding, 2), "{structure}");
+    }
     assert_eq!((comparison.structures.len(), comparison.cells.len()), (2, 4), "references are not judged");
     assert!(comparison.wrong.is_empty() && comparison.only_old.is_empty() && comparison.only_new.is_empty());
 }
@@ -61,8 +61,7 @@ fn what_has_our_triangle_test_is_no_reference() {
     };
     let comparison = compare(&with(1.0), &with(1.2), None, 1);
     assert_eq!(comparison.references, ["obvhs-bvh2", "obvhs-cwbvh"]);
-    let time = change_of(&comparison, "sah-kd").time.unwrap();
-    assert!((time.estimate - 1.2).abs() < 1e-9, "all of our slowdown: {time:?}");
+    assert_time(&comparison, "sah-kd", 1.2);
     assert_eq!(change_of(&comparison, "obvhs-bvh2:test=exact").finding, Finding::Slower);
 }
 
@@ -73,16 +72,19 @@ fn another_reference_can_be_named() {
     assert_eq!(unlike(&old, &new, true), Ok(()));
     let comparison = Comparison::new(&old, &new, None, 1);
     assert_eq!(comparison.references, ["sah-kd"]);
-    assert!((change_of(&comparison, "obvhs-bvh2").time.unwrap().estimate - 2.0).abs() < 1e-9);
+    assert_time(&comparison, "obvhs-bvh2", 2.0);
 }
 
 #[test]
 fn without_references_times_count_as_they_are() {
-    let without =
-        |slow: f64| run(slow, 1.0).into_iter().filter(|r| !measurement::is_native_obvhs(r)).collect::<Vec<_>>();
-    let comparison = compare(&without(1.0), &without(1.5), None, 1);
+    let [old, new] = [1.0, 1.5].map(|slow| {
+        let mut run = run(slow, 1.0);
+        run.retain(|own| !measurement::is_native_obvhs(own));
+        run
+    });
+    let comparison = compare(&old, &new, None, 1);
     assert!(comparison.references.is_empty());
-    assert!((change_of(&comparison, "sah-kd").time.unwrap().estimate - 1.5).abs() < 1e-9);
+    assert_time(&comparison, "sah-kd", 1.5);
     assert_eq!(change_of(&comparison, "sah-kd").finding, Finding::Slower);
     assert!(cautions(&comparison)[0].contains("not normalised"));
 }
@@ -113,24 +115,24 @@ fn what_an_interval_says() {
 #[test]
 fn answers_that_changed_are_wrong() {
     let old = run(1.0, 1.0);
-    let with = |change: &dyn Fn(&mut Measurement)| {
-        let mut new = run(1.0, 1.0);
+    let changes: [(&str, &dyn Fn(&mut Measurement)); 7] = [
+        ("", &|_| {}),
+        ("3 of 100 rays have a wrong hit; in the old run 0 of 100", &|r| r.wrong_hits = 3),
+        ("19 of 1000 rays hit; in the old run 20", &|r| r.hits = 19),
+        ("some hits have another t or primitive than in the old run", &|r| r.hit_checksum = Some(0)),
+        // Another number of timed or counted rays gives other hits; an unknown checksum is no change.
+        ("", &|r| (r.counted_rays, r.hits) = (500, 9)),
+        ("", &|r| (r.rays, r.hit_checksum) = (250, Some(0))),
+        ("", &|r| r.hit_checksum = None),
+    ];
+    for (i, (what, change)) in changes.into_iter().enumerate() {
+        let mut new = old.clone();
         change(&mut new[1]);
-        compare(&old, &new, None, 1).wrong
-    };
-    assert!(with(&|_| {}).is_empty());
-    let wrong = with(&|r| r.wrong_hits = 3);
-    assert_eq!(wrong.len(), 1);
-    assert_eq!(
-        (&wrong[0].case[..], &wrong[0].what[..]),
-        ("sah-kd on the primary rays of Cube", "3 of 100 rays have a wrong hit; in the old run 0 of 100")
-    );
-    assert!(with(&|r| r.hits = 19)[0].what.contains("19 of 1000 rays hit; in the old run 20"));
-    assert!(with(&|r| r.hit_checksum = Some(0))[0].what.contains("another t"));
-    // Another number of timed or counted rays gives other hits; an unknown checksum is no change.
-    assert!(with(&|r| (r.counted_rays, r.hits) = (500, 9)).is_empty());
-    assert!(with(&|r| (r.rays, r.hit_checksum) = (250, Some(0))).is_empty());
-    assert!(with(&|r| r.hit_checksum = None).is_empty());
+        let wrong = compare(&old, &new, None, 1).wrong;
+        let found = wrong.iter().map(|wrong| [&wrong.case[..], &wrong.what].join(": "));
+        let expected = (!what.is_empty()).then(|| format!("sah-kd on the primary rays of Cube: {what}"));
+        assert_eq!(found.collect::<Vec<_>>(), Vec::from_iter(expected), "change {i}");
+    }
 }
 
 #[test]
@@ -140,10 +142,10 @@ fn known_errors_are_no_new_ones() {
         (run[i].wrong_hits, run[i].checked_rays) = (errors, checked);
         run
     };
-    let ours = |errors, checked| erring(1, errors, checked);
-    assert!(compare(&ours(2, 100), &ours(5, 240), None, 1).wrong.is_empty(), "more rays, more errors");
-    assert_eq!(compare(&ours(2, 100), &ours(5, 100), None, 1).wrong.len(), 1);
-    assert!(compare(&erring(2, 0, 100), &erring(2, 5, 100), None, 1).wrong.is_empty(), "obvhs has defects");
+    let new_ones = |old: Vec<_>, new: Vec<_>| compare(&old, &new, None, 1).wrong.len();
+    assert_eq!(new_ones(erring(1, 2, 100), erring(1, 5, 240)), 0, "more rays, more errors");
+    assert_eq!(new_ones(erring(1, 2, 100), erring(1, 5, 100)), 1);
+    assert_eq!(new_ones(erring(2, 0, 100), erring(2, 5, 100)), 0, "obvhs has defects");
 }
 
 #[test]
@@ -160,26 +162,27 @@ fn a_structure_is_compared_with_itself_whatever_its_keys_and_its_test() {
     let comparison = Comparison::new(&a, &b, Some(5.0), 1);
     assert_eq!(comparison.differences, ["leaf of sah-kd 8, now 4", "triangle test of sah-kd exact, now other"]);
     assert!(tables(&comparison)[0].title.contains("leaf of sah-kd 8, now 4"));
-    let change = change_of(&comparison, "sah-kd:leaf=4,test=moller-trumbore");
-    assert!((change.time.unwrap().estimate - 1.1).abs() < 1e-9 && change.cells == 2);
+    assert_time(&comparison, "sah-kd:leaf=4,test=moller-trumbore", 1.1);
+    assert_eq!(change_of(&comparison, "sah-kd:leaf=4,test=moller-trumbore").cells, 2);
     assert!(comparison.wrong.is_empty() && comparison.only_old.is_empty(), "another test has other hits");
 
     // With two structures of one name the counterpart is ambiguous.
-    let mut two = new.clone();
-    two.extend(new.iter().filter(|own| own.structure == "sah-kd").map(|own| {
-        let label = "sah-kd:leaf=2".into();
-        Measurement { label, ..own.clone() }
-    }));
-    let comparison = compare(&old, &two, None, 1);
+    let ours = new.iter().filter(|own| own.structure == "sah-kd");
+    let others: Vec<_> = ours.map(|own| Measurement { label: "sah-kd:leaf=2".into(), ..own.clone() }).collect();
+    let comparison = compare(&old, &[new, others].concat(), None, 1);
     assert_eq!((comparison.only_old.len(), comparison.only_new.len()), (2, 4));
 }
 
 #[test]
 fn a_gate_ends_in_a_sentence_a_structure() {
-    let said = |sah: f64| sentences(&compare(&run(1.0, 1.0), &run(1.0, sah), Some(10.0), 1))[1].clone();
-    assert_eq!(said(1.2), "sah-kd: right on 200 checked rays; 20.0 % slower [20.0, 20.0]: over the limit of 10 %.");
-    assert_eq!(said(1.05), "sah-kd: right on 200 checked rays; 5.0 % slower [5.0, 5.0]: within the limit of 10 %.");
-    assert_eq!(said(0.8), "sah-kd: right on 200 checked rays; 20.0 % less time [20.0, 20.0].");
+    for (sah, said) in [
+        (1.2, "20.0 % slower [20.0, 20.0]: over the limit of 10 %."),
+        (1.05, "5.0 % slower [5.0, 5.0]: within the limit of 10 %."),
+        (0.8, "20.0 % less time [20.0, 20.0]."),
+    ] {
+        let found = sentences(&compare(&run(1.0, 1.0), &run(1.0, sah), Some(10.0), 1));
+        assert_eq!(found[1], format!("sah-kd: right on 200 checked rays; {said}"));
+    }
     let mut wrong = run(1.0, 1.0);
     wrong[1].wrong_hits = 3;
     let found = sentences(&compare(&run(1.0, 1.0), &wrong, Some(10.0), 1))[1].clone();
@@ -316,14 +319,12 @@ fn every_key_of_the_export_is_documented() {
     comparison.wrong = vec![Wrong { structure: "a".into(), case: "a".into(), what: "lost".into() }];
     let export = serde_json::to_value(&comparison).unwrap();
     let lists = ["structures", "wrong"].map(|list| &export[list][0]);
-    for key in
-        lists.into_iter().chain([&export, &export["reproduced"]]).flat_map(|value| value.as_object().unwrap().keys())
-    {
-        assert!(schema.contains(&format!("`{key}`")), "{key} is not documented");
-    }
-    for finding in [Finding::Faster, Finding::NoDifference, Finding::Slower, Finding::Regression, Finding::Inconclusive]
-    {
-        let word = serde_json::to_value(finding).unwrap();
-        assert!(schema.contains(&format!("`{}`", word.as_str().unwrap())), "{word} is not documented");
+    let objects = lists.into_iter().chain([&export, &export["reproduced"]]);
+    let keys = objects.flat_map(|value| value.as_object().unwrap().keys().cloned());
+    let findings =
+        [Finding::Faster, Finding::NoDifference, Finding::Slower, Finding::Regression, Finding::Inconclusive];
+    let words = findings.map(|finding| serde_json::to_value(finding).unwrap().as_str().unwrap().to_owned());
+    for word in keys.chain(words) {
+        assert!(schema.contains(&format!("`{word}`")), "{word} is not documented");
     }
 }

@@ -1,6 +1,7 @@
-//! Runs that cannot be compared.
+//! Runs that cannot be compared, and settings and keys that differ.
 
-use super::keys::{differences, other_keys};
+use serde_json::{Map, Value};
+
 use super::{Side, cell_title, has_reference_role, pairs};
 use crate::measure::Provenance;
 use crate::report::number::{count, duration};
@@ -68,14 +69,12 @@ pub fn unlike(old: &Side, new: &Side, gate: bool) -> Result<(), Unlike> {
         let rays = format!("the hash of the {} rays of {}", before.workload, before.scene);
         differ(&rays, &before.workload_hash, &after.workload_hash, SAME_INPUT)?;
         differ(&name("the query"), before.query.name(), after.query.name(), SAME_INPUT)?;
-        if let Some((key, a, b)) =
-            other_keys(&before.config, &after.config).first().filter(|_| has_reference_role(before))
-        {
+        for (key, a, b) in other_keys(&before.config, &after.config).iter().filter(|_| has_reference_role(before)) {
             differ(&format!("the key {key} of {}", before.label), a, b, SAME_MACHINE)?;
         }
         if gate && before.trace_ns.is_some() && after.trace_ns.is_some() {
-            let rays = |n: usize| count(n as u64);
-            differ(&name("the number of timed rays"), &rays(before.rays), &rays(after.rays), SAME_RAYS)?;
+            let [a, b] = [before, after].map(|own| count(own.rays as u64));
+            differ(&name("the number of timed rays"), &a, &b, SAME_RAYS)?;
         }
     }
     if gate && !has_unit {
@@ -113,15 +112,11 @@ pub fn unlike_plan(old: &Dataset, cases: &[Case], here: &Provenance) -> Result<(
         differ(&format!("the hash of the scene {title}"), &old.scene.hash, &new.scene.hash, SAME_SCENE)?;
         let rays = |case: &Case| serde_json::to_string(&case.workloads).expect("workloads are text");
         differ(&format!("the ray selection of {title}"), &rays(old), &rays(new), SAME_INPUT)?;
-        differ("the seed", &old.settings.seed.to_string(), &new.settings.seed.to_string(), SAME_INPUT)?;
-        differ(
-            "the structure that finds the origins of secondary rays",
-            &old.settings.guide,
-            &new.settings.guide,
-            SAME_INPUT,
-        )?;
-        let budget = |case: &Case| case.settings.budget_ns.map_or("none".to_owned(), |ns| duration(ns as f64));
-        differ("the budget", &budget(old), &budget(new), SAME_RAYS)?;
+        let (a, b) = (&old.settings, &new.settings);
+        differ("the seed", &a.seed.to_string(), &b.seed.to_string(), SAME_INPUT)?;
+        differ("the structure that finds the origins of secondary rays", &a.guide, &b.guide, SAME_INPUT)?;
+        let [a, b] = [a, b].map(|own| own.budget_ns.map_or("none".to_owned(), |ns| duration(ns as f64)));
+        differ("the budget", &a, &b, SAME_RAYS)?;
     }
     Ok(())
 }
@@ -130,4 +125,27 @@ pub fn unlike_plan(old: &Dataset, cases: &[Case], here: &Provenance) -> Result<(
 pub fn settings(old: &Case, new: &Case) -> Vec<String> {
     let all = differences(&old.group(), &new.group());
     all.into_iter().map(|(name, old, new)| format!("{name} {old} and {new}")).collect()
+}
+
+/// Keys that differ: name, old and new value.
+pub(super) fn other_keys(old: &Value, new: &Value) -> Vec<(String, String, String)> {
+    // Leave out the digests of a program: comparing two builds of it is the purpose.
+    let keys = |value: &Value| {
+        let mut map = value.as_object().cloned().unwrap_or_default();
+        map.retain(|key, _| key != "build" && key != "command");
+        map
+    };
+    differences(&keys(old), &keys(new))
+}
+
+/// Values that differ: name, old and new value.
+fn differences(old: &Map<String, Value>, new: &Map<String, Value>) -> Vec<(String, String, String)> {
+    let text = |value: Option<&Value>| match value {
+        None => "absent".to_owned(),
+        Some(Value::String(text)) => text.clone(),
+        Some(other) => other.to_string(),
+    };
+    let names = old.keys().chain(new.keys().filter(|name| !old.contains_key(*name)));
+    let different = names.filter(|name| old.get(*name) != new.get(*name));
+    different.map(|name| (name.clone(), text(old.get(name)), text(new.get(name)))).collect()
 }

@@ -79,18 +79,18 @@ fn a_plan_that_a_gate_could_not_compare_is_refused_before_it_is_measured() {
 #[test]
 fn on_two_machines_ratios_to_obvhs_are_compared_and_nothing_else() {
     let elsewhere = |edit: &dyn Fn(&mut Side)| {
-        let mut side = side(run(3.0, 1.1));
-        let p = &mut side.provenance;
-        (p.cpu, p.simd) = ("Other".into(), "avx2".into());
-        (p.target, p.target_features) = ("aarch64".into(), "neon".into());
-        edit(&mut side);
-        side
+        edited(3.0, 1.1, &|side| {
+            let p = &mut side.provenance;
+            (p.cpu, p.simd) = ("Other".into(), "avx2".into());
+            (p.target, p.target_features) = ("aarch64".into(), "neon".into());
+            edit(side);
+        })
     };
     let (old, new) = (side(run(1.0, 1.0)), elsewhere(&|_| {}));
     assert_eq!(unlike(&old, &new, false), Ok(()));
     assert!(unlike(&old, &new, true).is_err(), "a gate wants one machine");
     let comparison = Comparison::new(&old, &new, None, 1);
-    assert!((change_of(&comparison, "sah-kd").time.unwrap().estimate - 1.1).abs() < 1e-9);
+    assert_time(&comparison, "sah-kd", 1.1);
     let has_note = |comparison: &Comparison, part: &str| cautions(comparison).iter().any(|n| n.contains(part));
     assert!(has_note(&comparison, "Two machines, ") && has_note(&comparison, "Other (avx2)"));
     assert_eq!(compare(&old.all, &run(3.0, 1.1), None, 1).machines, None);
