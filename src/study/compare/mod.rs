@@ -61,11 +61,9 @@ fn report(dataset: &Dataset, matches: &ArgMatches) -> Report {
 /// The failures. The tables show them, except the ray with the wrong hit and the reason of a refusal: each is printed
 /// once.
 fn failures(dataset: &Dataset) -> Vec<Failure> {
-    let mut told: Vec<String> = vec![];
-    let mut failures = dataset.failures();
+    let (mut failures, mut told) = (dataset.failures(), vec![]);
     let scenes = dataset.scenes();
-    let refused = scenes.iter().flat_map(|scene| &scene.epochs[0].structures);
-    let refused: Vec<_> = refused.filter(|own| own.refused.is_some() && !own.is_twin()).collect();
+    let refused: Vec<_> = scenes.iter().flat_map(section::refused).collect();
     let mut reasons = refusals(&refused).into_iter();
     for own in &mut failures {
         if own.refused && !refused.is_empty() {
@@ -99,13 +97,12 @@ fn scene_warnings(scene: &SceneEpochs, provenance: &Provenance) -> Vec<String> {
     scene.epochs.iter().for_each(|epoch| epoch.environment.add_to(&mut conditions));
     let mut warnings = conditions.warnings();
     let measured = of_scene(scene);
-    let samples = measured.iter().flat_map(|own| [Some(&own.samples_ns), own.twin_samples_ns.as_ref()]).flatten();
+    let samples = measured.iter().flat_map(|own| Some(&own.samples_ns).into_iter().chain(&own.twin_samples_ns));
     let samples: Vec<&[f64]> = samples.map(Vec::as_slice).filter(|samples| !samples.is_empty()).collect();
     warnings.extend(of_samples(&samples));
-    let runners = scene.epochs[0].structures.iter().enumerate().filter_map(|(place, structure)| {
+    warnings.extend(scene.epochs[0].structures.iter().enumerate().filter_map(|(place, structure)| {
         let outside = scene.epochs.iter().filter_map(|epoch| epoch.structures.get(place)?.outside);
         of_own_clock(&structure.label, median(&outside.collect::<Vec<_>>())?)
-    });
-    warnings.extend(runners);
+    }));
     warnings
 }

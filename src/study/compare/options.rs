@@ -94,31 +94,30 @@ impl CompareArgs {
         let mut structures = if named_alone { vec![] } else { self.structures.chosen(registry, &[])? };
         let is_default = self.structures.structure.is_empty() && !named_alone;
         if let Some(packets) = registry.choose(PACKETS).ok().filter(|_| is_default) {
-            let place =
-                structures.iter().position(|own| own.spec == "sah-hybrid").map_or(structures.len(), |at| at + 1);
-            structures.insert(place, (&packets).into());
+            let hybrid = structures.iter().position(|own| own.spec == "sah-hybrid");
+            structures.insert(hybrid.map_or(structures.len(), |place| place + 1), (&packets).into());
         }
-        let quality = self.structures.quality.as_deref();
         let limit_s = self.runner_limit.seconds();
         let runners = runners(registry, &self.runner, limit_s)?;
         structures.extend(runners.iter().map(|choice| StructureRequest::of_runner(choice, limit_s)));
-        if let Some(spec) = &self.reference
-            && !structures.iter().any(|own| is_named(&own.spec, spec))
-        {
-            let choice = structures_at(registry, std::slice::from_ref(spec), quality)?.remove(0);
-            structures.push((&choice).into());
+        let has = |all: &[StructureRequest], name: &str| all.iter().any(|own| is_named(&own.spec, name));
+        let one = |spec: &String| -> anyhow::Result<StructureRequest> {
+            let chosen = structures_at(registry, std::slice::from_ref(spec), self.structures.quality.as_deref())?;
+            Ok((&chosen[0]).into())
+        };
+        if let Some(spec) = self.reference.as_ref().filter(|spec| !has(&structures, spec)) {
+            structures.push(one(spec)?);
         }
         if let Some(name) = &self.only {
-            if !structures.iter().any(|own| is_named(&own.spec, name)) {
-                let mut chosen = structures_at(registry, std::slice::from_ref(name), quality).map_err(|error| {
-                    anyhow::anyhow!("{error}; for a program of that name, add --runner {name}=COMMAND")
-                })?;
-                structures.insert(0, (&chosen.remove(0)).into());
+            if !has(&structures, name) {
+                let advice =
+                    |error| anyhow::anyhow!("{error}; for a program of that name, add --runner {name}=COMMAND");
+                structures.insert(0, one(name).map_err(advice)?);
             }
-            let asked = || [Some(name), self.reference.as_ref()].into_iter().flatten();
-            let other =
-                structures.iter().find(|own| own.runner.is_some() && !asked().any(|asked| is_named(&own.spec, asked)));
-            if let Some(other) = other {
+            let is_asked = |own: &StructureRequest| {
+                is_named(&own.spec, name) || self.reference.as_ref().is_some_and(|asked| is_named(&own.spec, asked))
+            };
+            if let Some(other) = structures.iter().find(|own| own.runner.is_some() && !is_asked(own)) {
                 anyhow::bail!("--only {name} measures nothing else: omit the runner {}", other.spec);
             }
         }
@@ -144,10 +143,10 @@ impl CompareArgs {
             self.from.is_unasked()?;
             return Ok((vec![scene], rays));
         }
-        let seen = |(word, scene)| Ok((word, self.from.of(scene)?));
-        let scenes = self.scenes.read(registry, &[])?.into_iter().map(seen);
         let rays = quick.unwrap_or(self.rays.count());
         let workloads = WorkloadRequest::of_scene(each_kind(&self.workload, &WORKLOADS), rays);
+        let scenes = self.scenes.read(registry, &[])?.into_iter();
+        let scenes = scenes.map(|(word, scene)| Ok((word, self.from.of(scene)?)));
         Ok((scenes.collect::<anyhow::Result<_>>()?, workloads))
     }
 
@@ -161,27 +160,19 @@ impl CompareArgs {
         }
     }
 
-    fn settings(
-        &self,
-        registry: &Registry,
-        structures: &[StructureRequest],
-        workloads: usize,
-    ) -> anyhow::Result<Settings> {
-        let settings = Settings { slowest: Some(SLOWEST), ..Settings::new(&self.measuring, registry)? };
-        if !self.quick {
-            return Ok(settings);
+    fn settings(&self, registry: &Registry, all: &[StructureRequest], workloads: usize) -> anyhow::Result<Settings> {
+        let mut settings = Settings { slowest: Some(SLOWEST), ..Settings::new(&self.measuring, registry)? };
+        if self.quick {
+            let tests = all.iter().map(|own| Ok(own.choose(registry)?.triangle_test()));
+            let tests: BTreeSet<&str> = tests.collect::<anyhow::Result<_>>()?;
+            let tests = QUICK_CHECKS / (tests.len() * workloads).max(1);
+            settings.check = Check::BruteForce { tests, limit_ns: Some(QUICK_CHECKS_NS) };
+            settings.budget_ns = Some(QUICK_SAMPLES_NS);
         }
-        let tests = structures.iter().map(|own| Ok(own.choose(registry)?.triangle_test()));
-        let tests: BTreeSet<&str> = tests.collect::<anyhow::Result<_>>()?;
-        let tests = QUICK_CHECKS / (tests.len() * workloads).max(1);
-        let check = Check::BruteForce { tests, limit_ns: Some(QUICK_CHECKS_NS) };
-        Ok(Settings { budget_ns: Some(QUICK_SAMPLES_NS), check, ..settings })
+        Ok(settings)
     }
 
     /// Scene by scene, small ones first.
-    ///
-    /// # Errors
-    /// If the options name something that does not exist.
     pub fn plan(&self, registry: &Registry) -> anyhow::Result<Plan> {
         let mut structures = self.chosen(registry)?;
         let named = self.named();
@@ -200,18 +191,18 @@ impl CompareArgs {
         let structures = with_twin(structures);
         let settings = self.settings(registry, &structures, workloads.kinds())?;
         let epochs = if self.quick { QUICK_EPOCHS } else { self.measuring.epochs };
-        let planned = |own: &(OsString, Scene)| {
+        let mut planned = vec![];
+        for own in &scenes {
             let (word, scene) = own;
             let triangles = scene.mesh.len();
             let mut fitting = structures.clone();
             fitting.retain(|own| !named.leaves_out(own.name(), triangles));
+            notes.extend((fitting.len() < structures.len()).then(|| left_out(scene)));
             let settings = Settings { build_limit_s: self.build_limit_s(triangles), ..settings.clone() };
             let request = SceneRequest::new(word, &self.from, scene);
-            PlannedScene { request, ..PlannedScene::new(own, &fitting, &workloads, &settings, epochs.into()) }
-        };
-        let is_large = |scene: &&Scene| structures.iter().any(|own| named.leaves_out(own.name(), scene.mesh.len()));
-        notes.extend(scenes.iter().map(|(_, scene)| scene).filter(is_large).map(left_out));
-        let planned: Vec<PlannedScene> = scenes.iter().map(planned).collect();
+            let plan = PlannedScene::new(own, &fitting, &workloads, &settings, epochs.into());
+            planned.push(PlannedScene { request, ..plan });
+        }
         let mut plan = Plan::by_epoch(NAME, &planned).by_scene().noting(scenes.iter().map(|(_, scene)| scene));
         plan.inputs = scene_files(registry, &self.scenes.scenes);
         plan.inputs.extend(self.rays.file().map(Into::into));
@@ -274,19 +265,15 @@ mod tests {
         let matches = STUDY.matches(&STUDY.preset(Effort::Full, &["cube".into()])).unwrap();
         let plan = (STUDY.plan)(&matches, &registry).unwrap();
         let labels: Vec<&str> = plan.cases[0].structures.iter().map(|own| own.spec.as_str()).collect();
-        for name in registry.names() {
-            assert!(labels.contains(&name), "{name} is not among {labels:?}");
-        }
+        assert!(registry.names().iter().all(|name| labels.contains(name)), "{labels:?}");
         // One more for the twin.
         assert_eq!(labels.len(), registry.names().len() + super::super::FULL.matches("-s ").count());
     }
 
     #[test]
     fn a_gate_measures_its_structure_and_the_yardstick() {
-        let distinct = |words: &[&str]| {
-            // One less for the twin.
-            each_once_by(specs(&[&["cube"], words].concat()), |one, other| one == other)
-        };
+        // One less for the twin.
+        let distinct = |words: &[&str]| each_once_by(specs(&[&["cube"], words].concat()), String::eq);
         assert_eq!(distinct(&["--only", "sah-bvh"]), ["sah-bvh", "obvhs-bvh2"]);
         assert_eq!(distinct(&["-s", "sah-kd", "--budget", "none"]), ["sah-kd", "obvhs-bvh2"]);
         assert_eq!(distinct(&["-s", "obvhs-cwbvh", "--budget", "none"]), ["obvhs-cwbvh"], "a yardstick is there");

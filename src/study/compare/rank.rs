@@ -81,8 +81,8 @@ impl<'a> Ranking<'a> {
         ];
         let firsts = ranks.into_iter().filter_map(|(key, words, rows)| self.first(key, words, rows));
         let (firsts, fastest): (Vec<Finding>, Vec<Finding>) = firsts.unzip();
-        let mut found: Vec<Finding> =
-            firsts.into_iter().enumerate().map(|(i, own)| if i > 0 { own.detail() } else { own }).collect();
+        let firsts = firsts.into_iter().enumerate();
+        let mut found: Vec<Finding> = firsts.map(|(i, own)| if i > 0 { own.detail() } else { own }).collect();
         found.extend(self.cost(&precise, &single).map(Finding::detail));
         found.extend(self.ranked.iter().filter(|row| !errs(row)).filter_map(|row| self.speed_finding(row)));
         // The page names the fastest structure with precise hits or, without one, the fastest in single precision.
@@ -146,15 +146,14 @@ impl<'a> Ranking<'a> {
 
     /// Time with a precise triangle test divided by the time with a test in single precision, for each structure and
     /// with the same configuration: the smallest and the largest ratio.
-    fn cost(&self, precise: &[&Ranked], single: &[&Ranked]) -> Option<Finding> {
-        let mut costs: Vec<(&Measurement, Estimate)> = vec![];
-        for right in precise.iter().filter(|row| !row.label.contains(':')) {
-            let is_same = |row: &&&Ranked| {
-                (&row.example.structure, &row.example.config) == (&right.example.structure, &right.example.config)
-            };
-            let cost = single.iter().find(is_same).and_then(|single| self.ratio(single.label, right.label));
-            costs.extend(cost.map(|cost| (right.example, cost)));
-        }
+    fn cost(&self, precise: &[&Ranked<'a>], single: &[&Ranked<'a>]) -> Option<Finding> {
+        let kind = |row: &Ranked<'a>| (&row.example.structure, &row.example.config);
+        let cost = |right: &&Ranked<'a>| {
+            let single = single.iter().find(|row| kind(row) == kind(right))?;
+            Some((right.example, self.ratio(single.label, right.label)?))
+        };
+        let plain = precise.iter().filter(|row| !row.label.contains(':'));
+        let mut costs: Vec<(&Measurement, Estimate)> = plain.filter_map(cost).collect();
         costs.sort_by(|a, b| a.1.estimate.total_cmp(&b.1.estimate));
         let told = |(right, cost): &(&Measurement, Estimate)| format!("{} ({})", interval(*cost), right.structure);
         let told = match &costs[..] {

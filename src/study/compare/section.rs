@@ -9,46 +9,43 @@ use crate::report::words::{distinct, each_once, interval, listed, slug};
 use crate::report::{Art, Block, Cell, Figure, Finding, Table};
 use crate::request::{BRUTE_FORCE, REPORT_TREE, SAH_TREE, known_defect};
 use crate::scene::{BUILTIN, Builtin};
-use crate::study::Dataset;
 use crate::study::epoch::Structure;
 use crate::study::kendall::{kendall, mean_of_scenes};
 use crate::study::measurement::{Measurement, of_scene, trace_noise};
+use crate::study::{Dataset, SceneEpochs};
 
 /// The number of checked rays and of wrong hits, and the structures with wrong hits.
 pub fn checked(all: &[Measurement]) -> Option<Finding> {
-    let sum = |is: &dyn Fn(&&Measurement) -> bool| {
-        let own = || all.iter().filter(is);
-        (own().map(|r| r.wrong_hits).sum::<usize>() as u64, own().map(|r| r.checked_rays).sum::<usize>() as u64)
+    let sums = |is: &dyn Fn(&&Measurement) -> bool| {
+        let own = all.iter().filter(is).map(|r| [r.wrong_hits, r.checked_rays]);
+        own.fold([0, 0], |sums, own| [sums[0] + own[0] as u64, sums[1] + own[1] as u64])
     };
     let of = |label: &String| {
-        let (errors, rays) = sum(&|r| r.label == *label);
+        let [errors, rays] = sums(&|r| r.label == *label);
         (errors > 0).then(|| format!("{label} ({} of {} checked rays)", count(errors), count(rays)))
     };
-    let erring: Vec<String> = distinct(all.iter().map(|r| &r.label)).iter().filter_map(of).collect();
+    let erring = listed(&distinct(all.iter().map(|r| &r.label)).iter().filter_map(of).collect::<Vec<_>>());
     let erring = match &erring[..] {
-        [] => String::new(),
-        erring => format!(" Not timed in the cells with wrong hits: {}.", listed(erring)),
+        "" => String::new(),
+        erring => format!(" Not timed in the cells with wrong hits: {erring}."),
     };
-    let (wrong, rays) = sum(&|r| r.declined.is_none() && known_defect(&r.structure).is_none());
+    let sums = sums(&|r| r.declined.is_none() && known_defect(&r.structure).is_none());
+    let [wrong, rays] = sums.map(count);
     let sentence = format!(
-        "Wrong hits: {} in {} rays checked by another tree, brute force and exact arithmetic (known defects \
-         excluded).{erring}",
-        count(wrong),
-        count(rays)
+        "Wrong hits: {wrong} in {rays} rays checked by another tree, brute force and exact arithmetic (known defects \
+         excluded).{erring}"
     );
-    (rays > 0).then(|| Finding::new("checked", sentence))
+    (sums[1] > 0).then(|| Finding::new("checked", sentence))
 }
 
 /// Kendall's tau of SAH cost and time over couples of different families, the mean of the built-in scenes, which the
 /// claim is about. `None` if one of them is missing.
 pub fn tau(all: &[Measurement]) -> Option<Finding> {
-    let has = |name: &str| all.iter().any(|r| r.scene == name);
-    if !BUILTIN.iter().all(|builtin| has(builtin.name)) {
+    if !BUILTIN.iter().all(|builtin| all.iter().any(|r| r.scene == builtin.name)) {
         return None;
     }
-    let is_asked =
-        |r: &&Measurement| r.structure != BRUTE_FORCE && r.trace_ns.is_some() && Builtin::find(&r.scene).is_ok();
-    let timed: Vec<&Measurement> = all.iter().filter(is_asked).collect();
+    let timed = all.iter().filter(|r| r.structure != BRUTE_FORCE && r.trace_ns.is_some());
+    let timed: Vec<&Measurement> = timed.filter(|r| Builtin::find(&r.scene).is_ok()).collect();
     let groups = each_once(timed.iter().map(|r| (&r.scene, &r.scene_hash, &r.workload)));
     let taus = groups.into_iter().filter_map(|group| {
         let own = timed.iter().filter(|r| (&r.scene, &r.scene_hash, &r.workload) == group);
@@ -68,6 +65,11 @@ fn family(structure: &str) -> &str {
     }
 }
 
+/// The structures that could not be built, without twins.
+pub fn refused<'a>(scene: &SceneEpochs<'a>) -> Vec<&'a Structure> {
+    scene.epochs[0].structures.iter().filter(|own| own.refused.is_some() && !own.is_twin()).collect()
+}
+
 /// The number of scenes that a page shows unfolded; the figures of all others are folded.
 const OPEN: usize = 3;
 
@@ -76,13 +78,11 @@ pub fn blocks(dataset: &Dataset, references: &[Reference], wide: bool) -> Vec<Bl
     let shown = if wide { references } else { &references[references.len().saturating_sub(1)..] };
     let (mut blocks, mut scenes, mut all_refused) = (vec![], vec![], vec![]);
     for scene in dataset.scenes() {
-        let (own, first) = (of_scene(&scene), scene.epochs[0]);
-        let refused: Vec<&Structure> =
-            first.structures.iter().filter(|own| own.refused.is_some() && !own.is_twin()).collect();
+        let (own, refused) = (of_scene(&scene), refused(&scene));
         if !own.is_empty() {
             blocks.push(Block::Table(scene_table(&own, shown, &refused, wide)));
         } else if !refused.is_empty() {
-            blocks.push(Block::Table(nothing_measured(&first.title(), &refused)));
+            blocks.push(Block::Table(nothing_measured(&scene.epochs[0].title(), &refused)));
         }
         all_refused.extend(refused);
         scenes.extend(Some(own).filter(|own| !own.is_empty()));
@@ -120,19 +120,21 @@ fn bars(all: &[Measurement]) -> Figure {
     let mut labels = distinct(all.iter().map(|r| &r.label));
     let units = [REPORT_TREE, BRUTE_FORCE].map(String::from);
     let unit = units.into_iter().find(|unit| labels.contains(unit)).unwrap_or_else(|| labels[0].clone());
-    // Leave out brute force unless it is the reference: it is so far away that it hides the differences between all
-    // others.
+    // Brute force is so far away that it hides the differences between all others.
     labels.retain(|label| unit == BRUTE_FORCE || label != BRUTE_FORCE);
     let workloads = distinct(all.iter().map(|r| &r.workload));
     let reference = Reference::Structure(unit.clone());
     let bar = |workload: &String, label: &String| {
-        let ratio = |own| Reference::ratio(&reference.pairs(all, [own]), &noise);
-        match all.iter().find(|r| r.workload == *workload && r.label == *label) {
-            None => Bar::Missing("not measured".into()),
-            Some(own) if own.declined.is_some() => Bar::Missing("declined".into()),
-            Some(own) if own.is_disqualified() => Bar::Missing("wrong hits".into()),
-            Some(own) => ratio(own).map_or(Bar::Missing("not timed".into()), Bar::Of),
-        }
+        let missing = match all.iter().find(|r| r.workload == *workload && r.label == *label) {
+            None => "not measured",
+            Some(own) if own.declined.is_some() => "declined",
+            Some(own) if own.is_disqualified() => "wrong hits",
+            Some(own) => match Reference::ratio(&reference.pairs(all, [own]), &noise) {
+                Some(ratio) => return Bar::Of(ratio),
+                None => "not timed",
+            },
+        };
+        Bar::Missing(missing.into())
     };
     let group = |workload: &String| BarGroup {
         title: format!("{workload} rays"),
@@ -155,8 +157,8 @@ fn bars(all: &[Measurement]) -> Figure {
     Figure {
         id: format!("speed-{}", slug(&all[0].scene)),
         caption: format!(
-            "{name}, {} triangles: speed as a multiple of {unit} on the same rays; longer is faster. Whiskers are 95 % intervals. \
-             The axis is logarithmic.",
+            "{name}, {} triangles: speed as a multiple of {unit} on the same rays; longer is faster. Whiskers are 95 % \
+             intervals. The axis is logarithmic.",
             count(all[0].triangles as u64)
         ),
         alt: format!("Bar chart for {name}. Fastest against {unit} by workload: {fastest}."),
