@@ -4,8 +4,6 @@ mod builtin;
 mod choice;
 mod entry;
 mod keys;
-mod peers;
-mod runners;
 
 use std::sync::Arc;
 
@@ -19,27 +17,20 @@ use crate::panics::caught;
 use crate::scene::Scene;
 use entry::{Build, BuildResult};
 
-pub use choice::{Choice, ChoiceError};
+pub use choice::{Choice, ChoiceError, RUNNER, is_named, plain_name};
 pub use entry::Entry;
 pub use keys::Key;
-pub use runners::{RUNNER, is_named, plain_name};
 
 /// The structures that a run can choose from, in the order of tables.
 #[derive(Clone)]
 pub struct Registry {
     entries: Vec<Entry>,
-    generators: Vec<Generator>,
+    /// Generators of scenes, by name.
+    generators: Vec<(&'static str, Generate)>,
 }
 
 /// Generates a scene from the text after its name: `7` of `icosphere:7`.
 pub type Generate = fn(&str) -> anyhow::Result<Scene>;
-
-/// A generator of scenes.
-#[derive(Clone, Copy)]
-struct Generator {
-    name: &'static str,
-    generate: Generate,
-}
 
 impl Registry {
     /// A registry without structures.
@@ -56,19 +47,22 @@ impl Registry {
         let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
         assert!(!name.is_empty() && name.chars().all(plain), "the name {name:?}");
         assert!(!self.has_generator(name), "there is already a generator {name:?}");
-        self.generators.push(Generator { name, generate });
+        self.generators.push((name, generate));
         self
     }
 
     /// Whether there is a generator of this name.
     pub fn has_generator(&self, name: &str) -> bool {
-        self.generators.iter().any(|own| own.name.eq_ignore_ascii_case(name))
+        self.generator(name).is_some()
     }
 
     /// The scene of a generator; `None` if there is no generator of this name.
     pub fn generated(&self, name: &str, parameters: &str) -> Option<anyhow::Result<Scene>> {
-        let generator = self.generators.iter().find(|own| own.name.eq_ignore_ascii_case(name))?;
-        Some((generator.generate)(parameters))
+        Some(self.generator(name)?(parameters))
+    }
+
+    fn generator(&self, name: &str) -> Option<Generate> {
+        self.generators.iter().find(|(own, _)| own.eq_ignore_ascii_case(name)).map(|&(_, generate)| generate)
     }
 
     /// Adds a structure under `name`, with the default configuration `config`.

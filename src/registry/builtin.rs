@@ -1,4 +1,4 @@
-//! The structures of this crate and of obvhs.
+//! The structures of this crate, of obvhs and of other projects.
 
 use super::Registry;
 use crate::brute_force::{BruteForce, BruteForceConfig};
@@ -36,7 +36,7 @@ impl Registry {
     }
 
     /// Brute force over the triangle test `T`, the reference for structures over it.
-    pub(super) fn brute_force<T: HasReference>(self) -> Self
+    fn brute_force<T: HasReference>(self) -> Self
     where
         BruteForce<T>: Offered<Config = BruteForceConfig>,
     {
@@ -57,5 +57,45 @@ impl Registry {
             .offering::<Bvh8<T>>("sah-kd-tight", Bvh8Config::new(Partition::Tight))
             .offering::<Bvh8<T>>("sah-hybrid", Bvh8Config::new(Partition::Hybrid))
             .offering::<Bvh8<T>>("sah-bvh", Bvh8Config::new(Partition::Objects))
+    }
+
+    /// The structures of other projects whose features are enabled, each over its own triangle test first, then over the
+    /// tests of this crate that it supports.
+    // Without any feature nothing is added.
+    #[allow(clippy::let_and_return)]
+    fn with_peers(self) -> Self {
+        let this = self;
+
+        #[cfg(feature = "peer-bvh")]
+        let this = {
+            use crate::external::bvh::{SvenstaroBvh, SvenstaroBvhConfig, SvenstaroTest};
+            let config = SvenstaroBvhConfig::default();
+            this.offering::<SvenstaroBvh<SvenstaroTest>>("bvh", config)
+                .offering::<SvenstaroBvh<MollerTrumbore>>("bvh", config)
+                .offering::<SvenstaroBvh<Exact>>("bvh", config)
+                .brute_force::<SvenstaroTest>()
+        };
+
+        #[cfg(feature = "peer-parry")]
+        let this = {
+            use crate::external::parry::{ParryBvh, ParryConfig, ParryTest};
+            let config = ParryConfig::default();
+            this.offering::<ParryBvh<ParryTest>>("parry", config)
+                .offering::<ParryBvh<MollerTrumbore>>("parry", config)
+                .offering::<ParryBvh<Exact>>("parry", config)
+                .brute_force::<ParryTest>()
+        };
+
+        #[cfg(feature = "peer-tinybvh")]
+        let this = this.offering::<crate::external::tinybvh::TinyBvh>("tinybvh", Default::default());
+
+        #[cfg(feature = "peer-embree")]
+        let this = {
+            use crate::external::embree::{Embree, EmbreeConfig};
+            this.offering::<Embree<false>>("embree", EmbreeConfig::default())
+                .offering::<Embree<true>>("embree-robust", EmbreeConfig::default())
+        };
+
+        this
     }
 }

@@ -1,11 +1,12 @@
 use std::sync::Arc;
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::entry::{Entry, empty};
-use crate::accel::{BuildError, DynAccel};
+use crate::accel::{BuildError, Capabilities, DynAccel, Observed};
 use crate::geometry::Mesh;
 use crate::names::suggestion;
+use crate::runner::{Program, Runner};
 use crate::validate::conformance::Subject;
 
 /// A structure with its configuration and the name to print.
@@ -41,12 +42,25 @@ pub enum ChoiceError {
 const REMOVED: [(&str, &str, &str); 1] =
     [("batch", "interleaved", "batch=packets, which interleaves the rays outside packets")];
 
+/// The name of all runners; each has its command as configuration.
+pub const RUNNER: &str = "runner";
+
+const OWN_CLOCK: &str = " (own clock)";
+
+/// The name of a structure; for a runner, without the words about its clock.
+pub fn plain_name(label: &str) -> &str {
+    label.strip_suffix(OWN_CLOCK).unwrap_or(label)
+}
+
+/// Whether `name`, as a user types it, names the structure of this label; a runner's label also has words about its
+/// clock.
+pub fn is_named(label: &str, name: &str) -> bool {
+    plain_name(label).eq_ignore_ascii_case(plain_name(name))
+}
+
 impl Choice {
     /// `entry` with values of some keys. `name_test`: the label includes the triangle test, because the name alone
     /// belongs to another entry.
-    ///
-    /// # Errors
-    /// If a key is unknown or a value is not accepted.
     pub(super) fn of(entry: &Entry, overrides: &[(&str, &str)], name_test: bool) -> Result<Self, ChoiceError> {
         let mut config = entry.config.clone();
         let keys = config.as_object_mut().expect("checked when it was registered");
@@ -99,5 +113,31 @@ impl Choice {
     /// The triangle test that decides this structure's hits.
     pub fn triangle_test(&self) -> &'static str {
         self.entry.triangle_test
+    }
+
+    /// The structure that `program` implements. Its label names the clock of its times.
+    pub fn of_program(program: Program) -> Self {
+        let label = program.name() + OWN_CLOCK;
+        let config = json!({ "command": program.command(), "build": program.build_id(), "clock": "own" });
+        let build = move |mesh: &Arc<_>, _: &_| {
+            Runner::build(&program, mesh).map(|runner| Box::new(runner) as Box<dyn DynAccel>)
+        };
+        let entry = Entry {
+            name: RUNNER.into(),
+            triangle_test: "own",
+            observed: Observed::NONE,
+            conventions: &[],
+            capabilities: Capabilities::ALL,
+            is_builtin: false,
+            config: config.clone(),
+            read: |_| Ok(()),
+            build: Arc::new(build),
+        };
+        Self { entry, config, label }
+    }
+
+    /// The command line of a program.
+    pub fn command(&self) -> Option<&str> {
+        (self.entry.name == RUNNER).then(|| self.config["command"].as_str())?
     }
 }

@@ -21,7 +21,8 @@ pub struct Entry {
     /// Whether it comes with this crate, such as obvhs and the peers; false for structures that another crate
     /// registers.
     pub is_builtin: bool,
-    pub(super) config: Value,
+    /// The default configuration, by key.
+    pub config: Value,
     /// Checks whether a configuration can be parsed; its values may still contradict each other.
     pub(super) read: fn(&Value) -> Result<(), String>,
     pub(super) build: Build,
@@ -32,11 +33,6 @@ pub(super) type BuildResult = Result<Box<dyn DynAccel>, BuildError>;
 pub(super) type Build = Arc<dyn Fn(&Arc<Mesh>, &Value) -> BuildResult + Send + Sync>;
 
 impl Entry {
-    /// The default configuration, by key.
-    pub fn config(&self) -> &Value {
-        &self.config
-    }
-
     /// The reason why the structure cannot run on this system; `None` if it can.
     pub fn absence(&self) -> Option<String> {
         match (self.build)(&Arc::new(empty()), &self.config) {
