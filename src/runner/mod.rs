@@ -34,9 +34,6 @@ pub struct Runner {
 
 impl Runner {
     /// Starts the program, which builds over `mesh`.
-    ///
-    /// # Errors
-    /// If it cannot be started, breaks the protocol or reports an error.
     pub fn build(program: &Program, mesh: &Mesh) -> Result<Self, BuildError> {
         Self::begin(program, mesh).map_err(BuildError::Remote)
     }
@@ -55,7 +52,7 @@ impl Runner {
         };
         let (build_ns, bytes) = read().ok_or_else(|| unexpected(&request, &reply, form))?;
         let _ = std::fs::remove_file(path);
-        let state = State::new(session);
+        let state = State { session, failure: None, taken: vec![], outside: vec![] };
         Ok(Self { state: Mutex::new(state), folder, capabilities, build_ns, bytes, triangles: mesh.len() })
     }
 }

@@ -19,10 +19,7 @@ pub struct Program {
 }
 
 impl Program {
-    /// Checks the program by starting it once.
-    ///
-    /// # Errors
-    /// A sentence, if the command is empty, cannot be started or does not implement the protocol.
+    /// Checks the program by starting it once. The error is a sentence.
     pub fn new(command: &str, limit: Duration) -> Result<Self, String> {
         let named = command.split_once('=').filter(|(name, _)| is_name(name));
         let (name, line) = named.map_or((None, command), |(name, line)| (Some(name.to_owned()), line));
@@ -39,11 +36,10 @@ impl Program {
 
     /// The given name; by default the name of the program without its folder, and the arguments.
     pub fn name(&self) -> String {
-        if let Some(name) = &self.name {
-            return name.clone();
-        }
-        let file = Path::new(&self.words[0]).file_name().unwrap_or_default().to_string_lossy().into_owned();
-        [&[file], &self.words[1..]].concat().join(" ")
+        self.name.clone().unwrap_or_else(|| {
+            let file = Path::new(&self.words[0]).file_name().unwrap_or_default().to_string_lossy().into_owned();
+            [&[file], &self.words[1..]].concat().join(" ")
+        })
     }
 
     /// Identifies the build: the first digits of the SHA-256 of its file and of each file among its arguments, such as
@@ -55,12 +51,12 @@ impl Program {
 
     /// For a program that cannot be started: the command may begin with a text that was meant as its name.
     fn advice_on_name(&self) -> String {
-        let unfit = self.command.split_once('=').map(|(text, _)| text).filter(|text| !is_name(text));
-        unfit.map_or_else(String::new, |text| {
-            format!(
+        match self.command.split_once('=') {
+            Some((text, _)) if !is_name(text) => format!(
                 "; {text:?}, before the first \"=\", is not a valid NAME: use only letters, digits, \"-\" and \"_\""
-            )
-        })
+            ),
+            _ => String::new(),
+        }
     }
 
     /// Starts the program and learns which queries it supports.

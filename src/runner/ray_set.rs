@@ -14,23 +14,17 @@ use crate::scene::files::{HitFile, RayFile, RaysId};
 
 /// The running program and its reports so far.
 pub(super) struct State {
-    session: Session,
+    pub session: Session,
     /// The reason why the runner has failed, once it has; it then receives no more requests.
     pub failure: Option<String>,
     /// The numbers of sets in use.
-    taken: Vec<bool>,
+    pub taken: Vec<bool>,
     /// For each pass, the elapsed time as a multiple of the time that the runner reported.
     pub outside: Vec<f64>,
 }
 
 /// In a shorter pass the request and the reply take a notable part of the elapsed time: clocks cannot be compared.
 const LONG_NS: u64 = 1_000_000;
-
-impl State {
-    pub fn new(session: Session) -> Self {
-        Self { session, failure: None, taken: vec![], outside: vec![] }
-    }
-}
 
 pub(super) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
@@ -63,8 +57,7 @@ impl<'a> RaySet<'a> {
         if state.failure.is_some() || self.rays.is_empty() {
             return None;
         }
-        let hits = self.pass(state, query);
-        hits.map_err(|sentence| state.failure = Some(sentence)).ok()
+        self.pass(state, query).map_err(|sentence| state.failure = Some(sentence)).ok()
     }
 
     fn pass(&self, state: &mut State, query: Query) -> Result<Vec<Option<Hit>>, String> {
@@ -120,17 +113,13 @@ impl Drop for RaySet<'_> {
 
 impl Loaded for RaySet<'_> {
     fn closest_hits(&self, hits: &mut [Option<Hit>]) {
-        match self.hits(Query::Closest) {
-            Some(found) => hits.copy_from_slice(&found),
-            None => hits.fill(None),
-        }
+        let found = self.hits(Query::Closest).unwrap_or_else(|| vec![None; hits.len()]);
+        hits.copy_from_slice(&found);
     }
 
     fn any_hits(&self, hits: &mut [bool]) {
-        match self.hits(Query::Any) {
-            Some(all) => hits.iter_mut().zip(all).for_each(|(hit, found)| *hit = found.is_some()),
-            None => hits.fill(false),
-        }
+        let found = self.hits(Query::Any).unwrap_or_else(|| vec![None; hits.len()]);
+        hits.iter_mut().zip(found).for_each(|(hit, found)| *hit = found.is_some());
     }
 
     fn own_ns(&self) -> Option<u64> {

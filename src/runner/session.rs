@@ -53,11 +53,8 @@ impl Session {
         Ok(Self { child, input, lines, limit })
     }
 
-    /// The reply to a line.
-    ///
-    /// # Errors
-    /// A clause, if the program has ended, does not reply in time, writes a line before the request or reports an
-    /// error. Then it is killed.
+    /// The reply to a line. If the program has ended, does not reply in time, writes a line before the request or
+    /// reports an error, it is killed, and the error is a clause.
     pub fn request(&mut self, request: &str) -> Result<Reply, String> {
         let reply = self.exchange(request);
         if reply.is_err() {
@@ -68,10 +65,8 @@ impl Session {
 
     fn exchange(&mut self, request: &str) -> Result<Reply, String> {
         if let Ok(line) = self.lines.try_recv() {
-            let line = text(&line);
-            return Err(format!(
-                "it printed {line:?} before the request {request:?}: print only replies to standard output"
-            ));
+            let advice = "print only replies to standard output";
+            return Err(format!("it printed {:?} before the request {request:?}: {advice}", text(&line)));
         }
         let start = Instant::now();
         // If the program has ended, this write may fail; the missing reply is reported below.

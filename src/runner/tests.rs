@@ -7,10 +7,7 @@ use crate::scene::load;
 
 #[test]
 fn seconds_are_finite_and_not_negative() {
-    assert_eq!(
-        [nanoseconds("0.001"), nanoseconds("2"), nanoseconds("1e-7")],
-        [1_000_000, 2_000_000_000, 100].map(Some)
-    );
+    assert_eq!(["0.001", "2", "1e-7"].map(nanoseconds), [1_000_000, 2_000_000_000, 100].map(Some));
     for wrong in ["nan", "inf", "-0.5", "1e300", "", "1 s"] {
         assert_eq!(nanoseconds(wrong), None, "{wrong}");
     }
