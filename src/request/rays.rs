@@ -55,10 +55,8 @@ impl WorkloadRequest {
     }
 
     /// Generates or reads the rays, the same for all structures. Rays that start on a surface start at the hits of
-    /// `guide`. Workloads without rays in the scene are left out. `progress` receives the name of each workload.
-    ///
-    /// # Errors
-    /// If a file cannot be read, or its rays have changed.
+    /// `guide`. Workloads without rays in the scene are left out. `progress` receives the name of each workload. An
+    /// error if a file cannot be read, or its rays have changed.
     pub fn workloads(
         &self,
         scene: &Scene,
@@ -150,9 +148,6 @@ pub enum RaySource {
 const MOST: usize = 1 << 26;
 
 /// Reads a number of rays, or `all`: the largest number.
-///
-/// # Errors
-/// A sentence, if it is neither.
 pub fn rays_or_all(text: &str) -> Result<usize, String> {
     match text.parse() {
         _ if text == "all" => Ok(usize::MAX),
@@ -171,10 +166,7 @@ impl ValueParserFactory for RaySource {
 }
 
 impl RaySource {
-    /// Parses `named`.
-    ///
-    /// # Errors
-    /// A sentence, if it is a number but not a number of rays.
+    /// Parses `named`; an error if it is a number but not a number of rays.
     pub fn of(named: &OsStr) -> Result<Self, String> {
         let Some(text) = named.to_str() else { return Ok(Self::File(named.into())) };
         // A wrong number is not a file name.
@@ -202,10 +194,7 @@ impl RaySource {
         }
     }
 
-    /// Like [`count`](Self::count), for rays that can be generated in any number.
-    ///
-    /// # Errors
-    /// If all rays are requested.
+    /// Like [`count`](Self::count), for rays that can be generated in any number: an error for all rays.
     pub fn number(&self) -> anyhow::Result<usize> {
         match self {
             Self::Count(usize::MAX) => {
@@ -219,9 +208,6 @@ impl RaySource {
 
 /// The scene and the rays of the file that `source` names; `None` if the rays are to be generated. The scene is the
 /// named one, which must be the file's, or by default the file's scene; with its word.
-///
-/// # Errors
-/// If the file cannot be used, or its rays are not for that scene.
 pub fn recorded(
     registry: &Registry,
     source: &RaySource,
@@ -248,12 +234,8 @@ pub fn recorded(
     Ok(Some(((name.into(), scene), file)))
 }
 
-/// The inputs of a study from the file that `source` names: its scene with its word, and its rays. At most `rays` of
-/// them are timed. `None` if the rays are to be generated. `workloads` are the workloads on the command line: there
-/// must be none.
-///
-/// # Errors
-/// Like [`recorded`].
+/// Like [`recorded`], as the inputs of a study: at most `rays` of the rays are timed. `workloads` are the workloads on
+/// the command line: there must be none.
 pub fn replayed<K>(
     registry: &Registry,
     source: &RaySource,

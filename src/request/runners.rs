@@ -14,7 +14,6 @@ pub const RUNNER_LIMIT: Seconds = Seconds::whole(120);
 /// A runner in a case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RunnerRequest {
-    /// The command line.
     pub command: String,
     /// Timeout of a reply, seconds.
     pub limit_s: f64,
@@ -22,20 +21,15 @@ pub struct RunnerRequest {
     pub config: serde_json::Value,
 }
 
-/// The structure of a runner, `[NAME=]COMMAND`, with the timeout `limit_s` of a reply.
-///
-/// # Errors
-/// If there is no such program, or it does not follow the protocol.
+/// The structure of a runner, `[NAME=]COMMAND`, with the timeout `limit_s` of a reply. It must follow the protocol.
 pub fn runner(command: &str, limit_s: f64) -> anyhow::Result<Choice> {
     let program = Program::new(command, Duration::from_secs_f64(limit_s));
     let program = program.map_err(|problem| anyhow::anyhow!("--runner {command:?}: {problem}"))?;
     Ok(Choice::of_program(program))
 }
 
-/// The structures of several runners; a repeated command counts once.
-///
-/// # Errors
-/// Like [`runner`]; also if two runners share a name, or a runner has the name of a structure.
+/// The structures of several runners; a repeated command counts once. An error if two runners share a name, or a
+/// runner has the name of a structure.
 pub fn runners(registry: &Registry, commands: &[String], limit_s: f64) -> anyhow::Result<Vec<Choice>> {
     let mut chosen: Vec<Choice> = vec![];
     for command in commands {

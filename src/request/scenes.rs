@@ -21,10 +21,8 @@ pub struct SceneRequest {
     /// A built-in name, `NAME:stand-in`, a generated scene such as `icosphere:7`, or a file.
     #[serde(with = "super::os_text")]
     pub word: OsString,
-    /// The camera.
     #[serde(default, skip_serializing_if = "ViewArgs::is_default")]
     pub view: ViewArgs,
-    /// Name of the loaded scene.
     pub name: String,
     /// First 16 digits of [`Scene::hash`]: the loaded scene must have this hash.
     pub hash: String,
@@ -54,10 +52,7 @@ impl SceneRequest {
         }
     }
 
-    /// The scene.
-    ///
-    /// # Errors
-    /// If the scene is missing or has changed since it was planned.
+    /// The scene; an error if it is missing or has changed since it was planned.
     pub fn load(&self, registry: &Registry) -> anyhow::Result<Scene> {
         let scene = self.view.of(scene(registry, &self.word)?)?;
         anyhow::ensure!(
@@ -69,10 +64,7 @@ impl SceneRequest {
     }
 }
 
-/// The named scenes; without names, all built-in ones.
-///
-/// # Errors
-/// If a name is unknown, a file cannot be loaded, or two different scenes have one name.
+/// The named scenes; without names, all built-in ones. An error if two different scenes have one name.
 pub fn scenes(registry: &Registry, named: &[OsString]) -> anyhow::Result<Vec<Scene>> {
     Ok(loaded(registry, &words(named))?.into_iter().map(|(_, scene)| scene).collect())
 }
@@ -107,9 +99,6 @@ fn distinct(scenes: Vec<(OsString, Scene)>) -> anyhow::Result<Vec<(OsString, Sce
 
 /// A built-in scene by its name in upper or lower case, a generated scene, a scene file, or a scene around a mesh file.
 /// A word that is not a known name and does not look like a path counts as a name.
-///
-/// # Errors
-/// If there is no such scene, or a file cannot be loaded.
 pub fn scene(registry: &Registry, word: impl AsRef<OsStr>) -> anyhow::Result<Scene> {
     let (path, real_meshes) = (Path::new(word.as_ref()), real_mesh_folder());
     let is_scene_file = || path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
@@ -142,9 +131,6 @@ pub fn scene_files(registry: &Registry, words: &[OsString]) -> Vec<PathBuf> {
 }
 
 /// The file `path` for results. It must not be one of the inputs: scenes that are files, and `others`.
-///
-/// # Errors
-/// If it cannot be written, or is an input.
 pub fn output<'a>(
     registry: &Registry,
     path: &Path,
@@ -172,9 +158,6 @@ pub struct Scenes {
 
 impl Scenes {
     /// The named scenes, each with its word; without names, `own`; if that is empty, all built-in ones.
-    ///
-    /// # Errors
-    /// Like [`scenes`].
     pub fn read(&self, registry: &Registry, own: &[&str]) -> anyhow::Result<Vec<(OsString, Scene)>> {
         let own: Vec<OsString> = own.iter().map(|&name| name.into()).collect();
         loaded(registry, &words(if self.scenes.is_empty() { &own } else { &self.scenes }))
@@ -205,10 +188,7 @@ pub struct ScenesAndMeshes {
 
 impl ScenesAndMeshes {
     /// The named scenes, or all built-in ones; with [`Meshes::Both`], a scene that has a stand-in is returned in both
-    /// forms. Each has its word.
-    ///
-    /// # Errors
-    /// Like [`scenes`], and if real meshes are required and one is missing.
+    /// forms. Each has its word. An error if real meshes are required and one is missing.
     pub fn read(&self, registry: &Registry) -> anyhow::Result<Vec<(OsString, Scene)>> {
         let mut forms: Vec<OsString> = vec![];
         for word in words(&self.named.scenes) {

@@ -56,10 +56,7 @@ impl StructureRequest {
         Self { runner: Some(runner), ..Self::from(choice) }
     }
 
-    /// The structure to build.
-    ///
-    /// # Errors
-    /// If the name, a key or the program is unknown here.
+    /// The structure to build; an error if the name, a key or the program is unknown here.
     pub fn choose(&self, registry: &Registry) -> anyhow::Result<Choice> {
         match &self.runner {
             Some(own) => runner(&own.command, own.limit_s),
@@ -93,17 +90,11 @@ pub fn specs(registry: &Registry, named: &[String]) -> Vec<String> {
 }
 
 /// The distinct named structures; without names, the first of every name.
-///
-/// # Errors
-/// If a name, key or value is unknown.
 pub fn structures(registry: &Registry, named: &[String]) -> anyhow::Result<Vec<Choice>> {
     structures_at(registry, named, None)
 }
 
 /// Like [`structures`]. Structures with a key `quality` that are named without one get this quality.
-///
-/// # Errors
-/// Like [`structures`].
 pub fn structures_at(registry: &Registry, named: &[String], quality: Option<&str>) -> anyhow::Result<Vec<Choice>> {
     let at = |spec: String| {
         let Some(quality) = quality else { return spec };
@@ -116,17 +107,11 @@ pub fn structures_at(registry: &Registry, named: &[String], quality: Option<&str
 }
 
 /// One structure.
-///
-/// # Errors
-/// Like [`structures`].
 pub fn structure(registry: &Registry, spec: &str) -> anyhow::Result<Choice> {
     Ok(registry.choose(spec)?)
 }
 
-/// Rejects names that are not triangle tests of any structure.
-///
-/// # Errors
-/// If there is such a name; the error lists the known tests.
+/// Rejects names that are not triangle tests of any structure; the error lists the known tests.
 pub fn known_tests(registry: &Registry, tests: &[String]) -> anyhow::Result<()> {
     let mut known: Vec<&str> = registry.entries().iter().map(|entry| entry.triangle_test).collect();
     known.sort_unstable();
@@ -142,10 +127,8 @@ pub fn known_tests(registry: &Registry, tests: &[String]) -> anyhow::Result<()> 
     Ok(())
 }
 
-/// The structure whose hits are the origins of secondary rays: the SAH tree, or the first of a registry without it.
-///
-/// # Errors
-/// If the registry is empty.
+/// The structure whose hits are the origins of secondary rays: the SAH tree, or the first of a registry without it. An
+/// error if the registry is empty.
 pub fn guide(registry: &Registry) -> anyhow::Result<Choice> {
     let guide = registry.choose(SAH_TREE).ok().or_else(|| registry.all().into_iter().next());
     guide.context("no structure is registered: register one with `Registry::with`")
@@ -168,9 +151,6 @@ pub struct Structures {
 
 impl Structures {
     /// The named structures; without names, `own`; if that is empty, one of each name.
-    ///
-    /// # Errors
-    /// If a structure is unknown.
     pub fn chosen(&self, registry: &Registry, own: &[&str]) -> anyhow::Result<Vec<StructureRequest>> {
         let own: Vec<String> = own.iter().map(|&name| name.into()).collect();
         let named = if self.structure.is_empty() { &own } else { &self.structure };

@@ -78,10 +78,7 @@ impl Look {
 }
 
 impl ViewArgs {
-    /// The scene with this view.
-    ///
-    /// # Errors
-    /// If the scene has no such view.
+    /// The scene with this view; an error if it has no such view.
     pub fn seen(&self, scene: Scene) -> anyhow::Result<Scene> {
         let mut scene = if self.inside { scene.from_inside().context("--inside")? } else { scene };
         if let Some(Look { eye, target, vertical_fov }) = self.camera {
@@ -93,9 +90,6 @@ impl ViewArgs {
     }
 
     /// Like [`seen`](Self::seen), with a note on a bare mesh that is seen from outside.
-    ///
-    /// # Errors
-    /// Like [`seen`](Self::seen).
     pub fn of(&self, scene: Scene) -> anyhow::Result<Scene> {
         let mut scene = self.seen(scene)?;
         if scene.is_framed && self.looks_from().is_none() {
@@ -128,12 +122,8 @@ impl ViewArgs {
     }
 
     /// Rejects camera options together with rays of a file, which ignore them.
-    ///
-    /// # Errors
-    /// If there is one.
     pub fn is_unasked(&self) -> anyhow::Result<()> {
-        let asked = self.looks_from().is_some() || self.size.is_some();
-        anyhow::ensure!(!asked, "the file defines the rays: omit --camera, --inside and --size");
+        anyhow::ensure!(self.is_default(), "the file defines the rays: omit --camera, --inside and --size");
         Ok(())
     }
 }
