@@ -44,8 +44,7 @@ pub struct Side {
 const REFERENCE: &str = "reference";
 
 impl Side {
-    /// A run. `reference` names the reference structure; the default are the obvhs structures over their own triangle
-    /// test.
+    /// `reference` names the reference structure; the default are the obvhs structures over their own triangle test.
     pub fn new(dataset: &Dataset, reference: Option<&str>) -> Self {
         Self::of(dataset.provenance.clone(), measurements(dataset), reference)
     }
@@ -59,13 +58,11 @@ impl Side {
         Self { provenance, all }
     }
 
-    /// Whether the run has a reference structure.
     pub fn has_reference(&self) -> bool {
         self.all.iter().any(has_reference_role)
     }
 }
 
-/// Whether it is a reference structure of this comparison.
 fn has_reference_role(own: &Measurement) -> bool {
     own.role == REFERENCE
 }
@@ -88,7 +85,6 @@ pub struct Comparison {
     pub wrong: Vec<Wrong>,
     /// Keys and triangle tests that differ between the runs, such as `leaf of mybvh 4, now 8`.
     pub differences: Vec<String>,
-    /// Settings that differ.
     pub settings: Vec<String>,
     /// The processor and SIMD level of each run; `None` if they are equal.
     pub machines: Option<[String; 2]>,
@@ -142,7 +138,6 @@ pub struct Wrong {
     pub structure: String,
     /// Structure, workload and scene.
     pub case: String,
-    /// The description: wrong hits, another number of hits, or other hits.
     pub what: String,
 }
 

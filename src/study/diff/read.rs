@@ -9,10 +9,7 @@ use crate::study::Dataset;
 use crate::study::journal::{CaseFile, JournalError, files, newest};
 
 /// Reads an export, or from a folder of journals the dataset that was measured last; of `compare` if the folder has
-/// any.
-///
-/// # Errors
-/// If it contains no measurement, or cannot be read.
+/// any. An error if it contains no measurement.
 pub fn read(path: &Path) -> anyhow::Result<Dataset> {
     let found = if path.is_dir() { of_folder(path)? } else { Some(of_export(path)?) };
     let found = found.filter(|own| !own.measured.is_empty());

@@ -7,6 +7,7 @@ use crate::measure::Provenance;
 use crate::report::number::{count, duration};
 use crate::report::words::each_once;
 use crate::request::is_obvhs;
+use crate::study::measurement::Measurement;
 use crate::study::{Case, Dataset};
 
 /// The reason why two runs cannot be compared: a value that differs.
@@ -43,11 +44,10 @@ fn differ(what: &str, old: &str, new: &str, advice: &'static str) -> Result<(), 
 /// or, for a gate, no obvhs structure.
 pub fn unlike(old: &Side, new: &Side, gate: bool) -> Result<(), Unlike> {
     let pairs = pairs(&old.all, &new.all);
-    let has_unit =
-        pairs.iter().any(|(old, new)| has_reference_role(old) && old.trace_ns.is_some() && new.trace_ns.is_some());
+    let are_timed = |old: &Measurement, new: &Measurement| old.trace_ns.is_some() && new.trace_ns.is_some();
+    let has_unit = pairs.iter().any(|(old, new)| has_reference_role(old) && are_timed(old, new));
     if pairs.is_empty() {
-        let whose = |side: &Side| side.all.first().map_or("none".into(), cell_title);
-        let (old, new) = (whose(old), whose(new));
+        let [old, new] = [old, new].map(|side| side.all.first().map_or("none".into(), cell_title));
         let what = "no structure is in both runs on the same scene and workload; the first cell".into();
         return Err(Unlike { what, old, new, advice: SAME_INPUT });
     }
@@ -72,19 +72,18 @@ pub fn unlike(old: &Side, new: &Side, gate: bool) -> Result<(), Unlike> {
         for (key, a, b) in other_keys(&before.config, &after.config).iter().filter(|_| has_reference_role(before)) {
             differ(&format!("the key {key} of {}", before.label), a, b, SAME_MACHINE)?;
         }
-        if gate && before.trace_ns.is_some() && after.trace_ns.is_some() {
+        if gate && are_timed(before, after) {
             let [a, b] = [before, after].map(|own| count(own.rays as u64));
             differ(&name("the number of timed rays"), &a, &b, SAME_RAYS)?;
         }
     }
     if gate && !has_unit {
-        let timed = |side: &Side| {
+        // The common cells are timed on other scenes or rays.
+        let [old, new] = [old, new].map(|side| {
             let timed = side.all.iter().filter(|own| has_reference_role(own) && own.trace_ns.is_some());
             let labels = each_once(timed.map(|own| own.label.as_str()));
             if labels.is_empty() { "missing".to_owned() } else { labels.join(" and ") }
-        };
-        // The common cells are timed on other scenes or rays.
-        let (old, new) = (timed(old), timed(new));
+        });
         return Err(Unlike { what: "the reference".into(), old, new, advice: YARDSTICK });
     }
     Ok(())
