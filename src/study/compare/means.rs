@@ -75,11 +75,11 @@ pub fn mean_table(all: &[Measurement], references: &[Reference]) -> Table {
                     ranked structures, with exact or f64 triangle tests and in single precision, have a time.";
         notes.push(note.into());
     }
-    if table.rows.iter().flatten().any(|cell| !cell.note.is_empty()) {
-        let note = "(n of m): mean over only n of the m cells in which the reference structure has a time; not comparable \
-                    with the other rows.";
-        notes.push(note.into());
-    }
+    notes.extend(table.rows.iter().flatten().any(|cell| !cell.note.is_empty()).then(|| {
+        "(n of m): mean over only n of the m cells in which the reference structure has a time; not comparable with the \
+         other rows."
+            .into()
+    }));
     notes.extend(uneven(all));
     notes.extend(control(all));
     table.noted(notes).without_empty_columns().explained()

@@ -101,11 +101,10 @@ pub fn scene_table(all: &[Measurement], references: &[Reference], refused: &[&St
         table.rows.push(row);
     }
 
-    let mut notes = vec![];
-    for own in all {
-        let Some(what) = &own.declined else { continue };
-        notes.push(format!("{} declines {what}, which {} rays need.", own.label, own.workload));
-    }
+    let declined = |own: &Measurement| {
+        Some(format!("{} declines {}, which {} rays need.", own.label, own.declined.as_ref()?, own.workload))
+    };
+    let mut notes: Vec<String> = all.iter().filter_map(declined).collect();
     notes.extend(defects(all));
     notes.extend(unfit_tests(all));
     notes.extend(control(all));
@@ -148,32 +147,27 @@ fn unfit_tests(all: &[Measurement]) -> Vec<String> {
         all.iter().filter(|r| r.triangle_test == Exact::NAME).find(same).map(|r| r.hits)
     };
     let note = |own: &Measurement| {
-        let hits = exact(own).filter(|&hits| 100 * hits.abs_diff(own.hits) > hits)?;
+        let exact = exact(own).filter(|&hits| 100 * hits.abs_diff(own.hits) > hits)?;
+        let [hits, rays, exact] = [own.hits, own.counted_rays, exact].map(|n| count(n as u64));
+        let (test, workload) = (&own.triangle_test, &own.workload);
         Some(format!(
-            "{} finds hits for {} of {} {} rays, exact arithmetic for {}: its speed is not comparable.",
-            own.triangle_test,
-            count(own.hits as u64),
-            count(own.counted_rays as u64),
-            own.workload,
-            count(hits as u64)
+            "{test} finds hits for {hits} of {rays} {workload} rays, exact arithmetic for {exact}: its speed is not \
+             comparable."
         ))
     };
     each_once(all.iter().filter(|r| r.mrays_per_s.is_some()).filter_map(note))
 }
 
 fn speed(own: &Measurement, best: f64) -> Cell {
-    let errors = own.wrong_hits;
-    match own.mrays_per_s {
-        Some(speed) => {
-            Cell::from(speed).sampled(own.sampled).with(if speed >= best { Tone::Best } else { Tone::Plain })
-        }
-        None if errors == 0 && own.declined.is_some() => "declined".into(),
+    if let Some(speed) = own.mrays_per_s {
+        return Cell::from(speed).sampled(own.sampled).with(if speed >= best { Tone::Best } else { Tone::Plain });
+    }
+    let (wrong, of) = (own.wrong_hits as u64, own.checked_rays as u64);
+    match own.declined {
+        _ if wrong > 0 => Cell::from(Value::Errors { wrong, of }).with(Tone::Wrong),
+        Some(_) => "declined".into(),
         // It has wrong hits on another workload.
-        None if errors == 0 => Cell::from("wrong").with(Tone::Wrong),
-        None => {
-            let (wrong, of) = (errors as u64, own.checked_rays as u64);
-            Cell::from(Value::Errors { wrong, of }).with(Tone::Wrong)
-        }
+        None => Cell::from("wrong").with(Tone::Wrong),
     }
 }
 

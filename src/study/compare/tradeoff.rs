@@ -96,28 +96,26 @@ mod tests {
             samples_ns: speed.map(|speed| 125.0 * 1e3 / speed).into_iter().collect(),
             ..example(label, workload, &[], 1)
         };
-        let all = vec![
+        let mut all = vec![
             record("brute-force", "primary", Some(0.01)),
             record("sah-kd", "primary", Some(2.0)),
             record("sah-bvh", "primary", Some(4.0)),
             record("wrong", "primary", None),
             record("sah-kd", "shadow", Some(2.0)),
         ];
-        let figure = figure(std::slice::from_ref(&all), &[]).unwrap();
-        let Art::Chart(Chart::Tradeoff(Tradeoff { cases })) = &figure.art else { panic!("no scatter plot") };
-        assert_eq!(cases.len(), 1, "one structure alone is no comparison");
-        let points: Vec<(&str, f64)> = cases[0].points.iter().map(|p| (p.label.as_str(), p.ns_per_ray)).collect();
-        assert_eq!(points, [("sah-kd", 500.0), ("sah-bvh", 250.0)]);
-        assert!(figure.alt.contains("fastest sah-bvh") && figure.data.rows.len() == 2, "{}", figure.alt);
-        assert!(super::figure(&[all[..2].to_vec()], &[]).is_none());
+        let times = |all: &[Measurement]| {
+            let drawn = cases(all, None);
+            assert_eq!(drawn.len(), 1, "one structure alone is no comparison");
+            drawn[0].points.iter().map(|p| (p.label.clone(), p.ns_per_ray)).collect::<Vec<_>>()
+        };
+        assert_eq!(times(&all), [("sah-kd".into(), 500.0), ("sah-bvh".into(), 250.0)]);
+        let drawn = figure(std::slice::from_ref(&all), &[]).unwrap();
+        assert!(drawn.alt.contains("fastest sah-bvh") && drawn.data.rows.len() == 2, "{}", drawn.alt);
+        assert!(figure(&[all[..2].to_vec()], &[]).is_none());
 
         // A structure that is timed on a subset of the rays, which take less time, is compared on that subset.
-        let part = SubsetSamples { rays: 25, ns: vec![10_000] };
-        let mut all = all;
-        all[1].parts = vec![part.clone()];
+        all[1].parts = vec![SubsetSamples { rays: 25, ns: vec![10_000] }];
         all[2] = Measurement { rays: 25, samples_ns: vec![5_000.0], ..all[2].clone() };
-        let drawn = super::figure(std::slice::from_ref(&all), &[]).unwrap();
-        let Art::Chart(Chart::Tradeoff(Tradeoff { cases })) = &drawn.art else { panic!("no scatter plot") };
-        assert_eq!(cases[0].points.iter().map(|p| p.ns_per_ray).collect::<Vec<_>>(), [400.0, 200.0]);
+        assert_eq!(times(&all), [("sah-kd".into(), 400.0), ("sah-bvh".into(), 200.0)]);
     }
 }
