@@ -180,18 +180,12 @@ impl RaySource {
 
     /// The file, if the rays are read from one.
     pub fn file(&self) -> Option<&Path> {
-        match self {
-            Self::Count(_) => None,
-            Self::File(path) => Some(path),
-        }
+        if let Self::File(path) = self { Some(path) } else { None }
     }
 
     /// The maximum number of rays; all rays of a file.
     pub fn count(&self) -> usize {
-        match self {
-            Self::Count(count) => *count,
-            Self::File(_) => usize::MAX,
-        }
+        if let Self::Count(count) = self { *count } else { usize::MAX }
     }
 
     /// Like [`count`](Self::count), for rays that can be generated in any number: an error for all rays.

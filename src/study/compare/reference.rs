@@ -39,12 +39,8 @@ impl Reference {
             return vec![Self::Structure(known.unwrap_or(spec).into())];
         }
         let mut found = vec![];
-        if all.iter().any(|own| own.label == REPORT_TREE) {
-            found.push(Self::Structure(REPORT_TREE.into()));
-        }
-        if all.iter().any(is_native_obvhs) {
-            found.push(Self::Obvhs);
-        }
+        found.extend(all.iter().any(|own| own.label == REPORT_TREE).then(|| Self::Structure(REPORT_TREE.into())));
+        found.extend(all.iter().any(is_native_obvhs).then_some(Self::Obvhs));
         if found.is_empty() {
             found.extend(all.first().map(|first| Self::Structure(first.label.clone())));
         }

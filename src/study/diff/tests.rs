@@ -115,7 +115,8 @@ fn what_an_interval_says() {
 #[test]
 fn answers_that_changed_are_wrong() {
     let old = run(1.0, 1.0);
-    let changes: [(&str, &dyn Fn(&mut Measurement)); 7] = [
+    type Edit = dyn Fn(&mut Measurement);
+    let changes: [(&str, &Edit); 7] = [
         ("", &|_| {}),
         ("3 of 100 rays have a wrong hit; in the old run 0 of 100", &|r| r.wrong_hits = 3),
         ("19 of 1000 rays hit; in the old run 20", &|r| r.hits = 19),
