@@ -35,10 +35,9 @@ impl Order {
     /// The order of positive estimates with their ranks, the largest expected first; estimates of one rank are not
     /// compared. Each comparison is corrected for all couples and for `looks` as many.
     pub fn of(ranked: &[(Estimate, usize)], looks: usize) -> Self {
-        let couples: Vec<[usize; 2]> = (0..ranked.len())
-            .flat_map(|i| (0..ranked.len()).map(move |j| [i, j]))
-            .filter(|&[i, j]| ranked[i].1 < ranked[j].1)
-            .collect();
+        let all = || 0..ranked.len();
+        let couples = all().flat_map(|i| all().map(move |j| [i, j])).filter(|&[i, j]| ranked[i].1 < ranked[j].1);
+        let couples: Vec<[usize; 2]> = couples.collect();
         let looks = looks * couples.len();
         let quotients: Vec<Estimate> =
             couples.iter().map(|&[i, j]| ranked[i].0.over(ranked[j].0).ratio_among(looks)).collect();
@@ -46,33 +45,26 @@ impl Order {
         let share = |of: &dyn Fn(&Estimate) -> bool| quotients.iter().filter(|q| of(q)).count() as f64 / all;
         let (sure, reversed) = (share(&|q| q.is_above(1.0)), share(&|q| q.is_below(1.0)));
         let estimate = 2.0 * share(&|q| q.estimate > 1.0) - 1.0;
-        let known = quotients.iter().all(|q| q.interval.is_some());
-        let tau = if known {
-            Estimate::between(estimate, 2.0 * sure - 1.0, 1.0 - 2.0 * reversed)
-        } else {
-            Estimate::alone(estimate)
+        let tau = match quotients.iter().all(|q| q.interval.is_some()) {
+            true => Estimate::between(estimate, 2.0 * sure - 1.0, 1.0 - 2.0 * reversed),
+            false => Estimate::alone(estimate),
         };
         let reversed = couples.iter().zip(&quotients).filter(|(_, q)| q.is_below(1.0)).map(|(couple, _)| *couple);
         Self { tau, reversed: reversed.collect() }
     }
 }
 
-/// The mean of the taus of several scenes. Its interval is the prediction for another set of as many scenes, corrected
-/// for all claims and cut to the range of tau.
-fn mean(taus: &[f64]) -> Option<Estimate> {
-    let mean = Rerun::of(taus, Variance::NONE)?.plain().among(CLAIMS);
-    Some(mean.map(|tau| tau.clamp(-1.0, 1.0)))
-}
-
-/// The [`mean`] over scenes. Taus of one scene are not independent: the trees are the same for all workloads, and a
+/// The mean over scenes. Its interval is the prediction for another set of as many scenes, corrected for all claims and
+/// cut to the range of tau. Taus of one scene are not independent: the trees are the same for all workloads, and a
 /// stand-in imitates the real mesh. They count as their mean.
 pub fn mean_of_scenes<'a>(taus: impl IntoIterator<Item = (&'a str, f64)>) -> Option<Estimate> {
     let mut scenes: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
     for (scene, tau) in taus {
         scenes.entry(scene).or_default().push(tau);
     }
-    let means = scenes.values().map(|taus| taus.iter().sum::<f64>() / taus.len() as f64);
-    mean(&means.collect::<Vec<_>>())
+    let means: Vec<f64> = scenes.values().map(|taus| taus.iter().sum::<f64>() / taus.len() as f64).collect();
+    let mean = Rerun::of(&means, Variance::NONE)?.plain().among(CLAIMS);
+    Some(mean.map(|tau| tau.clamp(-1.0, 1.0)))
 }
 
 #[cfg(test)]
@@ -93,6 +85,7 @@ mod tests {
 
     #[test]
     fn a_mean_of_one_says_nothing_of_others() {
+        let mean = |taus: &[f64]| mean_of_scenes(["a", "b", "c", "d"].into_iter().zip(taus.iter().copied()));
         assert_eq!(mean(&[0.5]), Some(Estimate::alone(0.5)));
         let four = mean(&[0.5, 0.6, 0.6, 0.7]).unwrap();
         assert!((four.estimate - 0.6).abs() < 1e-12 && four.holds(0.3) && !four.holds(0.0), "{four:?}");
