@@ -7,8 +7,7 @@ use crate::report::{ClaimVerdict, Finding, Outcome};
 /// The expected range of a number.
 struct Claim {
     prediction: u8,
-    /// The study that measures the figure, and the key of its finding.
-    study: &'static str,
+    /// The key of the finding.
     key: &'static str,
     what: &'static str,
     /// The smallest and the largest expected number; an infinite one is no bound.
@@ -28,7 +27,7 @@ enum Scale {
 use Scale::{Judged, Number, Ratio};
 
 /// The number of claims: each interval is corrected for all of them.
-pub const CLAIMS: usize = ALL.len();
+pub const CLAIMS: usize = REPLICATE.len() + SCALING.len() + ATTRIBUTION.len() + COMPARE.len();
 
 const NONE: f64 = f64::INFINITY;
 const RAYS: [f64; 2] = [-2.0, 2.0];
@@ -41,72 +40,55 @@ const WELL: [f64; 2] = [0.7, NONE];
 const BADLY: [f64; 2] = [-NONE, 0.5];
 
 /// Shortens the table.
-const fn claim(
-    prediction: u8,
-    study: &'static str,
-    key: &'static str,
-    what: &'static str,
-    range: [f64; 2],
-    scale: Scale,
-) -> Claim {
-    Claim { prediction, study, key, what, range, scale }
+const fn claim(prediction: u8, key: &'static str, what: &'static str, range: [f64; 2], scale: Scale) -> Claim {
+    Claim { prediction, key, what, range, scale }
 }
 
-/// All claims, in the order of the predictions.
-const ALL: [Claim; 24] = [
-    claim(1, "replicate", "rays-cube", "Cube: our number of rays minus the report's", RAYS, Number),
-    claim(1, "replicate", "rays-sphere", "Sphere: our number of rays minus the report's", RAYS, Number),
-    claim(1, "replicate", "rays-torus", "Torus: our number of rays minus the report's", RAYS, Number),
-    claim(1, "replicate", "rays-teapot", "Teapot: our number of rays minus the report's", RAYS, Number),
-    claim(1, "replicate", "rays-billards", "Billards: our number of rays minus the report's", RAYS, Number),
-    claim(1, "replicate", "rays-cornellbox", "Cornellbox: our number of rays minus the report's", RAYS, Number),
-    claim(1, "replicate", "rays-infinitycandy", "Infinitycandy: our number of rays minus the report's", RAYS, Number),
-    claim(1, "replicate", "rays-metallic", "Metallic: our number of rays minus the report's", RAYS, Number),
-    claim(2, "replicate", "t-prime", "brute force: largest t' / smallest t'", [-NONE, 2.0], Ratio),
-    claim(2, "replicate", "order", "Kendall's tau of the improvements and the order expected", WELL, Judged),
-    claim(
-        3,
-        "replicate",
-        "crowded",
-        "Infinitycandy, 100 / 0.7: tests per ray and triangle (brute force: 1)",
-        [0.9, 1.3],
-        Number,
-    ),
-    claim(
-        3,
-        "replicate",
-        "crowded-50",
-        "Infinitycandy, 50 / 0.7: tests per ray and triangle (brute force: 1)",
-        MORE,
-        Number,
-    ),
-    claim(4, "scaling", "growth-report", "growth exponent b of the report's tree", [0.8, 1.2], Number),
-    claim(4, "scaling", "growth-sah", "growth exponent b of the SAH tree", [-NONE, 0.2], Number),
-    claim(5, "attribution", "whole-dragon", "Dragon: whole speedup of the SAH tree", WHOLE, Ratio),
-    claim(5, "attribution", "plane-dragon", "Dragon: speedup by the split plane alone", PLANE, Ratio),
-    claim(5, "attribution", "whole-lucy", "Lucy: whole speedup of the SAH tree", WHOLE, Ratio),
-    claim(5, "attribution", "plane-lucy", "Lucy: speedup by the split plane alone", PLANE, Ratio),
-    claim(5, "attribution", "whole-sponza", "Sponza: whole speedup of the SAH tree", WHOLE, Ratio),
-    claim(5, "attribution", "plane-sponza", "Sponza: speedup by the split plane alone", PLANE, Ratio),
-    claim(6, "attribution", "gain-dragon", "speedup on Sponza / speedup on Dragon", [1.0, NONE], Ratio),
-    claim(6, "attribution", "gain-lucy", "speedup on Sponza / speedup on Lucy", [1.0, NONE], Ratio),
-    claim(
-        7,
-        "attribution",
-        "tau",
-        "tau of SAH cost and time, trees with the same traversal (mean of scenes)",
-        WELL,
-        Judged,
-    ),
-    claim(
-        7,
-        "compare",
-        "tau",
-        "tau of SAH cost and time, structures of different families (mean of scenes)",
-        BADLY,
-        Judged,
-    ),
+const REPLICATE: [Claim; 12] = [
+    claim(1, "rays-cube", "Cube: our number of rays minus the report's", RAYS, Number),
+    claim(1, "rays-sphere", "Sphere: our number of rays minus the report's", RAYS, Number),
+    claim(1, "rays-torus", "Torus: our number of rays minus the report's", RAYS, Number),
+    claim(1, "rays-teapot", "Teapot: our number of rays minus the report's", RAYS, Number),
+    claim(1, "rays-billards", "Billards: our number of rays minus the report's", RAYS, Number),
+    claim(1, "rays-cornellbox", "Cornellbox: our number of rays minus the report's", RAYS, Number),
+    claim(1, "rays-infinitycandy", "Infinitycandy: our number of rays minus the report's", RAYS, Number),
+    claim(1, "rays-metallic", "Metallic: our number of rays minus the report's", RAYS, Number),
+    claim(2, "t-prime", "brute force: largest t' / smallest t'", [-NONE, 2.0], Ratio),
+    claim(2, "order", "Kendall's tau of the improvements and the order expected", WELL, Judged),
+    claim(3, "crowded", "Infinitycandy, 100 / 0.7: tests per ray and triangle (brute force: 1)", [0.9, 1.3], Number),
+    claim(3, "crowded-50", "Infinitycandy, 50 / 0.7: tests per ray and triangle (brute force: 1)", MORE, Number),
 ];
+
+const SCALING: [Claim; 2] = [
+    claim(4, "growth-report", "growth exponent b of the report's tree", [0.8, 1.2], Number),
+    claim(4, "growth-sah", "growth exponent b of the SAH tree", [-NONE, 0.2], Number),
+];
+
+const ATTRIBUTION: [Claim; 9] = [
+    claim(5, "whole-dragon", "Dragon: whole speedup of the SAH tree", WHOLE, Ratio),
+    claim(5, "plane-dragon", "Dragon: speedup by the split plane alone", PLANE, Ratio),
+    claim(5, "whole-lucy", "Lucy: whole speedup of the SAH tree", WHOLE, Ratio),
+    claim(5, "plane-lucy", "Lucy: speedup by the split plane alone", PLANE, Ratio),
+    claim(5, "whole-sponza", "Sponza: whole speedup of the SAH tree", WHOLE, Ratio),
+    claim(5, "plane-sponza", "Sponza: speedup by the split plane alone", PLANE, Ratio),
+    claim(6, "gain-dragon", "speedup on Sponza / speedup on Dragon", [1.0, NONE], Ratio),
+    claim(6, "gain-lucy", "speedup on Sponza / speedup on Lucy", [1.0, NONE], Ratio),
+    claim(7, "tau", "tau of SAH cost and time, trees with the same traversal (mean of scenes)", WELL, Judged),
+];
+
+const COMPARE: [Claim; 1] =
+    [claim(7, "tau", "tau of SAH cost and time, structures of different families (mean of scenes)", BADLY, Judged)];
+
+/// The claims that a study measures, in the order of the predictions.
+fn of_study(study: &str) -> &'static [Claim] {
+    match study {
+        "replicate" => &REPLICATE,
+        "scaling" => &SCALING,
+        "attribution" => &ATTRIBUTION,
+        "compare" => &COMPARE,
+        _ => &[],
+    }
+}
 
 impl Claim {
     fn expected(&self) -> String {
@@ -143,8 +125,7 @@ impl Claim {
 
 /// The verdicts on the claims that `study` measures, from its findings. Empty if none of them is measured.
 pub fn judge(study: &str, findings: &[Finding]) -> Vec<ClaimVerdict> {
-    let own = ALL.iter().filter(|claim| claim.study == study);
-    let verdicts: Vec<ClaimVerdict> = own.map(|claim| claim.judge(findings)).collect();
+    let verdicts: Vec<ClaimVerdict> = of_study(study).iter().map(|claim| claim.judge(findings)).collect();
     let is_measured = verdicts.iter().any(|verdict| verdict.outcome != Outcome::NotMeasured);
     if is_measured { verdicts } else { vec![] }
 }
@@ -162,23 +143,23 @@ pub fn tally<'a>(verdicts: impl IntoIterator<Item = &'a ClaimVerdict>) -> String
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
     use super::*;
+    use crate::study::Studies;
 
     #[test]
     fn every_claim_is_of_a_prediction_and_has_a_key_of_its_own() {
-        let mut keys: Vec<(&str, &str)> = ALL.iter().map(|claim| (claim.study, claim.key)).collect();
-        keys.sort_unstable();
-        keys.dedup();
-        assert_eq!(keys.len(), CLAIMS);
-        let mut predictions: Vec<u8> = ALL.iter().map(|claim| claim.prediction).collect();
-        assert!(predictions.is_sorted());
-        predictions.dedup();
-        assert_eq!(predictions, (1..=7).collect::<Vec<u8>>());
-        let expected: Vec<String> = ALL.iter().map(Claim::expected).collect();
-        assert_eq!(
-            [&expected[0], &expected[8], &expected[11], &expected[14]].map(String::as_str),
-            ["-2.00 to 2.00", "at most 2.00", "more than 1", "at least 20.0"]
-        );
+        let studies = Studies::builtin();
+        let all: Vec<(&str, &Claim)> =
+            studies.iter().flat_map(|study| of_study(study.name).iter().map(|claim| (study.name, claim))).collect();
+        let keys = BTreeSet::from_iter(all.iter().map(|(study, claim)| (study, claim.key)));
+        assert_eq!((all.len(), keys.len(), CLAIMS), (24, 24, 24), "every claim belongs to a study");
+        let predictions = BTreeSet::from_iter(all.iter().map(|(_, claim)| claim.prediction));
+        assert_eq!(predictions, BTreeSet::from_iter(1..=7));
+        let expected = [0, 8, 11].map(|i| REPLICATE[i].expected());
+        assert_eq!(expected, ["-2.00 to 2.00", "at most 2.00", "more than 1"]);
+        assert_eq!(ATTRIBUTION[0].expected(), "at least 20.0");
     }
 
     #[test]
