@@ -3,10 +3,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Verdict;
-use super::case::Case;
-use super::epoch::{Checked, Epoch, Structure};
+use super::epoch::{Checked, Structure};
 use super::journal::JournalError;
+use super::{Case, Epoch, Verdict};
 use crate::measure::Provenance;
 use crate::registry::plain_name;
 use crate::report::Failure;
@@ -67,12 +66,6 @@ impl Dataset {
         scenes
     }
 
-    /// The part that belongs to the scene of `case`.
-    pub fn of_scene(&self, case: &Case) -> Self {
-        let own = self.measured.iter().filter(|measured| measured.case.is_of_scene(case));
-        Self { measured: own.cloned().collect(), notes: vec![], ..self.clone() }
-    }
-
     /// Structures without times; no duplicates.
     pub fn failures(&self) -> Vec<Failure> {
         each_once(self.measured.iter().flat_map(|measured| measured.epoch.failures()))
@@ -112,13 +105,16 @@ impl Dataset {
     /// # Errors
     /// If it is not a dataset, or has another version.
     pub fn read(path: &std::path::Path, value: serde_json::Value) -> Result<Self, JournalError> {
-        let there = value.get("schema").and_then(serde_json::Value::as_u64).unwrap_or(0) as u32;
-        if there != Self::SCHEMA {
-            return Err(JournalError::Schema { path: path.into(), there, here: Self::SCHEMA });
-        }
+        Self::check_schema(path, &value)?;
         serde_json::from_value(value).map_err(|cause| JournalError::damaged(path, &cause))
+    }
+
+    /// Whether a dataset or a case file has this version.
+    pub(super) fn check_schema(path: &std::path::Path, value: &serde_json::Value) -> Result<(), JournalError> {
+        let (there, here) = (value.get("schema").and_then(serde_json::Value::as_u64).unwrap_or(0) as u32, Self::SCHEMA);
+        if there == here { Ok(()) } else { Err(JournalError::Schema { path: path.into(), there, here }) }
     }
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

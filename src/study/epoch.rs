@@ -1,11 +1,13 @@
 //! The measured data of one epoch of one scene.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::measure::Environment;
 use super::{StudyError, Verdict};
-use crate::accel::{Query, TreeShape};
+use crate::accel::{DynAccel, Query, TreeShape};
 use crate::measure::SubsetSamples;
 use crate::registry::RUNNER;
 use crate::report::Failure;
@@ -14,9 +16,8 @@ use crate::request::{TWIN, known_defect};
 use crate::triangle::{Exact, TriangleTest};
 use crate::validate::{ErrorCounts, Kind, Validation};
 
-/// One epoch of one scene. It rebuilds all structures and times them on all workloads in rounds. A round times every
-/// pair of structure and workload once: the workloads in random order, and the structures of a workload in random
-/// order.
+/// One epoch of one scene. It rebuilds all structures and times them in rounds. A round times every structure on every
+/// workload once: the workloads in random order, and the structures of a workload in random order.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Epoch {
     pub scene: String,
@@ -92,11 +93,9 @@ pub struct Rays {
     pub all: usize,
     /// Rays of a sample; fewer if the structure is slow.
     pub rays: usize,
-    /// Checksum of the hits on a set of rays that all epochs trace: the whole workload if it is timed in full,
-    /// otherwise some tiles of epoch 0.
+    /// Checksum of the hits on rays that all epochs trace: the whole workload, or some tiles of epoch 0.
     pub checksum: u64,
-    /// Time of each sample, ns, in the order of the rounds: samples of two structures with the same index are a pair.
-    /// Empty without a time.
+    /// Time of each sample, ns, by round: samples of two structures with the same index are a pair.
     pub ns: Vec<u64>,
     /// The samples of `ns`, restricted to the subsets of rays on which slower structures are timed.
     pub parts: Vec<SubsetSamples>,
@@ -105,7 +104,7 @@ pub struct Rays {
     /// Whether wrong hits are the reason for `untimed`.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub wrong: bool,
-    /// The feature of these rays that the structure does not support: `any hit`, `t_min` or `t_max`.
+    /// The unsupported feature of these rays: `any hit`, `t_min` or `t_max`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub declined: Option<String>,
     /// The check of the hits; only in epoch 0, because hits do not change between epochs.
@@ -117,8 +116,7 @@ pub struct Rays {
     /// Error counts against the exact oracle; only in epoch 0 and with [`Check::Oracle`](super::Check::Oracle).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub errors: Option<ErrorCounts>,
-    /// The longest time of a single ray that is traced on its own, ns; only in epoch 0 and with
-    /// [`Check::Oracle`](super::Check::Oracle).
+    /// The longest time of a single ray that is traced on its own, ns; where `errors` are counted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slowest_ns: Option<u64>,
 }
@@ -161,54 +159,42 @@ impl Checked {
     }
 }
 
-/// Counts over `rays` evenly spread rays of the workload. They are the same on every machine, except the two processor
-/// counters.
+/// Counts over `rays` evenly spread rays of the workload; `None` if not counted. They are the same on every machine,
+/// except the two processor counters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RayCounts {
     /// Counted rays.
     pub rays: usize,
     pub hits: usize,
-    /// Checksum of the bits of `t` of all hits and of the misses. It is the same for all structures over the exact
-    /// triangle test.
+    /// Checksum of the bits of `t` of all hits and of the misses; equal for all structures over the exact test.
     pub distances: u64,
-    /// Triangles tested; `None` if not counted.
+    /// Triangles tested.
     pub tests: Option<u64>,
-    /// Blocks of triangles tested at once; `None` if not counted.
+    /// Blocks of triangles tested at once.
     pub blocks: Option<u64>,
-    /// Inner nodes and leaves entered; `None` if not counted.
+    /// Inner nodes and leaves entered.
     pub steps: Option<u64>,
-    /// Leaves entered; `None` if not counted.
+    /// Leaves entered.
     pub leaves: Option<u64>,
-    /// Empty leaves entered; `None` if not counted.
     pub empty_leaves: Option<u64>,
-    /// Triangles tested for all rays of the workload; `None` unless `Settings::whole_counts` names the structure.
+    /// Triangles tested for all rays of the workload; only if `Settings::whole_counts` names the structure.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub whole_tests: Option<u64>,
-    /// Mean of the machine instructions per ray, in user space; `None` if not counted.
+    /// Mean of the machine instructions per ray, in user space.
     pub instructions_per_ray: Option<f64>,
-    /// Mean of the mispredicted branches per ray; `None` if not counted.
     pub branch_misses_per_ray: Option<f64>,
 }
 
-impl From<&TreeShape> for Shape {
-    /// Leaves `bytes` 0.
-    fn from(shape: &TreeShape) -> Self {
-        Self {
-            bytes: 0,
-            inner_nodes: shape.inner,
-            leaves: shape.leaves,
-            empty_leaves: shape.empty,
-            references: shape.references,
-            largest_leaf: shape.largest_leaf,
-            depth: shape.depth,
-            sah_cost: shape.sah_cost,
-        }
+impl From<&dyn DynAccel> for Shape {
+    fn from(accel: &dyn DynAccel) -> Self {
+        let bytes = accel.footprint().total();
+        let TreeShape { inner, leaves, empty, references, largest_leaf, depth, sah_cost } = accel.shape();
+        Self { bytes, inner_nodes: inner, leaves, empty_leaves: empty, references, largest_leaf, depth, sah_cost }
     }
 }
 
 impl Structure {
-    /// Whether hits that change after a rebuild cost only this structure its times, not the whole scene: true for a
-    /// runner and for a structure with known defects.
+    /// Whether hits that change after a rebuild cost only this structure its times, not the whole scene.
     pub fn may_err(&self) -> bool {
         self.name == RUNNER || known_defect(&self.name).is_some()
     }
@@ -220,6 +206,11 @@ impl Structure {
 }
 
 impl Rays {
+    /// Drops the times, for a reason.
+    pub fn drop_times(&mut self, reason: String) {
+        *self = Self { untimed: Some(reason), ns: vec![], parts: vec![], rays: 0, checksum: 0, ..self.clone() };
+    }
+
     /// Time per ray of each sample, ns, over its subset of `rays` rays. Empty if this subset was not timed.
     pub fn ns_per_ray(&self, rays: usize) -> Vec<f64> {
         let part = self.parts.iter().find(|part| part.rays == rays).map(|part| &part.ns);
@@ -255,11 +246,6 @@ impl Epoch {
         scene_name(&self.scene, self.stand_in)
     }
 
-    /// The structure in this role.
-    pub fn in_role(&self, role: &str) -> Option<&Structure> {
-        self.structures.iter().find(|structure| structure.role == role)
-    }
-
     /// The number of rays of a workload that all timed structures share: the size of the smallest sample.
     pub fn common_rays(&self, workload: &str) -> usize {
         let rays = self.structures.iter().filter(|structure| structure.refused.is_none()).flat_map(|s| &s.rays);
@@ -275,20 +261,18 @@ impl Epoch {
 
     /// One failure per structure, or structure and workload, without a time; no duplicates.
     pub fn failures(&self) -> Vec<Failure> {
+        let scene = self.title();
         let mut failures: Vec<Failure> = vec![];
-        for structure in &self.structures {
-            let failure =
-                |sentence, refused, wrong| Failure { structure: structure.name.clone(), sentence, refused, wrong };
-            let (label, scene) = (&structure.label, self.title());
-            let refusal =
-                |why: &String| failure(format!("{label} on {scene} has no result: {why}."), true, structure.wrong);
-            let refused = structure.refused.iter().map(refusal);
-            let untimed = structure.rays.iter().filter_map(|rays| {
-                let why = rays.untimed.as_ref()?;
-                let sentence = format!("{label} is not timed on the {} rays of {scene}: {why}.", rays.workload);
-                Some(failure(sentence, false, rays.wrong))
-            });
-            failures.extend(refused.chain(untimed));
+        for Structure { label, name, refused, wrong, rays, .. } in &self.structures {
+            if let Some(why) = refused {
+                let sentence = format!("{label} on {scene} has no result: {why}.");
+                failures.push(Failure { structure: name.clone(), sentence, refused: true, wrong: *wrong });
+            }
+            for Rays { workload, untimed, wrong, .. } in rays {
+                let Some(why) = untimed else { continue };
+                let sentence = format!("{label} is not timed on the {workload} rays of {scene}: {why}.");
+                failures.push(Failure { structure: name.clone(), sentence, refused: false, wrong: *wrong });
+            }
         }
         each_once(failures)
     }
@@ -321,26 +305,19 @@ impl Epoch {
         })
     }
 
-    /// Checks that all structures of one group return the same `t`. `group` returns the group of a structure; `None`
-    /// skips the structure.
+    /// Checks that all structures of one `group` return the same `t`; a structure without a group is skipped.
     fn agree<'a>(&'a self, group: impl Fn(&'a Structure) -> Option<&'a str>) -> Result<(), StudyError> {
-        let mut seen: Vec<(&Structure, &Rays, &str, RayCounts)> = vec![];
-        let all = self.structures.iter().filter_map(|structure| Some((structure, group(structure)?)));
-        for (structure, own) in all.filter(|(structure, _)| structure.refused.is_none()) {
+        let mut seen = BTreeMap::new();
+        let all = self.structures.iter().filter(|structure| structure.refused.is_none());
+        for (structure, own) in all.filter_map(|structure| Some((structure, group(structure)?))) {
             for rays in structure.rays.iter().filter(|rays| rays.untimed.is_none()) {
                 let Some(counts) = rays.counts else { continue };
                 // Compare only equal numbers of counted rays: trees that test many triangles are counted on fewer.
-                let is_same = |(_, other, group, known): &&(&Structure, &Rays, &str, RayCounts)| {
-                    *group == own && other.workload == rays.workload && known.rays == counts.rays
-                };
-                match seen.iter().find(is_same) {
-                    None => seen.push((structure, rays, own, counts)),
-                    Some((one, _, _, known)) if known.distances != counts.distances => {
-                        let (one, other) = (one.label.clone(), structure.label.clone());
-                        let (scene, rays) = (self.title(), rays.workload.clone());
-                        return Err(StudyError::Disagree { one, other, scene, rays });
-                    }
-                    Some(_) => {}
+                let known = seen.entry((own, &rays.workload, counts.rays)).or_insert((structure, counts.distances));
+                if known.1 != counts.distances {
+                    let (one, other) = (known.0.label.clone(), structure.label.clone());
+                    let (scene, rays) = (self.title(), rays.workload.clone());
+                    return Err(StudyError::Disagree { one, other, scene, rays });
                 }
             }
         }

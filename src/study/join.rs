@@ -3,10 +3,9 @@
 //! Only epoch 0 checks and counts: its results hold for all epochs, and without it the scene is left out. Epochs belong
 //! to one measurement if they have the same rays, number of timed rays, number of samples and hits.
 
-use super::StudyError;
-use super::dataset::Measured;
-use super::epoch::{Epoch, Rays, Structure};
+use super::epoch::Rays;
 use super::error::ANSWERS;
+use super::{Epoch, Measured, StudyError};
 use crate::registry::RUNNER;
 use crate::report::words::listed;
 
@@ -23,53 +22,43 @@ pub struct JoinedEpochs {
     pub missing: Vec<String>,
 }
 
-/// Joins the epochs of each scene. A scene that counts only as a [whole](super::case::Settings::whole) is left out if a
-/// structure lacks a time.
-pub fn join(mut measured: Vec<Measured>) -> JoinedEpochs {
+/// Joins the epochs of each scene. If only the [whole](super::case::Settings::whole) counts, all structures need times.
+pub fn join(measured: Vec<Measured>) -> JoinedEpochs {
+    let mut scenes: Vec<Vec<(usize, Measured)>> = vec![];
+    for own in measured.into_iter().enumerate() {
+        match scenes.iter_mut().find(|scene| scene[0].1.case.is_of_scene(&own.1.case)) {
+            Some(scene) => scene.push(own),
+            None => scenes.push(vec![own]),
+        }
+    }
     let mut joined = JoinedEpochs::default();
-    let mut out = vec![];
-    for mut places in scenes(&measured) {
-        places.sort_by_key(|&place| measured[place].case.epoch);
-        let case = measured[places[0]].case.clone();
-        let mut own: Vec<Epoch> = places.iter().map(|&place| measured[place].epoch.clone()).collect();
-        if case.epoch != 0 {
-            let lacks = lacks(&case.scene_title(), &[0]);
+    let mut kept = vec![];
+    for mut scene in scenes {
+        scene.sort_by_key(|(_, own)| own.case.epoch);
+        let first = &scene[0].1.case;
+        let (title, is_whole) = (first.scene_title(), first.settings.whole);
+        if first.epoch != 0 {
+            let lacks = lacks(&title, &[0]);
             joined.unchecked.push(format!("{lacks}; epoch 0 checks the hits, so the scene is left out."));
-            out.extend(places);
             continue;
         }
-        let agree = if case.settings.whole { Epoch::check_complete } else { Epoch::check_agreement };
-        let found = one(&mut own).and_then(|()| own.iter().try_for_each(agree));
-        if let Err(error) = found {
+        let mut epochs: Vec<&mut Epoch> = scene.iter_mut().map(|(_, own)| &mut own.epoch).collect();
+        let agree = if is_whole { Epoch::check_complete } else { Epoch::check_agreement };
+        if let Err(error) = one(&mut epochs).and_then(|()| epochs.iter().try_for_each(|epoch| agree(epoch))) {
             joined.failures.push(error);
-            out.extend(places);
             continue;
         }
-        let there: Vec<usize> = own.iter().map(|epoch| epoch.epoch).collect();
-        let planned = places.iter().map(|&place| measured[place].case.epochs).max().unwrap_or(0);
-        let not_there: Vec<usize> = (0..planned).filter(|number| !there.contains(number)).collect();
-        if !not_there.is_empty() {
-            joined.missing.push(format!("{}.", lacks(&case.scene_title(), &not_there)));
+        let planned = scene.iter().map(|(_, own)| own.case.epochs).max().unwrap_or(0);
+        let is_missing = |number: &usize| scene.iter().all(|(_, own)| own.epoch.epoch != *number);
+        let missing: Vec<usize> = (0..planned).filter(is_missing).collect();
+        if !missing.is_empty() {
+            joined.missing.push(format!("{}.", lacks(&title, &missing)));
         }
-        for (place, own) in places.into_iter().zip(own) {
-            measured[place].epoch = own;
-        }
+        kept.extend(scene);
     }
-    let kept = measured.into_iter().enumerate().filter(|(place, _)| !out.contains(place));
-    joined.measured = kept.map(|(_, measured)| measured).collect();
+    kept.sort_by_key(|(place, _)| *place);
+    joined.measured = kept.into_iter().map(|(_, own)| own).collect();
     joined
-}
-
-/// The indices of the cases of each scene.
-fn scenes(measured: &[Measured]) -> Vec<Vec<usize>> {
-    let mut found: Vec<Vec<usize>> = vec![];
-    for (place, own) in measured.iter().enumerate() {
-        match found.iter_mut().find(|places| measured[places[0]].case.is_of_scene(&own.case)) {
-            Some(places) => places.push(place),
-            None => found.push(vec![place]),
-        }
-    }
-    found
 }
 
 /// `Dragon: epochs 1 and 2 are not measured`.
@@ -80,19 +69,17 @@ fn lacks(title: &str, missing: &[usize]) -> String {
 }
 
 /// Turns the epochs of a scene, epoch 0 first, into one measurement.
-fn one(epochs: &mut [Epoch]) -> Result<(), StudyError> {
-    let (title, structures) = (epochs[0].title(), epochs[0].structures.len());
-    for place in 0..structures {
-        let label = epochs[0].structures[place].label.clone();
-        let apart = |epoch: &Epoch, rays: &str, what: &'static str| StudyError::Apart {
-            structure: label.clone(),
-            scene: title.clone(),
-            rays: rays.into(),
-            epoch: epoch.epoch,
-            what,
+fn one(epochs: &mut [&mut Epoch]) -> Result<(), StudyError> {
+    let title = epochs[0].title();
+    for place in 0..epochs[0].structures.len() {
+        let structure = epochs[0].structures[place].clone();
+        let apart = |epoch: usize, rays: &str, what: &'static str| {
+            let (structure, scene) = (structure.label.clone(), title.clone());
+            Err(StudyError::Apart { structure, scene, rays: rays.into(), epoch, what })
         };
-        if let Some(other) = epochs.iter().find(|e| e.structures.get(place).is_none_or(|own| own.label != label)) {
-            return Err(apart(other, "", "the structures"));
+        let is_other = |epoch: &&&mut Epoch| epoch.structures.get(place).is_none_or(|own| own.label != structure.label);
+        if let Some(other) = epochs.iter().find(is_other) {
+            return apart(other.epoch, "", "the structures");
         }
         // A structure that is refused in one epoch is refused in all.
         let refused = epochs.iter().find_map(|epoch| epoch.structures[place].refused.clone());
@@ -100,61 +87,53 @@ fn one(epochs: &mut [Epoch]) -> Result<(), StudyError> {
             refuse(epochs, place, &reason);
             continue;
         }
-        for kind in 0..epochs[0].structures[place].rays.len() {
-            let first = epochs[0].structures[place].rays[kind].clone();
-            let alike = |epoch: &&Epoch| {
-                let own = epoch.structures[place].rays.get(kind);
-                own.is_some_and(|own| own.hash == first.hash && own.workload == first.workload && own.all == first.all)
+        for (kind, first) in structure.rays.iter().enumerate() {
+            let differing = |same: fn(&Rays, &Rays) -> bool| {
+                let own = |epoch: &Epoch| epoch.structures[place].rays.get(kind).is_some_and(|own| same(own, first));
+                epochs.iter().find(|epoch| !own(epoch)).map(|epoch| epoch.epoch)
             };
-            if let Some(other) = epochs.iter().find(|epoch| !alike(epoch)) {
-                return Err(apart(other, &first.workload, "the rays"));
+            let is_alike = |a: &Rays, b: &Rays| (&a.hash, &a.workload, a.all) == (&b.hash, &b.workload, b.all);
+            if let Some(other) = differing(is_alike) {
+                return apart(other, &first.workload, "the rays");
             }
-            if first.untimed.is_some() {
-                let (untimed, wrong) = (first.untimed, first.wrong);
+            if let Some(reason) = &first.untimed {
                 for rays in epochs.iter_mut().skip(1).map(|epoch| &mut epoch.structures[place].rays[kind]) {
-                    *rays = Rays {
-                        ns: vec![],
-                        parts: vec![],
-                        rays: 0,
-                        checksum: 0,
-                        untimed: untimed.clone(),
-                        wrong,
-                        ..rays.clone()
-                    };
+                    rays.drop_times(reason.clone());
+                    rays.wrong = first.wrong;
                 }
                 continue;
             }
-            let of = |epoch: &Epoch| epoch.structures[place].rays[kind].clone();
-            let structure = &epochs[0].structures[place];
-            let (is_program, may_err) = (structure.name == RUNNER, structure.may_err());
-            let other = epochs.iter().find(|epoch| of(epoch).checksum != first.checksum);
-            match (other, may_err) {
-                (Some(_), true) => {
-                    refuse(epochs, place, CHANGED);
-                    break;
+            if let Some(other) = differing(|a, b| a.checksum == b.checksum) {
+                if !structure.may_err() {
+                    return apart(other, &first.workload, ANSWERS);
                 }
-                (Some(other), false) => return Err(apart(other, &first.workload, ANSWERS)),
-                (None, _) => {}
+                refuse(epochs, place, CHANGED);
+                break;
             }
-            if let Some(other) = epochs.iter().find(|epoch| of(epoch).ns.len() != first.ns.len()) {
-                return Err(apart(other, &first.workload, "the number of samples"));
+            if let Some(other) = differing(|a, b| a.ns.len() == b.ns.len()) {
+                return apart(other, &first.workload, "the number of samples");
             }
-            let Some(other) = epochs.iter().find(|epoch| of(epoch).rays != first.rays) else { continue };
-            if !is_program {
-                return Err(apart(other, &first.workload, "the number of timed rays"));
+            if let Some(other) = differing(|a, b| a.rays == b.rays).filter(|_| structure.name != RUNNER) {
+                return apart(other, &first.workload, "the number of timed rays");
             }
-            if !reduce(epochs, place, kind) {
+            // Reduce the samples to the largest subset that all epochs have: the clock of a runner decides its rays.
+            let common = common_sizes(epochs, place, kind);
+            let Some(&largest) = common.first() else {
                 refuse(epochs, place, UNSTEADY);
                 break;
+            };
+            for rays in epochs.iter_mut().map(|epoch| &mut epoch.structures[place].rays[kind]) {
+                if let Some(part) = rays.parts.iter().find(|part| part.rays == largest) {
+                    (rays.ns, rays.rays) = (part.ns.clone(), largest);
+                }
+                rays.parts.retain(|part| part.rays < largest && common.contains(&part.rays));
             }
         }
     }
-    keep_common_parts(epochs);
     Ok(())
 }
 
-/// Reason for a structure of another crate whose hits change after a rebuild. Packets do so: other rays travel
-/// together.
+/// Reason for a structure of another crate. Packets do so after a rebuild: other rays travel together.
 const CHANGED: &str = "after a rebuild it returns other hits than before: its times are not comparable";
 
 /// Reason for a runner whose epochs have no rays in common.
@@ -162,44 +141,22 @@ const UNSTEADY: &str = "its speed differs by more than a factor of sixteen betwe
                         rays are timed in all of them";
 
 /// Refuses a structure in all epochs; for wrong hits if one of them has wrong hits.
-fn refuse(epochs: &mut [Epoch], place: usize, reason: &str) {
+fn refuse(epochs: &mut [&mut Epoch], place: usize, reason: &str) {
     let wrong = epochs.iter().any(|epoch| epoch.structures[place].wrong);
     for structure in epochs.iter_mut().map(|epoch| &mut epoch.structures[place]) {
-        *structure = Structure { refused: Some(reason.into()), wrong, rays: vec![], ..structure.clone() };
+        (structure.refused, structure.wrong) = (Some(reason.into()), wrong);
+        structure.rays.clear();
     }
 }
 
-/// Reduces the samples of a runner to the largest subset that all epochs have. Returns whether there is one.
-fn reduce(epochs: &mut [Epoch], place: usize, kind: usize) -> bool {
-    let timed = |rays: &Rays, count: usize| rays.rays == count || rays.parts.iter().any(|part| part.rays == count);
-    let of = |epoch: &Epoch| epoch.structures[place].rays[kind].clone();
-    let first = of(&epochs[0]);
-    let counts = std::iter::once(first.rays).chain(first.parts.iter().map(|part| part.rays));
-    let Some(common) = counts.into_iter().find(|&count| epochs.iter().all(|epoch| timed(&of(epoch), count))) else {
-        return false;
+/// The numbers of rays on which a structure is timed in all epochs, the largest first.
+fn common_sizes(epochs: &[&mut Epoch], place: usize, kind: usize) -> Vec<usize> {
+    let sizes = |epoch: &&mut Epoch| -> Vec<usize> {
+        let rays = &epoch.structures[place].rays[kind];
+        std::iter::once(rays.rays).chain(rays.parts.iter().map(|part| part.rays)).collect()
     };
-    for rays in epochs.iter_mut().map(|epoch| &mut epoch.structures[place].rays[kind]) {
-        if let Some(part) = rays.parts.iter().find(|part| part.rays == common) {
-            (rays.ns, rays.rays) = (part.ns.clone(), common);
-        }
-        rays.parts.retain(|part| part.rays < common);
-    }
-    true
-}
-
-/// Reduces each structure to the subsets that all epochs have.
-fn keep_common_parts(epochs: &mut [Epoch]) {
-    for place in 0..epochs[0].structures.len() {
-        for kind in 0..epochs[0].structures[place].rays.len() {
-            let parts = |epoch: &Epoch| -> Vec<usize> {
-                epoch.structures[place].rays[kind].parts.iter().map(|part| part.rays).collect()
-            };
-            let all: Vec<Vec<usize>> = epochs.iter().map(parts).collect();
-            for rays in epochs.iter_mut().map(|epoch| &mut epoch.structures[place].rays[kind]) {
-                rays.parts.retain(|part| all.iter().all(|own| own.contains(&part.rays)));
-            }
-        }
-    }
+    let all: Vec<Vec<usize>> = epochs.iter().map(sizes).collect();
+    all[0].iter().copied().filter(|size| all.iter().all(|own| own.contains(size))).collect()
 }
 
 #[cfg(test)]

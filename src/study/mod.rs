@@ -24,12 +24,10 @@ pub mod process;
 pub mod replicate;
 pub mod scaling;
 mod screen;
-mod stage;
 mod status;
 #[cfg(test)]
 mod tests;
 mod verdict;
-mod whole_times;
 
 use std::ffi::{OsStr, OsString};
 
@@ -45,8 +43,7 @@ pub use epoch::Epoch;
 pub use error::StudyError;
 pub use join::{JoinedEpochs, join};
 pub use plan::{Plan, PlannedScene};
-pub use screen::Screen;
-pub use stage::Stage;
+pub use screen::{Screen, Stage};
 pub use status::Status;
 pub use verdict::Verdict;
 
@@ -54,7 +51,7 @@ pub use verdict::Verdict;
 pub struct Study {
     /// The subcommand; also the name of its journal.
     pub name: &'static str,
-    /// The question, in one line.
+    /// One line.
     pub question: &'static str,
     /// Arguments of `study all`.
     pub presets: Presets,
@@ -62,8 +59,7 @@ pub struct Study {
     pub options: fn() -> Command,
     /// The cases to measure. It does no measuring, and rejects everything that cannot be measured.
     pub plan: fn(&ArgMatches, &Registry) -> anyhow::Result<Plan>,
-    /// A pure function of the measurements. The options are the options of the run, or the defaults for a journal or an
-    /// export.
+    /// A pure function of the measurements and the options of the run; the defaults for a journal or an export.
     pub report: fn(&Dataset, &ArgMatches) -> Report,
 }
 
@@ -84,17 +80,12 @@ pub enum Effort {
 }
 
 impl Study {
-    /// Its options, without a program name.
-    fn command(&self) -> Command {
-        (self.options)().no_binary_name(true)
-    }
-
     /// Parses the arguments `words`.
     ///
     /// # Errors
     /// If its command rejects them.
     pub fn matches<W: AsRef<OsStr>>(&self, words: &[W]) -> Result<ArgMatches, clap::Error> {
-        self.command().try_get_matches_from(words.iter().map(OsString::from))
+        (self.options)().no_binary_name(true).try_get_matches_from(words.iter().map(OsString::from))
     }
 
     /// Its default options.
@@ -107,7 +98,7 @@ impl Study {
 
     /// Whether it accepts scenes.
     pub fn names_scenes(&self) -> bool {
-        self.command().get_positionals().next().is_some()
+        (self.options)().get_positionals().next().is_some()
     }
 
     /// The arguments with which `study all` runs it. If `scenes` is not empty, it replaces the scenes of the preset.
@@ -116,12 +107,9 @@ impl Study {
             Effort::Full => self.presets.full,
             Effort::Quick => self.presets.quick,
         };
-        let own = own.split_whitespace();
-        if scenes.is_empty() || !self.names_scenes() {
-            return own.map(OsString::from).collect();
-        }
-        let options = own.skip_while(|word| !word.starts_with('-')).map(OsString::from);
-        scenes.iter().cloned().chain(options).collect()
+        let scenes = if self.names_scenes() { scenes } else { &[] };
+        let options = own.split_whitespace().skip_while(|word| !scenes.is_empty() && !word.starts_with('-'));
+        scenes.iter().cloned().chain(options.map(OsString::from)).collect()
     }
 
     /// The command that measures it into the folder `runs`, which `sahara report` reads.

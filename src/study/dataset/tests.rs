@@ -13,6 +13,11 @@ use crate::study::epoch::{RayCounts, Rays};
 use crate::study::{Check, Settings, Studies};
 use crate::validate::{ErrorCounts, Kind, Ulps};
 
+/// A dataset of this process.
+pub fn dataset(measured: Vec<Measured>) -> Dataset {
+    Dataset::new(Provenance::capture(1), measured)
+}
+
 /// Cases and an epoch with all optional fields.
 fn with_all_fields() -> Dataset {
     let runner = RunnerRequest { command: "x".into(), limit_s: 1.0, config: json!({}) };
@@ -59,7 +64,7 @@ fn with_all_fields() -> Dataset {
         }];
     }
     let measured = [first, second].map(|case| Measured { case, epoch: measured.clone() });
-    Dataset { notes: vec!["a note".into()], ..Dataset::new(Provenance::capture(1), measured.into()) }
+    Dataset { notes: vec!["a note".into()], ..dataset(measured.into()) }
 }
 
 /// All names of fields, except those inside `labels` and `config`, which have other names.
@@ -96,7 +101,7 @@ fn every_field_and_column_is_documented_and_no_other() {
     let unknown: Vec<String> = documented(text, "field").difference(&names).cloned().collect();
     assert!(names.len() > 100 && unknown.is_empty(), "no such fields: {unknown:?}");
 
-    let nothing = Dataset::new(Provenance::capture(1), vec![]);
+    let nothing = dataset(vec![]);
     let (_, tables) = text.split_once("\n# Tables\n").unwrap();
     for study in Studies::builtin().iter() {
         let section = tables.split("\n## ").find(|section| section.starts_with(study.name));

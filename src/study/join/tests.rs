@@ -1,6 +1,7 @@
 use super::*;
 use crate::measure::SubsetSamples;
 use crate::study::case::tests::example as case;
+use crate::study::epoch::Structure;
 use crate::study::epoch::tests::{example, rays};
 
 fn epochs(scene: &str, numbers: &[usize]) -> Vec<Epoch> {

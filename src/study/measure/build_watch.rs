@@ -4,8 +4,7 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::Duration;
 
-/// Receives the index of the structure whose build has exceeded the limit. It starts this process again without the
-/// structure, and does not return.
+/// Starts this process again without the structure of this index, and does not return.
 pub type OnLimit = Box<dyn Fn(usize) + Send>;
 
 /// Watches builds. Between builds, and without a limit, it is idle.

@@ -18,42 +18,35 @@ pub struct Built {
 /// A build that takes at most this long is repeated, for a steadier median.
 const SHORT_BUILD_NS: u64 = 20_000_000;
 
-/// Builds once, and times it.
-type Build = fn(&Choice, &Scene, &Threads, &dyn Clock) -> Result<Built, BuildError>;
-
 impl Built {
     /// Builds once, or three times if a build is short.
     pub fn new(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, BuildError> {
-        Self::once(choice, scene, threads, clock)?.again(scene, threads, clock, Self::once)
+        Self::repeated(|_| Self::once(choice, scene, threads, clock))
     }
 
-    /// Like [`new`](Self::new), and counts the peak memory of the first build; counting takes less time than builds
-    /// vary.
+    /// Like [`new`](Self::new), and counts the peak memory, which takes less time than builds vary.
     pub fn counted(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, BuildError> {
-        Self::once_counted(choice, scene, threads, clock)?.again(scene, threads, clock, Self::once_counted)
+        Self::repeated(|known_peak| {
+            let once = || Self::once(choice, scene, threads, clock);
+            // Another thread that frees memory meanwhile may hide the peak of one build.
+            let (built, peak) = if known_peak.is_none() { peak_bytes(once) } else { (once(), None) };
+            let built = built?;
+            // A peak below the size of the structure was not seen: the memory belongs to C++ or to another process.
+            let is_seen = |peak: &usize| built.accel.remote().is_none() && *peak >= built.accel.footprint().total();
+            Ok(Self { peak_bytes: known_peak.or(peak.filter(is_seen)), ..built })
+        })
     }
 
-    /// Repeats a short build. Builds without a known peak use `unseen`: another thread that frees memory meanwhile may
-    /// hide the peak of one build.
-    fn again(self, scene: &Scene, threads: &Threads, clock: &dyn Clock, unseen: Build) -> Result<Self, BuildError> {
-        let mut times = vec![self.build_ns as f64];
-        let mut last = self;
+    /// Repeats `build` if it is short. It receives the peak that an earlier build has counted.
+    fn repeated(build: impl Fn(Option<usize>) -> Result<Self, BuildError>) -> Result<Self, BuildError> {
+        let mut last = build(None)?;
+        let mut times = vec![last.build_ns as f64];
         while last.build_ns <= SHORT_BUILD_NS && times.len() < 3 {
-            let build = if last.peak_bytes.is_none() { unseen } else { Self::once };
-            let next = build(&last.choice, scene, threads, clock)?;
-            last = Self { peak_bytes: last.peak_bytes.or(next.peak_bytes), ..next };
+            last = build(last.peak_bytes)?;
             times.push(last.build_ns as f64);
         }
         let build_ns = median(&times).expect("there is a build") as u64;
         Ok(Self { build_ns, ..last })
-    }
-
-    /// A peak below the size of the structure was not seen: the memory belongs to C++ or to another process.
-    fn once_counted(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, BuildError> {
-        let (built, peak) = peak_bytes(|| Self::once(choice, scene, threads, clock));
-        let built = built?;
-        let is_seen = |peak: &usize| built.accel.remote().is_none() && *peak >= built.accel.footprint().total();
-        Ok(Self { peak_bytes: peak.filter(is_seen), ..built })
     }
 
     fn once(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, BuildError> {

@@ -25,8 +25,7 @@ pub fn declined(accel: &dyn DynAccel, workload: &Workload) -> Option<&'static st
 const MOST: usize = 1 << 13;
 const FEWEST: usize = 1 << 6;
 
-/// The number of checked rays of a batch. It depends neither on a clock nor on the other structures, so every run
-/// checks the same rays.
+/// The number of checked rays of a batch. No clock and no other structure decides it: every run checks the same rays.
 fn affordable(rays: usize, triangles: usize, tests: usize) -> usize {
     if rays <= FEWEST {
         return rays;

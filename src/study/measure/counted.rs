@@ -1,11 +1,5 @@
 //! Counts the work of queries.
 
-use rayon::prelude::*;
-
-use super::built::Built;
-
-use super::guarded::guarded;
-use super::pair::Pair;
 use crate::accel::{Counts, DynAccel, Observed, Query};
 use crate::geometry::Ray;
 use crate::measure::{EventCounter, checksum, spread};
@@ -19,8 +13,7 @@ pub struct Counted {
     pub rays: usize,
     /// Rays that hit.
     pub hits: usize,
-    /// Checksum of the bits of `t` of all hits and of the misses. It is the same for all structures over the exact
-    /// triangle test.
+    /// See [`RayCounts::distances`].
     pub distances: u64,
     pub counts: Counts,
     pub observed: Observed,
@@ -32,38 +25,15 @@ const RAYS: usize = 16384;
 /// Approximate maximum of triangle tests per count: structures with more tests per ray are counted on fewer rays.
 const TESTS: u64 = 1 << 24;
 
-/// The number of rays for estimating the cost of a ray, the smaller number for expensive rays, and the limit of triangle
-/// tests for the larger number.
+/// Rays for estimating the cost of a ray, fewer if they are expensive, and the limit of triangle tests for more.
 const FEW: usize = 512;
 const FEWEST: usize = 32;
 const FEW_TESTS: u64 = 1 << 20;
-
-/// Counts, for each pair, the rays that `count` selects, on all threads; `None` if the structure could not be built or
-/// panics.
-pub fn count_all(
-    pairs: &[Pair],
-    built: &[Option<Built>],
-    workloads: &[Workload],
-    count: fn(&dyn DynAccel, &[Ray], Query) -> Counted,
-) -> Vec<Option<Counted>> {
-    let of = |pair: &Pair| {
-        let (built, workload) = (built[pair.structure].as_ref()?, &workloads[pair.workload]);
-        guarded(|| count(built.accel.as_ref(), &workload.rays, workload.query))
-    };
-    pairs.par_iter().map(of).collect()
-}
 
 /// The event counters of the processor, as far as they exist.
 pub struct Events {
     instructions: Option<EventCounter>,
     branch_misses: Option<EventCounter>,
-}
-
-/// Means of a pass without an observer; `None` without a counter.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct EventsPerRay {
-    pub instructions: Option<f64>,
-    pub branch_misses: Option<f64>,
 }
 
 impl Events {
@@ -72,8 +42,8 @@ impl Events {
         Self { instructions: EventCounter::instructions(), branch_misses: EventCounter::branch_misses() }
     }
 
-    /// Counts while `accel` traces all `rays`.
-    pub fn per_ray(&mut self, accel: &dyn DynAccel, rays: &[Ray], query: Query) -> EventsPerRay {
+    /// Instructions and branch misses per ray while `accel` traces all `rays`; `None` without a counter.
+    fn per_ray(&mut self, accel: &dyn DynAccel, rays: &[Ray], query: Query) -> [Option<f64>; 2] {
         let (mut hits, mut any) = (vec![None; rays.len()], vec![false; rays.len()]);
         let mut pass = || match query {
             Query::Closest => accel.closest_hits(rays, &mut hits),
@@ -86,13 +56,12 @@ impl Events {
             pass();
             counter.count(&mut pass).map(per_ray)
         });
-        EventsPerRay { instructions, branch_misses }
+        [instructions, branch_misses]
     }
 }
 
 impl Counted {
-    /// Counts over as many evenly spread `rays` as are affordable. No clock determines the number, so every run counts
-    /// the same rays.
+    /// Counts over as many evenly spread `rays` as are affordable; the same ones in every run.
     pub fn affordable(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> Self {
         let counted = |count: usize| Self::new(accel, &spread(rays, count), query);
         let pilot = counted(64);
@@ -143,7 +112,8 @@ impl Counted {
     pub fn in_export(&self, accel: &dyn DynAccel, workload: &Workload, events: Option<&mut Events>) -> RayCounts {
         let rays = spread(&workload.rays, self.rays);
         let events = events.filter(|_| accel.remote().is_none());
-        let events = events.map(|events| events.per_ray(accel, &rays, workload.query)).unwrap_or_default();
+        let [instructions_per_ray, branch_misses_per_ray] =
+            events.map_or([None; 2], |events| events.per_ray(accel, &rays, workload.query));
         let Self { observed, counts, .. } = self;
         RayCounts {
             rays: self.rays,
@@ -155,8 +125,8 @@ impl Counted {
             leaves: self.sees_leaves().then_some(counts.leaves),
             empty_leaves: self.sees_leaves().then_some(counts.empty_leaves),
             whole_tests: None,
-            instructions_per_ray: events.instructions,
-            branch_misses_per_ray: events.branch_misses,
+            instructions_per_ray,
+            branch_misses_per_ray,
         }
     }
 }

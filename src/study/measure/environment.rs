@@ -18,6 +18,20 @@ pub struct Environment {
 }
 
 impl Environment {
+    /// Observes this thread, which runs on the core number `core`, during `work`.
+    pub fn during<R>(clock: &dyn Clock, core: usize, work: impl FnOnce() -> R) -> (R, Self) {
+        let (interruptions, clock_rate) = (machine::interruptions(), machine::clock_rate(core));
+        let start_ns = clock.now_ns();
+        let result = work();
+        let environment = Self {
+            process: std::process::id(),
+            seconds: (clock.now_ns() - start_ns) as f64 * 1e-9,
+            interruptions: interruptions.zip(machine::interruptions()).map(|(from, to)| to.saturating_sub(from)),
+            clock_rates: clock_rate.zip(machine::clock_rate(core)),
+        };
+        (result, environment)
+    }
+
     /// Adds this epoch to those before it.
     pub fn add_to(&self, conditions: &mut Conditions) {
         conditions.seconds += self.seconds;
@@ -28,31 +42,6 @@ impl Environment {
         if let Some((before, after)) = self.clock_rates {
             let first = conditions.clock_rates.map_or(before, |(first, _)| first);
             conditions.clock_rates = Some((first, after));
-        }
-    }
-}
-
-/// Observes the thread before and after the sampling.
-pub struct EnvironmentProbe {
-    start_ns: u64,
-    interruptions: Option<u64>,
-    core: usize,
-    clock_rate: Option<f64>,
-}
-
-impl EnvironmentProbe {
-    pub fn start(clock: &dyn Clock, core: usize) -> Self {
-        let (interruptions, clock_rate) = (machine::interruptions(), machine::clock_rate(core));
-        Self { start_ns: clock.now_ns(), interruptions, core, clock_rate }
-    }
-
-    pub fn end(self, clock: &dyn Clock) -> Environment {
-        let since = |(before, after): (u64, u64)| after.saturating_sub(before);
-        Environment {
-            process: std::process::id(),
-            seconds: (clock.now_ns() - self.start_ns) as f64 * 1e-9,
-            interruptions: self.interruptions.zip(machine::interruptions()).map(since),
-            clock_rates: self.clock_rate.zip(machine::clock_rate(self.core)),
         }
     }
 }

@@ -1,9 +1,13 @@
-//! Counts errors against the exact oracle.
+//! What only the study `accuracy` measures: errors against the exact oracle, and the slowest ray.
+
+use std::hint::black_box;
+use std::slice;
 
 use rayon::prelude::*;
 
 use crate::accel::DynAccel;
 use crate::geometry::Ray;
+use crate::measure::Clock;
 use crate::oracle::{Oracle, Truth};
 use crate::validate::{DepthRule, ErrorCounts, count_errors};
 
@@ -43,6 +47,22 @@ impl<'a> Judge<'a> {
         let truths: Vec<Option<Truth>> = some.iter().map(|&i| self.truths[i].clone()).collect();
         count_errors(&truths, &answers, DepthRule::STRICT)
     }
+}
+
+/// Traces of each ray: a disturbance rarely meets the same ray every time.
+const PASSES: usize = 3;
+
+/// The longest time of any of `rays` traced on its own, ns: the maximum over the rays of the minimum over the passes.
+pub fn slowest(accel: &dyn DynAccel, rays: &[Ray], clock: &dyn Clock) -> u64 {
+    let mut least = vec![u64::MAX; rays.len()];
+    for _ in 0..PASSES {
+        for (ray, least) in rays.iter().zip(&mut least) {
+            let start = clock.now_ns();
+            black_box(accel.closest(slice::from_ref(ray)));
+            *least = (*least).min(clock.now_ns() - start);
+        }
+    }
+    least.into_iter().max().unwrap_or(0)
 }
 
 #[cfg(test)]

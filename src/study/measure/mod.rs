@@ -12,25 +12,24 @@ mod prepared;
 mod ray_cost;
 mod rays;
 mod room;
-mod slowest;
 mod timed_check;
 mod timing;
 
-use super::case::{Case, Check};
-use super::epoch::{Epoch, Rays, Shape, Structure};
-use super::{Stage, StudyError};
+use rayon::prelude::*;
+
+use super::epoch::{Rays, Structure};
+use super::{Case, Check, Epoch, Stage, StudyError};
 use crate::accel::{BuildError, Remote};
 use crate::measure::{Clock, SamplePlan, spread};
 use crate::oracle::Oracle;
 use crate::scene::Workload;
 use built::Built;
 use check::{Checks, declined};
-use counted::{Counted, Events, count_all};
-use judge::Judge;
+use counted::{Counted, Events};
+use judge::{Judge, slowest};
 use pair::Pair;
-use prepared::Placed;
+use prepared::build_all;
 use rays::{drop_times_of_wrong_tree, new_record, record_check};
-use slowest::slowest;
 use timed_check::TimedCheck;
 use timing::{SampleFailure, Timing};
 
@@ -58,11 +57,11 @@ pub fn measure(
     let is_first = case.epoch == 0;
     if is_first {
         match case.settings.check {
-            Check::BruteForce { tests, limit_ns } => bench.check(tests, limit_ns, clock, progress)?,
+            Check::BruteForce { tests, limit_ns } => bench.check(tests, limit_ns, progress)?,
             Check::Oracle => bench.judge(progress),
         }
     }
-    let environment = bench.sample(clock, progress);
+    let environment = bench.sample(progress);
     if is_first {
         if let Check::BruteForce { tests, .. } = case.settings.check {
             bench.check_timed(tests, progress)?;
@@ -90,6 +89,7 @@ pub fn measure(
 struct Bench<'a> {
     case: &'a Case,
     prepared: &'a Prepared,
+    clock: &'a dyn Clock,
     workloads: Vec<Workload>,
     /// All structures of the case, with their results so far.
     structures: Vec<Structure>,
@@ -97,8 +97,8 @@ struct Bench<'a> {
     built: Vec<Option<Built>>,
     /// Checksums of the hits on the timed rays of this epoch.
     checksums: Vec<(Pair, u64)>,
-    /// Keeps the memory placement of the structures alive.
-    _placed: Placed,
+    /// Blocks of memory between the structures.
+    _blocks: Vec<Vec<u8>>,
 }
 
 impl<'a> Bench<'a> {
@@ -106,16 +106,16 @@ impl<'a> Bench<'a> {
     fn set_up(
         case: &'a Case,
         prepared: &'a Prepared,
-        clock: &dyn Clock,
+        clock: &'a dyn Clock,
         watch: &BuildWatch,
         progress: &mut dyn FnMut(Stage),
     ) -> Result<Self, StudyError> {
         let Prepared { scene, choices, threads, .. } = prepared;
         room::fits(choices, scene)?;
-        let mut placed = Placed::new(case, prepared, clock, watch, progress);
+        let (all_built, blocks) = build_all(case, prepared, clock, watch, progress);
         let mut structures: Vec<Structure> = vec![];
         let mut built: Vec<Option<Built>> = vec![];
-        for ((choice, request), ready) in choices.iter().zip(&case.structures).zip(placed.built.drain(..)) {
+        for ((choice, request), ready) in choices.iter().zip(&case.structures).zip(all_built) {
             let mut structure = Structure {
                 label: choice.label.clone(),
                 role: request.role.clone(),
@@ -126,8 +126,7 @@ impl<'a> Bench<'a> {
             };
             match &ready {
                 Ok(one) => {
-                    let accel = one.accel.as_ref();
-                    structure.shape = Shape { bytes: accel.footprint().total(), ..Shape::from(&accel.shape()) };
+                    structure.shape = one.accel.as_ref().into();
                     (structure.build_ns, structure.build_peak_bytes) = (one.build_ns, one.peak_bytes);
                 }
                 Err(reason) => structure.refused = Some(reason.clone()),
@@ -139,15 +138,15 @@ impl<'a> Bench<'a> {
         // Secondary rays start at the hits of the guide.
         let own;
         let guide = match built.iter().flatten().find(|built| built.choice.label == prepared.guide.label) {
-            Some(built) => built.accel.as_ref(),
+            Some(built) => built,
             None => {
                 let refused = StudyError::of_build(&prepared.guide.label, &scene.name);
                 own = Built::new(&prepared.guide, scene, threads, clock).map_err(refused)?;
-                own.accel.as_ref()
+                &own
             }
         };
         let mut told = |kind: &str| progress(Stage::Rays(kind.into()));
-        let workloads = case.workloads.workloads(scene, case.settings.seed, guide, &mut told);
+        let workloads = case.workloads.workloads(scene, case.settings.seed, guide.accel.as_ref(), &mut told);
         let workloads = workloads.map_err(|cause| StudyError::Rays(format!("{cause:#}")))?;
         let hashes: Vec<String> = workloads.iter().map(Workload::hash).collect();
         for (structure, built) in structures.iter_mut().zip(&built) {
@@ -155,7 +154,7 @@ impl<'a> Bench<'a> {
             let rays = |(workload, hash): (&Workload, &String)| new_record(built, workload, hash);
             structure.rays = workloads.iter().zip(&hashes).map(rays).collect();
         }
-        Ok(Self { case, prepared, workloads, structures, built, checksums: vec![], _placed: placed })
+        Ok(Self { case, prepared, clock, workloads, structures, built, checksums: vec![], _blocks: blocks })
     }
 
     /// Checks all structures against brute force; those with wrong hits are not timed.
@@ -163,19 +162,15 @@ impl<'a> Bench<'a> {
         &mut self,
         tests: usize,
         limit_ns: Option<u64>,
-        clock: &dyn Clock,
         progress: &mut dyn FnMut(Stage),
     ) -> Result<(), StudyError> {
-        let checks = Checks { scene: &self.prepared.scene, workloads: &self.workloads, tests, limit_ns, clock };
+        let Self { clock, ref workloads, .. } = *self;
+        let checks = Checks { scene: &self.prepared.scene, workloads, tests, limit_ns, clock };
         let checks = checks.all(self.built.iter().flatten(), progress)?;
         let structures = self.structures.iter_mut().zip(&self.built);
         let structures = structures.filter_map(|(structure, built)| Some((structure, built.as_ref()?)));
         for ((structure, built), checks) in structures.zip(checks) {
-            let failure = built.accel.remote().and_then(Remote::failure);
-            let Some(checks) = checks.filter(|_| failure.is_none()) else {
-                structure.refused = Some(failure.unwrap_or_else(|| PANICKED.into()));
-                continue;
-            };
+            let Some(checks) = refuse_unless(structure, built, checks) else { continue };
             for (rays, check) in structure.rays.iter_mut().zip(checks) {
                 record_check(rays, check, &self.case.scene.word, built);
             }
@@ -195,10 +190,8 @@ impl<'a> Bench<'a> {
             progress(Stage::Check((&structure.label).into()));
             let check =
                 checks.check(built, &pair, timed, checksum).map_err(StudyError::of_build("sah-bvh", &scene.name))?;
-            let failure = built.accel.remote().and_then(Remote::failure);
-            match check.filter(|_| failure.is_none()) {
-                Some(check) => record_check(&mut structure.rays[pair.workload], check, &self.case.scene.word, built),
-                None => structure.refused = Some(failure.unwrap_or_else(|| PANICKED.into())),
+            if let Some(check) = refuse_unless(structure, built, check) {
+                record_check(&mut structure.rays[pair.workload], check, &self.case.scene.word, built);
             }
         }
         Ok(())
@@ -222,24 +215,17 @@ impl<'a> Bench<'a> {
             }
             progress(Stage::Check((&structure.label).into()));
             let costs = &costs[place * judges.len()..][..judges.len()];
-            let judged = guarded(|| {
-                let judge =
-                    |(judge, &ps): (&Judge, &u64)| judge.errors(built.accel.as_ref(), ps, budget_ns, pairs.len());
-                judges.iter().zip(costs).map(judge).collect::<Vec<_>>()
-            });
-            match judged {
-                Some(judged) => {
-                    structure.rays.iter_mut().zip(judged).for_each(|(rays, errors)| rays.errors = Some(errors));
-                }
-                None => structure.refused = Some(PANICKED.into()),
-            }
+            let judge = |(judge, &ps): (&Judge, &u64)| judge.errors(built.accel.as_ref(), ps, budget_ns, pairs.len());
+            let judged = guarded(|| judges.iter().zip(costs).map(judge).collect::<Vec<_>>());
+            let judged = refuse_unless(structure, built, judged).unwrap_or_default();
+            structure.rays.iter_mut().zip(judged).for_each(|(rays, errors)| rays.errors = Some(errors));
         }
     }
 
     /// Takes all samples. The number of rays and runs depends on all requested pairs, including failed and wrong ones.
     /// So an epoch with a failed program, or without checks, uses the same numbers.
-    fn sample(&mut self, clock: &dyn Clock, progress: &mut dyn FnMut(Stage)) -> Environment {
-        let settings = &self.case.settings;
+    fn sample(&mut self, progress: &mut dyn FnMut(Stage)) -> Environment {
+        let (clock, settings) = (self.clock, &self.case.settings);
         let plan = SamplePlan {
             runs: settings.runs,
             budget_ns: settings.budget_ns.unwrap_or(u64::MAX),
@@ -251,21 +237,22 @@ impl<'a> Bench<'a> {
         let Prepared { choices, threads, .. } = self.prepared;
         let built: Vec<Option<&Built>> = self.built.iter().map(Option::as_ref).collect();
         let by_clock = settings.is_quick();
-        let timing = Timing { choices, built: &built, workloads: &self.workloads, threads, clock, by_clock };
         let all = Pair::all(self.structures.len(), self.workloads.len());
-        let allotted = timing.allot(&all, &plan);
+        let timing =
+            Timing { cases: &all, choices, built: &built, workloads: &self.workloads, threads, clock, by_clock };
+        let allotment = timing.allot(&plan);
 
         let is_timed = |pair: &Pair| {
             let structure = &self.structures[pair.structure];
             structure.refused.is_none() && structure.rays[pair.workload].untimed.is_none()
         };
-        let pairs: Vec<Pair> = all.into_iter().filter(is_timed).collect();
-        let total = pairs.len() * allotted.allotment.runs;
+        let pairs: Vec<Pair> = all.iter().copied().filter(is_timed).collect();
+        let total = pairs.len() * allotment.runs;
         let mut told = |taken| progress(Stage::Trace(taken, total));
         let _pin = threads.pin();
-        let watch = environment::EnvironmentProbe::start(clock, threads.cores().map_or(0, |cores| cores[0]));
-        let taken = timing.take(&allotted, &is_timed, &plan, &mut told);
-        let environment = watch.end(clock);
+        let core = threads.cores().map_or(0, |cores| cores[0]);
+        let (taken, environment) =
+            Environment::during(clock, core, || timing.take(&allotment, &is_timed, &plan, &mut told));
 
         let asks_alone = settings.check == Check::Oracle && self.case.epoch == 0;
         for (pair, samples) in pairs.iter().zip(taken) {
@@ -303,25 +290,33 @@ impl<'a> Bench<'a> {
         });
         // A quick run also counts fewer rays.
         let count = if settings.is_quick() { Counted::few } else { Counted::affordable };
-        for (pair, counted) in pairs.iter().zip(count_all(&pairs, &self.built, &self.workloads, count)) {
-            let Some(built) = &self.built[pair.structure] else { continue };
-            let (structure, workload) = (&mut self.structures[pair.structure], &self.workloads[pair.workload]);
+        let (built, workloads) = (&self.built, &self.workloads);
+        let counted = |pair: &Pair| {
+            let (built, workload) = (built[pair.structure].as_ref()?, &workloads[pair.workload]);
+            guarded(|| count(built.accel.as_ref(), &workload.rays, workload.query))
+        };
+        let counted: Vec<Option<Counted>> = pairs.par_iter().map(counted).collect();
+        for (pair, counted) in pairs.iter().zip(counted) {
+            let Some(built) = &built[pair.structure] else { continue };
+            let (structure, workload) = (&mut self.structures[pair.structure], &workloads[pair.workload]);
             let accel = built.accel.as_ref();
-            match counted {
-                Some(counted) => {
-                    let mut counts = counted.in_export(accel, workload, events.as_mut());
-                    if settings.whole_counts.contains(&self.case.structures[pair.structure].spec) {
-                        let whole = Counted::new(accel, &workload.rays, workload.query);
-                        counts.whole_tests = counted.observed.tests.then_some(whole.counts.tests);
-                    }
-                    structure.rays[pair.workload].counts = Some(counts);
-                }
-                None => structure.refused = Some(PANICKED.into()),
+            let Some(counted) = refuse_unless(structure, built, counted) else { continue };
+            let mut counts = counted.in_export(accel, workload, events.as_mut());
+            if settings.whole_counts.contains(&self.case.structures[pair.structure].spec) {
+                let whole = Counted::new(accel, &workload.rays, workload.query);
+                counts.whole_tests = counted.observed.tests.then_some(whole.counts.tests);
             }
-            let failure = accel.remote().and_then(Remote::failure);
-            structure.refused = structure.refused.take().or(failure);
+            structure.rays[pair.workload].counts = Some(counts);
         }
     }
+}
+
+/// The result of a query. If the structure panicked (`None`) or its program failed, it is refused.
+fn refuse_unless<T>(structure: &mut Structure, built: &Built, result: Option<T>) -> Option<T> {
+    let panicked = result.is_none().then(|| PANICKED.into());
+    let Some(reason) = built.accel.remote().and_then(Remote::failure).or(panicked) else { return result };
+    structure.refused.get_or_insert(reason);
+    None
 }
 
 #[cfg(test)]

@@ -29,41 +29,33 @@ impl Prepared {
     }
 }
 
-/// Structures built in a random order, and between random blocks of memory, in each epoch. The address of a structure
-/// can change its speed by some percent, and only samples at several addresses show the size of this effect.
-pub struct Placed {
-    /// One per choice, in the same order, or the reason why it is refused.
-    pub built: Vec<Result<Built, String>>,
-    /// Lives as long as the structures.
-    _blocks: Vec<Vec<u8>>,
-}
-
-impl Placed {
-    /// Builds every structure of the case that is not skipped; epoch 0 also counts the peak memory of builds.
-    pub fn new(
-        case: &Case,
-        prepared: &Prepared,
-        clock: &dyn Clock,
-        watch: &BuildWatch,
-        progress: &mut dyn FnMut(Stage),
-    ) -> Self {
-        let Prepared { scene, choices, threads, .. } = prepared;
-        let mut random = RandomOrder::new(case.settings.seed.wrapping_add(case.epoch as u64));
-        let mut built: Vec<Option<Result<Built, String>>> = choices.iter().map(|_| None).collect();
-        let mut blocks = vec![];
-        for i in random.shuffled(choices.len()) {
-            progress(Stage::Build((&choices[i].label).into()));
-            // Small blocks shift later blocks on the heap, large ones shift mapped pages.
-            blocks.push(vec![0; 16 * (1 + random.below(1 << 12))]);
-            blocks.push(vec![0; (256 << 10) + 4096 * random.below(64)]);
-            let build = if case.epoch == 0 { Built::counted } else { Built::new };
-            built[i] = Some(match &case.structures[i].skipped {
-                Some(reason) => Err(reason.clone()),
-                None => {
-                    watch.during(i, || build(&choices[i], scene, threads, clock)).map_err(|cause| cause.to_string())
-                }
-            });
-        }
-        Self { built: built.into_iter().map(|one| one.expect("all are built")).collect(), _blocks: blocks }
+/// Builds every structure of the case that is not skipped; epoch 0 also counts the peak memory of builds. Returns one
+/// structure per choice, or the reason why it is refused, and blocks of memory that must live as long.
+///
+/// Each epoch builds in a random order and between random blocks of memory: the address of a structure can change its
+/// speed by some percent, and only samples at several addresses show the size of this effect.
+pub fn build_all(
+    case: &Case,
+    prepared: &Prepared,
+    clock: &dyn Clock,
+    watch: &BuildWatch,
+    progress: &mut dyn FnMut(Stage),
+) -> (Vec<Result<Built, String>>, Vec<Vec<u8>>) {
+    let Prepared { scene, choices, threads, .. } = prepared;
+    let build = if case.epoch == 0 { Built::counted } else { Built::new };
+    let mut random = RandomOrder::new(case.settings.seed.wrapping_add(case.epoch as u64));
+    let (mut built, mut blocks) = (vec![], vec![]);
+    for i in random.shuffled(choices.len()) {
+        progress(Stage::Build((&choices[i].label).into()));
+        // Small blocks shift later blocks on the heap, large ones shift mapped pages.
+        blocks.push(vec![0; 16 * (1 + random.below(1 << 12))]);
+        blocks.push(vec![0; (256 << 10) + 4096 * random.below(64)]);
+        let one = match &case.structures[i].skipped {
+            Some(reason) => Err(reason.clone()),
+            None => watch.during(i, || build(&choices[i], scene, threads, clock)).map_err(|cause| cause.to_string()),
+        };
+        built.push((i, one));
     }
+    built.sort_by_key(|(i, _)| *i);
+    (built.into_iter().map(|(_, one)| one).collect(), blocks)
 }

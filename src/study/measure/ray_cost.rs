@@ -25,8 +25,7 @@ const UNOPTIMISED: f64 = if cfg!(debug_assertions) { 12.0 } else { 1.0 };
 /// Steps per ray if they are not counted: about those in a tree over a hundred thousand triangles.
 const STEPS: f64 = 12.0;
 
-/// Picoseconds per ray of each case. A structure without counts, a failed build and declined rays get the median of all
-/// other structures except brute force.
+/// Picoseconds per ray of each case; if unknown, the median of all other structures except brute force.
 pub fn picoseconds(cases: &[Pair], built: &[Option<&Built>], workloads: &[Workload]) -> Vec<u64> {
     let predicted: Vec<Option<f64>> = cases.par_iter().map(|case| predicted(case, built, workloads)).collect();
     let is_brute = |case: &Pair| built[case.structure].is_some_and(|built| built.choice.entry.name == BRUTE_FORCE);

@@ -36,22 +36,17 @@ pub fn record_check(rays: &mut Rays, check: Checked, scene: &OsStr, built: &Buil
             format!("; {sentence}; see: sahara validate {} {structure} --ray \"{ray}\"", scene.escaped())
         });
         let counts = format!("{} on {}", plural(check.errors, "wrong hit"), plural(check.rays, "ray"));
-        drop_times(rays, counts + &hint);
+        rays.drop_times(counts + &hint);
     }
     rays.checked = Some(check);
 }
 
-/// Drops the times of a structure on all workloads if it has wrong hits on one. A structure with known defects loses
-/// only the times of the workload with the wrong hits.
+/// Drops all times of a structure if it has wrong hits on one workload and no known defects.
 pub fn drop_times_of_wrong_tree(structure: &mut Structure) {
     let Some(wrong) = structure.rays.iter().find(|rays| rays.wrong) else { return };
     if known_defect(&structure.name).is_none() {
         let reason = format!("its hits on {} rays are wrong", wrong.workload);
         let timed = structure.rays.iter_mut().filter(|rays| rays.untimed.is_none());
-        timed.for_each(|rays| drop_times(rays, reason.clone()));
+        timed.for_each(|rays| rays.drop_times(reason.clone()));
     }
-}
-
-fn drop_times(rays: &mut Rays, reason: String) {
-    *rays = Rays { untimed: Some(reason), ns: vec![], parts: vec![], rays: 0, checksum: 0, ..rays.clone() };
 }

@@ -6,51 +6,34 @@ use crate::report::words::distinct;
 use crate::scene::Scene;
 use crate::study::StudyError;
 
-/// Approximate bytes per triangle of a structure. Finished trees take 50 to 110 bytes; the last two builds take twice
-/// as much during the build.
+/// Approximate bytes per triangle of a structure: 50 to 110 in finished trees, twice as many during a build.
 const BYTES: u64 = 100;
 
-/// Rejects a case that the system would kill when it builds the last structures: all structures of an epoch exist at
-/// the same time, because their samples alternate.
+/// Rejects a case that the system would kill: all structures of an epoch exist at once, as their samples alternate.
 pub fn fits(choices: &[Choice], scene: &Scene) -> Result<(), StudyError> {
-    let structures = choices.len();
     // A twin is built in addition to the named structures.
-    let twins = structures - distinct(choices.iter().map(|choice| &choice.label)).len();
-    fits_into(memory(), structures, scene.mesh.len()).map_err(|TooMany { fitting, needed, there }| StudyError::Memory {
-        scene: scene.name.clone(),
-        structures,
-        needed,
-        there,
-        most: fitting.saturating_sub(twins),
-    })
+    let twins = choices.len() - distinct(choices.iter().map(|choice| &choice.label)).len();
+    fits_into(memory(), [choices.len(), twins], scene.mesh.len(), &scene.name)
 }
 
-/// Whether `structures` structures over `triangles` triangles certainly fit, including the mesh and the memory of the
-/// last build.
+/// Whether this number of structures certainly fits, including the mesh and the memory of the last build.
 pub fn may_fit(structures: usize, triangles: usize) -> bool {
-    fits_into(memory(), structures + 2, triangles).is_ok()
+    fits_into(memory(), [structures + 2, 0], triangles, "").is_ok()
 }
 
-/// There are more structures than fit into memory.
-#[derive(Debug, PartialEq)]
-struct TooMany {
-    /// The number of structures that fit.
-    fitting: usize,
-    /// Gigabytes.
-    needed: f64,
-    there: f64,
-}
-
-/// Whether this number of structures fits into `memory` bytes.
-fn fits_into(memory: Option<u64>, structures: usize, triangles: usize) -> Result<(), TooMany> {
+/// Whether all structures, of which some are twins, fit into `memory` bytes.
+fn fits_into(
+    memory: Option<u64>,
+    [structures, twins]: [usize; 2],
+    triangles: usize,
+    scene: &str,
+) -> Result<(), StudyError> {
     let each = triangles as u64 * BYTES;
     let needed = structures as u64 * each;
-    match memory {
-        Some(there) if needed > there => {
-            Err(TooMany { fitting: (there / each) as usize, needed: needed as f64 / 1e9, there: there as f64 / 1e9 })
-        }
-        _ => Ok(()),
-    }
+    let Some(there) = memory.filter(|there| needed > *there) else { return Ok(()) };
+    let most = ((there / each) as usize).saturating_sub(twins);
+    let [needed, there] = [needed, there].map(|bytes| bytes as f64 / 1e9);
+    Err(StudyError::Memory { scene: scene.into(), structures, needed, there, most })
 }
 
 #[cfg(test)]
@@ -60,17 +43,20 @@ mod tests {
     #[test]
     fn as_many_structures_as_fit_are_measured_and_a_refusal_says_how_many() {
         let there = Some(24_500_000_000);
-        assert_eq!(fits_into(there, 14, 10_000_000), Ok(()));
-        assert_eq!(fits_into(there, 24, 10_000_000), Ok(()));
-        let too_many = TooMany { fitting: 24, needed: 38.0, there: 24.5 };
-        assert_eq!(fits_into(there, 38, 10_000_000), Err(too_many));
-        assert_eq!(fits_into(there, 38, 100_000), Ok(()));
-        assert_eq!(fits_into(None, 1000, 1 << 30), Ok(()), "nothing is refused where nothing is known");
-
-        let refusal = |most| StudyError::Memory { scene: "A".into(), structures: 9, needed: 27.0, there: 25.0, most };
-        let numbers = "A: 9 structures need about 27 GB at once, but this machine has 25 GB: name ";
-        let said = [0, 1, 7].map(|most| refusal(most).to_string());
-        let advice = ["", "at most 1 structure, or ", "at most 7 structures, or "];
-        assert_eq!(said, advice.map(|advice| format!("{numbers}{advice}a smaller scene")));
+        for (memory, structures, triangles) in
+            [(there, 14, 10_000_000), (there, 24, 10_000_000), (there, 38, 100_000), (None, 1000, 1 << 30)]
+        {
+            assert!(fits_into(memory, [structures, 0], triangles, "A").is_ok(), "{structures} in {memory:?}");
+        }
+        for (structures, twins, triangles, needed, advice) in [
+            (38, 0, 10_000_000, 38, "at most 24 structures, or "),
+            (25, 1, 10_000_000, 25, "at most 23 structures, or "),
+            (3, 1, 120_000_000, 36, "at most 1 structure, or "),
+            (2, 1, 210_000_000, 42, ""),
+        ] {
+            let refusal = fits_into(there, [structures, twins], triangles, "A").unwrap_err();
+            let numbers = format!("{structures} structures need about {needed} GB at once, but this machine has 24 GB");
+            assert_eq!(refusal.to_string(), format!("A: {numbers}: name {advice}a smaller scene"));
+        }
     }
 }

@@ -14,6 +14,7 @@ use crate::registry::Registry;
 use crate::request::{SceneRequest, ViewArgs, WorkloadRequest, scene, with_twin};
 use crate::scene::WorkloadKind;
 use crate::study::case::tests::example;
+use crate::study::dataset::tests::dataset;
 use crate::study::measurement::{Measurement, measurements};
 use crate::study::{Dataset, JoinedEpochs, Measured, Status, join};
 use crate::triangle::{MollerTrumbore, TriangleTest};
@@ -132,7 +133,7 @@ fn run(specs: &[&str]) -> Result<Dataset, StudyError> {
     let epochs = [0, 1].map(|epoch| measured(&Case { epoch, ..case.clone() }, &mut |_| ()));
     let mut joined = join(epochs.into_iter().collect::<Result<_, _>>()?);
     joined.failures.pop().map_or(Ok(()), Err)?;
-    Ok(Dataset::new(crate::measure::Provenance::capture(1), joined.measured))
+    Ok(dataset(joined.measured))
 }
 
 #[test]

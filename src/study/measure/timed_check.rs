@@ -36,8 +36,7 @@ pub struct TimedCheck<'a> {
 struct TreeHits {
     name: &'static str,
     triangle_test: &'static str,
-    /// The tree. A structure over its triangle test must return its bits, any other structure must agree within exact
-    /// arithmetic and rounding.
+    /// A structure over its triangle test must return its bits, any other one must agree within rounding.
     tree: Reference,
     /// Judges differences: brute force over the structure's test, or over `exact` if the suite lacks this test.
     judge: Reference,
@@ -105,8 +104,7 @@ impl<'a> TimedCheck<'a> {
         Ok(self.references.len() - 1)
     }
 
-    /// Judges the differences. The tree may be wrong itself, so brute force traces the disputed rays, or as many of
-    /// them as it can afford.
+    /// Judges the differences. The tree may be wrong itself, so brute force traces as many disputed rays as affordable.
     fn judged(
         &self,
         built: &Built,
@@ -173,21 +171,14 @@ impl TreeHits {
 /// The hits of a structure, which receives the rays as in the timing; a runner receives all of them at once.
 fn traced(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> QueryResults {
     let chunk = if accel.remote().is_some() { rays.len().max(1) } else { TILE };
-    let chunks = rays.par_chunks(chunk);
-    match query {
-        Query::Closest => {
-            let mut hits = vec![None; rays.len()];
-            chunks.zip(hits.par_chunks_mut(chunk)).for_each(|(rays, hits)| {
-                accel.load(Cow::Borrowed(rays)).closest_hits(hits);
-            });
-            QueryResults::Closest(hits)
-        }
-        Query::Any => {
-            let mut hits = vec![false; rays.len()];
-            chunks.zip(hits.par_chunks_mut(chunk)).for_each(|(rays, hits)| {
-                accel.load(Cow::Borrowed(rays)).any_hits(hits);
-            });
-            QueryResults::Any(hits)
-        }
+    let mut results = QueryResults::empty(query);
+    results.resize(rays.len());
+    let (mut batches, mut rest) = (vec![], results.first(rays.len()));
+    for rays in rays.chunks(chunk) {
+        let (slots, others) = rest.split(rays.len());
+        batches.push((rays, slots));
+        rest = others;
     }
+    batches.into_par_iter().for_each(|(rays, slots)| slots.query(accel.load(Cow::Borrowed(rays)).as_ref()));
+    results
 }

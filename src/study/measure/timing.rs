@@ -26,6 +26,7 @@ pub enum SampleFailure {
 }
 
 pub struct Timing<'a> {
+    pub cases: &'a [Pair],
     /// The requested structures.
     pub choices: &'a [Choice],
     /// The built structures, in the same order; `None` if a build failed.
@@ -38,45 +39,34 @@ pub struct Timing<'a> {
     pub by_clock: bool,
 }
 
-/// The numbers of rays and samples of all cases, the same in every epoch.
-pub struct Allotted {
-    cases: Vec<Pair>,
-    pub allotment: Allotment,
-}
-
 impl Timing<'_> {
-    /// The number of rays and of samples of each of `cases`, from the cost of their rays. Failed builds and declined
-    /// workloads are included: so an epoch in which a program fails decides the same for all others.
-    pub fn allot(&self, cases: &[Pair], plan: &SamplePlan) -> Allotted {
+    /// The number of rays and of samples of each case, from the cost of its rays. Failed builds and declined workloads
+    /// are included: so an epoch in which a program fails decides the same for all others.
+    pub fn allot(&self, plan: &SamplePlan) -> Allotment {
         // Twins, which have the same label, take the same number of rays.
-        let group = |case: &Pair| {
-            let label = |structure: usize| &self.choices[structure].label;
-            let alike =
-                |other: &Pair| other.workload == case.workload && label(other.structure) == label(case.structure);
-            cases.iter().position(alike).expect("it is among them")
-        };
-        let costs = ray_cost::picoseconds(cases, self.built, self.workloads);
+        let label = |case: &Pair| (case.workload, &self.choices[case.structure].label);
+        let group =
+            |case: &Pair| self.cases.iter().position(|other| label(other) == label(case)).expect("it is among them");
+        let costs = ray_cost::picoseconds(self.cases, self.built, self.workloads);
         let cost =
             |(case, ps): (&Pair, u64)| Cost { rays: self.workloads[case.workload].rays.len(), ps, group: group(case) };
-        let costs: Vec<Cost> = cases.iter().zip(costs).map(cost).collect();
-        Allotted { cases: cases.to_vec(), allotment: allot(&costs, plan) }
+        allot(&self.cases.iter().zip(costs).map(cost).collect::<Vec<_>>(), plan)
     }
 
-    /// Takes interleaved samples on the allotted rays, of the cases for which `is_timed` returns true, on a pinned
-    /// thread if there is one. The samples of any two structures on a workload are on the same rays, or one has subsets
-    /// on the rays of the other.
+    /// Takes interleaved samples on the allotted rays of the cases that are timed. The samples of any two structures on
+    /// a workload are on the same rays, or one has subsets on the rays of the other.
     ///
     /// The cost of a ray for a runner is unknown: its clock may allot it fewer rays, and other ones in another epoch.
-    /// So it and all other structures of its workload are also timed on the next level: epochs then have rays in
-    /// common.
+    /// So it and all others of its workload are also timed on the next level: epochs then have rays in common.
     pub fn take(
         &self,
-        allotted: &Allotted,
+        allotment: &Allotment,
         is_timed: &dyn Fn(&Pair) -> bool,
         plan: &SamplePlan,
         progress: &mut dyn FnMut(usize),
     ) -> Vec<Result<Samples, SampleFailure>> {
-        let Allotted { cases: all, allotment: Allotment { runs, levels, share_ns } } = allotted;
+        let Allotment { runs, levels, share_ns } = allotment;
+        let all = self.cases;
         let timed: Vec<usize> = (0..all.len()).filter(|&i| is_timed(&all[i])).collect();
         let pass = |&i: &usize| {
             let workload = &self.workloads[all[i].workload];
@@ -95,23 +85,19 @@ impl Timing<'_> {
         let clock = own.as_ref().map_or(self.clock, |clock| clock as &dyn Clock);
 
         let mut levels = levels.clone();
+        let built = |i: usize| self.built[all[i].structure];
         let is_remote = |built: &Built| built.accel.remote().is_some();
-        let is_by_clock =
-            |i: usize| self.built[all[i].structure].is_some_and(|built| self.by_clock || is_remote(built));
+        let is_by_clock = |i: usize| built(i).is_some_and(|built| self.by_clock || is_remote(built));
         for (&i, pass) in timed.iter().zip(&mut passes).filter(|(i, _)| is_by_clock(**i)) {
             // A prediction stands unless it is far off: then all epochs agree.
-            let most_ns =
-                if self.built[all[i].structure].is_some_and(is_remote) { *share_ns } else { SLACK * share_ns };
+            let most_ns = if built(i).is_some_and(is_remote) { *share_ns } else { SLACK * share_ns };
             levels[i] = level_by_clock(&Stopwatch::new(clock), pass.as_mut(), levels[i], most_ns);
         }
-        let cases: Vec<Of> = (0..all.len())
-            .map(|i| Of {
-                workload: all[i].workload,
-                all: self.workloads[all[i].workload].rays.len(),
-                level: levels[i],
-                is_by_clock: is_by_clock(i),
-            })
-            .collect();
+        let of = |(i, &Pair { workload, .. }): (usize, &Pair)| {
+            let all = self.workloads[workload].rays.len();
+            TimedRays { workload, all, level: levels[i], is_by_clock: is_by_clock(i) }
+        };
+        let cases: Vec<TimedRays> = all.iter().enumerate().map(of).collect();
         let mut samples: Vec<Samples> = timed.iter().map(|&i| none(&cases[i], &cases)).collect();
         let compared: Vec<usize> = timed.iter().map(|&i| all[i].workload).collect();
         take(clock, &mut passes, &compared, &SamplePlan { runs: *runs, ..*plan }, &mut samples, progress);
@@ -125,7 +111,7 @@ impl Timing<'_> {
 }
 
 /// Determines the rays on which a case is timed.
-struct Of {
+struct TimedRays {
     workload: usize,
     /// Rays of the workload.
     all: usize,
@@ -134,7 +120,7 @@ struct Of {
 }
 
 /// The samples of `case` before the first one: on its own rays and on the rays of each slower case of its workload.
-fn none(case: &Of, cases: &[Of]) -> Samples {
+fn none(case: &TimedRays, cases: &[TimedRays]) -> Samples {
     let own = Samples::none(case.all, case.level);
     let mut fewer = vec![];
     for other in cases.iter().filter(|other| other.workload == case.workload) {
@@ -157,9 +143,10 @@ mod tests {
 
     /// The sizes of the subsets of cases on two workloads.
     fn parts(cases: &[(usize, usize, bool)]) -> Vec<Vec<usize>> {
-        let of =
-            |&(workload, level, is_by_clock): &(usize, usize, bool)| Of { workload, all: 65_536, level, is_by_clock };
-        let cases: Vec<Of> = cases.iter().map(of).collect();
+        let cases: Vec<TimedRays> = cases
+            .iter()
+            .map(|&(workload, level, is_by_clock)| TimedRays { workload, all: 65_536, level, is_by_clock })
+            .collect();
         cases.iter().map(|case| none(case, &cases).parts.iter().map(|part| part.rays).collect()).collect()
     }
 
@@ -175,7 +162,7 @@ mod tests {
         assert_eq!(parts(&cases), [vec![16_384, 4096, 1024], vec![4096, 1024], vec![], vec![]]);
         // The last level has no next one.
         assert_eq!(parts(&[(0, 0, false), (0, 5, true)]), [vec![64], vec![]]);
-        let program = Of { workload: 0, all: 65_536, level: 1, is_by_clock: true };
+        let program = TimedRays { workload: 0, all: 65_536, level: 1, is_by_clock: true };
         assert_eq!(none(&program, &[]).asked, Some(5));
     }
 }

@@ -4,7 +4,8 @@ use super::original::{DEFAULT, HARD, MAIN, Row};
 use crate::accel::Query;
 use crate::measure::{AaNoise, Estimate, Rerun, cut_to_shared_epochs, epoch_values, median};
 use crate::request::TWIN;
-use crate::study::whole_times::WholeTimes;
+use crate::study::epoch::{Rays, Structure};
+use crate::study::epoch_medians::{epoch_medians, ratio, values};
 use crate::study::{Dataset, Epoch};
 
 /// Roles of structures. The settings of the sweep have their own [roles](original::SweepRow::role).
@@ -59,27 +60,44 @@ impl Replicated<'_> {
         self.rays().iter().sum()
     }
 
-    fn role(&self, role: &str) -> String {
-        if role == TREE && !self.report.is_hard() { DEFAULT.role() } else { role.into() }
+    /// The structure in this role.
+    fn structure<'a>(&self, epoch: &'a Epoch, role: &str) -> Option<&'a Structure> {
+        let is_setting = role == TREE && !self.report.is_hard();
+        let role = if is_setting { DEFAULT.role() } else { role.to_owned() };
+        epoch.structures.iter().find(|own| own.role == role)
     }
 
-    fn times(&self) -> WholeTimes<'_> {
-        WholeTimes { epochs: &self.epochs }
+    /// ln(seconds) of the structures in these roles for all rays, by epoch. Each workload has the speed of the rays that
+    /// all of these structures were timed on.
+    fn medians(&self, roles: &[&str]) -> Vec<Vec<f64>> {
+        let of_epoch = |epoch: &&Epoch| {
+            let in_role =
+                |role: &&str| self.structure(epoch, role).unwrap_or_else(|| panic!("no structure is {role:?}"));
+            let chosen: Vec<&Structure> = roles.iter().map(in_role).collect();
+            chosen.iter().map(|structure| log_seconds(structure, &chosen)).collect()
+        };
+        epoch_medians(self.epochs.iter().map(of_epoch).collect())
     }
 
     /// ln(time of the report's tree / time of another structure), by epoch.
     fn log_ratios(&self, other: &str) -> Vec<Vec<f64>> {
-        self.times().log_ratios(&self.role(TREE), other)
+        let logs = values(&self.medians(&[TREE, other]), |logs| logs[0] - logs[1]);
+        logs.into_iter().map(|log| vec![log]).collect()
     }
 
     fn noise(&self) -> AaNoise {
         AaNoise::new(&[self.log_ratios(TWIN)])
     }
 
+    /// Seconds with the structure `one` / seconds with the structure `other`.
+    fn ratio(&self, one: &str, other: &str) -> Estimate {
+        ratio(&self.medians(&[one, other]), |logs| logs[0] - logs[1], self.noise().of_ratio())
+    }
+
     /// Seconds for the picture with the structure in this role: the geometric mean over the epochs.
     pub fn seconds(&self, role: &str) -> Option<Estimate> {
-        let role = self.role(role);
-        self.first().in_role(&role).map(|_| self.times().seconds(&role, &self.noise()))
+        self.structure(self.first(), role)?;
+        Some(ratio(&self.medians(&[role]), |logs| logs[0], self.noise().weighted(&[1.0])))
     }
 
     /// `t'`: seconds / (rays x triangles).
@@ -90,30 +108,40 @@ impl Replicated<'_> {
 
     /// Whether only a subset of the rays was timed.
     pub fn is_sampled(&self, role: &str) -> Option<bool> {
-        Some(self.first().in_role(&self.role(role))?.rays.iter().any(|rays| rays.rays < rays.all))
+        Some(self.structure(self.first(), role)?.rays.iter().any(|rays| rays.rays < rays.all))
     }
 
     /// Build time in seconds, the median over the epochs.
     pub fn build_s(&self, role: &str) -> Option<f64> {
-        let role = self.role(role);
-        let builds = self.epochs.iter().filter_map(|epoch| epoch.in_role(&role)).map(|own| own.build_ns as f64);
+        let builds = self.epochs.iter().filter_map(|epoch| Some(self.structure(epoch, role)?.build_ns as f64));
         Some(median(&builds.collect::<Vec<_>>())? * 1e-9)
     }
 
     /// Triangle tests per ray and triangle; `None` if not counted.
     pub fn tests(&self, role: &str) -> Option<f64> {
-        let structure = self.first().in_role(&self.role(role))?;
-        let tests: u64 = structure.rays.iter().map(|rays| rays.counts?.whole_tests).sum::<Option<_>>()?;
+        let rays = &self.structure(self.first(), role)?.rays;
+        let tests: u64 = rays.iter().map(|rays| rays.counts?.whole_tests).sum::<Option<_>>()?;
         Some(tests as f64 / (self.total() as f64 * self.first().triangles as f64))
     }
 
     /// Seconds with every ray against every triangle / seconds with the report's tree; `None` on hard scenes.
     pub fn improvement(&self) -> Option<Estimate> {
-        (!self.report.is_hard()).then(|| self.times().ratio(BRUTE, &self.role(TREE), &self.noise()))
+        (!self.report.is_hard()).then(|| self.ratio(BRUTE, TREE))
     }
 
     /// Seconds with the report's tree / seconds with the SAH tree.
     pub fn faster(&self) -> Estimate {
-        self.times().ratio(&self.role(TREE), SAH, &self.noise())
+        self.ratio(TREE, SAH)
     }
+}
+
+/// ln(seconds) of a structure for all rays, by round, at the speed of the rays on which all of `beside` were timed.
+fn log_seconds(structure: &Structure, beside: &[&Structure]) -> Vec<f64> {
+    let seconds = |(kind, rays): (usize, &Rays)| {
+        let common = beside.iter().map(|other| other.rays[kind].rays).min().unwrap_or(rays.rays);
+        rays.ns_per_ray(common).into_iter().map(|pace| pace * rays.all as f64 * 1e-9).collect::<Vec<f64>>()
+    };
+    let kinds: Vec<Vec<f64>> = structure.rays.iter().enumerate().map(seconds).collect();
+    let rounds = kinds.iter().map(Vec::len).min().unwrap_or(0);
+    (0..rounds).map(|round| libm::log(kinds.iter().map(|kind| kind[round]).sum::<f64>())).collect()
 }
