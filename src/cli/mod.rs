@@ -40,7 +40,7 @@ use crate::panics;
 use crate::registry::Registry;
 use crate::request::{MEASURING, OUTPUT};
 use crate::simd::Level;
-use crate::study::process::{self, Listened, Processes, Written, build_watch, measure_into};
+use crate::study::process::{self, Written, build_watch, measure_for_run, measure_into};
 use crate::study::{Case, Status, Studies, Study};
 use progress::OnTerminal;
 use terminal::{Colour, Terminal};
@@ -117,8 +117,8 @@ fn read_case(text: &str) -> Result<Case, String> {
 struct Session<'a> {
     suite: &'a Suite,
     terminal: &'a Terminal,
-    /// The settings for a process per case; `None` measures all cases in this process.
-    processes: Option<&'a Processes>,
+    /// The options for a process per case; `None` measures all cases in this process.
+    processes: Option<&'a [OsString]>,
 }
 
 // The commands that are not studies. No doc comment: clap would use it as the description of the command.
@@ -234,8 +234,8 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, starts_proc
     // A child of `validate --hard` reports a panic to its parent by ending with one.
     let may_panic = matches.subcommand_name() == Some(validate::CHILD);
     let level = global.level.iter().flat_map(|level| ["--level", level.name()]).map(OsString::from);
-    let processes = starts_processes.then(|| Processes { options: level.collect() });
-    let session = Session { suite, terminal: &terminal, processes: processes.as_ref() };
+    let processes: Option<Vec<OsString>> = starts_processes.then(|| level.collect());
+    let session = Session { suite, terminal: &terminal, processes: processes.as_deref() };
     let run = || match (&process.case, &process.out) {
         (Some(case), Some(out)) => measure_case(&session, &process, case, out, args.clone()),
         _ => dispatch(&session, &matches, &global).inspect(|_| terminal.print_note_count()),
@@ -267,8 +267,7 @@ fn measure_case(
     }
     let watch = build_watch(case, args);
     if process.listen {
-        let measured = measure_into(case, out, &suite.registry, &watch, &mut Listened::new());
-        measured.map(drop).or_else(|error| process::report_failure(&error))?;
+        measure_for_run(case, out, &suite.registry, &watch)?;
         return Ok(Status::Right);
     }
     let what = match measure_into(case, out, &suite.registry, &watch, &mut OnTerminal::new(terminal, true))? {

@@ -37,11 +37,9 @@ pub struct Case {
 pub struct Settings {
     /// Samples per structure and workload, at least 1; fewer if the budget runs out.
     pub runs: usize,
-    /// Time for all samples of one scene and epoch, ns. Slow pairs are timed on fewer rays to stay within it. `None`:
-    /// all rays are timed.
+    /// Time for all samples of an epoch, ns: slow pairs are timed on fewer rays. `None`: all rays are timed.
     pub budget_ns: Option<u64>,
-    /// A structure slower than the median by more than this factor is timed on fewer rays. `None`: the factor is
-    /// unlimited.
+    /// A structure slower than the median by more than this factor is timed on fewer rays. `None`: no limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slowest: Option<f64>,
     pub check: Check,
@@ -80,14 +78,22 @@ pub enum Check {
 /// Triangle tests of brute force per workload: about two tenths of a second.
 pub const TESTS: usize = 1 << 27;
 
+impl Default for Check {
+    fn default() -> Self {
+        Self::BruteForce { tests: TESTS, limit_ns: None }
+    }
+}
+
+/// The usual [`Settings::slowest`]: more rays hardly improve the ratios of a slow structure, but take most of a run.
+pub const SLOWEST: f64 = 4.0;
+
 impl Settings {
     /// Whether a clock limits the checks, and so everything else that could take long.
     pub fn is_quick(&self) -> bool {
         matches!(self.check, Check::BruteForce { limit_ns: Some(_), .. })
     }
 
-    /// One sample of all rays on one thread, checked against brute force. The hits of the structure `guide` are the
-    /// origins of secondary rays.
+    /// One sample of all rays on one thread, checked against brute force; secondary rays start at the hits of `guide`.
     pub fn for_guide(guide: impl Into<String>) -> Self {
         Self {
             runs: 1,
@@ -102,19 +108,7 @@ impl Settings {
             threads: 1,
         }
     }
-}
 
-impl Default for Check {
-    fn default() -> Self {
-        Self::BruteForce { tests: TESTS, limit_ns: None }
-    }
-}
-
-/// The usual [`Settings::slowest`]. More rays hardly improve the ratios of a slow structure, and it would take up most
-/// of the run.
-pub const SLOWEST: f64 = 4.0;
-
-impl Settings {
     /// The settings of the options, with hits checked against brute force.
     ///
     /// # Errors
@@ -149,9 +143,8 @@ impl Case {
 
     /// The scene, its labels and the epoch: the readable part of the file name.
     pub fn key(&self) -> String {
-        let labels: Vec<String> = self.labels.iter().map(|(name, value)| format!("{name}={value}")).collect();
-        let words = [self.scene_title(), labels.join(" "), format!("epoch {}", self.epoch)];
-        words.into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
+        let labels: String = self.labels.iter().map(|(name, value)| format!("{name}={value} ")).collect();
+        format!("{} {labels}epoch {}", self.scene_title(), self.epoch)
     }
 
     /// Approximate duration, as a multiple of any unit.
@@ -177,11 +170,9 @@ impl Case {
 
     /// Everything that the result depends on, except the number of the epoch.
     fn identity(&self) -> Value {
-        let structures: Vec<Value> = self
-            .structures
-            .iter()
-            .map(|own| json!([own.spec, own.role, own.runner.as_ref().map(|runner| &runner.config)]))
-            .collect();
+        let structure =
+            |own: &StructureRequest| json!([own.spec, own.role, own.runner.as_ref().map(|own| &own.config)]);
+        let structures: Vec<Value> = self.structures.iter().map(structure).collect();
         json!({
             "study": self.study,
             "scene": [self.scene.hash, self.scene_title()],
@@ -194,10 +185,8 @@ impl Case {
 
     /// The settings and workloads that all scenes of a comparison share.
     pub fn group(&self) -> Map<String, Value> {
-        let mut map = match serde_json::to_value(&self.settings).expect("settings have text keys") {
-            Value::Object(map) => map,
-            _ => unreachable!("settings are a struct"),
-        };
+        let settings = serde_json::to_value(&self.settings).expect("settings have text keys");
+        let Value::Object(mut map) = settings else { unreachable!("settings are a struct") };
         map.remove("whole_counts");
         // Larger meshes have more time, unless the user sets the limit.
         map.remove("build_limit_s");

@@ -5,13 +5,10 @@ use std::path::Path;
 
 use clap::ArgMatches;
 
-use super::case::Case;
-use super::dataset::{Dataset, Measured};
-use super::join::{JoinedEpochs, join};
 use super::journal::{CaseFile, Journal, JournalError, of_all};
 use super::measure::{BuildWatch, Prepared, measure};
-use super::process::Processes;
-use super::{Plan, Screen, Stage, Status, Study, StudyError};
+use super::process::measure_apart;
+use super::{Case, Dataset, JoinedEpochs, Measured, Plan, Screen, Stage, Status, Study, StudyError, join};
 use crate::measure::{Clock, Provenance, SystemClock, Threads};
 use crate::registry::Registry;
 use crate::report::{Report, Table, terminal};
@@ -26,14 +23,14 @@ pub struct Run<'a> {
     pub keep_journal: Option<bool>,
     /// Whether the cases are measured again.
     pub fresh: bool,
-    /// Starts a process for each case; if `None`, this process measures them.
-    pub processes: Option<&'a Processes>,
+    /// The options of the processes that measure one case each; if `None`, this process measures all.
+    pub processes: Option<&'a [OsString]>,
     pub screen: &'a mut dyn Screen,
 }
 
 /// The result of a run.
 pub struct RunOutcome {
-    /// The measurements. `None` if the run was interrupted, or no scene could be measured: then no file is written.
+    /// `None` if the run was interrupted, or no scene could be measured: then no file is written.
     pub dataset: Option<Dataset>,
     pub report: Report,
     /// Tables that were not printed during the run.
@@ -58,19 +55,20 @@ pub fn run(study: &Study, matches: &ArgMatches, plan: &Plan, run: &mut Run) -> a
     let keep = run.keep_journal.unwrap_or(plan.keep_journal);
     let scratch = tempfile::Builder::new().prefix("sahara-").tempdir()?;
     let folder = if keep { run.folder.join(study.name) } else { scratch.path().to_owned() };
-    let journal = Journal::open_to_measure(&folder, provenance.clone(), run.fresh, &plan.cases)?;
-    if plan.cases.iter().any(|case| journal.get(case).is_none()) {
+    let journal = Journal::open(&folder, provenance.clone(), run.fresh, &plan.cases)?;
+    let missing: Vec<&Case> = plan.cases.iter().filter(|case| journal.get(case).is_none()).collect();
+    if !missing.is_empty() {
         threads.are_given().map_err(StudyError::Threads)?;
     }
-    let left = plan.cases.iter().filter(|case| journal.get(case).is_none());
-    run.screen.begin(left.map(Case::work).sum());
+    run.screen.begin(missing.iter().map(|case| case.work()).sum());
     run.screen.warn(&plan.warnings);
     run.screen.warn(provenance.too_many_threads().as_slice());
 
     let mut engine =
         Engine { study, matches, plan, journal, provenance, threads, loaded: None, failures: vec![], ended: vec![] };
     let stopped = engine.measure(run)?;
-    let (left, all) = (engine.left(), plan.cases.len());
+    let all = plan.cases.len();
+    let left = plan.cases.iter().filter(|case| engine.journal.get(case).is_none()).count();
     let stopped = stopped && left > 0;
     let mut outcome = engine.outcome(stopped, run.screen)?;
     if stopped {
@@ -102,11 +100,6 @@ struct Engine<'a> {
 }
 
 impl Engine<'_> {
-    /// The number of cases that are not measured.
-    fn left(&self) -> usize {
-        self.plan.cases.iter().filter(|case| self.journal.get(case).is_none()).count()
-    }
-
     /// Whether the scene of `case` gets no further epoch.
     fn has_ended(&self, case: &Case) -> bool {
         self.ended.iter().any(|ended| ended.is_of_scene(case))
@@ -141,10 +134,10 @@ impl Engine<'_> {
                 }
                 run.screen.done();
             }
-            let took = clock.now_ns() - start;
             // The next epoch takes about as long as this one.
+            let now = clock.now_ns();
             let limit = self.plan.limit.map_or(u64::MAX, |limit| limit.as_nanos() as u64);
-            let is_late = (clock.now_ns() - began).saturating_add(took) > limit;
+            let is_late = (now - began) + (now - start) > limit;
             let next = self.plan.cases[number + 1..].iter().any(|other| other.is_of_scene(case));
             let is_whole = self.journal.get(case).is_some() && (!next || is_late);
             if is_late {
@@ -163,18 +156,16 @@ impl Engine<'_> {
 
     /// The case; structures that epoch 0 could not build in time are marked as skipped.
     fn with_skipped(&self, case: &Case) -> Case {
-        let first = Case { epoch: 0, ..case.clone() };
-        match self.journal.get(&first) {
-            Some(file) if case.epoch > 0 => Case { structures: file.case.structures.clone(), ..case.clone() },
-            _ => case.clone(),
-        }
+        let first = self.journal.get(&Case { epoch: 0, ..case.clone() }).filter(|_| case.epoch > 0);
+        let structures = first.map_or(&case.structures, |file| &file.case.structures).clone();
+        Case { structures, ..case.clone() }
     }
 
     /// Measures a case, in its own process if `processes` allows, and writes the file `out`.
     fn measure_case(&mut self, case: &Case, out: &Path, run: &mut Run, clock: &dyn Clock) -> Result<(), StudyError> {
-        if let Some(processes) = run.processes {
-            let mut progress = |stage: Stage| run.screen.stage(&stage);
-            return processes.measure(case, out, self.threads.cores(), &mut progress);
+        let mut progress = |stage: Stage| run.screen.stage(&stage);
+        if let Some(options) = run.processes {
+            return measure_apart(options, case, out, self.threads.cores(), &mut progress);
         }
         let cause = |error: anyhow::Error| match error.downcast::<StudyError>() {
             Ok(known) => known,
@@ -182,7 +173,6 @@ impl Engine<'_> {
         };
         let loaded = self.loaded.take().filter(|(word, _)| *word == case.scene.word).map(|(_, scene)| scene);
         let prepared = Prepared::new(case, run.registry, loaded).map_err(cause)?;
-        let mut progress = |stage: Stage| run.screen.stage(&stage);
         let epoch = measure(case, &prepared, clock, &BuildWatch::default(), &mut progress)?;
         self.loaded = Some((case.scene.word.clone(), prepared.scene));
         CaseFile::write(&CaseFile::place(out)?, &self.provenance, case, &epoch)?;
@@ -201,21 +191,15 @@ impl Engine<'_> {
         Dataset::new(of_all(&all), measured)
     }
 
-    fn report(&self, dataset: &Dataset) -> Report {
-        (self.study.report)(dataset, self.matches)
-    }
-
     /// Prints the tables of one scene, as far as it is measured.
     fn print_scene(&self, case: &Case, is_whole: bool, screen: &mut dyn Screen) -> anyhow::Result<()> {
         let measured = self.joined(|other| other.is_of_scene(case)).measured;
         if measured.is_empty() {
             return Ok(());
         }
-        let of = match (is_whole, measured.len()) {
-            (true, _) => String::new(),
-            (false, epochs) => format!(" ({epochs} of {} epochs)", case.epochs),
-        };
-        for table in self.report(&self.dataset(measured)).tables().filter(|table| table.of_scene) {
+        let of = if is_whole { String::new() } else { format!(" ({} of {} epochs)", measured.len(), case.epochs) };
+        let report = (self.study.report)(&self.dataset(measured), self.matches);
+        for table in report.tables().filter(|table| table.of_scene) {
             screen.table(&Table { title: format!("{}{of}", table.title), ..table.clone() });
         }
         Ok(())
@@ -232,7 +216,7 @@ impl Engine<'_> {
         }
         let is_reported = !stopped && (self.failures.is_empty() || !measured.is_empty());
         let dataset = self.dataset(measured);
-        let report = self.report(&dataset);
+        let report = (self.study.report)(&dataset, self.matches);
         screen.warn(&report.warnings);
         let (mut tables, mut notes, mut foot) = (vec![], vec![], vec![]);
         if is_reported || !dataset.measured.is_empty() {
@@ -242,7 +226,10 @@ impl Engine<'_> {
             };
             let is_cut = |case: &Case| lacks(case) && (stopped || self.has_ended(case) && self.plan.limit.is_none());
             let whole = self.joined(|case| !is_cut(case)).measured;
-            let of_whole = if whole.is_empty() { report.clone() } else { self.report(&self.dataset(whole)) };
+            let of_whole = match whole.is_empty() {
+                true => report.clone(),
+                false => (self.study.report)(&self.dataset(whole), self.matches),
+            };
             tables = terminal::summary_tables(&of_whole);
             foot.extend(report.failures.iter().map(|own| own.sentence.clone()).filter(|own| !own.is_empty()));
             foot.extend(unchecked);

@@ -11,6 +11,7 @@ mod error;
 mod newest;
 
 use std::fs::{self, File, TryLockError};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use super::case::Case;
@@ -33,39 +34,26 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Opens the journal in `folder`, and creates the folder if it is missing. With `fresh` the existing cases are
-    /// measured again: their files stay, and the newest file counts.
+    /// Opens the journal in `folder` to measure the missing cases of `cases`, and creates the folder if it is missing.
+    /// With `fresh` the existing cases are measured again: their files stay, and the newest file counts. Only one run at
+    /// a time may measure: two would measure the same cases and disturb each other's times.
     ///
     /// # Errors
-    /// If a file cannot be read, or the folder cannot be created.
-    pub fn open(folder: &Path, provenance: Provenance, fresh: bool) -> Result<Self, JournalError> {
-        fs::create_dir_all(folder).map_err(|cause| JournalError::Write { path: folder.into(), cause })?;
-        let files = files(folder)?.iter().map(|path| CaseFile::read(path)).collect::<Result<Vec<_>, _>>()?;
-        let ignored = if fresh { files.len() } else { 0 };
-        Ok(Self { folder: folder.into(), provenance, files, ignored, _lock: None })
-    }
-
-    /// Like [`open`](Self::open), for a run that measures the missing cases of `cases`. Only one run at a time may do
-    /// so: two would measure the same cases and disturb each other's times.
-    ///
-    /// # Errors
-    /// Like [`open`](Self::open), and if cases are missing while another run measures into the folder.
-    pub fn open_to_measure(
-        folder: &Path,
-        provenance: Provenance,
-        fresh: bool,
-        cases: &[Case],
-    ) -> Result<Self, JournalError> {
+    /// If a file cannot be read, the folder cannot be created, or cases are missing while another run measures into it.
+    pub fn open(folder: &Path, provenance: Provenance, fresh: bool, cases: &[Case]) -> Result<Self, JournalError> {
         fs::create_dir_all(folder).map_err(|cause| JournalError::Write { path: folder.into(), cause })?;
         // Take the lock before reading the cases: they then include everything an earlier run wrote.
         let lock = File::open(folder).ok();
         // Some systems cannot lock folders, such as Windows and many network file systems: there the run continues.
         let is_taken = lock.as_ref().is_some_and(|own| matches!(own.try_lock(), Err(TryLockError::WouldBlock)));
-        let journal = Self::open(folder, provenance, fresh)?;
-        if cases.iter().all(|case| journal.get(case).is_some()) {
-            return Ok(journal);
+        let files = files(folder)?.iter().map(|path| CaseFile::read(path)).collect::<Result<Vec<_>, _>>()?;
+        let ignored = if fresh { files.len() } else { 0 };
+        let journal = Self { folder: folder.into(), provenance, files, ignored, _lock: lock };
+        match cases.iter().all(|case| journal.get(case).is_some()) {
+            true => Ok(Self { _lock: None, ..journal }),
+            false if is_taken => Err(JournalError::Busy(folder.into())),
+            false => Ok(journal),
         }
-        if is_taken { Err(JournalError::Busy(folder.into())) } else { Ok(Self { _lock: lock, ..journal }) }
     }
 
     /// The newest file of the case, of this build and machine.
@@ -111,18 +99,12 @@ const LONGEST: usize = 100;
 /// # Errors
 /// If it cannot be read.
 pub fn files(folder: &Path) -> Result<Vec<PathBuf>, JournalError> {
-    let unreadable = |cause| JournalError::Read { path: folder.into(), cause };
-    let mut found = vec![];
-    for entry in fs::read_dir(folder).map_err(unreadable)? {
-        let entry = entry.map_err(unreadable)?;
-        let is_hidden = entry.file_name().as_encoded_bytes().starts_with(b".");
-        let path = entry.path();
-        if !is_hidden && path.extension().is_some_and(|ending| ending == "json") && path.is_file() {
-            found.push(path);
-        }
-    }
-    found.sort();
-    Ok(found)
+    let paths = fs::read_dir(folder).and_then(|all| all.map(|entry| Ok(entry?.path())).collect::<io::Result<Vec<_>>>());
+    let mut paths = paths.map_err(|cause| JournalError::Read { path: folder.into(), cause })?;
+    let is_hidden = |path: &PathBuf| path.file_name().is_some_and(|name| name.as_encoded_bytes().starts_with(b"."));
+    paths.retain(|path| !is_hidden(path) && path.extension().is_some_and(|ending| ending == "json") && path.is_file());
+    paths.sort();
+    Ok(paths)
 }
 
 #[cfg(test)]

@@ -5,8 +5,9 @@ use std::ffi::OsStr;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use super::case::{Case, Settings};
+use super::{Case, Settings};
 use crate::escaped::quoted;
+use crate::report::words::each_once;
 use crate::request::{SceneRequest, StructureRequest, ViewArgs, WorkloadRequest, named_notes};
 use crate::scene::Scene;
 
@@ -16,7 +17,7 @@ pub struct Plan {
     pub cases: Vec<Case>,
     /// Notes below the tables.
     pub notes: Vec<String>,
-    /// The notes to print before the measurement.
+    /// Printed before the measurement.
     pub warnings: Vec<String>,
     /// Files that the study reads: no output may replace them.
     pub inputs: Vec<PathBuf>,
@@ -28,12 +29,8 @@ pub struct Plan {
 
 /// One scene of a plan.
 pub struct PlannedScene {
-    pub request: SceneRequest,
-    pub labels: BTreeMap<String, String>,
-    pub structures: Vec<StructureRequest>,
-    pub workloads: WorkloadRequest,
-    pub settings: Settings,
-    pub epochs: usize,
+    /// Its epoch 0, without a study.
+    pub case: Case,
 }
 
 impl PlannedScene {
@@ -45,19 +42,23 @@ impl PlannedScene {
         settings: &Settings,
         epochs: usize,
     ) -> Self {
-        Self {
-            request: SceneRequest::new(word.as_ref(), &ViewArgs::default(), scene),
+        let case = Case {
+            study: String::new(),
+            scene: SceneRequest::new(word.as_ref(), &ViewArgs::default(), scene),
             labels: BTreeMap::new(),
             structures: structures.to_vec(),
             workloads: workloads.clone(),
             settings: settings.clone(),
+            epoch: 0,
             epochs,
-        }
+            command: std::env::args_os().map(quoted).collect::<Vec<_>>().join(" "),
+        };
+        Self { case }
     }
 
     /// The same scene with a label.
     pub fn labelled(mut self, name: &str, value: impl Into<String>) -> Self {
-        self.labels.insert(name.into(), value.into());
+        self.case.labels.insert(name.into(), value.into());
         self
     }
 }
@@ -65,36 +66,19 @@ impl PlannedScene {
 impl Plan {
     /// All epochs of `scenes`, epoch 0 of all scenes first, with a journal that is kept.
     pub fn by_epoch(study: &str, scenes: &[PlannedScene]) -> Self {
-        let command: Vec<String> = std::env::args_os().map(quoted).collect();
-        let command = command.join(" ");
-        let case = |planned: &PlannedScene, epoch: usize| Case {
-            study: study.into(),
-            scene: planned.request.clone(),
-            labels: planned.labels.clone(),
-            structures: planned.structures.clone(),
-            workloads: planned.workloads.clone(),
-            settings: planned.settings.clone(),
-            epoch,
-            epochs: planned.epochs,
-            command: command.clone(),
+        let most = scenes.iter().map(|planned| planned.case.epochs).max().unwrap_or(0);
+        let of_epoch = |epoch| {
+            let planned = scenes.iter().map(|planned| &planned.case).filter(move |case| epoch < case.epochs);
+            planned.map(move |case| Case { study: study.into(), epoch, ..case.clone() })
         };
-        let most = scenes.iter().map(|planned| planned.epochs).max().unwrap_or(0);
-        let of_epoch = |epoch| scenes.iter().filter(move |planned| epoch < planned.epochs).map(move |own| (own, epoch));
-        let cases = (0..most).flat_map(of_epoch).map(|(planned, epoch)| case(planned, epoch)).collect();
-        Self { cases, keep_journal: true, ..Self::default() }
+        Self { cases: (0..most).flat_map(of_epoch).collect(), keep_journal: true, ..Self::default() }
     }
 
     /// The same plan, scene by scene: the tables of a scene are ready before the next scene begins.
     pub fn by_scene(mut self) -> Self {
-        let mut order: Vec<String> = vec![];
-        let mut number = |case: &Case| {
-            let key = Case { epoch: 0, ..case.clone() }.key();
-            order.iter().position(|known| *known == key).unwrap_or_else(|| {
-                order.push(key);
-                order.len() - 1
-            })
-        };
-        self.cases.sort_by_cached_key(|case| number(case));
+        let scene = |case: &Case| Case { epoch: 0, ..case.clone() }.key();
+        let order = each_once(self.cases.iter().map(scene));
+        self.cases.sort_by_cached_key(|case| order.iter().position(|known| *known == scene(case)));
         self
     }
 
@@ -113,17 +97,7 @@ mod tests {
 
     #[test]
     fn epochs_of_all_scenes_come_before_the_next_unless_the_plan_is_by_scene() {
-        let planned = |scene: &str, epochs| {
-            let case = example(scene, 0, &["sah-kd"]);
-            PlannedScene {
-                request: case.scene,
-                labels: BTreeMap::new(),
-                structures: case.structures,
-                workloads: case.workloads,
-                settings: case.settings,
-                epochs,
-            }
-        };
+        let planned = |scene: &str, epochs| PlannedScene { case: Case { epochs, ..example(scene, 0, &["sah-kd"]) } };
         let plan = Plan::by_epoch("compare", &[planned("B", 3), planned("A", 2)]);
         let keys = |plan: &Plan| plan.cases.iter().map(|case| format!("{}{}", case.scene.name, case.epoch)).collect();
         let found: Vec<String> = keys(&plan);

@@ -21,10 +21,9 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use super::case::Case;
-use super::journal::CaseFile;
+use super::journal::{CaseFile, JournalError};
 use super::measure::{BuildWatch, Prepared, measure};
-use super::{Screen, Stage, StudyError};
+use super::{Case, Screen, Stage, StudyError};
 use crate::measure::{Provenance, SystemClock, process_group, program};
 use crate::registry::Registry;
 
@@ -41,77 +40,66 @@ enum Message<'a> {
     Failed { sentence: String, of_one_scene: bool, wrong_answer: bool },
 }
 
-/// How processes start.
-#[derive(Clone, Debug, Default)]
-pub struct Processes {
-    /// Options of this process to pass on, such as the instruction level.
-    pub options: Vec<OsString>,
-}
-
 /// The prefix of a message line.
 const MARK: &str = "\u{1e}case ";
 
-impl Processes {
-    /// Starts a process that measures a case and writes the file `out`. Its threads are bound to `cores`, if these are
-    /// known.
-    ///
-    /// # Errors
-    /// Like the measuring of a case, and if the process cannot be started or ends without a result.
-    pub fn measure(
-        &self,
-        case: &Case,
-        out: &Path,
-        cores: Option<&[usize]>,
-        progress: &mut dyn FnMut(Stage),
-    ) -> Result<(), StudyError> {
-        let failure = |cause: String| StudyError::Process { key: case.key(), cause };
-        let text = serde_json::to_string(case).expect("a case has text keys");
-        let mut command = Command::new(program::executable());
-        command.args(&self.options).arg(format!("--{CASE}={text}")).arg(format!("--{OUT}")).arg(out);
-        command.arg(format!("--{LISTEN}"));
-        if let Some(cores) = cores {
-            let cores: Vec<String> = cores.iter().map(ToString::to_string).collect();
-            command.arg(format!("--{CORES}={}", cores.join(",")));
-        }
-        process_group::set_apart(&mut command);
-        // Runners have temporary files there: the folder is removed with everything that a killed process leaves.
-        let has_programs = case.structures.iter().any(|own| own.runner.is_some());
-        let scratch = if has_programs { tempfile::Builder::new().prefix("sahara-").tempdir().ok() } else { None };
-        command.envs(scratch.iter().flat_map(|folder| ["TMPDIR", "TMP", "TEMP"].map(|name| (name, folder.path()))));
-        let child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
-        let mut child = child.map_err(|cause| failure(format!("it cannot be started: {cause}")))?;
-        let (input, output) = (child.stdin.take(), child.stdout.take());
-        let child = Guard::new(child);
-        let mut input = input.expect("it has an input");
-        for line in BufReader::new(output.expect("it has an output")).split(b'\n') {
-            let line = line.map_err(|cause| failure(cause.to_string()))?;
-            let line = String::from_utf8_lossy(&line);
-            let Some((own, message)) = line.split_once(MARK) else {
-                crate::output::tell(&line);
-                continue;
-            };
-            let _ = write!(io::stderr(), "{own}");
-            match serde_json::from_str(message).map_err(|cause| failure(format!("it said {message:?}: {cause}")))? {
-                Message::Stage(stage) => progress(stage),
-                Message::Failed { sentence, of_one_scene, wrong_answer } => {
-                    return Err(StudyError::Reported { sentence, of_one_scene, wrong_answer });
-                }
-            }
-            // If the process has already ended, its last message or exit status is the error.
-            let _ = writeln!(input);
-        }
-        // Another thread may end it meanwhile.
-        let status = loop {
-            if let Some(status) = locked(&child.0).try_wait().map_err(|cause| failure(cause.to_string()))? {
-                break status;
-            }
-            thread::sleep(Duration::from_millis(1));
+/// Starts a process that measures a case and writes the file `out`. It receives the `options` of this process, such as
+/// the instruction level. Its threads are bound to `cores`, if these are known.
+///
+/// # Errors
+/// Like the measuring of a case, and if the process cannot be started or ends without a result.
+pub fn measure_apart(
+    options: &[OsString],
+    case: &Case,
+    out: &Path,
+    cores: Option<&[usize]>,
+    progress: &mut dyn FnMut(Stage),
+) -> Result<(), StudyError> {
+    let failure = |cause: String| StudyError::Process { key: case.key(), cause };
+    let text = serde_json::to_string(case).expect("a case has text keys");
+    let mut command = Command::new(program::executable());
+    command.args(options).arg(format!("--{CASE}={text}")).arg(format!("--{OUT}")).arg(out);
+    command.arg(format!("--{LISTEN}"));
+    let cores = cores.map(|cores| cores.iter().map(ToString::to_string).collect::<Vec<_>>().join(","));
+    command.args(cores.map(|cores| format!("--{CORES}={cores}")));
+    process_group::set_apart(&mut command);
+    // Runners have temporary files there: the folder is removed with everything that a killed process leaves.
+    let has_programs = case.structures.iter().any(|own| own.runner.is_some());
+    let scratch = if has_programs { tempfile::Builder::new().prefix("sahara-").tempdir().ok() } else { None };
+    command.envs(scratch.iter().flat_map(|folder| ["TMPDIR", "TMP", "TEMP"].map(|name| (name, folder.path()))));
+    let child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
+    let mut child = child.map_err(|cause| failure(format!("it cannot be started: {cause}")))?;
+    let (input, output) = (child.stdin.take(), child.stdout.take());
+    let child = Guard::new(child);
+    let mut input = input.expect("it has an input");
+    for line in BufReader::new(output.expect("it has an output")).split(b'\n') {
+        let line = line.map_err(|cause| failure(cause.to_string()))?;
+        let line = String::from_utf8_lossy(&line);
+        let Some((own, message)) = line.split_once(MARK) else {
+            crate::output::tell(&line);
+            continue;
         };
-        if status.success() && out.exists() {
-            return Ok(());
+        let _ = write!(io::stderr(), "{own}");
+        match serde_json::from_str(message).map_err(|cause| failure(format!("it said {message:?}: {cause}")))? {
+            Message::Stage(stage) => progress(stage),
+            Message::Failed { sentence, of_one_scene, wrong_answer } => {
+                return Err(StudyError::Reported { sentence, of_one_scene, wrong_answer });
+            }
         }
-        Err(failure(format!("it ended without a reply ({status})")))
+        // If the process has already ended, its last message or exit status is the error.
+        let _ = writeln!(input);
     }
+    // Another thread may end it meanwhile.
+    let status = loop {
+        if let Some(status) = locked(&child.0).try_wait().map_err(|cause| failure(cause.to_string()))? {
+            break status;
+        }
+        thread::sleep(Duration::from_millis(1));
+    };
+    if status.success() && out.exists() {
+        return Ok(());
+    }
+    Err(failure(format!("it ended without a reply ({status})")))
 }
 
 /// A process that is killed when it goes out of use.
@@ -177,16 +165,12 @@ pub fn measure_into(
     watch: &BuildWatch,
     screen: &mut dyn Screen,
 ) -> anyhow::Result<Written> {
-    let there = || -> anyhow::Result<bool> {
-        if !out.exists() {
-            return Ok(false);
-        }
-        let file = CaseFile::read(out)?;
-        anyhow::ensure!(file.case.is_same(case), super::journal::JournalError::Other(out.into()));
-        Ok(true)
+    let check_same = || -> anyhow::Result<()> {
+        anyhow::ensure!(CaseFile::read(out)?.case.is_same(case), JournalError::Other(out.into()));
+        Ok(())
     };
-    if there()? {
-        return Ok(Written::Before);
+    if out.exists() {
+        return check_same().map(|()| Written::Before);
     }
     let file = CaseFile::place(out)?;
     let prepared = Prepared::new(case, registry, None)?;
@@ -203,25 +187,32 @@ pub fn measure_into(
     if CaseFile::write(&file, &provenance, case, &epoch)? {
         return Ok(Written::Now);
     }
-    there()?;
-    Ok(Written::Meanwhile)
+    check_same().map(|()| Written::Meanwhile)
 }
 
-/// The screen of a process with a listening run.
-pub struct Listened(());
-
-impl Listened {
-    /// Makes this process end with the run: a killed run leaves no process that disturbs the next run.
-    #[allow(clippy::new_without_default)]
-    pub fn new() -> Self {
-        process_group::end_with_parent();
-        Self(())
-    }
+/// Measures a case like [`measure_into`], and reports the progress and a failure to the listening run. From now on this
+/// process ends with the run: a killed run leaves no process that disturbs the next run.
+///
+/// # Errors
+/// If a failure cannot be reported, because no run listens.
+pub fn measure_for_run(case: &Case, out: &Path, registry: &Registry, watch: &BuildWatch) -> io::Result<()> {
+    process_group::end_with_parent();
+    let Err(error) = measure_into(case, out, registry, watch, &mut ListeningRun) else { return Ok(()) };
+    let known = error.downcast_ref::<StudyError>();
+    say(&Message::Failed {
+        sentence: format!("{error:#}"),
+        of_one_scene: known.is_none_or(StudyError::is_of_one_scene),
+        wrong_answer: known.is_some_and(StudyError::is_wrong_answer),
+    })
 }
 
-impl Screen for Listened {
+struct ListeningRun;
+
+impl Screen for ListeningRun {
     fn stage(&mut self, stage: &Stage) {
-        if say(&Message::Stage(stage.clone())).and_then(|()| hear()).is_err() {
+        let reply =
+            say(&Message::Stage(stage.clone())).and_then(|()| io::stdin().lock().read_until(b'\n', &mut vec![]));
+        if !matches!(reply, Ok(1..)) {
             // The run has ended: exit, because this process would disturb the next run.
             std::process::exit(1);
         }
@@ -232,33 +223,11 @@ impl Screen for Listened {
     }
 }
 
-/// Reports the reason why the case was not measured.
-///
-/// # Errors
-/// If no run listens.
-pub fn report_failure(error: &anyhow::Error) -> io::Result<()> {
-    let known = error.downcast_ref::<StudyError>();
-    say(&Message::Failed {
-        sentence: format!("{error:#}"),
-        of_one_scene: known.is_none_or(StudyError::is_of_one_scene),
-        wrong_answer: known.is_some_and(StudyError::is_wrong_answer),
-    })
-}
-
 fn say(message: &Message) -> io::Result<()> {
     let line = serde_json::to_string(message).expect("a message has text keys");
     let mut out = io::stdout().lock();
     writeln!(out, "{MARK}{line}")?;
     out.flush()
-}
-
-/// The next line of the run.
-fn hear() -> io::Result<String> {
-    let mut line = String::new();
-    match io::stdin().read_line(&mut line)? {
-        0 => Err(io::ErrorKind::UnexpectedEof.into()),
-        _ => Ok(line),
-    }
 }
 
 /// Watches the builds of `case`, which a process with the arguments `args` measures. If a build takes too long, the
@@ -271,11 +240,9 @@ pub fn build_watch(case: &Case, args: Vec<OsString>) -> BuildWatch {
         let reason = format!("its build takes more than {limit} s: raise --build-limit, or set it to none");
         case.structures[structure].skipped = Some(reason);
         let text = serde_json::to_string(&case).expect("a case has text keys");
-        let is_case = |arg: &OsString| arg.to_string_lossy().starts_with(&format!("--{CASE}="));
-        let own =
-            args.iter().skip(1).map(|arg| if is_case(arg) { format!("--{CASE}={text}").into() } else { arg.clone() });
+        let is_other = |arg: &&OsString| !arg.to_string_lossy().starts_with(&format!("--{CASE}="));
         let mut command = Command::new(program::executable());
-        command.args(own);
+        command.args(args.iter().skip(1).filter(is_other)).arg(format!("--{CASE}={text}"));
         replace(command);
     };
     BuildWatch::new(Duration::from_secs_f64(limit), Box::new(again))
@@ -304,10 +271,10 @@ mod tests {
     #[test]
     fn a_process_that_ends_without_an_answer_is_one_sentence() {
         // The test program does not know this option.
-        let processes = Processes { options: vec!["--no-such-option".into()] };
+        let options = ["--no-such-option".into()];
         let out = tempfile::tempdir().unwrap();
         let case = example("Cube", 0, &["sah-kd"]);
-        let error = processes.measure(&case, &out.path().join("a.json"), None, &mut |_| ()).unwrap_err();
+        let error = measure_apart(&options, &case, &out.path().join("a.json"), None, &mut |_| ()).unwrap_err();
         let sentence = error.to_string();
         assert!(sentence.contains("Cube epoch 0") && sentence.contains("without a reply"), "{sentence}");
         assert!(error.is_of_one_scene() && !error.is_wrong_answer());

@@ -33,7 +33,7 @@ fn plan() -> Plan {
 /// Writes what a process would measure into the journal of the study, except `without`.
 fn measured(folder: &std::path::Path, without: &[(&str, usize)], change: fn(&Case, &mut Epoch)) {
     let provenance = Provenance { process_per_epoch: false, ..Provenance::of(&crate::measure::Threads::unstarted(1)) };
-    let journal = journal::Journal::open(&folder.join("tiny"), provenance.clone(), false).unwrap();
+    let journal = journal::Journal::open(&folder.join("tiny"), provenance.clone(), false, &[]).unwrap();
     for case in plan().cases {
         if without.contains(&(case.scene.name.as_str(), case.epoch)) {
             continue;

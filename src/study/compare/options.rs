@@ -199,9 +199,9 @@ impl CompareArgs {
             fitting.retain(|own| !named.leaves_out(own.name(), triangles));
             notes.extend((fitting.len() < structures.len()).then(|| left_out(scene)));
             let settings = Settings { build_limit_s: self.build_limit_s(triangles), ..settings.clone() };
-            let request = SceneRequest::new(word, &self.from, scene);
-            let plan = PlannedScene::new(own, &fitting, &workloads, &settings, epochs.into());
-            planned.push(PlannedScene { request, ..plan });
+            let mut plan = PlannedScene::new(own, &fitting, &workloads, &settings, epochs.into());
+            plan.case.scene = SceneRequest::new(word, &self.from, scene);
+            planned.push(plan);
         }
         let mut plan = Plan::by_epoch(NAME, &planned).by_scene().noting(scenes.iter().map(|(_, scene)| scene));
         plan.inputs = scene_files(registry, &self.scenes.scenes);

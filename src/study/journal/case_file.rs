@@ -9,9 +9,7 @@ use serde_json::Value;
 use super::JournalError;
 use crate::measure::Provenance;
 use crate::output::{OutputError, OutputFile};
-use crate::study::case::Case;
-use crate::study::dataset::Dataset;
-use crate::study::epoch::Epoch;
+use crate::study::{Case, Dataset, Epoch};
 
 /// A case with its results and provenance.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,10 +45,7 @@ impl CaseFile {
     /// # Errors
     /// If it has another version.
     pub fn of(path: &Path, value: Value) -> Result<Self, JournalError> {
-        let there = value.get("schema").and_then(Value::as_u64).unwrap_or(0) as u32;
-        if there != Dataset::SCHEMA {
-            return Err(JournalError::Schema { path: path.into(), there, here: Dataset::SCHEMA });
-        }
+        Dataset::check_schema(path, &value)?;
         let fields = serde_json::from_value(value).map_err(|cause| JournalError::damaged(path, &cause))?;
         let Fields { provenance, case, epoch, .. } = fields;
         Ok(Self { path: path.into(), provenance, case, epoch })

@@ -1,36 +1,16 @@
 //! Groups the cases of a journal that are comparable, and keeps the newest file of each case.
 
-use std::path::PathBuf;
-
-use serde_json::{Map, Value};
-
 use super::CaseFile;
 use crate::escaped::Escaped as _;
 use crate::measure::Provenance;
 use crate::report::number::plural;
 use crate::report::words::{each_once, listed};
-use crate::study::dataset::{Dataset, Measured};
-use crate::study::join::{JoinedEpochs, join};
+use crate::study::{Dataset, JoinedEpochs, Measured, join};
 
-/// Cases of one build, one machine and the same settings.
-struct Group {
-    study: String,
-    settings: Map<String, Value>,
-    machine: Map<String, Value>,
-    files: Vec<CaseFile>,
-}
-
-impl Group {
-    fn admits(&self, file: &CaseFile) -> bool {
-        self.study == file.case.study && self.settings == file.case.group() && self.machine == file.provenance.machine()
-    }
-}
-
-/// One dataset per group of settings, build and machine: the group with the most cases first, the newest first among
-/// equals. The newest file of a case counts; the notes of a dataset report replaced files, missing epochs and epochs
-/// that do not join.
+/// One dataset per group: the one with the most cases first, the newest first among equals. The newest file of a case
+/// counts; the notes of a dataset report replaced files, missing epochs and epochs that do not join.
 pub fn datasets(files: Vec<CaseFile>) -> Vec<Dataset> {
-    let mut datasets: Vec<Dataset> = groups(files).iter().map(|group| dataset(&group.files)).collect();
+    let mut datasets: Vec<Dataset> = groups(files).iter().map(|group| dataset(group)).collect();
     datasets.retain(|dataset| !dataset.measured.is_empty());
     datasets.sort_by_key(|dataset| std::cmp::Reverse((dataset.measured.len(), dataset.provenance.date.clone())));
     datasets
@@ -39,8 +19,8 @@ pub fn datasets(files: Vec<CaseFile>) -> Vec<Dataset> {
 /// The dataset of the group that was measured last, with a note if there are other groups.
 pub fn newest(files: Vec<CaseFile>) -> Option<Dataset> {
     let groups = groups(files);
-    let date = |group: &&Group| group.files.iter().map(|file| file.provenance.date.clone()).max();
-    let mut dataset = dataset(&groups.iter().max_by_key(date)?.files);
+    let date = |group: &&Vec<CaseFile>| group.iter().map(|file| file.provenance.date.clone()).max();
+    let mut dataset = dataset(groups.iter().max_by_key(date)?);
     if groups.len() > 1 {
         let (others, are) = (plural(groups.len() - 1, "group"), if groups.len() == 2 { "is" } else { "are" });
         dataset.notes.push(format!(
@@ -50,33 +30,28 @@ pub fn newest(files: Vec<CaseFile>) -> Option<Dataset> {
     Some(dataset)
 }
 
-fn groups(files: Vec<CaseFile>) -> Vec<Group> {
-    let mut groups: Vec<Group> = vec![];
+/// The cases of each study with the same settings, of one build and one machine.
+fn groups(files: Vec<CaseFile>) -> Vec<Vec<CaseFile>> {
+    let key = |file: &CaseFile| (file.case.study.clone(), file.case.group(), file.provenance.machine());
+    let mut groups: Vec<(_, Vec<CaseFile>)> = vec![];
     for file in files {
-        match groups.iter_mut().find(|group| group.admits(&file)) {
-            Some(group) => group.files.push(file),
-            None => {
-                let (study, settings) = (file.case.study.clone(), file.case.group());
-                groups.push(Group { study, settings, machine: file.provenance.machine(), files: vec![file] });
-            }
+        let key = key(&file);
+        match groups.iter_mut().find(|(other, _)| *other == key) {
+            Some((_, files)) => files.push(file),
+            None => groups.push((key, vec![file])),
         }
     }
-    groups
+    groups.into_iter().map(|(_, files)| files).collect()
 }
 
 /// The dataset of files of one group, joined.
 fn dataset(files: &[CaseFile]) -> Dataset {
     let mut newest: Vec<&CaseFile> = vec![];
-    let mut replaced: Vec<PathBuf> = vec![];
+    let mut replaced: Vec<&CaseFile> = vec![];
     for file in files {
         match newest.iter_mut().find(|own| own.case.is_of_scene(&file.case) && own.case.epoch == file.case.epoch) {
-            Some(own) => {
-                let is_newer = file.provenance.date > own.provenance.date;
-                replaced.push(if is_newer { own.path.clone() } else { file.path.clone() });
-                if is_newer {
-                    *own = file;
-                }
-            }
+            Some(own) if file.provenance.date > own.provenance.date => replaced.push(std::mem::replace(own, file)),
+            Some(_) => replaced.push(file),
             None => newest.push(file),
         }
     }
@@ -95,9 +70,9 @@ fn dataset(files: &[CaseFile]) -> Dataset {
     dataset.notes.extend(failures.iter().map(|failure| format!("{failure}; the scene is left out.")));
     dataset.notes.extend(unchecked);
     dataset.notes.extend(missing);
-    if let Some(path) = replaced.first() {
+    if let Some(first) = replaced.first() {
         let (cases, were) = (plural(replaced.len(), "case"), if replaced.len() == 1 { "was" } else { "were" });
-        let path = path.escaped();
+        let path = first.path.escaped();
         dataset.notes.push(format!("{cases} {were} measured again; the older files are ignored, e.g. {path}."));
     }
     // Different cases may run on different hosts, whose times differ even with the same processor.

@@ -4,17 +4,16 @@ use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 use super::*;
+use crate::report::words::each_once;
 use crate::study::case::tests::example as case;
 use crate::study::epoch::tests::example as epoch;
 
 fn provenance() -> Provenance {
-    let mut provenance = Provenance::capture(1);
-    provenance.commit = "c0ffee".into();
-    provenance
+    Provenance { commit: "c0ffee".into(), ..Provenance::capture(1) }
 }
 
 fn open(path: &Path) -> Result<Journal, JournalError> {
-    Journal::open(path, provenance(), false)
+    Journal::open(path, provenance(), false, &[])
 }
 
 /// Writes an epoch of a scene with this date into the journal.
@@ -36,21 +35,14 @@ fn journal(folder: &TempDir, n: usize) -> PathBuf {
     path
 }
 
-fn folder() -> TempDir {
-    tempfile::tempdir().unwrap()
-}
-
 fn sentence(error: JournalError, parts: &[&str]) {
     let text = error.to_string();
-    assert_eq!(text.lines().count(), 1, "{text}");
-    for part in parts {
-        assert!(text.contains(part), "{part:?} is not in {text:?}");
-    }
+    assert!(text.lines().count() == 1 && parts.iter().all(|part| text.contains(part)), "{parts:?} is not in {text:?}");
 }
 
 #[test]
 fn cases_of_other_settings_builds_and_machines_lie_side_by_side() {
-    let folder = folder();
+    let folder = tempfile::tempdir().unwrap();
     let path = journal(&folder, 1);
     let own = case("Cube", 0, &["x"]);
     let mut slow = own.clone();
@@ -62,15 +54,15 @@ fn cases_of_other_settings_builds_and_machines_lie_side_by_side() {
     for change in [|p: &mut Provenance| p.commit = "decade".into(), |p: &mut Provenance| p.cpu = "another".into()] {
         let mut other = provenance();
         change(&mut other);
-        let mut journal = Journal::open(&path, other, false).unwrap();
+        let mut journal = Journal::open(&path, other, false, &[]).unwrap();
         assert!(journal.get(&own).is_none(), "another build or machine would measure something else");
         measure(&mut journal, &own, "2026-01-03");
     }
     assert_eq!(files(&path).unwrap().len(), 4, "nothing was thrown away");
     let host = Provenance { host: "elsewhere".into(), load: Some(9.0), ..provenance() };
-    assert!(Journal::open(&path, host, false).unwrap().get(&own).is_some(), "another host goes on");
+    assert!(Journal::open(&path, host, false, &[]).unwrap().get(&own).is_some(), "another host goes on");
     // The newest file counts, in this run and the next.
-    let mut fresh = Journal::open(&path, provenance(), true).unwrap();
+    let mut fresh = Journal::open(&path, provenance(), true, &[]).unwrap();
     assert!(fresh.get(&own).is_none());
     let second = measure(&mut fresh, &own, "2026-01-04");
     for journal in [fresh, open(&path).unwrap()] {
@@ -87,15 +79,12 @@ fn names_of_files_are_plain_and_of_one_case_alone() {
         assert!(name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-'), "{name}");
         assert!(!name.is_empty() && name.len() < 128, "{name}");
     }
-    let mut distinct = names.to_vec();
-    distinct.sort();
-    distinct.dedup();
-    assert_eq!(distinct.len(), names.len(), "{names:?}");
+    assert_eq!(each_once(&names).len(), names.len(), "{names:?}");
 }
 
 #[test]
 fn what_is_no_case_or_damaged_is_named_and_left_alone() {
-    let folder = folder();
+    let folder = tempfile::tempdir().unwrap();
     let path = journal(&folder, 1);
     let file = files(&path).unwrap().remove(0);
     let text = fs::read_to_string(&file).unwrap();
@@ -117,7 +106,7 @@ fn what_is_no_case_or_damaged_is_named_and_left_alone() {
 
 #[test]
 fn cases_of_equal_settings_are_a_dataset_and_what_was_measured_again_counts_once() {
-    let folder = folder();
+    let folder = tempfile::tempdir().unwrap();
     let path = journal(&folder, 2);
     let mut journal = open(&path).unwrap();
     // A sphere of the same group, and later the cube again with other settings.
@@ -149,16 +138,18 @@ fn cases_of_equal_settings_are_a_dataset_and_what_was_measured_again_counts_once
 
 #[test]
 fn provenance_is_of_the_oldest_with_all_hosts_and_the_highest_load_that_no_job_made() {
-    let of = |host: &str, date: &str, load: Option<f64>| Provenance {
-        host: host.into(),
-        date: date.into(),
-        load,
-        threads: 1,
-        ..provenance()
+    let joined = |all: [(&str, &str, Option<f64>); 2]| {
+        let of = |(host, date, load): (&str, &str, _)| Provenance {
+            host: host.into(),
+            date: date.into(),
+            load,
+            threads: 1,
+            ..provenance()
+        };
+        of_all(&all.map(of).iter().collect::<Vec<_>>())
     };
-    let all = [of("n1", "2026-03", Some(0.5)), of("n2", "2026-02", Some(9.0))];
-    let joined = of_all(&all.iter().collect::<Vec<_>>());
-    assert_eq!((joined.date.as_str(), joined.host.as_str(), joined.load), ("2026-02", "n1, n2", Some(9.0)));
-    let after = [of("n1", "2026-03", None), of("n1", "2026-04", Some(9.0))];
-    assert_eq!(of_all(&after.iter().collect::<Vec<_>>()).load, Some(8.0), "less what the job before it has made");
+    let two = joined([("n1", "2026-03", Some(0.5)), ("n2", "2026-02", Some(9.0))]);
+    assert_eq!((two.date.as_str(), two.host.as_str(), two.load), ("2026-02", "n1, n2", Some(9.0)));
+    let after = joined([("n1", "2026-03", None), ("n1", "2026-04", Some(9.0))]);
+    assert_eq!(after.load, Some(8.0), "less what the job before it has made");
 }

@@ -38,8 +38,7 @@ pub const STUDY: Study = Study {
 const STRUCTURES: [&str; 7] =
     ["median-kd", "sah-kd", "sah-kd-wide", "sah-hybrid", "sah-bvh", "obvhs-bvh2", "obvhs-cwbvh"];
 
-/// Maximum number of epochs for meshes of more than [`LEVEL_8`] triangles: the builds of the finest sphere take minutes
-/// per epoch.
+/// Maximum number of epochs for meshes of more than [`LEVEL_8`] triangles, whose builds take minutes.
 const EPOCHS_OF_FINEST: usize = 3;
 
 #[derive(Clone, Debug, clap::Args)]
@@ -89,7 +88,7 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     let scenes = spheres.iter().chain(&meshes).map(|(_, scene)| scene);
     let mut plan = Plan::by_epoch(NAME, &all).noting(scenes);
 
-    if all.iter().any(|planned| planned.epochs < epochs) {
+    if all.iter().any(|planned| planned.case.epochs < epochs) {
         plan.notes.push(format!(
             "Meshes of more than {} triangles have only {few} epochs: their builds take minutes.",
             count(LEVEL_8 as u64)
