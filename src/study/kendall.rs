@@ -23,11 +23,9 @@ pub fn kendall(pairs: &[(f64, f64)], compared: impl Fn(usize, usize) -> bool) ->
 
 /// How well estimates have the expected order.
 pub struct Order {
-    /// Kendall's tau. The ends of its interval count all couples with an uncertain order for and against the expected
-    /// order.
+    /// Kendall's tau. The ends of its interval count all couples with an uncertain order for and against the order.
     pub tau: Estimate,
-    /// The couples that significantly have the other order: the index expected to be larger, and the index expected to
-    /// be smaller.
+    /// The couples that significantly have the other order: the indices of the expected larger and smaller one.
     pub reversed: Vec<[usize; 2]>,
 }
 

@@ -2,15 +2,16 @@
 
 use serde_json::Value;
 
-use super::dataset::{Dataset, SceneEpochs};
 use super::epoch::{Rays, Shape};
+use super::{Dataset, SceneEpochs};
 use crate::accel::Query;
 use crate::measure::{AaNoise, SubsetSamples, log_ratios, median};
 use crate::report::words::scene_name;
 use crate::report::{Cell, Table};
 use crate::request::is_obvhs;
 
-/// One structure on one workload of one scene. An unknown value is `None`; numbers of rays and of hits are 0 instead.
+/// One structure on one workload of one scene; see [`Epoch`](super::Epoch) for the fields that it copies. An unknown
+/// value is `None`; numbers of rays and of hits are 0 instead.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Measurement {
     pub scene: String,
@@ -18,13 +19,10 @@ pub struct Measurement {
     pub triangles: usize,
     /// Triangles without area.
     pub degenerate: usize,
-    /// Whether a generated mesh replaces a real one.
     pub stand_in: bool,
     /// Name in the registry.
     pub structure: String,
-    /// The name with the keys that differ from their defaults.
     pub label: String,
-    /// The role of the structure in the study; empty if it has none.
     pub role: String,
     pub config: Value,
     pub triangle_test: String,
@@ -37,7 +35,6 @@ pub struct Measurement {
     pub rays: usize,
     /// Whether a sample has fewer rays than the workload; also `true` without a time.
     pub sampled: bool,
-    /// The samples of `samples_ns`, restricted to the subsets of rays on which slower structures are timed.
     pub parts: Vec<SubsetSamples>,
     /// The number of rays over which hits, tests, steps, instructions and branch misses are counted.
     pub counted_rays: usize,
@@ -66,7 +63,6 @@ pub struct Measurement {
     pub instructions_per_ray: Option<f64>,
     pub branch_misses_per_ray: Option<f64>,
     pub shape: Shape,
-    /// The feature of these rays that the structure does not support.
     pub declined: Option<String>,
     /// Rays of the check in epoch 0, see [`Checked`](super::epoch::Checked).
     pub checked_rays: usize,
@@ -165,9 +161,8 @@ fn measurement(scene: &SceneEpochs, place: usize, twin: Option<usize>, workload:
     let epoch = scene.epochs[0];
     let structure = &epoch.structures[place];
     let first = &structure.rays[workload];
-    let builds =
-        |place: usize| -> Vec<u64> { scene.epochs.iter().map(|epoch| epoch.structures[place].build_ns).collect() };
-    let build_samples_ns = builds(place);
+    let builds = |place: usize| scene.epochs.iter().map(|epoch| epoch.structures[place].build_ns).collect();
+    let build_samples_ns: Vec<u64> = builds(place);
     let as_numbers: Vec<f64> = build_samples_ns.iter().map(|&ns| ns as f64).collect();
     let samples_ns = samples(scene, place, workload);
     let trace_ns = median(&samples_ns);
@@ -264,8 +259,7 @@ impl Measurement {
         self.wrong_hits > 0
     }
 
-    /// The time of every sample on `rays` rays, ns: the whole sample or a subset of it. `None` if no subset of this
-    /// size was timed.
+    /// The time of every sample on `rays` rays, ns: the whole sample or a subset of it; `None` if it was not timed.
     fn samples_of(&self, rays: usize) -> Option<Vec<f64>> {
         if rays == self.rays {
             return Some(self.samples_ns.clone());
@@ -274,8 +268,7 @@ impl Measurement {
         Some(part.ns.iter().map(|&ns| ns.max(1) as f64).collect())
     }
 
-    /// Median time per ray, ns, over `rays` rays: the whole sample or a subset of it. `None` if no subset of this size
-    /// was timed.
+    /// Median time per ray, ns, over `rays` rays: the whole sample or a subset of it; `None` if it was not timed.
     pub fn ns_per_ray_of(&self, rays: usize) -> Option<f64> {
         Some(median(&self.samples_of(rays)?)? / rays as f64)
     }
@@ -296,10 +289,10 @@ impl Measurement {
     /// ln(`numerator` / `denominator`) by epoch and round. `None` if the numbers of samples differ or are no multiple
     /// of the epochs, or a time is 0.
     fn ratios(&self, numerator: &[f64], denominator: &[f64]) -> Option<Vec<Vec<f64>>> {
-        let whole = !denominator.is_empty() && self.epochs > 0 && denominator.len().is_multiple_of(self.epochs);
-        let positive = || numerator.iter().chain(denominator).all(|&time| time > 0.0);
-        (numerator.len() == denominator.len() && whole && positive())
-            .then(|| log_ratios(numerator, denominator, self.epochs))
+        let is_whole = !denominator.is_empty() && self.epochs > 0 && denominator.len().is_multiple_of(self.epochs);
+        let is_positive = numerator.iter().chain(denominator).all(|&time| time > 0.0);
+        let are_pairs = numerator.len() == denominator.len() && is_whole && is_positive;
+        are_pairs.then(|| log_ratios(numerator, denominator, self.epochs))
     }
 
     /// ln(ns per ray) of each epoch, the median over its rounds. `None` without a time.

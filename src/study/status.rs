@@ -25,8 +25,7 @@ pub enum Status {
 }
 
 impl Status {
-    /// The status that follows from `failures`. Wrong hits of a baseline or peer with known defects do not
-    /// count.
+    /// The status that follows from `failures`. Wrong hits of a structure with known defects do not count.
     pub fn of(failures: &[Failure]) -> Self {
         if failures.iter().any(|failure| failure.wrong && known_defect(&failure.structure).is_none()) {
             Self::Wrong

@@ -46,10 +46,11 @@ impl Verdict {
 
     /// One sentence about the structure `name`.
     pub fn sentence(self, name: &str) -> String {
-        let of = |rays: u64| format!("{} of {}", count(rays), plural(self.rays as usize, "ray"));
+        let all = plural(self.rays as usize, "ray");
+        let of = |rays: u64| format!("{} of {all}", count(rays));
         match (self.rays, self.wrong, self.rounded) {
             (0, 0, _) => format!("{name} was not checked: no ray that it accepts was traced."),
-            (rays, 0, 0) => format!("{name} is right on {}.", plural(rays as usize, "ray")),
+            (_, 0, 0) => format!("{name} is right on {all}."),
             (_, 0, rounded) => format!(
                 "{name} differs from the exact hits on {}, always within the rounding of the triangle test; no error \
                  of the tree was found.",
@@ -67,6 +68,7 @@ impl Verdict {
 fn fault(kind: Kind) -> (&'static str, &'static str) {
     const TREE: &str = "the tree is wrong";
     const EITHER: &str = "the tree or its triangle test is wrong";
+    const QUERY: &str = "one of the two queries is wrong";
     match kind {
         Kind::Hangs => ("does not return", TREE),
         Kind::Panicked => ("panics or exits", TREE),
@@ -74,9 +76,7 @@ fn fault(kind: Kind) -> (&'static str, &'static str) {
         Kind::Invented => ("returns hits that no rounding explains", EITHER),
         Kind::WrongT => ("returns depths that no rounding explains", EITHER),
         Kind::WrongPrimitive => ("names triangles that are not hit there", TREE),
-        Kind::AnyHitDisagrees => {
-            ("contradicts itself: any hit and closest hit disagree", "one of the two queries is wrong")
-        }
+        Kind::AnyHitDisagrees => ("contradicts itself: any hit and closest hit disagree", QUERY),
         Kind::Unrepeatable => ("returns different hits for a ray in a batch and on its own", TREE),
         _ => ("is wrong", EITHER),
     }

@@ -15,11 +15,8 @@ pub fn figure(number: usize, of_kind: &JudgedRays) -> Figure {
         format!("{}, {ns} ns per ray, wrong results at most {error} % (95 % confidence)", own.structure.label)
     });
     let front: Vec<String> = front.collect();
-    let few = if structures.len() > LABELLED {
-        format!(" Only filled points are labelled (more than {LABELLED} points).")
-    } else {
-        String::new()
-    };
+    let few = format!(" Only filled points are labelled (more than {LABELLED} points).");
+    let few = if structures.len() > LABELLED { few } else { String::new() };
     Figure {
         id: format!("accuracy-{}-{}-{number}", slug(&epoch.scene), slug(kind)),
         caption: format!(
@@ -62,6 +59,6 @@ fn scatter(of_kind: &JudgedRays) -> Scatter {
 fn without_test(own: &Judged) -> String {
     let label = &own.structure.label;
     let (name, keys) = label.split_once(':').unwrap_or((label, ""));
-    let keys: Vec<&str> = keys.split(',').filter(|key| !key.is_empty() && !key.starts_with("test=")).collect();
-    if keys.is_empty() { name.into() } else { format!("{name}:{}", keys.join(",")) }
+    let keys: Vec<&str> = keys.split(',').filter(|key| !key.starts_with("test=")).collect();
+    format!("{name}:{}", keys.join(",")).trim_end_matches(':').into()
 }

@@ -8,8 +8,8 @@ use crate::request::known_defect;
 
 /// The finding on one scene and workload; `None` without a structure of this crate.
 pub fn finding(of_kind: &JudgedRays) -> Option<Finding> {
-    let own: Vec<&Judged> =
-        of_kind.structures.iter().filter(|judged| known_defect(&judged.structure.name).is_none()).collect();
+    let is_ours = |judged: &&Judged| known_defect(&judged.structure.name).is_none();
+    let own: Vec<&Judged> = of_kind.structures.iter().filter(is_ours).collect();
     let (mut right, mut wrong) = (vec![], vec![]);
     for test in distinct(own.iter().map(|judged| &judged.structure.triangle_test)) {
         let of_test = || own.iter().filter(|judged| judged.structure.triangle_test == test).map(|judged| judged.error);
@@ -22,13 +22,11 @@ pub fn finding(of_kind: &JudgedRays) -> Option<Finding> {
         }
     }
     let rays = count(own.iter().map(|judged| judged.errors.rays).max()?);
-    let (right, other) = match &right[..] {
-        [] => ("with every triangle test, some of our structures return wrong results".to_owned(), ""),
-        [test] => (format!("our structures return no wrong result with the {test} triangle test"), " with other tests"),
-        tests => (
-            format!("our structures return no wrong result with the triangle tests {}", listed(tests)),
-            " with other tests",
-        ),
+    let other = if right.is_empty() { "" } else { " with other tests" };
+    let right = match &right[..] {
+        [] => "with every triangle test, some of our structures return wrong results".to_owned(),
+        [test] => format!("our structures return no wrong result with the {test} triangle test"),
+        tests => format!("our structures return no wrong result with the triangle tests {}", listed(tests)),
     };
     let wrong = match &wrong[..] {
         [] => String::new(),

@@ -87,14 +87,14 @@ impl<'a> Judged<'a> {
 /// # References
 /// Kung, Luccio, Preparata: On finding the maxima of a set of vectors. J. ACM 22, 1975.
 fn dominators(points: &[(f64, f64)]) -> Vec<Option<usize>> {
-    let dominates = |a: (f64, f64), b: (f64, f64)| a.0 <= b.0 && a.1 <= b.1 && a != b;
-    let is_front = |i: usize| !points.iter().any(|&other| dominates(other, points[i]));
-    let front: Vec<usize> = (0..points.len()).filter(|&i| is_front(i)).collect();
-    let cheapest = |point: (f64, f64)| {
-        let dominating = front.iter().copied().filter(|&i| dominates(points[i], point));
+    let dominates = |a: &(f64, f64), b: &(f64, f64)| a.0 <= b.0 && a.1 <= b.1 && a != b;
+    let is_front = |i: &usize| !points.iter().any(|other| dominates(other, &points[*i]));
+    let front: Vec<usize> = (0..points.len()).filter(is_front).collect();
+    let dominator = |point: &(f64, f64)| {
+        let dominating = front.iter().copied().filter(|&i| dominates(&points[i], point));
         dominating.min_by(|&a, &b| points[a].0.total_cmp(&points[b].0))
     };
-    points.iter().map(|&point| cheapest(point)).collect()
+    points.iter().map(dominator).collect()
 }
 
 #[cfg(test)]

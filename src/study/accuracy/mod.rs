@@ -127,14 +127,14 @@ fn structures(registry: &Registry, named: &[String], tests: &[String]) -> anyhow
         let keys = spec.split_once(':').map_or("", |(_, keys)| keys);
         let names_test = keys.split(',').any(|key| key.starts_with("test="));
         for entry in registry.entries().iter().filter(|entry| entry.name == choice.entry.name) {
-            let asked = !names_test || entry.triangle_test == choice.triangle_test();
-            if !asked || !tests.is_empty() && !tests.iter().any(|test| test.eq_ignore_ascii_case(entry.triangle_test)) {
-                continue;
-            }
+            let test = entry.triangle_test;
+            let is_named = tests.is_empty() || tests.iter().any(|own| own.eq_ignore_ascii_case(test));
             let with_test = match (names_test, keys) {
+                _ if !is_named => continue,
+                (true, _) if test != choice.triangle_test() => continue,
                 (true, _) => spec.clone(),
-                (false, "") => format!("{}:test={}", entry.name, entry.triangle_test),
-                (false, keys) => format!("{}:{keys},test={}", entry.name, entry.triangle_test),
+                (false, "") => format!("{}:test={test}", entry.name),
+                (false, keys) => format!("{}:{keys},test={test}", entry.name),
             };
             chosen.push((&structure(registry, &with_test)?).into());
         }
@@ -163,8 +163,7 @@ fn report(dataset: &Dataset, _: &ArgMatches) -> Report {
     Report { findings, blocks, failures: failures(dataset, &all), data: table::data(&all), ..Report::default() }
 }
 
-/// Structures without times, and structures that must be exact but err. Only one triangle test is exact, and only in a
-/// structure without known defects.
+/// Structures without times, and structures with wrong hits over the exact triangle test and without known defects.
 fn failures(dataset: &Dataset, all: &[JudgedRays]) -> Vec<Failure> {
     let mut failures = vec![];
     for judged in all.iter().flat_map(|of_kind| &of_kind.structures) {

@@ -17,18 +17,16 @@ pub fn table(of_kind: &JudgedRays) -> Table {
         of_kind.description(),
         count(of_kind.most(|own| own.errors.hits)),
     );
-    let mut notes = vec![];
-    for own in structures.iter().filter(|own| own.is_sampled()) {
-        notes.push(format!("{}: judged on {} of the rays", own.structure.label, count(own.errors.rays)));
-    }
-    let timed = of_kind.most(|own| own.rays.rays as u64);
-    for own in structures.iter().filter(|own| (own.rays.rays as u64) < timed) {
-        let [few, all] = [own.rays.rays as u64, timed].map(count);
-        notes.push(format!(
-            "{}: timed on {few} of the {all} rays on which other structures are timed",
-            own.structure.label
-        ));
-    }
+    let judged = structures.iter().filter(|own| own.is_sampled()).map(|own| {
+        let Judged { structure, errors, .. } = own;
+        format!("{}: judged on {} of the rays", structure.label, count(errors.rays))
+    });
+    let most = of_kind.most(|own| own.rays.rays as u64);
+    let timed = structures.iter().filter(|own| (own.rays.rays as u64) < most).map(|own| {
+        let [few, all] = [own.rays.rays as u64, most].map(count);
+        format!("{}: timed on {few} of the {all} rays on which other structures are timed", own.structure.label)
+    });
+    let notes: Vec<String> = judged.chain(timed).collect();
     let tone = |own: &Judged| if own.dominated_by.is_none() { Tone::Best } else { Tone::Plain };
     let errors = |n: u64| Cell::from(n).with(if n > 0 { Tone::Wrong } else { Tone::Plain });
     Table::of(

@@ -1,9 +1,10 @@
 use super::judged::Judged;
 use super::*;
-use crate::measure::{Provenance, SystemClock};
+use crate::measure::SystemClock;
 use crate::report::Art;
 use crate::report::plot::Chart;
 use crate::study::Measured;
+use crate::study::dataset::tests::dataset;
 use crate::study::measure::{BuildWatch, Prepared, measure};
 use crate::triangle::MollerTrumbore;
 
@@ -19,7 +20,7 @@ fn measured(words: &str) -> Dataset {
         let epoch = measure(&case, &prepared, &SystemClock::start(), &BuildWatch::default(), &mut |_| ()).unwrap();
         Measured { case, epoch }
     });
-    Dataset::new(Provenance::capture(1), measured.collect())
+    dataset(measured.collect())
 }
 
 /// Rays, hits, missed, false hits, wrong depths and wrong primitives over the exact test and over one that rounds.
@@ -45,10 +46,8 @@ fn exact_is_right_and_single_precision_is_not() {
             assert!(own.ns_per_ray > 0.0 && own.rays.slowest_ns > Some(0) && !own.is_sampled());
         }
         let [exact, rounds] = &of_kind.structures[..] else { panic!("two structures") };
-        assert_eq!(
-            [&exact.structure.triangle_test, &rounds.structure.triangle_test],
-            [Exact::NAME, MollerTrumbore::NAME]
-        );
+        let tests = [exact, rounds].map(|own| own.structure.triangle_test.as_str());
+        assert_eq!(tests, [Exact::NAME, MollerTrumbore::NAME]);
         assert!(exact.errors.ulps.unwrap().max <= 0.5 && rounds.error < rounds.error_bound);
         // 400 rays without an error: 1 - 0.05^(1 / 400).
         assert!((exact.error_bound - 0.007461).abs() < 1e-6, "{}", exact.error_bound);
@@ -127,9 +126,8 @@ fn brute_force_is_left_out_of_large_meshes_unless_it_is_named() {
         assert_eq!(plan.cases.iter().map(has_brute).collect::<Vec<_>>(), takes_part, "{words}");
         assert_eq!(plan.notes.len(), notes, "{words}");
         // Each structure over each test, once.
-        let labels = plan.cases[0].structures.iter().map(|own| own.spec.clone());
-        let labels: std::collections::BTreeSet<String> = labels.collect();
-        assert_eq!(labels.len(), plan.cases[0].structures.len(), "{words}");
+        let labels = plan.cases[0].structures.iter().map(|own| &own.spec);
+        assert_eq!(each_once(labels).len(), plan.cases[0].structures.len(), "{words}");
     }
     for words in ["cube -t woop", "cube -s sah-kd -t native", "cube --rays all"] {
         assert!(planned(words).is_err(), "{words}");

@@ -40,8 +40,7 @@ const STOPS: [Level; 3] = [
 const TRAVERSALS: [Level; 2] =
     [("child boxes", "traversal=child-boxes"), ("plane intervals", "traversal=plane-intervals")];
 
-/// The common keys of all cells. The rules of the report ignore the costs; the limit against exploding inputs is the
-/// default of `sah-kd`.
+/// The keys of all cells. The report's rules ignore the costs; the limit of duplication is the default of `sah-kd`.
 const COMMON: &str = "traversal_cost=1.0,intersection_cost=0.7,empty_bonus=0.2,duplication=8.0";
 
 /// Trees that are built twice, for the A/A check.

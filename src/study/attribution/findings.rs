@@ -51,15 +51,12 @@ fn parts(hard: &[&Attribution]) -> Option<Finding> {
         let above = |r: &Attribution, other: Factor| r.part(factor).low() > r.part(other).high();
         hard.iter().all(|r| Factor::ALL.into_iter().all(|other| other == factor || above(r, other)))
     });
+    let (all_of, order) = if hard.len() > 1 { ("all of ", ", scene by scene") } else { ("", "") };
     let most = match first {
         Some(factor) => format!("On {scenes} most of the speedup is due to the {}", words(factor)),
-        None => format!(
-            "No single factor gives most of the speedup on {}{scenes}",
-            if hard.len() > 1 { "all of " } else { "" }
-        ),
+        None => format!("No single factor gives most of the speedup on {all_of}{scenes}"),
     };
     let factors = Factor::ALL.iter().map(told).collect::<Vec<_>>().join("; ");
-    let order = if hard.len() > 1 { ", scene by scene" } else { "" };
     (!hard.is_empty()).then(|| Finding::new("parts", format!("{most}. The factors{order}: {factors}.")))
 }
 
@@ -68,8 +65,7 @@ fn words(factor: Factor) -> &'static str {
     if factor == Factor::Plane { "split plane" } else { factor.name() }
 }
 
-/// The speedup of a scene as a product of its factors, and the ranges of the factors over the orders in which the three
-/// are exchanged.
+/// The speedup of a scene as a product of its factors, and their ranges over the orders in which they are exchanged.
 pub fn split(r: &Attribution) -> Finding {
     let whole = r.whole();
     let parts = Factor::ALL.map(|factor| format!("{} {}", words(factor), figures(r.part(factor).estimate)));
@@ -96,15 +92,14 @@ fn gains(results: &[Attribution]) -> Vec<Finding> {
     [false, true].map(of).into_iter().find(|found| !found.is_empty()).unwrap_or_default()
 }
 
-/// Kendall's tau of SAH cost and time within a family, which are the trees with the same traversal: the mean over the
-/// scenes.
+/// Kendall's tau of SAH cost and time within a family, the trees with the same traversal: the mean over the scenes.
 fn tau(results: &[Attribution]) -> Option<Estimate> {
-    fn of<'a>(r: &'a Attribution, traversal: usize) -> Option<(&'a str, f64)> {
+    let families = results.iter().flat_map(|r| [0, 1].map(|traversal| (r, traversal)));
+    let taus = families.filter_map(|(r, traversal)| {
         let trees = Treatment::all().filter(|cell| cell.0[Factor::Traversal as usize] == traversal);
         let cost = |cell: Treatment| Some((r.trees[cell.number()].shape.sah_cost?, r.ns_per_ray(cell)));
         Some((r.first().scene.as_str(), kendall(&trees.filter_map(cost).collect::<Vec<_>>(), |_, _| true)?))
-    }
-    let taus = results.iter().flat_map(|r| [0, 1].into_iter().filter_map(|traversal| of(r, traversal)));
+    });
     // One scene is not a mean.
     mean_of_scenes(taus).filter(|tau| tau.interval.is_some())
 }

@@ -81,8 +81,7 @@ impl<'a> Attribution<'a> {
         [orders.iter().copied().fold(f64::INFINITY, f64::min), orders.iter().copied().fold(0.0, f64::max)]
     }
 
-    /// Speed of the exact SAH plane / speed of the report's plane, if both stop at eight triangles (as far as planes
-    /// can separate them) and use plane intervals.
+    /// Speed of the exact SAH plane / speed of the report's plane, both with leaf limit 8 and plane intervals.
     pub fn plane_alone(&self) -> Estimate {
         self.speedup(&gain(Treatment([0, 1, 1]), Treatment([5, 1, 1])))
     }
@@ -100,14 +99,10 @@ pub fn gain(from: Treatment, to: Treatment) -> Weights {
 }
 
 /// The share of `factor` in the step from the report's tree to the SAH tree: its gain, averaged over all orders in
-/// which the three factors can be exchanged (Shapley, "A value for n-person games", 1953). The sum of the three parts is
-/// the whole.
+/// which the three factors can be exchanged (Shapley, "A value for n-person games", 1953). The shares add up.
 fn part(factor: Factor) -> Weights {
-    let mut sum = [0.0; CELLS];
-    for gain in parts_by_order(factor) {
-        sum.iter_mut().zip(gain).for_each(|(sum, weight)| *sum += weight / ORDERS.len() as f64);
-    }
-    sum
+    let gains = parts_by_order(factor);
+    std::array::from_fn(|cell| gains.iter().map(|gain| gain[cell] / ORDERS.len() as f64).sum())
 }
 
 /// The gain of `factor` in every order of exchanging.

@@ -3,12 +3,13 @@
 use super::design::{CELLS, Factor, TWINS};
 use super::result::{Attribution, results};
 use super::*;
-use crate::measure::{Provenance, RandomOrder, Threads};
+use crate::measure::RandomOrder;
 use crate::report::words::each_once;
 use crate::request::TWIN;
 use crate::study::Measured;
 use crate::study::case::tests::example as case;
-use crate::study::epoch::{Epoch, RayCounts, Shape, tests};
+use crate::study::dataset::tests::dataset;
+use crate::study::epoch::{Epoch, RayCounts, tests};
 
 /// The speedup by each factor, and the additional speedup by the plane with the SAH stop rule.
 const STOP: f64 = 8.0;
@@ -18,11 +19,9 @@ const TOGETHER: f64 = 2.0;
 
 fn factor(cell: Treatment) -> f64 {
     let Treatment([plane, stop, traversal]) = cell;
-    let mut times = 1.0;
-    times *= if plane == 5 { PLANE } else { 1.0 };
-    times *= if stop == 2 { STOP } else { 1.0 };
-    times *= if traversal == 1 { TRAVERSAL } else { 1.0 };
-    times * if plane == 5 && stop == 2 { TOGETHER } else { 1.0 }
+    let gains =
+        [(plane == 5, PLANE), (stop == 2, STOP), (traversal == 1, TRAVERSAL), (plane == 5 && stop == 2, TOGETHER)];
+    gains.into_iter().filter(|(has, _)| *has).map(|(_, gain)| gain).product()
 }
 
 /// `epochs` epochs of the stand-in of a scene. Times vary by up to `noise` with the epoch, and whole rounds by a third.
@@ -40,7 +39,7 @@ fn measured(scene: &str, epochs: usize, noise: f64) -> Vec<Measured> {
             if !tree.is_twin() {
                 tree.role = cell.role();
             }
-            tree.shape = Shape { references: 300, sah_cost: Some(20.0 / factor(cell)), ..tree.shape };
+            tree.shape.sah_cost = Some(20.0 / factor(cell));
             let rays = &mut tree.rays[0];
             rays.ns = slow.iter().map(|slow| (4e8 / factor(cell) * placed * slow) as u64).collect();
             let tests = Some((24_000_000.0 / factor(cell)) as u64);
@@ -61,10 +60,6 @@ fn real(measured: Vec<Measured>) -> impl Iterator<Item = Measured> {
         own.epoch.stand_in = false;
         own
     })
-}
-
-fn dataset(measured: Vec<Measured>) -> Dataset {
-    Dataset::new(Provenance::of(&Threads::unstarted(1)), measured)
 }
 
 fn report(measured: Vec<Measured>) -> Report {

@@ -30,15 +30,15 @@ pub fn findings(main: &[Replicated], hard: &[Replicated]) -> Vec<Finding> {
 }
 
 fn faster(hard: &[Replicated]) -> Option<Finding> {
-    let scenes = hard.iter().map(|own| format!("{} on {}", interval(own.faster()), own.first().title()));
-    let scenes: Vec<String> = scenes.collect();
+    let on_scene = |own: &Replicated| format!("{} on {}", interval(own.faster()), own.first().title());
+    let scenes = listed(&hard.iter().map(on_scene).collect::<Vec<_>>());
     let mean = mean(hard)?;
     let told = match () {
         () if mean.is_above(1.0) => "faster than",
         () if mean.holds(1.0) => "at a speed that is not distinguishable from the speed of",
         () => "more slowly than",
     };
-    let (scenes, times) = (listed(&scenes), interval(mean));
+    let times = interval(mean);
     let sentence =
         format!("The SAH tree traces primary rays {told} the report's tree: speedup {scenes}; geometric mean {times}.");
     Some(Finding::new("hard", sentence).with_value(mean))

@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::accel::Query;
-use crate::measure::{Estimate, Provenance};
+use crate::measure::Estimate;
+use crate::study::dataset::tests::dataset;
 use crate::study::epoch::Rays;
 use crate::study::epoch::tests::{example, rays};
 use crate::study::{Measured, case};
@@ -38,12 +39,8 @@ fn main(name: &str, improvement: u64) -> Vec<Measured> {
     scene(name, 3, &times)
 }
 
-fn dataset(scenes: Vec<Vec<Measured>>) -> Dataset {
-    Dataset::new(Provenance::capture(1), scenes.concat())
-}
-
-fn of(scenes: Vec<Vec<Measured>>) -> Report {
-    report(&dataset(scenes), &STUDY.defaults())
+fn of(scenes: &[Vec<Measured>]) -> Report {
+    report(&dataset(scenes.concat()), &STUDY.defaults())
 }
 
 fn value(report: &Report, key: &str) -> Option<Estimate> {
@@ -52,25 +49,24 @@ fn value(report: &Report, key: &str) -> Option<Estimate> {
 
 #[test]
 fn the_conclusion_is_the_mean_of_the_hard_scenes() {
-    let scenes = || vec![hard("Dragon", 3, [800, 100, 800]), hard("Lucy", 3, [200, 100, 200])];
-    let report = of(scenes());
+    let scenes = [hard("Dragon", 3, [800, 100, 800]), hard("Lucy", 3, [200, 100, 200])];
+    let report = of(&scenes);
     for (key, times) in [("hard", 4.0), ("hard-dragon", 8.0), ("hard-lucy", 2.0)] {
         assert!((value(&report, key).unwrap().estimate - times).abs() < 1e-9, "{key}");
     }
-    assert!(
-        report.finding("hard").unwrap().sentence.contains("speedup 8.00 on Dragon and 2.00 on Lucy; geometric mean")
-    );
+    let sentence = &report.finding("hard").unwrap().sentence;
+    assert!(sentence.contains("speedup 8.00 on Dragon and 2.00 on Lucy; geometric mean"), "{sentence}");
     // 1000 and 500 rays at 0.8 microseconds.
-    let dataset = dataset(scenes());
+    let dataset = dataset(scenes.concat());
     let dragon = &replicated(&dataset)[0];
     let (seconds, t_prime) = (dragon.seconds(TREE).unwrap(), dragon.t_prime(TREE).unwrap());
     assert!((seconds.estimate - 1.2e-3).abs() < 1e-9 && (t_prime.estimate - 8e-9).abs() < 1e-15, "{t_prime:?}");
     assert!((dragon.build_s(TREE).unwrap() - 2.0).abs() < 1e-12);
     assert!(report.tables().chain([&report.data]).all(|t| t.rows.iter().all(|row| row.len() == t.columns.len())));
-    assert!(of(vec![]).blocks.len() == 1 && of(vec![]).findings.is_empty(), "nothing is measured");
+    assert!(of(&[]).blocks.len() == 1 && of(&[]).findings.is_empty(), "nothing is measured");
 
     // Only the epochs that all hard scenes have count.
-    let cut = of(vec![hard("Dragon", 2, [800, 100, 800]), hard("Lucy", 1, [200, 100, 200])]);
+    let cut = of(&[hard("Dragon", 2, [800, 100, 800]), hard("Lucy", 1, [200, 100, 200])]);
     let mean = value(&cut, "hard").unwrap();
     assert!((mean.estimate - 4.0).abs() < 1e-9 && mean.interval.is_none(), "{mean:?}");
 }
@@ -82,14 +78,14 @@ fn what_is_said_of_the_hard_scenes_is_what_was_found() {
         ([100, 800, 100], "more slowly than"),
         ([101, 100, 180], "at a speed that is not distinguishable"),
     ] {
-        let report = of(vec![hard("Dragon", 3, times)]);
+        let report = of(&[hard("Dragon", 3, times)]);
         let sentence = report.sentences().next().unwrap();
         assert!(sentence.starts_with(&format!("The SAH tree traces primary rays {told}")), "{sentence}");
     }
     // Indistinguishable twins widen the interval: both runs have the noise of one A/A ratio in three epochs, and t is
     // 4.303.
     let width = |twin: u64| {
-        let faster = value(&of(vec![hard("Sponza", 3, [800, 100, twin])]), "hard-sponza").unwrap();
+        let faster = value(&of(&[hard("Sponza", 3, [800, 100, twin])]), "hard-sponza").unwrap();
         libm::log(faster.high().unwrap() / faster.low().unwrap())
     };
     let expected = 2.0 * 4.3027 * libm::sqrt(2.0) * libm::log(1.05);
@@ -98,22 +94,20 @@ fn what_is_said_of_the_hard_scenes_is_what_was_found() {
 
 #[test]
 fn an_easy_scene_has_its_improvement_its_sweep_and_its_rays() {
-    let scenes = || vec![main("Torus", 3)];
-    let dataset = dataset(scenes());
+    let scene = main("Torus", 3);
+    let dataset = dataset(scene.clone());
     let torus = &replicated(&dataset)[0];
     let improvement = torus.improvement().unwrap();
     assert!((improvement.estimate - 3.0).abs() < 1e-9 && improvement.is_above(2.9));
     let seconds = |role: &str| torus.seconds(role).unwrap().estimate;
     assert!((seconds("25 / 0.4") / seconds("100 / 0.7") - 110.0 / 300.0).abs() < 1e-9);
     assert_eq!((torus.total(), torus.rays()), (1500, [1000, 0, 500]));
-    let report = of(scenes());
+    let report = of(&[scene]);
     assert_eq!(value(&report, "rays-torus"), Some(Estimate::exact(1500.0 - 309_289.0)));
     assert!(report.tables().chain([&report.data]).all(|t| t.rows.iter().all(|row| row.len() == t.columns.len())));
     assert_eq!(report.verdicts.iter().filter(|verdict| verdict.value.is_some()).count(), 1);
-    assert!(
-        [value(&report, "t-prime"), value(&report, "order")].iter().all(Option::is_none),
-        "they are about all scenes"
-    );
+    let of_all_scenes = ["t-prime", "order"].map(|key| value(&report, key));
+    assert_eq!(of_all_scenes, [None, None]);
 }
 
 #[test]
@@ -127,7 +121,7 @@ fn claims_about_all_scenes_are_judged_with_all_scenes() {
             own.rays.iter_mut().for_each(|rays| rays.counts.as_mut().unwrap().whole_tests = Some(tests));
         }
     }
-    let report = of(scenes);
+    let report = of(&scenes);
     // Two workloads, 1500 rays and 100 triangles.
     let exact = |x: f64| Some(Estimate::exact(x));
     assert_eq!((value(&report, "crowded"), value(&report, "crowded-50")), (exact(1.0), exact(2.4)));
@@ -136,10 +130,9 @@ fn claims_about_all_scenes_are_judged_with_all_scenes() {
     let order = value(&report, "order").unwrap();
     assert!((order.estimate - (1.0 - 16.0 / 35.0)).abs() < 1e-12, "{order:?}");
     let told = &report.finding("order").unwrap().sentence;
-    assert!(
-        told.contains("Significantly out of this order") && told.contains("Infinitycandy improves less than Cube"),
-        "{told}"
-    );
+    for part in ["Significantly out of this order", "Infinitycandy improves less than Cube"] {
+        assert!(told.contains(part), "{told}");
+    }
     assert_eq!(report.verdicts.len(), 12);
     assert!(report.verdicts.iter().all(|verdict| verdict.value.is_some()));
 }

@@ -27,13 +27,11 @@ pub struct Growth {
     pub workload: String,
     /// By number of triangles.
     pub points: Vec<Point>,
-    /// The exponent with which time per ray grows with the number of triangles. `None` with fewer than three meshes of
-    /// more than one leaf.
+    /// The exponent of the time per ray; `None`, as for all exponents, with fewer than three meshes in the fit.
     pub time: Option<Estimate>,
     /// The same exponent over the meshes of at most [`LEVEL_8`] triangles, which the claims are about.
     pub time_to_level_8: Option<Estimate>,
-    /// Half the width of the 95 % interval of the exponent if it came only from the scatter of the meshes, as if they
-    /// were drawn from a family at random.
+    /// Half the width of the 95 % interval of the exponent if it came only from the scatter of the meshes.
     pub scatter: Option<f64>,
     /// The exponent of the build time.
     pub build: Option<Estimate>,
@@ -75,11 +73,10 @@ impl Point {
     }
 }
 
-/// The growth of every structure. The intervals predict another run on these meshes; the scatter describes how well a
-/// power fits them.
+/// The growth of every structure. The intervals predict another run; the scatter describes how well a power fits.
 pub fn growths(dataset: &Dataset) -> Vec<Growth> {
     let all = measurements(dataset);
-    let noise = Noise { trace: trace_noise(&all), build: build_noise(&all) };
+    let noises = [trace_noise(&all), build_noise(&all)];
     let workloads = each_once(all.iter().map(|own| &own.workload));
     let labels = each_once(all.iter().map(|own| &own.label));
     let mut growths = vec![];
@@ -90,23 +87,17 @@ pub fn growths(dataset: &Dataset) -> Vec<Growth> {
         points.sort_by_key(Point::triangles);
         for workload in &workloads {
             for label in &labels {
-                let is =
-                    |point: &&Point| (&point.measurement.workload, &point.measurement.label) == (*workload, *label);
-                let own: Vec<Point> = points.iter().filter(is).cloned().collect();
-                growths.extend((!own.is_empty()).then(|| growth(family, own, &noise)));
+                let is = |own: &Measurement| (&own.workload, &own.label) == (*workload, *label);
+                let own: Vec<Point> = points.iter().filter(|point| is(&point.measurement)).cloned().collect();
+                growths.extend((!own.is_empty()).then(|| growth(family, own, &noises)));
             }
         }
     }
     growths
 }
 
-struct Noise {
-    trace: AaNoise,
-    build: AaNoise,
-}
-
-/// The growth over the points of one structure and one workload, ordered by number of triangles.
-fn growth(family: &'static str, points: Vec<Point>, noise: &Noise) -> Growth {
+/// The growth over points ordered by number of triangles, with the A/A noise of traces and of builds.
+fn growth(family: &'static str, points: Vec<Point>, [trace, build]: &[AaNoise; 2]) -> Growth {
     let fitted: Vec<&Point> = points.iter().filter(|point| point.is_fitted()).collect();
     let coarser: Vec<&Point> = fitted.iter().copied().filter(|point| point.triangles() <= LEVEL_8).collect();
     let measured = |points: &[&Point], logs: fn(&Measurement) -> Option<Vec<f64>>, noise: &AaNoise| {
@@ -123,10 +114,10 @@ fn growth(family: &'static str, points: Vec<Point>, noise: &Noise) -> Growth {
         family,
         label: points[0].measurement.label.clone(),
         workload: points[0].measurement.workload.clone(),
-        time: measured(&fitted, Measurement::log_paces, &noise.trace),
-        time_to_level_8: measured(&coarser, Measurement::log_paces, &noise.trace),
+        time: measured(&fitted, Measurement::log_paces, trace),
+        time_to_level_8: measured(&coarser, Measurement::log_paces, trace),
         scatter: scatter(&logs),
-        build: measured(&fitted, |own| Some(own.log_builds()), &noise.build),
+        build: measured(&fitted, |own| Some(own.log_builds()), build),
         bytes: counted(|own| Some(own.shape.bytes as f64)),
         tests: counted(|own| own.tests_per_ray),
         steps: counted(|own| own.steps_per_ray),
@@ -134,9 +125,8 @@ fn growth(family: &'static str, points: Vec<Point>, noise: &Noise) -> Growth {
     }
 }
 
-/// The slope of `value`, which are logarithms by epoch, over the logarithm of the number of triangles. `noise` is the
-/// variance that the A/A noise adds to a sum with these weights. `None` if a value is unknown, or with fewer than three
-/// meshes.
+/// The slope of `value`, logarithms by epoch, over the logarithm of the number of triangles. `noise` is the variance
+/// that the A/A noise adds to a sum with these weights. `None` if a value is unknown, or with fewer than three meshes.
 fn power(
     points: &[&Point],
     value: &dyn Fn(&Measurement) -> Option<Vec<f64>>,

@@ -50,32 +50,26 @@ pub fn findings(growths: &[Growth]) -> Vec<Finding> {
     };
     let both = [("growth-report", of(REPORT_TREE)), ("growth-sah", of(SAH_TREE))];
     let words = |growth: &Growth| {
-        let over = match ends(growth) {
-            Some((from, to)) => format!(" ({} to {} triangles)", count(from as u64), count(to as u64)),
-            None => String::new(),
-        };
+        let over = ends(growth).map_or(String::new(), |ends| format!(" ({ends} triangles)"));
         let power = written(growth.time?, |x| format!("{x:.2}"));
         Some(format!("n^{power} with {}{over}", growth.label))
     };
     let powers: Vec<String> = both.iter().filter_map(|(_, growth)| words((*growth)?)).collect();
     let sentence = format!("On spheres of n triangles the time of a primary ray grows like {}.", listed(&powers));
     let first = both.iter().find_map(|(_, growth)| growth.as_ref()?.time);
-    let mut findings: Vec<Finding> =
-        first.map(|power| Finding::new("spheres", sentence).with_value(power)).into_iter().collect();
+    let spheres = first.map(|power| Finding::new("spheres", sentence).with_value(power));
     // The claims are about spheres up to level 8: coarser spheres cannot decide them.
     let claimed = both.iter().filter_map(|(key, growth)| {
         let growth = growth.filter(|growth| growth.points.iter().any(|point| point.triangles() >= LEVEL_8))?;
         Some(Finding::number(*key, growth.time_to_level_8?))
     });
-    findings.extend(claimed);
-    findings
+    spheres.into_iter().chain(claimed).collect()
 }
 
-/// The smallest and the largest number of triangles in the fit.
-fn ends(growth: &Growth) -> Option<(usize, usize)> {
-    let mut fitted = growth.points.iter().filter(|point| point.is_fitted()).map(Point::triangles);
-    let first = fitted.next()?;
-    Some((first, fitted.next_back().unwrap_or(first)))
+/// The smallest and the largest number of triangles in the fit: `20 to 1,280`.
+fn ends(growth: &Growth) -> Option<String> {
+    let fitted = || growth.points.iter().filter(|point| point.is_fitted()).map(|point| count(point.triangles() as u64));
+    Some(format!("{} to {}", fitted().next()?, fitted().next_back()?))
 }
 
 pub fn blocks(growths: &[Growth]) -> Vec<Block> {
@@ -106,11 +100,11 @@ fn figure(group: &[Growth], quantity: &Quantity) -> Figure {
         let note = power.unwrap_or_default();
         Line { label: growth.label.clone(), note, points: growth.points.iter().map(point).collect() }
     };
-    let told = group.iter().filter_map(|growth| {
+    let told = |growth: &Growth| {
         let power = (quantity.power)(growth)?;
         Some(format!("{}: exponent {}", growth.label, written(power, |x| format!("{x:.2}"))))
-    });
-    let told: Vec<String> = told.collect();
+    };
+    let told: Vec<String> = group.iter().filter_map(told).collect();
     let rays = if quantity.id == TIME.id { format!(" {} rays;", first.workload) } else { String::new() };
     let lines = group.iter().map(line).collect();
     Figure {
@@ -144,8 +138,7 @@ fn exponents(family: &[Growth]) -> Option<Table> {
     let power = |x: Option<Estimate>| Cell::from(x.map(|x| Cell::estimate(x, Format::Decimals(2))));
     let over = |growth: &Growth| {
         let fitted = growth.points.iter().filter(|point| point.is_fitted()).count();
-        let ends = ends(growth).map(|(from, to)| format!(": {} to {}", count(from as u64), count(to as u64)));
-        format!("{fitted}{}", ends.unwrap_or_default())
+        format!("{fitted}{}", ends(growth).map_or(String::new(), |ends| format!(": {ends}")))
     };
     let table = Table::of(
         format!("Exponents of the number of triangles, {}", family[0].family),

@@ -1,8 +1,9 @@
 use super::growth::Growth;
 use super::*;
-use crate::measure::{Estimate, Provenance, Threads};
+use crate::measure::Estimate;
 use crate::study::Measured;
 use crate::study::case::tests::example as case;
+use crate::study::dataset::tests::dataset;
 use crate::study::epoch::Rays;
 use crate::study::epoch::tests::example;
 
@@ -35,16 +36,8 @@ fn finest_of(triangles: usize, ns: u64) -> impl Iterator<Item = Measured> {
     (0..2).map(move |epoch| measured(SPHERES, triangles, epoch, ns, &[ns + epoch as u64; 3]))
 }
 
-fn dataset(measured: Vec<Measured>) -> Dataset {
-    Dataset::new(Provenance::of(&Threads::unstarted(1)), measured)
-}
-
-fn all(measured: Vec<Measured>) -> Vec<Growth> {
-    growths(&dataset(measured))
-}
-
 fn one(measured: Vec<Measured>) -> Growth {
-    all(measured).remove(0)
+    growths(&dataset(measured)).remove(0)
 }
 
 #[test]
@@ -82,16 +75,12 @@ fn the_report_has_the_sentence_three_figures_and_a_row_for_every_point() {
 
 #[test]
 fn a_claim_about_coarser_meshes_is_judged_by_these_alone() {
-    let both = |measured: &[Measured]| {
-        let growth = one(measured.to_vec());
-        (growth.time.unwrap(), growth.time_to_level_8.unwrap())
-    };
     let mut measured = spheres(0.25, 1.0, 0.0);
-    let (all, coarser) = both(&measured);
-    assert_eq!(all, coarser);
+    let growth = one(measured.clone());
+    assert_eq!(growth.time, growth.time_to_level_8);
     // Beyond level 8 the exponent differs.
     measured.extend(finest_of(16 * LEVEL_8, 1 << 40));
-    let (all, coarser) = both(&measured);
+    let [all, coarser] = [one(measured.clone()).time, one(measured).time_to_level_8].map(Option::unwrap);
     assert!((coarser.estimate - 0.25).abs() < 1e-3 && all.estimate > 0.3, "{all:?} {coarser:?}");
 }
 
@@ -136,7 +125,7 @@ fn families_and_workloads_are_kept_apart() {
         own.epoch.structures[0].rays.push(rays);
         measured.push(own);
     }
-    let growths = all(measured);
+    let growths = growths(&dataset(measured));
     let of: Vec<_> = growths.iter().map(|g| (g.family, g.workload.as_str())).collect();
     assert_eq!(of, [(SPHERES, "primary"), (MESHES, "primary"), (MESHES, "random")]);
     assert!((growths[1].time.unwrap().estimate - 0.9).abs() < 1e-3);
