@@ -1,4 +1,4 @@
-//! The rule by which a picture is accepted as a replacement of another one, and the number that decides.
+//! The rule that accepts a picture in place of another one, and the number that decides.
 
 use image::DynamicImage;
 use serde::Serialize;

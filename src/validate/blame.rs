@@ -236,7 +236,7 @@ fn exactly(prim: PrimId, t: f32) -> String {
     format!("by exact arithmetic the ray hits {prim:?} at t = {t:?}")
 }
 
-/// An exact hit as a clause, and its distance from the one that was found.
+/// An exact hit as a clause, and its distance from the hit that was found.
 fn exactly_but_off(prim: PrimId, t: f32, found: f32) -> String {
     format!("{}, {} ulps away", exactly(prim, t), t.to_bits().abs_diff(found.to_bits()))
 }

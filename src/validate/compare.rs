@@ -105,8 +105,8 @@ pub(super) fn admitted(subject: &dyn DynAccel, rays: &[Ray], expected: &[Option<
     known.filter(|(ray, _)| capabilities.declines(ray).is_none()).unzip()
 }
 
-/// Compares `found`, closest hits from elsewhere, with those of the reference. It makes the first check of [`validate`]
-/// and not the two checks that query the structure.
+/// Compares `found`, closest hits from elsewhere, with the hits of the reference. It makes the first check of
+/// [`validate`] and not the two checks that query the structure.
 ///
 /// # Panics
 /// If there is not one hit per ray.
@@ -125,7 +125,7 @@ pub fn validate_hits(expected: &ExpectedHits, found: &[Option<Hit>]) -> Validati
 }
 
 /// The indices of the rays on which `found` differs from the expected hits, each with the kind of the difference. The
-/// expected hits are those of another tree over the triangle test of the reference; the kind presumes that this tree is
+/// expected hits come from another tree over the triangle test of the reference; the kind presumes that this tree is
 /// right. Differences within the depth rule of the reference are left out.
 pub fn differences(expected: &ExpectedHits, found: &[Option<Hit>]) -> Vec<(usize, Kind)> {
     let differs = |index: usize| Some((index, expected.dispute(index, found[index]).blame()?.0));

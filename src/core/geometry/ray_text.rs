@@ -9,7 +9,7 @@ use super::Ray;
 
 /// `ox,oy,oz dx,dy,dz`, followed by ` [t_min,t_max]` unless the ray is the whole half-line.
 ///
-/// Every number is the shortest decimal that reads back to the same float; only the payload of a NaN is lost.
+/// Every number is the shortest decimal that reads back to the same float; only a NaN loses its payload.
 impl Display for Ray {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
         let [o, d] = [self.origin, self.direction];

@@ -231,7 +231,7 @@ impl KdConfig {
         self.check_unread()
     }
 
-    /// Rejects an option without effect whose value is not that of [`REPORT`](Self::REPORT) or [`SAH`](Self::SAH).
+    /// Rejects an option without effect whose value is not the one in [`REPORT`](Self::REPORT) or [`SAH`](Self::SAH).
     fn check_unread(&self) -> Result<(), BuildError> {
         let is_median = !matches!(self.plane, Plane::SahBinned | Plane::SahSweep);
         let is_binned = self.plane == Plane::SahBinned;

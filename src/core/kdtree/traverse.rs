@@ -182,7 +182,7 @@ fn by_boxes<O: Observer>(
             return Some(node);
         }
 
-        // The child that the ray enters first comes off first; if it enters both at once, the one that it leaves first.
+        // The child that the ray enters first comes off first; if it enters both at once, the child that it leaves first.
         observer.inner();
         let (below, above) = cell.cut(node.axis(), node.split());
         let (in_below, in_above) = (line.clip(&below, t_min, end), line.clip(&above, t_min, end));

@@ -156,7 +156,7 @@ mod tests {
         }
     }
 
-    /// The selection from `a` up to `b`, in a given order and in that of lanes: sets, and bits of keys and values.
+    /// The selection from `a` up to `b`, in a given order and in the order of lanes: sets, and bits of keys and values.
     fn taken<L: EightLanes>(a: &[f32; 8], b: &[f32; 8], order: u32) -> ([u32; 2], [Vec<u32>; 3]) {
         let (a, b, values) = (L::load(a), L::load(b), std::array::from_fn(|i| 100 + i as u32));
         let (mut keys, [mut ordered, mut plain]) = ([0.0_f32; 8], [[0_u32; 8]; 2]);

@@ -13,7 +13,7 @@ use crate::simd::{Arithmetic, LaneVec3, Lanes, each};
 ///   third corner times |det|, is not below -2^-47 D |p - o| |e|, and the error of `t` is at most 2^-49 |e1| |e2| (|a -
 ///   o| + |t| D) / |det|, plus half an ulp of the final rounding.
 ///
-/// As with [`MollerTrumboreF64`](super::MollerTrumboreF64), the errors are small but for needles and slivers. Slower.
+/// As with [`MollerTrumboreF64`](super::MollerTrumboreF64), the errors are small except for needles and slivers. Slower.
 ///
 /// # References
 /// See [`Plucker`](super::Plucker).

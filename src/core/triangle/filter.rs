@@ -64,7 +64,7 @@ pub struct CandidateBounds<const N: usize> {
 const UNIT: f32 = f32::EPSILON / 2.0;
 /// Twice the 40 units of 2^-24 of the argument at [`filter_block`], times 2 for the direction.
 const SLACK: f32 = 2.0 * 40.0 * 2.0 * UNIT;
-/// The error of the height in units of N |s|, and as a multiple of it that of det in units of N, derived below.
+/// The error of the height in units of N |s|, and the error of det in units of N as a multiple of it, derived below.
 const HEIGHT: f32 = 10.0 * UNIT;
 const DETERMINANT: f32 = 6.0;
 /// More than all underflows together: each loses at most 2^-150, and the underflows of u, v and det add up to less than

@@ -171,14 +171,16 @@ impl TreeHits {
 /// The hits of a structure, which receives the rays as in the timing; a runner receives all of them at once.
 fn traced(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> QueryResults {
     let chunk = if accel.remote().is_some() { rays.len().max(1) } else { TILE };
-    let mut results = QueryResults::empty(query);
-    results.resize(rays.len());
-    let (mut batches, mut rest) = (vec![], results.first(rays.len()));
-    for rays in rays.chunks(chunk) {
-        let (slots, others) = rest.split(rays.len());
-        batches.push((rays, slots));
-        rest = others;
+    let mut results = QueryResults::misses(query, rays.len());
+    match &mut results {
+        QueryResults::Closest(hits) => {
+            let batches = rays.par_chunks(chunk).zip(hits.par_chunks_mut(chunk));
+            batches.for_each(|(rays, hits)| accel.load(Cow::Borrowed(rays)).closest_hits(hits));
+        }
+        QueryResults::Any(hits) => {
+            let batches = rays.par_chunks(chunk).zip(hits.par_chunks_mut(chunk));
+            batches.for_each(|(rays, hits)| accel.load(Cow::Borrowed(rays)).any_hits(hits));
+        }
     }
-    batches.into_par_iter().for_each(|(rays, slots)| slots.query(accel.load(Cow::Borrowed(rays)).as_ref()));
     results
 }

@@ -95,7 +95,7 @@ pub fn api() -> Result<&'static Api, String> {
 
 fn load() -> Result<(Library, Api), String> {
     let named = env::var_os(VARIABLE).filter(|path| !path.is_empty());
-    // SAFETY: loading runs the initialisers of the library. It is the one that the user names, or the system's own
+    // SAFETY: loading runs the initialisers of the library. The user names it, or it is the system's own
     // Embree: both are trusted to be the named library.
     let open = |name: &OsStr| unsafe { Library::new(name) };
     let library = match &named {
