@@ -13,6 +13,7 @@
 #![doc = include_str!("GATE.md")]
 
 mod changes;
+mod keys;
 mod read;
 mod table;
 #[cfg(test)]
@@ -27,10 +28,10 @@ use crate::measure::{Estimate, Provenance, Rerun, epoch_values};
 use crate::registry::is_named;
 use crate::report::words::each_once;
 use crate::request::{REPORT_TREE, known_defect};
+use keys::other_keys;
 
 pub use read::read;
 pub use table::{cautions, sentences, tables};
-use unlike::other_keys;
 pub use unlike::{Unlike, settings, unlike, unlike_plan};
 
 /// One of the two runs.

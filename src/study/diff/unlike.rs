@@ -1,7 +1,6 @@
-//! Runs that cannot be compared, and settings and keys that differ.
+//! Runs that cannot be compared.
 
-use serde_json::{Map, Value};
-
+use super::keys::{differences, other_keys};
 use super::{Side, cell_title, has_reference_role, pairs};
 use crate::measure::Provenance;
 use crate::report::number::{count, duration};
@@ -124,27 +123,4 @@ pub fn unlike_plan(old: &Dataset, cases: &[Case], here: &Provenance) -> Result<(
 pub fn settings(old: &Case, new: &Case) -> Vec<String> {
     let all = differences(&old.group(), &new.group());
     all.into_iter().map(|(name, old, new)| format!("{name} {old} and {new}")).collect()
-}
-
-/// Keys that differ: name, old and new value.
-pub(super) fn other_keys(old: &Value, new: &Value) -> Vec<(String, String, String)> {
-    // Leave out the digests of a program: comparing two builds of it is the purpose.
-    let keys = |value: &Value| {
-        let mut map = value.as_object().cloned().unwrap_or_default();
-        map.retain(|key, _| key != "build" && key != "command");
-        map
-    };
-    differences(&keys(old), &keys(new))
-}
-
-/// Values that differ: name, old and new value.
-fn differences(old: &Map<String, Value>, new: &Map<String, Value>) -> Vec<(String, String, String)> {
-    let text = |value: Option<&Value>| match value {
-        None => "absent".to_owned(),
-        Some(Value::String(text)) => text.clone(),
-        Some(other) => other.to_string(),
-    };
-    let names = old.keys().chain(new.keys().filter(|name| !old.contains_key(*name)));
-    let different = names.filter(|name| old.get(*name) != new.get(*name));
-    different.map(|name| (name.clone(), text(old.get(name)), text(new.get(name)))).collect()
 }

@@ -1,0 +1,26 @@
+//! Keys of structures and of settings that differ.
+
+use serde_json::{Map, Value};
+
+/// Keys that differ: name, old and new value.
+pub fn other_keys(old: &Value, new: &Value) -> Vec<(String, String, String)> {
+    // Leave out the digests of a program: comparing two builds of it is the purpose.
+    let keys = |value: &Value| {
+        let mut map = value.as_object().cloned().unwrap_or_default();
+        map.retain(|key, _| key != "build" && key != "command");
+        map
+    };
+    differences(&keys(old), &keys(new))
+}
+
+/// Values that differ: name, old and new value.
+pub fn differences(old: &Map<String, Value>, new: &Map<String, Value>) -> Vec<(String, String, String)> {
+    let text = |value: Option<&Value>| match value {
+        None => "absent".to_owned(),
+        Some(Value::String(text)) => text.clone(),
+        Some(other) => other.to_string(),
+    };
+    let names = old.keys().chain(new.keys().filter(|name| !old.contains_key(*name)));
+    let different = names.filter(|name| old.get(*name) != new.get(*name));
+    different.map(|name| (name.clone(), text(old.get(name)), text(new.get(name)))).collect()
+}
