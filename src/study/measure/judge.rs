@@ -1,4 +1,4 @@
-//! What only the study `accuracy` measures: errors against the exact oracle, and the slowest ray.
+//! Measurements of the study `accuracy` alone: errors against the exact oracle, and the slowest ray.
 
 use std::hint::black_box;
 use std::slice;

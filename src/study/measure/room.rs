@@ -21,7 +21,7 @@ pub fn may_fit(structures: usize, triangles: usize) -> bool {
     fits_into(memory(), [structures + 2, 0], triangles, "").is_ok()
 }
 
-/// Whether all structures, of which some are twins, fit into `memory` bytes.
+/// Whether all structures, with twins among them, fit into `memory` bytes.
 fn fits_into(
     memory: Option<u64>,
     [structures, twins]: [usize; 2],
