@@ -87,7 +87,7 @@ impl Patches {
 
     /// A straight moulding along the right axis of `frame`: (height, depth) from bottom to top.
     pub fn moulding(&mut self, frame: &Frame, [from, to]: [f32; 2], profile: &[[f32; 2]]) {
-        for &[[y0, z0], [y1, z1]] in profile.array_windows() {
+        for (&[y0, z0], &[y1, z1]) in profile.iter().zip(&profile[1..]) {
             self.quad([frame.at(from, y0, z0), frame.at(to, y0, z0), frame.at(to, y1, z1), frame.at(from, y1, z1)]);
         }
     }
