@@ -3,8 +3,7 @@
 use image::RgbImage;
 use rayon::prelude::*;
 
-use super::picture::from_pixels;
-use super::view::primary;
+use super::picture::{from_pixels, primary};
 use crate::accel::DynAccel;
 use crate::geometry::{Hit, Ray};
 use crate::oracle::{Oracle, Truth};

@@ -6,6 +6,9 @@ use glam::Vec3;
 use image::RgbImage;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 
+use crate::geometry::Ray;
+use crate::scene::{Scene, View};
+
 /// A picture of RGB pixels, row by row, the top row first.
 ///
 /// # Panics
@@ -41,6 +44,11 @@ pub fn png(picture: &RgbImage) -> Vec<u8> {
     let mut bytes = vec![];
     picture.write_with_encoder(png_encoder(&mut bytes)).expect("memory takes every picture that has pixels");
     bytes
+}
+
+/// The rays through the centres of all pixels, row by row.
+pub fn primary(scene: &Scene, size: [u32; 2]) -> Vec<Ray> {
+    scene.primary_rays(size, View::CENTRE, 0..size[0] * size[1])
 }
 
 #[cfg(test)]

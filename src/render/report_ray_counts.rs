@@ -1,7 +1,7 @@
 //! Asserts the ray counts of the source report, which hold only if scenes, meshes and the course's rules are right.
 
 use super::count_rays;
-use super::view::primary;
+use super::picture::primary;
 use crate::accel::Accel;
 use crate::kdtree::{KdConfig, KdTree};
 use crate::scene::Builtin;

@@ -1,6 +1,6 @@
 //! Checks the rays and pictures of the renderer.
 
-use super::view::primary;
+use super::picture::primary;
 use super::{RayCounts, count_rays, shade};
 use crate::accel::Accel;
 use crate::brute_force::BruteForce;

@@ -4,12 +4,12 @@ use std::str::FromStr;
 
 use image::RgbImage;
 
-use super::picture::{from_pixels, of_colours, quantised};
+use super::picture::{from_pixels, of_colours, primary, quantised};
 use super::{ErrorMap, Work, colour_map, shade};
 use crate::accel::{DynAccel, Observed};
 use crate::geometry::{Hit, Ray};
 use crate::names::{Unknown, find, named_enum};
-use crate::scene::{Scene, View};
+use crate::scene::Scene;
 
 named_enum! {
     /// The content of a picture.
@@ -110,11 +110,6 @@ pub fn size_of(scene: &Scene, longest: u32) -> [u32; 2] {
 /// share.
 pub fn coarse_size(scene: &Scene) -> [u32; 2] {
     size_of(scene, 320)
-}
-
-/// The rays through the centres of all pixels, row by row.
-pub fn primary(scene: &Scene, size: [u32; 2]) -> Vec<Ray> {
-    scene.primary_rays(size, View::CENTRE, 0..size[0] * size[1])
 }
 
 /// The colour of a hit of `ray` in the normal view.

@@ -1,5 +1,6 @@
 //! Eight-wide trees of tight boxes: one node layout, one traversal, four partitioning strategies.
 
+mod accel;
 mod batch;
 mod child_order;
 mod collapse;
