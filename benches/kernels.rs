@@ -10,10 +10,11 @@ use std::sync::Arc;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use glam::Vec3;
 use sahara::accel::{Accel, Counts, Observer};
+use sahara::builtin::Builtin;
 use sahara::geometry::Ray;
 use sahara::kdtree::{KdConfig, KdTree};
 use sahara::registry::Registry;
-use sahara::scene::{Builtin, Sampling, Workload, WorkloadKind};
+use sahara::scene::{Sampling, Workload, WorkloadKind};
 use sahara::simd::{EightLanes, Kernel, Lanes, Level, Portable, dispatch};
 use sahara::triangle::{
     BaldwinWeber, EdgeF64, Exact, MollerTrumbore, MollerTrumboreF64, Plucker, TriangleTest, Watertight,

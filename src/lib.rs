@@ -15,27 +15,26 @@
 #![doc = include_str!("WALK_THROUGH_2_COMMAND_AND_TESTS.md")]
 
 // The core.
-pub use sahara_core::{accel, brute_force, build, bvh8, exact, external, geometry, kdtree, offered, simd, triangle};
+pub use sahara_core::{
+    accel, brute_force, build, bvh8, exact, external, geometry, kdtree, offered, oracle, simd, triangle,
+};
+
+// Scenes and images.
+use sahara_images::{escaped, names, plural};
+pub use sahara_images::{golden, output, render, scene};
 
 // The suite.
+pub mod builtin;
 pub mod cli;
-mod escaped;
 pub mod fetch;
-pub mod golden;
 pub mod measure;
-mod names;
-pub mod oracle;
-pub mod output;
 #[cfg(feature = "page")]
 pub mod page;
 mod panics;
-mod plural;
 pub mod registry;
-pub mod render;
 pub mod report;
 pub mod request;
 pub mod runner;
-pub mod scene;
 pub mod study;
 pub mod validate;
 

@@ -5,10 +5,11 @@ use std::path::Path;
 
 use sahara::accel::Capabilities;
 use sahara::brute_force::BruteForce;
+use sahara::builtin::{BUILTIN, Builtin, Difficulty};
 use sahara::bvh8::{Bvh8, Bvh8Config, Partition};
 use sahara::kdtree::{KdConfig, KdTree};
 use sahara::registry::{Choice, Registry};
-use sahara::scene::{BUILTIN, Builtin, Difficulty, Scene};
+use sahara::scene::Scene;
 use sahara::triangle::MollerTrumbore;
 use sahara::validate::conformance::{Named, Subject, answers, counting, shapes};
 use sahara::validate::degenerate_meshes;

@@ -1,8 +1,9 @@
-//! Planted faults of a picture, and the measures that detect each: the table of src/golden/GOLDEN.md.
+//! Planted faults of a picture, and the measures that detect each: the table of src/images/golden/GOLDEN.md.
 
 use std::sync::Arc;
 
 use sahara::accel::Accel;
+use sahara::builtin::Builtin;
 use sahara::geometry::Mesh;
 use sahara::glam::Vec2;
 use sahara::golden::measures::Measures;
@@ -10,7 +11,7 @@ use sahara::golden::{Allowed, Match, Verdict, compare};
 use sahara::image::DynamicImage;
 use sahara::kdtree::{KdConfig, KdTree};
 use sahara::render::{of_colours, shade};
-use sahara::scene::{Builtin, Scene, View};
+use sahara::scene::{Scene, View};
 use sahara::triangle::Exact;
 
 pub const SIZE: [u32; 2] = [256, 192];
@@ -102,7 +103,7 @@ fn table() -> String {
 
 #[test]
 fn the_guide_says_which_measures_catch_which_fault() {
-    let guide = include_str!("../src/golden/GOLDEN.md");
+    let guide = include_str!("../src/images/golden/GOLDEN.md");
     let table = table();
-    assert!(guide.contains(&table), "src/golden/GOLDEN.md should contain\n{table}");
+    assert!(guide.contains(&table), "src/images/golden/GOLDEN.md should contain\n{table}");
 }

@@ -3,11 +3,11 @@
 
 use std::path::Path;
 
+use sahara::builtin::{BUILTIN, Builtin};
 use sahara::golden::{GoldenError, Layout, Overwrite, SceneGolden, TRIANGLE_TEST, Update, read, write};
 use sahara::image::{DynamicImage, RgbaImage};
 use sahara::registry::{Choice, Registry};
 use sahara::render::ViewKind;
-use sahara::scene::{BUILTIN, Builtin};
 
 /// Pixels of the baseline that differ: structure, scene, number of pixels and cause. Any other number of pixels or
 /// another scene fails the test.
@@ -51,7 +51,7 @@ fn draw_as_committed(choices: &[Choice]) -> usize {
     for builtin in BUILTIN {
         // A real mesh on this machine must not change the picture.
         let scene = builtin.scene(None).expect("a built-in scene is whole");
-        let golden = SceneGolden::builtin(builtin.name).expect("every built-in scene has one");
+        let golden = builtin.golden();
         for choice in choices {
             let accel = choice.build(&scene.mesh).expect("a valid mesh builds");
             let finding = FINDINGS.iter().find(|f| f.0 == choice.label && f.1 == scene.name);

@@ -10,9 +10,10 @@ use glam::Vec3;
 use rand_core::{RngCore, SeedableRng};
 use rand_pcg::Pcg32;
 use sahara::accel::{Counts, DynAccel};
+use sahara::builtin::Builtin;
 use sahara::geometry::{Hit, Mesh, Ray};
 use sahara::registry::Registry;
-use sahara::scene::{Builtin, Sampling, Scene, Workload, WorkloadKind};
+use sahara::scene::{Sampling, Scene, Workload, WorkloadKind};
 use sahara::simd::Level;
 use sahara::validate::{Stratum, degenerate_meshes};
 

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
+use sahara::builtin::Builtin;
 use sahara::geometry::{Mesh, Ray};
 use sahara::oracle::{Oracle, nearest};
-use sahara::scene::Builtin;
 use sahara::validate::{Stratum, degenerate_meshes};
 
 /// The number of rays with a hit. Checks that both agree: the exact `t` and the set of triangles.

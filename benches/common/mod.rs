@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
+use sahara::builtin::Builtin;
 use sahara::geometry::Mesh;
 use sahara::registry::{Choice, Registry};
-use sahara::scene::{Builtin, Scene, WorkloadKind};
+use sahara::scene::{Scene, WorkloadKind};
 
 /// The rays of `traverse`.
 pub const KINDS: [WorkloadKind; 4] =

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 
 use super::terminal::Terminal;
+use crate::builtin::{BUILTIN, Builtin, real_mesh_folder};
 use crate::escaped::Escaped as _;
 use crate::fetch::DataFile;
 #[cfg(feature = "fetch")]
@@ -13,7 +14,6 @@ use crate::fetch::{Client, FetchOutcome};
 use crate::report::number::bytes;
 use crate::report::words::each_once_by;
 use crate::scene::format::{RealMesh, SceneFile};
-use crate::scene::{BUILTIN, Builtin, real_mesh_folder};
 use crate::study::Status;
 
 #[derive(Debug, clap::Args)]

@@ -4,6 +4,7 @@ use super::Suite;
 use super::terminal::Terminal;
 use super::validate::described;
 use crate::accel::Observed;
+use crate::builtin::{BUILTIN, real_mesh_folder};
 use crate::names::suggestion;
 use crate::registry::{Entry, Registry};
 use crate::render::ViewKind;
@@ -11,8 +12,8 @@ use crate::report::number::count;
 use crate::report::words::each_once;
 use crate::report::{Cell, Table, Tone};
 use crate::request::RayKind;
+use crate::scene::WorkloadKind;
 use crate::scene::meshes::GENERATORS;
-use crate::scene::{BUILTIN, WorkloadKind, real_mesh_folder};
 use crate::study::Status;
 
 #[derive(Debug, clap::Args)]

@@ -41,6 +41,8 @@ pub mod geometry;
 pub mod kdtree;
 #[cfg(feature = "suite")]
 pub mod offered;
+#[cfg(feature = "suite")]
+pub mod oracle;
 pub mod simd;
 mod traversal;
 pub mod triangle;

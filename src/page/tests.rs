@@ -5,12 +5,12 @@ use std::fs;
 use std::path::PathBuf;
 
 use super::{Document, Runs, Section, files, page};
+use crate::builtin::Builtin;
 use crate::measure::Provenance;
 use crate::registry::Registry;
 use crate::report::plot::Chart;
 use crate::report::{Art, Block, Overlay};
 use crate::request::{SceneRequest, ViewArgs};
-use crate::scene::Builtin;
 use crate::study::Dataset;
 use example::{Files, STUDIES, cube, export, folder, journal, measured, provenance, read, refused, runs, whole};
 

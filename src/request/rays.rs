@@ -8,11 +8,12 @@ use serde::{Deserialize, Serialize};
 
 use super::{RayKind, scene};
 use crate::accel::{DynAccel, Query};
+use crate::builtin::Builtin;
 use crate::escaped::Escaped as _;
 use crate::registry::Registry;
 use crate::report::words::each_once;
 use crate::scene::files::RayFile;
-use crate::scene::{Builtin, Sampling, Scene, Workload, WorkloadKind};
+use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
 
 /// The default workloads of studies.
 pub const WORKLOADS: [WorkloadKind; 4] =

@@ -9,11 +9,12 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::ViewArgs;
+use crate::builtin::{BUILTIN, Builtin, real_mesh_folder};
 use crate::escaped::{Escaped as _, stem};
 use crate::output::OutputFile;
 use crate::registry::Registry;
 use crate::report::words::listed;
-use crate::scene::{BUILTIN, Builtin, Scene, load, real_mesh_folder};
+use crate::scene::{Scene, load};
 
 /// A scene in a case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

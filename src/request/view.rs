@@ -131,7 +131,10 @@ impl ViewArgs {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Builtin;
+    use crate::accel::Accel;
+    use crate::builtin::Builtin;
+    use crate::render::{ViewError, ViewKind, draw};
+    use crate::study::measure::tests::{Flawed, FlawedConfig};
 
     #[test]
     fn sizes() {
@@ -178,5 +181,13 @@ mod tests {
         // A scene has its own lights.
         assert_eq!(inside.lights.len(), lights.len());
         assert_eq!(inside.lights[0].position, lights[0].position);
+    }
+
+    #[test]
+    fn heat_is_refused_where_steps_are_unknown() {
+        let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
+        let unobserved = Flawed::build(&scene.mesh, &FlawedConfig::default()).unwrap();
+        assert_eq!(draw(&scene, &unobserved, ViewKind::Heat, [4, 4], 1), Err(ViewError));
+        assert!(draw(&scene, &unobserved, ViewKind::Depth, [4, 4], 1).is_ok());
     }
 }

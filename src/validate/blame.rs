@@ -5,9 +5,10 @@ use std::cmp::Ordering;
 use glam::Vec3;
 
 use super::rounding::{Margin, Precision, nearest_sure};
-use super::{DepthRule, Kind, Reference, ScalarTest};
+use super::{Kind, Reference, ScalarTest};
 use crate::exact::{self, ExactT};
 use crate::geometry::{Hit, Mesh, PrimId, Ray};
+use crate::oracle::DepthRule;
 
 /// The verdict on a difference, and its reason in one sentence.
 pub(super) type Blame = (Kind, String);

@@ -2,51 +2,7 @@
 
 use crate::geometry::Hit;
 use crate::measure::beta_quantile;
-use crate::oracle::Truth;
-
-/// The condition for a wrong depth.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DepthRule {
-    /// Allowed relative error at a primitive that is exactly the first one hit.
-    right: f64,
-    /// Allowed relative error at any other primitive.
-    other: f64,
-    /// Error that is always allowed, in units in the last place of the exact `t` as an `f32`.
-    ulps: f64,
-}
-
-impl DepthRule {
-    /// Only errors that are visible in a picture: more than 1 % at the right primitive, more than 0.1 % at another.
-    pub const COARSE: Self = Self { right: 1e-2, other: 1e-3, ulps: 0.0 };
-
-    /// More than 4 units in the last place and more than 1e-6, at any primitive.
-    pub const STRICT: Self = Self { right: 1e-6, other: 1e-6, ulps: 4.0 };
-
-    /// Whether a hit at `found` counts as one at `t`, which is not negative. `right`: its primitive is hit there.
-    pub(super) fn allows(self, t: f64, found: f32, right: bool) -> bool {
-        let allowed = (t * if right { self.right } else { self.other }).max(ulp(t) * self.ulps);
-        // This is false for NaN.
-        (f64::from(found) - t).abs() <= allowed
-    }
-}
-
-/// The outcome of one ray.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Outcome {
-    /// A miss, and the structure returns a miss.
-    Nothing,
-    /// The right primitive at the right depth.
-    Right,
-    /// A hit, and the structure returns a miss.
-    Missed,
-    /// A miss, and the structure returns a hit.
-    FalseHit,
-    /// A hit at a wrong depth, at any primitive.
-    WrongDepth,
-    /// A hit at the right depth, but at a primitive that is not among the nearest: its depth equals theirs within the
-    /// tolerance.
-    WrongPrimitive,
-}
+use crate::oracle::{DepthRule, Outcome, Truth, outcome, ulp};
 
 /// Sums over rays. Rates of workloads that fail in different ways must not be added.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -134,7 +90,7 @@ pub fn count_errors(truths: &[Option<Truth>], answers: &[Option<Hit>], rule: Dep
         }
         counts.hits += u64::from(truth.is_some());
         if let (Some(truth), Some(hit)) = (truth, answer) {
-            if names(truth, *hit) {
+            if truth.names(*hit) {
                 let t = truth.t.approximate();
                 ulps.push((f64::from(hit.t) - t).abs() / ulp(t));
             } else {
@@ -144,34 +100,6 @@ pub fn count_errors(truths: &[Option<Truth>], answers: &[Option<Hit>], rule: Dep
     }
     counts.ulps = summary(ulps);
     counts
-}
-
-/// The outcome of a ray with this hit.
-pub fn outcome(truth: Option<&Truth>, answer: Option<Hit>, rule: DepthRule) -> Outcome {
-    match (truth, answer) {
-        (None, None) => Outcome::Nothing,
-        (Some(_), None) => Outcome::Missed,
-        (None, Some(_)) => Outcome::FalseHit,
-        (Some(truth), Some(hit)) => {
-            let right = names(truth, hit);
-            match rule.allows(truth.t.approximate(), hit.t, right) {
-                false => Outcome::WrongDepth,
-                true if !right => Outcome::WrongPrimitive,
-                true => Outcome::Right,
-            }
-        }
-    }
-}
-
-fn names(truth: &Truth, hit: Hit) -> bool {
-    truth.ids.binary_search(&hit.prim.index()).is_ok()
-}
-
-/// The distance between floats around `t`, which is not negative; for numbers below the normal range, the distance
-/// between denormals.
-fn ulp(t: f64) -> f64 {
-    let exponent = if t > 0.0 { libm::ilogb(t).clamp(-126, 127) } else { -126 };
-    libm::ldexp(1.0, exponent - 23)
 }
 
 fn summary(mut ulps: Vec<f64>) -> Option<Ulps> {
@@ -199,36 +127,6 @@ mod tests {
         let positions = [corners(1.0), corners(1.0 + gap)].concat();
         let oracle = Oracle::new(&Arc::new(Mesh::new(positions, vec![[0, 1, 2], [3, 4, 5]]).unwrap()));
         [Vec3::Z, -Vec3::Z].map(|direction| oracle.nearest(&Ray::new(Vec3::ZERO, direction)))
-    }
-
-    #[test]
-    fn every_answer_has_its_outcome() {
-        let [hit, none] = &truths(0.5);
-        let of = |truth: &Option<Truth>, answer| outcome(truth.as_ref(), answer, DepthRule::STRICT);
-        assert_eq!(of(none, None), Outcome::Nothing);
-        assert_eq!(of(none, Some(Hit::new(1.0, 0))), Outcome::FalseHit);
-        assert_eq!(of(hit, None), Outcome::Missed);
-        assert_eq!(of(hit, Some(Hit::new(1.0, 0))), Outcome::Right);
-        assert_eq!(of(hit, Some(Hit::new(1.5, 1))), Outcome::WrongDepth);
-        assert_eq!(of(hit, Some(Hit::new(1.0, 1))), Outcome::WrongPrimitive);
-        assert_eq!(of(hit, Some(Hit::new(f32::NAN, 0))), Outcome::WrongDepth);
-    }
-
-    #[test]
-    fn the_rules_draw_their_lines_where_they_say() {
-        let [hit, _] = truths(1e-4);
-        let of = |t: f32, id, rule| outcome(hit.as_ref(), Some(Hit::new(t, id)), rule);
-        for (t, id, coarse, strict) in [
-            (1.0 + 8.0 * f32::EPSILON, 0, Outcome::Right, Outcome::Right),
-            (1.0 + 9.0 * f32::EPSILON, 0, Outcome::Right, Outcome::WrongDepth),
-            (0.991, 0, Outcome::Right, Outcome::WrongDepth),
-            (1.011, 0, Outcome::WrongDepth, Outcome::WrongDepth),
-            (1.0009, 1, Outcome::WrongPrimitive, Outcome::WrongDepth),
-            (1.0011, 1, Outcome::WrongDepth, Outcome::WrongDepth),
-        ] {
-            assert_eq!(of(t, id, DepthRule::COARSE), coarse, "{t} {id}");
-            assert_eq!(of(t, id, DepthRule::STRICT), strict, "{t} {id}");
-        }
     }
 
     #[test]
@@ -261,14 +159,5 @@ mod tests {
             assert!((libm::exp(n as f64 * libm::log1p(-bound)) - 0.05).abs() < 1e-9, "{n}: {bound}");
             assert!((bound * n as f64 - 2.9957).abs() < 0.05, "{n}: {bound}");
         }
-    }
-
-    #[test]
-    fn ulps_follow_the_float() {
-        for x in [f32::from_bits(1), f32::MIN_POSITIVE, 1.0, 1.999, 2.0, 1e30] {
-            assert_eq!(ulp(x.into()), f64::from(x.next_up()) - f64::from(x), "{x}");
-        }
-        assert_eq!(ulp(0.0), f64::from(f32::from_bits(1)));
-        assert_eq!(ulp(1e300), f64::from(f32::MAX) - f64::from(f32::MAX.next_down()));
     }
 }

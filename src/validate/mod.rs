@@ -25,7 +25,7 @@ mod watchdog;
 pub use adversarial::Stratum;
 pub use compare::{ExpectedHits, differences, validate, validate_any_hits, validate_hits, validate_known};
 pub use degenerate::{degenerate_meshes, stacked_sheets};
-pub use error_counts::{DepthRule, ErrorCounts, Outcome, Ulps, count_errors, outcome};
+pub use error_counts::{ErrorCounts, Ulps, count_errors};
 pub(crate) use reference::HasReference;
 pub use reference::{Reference, ScalarTest};
 pub use remote::{has_replied, validate_remote};

@@ -28,7 +28,7 @@ pub struct Validation {
     /// Wrong hits of a structure whose triangle test the reference does not share, which no rounding of such a test
     /// explains.
     pub answer_errors: u64,
-    /// Depths of such a structure that are wrong by [`DepthRule::STRICT`](super::DepthRule::STRICT), but that rounding
+    /// Depths of such a structure that are wrong by [`DepthRule::STRICT`](crate::oracle::DepthRule::STRICT), but that rounding
     /// in single precision explains.
     pub depth_errors: u64,
     /// Rays on which any hit and closest hit contradict each other.

@@ -44,7 +44,7 @@ fn the_example_of_the_document_is_timed_beside_ours() {
     let folder = TempDir::new().unwrap();
     let Some(program) = compiled(&folder, "brute_force", |text| text) else { return };
     let lines = fs::read_to_string(EXAMPLE).unwrap().lines().count();
-    let document = include_str!("../../src/scene/files/FORMAT.md");
+    let document = include_str!("../../src/images/scene/files/FORMAT.md");
     assert!(lines <= 71 && document.contains("tests/runner/brute_force.cpp") && document.contains("70 lines"));
 
     let with_argument = format!("'{program}' --any-argument");

@@ -13,13 +13,13 @@ use broken::{Broken, BrokenConfig, Fault, Modest, picks};
 use faulty::{Faulty, FaultyConfig};
 use grid::{Grid, GridConfig};
 use question::{DUPLICATION, staircase};
+use sahara::builtin::Builtin;
 use sahara::cli::Suite;
 use sahara::geometry::Ray;
-use sahara::golden::SceneGolden;
 use sahara::measure::{Provenance, SystemClock};
 use sahara::registry::Registry;
 use sahara::request::{StructureRequest, WorkloadRequest, scene};
-use sahara::scene::{Builtin, WorkloadKind};
+use sahara::scene::WorkloadKind;
 use sahara::study::measure::{BuildWatch, Prepared, measure};
 use sahara::study::measurement::measurements;
 use sahara::study::{Dataset, Measured, Plan, PlannedScene, Settings, Studies};
@@ -50,7 +50,7 @@ fn a_registered_structure_is_chosen_like_the_others_and_draws_the_golden_images(
     let choice = registry().choose("grid").unwrap();
     for name in ["cube", "torus", "cornellbox"] {
         let scene = Builtin::find(name).unwrap().scene(None).unwrap();
-        let (golden, out) = (SceneGolden::builtin(name).unwrap(), Path::new(env!("CARGO_TARGET_TMPDIR")));
+        let (golden, out) = (Builtin::find(name).unwrap().golden(), Path::new(env!("CARGO_TARGET_TMPDIR")));
         golden.check(&scene, "grid", choice.build(&scene.mesh).unwrap().as_ref(), out).unwrap();
     }
 }

@@ -6,11 +6,11 @@ use crate::accel::DynAccel;
 use crate::escaped::quoted;
 use crate::golden::{SceneGolden, TRIANGLE_TEST};
 use crate::oracle::Oracle;
+use crate::oracle::{DepthRule, outcome};
 use crate::registry::Registry;
 use crate::render::{ViewKind, error_name};
 use crate::request::BRUTE_FORCE;
 use crate::scene::Scene;
-use crate::validate::{DepthRule, outcome};
 
 /// Judges the pixels of a scene.
 pub struct Judge<'a> {

@@ -7,6 +7,7 @@ use anyhow::Context;
 
 use super::blame::Judge;
 use super::{Outputs, tally};
+use crate::builtin::{BUILTIN, Builtin};
 use crate::cli::terminal::Terminal;
 use crate::escaped::{Escaped as _, quoted, stem};
 use crate::golden::page::{Page, Sides};
@@ -16,7 +17,7 @@ use crate::registry::{Choice, Registry};
 use crate::render::ViewKind;
 use crate::report::words::{each_once_by, slug};
 use crate::request::{self, BRUTE_FORCE, OUTPUT, SAH_TREE, SCENES, STRUCTURES, ViewArgs, known_defect, stand_in};
-use crate::scene::{BUILTIN, Builtin, Scene};
+use crate::scene::Scene;
 use crate::study::Status;
 
 /// Above this number of triangles times pixels, brute force would take minutes on a user's scene.
@@ -112,7 +113,9 @@ impl Targets {
         let name = builtin.name.to_lowercase();
         let golden = match &self.goldens {
             Some(folder) => SceneGolden::file(folder, &name, self.view, &scene),
-            None if self.from.is_default() && self.view == ViewKind::Shaded => SceneGolden::builtin(&name)
+            None if self.from.is_default() && self.view == ViewKind::Shaded => Builtin::find(&name)
+                .ok()
+                .map(Builtin::golden)
                 .with_context(|| format!("{name} has no built-in golden image: name a folder with --goldens DIR"))?,
             None => {
                 let ([width, height], view) = (SIZE, self.view.name());

@@ -11,6 +11,7 @@ use indicatif::ProgressBar;
 use rayon::prelude::*;
 
 use crate::accel::Query;
+use crate::builtin::{BUILTIN, Builtin};
 use crate::cli::progress::spinner;
 use crate::cli::terminal::Terminal;
 use crate::escaped::Escaped as _;
@@ -25,7 +26,7 @@ use crate::report::number::{bytes, count, plural};
 use crate::report::words::{listed, slug};
 use crate::request::{self, OUTPUT, RAYS as HEADING, RayKind, stand_in};
 use crate::scene::files::{ExactHitFile, RayFile, mesh_bytes};
-use crate::scene::{BUILTIN, Builtin, Scene, Workload};
+use crate::scene::{Scene, Workload};
 use crate::study::Status;
 
 /// The SHA-256 of `SHA256SUMS` in the corpus with default options.

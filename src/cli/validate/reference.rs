@@ -130,9 +130,9 @@ pub fn closest_hits(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::builtin::Builtin;
     use crate::cli::progress::spinner;
     use crate::cli::terminal::{Colour, Terminal};
-    use crate::scene::Builtin;
 
     fn choices<const N: usize>(names: [&str; N]) -> [ReferenceChoice; N] {
         let registry = Registry::builtin();

@@ -30,7 +30,7 @@ impl LoadedScene {
     /// The cube with another name, loaded by `word` and with the view in the JSON `view`.
     #[cfg(test)]
     pub fn cube(word: &str, name: &str, view: &str) -> Self {
-        let scene = Scene { name: name.into(), ..crate::scene::Builtin::find("cube").unwrap().scene(None).unwrap() };
+        let scene = Scene { name: name.into(), ..crate::builtin::Builtin::find("cube").unwrap().scene(None).unwrap() };
         let request = SceneRequest::new(word, &serde_json::from_str(view).unwrap(), &scene);
         Self { scene, request }
     }

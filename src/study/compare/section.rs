@@ -3,12 +3,12 @@
 use super::means::mean_table;
 use super::table::{legend, nothing_measured, refusals, scene_table};
 use super::{Reference, details, tradeoff};
+use crate::builtin::{BUILTIN, Builtin};
 use crate::report::number::count;
 use crate::report::plot::{Bar, BarGroup, Bars, Chart};
 use crate::report::words::{distinct, each_once, interval, listed, slug};
 use crate::report::{Art, Block, Cell, Figure, Finding, Table};
 use crate::request::{BRUTE_FORCE, REPORT_TREE, SAH_TREE, known_defect};
-use crate::scene::{BUILTIN, Builtin};
 use crate::study::epoch::Structure;
 use crate::study::kendall::{kendall, mean_of_scenes};
 use crate::study::measurement::{Measurement, of_scene, trace_noise};

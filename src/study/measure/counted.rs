@@ -141,7 +141,7 @@ mod tests {
         use crate::brute_force::BruteForce;
         use crate::kdtree::{KdConfig, KdTree};
         use crate::triangle::MollerTrumbore;
-        let scene = crate::scene::Builtin::find("cube").unwrap().scene(None).unwrap();
+        let scene = crate::builtin::Builtin::find("cube").unwrap().scene(None).unwrap();
         // Twelve triangles: a block of eight and a block of four.
         let ray = Ray::new(glam::Vec3::new(0.01, 0.02, 9.0), glam::Vec3::new(0.0, 0.0, -1.0));
         let brute = BruteForce::<MollerTrumbore>::build(&scene.mesh, &Default::default()).unwrap();

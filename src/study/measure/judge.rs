@@ -8,8 +8,9 @@ use rayon::prelude::*;
 use crate::accel::DynAccel;
 use crate::geometry::Ray;
 use crate::measure::Clock;
+use crate::oracle::DepthRule;
 use crate::oracle::{Oracle, Truth};
-use crate::validate::{DepthRule, ErrorCounts, count_errors};
+use crate::validate::{ErrorCounts, count_errors};
 
 /// Rays and their exact hits.
 pub struct Judge<'a> {
@@ -68,9 +69,9 @@ pub fn slowest(accel: &dyn DynAccel, rays: &[Ray], clock: &dyn Clock) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::builtin::Builtin;
     use crate::registry::Registry;
     use crate::request::RayKind;
-    use crate::scene::Builtin;
 
     #[test]
     fn costs_and_no_clock_decide_how_many_rays_are_judged() {

@@ -57,9 +57,10 @@ fn predicted(case: &Pair, built: &[Option<&Built>], workloads: &[Workload]) -> O
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::builtin::Builtin;
     use crate::measure::{SystemClock, Threads};
     use crate::registry::Registry;
-    use crate::scene::{Builtin, Sampling, WorkloadKind};
+    use crate::scene::{Sampling, WorkloadKind};
 
     #[test]
     fn costs_follow_counts_and_what_does_not_count_is_taken_for_the_median() {

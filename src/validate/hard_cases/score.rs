@@ -8,8 +8,9 @@ use super::answers::Answers;
 use super::case::{HardCase, Property};
 use super::set::Set;
 use crate::accel::BuildError;
+use crate::oracle::DepthRule;
 use crate::oracle::{Oracle, Truth};
-use crate::validate::{DepthRule, ErrorCounts, ExpectedHits, Reference, Validation, count_errors, validate_hits};
+use crate::validate::{ErrorCounts, ExpectedHits, Reference, Validation, count_errors, validate_hits};
 
 /// The mesh, rays and exact hits of one case, computed once for all structures.
 pub struct CaseTruth {

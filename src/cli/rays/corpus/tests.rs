@@ -3,11 +3,12 @@ use std::process::Command;
 use super::*;
 use crate::accel::{Accel, DynAccel};
 use crate::kdtree::{KdConfig, KdTree};
+use crate::oracle::DepthRule;
 use crate::scene::files::HitFile;
 use crate::triangle::MollerTrumbore;
-use crate::validate::{DepthRule, count_errors};
+use crate::validate::count_errors;
 
-const DOCUMENT: &str = include_str!("../../../scene/files/FORMAT.md");
+const DOCUMENT: &str = include_str!("../../../images/scene/files/FORMAT.md");
 
 #[test]
 fn the_document_states_the_hash_of_the_corpus() {

@@ -23,23 +23,13 @@ pub const VIEWS: [ViewKind; 4] = [ViewKind::Shaded, ViewKind::Depth, ViewKind::N
 
 const REMEDY: &str = "create the golden images with `sahara golden update`";
 
-macro_rules! builtin {
-    ($($folder:literal)*) => {
-        [$(($folder, include_bytes!(concat!("../../scenes/", $folder, "/golden.png")))),*]
-    };
-}
-
-/// The built-in scenes and their golden images.
-static BUILTIN: [(&str, &[u8]); 12] = builtin! {
-    "cube" "sphere" "torus" "teapot" "billards" "cornellbox" "infinitycandy" "metallic" "starters" "dragon" "lucy" "sponza"
-};
-
 /// The golden image of a view of a scene, in a file or in this program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneGolden {
     pub view: ViewKind,
     pub size: [u32; 2],
     path: PathBuf,
+    shown_path: PathBuf,
     /// The file's content for a built-in scene; `None` for a golden image in a folder.
     bytes: Option<&'static [u8]>,
     /// The camera that the file records; `None` for a built-in scene.
@@ -57,13 +47,11 @@ pub enum Update {
 }
 
 impl SceneGolden {
-    /// The golden image of a built-in scene, which this program contains: shaded, of [`SIZE`]. [`update`](Self::update)
-    /// writes it to the source tree. `None` if there is no such scene.
-    pub fn builtin(name: &str) -> Option<Self> {
-        let (folder, bytes) = BUILTIN.into_iter().find(|(own, _)| own.eq_ignore_ascii_case(name))?;
-        // The source tree may be missing at run time.
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(folder).join("golden.png");
-        Some(Self { view: ViewKind::Shaded, size: SIZE, path, bytes: Some(bytes), note: None })
+    /// The golden image of a scene that the program contains: shaded, of [`SIZE`], with the content `bytes`.
+    /// [`update`](Self::update) writes it to `file` in the source tree, which may be missing at run time.
+    pub fn in_program(bytes: &'static [u8], sources: &Path, file: &Path) -> Self {
+        let (path, shown_path) = (sources.join(file), file.into());
+        Self { view: ViewKind::Shaded, size: SIZE, path, shown_path, bytes: Some(bytes), note: None }
     }
 
     /// The golden image of a view in a folder, with the size and camera of `scene`. The file is `NAME.golden.png` for
@@ -71,7 +59,8 @@ impl SceneGolden {
     pub fn file(folder: &Path, name: &str, view: ViewKind, scene: &Scene) -> Self {
         let view_name = if view == ViewKind::Shaded { String::new() } else { format!(".{}", view.name()) };
         let path = folder.join(format!("{name}{view_name}.golden.png"));
-        Self { view, size: scene.size, path, bytes: None, note: Some(camera_note(&scene.camera)) }
+        let note = Some(camera_note(&scene.camera));
+        Self { view, size: scene.size, shown_path: path.clone(), path, bytes: None, note }
     }
 
     /// Whether this program contains the golden image.
@@ -86,9 +75,8 @@ impl SceneGolden {
 
     /// The path for messages: relative to the source tree for a built-in scene, because the absolute path differs
     /// between machines.
-    pub fn display_path(&self) -> PathBuf {
-        let sources = Path::new(env!("CARGO_MANIFEST_DIR"));
-        self.path.strip_prefix(sources).ok().filter(|_| self.bytes.is_some()).unwrap_or(&self.path).into()
+    pub fn display_path(&self) -> &Path {
+        &self.shown_path
     }
 
     /// The golden image in the form in which pictures are compared: depths as floats.
@@ -141,7 +129,7 @@ impl SceneGolden {
         let pictures = [&self.expected()?, &self.drawn(scene, accel)];
         let shown = failure::folder(out, &format!("{}-{structure}", scene.name.to_lowercase()));
         let label = format!("{} with {structure}", scene.name);
-        failure::check(&self.display_path(), &label, pictures, Match::Exact, self.view.into(), &shown, REMEDY)
+        failure::check(self.display_path(), &label, pictures, Match::Exact, self.view.into(), &shown, REMEDY)
     }
 
     /// Renders the golden image and writes it if it differs from the existing file.
@@ -234,12 +222,13 @@ mod tests {
     use crate::accel::Accel;
     use crate::brute_force::BruteForce;
     use crate::kdtree::{KdConfig, KdTree};
+    use crate::scene::tests::of_the_report;
 
     #[test]
     fn a_golden_image_holds_until_the_scene_changes() {
         let directory = tempfile::tempdir().unwrap();
         let out = directory.path().join("out");
-        let mut scene = crate::scene::Builtin::find("cube").unwrap().scene(None).unwrap();
+        let mut scene = of_the_report("cube");
         scene.size = [80, 60];
         let tree = KdTree::<Exact>::build(&scene.mesh, &KdConfig::SAH).unwrap();
         let all = BruteForce::<Exact>::build(&scene.mesh, &Default::default()).unwrap();
@@ -274,26 +263,16 @@ mod tests {
     }
 
     #[test]
-    fn a_pixel_is_drawn_as_in_the_whole_picture_and_all_builtin_scenes_are_in_the_program() {
-        let scene = crate::scene::Builtin::find("cube").unwrap().scene(None).unwrap();
+    fn a_pixel_is_drawn_as_in_the_whole_picture() {
+        let scene = of_the_report("cube");
         let tree = KdTree::<Exact>::build(&scene.mesh, &KdConfig::SAH).unwrap();
         for view in VIEWS {
-            let golden = SceneGolden { view, ..SceneGolden::builtin("cube").unwrap() };
+            let golden = SceneGolden { size: SIZE, ..SceneGolden::file(Path::new(""), "cube", view, &scene) };
             let whole = golden.drawn(&scene, &tree);
             for [x, y] in [[0, 0], [80, 80], [95, 60]] {
                 let pixel = golden.drawn_pixel(&scene, &tree, &golden.ray(&scene, [x, y]));
                 assert_eq!(pixel, whole.crop_imm(x, y, 1, 1), "{view:?} {x} {y}");
             }
         }
-        for builtin in crate::scene::BUILTIN {
-            let golden = SceneGolden::builtin(builtin.name).unwrap_or_else(|| panic!("{}", builtin.name));
-            assert_eq!(golden.expected().unwrap(), file::read(golden.path()).unwrap());
-        }
-        // Without the source tree, `check` works and `update` fails.
-        let mut installed = SceneGolden::builtin("Cube").unwrap();
-        installed.path = "/no/such/cube/golden.png".into();
-        installed.check(&scene, "sah-kd", &tree, Path::new("/no/such/out")).unwrap();
-        let refused = installed.update(&scene, &tree, Overwrite::Any).unwrap_err();
-        assert!(matches!(refused, GoldenError::NoSources), "{refused}");
     }
 }

@@ -4,13 +4,16 @@
 
 mod filter;
 mod nearest_search;
+mod outcome;
 mod tree;
 
 use std::cmp::Ordering;
 use std::sync::Arc;
 
 use crate::exact::{self, ExactT};
-use crate::geometry::{Mesh, Ray};
+use crate::geometry::{Hit, Mesh, Ray};
+
+pub use outcome::{DepthRule, Outcome, outcome, ulp};
 
 /// The exact nearest hit of a ray.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -25,6 +28,11 @@ impl Truth {
     /// The `f32` nearest to `t`, ties to even.
     pub fn rounded(&self) -> f32 {
         self.t.round()
+    }
+
+    /// Whether the hit is at one of these triangles, at any `t`.
+    pub fn names(&self, hit: Hit) -> bool {
+        self.ids.binary_search(&hit.prim.index()).is_ok()
     }
 
     /// The rounded `t` and the lowest number, which an exact triangle test must return.

@@ -5,12 +5,13 @@ use super::{RayCounts, count_rays, shade};
 use crate::accel::Accel;
 use crate::brute_force::BruteForce;
 use crate::kdtree::{KdConfig, KdTree};
-use crate::scene::{Builtin, Sampling, Scene, Workload, WorkloadKind};
+use crate::scene::tests::of_the_report;
+use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
 use crate::triangle::{Exact, MollerTrumbore};
 
 #[test]
 fn rays_are_cast_for_what_a_scene_needs_and_no_more() {
-    let mut scene = Builtin::find("infinitycandy").unwrap().scene(None).unwrap();
+    let mut scene = of_the_report("infinitycandy");
     let all = BruteForce::<MollerTrumbore>::build(&scene.mesh, &Default::default()).unwrap();
     let mut count = |change: &dyn Fn(&mut Scene)| {
         change(&mut scene);
@@ -26,7 +27,7 @@ fn rays_are_cast_for_what_a_scene_needs_and_no_more() {
 
 #[test]
 fn the_picture_does_not_depend_on_threads() {
-    let scene = Builtin::find("metallic").unwrap().scene(None).unwrap();
+    let scene = of_the_report("metallic");
     let tree = KdTree::<MollerTrumbore>::build(&scene.mesh, &KdConfig::SAH).unwrap();
     let with = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
@@ -38,7 +39,7 @@ fn the_picture_does_not_depend_on_threads() {
 
 #[test]
 fn picture_workloads_hold_the_rays_that_the_renderer_counts() {
-    let scene = Builtin::find("infinitycandy").unwrap().scene(None).unwrap();
+    let scene = of_the_report("infinitycandy");
     let size = [40, 40];
     let tree = KdTree::<MollerTrumbore>::build(&scene.mesh, &KdConfig::SAH).unwrap();
     let counts = count_rays(&scene, &tree, &primary(&scene, size));

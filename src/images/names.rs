@@ -1,6 +1,7 @@
 //! Looks up names that people type, in upper or lower case, and suggests one for a misspelled name.
 
 /// Declares an enum with a name for each value; it has `ALL` of them, in the order of declaration, and `name`.
+#[macro_export]
 macro_rules! named_enum {
     ($(#[$doc:meta])* pub enum $type:ident { $($(#[$of:meta])* $value:ident = $name:literal,)* }) => {
         $(#[$doc])*
@@ -21,7 +22,7 @@ macro_rules! named_enum {
         }
     };
 }
-pub(crate) use named_enum;
+pub use named_enum;
 
 /// An unknown name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

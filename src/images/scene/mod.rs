@@ -1,7 +1,6 @@
 //! Scenes: meshes, materials, lights, cameras, and the rays made from them.
 
 mod assemble;
-mod builtin;
 mod camera;
 mod error;
 pub mod files;
@@ -19,10 +18,9 @@ pub mod offset;
 mod scene;
 pub mod spheres;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 mod workload;
 
-pub use builtin::{BUILTIN, Builtin, Difficulty, real_mesh_folder};
 pub use camera::{Camera, CameraError, View};
 pub use error::SceneError;
 pub use light::Light;

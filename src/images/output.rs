@@ -222,7 +222,7 @@ fn folder_of(path: &Path) -> &Path {
 }
 
 /// A new file beside `path`, a path with a folder; it is removed when it is dropped.
-pub(crate) fn temporary_file(path: &Path) -> io::Result<NamedTempFile> {
+pub fn temporary_file(path: &Path) -> io::Result<NamedTempFile> {
     temporary(0o666).tempfile_in(folder_of(path))
 }
 
@@ -244,7 +244,7 @@ fn temporary(#[cfg_attr(not(unix), expect(unused_variables))] mode: u32) -> Buil
 static TO_STDOUT: AtomicBool = AtomicBool::new(false);
 
 /// The reason why standard output is incomplete; unset if it is complete or was closed.
-pub(crate) static FAILURE: OnceLock<io::Error> = OnceLock::new();
+pub static FAILURE: OnceLock<io::Error> = OnceLock::new();
 
 /// Whether a result was requested as [`STDOUT`]: messages for people then go to standard error.
 pub fn stdout_is_taken() -> bool {
@@ -252,12 +252,12 @@ pub fn stdout_is_taken() -> bool {
 }
 
 /// Writes to standard output; [`FAILURE`] records a failure.
-pub(crate) fn print(bytes: &[u8]) {
+pub fn print(bytes: &[u8]) {
     let mut out = io::stdout().lock();
     note(out.write_all(bytes).and_then(|()| out.flush()));
 }
 
-pub(crate) fn note(written: io::Result<()>) {
+pub fn note(written: io::Result<()>) {
     if let Err(cause) = unless_gone(written) {
         FAILURE.get_or_init(|| cause);
     }
@@ -272,12 +272,12 @@ fn unless_gone(written: io::Result<()>) -> io::Result<()> {
 }
 
 /// Writes an error to standard error, in one line even if names of files contain line breaks.
-pub(crate) fn tell_error(error: impl Display) {
+pub fn tell_error(error: impl Display) {
     tell(format_args!("error: {}", error.to_string().escaped()));
 }
 
 /// Writes a line to standard error; a closed one, or a full disk, does not end a run.
-pub(crate) fn tell(line: impl Display) {
+pub fn tell(line: impl Display) {
     let _ = writeln!(io::stderr(), "{line}");
 }
 

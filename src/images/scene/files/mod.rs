@@ -18,7 +18,7 @@ use crate::output::OutputError;
 pub use bytes::RaysId;
 pub use exact_hits::ExactHitFile;
 pub use hits::HitFile;
-pub(crate) use hits::{hits_from_bytes, hits_to_bytes};
+pub use hits::{hits_from_bytes, hits_to_bytes};
 pub use mesh::mesh_bytes;
 pub use rays::RayFile;
 

@@ -6,9 +6,8 @@ use rayon::prelude::*;
 use super::picture::{from_pixels, primary};
 use crate::accel::DynAccel;
 use crate::geometry::{Hit, Ray};
-use crate::oracle::{Oracle, Truth};
+use crate::oracle::{DepthRule, Oracle, Outcome, Truth, outcome};
 use crate::scene::Scene;
-use crate::validate::{DepthRule, Outcome, outcome};
 
 /// The primary rays of a picture, row by row, with their exact hits. One serves all structures.
 pub struct ExactPicture {
@@ -133,12 +132,12 @@ mod tests {
     use crate::accel::Accel;
     use crate::geometry::Mesh;
     use crate::kdtree::{KdConfig, KdTree};
-    use crate::scene::Builtin;
+    use crate::scene::tests::of_the_report;
     use crate::triangle::Exact;
 
     #[test]
     fn right_hits_are_grey_and_errors_have_their_colours() {
-        let mut scene = Builtin::find("cube").unwrap().scene(None).unwrap();
+        let mut scene = of_the_report("cube");
         let tree = KdTree::<Exact>::build(&scene.mesh, &KdConfig::SAH).unwrap();
         let size = [24, 24];
         let map = ErrorMap::new(&scene, &tree, size);

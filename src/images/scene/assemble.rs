@@ -25,6 +25,34 @@ impl Origin<'_> {
     }
 }
 
+impl Scene {
+    /// The scene in a scene file, with the real meshes in the folder `real_meshes`; `None` for generated meshes only.
+    ///
+    /// # Errors
+    /// A file that cannot be read, an invalid key or value, a mesh that cannot be loaded, or a missing real mesh
+    /// without a stand-in.
+    pub fn read(path: &Path, real_meshes: Option<&Path>) -> Result<Self, SceneError> {
+        let text =
+            std::fs::read_to_string(path).map_err(|cause| SceneError::Unreadable { file: path.into(), cause })?;
+        let folder = Some(path.parent().unwrap_or(Path::new("")));
+        Self::from_text(&text, &path.escaped().to_string(), folder, real_meshes)
+    }
+
+    /// Like [`read`](Self::read), from the text of a scene file that messages call `file`; paths in it are relative to
+    /// `folder`, and not allowed without one.
+    ///
+    /// # Errors
+    /// As `read`.
+    pub fn from_text(
+        text: &str,
+        file: &str,
+        folder: Option<&Path>,
+        real_meshes: Option<&Path>,
+    ) -> Result<Self, SceneError> {
+        assemble(&SceneFile::parse(text, file)?, &Origin { file, folder, real_meshes })
+    }
+}
+
 /// Loads or generates all meshes, places them and checks the scene.
 pub(super) fn assemble(file: &SceneFile, origin: &Origin) -> Result<Scene, SceneError> {
     let mut parts = Parts::new(file);

@@ -4,7 +4,6 @@ use rand_pcg::Pcg32;
 
 use super::*;
 use crate::exact::rational;
-use crate::validate::degenerate::box_grid;
 
 /// A source of floats.
 pub struct Numbers {
@@ -81,29 +80,6 @@ fn rational_arithmetic_agrees() {
         }
     }
     assert!(hits > 40, "{hits}");
-}
-
-/// In a closed mesh with corners on a grid, along the axes: `t` is known, through faces, edges, vertices, and in the
-/// planes of sides.
-#[test]
-fn rays_in_a_cube_hit_the_far_side_where_they_must() {
-    let mesh = box_grid(4);
-    let oracle = Oracle::new(&mesh);
-    let grid = || (-8..=8).map(|k| k as f32 / 8.0);
-    for (x, y) in grid().flat_map(|x| grid().map(move |y| (x, y))) {
-        for zero in [0.0, -0.0] {
-            let truth = oracle.nearest(&Ray::new(Vec3::new(x, y, 0.25), Vec3::new(zero, zero, -0.5))).expect("closed");
-            assert_eq!(truth.rounded(), 2.5);
-            // Vertices of the grid within a side have four, six or eight triangles, and fewer at the rim.
-            let through = |c: f32| (c * 2.0).fract() == 0.0;
-            let inside = x.abs() < 1.0 && y.abs() < 1.0;
-            match (through(x), through(y)) {
-                (true, true) if inside => assert_eq!(truth.ids.len(), 6),
-                (true, false) | (false, true) if inside => assert_eq!(truth.ids.len(), 2),
-                _ => assert!(!truth.ids.is_empty()),
-            }
-        }
-    }
 }
 
 #[test]

@@ -4,7 +4,7 @@ use super::count_rays;
 use super::picture::primary;
 use crate::accel::Accel;
 use crate::kdtree::{KdConfig, KdTree};
-use crate::scene::Builtin;
+use crate::scene::tests::of_the_report;
 use crate::triangle::Exact;
 
 /// Counts of a recount with the course's own renderer, and the report's own total.
@@ -41,7 +41,7 @@ const KNOWN: &[Known] = &[
 fn rays_are_as_many_as_in_the_report() {
     let mut wrong = vec![];
     for known in KNOWN {
-        let scene = Builtin::find(known.scene).unwrap().scene(None).unwrap();
+        let scene = of_the_report(&known.scene.to_lowercase());
         let tree = KdTree::<Exact>::build(&scene.mesh, &KdConfig::SAH).unwrap();
         let counts = count_rays(&scene, &tree, &primary(&scene, scene.size));
         let total = counts.primary + counts.mirror + counts.shadow;

@@ -148,13 +148,12 @@ mod tests {
     use crate::accel::Accel;
     use crate::brute_force::BruteForce;
     use crate::kdtree::{KdConfig, KdTree};
-    use crate::scene::Builtin;
-    use crate::study::measure::tests::{Flawed, FlawedConfig};
+    use crate::scene::tests::of_the_report;
     use crate::triangle::MollerTrumbore;
 
     #[test]
     fn every_view_shows_the_cube_and_what_is_around_it() {
-        let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
+        let scene = of_the_report("cube");
         let tree = KdTree::<MollerTrumbore>::build(&scene.mesh, &KdConfig::SAH).unwrap();
         let all = BruteForce::<MollerTrumbore>::build(&scene.mesh, &Default::default()).unwrap();
         let colours = |view: ViewKind, accel: &dyn DynAccel| {
@@ -174,14 +173,6 @@ mod tests {
         // Brute force tests twelve triangles in one leaf for every ray.
         assert_eq!(costs(&scene, &all, [4, 4]).unwrap(), [13; 16]);
         assert_eq!(colours(ViewKind::Heat, &all).1, HashSet::from([colour_map::heat(13, 14)]));
-    }
-
-    #[test]
-    fn heat_is_refused_where_steps_are_unknown() {
-        let scene = Builtin::find("cube").unwrap().scene(None).unwrap();
-        let unobserved = Flawed::build(&scene.mesh, &FlawedConfig::default()).unwrap();
-        assert_eq!(draw(&scene, &unobserved, ViewKind::Heat, [4, 4], 1), Err(ViewError));
-        assert!(draw(&scene, &unobserved, ViewKind::Depth, [4, 4], 1).is_ok());
     }
 
     #[test]

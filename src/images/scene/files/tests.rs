@@ -5,11 +5,12 @@ use crate::accel::{Accel, DynAccel, Query};
 use crate::geometry::{Hit, Ray};
 use crate::kdtree::{KdConfig, KdTree};
 use crate::output::OutputFile;
-use crate::scene::{Builtin, Sampling, Scene, Workload, WorkloadKind};
+use crate::scene::tests::of_the_report;
+use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
 use crate::triangle::Exact;
 
 fn scene() -> Scene {
-    Builtin::find("cornellbox").unwrap().scene(None).unwrap()
+    of_the_report("cornellbox")
 }
 
 fn tree(scene: &Scene) -> KdTree<Exact> {
@@ -96,7 +97,7 @@ fn an_endless_file_is_refused_by_its_first_bytes() {
 #[test]
 fn rays_and_hits_of_another_scene_are_refused() {
     let (scene, file) = recorded(WorkloadKind::Primary);
-    let other = Builtin::find("cube").unwrap().scene(None).unwrap();
+    let other = of_the_report("cube");
     let refusal = file.check_scene(&other).unwrap_err();
     assert!(refusal.contains("Cornellbox") && refusal.contains("Cube"), "{refusal}");
     let free = RayFile { scene_hash: None, ..file.clone() };

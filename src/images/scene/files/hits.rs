@@ -80,13 +80,13 @@ impl HitFile {
 }
 
 /// Eight bytes per hit: the bits of `t` and the number of the primitive, little-endian.
-pub(crate) fn hits_to_bytes(hits: &[Option<Hit>]) -> Vec<u8> {
+pub fn hits_to_bytes(hits: &[Option<Hit>]) -> Vec<u8> {
     let numbers = |hit: &Option<Hit>| hit.map_or([0, NOTHING], |hit| [hit.t.to_bits(), hit.prim.index()]);
     hits.iter().flat_map(numbers).flat_map(u32::to_le_bytes).collect()
 }
 
 /// The inverse of [`hits_to_bytes`].
-pub(crate) fn hits_from_bytes(bytes: &[u8]) -> Vec<Option<Hit>> {
+pub fn hits_from_bytes(bytes: &[u8]) -> Vec<Option<Hit>> {
     let hit = |bytes: &[u8]| match number(bytes, 4) {
         NOTHING => None,
         prim => Some(Hit::new(f32::from_bits(number(bytes, 0)), prim)),
