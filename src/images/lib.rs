@@ -1,6 +1,5 @@
 //! The images of **sahara**: scenes with their meshes, cameras and rays; a renderer; the comparison of images with
-//! golden ones. The trees are those of [`sahara_core`], the command and the studies are in the crate `sahara`, which
-//! re-exports these modules.
+//! golden ones. The crate [`sahara_core`] has the trees; the crate `sahara` has the command, and re-exports these modules.
 
 use sahara_core::{accel, geometry, oracle, triangle};
 #[cfg(test)]

@@ -20,13 +20,13 @@ const OUT: &str = "out/golden";
 /// With the environment variable `SAHARA_GOLDEN=update` the file is written instead as PNG, folders included.
 ///
 /// ```
-/// use sahara::golden::{Allowed, Match, assert_image};
-/// use sahara::image::{Rgb, RgbImage};
+/// use sahara_images::golden::{Allowed, Match, assert_image};
+/// use sahara_images::image::{Rgb, RgbImage};
 ///
 /// # let folder = tempfile::tempdir().unwrap();
 /// # let golden = folder.path().join("sunset.png");
 /// let mut drawn = RgbImage::from_pixel(64, 64, Rgb([200, 90, 40]));
-/// # sahara::golden::write(&golden, &drawn.clone().into()).unwrap();
+/// # sahara_images::golden::write(&golden, &drawn.clone().into()).unwrap();
 /// assert_image(&golden, drawn.clone(), Match::Exact);
 ///
 /// // Another machine rounds one pixel differently: not equal, but near.
@@ -37,7 +37,7 @@ const OUT: &str = "out/golden";
 /// drawn.get_pixel_mut(9, 30).0[0] += 40;
 /// assert_image(&golden, drawn.clone(), Match::Tolerance { difference: 2.0, pixels: Allowed::Percent(1.0) });
 /// assert_image(&golden, drawn.clone(), Match::flip(0.01)); // as a person sees it
-/// # assert!(sahara::golden::check_image(&golden, &drawn.into(), Match::Exact, &folder.path().join("out")).is_err());
+/// # assert!(sahara_images::golden::check_image(&golden, &drawn.into(), Match::Exact, &folder.path().join("out")).is_err());
 /// ```
 ///
 /// # Panics

@@ -4,13 +4,13 @@
 //! of your renderer may use the same format:
 //!
 //! ```
-//! use sahara::golden::numbers::packed;
-//! use sahara::golden::{Match, assert_image};
+//! use sahara_images::golden::numbers::packed;
+//! use sahara_images::golden::{Match, assert_image};
 //!
 //! # let folder = tempfile::tempdir().unwrap();
 //! # let golden = folder.path().join("depth.png");
 //! let depths = [1.5f32, f32::INFINITY, 2.25, 0.1];
-//! # sahara::golden::write(&golden, &packed([2, 2], &depths.map(f32::to_bits))).unwrap();
+//! # sahara_images::golden::write(&golden, &packed([2, 2], &depths.map(f32::to_bits))).unwrap();
 //! assert_image(&golden, packed([2, 2], &depths.map(f32::to_bits)), Match::Exact);
 //! ```
 

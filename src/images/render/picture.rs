@@ -63,7 +63,7 @@ mod tests {
 
     #[test]
     fn committed_pictures_are_encoded_to_their_bytes() {
-        let scenes = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes");
+        let scenes = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes");
         for name in ["cube", "cornellbox", "teapot"] {
             let bytes = std::fs::read(format!("{scenes}/{name}/golden.png")).unwrap();
             let picture = image::load_from_memory(&bytes).unwrap();
