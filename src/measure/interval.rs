@@ -21,7 +21,7 @@
 //! includes placement and noise. Another run varies as much, independently, so the difference of the two estimates has
 //! variance 2 s^2 / E, and with s from E epochs it follows Student's t with E - 1 degrees of freedom: the
 //! half-width is t(E - 1) s sqrt(2 / E) (Hahn, Meeker, Escobar, "Statistical intervals", 2nd edition 2017, chapter 4:
-//! prediction of the mean of a future sample). For another run of E' epochs 2 / E is 1 / E + 1 / E'.
+//! prediction of the mean of a future sample).
 //!
 //! **The A/A noise.** Effects that differ between two runs, but not between the epochs of one run, do not show in the
 //! spread of z. The A/A ratios show a part of them, the [A/A noise](super::AaNoise): its variance is added once for
@@ -88,17 +88,11 @@ impl Rerun {
     /// The mean of `values`, one per epoch, in another run with as many epochs. `noise` is the variance that the [A/A
     /// noise](super::AaNoise) adds to one run. `None` without epochs.
     pub fn of(values: &[f64], noise: Variance) -> Option<Self> {
-        Self::in_epochs(values, values.len(), noise)
-    }
-
-    /// Like [`of`](Self::of), in another run of `epochs` epochs, at least 1.
-    pub fn in_epochs(values: &[f64], epochs: usize, noise: Variance) -> Option<Self> {
         if values.is_empty() {
             return None;
         }
-        let both = libm::sqrt(1.0 + values.len() as f64 / epochs.max(1) as f64);
-        let variance = Variance::of_mean(values)
-            .map(|spread| Variance::sum(&[spread.times(both), noise.times(std::f64::consts::SQRT_2)]));
+        let both = |run: Variance| run.times(std::f64::consts::SQRT_2);
+        let variance = Variance::of_mean(values).map(|spread| Variance::sum(&[both(spread), both(noise)]));
         Some(Self { centre: mean(values), variance })
     }
 

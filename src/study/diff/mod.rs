@@ -1,5 +1,4 @@
-//! Compares two runs of the same study: changes in speed, changes in hits, and how many ratios of one run lie within
-//! the intervals of the other. All functions are pure.
+//! Compares two runs of the same study: changes in speed and in hits. All functions are pure.
 //!
 //! Times of two runs at different moments on a shared machine are not comparable. They are compared by their ratios to
 //! references: the structures of obvhs, whose code is the same in both runs and which are measured in the same rounds
@@ -22,12 +21,12 @@ mod unlike;
 
 use serde::Serialize;
 
-use super::measurement::{Measurement, measurements, trace_noise};
+use super::measurement::{Measurement, measurements};
 use super::{Dataset, Status, measurement};
-use crate::measure::{Estimate, Provenance, Rerun, epoch_values};
+use crate::measure::{Estimate, Provenance};
 use crate::registry::is_named;
 use crate::report::words::each_once;
-use crate::request::{REPORT_TREE, known_defect};
+use crate::request::known_defect;
 use keys::other_keys;
 
 pub use read::read;
@@ -93,7 +92,6 @@ pub struct Comparison {
     pub only_old: Vec<String>,
     /// Structures and cells that only the new run has.
     pub only_new: Vec<String>,
-    pub reproduced: Reproduced,
 }
 
 /// The change in time of a structure: in one cell, or the mean over its cells.
@@ -142,18 +140,6 @@ pub struct Wrong {
     pub what: String,
 }
 
-/// How many ratios of each run lie within the intervals of the other run.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Reproduced {
-    pub ratios: usize,
-    /// Ratios of the old run within the new run's intervals.
-    pub old_in_new: usize,
-    /// Ratios of the new run within the old run's intervals.
-    pub new_in_old: usize,
-    /// Ratios whose change is not distinguishable from none: its interval, from the spread of both runs, contains 1.
-    pub unchanged: usize,
-}
-
 impl Comparison {
     /// Compares two runs that are not [unlike]. With a threshold, a slowdown of at least `threshold_percent` is a
     /// regression. `looks` is the maximum number of comparisons while the new run grows; each of them may raise a false
@@ -179,7 +165,6 @@ impl Comparison {
             machines,
             only_old: only(old, new),
             only_new: only(new, old),
-            reproduced: reproduced(old, new),
         }
     }
 
@@ -270,33 +255,4 @@ fn wrong(old: &Measurement, new: &Measurement) -> Option<Wrong> {
         () => return None,
     };
     Some(Wrong { structure: new.label.clone(), case: cell_title(new), what })
-}
-
-/// Compares the ratios of each run with the intervals of the other run, cell by cell: the ratios of every structure to
-/// the report's tree and to each reference.
-fn reproduced(old: &[Measurement], new: &[Measurement]) -> Reproduced {
-    let [noise_a, noise_b] = [old, new].map(|run| trace_noise(run).of_ratio());
-    let values = |own: &Measurement, base: &Measurement| epoch_values(&[own.speed_against(base)?]);
-    let ratio = |values: &[f64], epochs: usize, noise| {
-        Some(Rerun::in_epochs(values, epochs, noise)?.ratio()).filter(|ratio| ratio.interval.is_some())
-    };
-    let mut found = Reproduced::default();
-    for (own, own_new) in pairs(old, new) {
-        let is_base = |base: &&Measurement| {
-            let same = base.scene == own.scene && base.workload == own.workload && base.label != own.label;
-            same && (base.label == REPORT_TREE || has_reference_role(base))
-        };
-        for base in old.iter().filter(is_base) {
-            let new_values = counterpart(base, old, new).and_then(|base| values(own_new, base));
-            let Some((a, b)) = values(own, base).zip(new_values) else { continue };
-            let change = Rerun::change(&a, &b, [noise_a, noise_b]).map(|change| change.ratio());
-            let (a, b) = (ratio(&a, b.len(), noise_a), ratio(&b, a.len(), noise_b));
-            let (Some(a), Some(b), Some(change)) = (a, b, change) else { continue };
-            found.ratios += 1;
-            found.old_in_new += usize::from(b.holds(a.estimate));
-            found.new_in_old += usize::from(a.holds(b.estimate));
-            found.unchanged += usize::from(change.holds(1.0));
-        }
-    }
-    found
 }

@@ -1,6 +1,6 @@
 //! A comparison of runs for people.
 
-use super::{Change, Comparison, Finding, Reproduced};
+use super::{Change, Comparison, Finding};
 use crate::measure::Estimate;
 use crate::report::number::{count, figures, plural};
 use crate::report::words::{each_once, listed};
@@ -115,17 +115,7 @@ fn cells(comparison: &Comparison) -> Table {
         };
         [row.as_str().into()].into_iter().chain(comparison.structures.iter().map(of)).collect::<Vec<Cell>>()
     });
-    let Reproduced { ratios, old_in_new, new_in_old, unchanged } = comparison.reproduced;
-    let reproduced = (ratios > 0).then(|| {
-        let [old, new, unchanged] = [old_in_new, new_in_old, unchanged]
-            .map(|n| format!("{n} of {ratios} ({}%)", figures(100.0 * n as f64 / ratios as f64)));
-        format!(
-            "Ratios to the report's tree and to the references: {old} of the old run lie within the new run's \
-             intervals, {new} of the new run within the old run's; for {unchanged} the interval of the change, which \
-             includes the spread of both runs, contains 1 (no change)."
-        )
-    });
-    Table::new("Change of time, cell by cell", columns, rows).noted(reproduced)
+    Table::new("Change of time, cell by cell", columns, rows)
 }
 
 fn place(cell: &Change) -> String {
