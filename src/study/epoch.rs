@@ -159,8 +159,7 @@ impl Checked {
     }
 }
 
-/// Counts over `rays` evenly spread rays of the workload; `None` if not counted. They are the same on every machine,
-/// except the two processor counters.
+/// Counts over `rays` evenly spread rays of the workload; `None` if not counted. They are the same on every machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RayCounts {
     /// Counted rays.
@@ -180,9 +179,6 @@ pub struct RayCounts {
     /// Triangles tested for all rays of the workload; only if `Settings::whole_counts` names the structure.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub whole_tests: Option<u64>,
-    /// Mean of the machine instructions per ray, in user space.
-    pub instructions_per_ray: Option<f64>,
-    pub branch_misses_per_ray: Option<f64>,
 }
 
 impl From<&dyn DynAccel> for Shape {

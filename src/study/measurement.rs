@@ -36,7 +36,7 @@ pub struct Measurement {
     /// Whether a sample has fewer rays than the workload; also `true` without a time.
     pub sampled: bool,
     pub parts: Vec<SubsetSamples>,
-    /// The number of rays over which hits, tests, steps, instructions and branch misses are counted.
+    /// The number of rays over which hits, tests and steps are counted.
     pub counted_rays: usize,
     pub hits: usize,
     /// Checksum of the hits on the rays that all epochs trace; `None` without a time.
@@ -60,8 +60,6 @@ pub struct Measurement {
     pub leaf_steps_per_ray: Option<f64>,
     pub empty_leaf_steps_per_ray: Option<f64>,
     pub tests_over_minimum: Option<f64>,
-    pub instructions_per_ray: Option<f64>,
-    pub branch_misses_per_ray: Option<f64>,
     pub shape: Shape,
     pub declined: Option<String>,
     /// Rays of the check in epoch 0, see [`Checked`](super::epoch::Checked).
@@ -74,7 +72,7 @@ pub struct Measurement {
 pub type MeasurementColumn = (&'static str, fn(&Measurement) -> Cell);
 
 /// Columns of CSV tables.
-pub const COLUMNS: [MeasurementColumn; 38] = [
+pub const COLUMNS: [MeasurementColumn; 36] = [
     ("scene", |own| (&own.scene).into()),
     ("scene_hash", |own| (&own.scene_hash).into()),
     ("stand_in", |own| own.stand_in.into()),
@@ -99,8 +97,6 @@ pub const COLUMNS: [MeasurementColumn; 38] = [
     ("leaf_steps_per_ray", |own| own.leaf_steps_per_ray.into()),
     ("empty_leaf_steps_per_ray", |own| own.empty_leaf_steps_per_ray.into()),
     ("tests_over_minimum", |own| own.tests_over_minimum.into()),
-    ("instructions_per_ray", |own| own.instructions_per_ray.into()),
-    ("branch_misses_per_ray", |own| own.branch_misses_per_ray.into()),
     ("bytes", |own| own.shape.bytes.into()),
     ("inner_nodes", |own| own.shape.inner_nodes.into()),
     ("leaves", |own| own.shape.leaves.into()),
@@ -208,8 +204,6 @@ fn measurement(scene: &SceneEpochs, place: usize, twin: Option<usize>, workload:
         leaf_steps_per_ray: per_ray(counts.leaves),
         empty_leaf_steps_per_ray: per_ray(counts.empty_leaves),
         tests_over_minimum: counts.tests_over_minimum(),
-        instructions_per_ray: counts.instructions_per_ray,
-        branch_misses_per_ray: counts.branch_misses_per_ray,
         shape: structure.shape,
         declined: first.declined.clone(),
         checked_rays,

@@ -26,10 +26,6 @@ pub fn answers(runs: &Path, study: &str) -> BTreeMap<String, Value> {
             structure["build_peak_bytes"] = Value::Null;
             for rays in structure["rays"].as_array_mut().unwrap() {
                 rays["ns"] = rays["ns"].as_array().unwrap().len().into();
-                if let Some(counts) = rays.get_mut("counts") {
-                    counts["instructions_per_ray"] = Value::Null;
-                    counts["branch_misses_per_ray"] = Value::Null;
-                }
                 rays["parts"].as_array_mut().unwrap().iter_mut().for_each(|part| part["ns"] = Value::Null);
             }
         }

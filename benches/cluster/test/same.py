@@ -13,11 +13,10 @@ from pathlib import Path
 
 # What a clock, or the moment, decides. All else must be equal, so a new field is compared until it is named here.
 OF_CASES = {"provenance", "environment", "build_ns", "build_peak_bytes", "outside", "ns", "slowest_ns"}
-OF_CASES |= {"instructions_per_ray", "branch_misses_per_ray"}
 # The command line that planned it, and how many answers `--quick` checks: it stops after a time.
 OF_CASES |= {"case.command", "checked.rays"}
 OF_REPORTS = {"build_ns", "build_peak_bytes", "trace_ns", "ns_per_ray", "slowest_ns", "mrays_per_s", "checked_rays"}
-OF_REPORTS |= {"instructions_per_ray", "branch_misses_per_ray", "speedup", "speedup_low", "speedup_high"}
+OF_REPORTS |= {"speedup", "speedup_low", "speedup_high"}
 # Comparing times decides even whether these are known.
 BY_TIMES = {"dominated_by", "pays_off_after_rays"}
 # All that these hold is made of times.

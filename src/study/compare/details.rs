@@ -8,7 +8,7 @@ use crate::study::measurement::{COLUMNS, Measurement, MeasurementColumn, push_co
 /// Adds the columns of builds, memory, tree shape, counts and checks to a table with one row per structure in
 /// `structures`.
 pub fn add_columns(table: &mut Table, all: &[Measurement], structures: &[String]) {
-    let own: [MeasurementColumn; 13] = [
+    let own: [MeasurementColumn; 12] = [
         // A runner may not report its build, and a structure of unknown size reports 0 bytes.
         ("build", |r| known(r.build_ns as usize).map(|ns| Cell::duration(ns as f64)).into()),
         ("peak", |r| r.build_peak_bytes.map(Cell::bytes).into()),
@@ -20,7 +20,6 @@ pub fn add_columns(table: &mut Table, all: &[Measurement], structures: &[String]
         ("SAH cost", |r| r.shape.sah_cost.into()),
         ("tests", |r| r.tests_per_ray.into()),
         ("steps", |r| r.steps_per_ray.into()),
-        ("instructions", |r| r.instructions_per_ray.into()),
         ("checked", |r| r.checked_rays.into()),
         ("sampled", |r| Cell::number(r.rays as f64 / r.workload_rays.max(1) as f64, Format::Percent)),
     ];

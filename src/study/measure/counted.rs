@@ -2,8 +2,7 @@
 
 use crate::accel::{Counts, DynAccel, Observed, Query};
 use crate::geometry::Ray;
-use crate::measure::{EventCounter, checksum, spread};
-use crate::scene::Workload;
+use crate::measure::{checksum, spread};
 use crate::study::epoch::RayCounts;
 
 /// The counts of one pass of a structure over a batch of rays.
@@ -29,36 +28,6 @@ const TESTS: u64 = 1 << 24;
 const FEW: usize = 512;
 const FEWEST: usize = 32;
 const FEW_TESTS: u64 = 1 << 20;
-
-/// The event counters of the processor, as far as they exist.
-pub struct Events {
-    instructions: Option<EventCounter>,
-    branch_misses: Option<EventCounter>,
-}
-
-impl Events {
-    /// Counters of this thread.
-    pub fn of_thread() -> Self {
-        Self { instructions: EventCounter::instructions(), branch_misses: EventCounter::branch_misses() }
-    }
-
-    /// Instructions and branch misses per ray while `accel` traces all `rays`; `None` without a counter.
-    fn per_ray(&mut self, accel: &dyn DynAccel, rays: &[Ray], query: Query) -> [Option<f64>; 2] {
-        let (mut hits, mut any) = (vec![None; rays.len()], vec![false; rays.len()]);
-        let mut pass = || match query {
-            Query::Closest => accel.closest_hits(rays, &mut hits),
-            Query::Any => accel.any_hits(rays, &mut any),
-        };
-        let per_ray = |events: u64| events as f64 / rays.len() as f64;
-        let instructions = self.instructions.as_mut().and_then(|counter| counter.count(&mut pass)).map(per_ray);
-        // Count the misses of a trained predictor, whether or not instructions were counted.
-        let branch_misses = self.branch_misses.as_mut().and_then(|counter| {
-            pass();
-            counter.count(&mut pass).map(per_ray)
-        });
-        [instructions, branch_misses]
-    }
-}
 
 impl Counted {
     /// Counts over as many evenly spread `rays` as are affordable; the same ones in every run.
@@ -108,12 +77,8 @@ impl Counted {
         self.observed.steps && (self.counts.leaves > 0 || self.counts.tests == 0)
     }
 
-    /// The exported counts of the pass, with the events of the processor.
-    pub fn in_export(&self, accel: &dyn DynAccel, workload: &Workload, events: Option<&mut Events>) -> RayCounts {
-        let rays = spread(&workload.rays, self.rays);
-        let events = events.filter(|_| accel.remote().is_none());
-        let [instructions_per_ray, branch_misses_per_ray] =
-            events.map_or([None; 2], |events| events.per_ray(accel, &rays, workload.query));
+    /// The exported counts of the pass.
+    pub fn in_export(&self) -> RayCounts {
         let Self { observed, counts, .. } = self;
         RayCounts {
             rays: self.rays,
@@ -125,8 +90,6 @@ impl Counted {
             leaves: self.sees_leaves().then_some(counts.leaves),
             empty_leaves: self.sees_leaves().then_some(counts.empty_leaves),
             whole_tests: None,
-            instructions_per_ray,
-            branch_misses_per_ray,
         }
     }
 }

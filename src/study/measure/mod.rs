@@ -25,7 +25,7 @@ use crate::oracle::Oracle;
 use crate::scene::Workload;
 use built::Built;
 use check::{Checks, declined};
-use counted::{Counted, Events};
+use counted::Counted;
 use judge::{Judge, slowest};
 use pair::Pair;
 use prepared::build_all;
@@ -281,7 +281,6 @@ impl<'a> Bench<'a> {
     /// Counts the work per ray, including for structures with wrong hits.
     fn count(&mut self) {
         let settings = &self.case.settings;
-        let mut events = (settings.threads == 1).then(Events::of_thread);
         let mut pairs = Pair::all(self.structures.len(), self.workloads.len());
         pairs.retain(|pair| {
             let structure = &self.structures[pair.structure];
@@ -301,7 +300,7 @@ impl<'a> Bench<'a> {
             let (structure, workload) = (&mut self.structures[pair.structure], &workloads[pair.workload]);
             let accel = built.accel.as_ref();
             let Some(counted) = refuse_unless(structure, built, counted) else { continue };
-            let mut counts = counted.in_export(accel, workload, events.as_mut());
+            let mut counts = counted.in_export();
             if settings.whole_counts.contains(&self.case.structures[pair.structure].spec) {
                 let whole = Counted::new(accel, &workload.rays, workload.query);
                 counts.whole_tests = counted.observed.tests.then_some(whole.counts.tests);
