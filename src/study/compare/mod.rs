@@ -13,9 +13,9 @@ use crate::request::known_defect;
 use clap::{ArgMatches, Args, Command, FromArgMatches};
 
 use super::claims::judge;
-use super::measurement::{measurements, of_scene};
+use super::measurement::measurements;
 use super::{Dataset, Presets, SceneEpochs, Study};
-use crate::measure::advice::{Conditions, of_own_clock, of_samples};
+use crate::measure::advice::{Conditions, of_own_clock};
 use crate::measure::{Provenance, machine, median};
 use crate::report::words::each_once_by;
 use crate::report::{Failure, Report};
@@ -96,10 +96,6 @@ fn scene_warnings(scene: &SceneEpochs, provenance: &Provenance) -> Vec<String> {
     };
     scene.epochs.iter().for_each(|epoch| epoch.environment.add_to(&mut conditions));
     let mut warnings = conditions.warnings();
-    let measured = of_scene(scene);
-    let samples = measured.iter().flat_map(|own| Some(&own.samples_ns).into_iter().chain(&own.twin_samples_ns));
-    let samples: Vec<&[f64]> = samples.map(Vec::as_slice).filter(|samples| !samples.is_empty()).collect();
-    warnings.extend(of_samples(&samples));
     warnings.extend(scene.epochs[0].structures.iter().enumerate().filter_map(|(place, structure)| {
         let outside = scene.epochs.iter().filter_map(|epoch| epoch.structures.get(place)?.outside);
         of_own_clock(&structure.label, median(&outside.collect::<Vec<_>>())?)
