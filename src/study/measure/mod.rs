@@ -37,7 +37,6 @@ pub use build_watch::BuildWatch;
 pub use environment::Environment;
 pub use guarded::{PANICKED, guarded};
 pub use prepared::Prepared;
-pub use room::may_fit;
 
 /// Builds all structures, checks and counts them if this is epoch 0, and takes their samples. Epochs are independent of
 /// each other; [`join`](super::join) checks what they must have in common. A structure that cannot be built, panics or

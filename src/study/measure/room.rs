@@ -16,11 +16,6 @@ pub fn fits(choices: &[Choice], scene: &Scene) -> Result<(), StudyError> {
     fits_into(memory(), [choices.len(), twins], scene.mesh.len(), &scene.name)
 }
 
-/// Whether this number of structures certainly fits, including the mesh and the memory of the last build.
-pub fn may_fit(structures: usize, triangles: usize) -> bool {
-    fits_into(memory(), [structures + 2, 0], triangles, "").is_ok()
-}
-
 /// Whether all structures, with twins among them, fit into `memory` bytes.
 fn fits_into(
     memory: Option<u64>,

@@ -1,6 +1,6 @@
 //! Powers of the number of triangles, fitted to the measurements.
 
-use crate::measure::{self, AaNoise, Estimate, Rerun, Variance, factor};
+use crate::measure::{AaNoise, Estimate, Rerun, Variance};
 use crate::report::words::each_once;
 use crate::study::Dataset;
 use crate::study::measurement::{Measurement, build_noise, measurements, of_scene, trace_noise};
@@ -31,8 +31,6 @@ pub struct Growth {
     pub time: Option<Estimate>,
     /// The same exponent over the meshes of at most [`LEVEL_8`] triangles, which the claims are about.
     pub time_to_level_8: Option<Estimate>,
-    /// Half the width of the 95 % interval of the exponent if it came only from the scatter of the meshes.
-    pub scatter: Option<f64>,
     /// The exponent of the build time.
     pub build: Option<Estimate>,
     /// The exponent of the memory.
@@ -73,7 +71,7 @@ impl Point {
     }
 }
 
-/// The growth of every structure. The intervals predict another run; the scatter describes how well a power fits.
+/// The growth of every structure. The intervals predict another run.
 pub fn growths(dataset: &Dataset) -> Vec<Growth> {
     let all = measurements(dataset);
     let noises = [trace_noise(&all), build_noise(&all)];
@@ -108,15 +106,12 @@ fn growth(family: &'static str, points: Vec<Point>, [trace, build]: &[AaNoise; 2
         let log = |own: &Measurement| value(own).filter(|&x| x > 0.0).map(|x| vec![libm::log(x)]);
         power(&fitted, &log, |_| Variance::NONE).map(|rerun| Estimate::exact(rerun.plain().estimate))
     };
-    let logs: Vec<(f64, f64)> =
-        fitted.iter().map(|point| (libm::log(point.triangles() as f64), libm::log(point.ns_per_ray))).collect();
     Growth {
         family,
         label: points[0].measurement.label.clone(),
         workload: points[0].measurement.workload.clone(),
         time: measured(&fitted, Measurement::log_paces, trace),
         time_to_level_8: measured(&coarser, Measurement::log_paces, trace),
-        scatter: scatter(&logs),
         build: measured(&fitted, |own| Some(own.log_builds()), build),
         bytes: counted(|own| Some(own.shape.bytes as f64)),
         tests: counted(|own| own.tests_per_ray),
@@ -148,37 +143,16 @@ fn slope_weights(x: &[f64]) -> Option<Vec<f64>> {
     (squares > 0.0).then(|| x.iter().map(|x| (x - mean) / squares).collect())
 }
 
-/// Half the width of the 95 % interval of the slope if points scatter about the line independently and identically
-/// (Student's t with n - 2 degrees of freedom). `None` with fewer than three points.
-fn scatter(points: &[(f64, f64)]) -> Option<f64> {
-    let freedom = points.len().checked_sub(2).filter(|&freedom| freedom > 0)? as f64;
-    let (x, y): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
-    let [mean_x, mean_y] = [&x, &y].map(|all| all.iter().sum::<f64>() / all.len() as f64);
-    let slope: f64 = slope_weights(&x)?.iter().zip(&y).map(|(weight, y)| weight * y).sum();
-    let squares: f64 = x.iter().map(|x| (x - mean_x) * (x - mean_x)).sum();
-    let off = points.iter().map(|(x, y)| y - mean_y - slope * (x - mean_x));
-    let rest: f64 = off.map(|off| off * off).sum();
-    Some(factor(freedom, measure::LEVEL) * libm::sqrt(rest / freedom / squares))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn a_line_is_found_where_points_lie_on_one() {
-        let points: Vec<(f64, f64)> = [1.0, 2.0, 5.0].map(|x| (x, 3.0 + 0.5 * x)).into();
-        assert!(scatter(&points).unwrap() < 1e-6);
-        assert_eq!((scatter(&points[..2]), slope_weights(&[1.0; 3])), (None, None));
-        let weights = slope_weights(&[1.0, 2.0, 5.0]).unwrap();
-        let sum: f64 = weights.iter().zip(&points).map(|(weight, point)| weight * point.1).sum();
-        assert!((sum - 0.5).abs() < 1e-12);
-    }
-
-    #[test]
-    fn the_scatter_of_a_slope_is_students() {
-        // Residuals 1, -2, 1 about y = 1 at x = -1, 0, 1: s^2 = 6, the error of the slope sqrt(6 / 2), t(1) = 12.706.
-        let points = [(-1.0, 2.0), (0.0, -1.0), (1.0, 2.0)];
-        assert!((scatter(&points).unwrap() - 12.706 * libm::sqrt(3.0)).abs() < 1e-3);
+        assert_eq!(slope_weights(&[1.0; 3]), None);
+        let x = [1.0, 2.0, 5.0];
+        let weights = slope_weights(&x).unwrap();
+        let slope: f64 = weights.iter().zip(x).map(|(weight, x)| weight * (3.0 + 0.5 * x)).sum();
+        assert!((slope - 0.5).abs() < 1e-12);
     }
 }

@@ -1,6 +1,6 @@
 //! `scaling`: how do time, build and memory grow with the number of triangles?
 //!
-//! Icospheres of 20 to 16 million triangles from the same view: only the subdivision of the surface changes. The named
+//! Icospheres of at least 20 triangles from the same view: only the subdivision of the surface changes. The named
 //! meshes differ in more than their number of triangles, so their exponent is less meaningful. Powers are fitted to
 //! logarithms of medians, over the meshes on which the structure has more than one leaf: a single leaf is brute force.
 
@@ -14,13 +14,12 @@ use std::ffi::OsString;
 use clap::{ArgMatches, Args as _, Command, FromArgMatches};
 
 use super::case::SLOWEST;
-use super::measure::may_fit;
 use super::{Dataset, Plan, PlannedScene, Presets, Settings, Study, claims};
 use crate::registry::Registry;
 use crate::report::Report;
 use crate::report::number::count;
 use crate::request::{Measuring, Rays, SCENES, Scenes, Structures, scene_files, with_twin};
-use crate::scene::spheres::{FINEST, triangles};
+use crate::scene::spheres::FINEST;
 use crate::scene::{Scene, WorkloadKind};
 use growth::{FAMILY, LEVEL, LEVEL_8, MESHES, SPHERES, growths};
 
@@ -41,15 +40,18 @@ const STRUCTURES: [&str; 7] =
 /// Maximum number of epochs for meshes of more than [`LEVEL_8`] triangles, whose builds take minutes.
 const EPOCHS_OF_FINEST: usize = 3;
 
+/// The default of `--finest`, as far as the claims need: the trees of the default structures take about 1.3 GB together.
+const FINEST_BY_DEFAULT: u32 = 8;
+
 #[derive(Clone, Debug, clap::Args)]
 struct ScalingArgs {
     // In addition to the icospheres.
     #[command(flatten)]
     scenes: Scenes,
     /// Finest icosphere: level 0 has 20 triangles, each further level four times as many, except level 10, which has 16
-    /// million [default: the finest level whose trees fit into memory together]
-    #[arg(long, help_heading = SCENES, value_name = "LEVEL", value_parser = clap::value_parser!(u32).range(0..=i64::from(FINEST)))]
-    finest: Option<u32>,
+    /// million
+    #[arg(long, help_heading = SCENES, value_name = "LEVEL", default_value_t = FINEST_BY_DEFAULT, value_parser = clap::value_parser!(u32).range(0..=i64::from(FINEST)))]
+    finest: u32,
     #[command(flatten)]
     structures: Structures,
     #[command(flatten)]
@@ -59,11 +61,6 @@ struct ScalingArgs {
     measuring: Measuring<8, 3, 5>,
 }
 
-/// The finest level for whose number of triangles `fits` returns true; the coarsest if there is none.
-fn finest(fits: impl Fn(usize) -> bool) -> u32 {
-    (0..=FINEST).rev().find(|&level| fits(triangles(level))).unwrap_or(0)
-}
-
 fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     let args = ScalingArgs::from_arg_matches(matches)?;
     let structures = with_twin(args.structures.chosen(registry, &STRUCTURES)?);
@@ -71,8 +68,7 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     let settings = Settings { slowest: Some(SLOWEST), ..Settings::new(&args.measuring, registry)? };
     // Before the spheres, because these meshes may be missing.
     let meshes = args.scenes.read(registry, &["dragon", "lucy", "sponza"])?;
-    let finest = args.finest.unwrap_or_else(|| finest(|triangles| may_fit(structures.len(), triangles)));
-    let spheres = Scenes { scenes: (0..=finest).map(|level| format!("icosphere:{level}").into()).collect() };
+    let spheres = Scenes { scenes: (0..=args.finest).map(|level| format!("icosphere:{level}").into()).collect() };
     let spheres = spheres.read(registry, &[])?;
 
     let epochs = usize::from(args.measuring.epochs);
@@ -81,9 +77,9 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
         let epochs = if own.1.mesh.len() > LEVEL_8 { few } else { epochs };
         PlannedScene::new(own, &structures, &workloads, &settings, epochs).labelled(FAMILY, family)
     };
-    let levels = spheres.iter().zip(0..=finest);
+    let levels = spheres.iter().zip(0..);
     let mut all: Vec<PlannedScene> =
-        levels.map(|(own, level)| planned(own, SPHERES).labelled(LEVEL, level.to_string())).collect();
+        levels.map(|(own, level)| planned(own, SPHERES).labelled(LEVEL, i32::to_string(&level))).collect();
     all.extend(meshes.iter().map(|own| planned(own, MESHES)));
     let scenes = spheres.iter().chain(&meshes).map(|(_, scene)| scene);
     let mut plan = Plan::by_epoch(NAME, &all).noting(scenes);
@@ -93,14 +89,6 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
             "Meshes of more than {} triangles have only {few} epochs: their builds take minutes.",
             count(LEVEL_8 as u64)
         ));
-    }
-    if args.finest.is_none() && finest < FINEST {
-        let note = format!(
-            "Icospheres of more than {} triangles are skipped: their trees do not fit into this machine's memory together.",
-            count(triangles(finest) as u64)
-        );
-        plan.warnings.push(note.clone());
-        plan.notes.push(note);
     }
     Ok(Plan { inputs: scene_files(registry, &args.scenes.scenes), ..plan })
 }

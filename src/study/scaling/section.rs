@@ -147,7 +147,6 @@ fn exponents(family: &[Growth]) -> Option<Table> {
             ("structure", &|growth| growth.label.as_str().into()),
             ("rays", &|growth| growth.workload.as_str().into()),
             ("time per ray", &|growth| power(growth.time)),
-            ("+-", &|growth| growth.scatter.map(|half| Cell::number(half, Format::Decimals(2))).into()),
             ("build", &|growth| power(growth.build)),
             ("memory", &|growth| power(growth.bytes)),
             ("tests", &|growth| power(growth.tests)),
@@ -156,8 +155,7 @@ fn exponents(family: &[Growth]) -> Option<Table> {
         ],
     );
     let note = "Least squares on logarithms over the meshes on which the structure has more than one leaf, with 95 % \
-                intervals for a rerun on these meshes; counts and memory do not vary. +-: half-width of the 95 % \
-                interval of the time exponent that follows from how far the meshes scatter about the fitted line.";
+                intervals for a rerun on these meshes; counts and memory do not vary.";
     family.iter().any(|growth| growth.time.is_some()).then(|| table.noted([note]).explained())
 }
 

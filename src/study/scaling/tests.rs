@@ -132,13 +132,6 @@ fn families_and_workloads_are_kept_apart() {
 }
 
 #[test]
-fn the_finest_is_the_last_one_that_there_is_room_for() {
-    for (room, level) in [(usize::MAX, FINEST), (16_020_499, FINEST - 1), (1280, 3), (0, 0)] {
-        assert_eq!(finest(|triangles| triangles <= room), level);
-    }
-}
-
-#[test]
 fn a_plan_labels_spheres_with_their_level_and_meshes_with_their_family() {
     let words = ["torus", "--finest", "2", "--epochs", "2", "-s", "sah-kd"].map(String::from);
     let plan = (STUDY.plan)(&STUDY.matches(&words).unwrap(), &Registry::builtin()).unwrap();
