@@ -1,25 +1,7 @@
 //! Warnings about a run, with remedies. Pure functions: this module measures nothing.
 
+use super::{Provenance, machine};
 use crate::plural::plural;
-
-/// The state of the machine before, during and after the timed part of a run. `None` if the system does not report it.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Conditions {
-    /// Load average before the run.
-    pub load: Option<f64>,
-    pub cores: usize,
-    pub governor: Option<String>,
-    /// Clock rate of the measuring core at the beginning and at the end, kHz.
-    pub clock_rates: Option<(f64, f64)>,
-    /// How often the system took the core from the measuring thread.
-    pub interruptions: Option<u64>,
-    /// Duration of the timed part.
-    pub seconds: f64,
-    /// [`denormals`](super::machine::denormals).
-    pub denormals: &'static str,
-    /// Whether the program is built without optimisation.
-    pub debug: bool,
-}
 
 /// With more interruptions per second than this, another program wants the core.
 const INTERRUPTIONS: f64 = 20.0;
@@ -27,43 +9,45 @@ const INTERRUPTIONS: f64 = 20.0;
 /// A core whose clock rate falls below this share of its first value is throttled.
 const CLOCK_FALL: f64 = 0.9;
 
-impl Conditions {
-    /// One sentence for each condition that disturbs measurements.
-    pub fn warnings(&self) -> Vec<String> {
-        let &Self { cores, seconds, denormals, .. } = self;
-        let slow = "sahara is built without optimisation: rebuild with --release for meaningful times";
-        let debug = self.debug.then(|| slow.into());
-        let load = self.load.filter(|&load| load > 0.5 * cores as f64).map(|load| {
-            let cores = plural(cores, "core");
-            format!(
-                "the load average was {load:.1} on {cores} before the run: stop other programs, or trust ratios only"
-            )
-        });
-        let governor = (self.governor.as_deref() == Some("powersave")).then(|| {
-            "the CPU governor is powersave: `cpupower frequency-set -g performance` makes times steadier".into()
-        });
-        let clock = self.clock_rates.filter(|(before, after)| *after < CLOCK_FALL * before).map(|(before, after)| {
-            let [before, after] = [before, after].map(|khz| khz * 1e-6);
-            format!(
-                "the clock rate fell from {before:.2} to {after:.2} GHz: the CPU throttles; let it cool, or use fewer \
-                 threads"
-            )
-        });
-        let is_often = |&n: &u64| n as f64 > INTERRUPTIONS * seconds.max(1.0);
-        let interruptions = self.interruptions.filter(is_often).map(|n| {
-            format!(
-                "the measuring thread was interrupted {n} times in {seconds:.0} s: another program uses its core; \
-                 stop it and rerun"
-            )
-        });
-        let denormals = (!matches!(denormals, "kept" | "unknown")).then(|| {
-            format!(
-                "denormal numbers are treated as zero ({denormals}): a library changed the FPU control word; hits may \
-                 differ"
-            )
-        });
-        [debug, load, governor, clock, interruptions, denormals].into_iter().flatten().collect()
-    }
+/// One sentence for each condition that disturbs measurements: before the run, and in its timed part of `seconds`
+/// seconds, in which the system took the core from the measuring thread so many times. `clock_rates` are those of its
+/// core at the beginning and at the end, kHz. `None` if the system does not report it.
+pub fn of_conditions(
+    before: &Provenance,
+    seconds: f64,
+    interruptions: Option<u64>,
+    clock_rates: Option<(f64, f64)>,
+) -> Vec<String> {
+    let slow = "sahara is built without optimisation: rebuild with --release for meaningful times";
+    let debug = (before.profile == "debug").then(|| slow.into());
+    let load = before.load.filter(|&load| load > 0.5 * before.cores as f64).map(|load| {
+        let cores = plural(before.cores, "core");
+        format!("the load average was {load:.1} on {cores} before the run: stop other programs, or trust ratios only")
+    });
+    let governor = (before.governor.as_deref() == Some("powersave"))
+        .then(|| "the CPU governor is powersave: `cpupower frequency-set -g performance` makes times steadier".into());
+    let clock = clock_rates.filter(|(before, after)| *after < CLOCK_FALL * before).map(|(before, after)| {
+        let [before, after] = [before, after].map(|khz| khz * 1e-6);
+        format!(
+            "the clock rate fell from {before:.2} to {after:.2} GHz: the CPU throttles; let it cool, or use fewer \
+             threads"
+        )
+    });
+    let is_often = |&n: &u64| n as f64 > INTERRUPTIONS * seconds.max(1.0);
+    let interruptions = interruptions.filter(is_often).map(|n| {
+        format!(
+            "the measuring thread was interrupted {n} times in {seconds:.0} s: another program uses its core; \
+             stop it and rerun"
+        )
+    });
+    let denormals = machine::denormals(before.mxcsr);
+    let denormals = (!matches!(denormals, "kept" | "unknown")).then(|| {
+        format!(
+            "denormal numbers are treated as zero ({denormals}): a library changed the FPU control word; hits may \
+             differ"
+        )
+    });
+    [debug, load, governor, clock, interruptions, denormals].into_iter().flatten().collect()
 }
 
 /// The plausible range of the elapsed time, as a multiple of the time that a runner reports.
@@ -87,19 +71,31 @@ mod tests {
 
     #[test]
     fn every_bad_condition_has_a_sentence_with_advice_and_a_quiet_machine_none() {
-        let quiet = Conditions { load: Some(0.1), cores: 2, seconds: 10.0, denormals: "kept", ..Conditions::default() };
-        assert_eq!(quiet.warnings(), [""; 0]);
-        assert_eq!(Conditions { denormals: "unknown", ..quiet.clone() }.warnings(), [""; 0]);
+        let quiet = Provenance {
+            profile: "release".into(),
+            cores: 2,
+            governor: None,
+            load: Some(0.1),
+            mxcsr: None,
+            ..Provenance::capture(1)
+        };
+        let of =
+            |before: &Provenance, interruptions, clock_rates| of_conditions(before, 10.0, interruptions, clock_rates);
+        assert_eq!(of(&quiet, Some(10), Some((3e6, 2.9e6))), [""; 0]);
+        let with = |edit: fn(&mut Provenance)| {
+            let mut before = quiet.clone();
+            edit(&mut before);
+            of(&before, None, None)
+        };
         let bad = [
-            ("--release", Conditions { debug: true, ..quiet.clone() }),
-            ("1.9 on 2 cores", Conditions { load: Some(1.9), ..quiet.clone() }),
-            ("powersave", Conditions { governor: Some("powersave".into()), ..quiet.clone() }),
-            ("3.00 to 2.00 GHz", Conditions { clock_rates: Some((3e6, 2e6)), ..quiet.clone() }),
-            ("5000 times in 10 s", Conditions { interruptions: Some(5000), ..quiet.clone() }),
-            ("flushed to zero", Conditions { denormals: "results flushed to zero", ..quiet }),
+            ("--release", with(|before| before.profile = "debug".into())),
+            ("1.9 on 2 cores", with(|before| before.load = Some(1.9))),
+            ("powersave", with(|before| before.governor = Some("powersave".into()))),
+            ("flushed to zero", with(|before| before.mxcsr = Some(0x9f80))),
+            ("3.00 to 2.00 GHz", of(&quiet, None, Some((3e6, 2e6)))),
+            ("5000 times in 10 s", of(&quiet, Some(5000), None)),
         ];
-        for (part, conditions) in bad {
-            let warnings = conditions.warnings();
+        for (part, warnings) in bad {
             assert!(warnings.len() == 1 && warnings[0].contains(part), "{warnings:?}");
         }
     }

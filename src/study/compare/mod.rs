@@ -13,10 +13,11 @@ use crate::request::known_defect;
 use clap::{ArgMatches, Args, Command, FromArgMatches};
 
 use super::claims::judge;
+use super::measure::Environment;
 use super::measurement::measurements;
 use super::{Dataset, Presets, SceneEpochs, Study};
-use crate::measure::advice::{Conditions, of_own_clock};
-use crate::measure::{Provenance, machine, median};
+use crate::measure::advice::{of_conditions, of_own_clock};
+use crate::measure::{Provenance, median};
 use crate::report::words::each_once_by;
 use crate::report::{Failure, Report};
 use options::{CompareArgs, NAME};
@@ -86,16 +87,8 @@ fn warnings(dataset: &Dataset) -> Vec<String> {
 }
 
 fn scene_warnings(scene: &SceneEpochs, provenance: &Provenance) -> Vec<String> {
-    let mut conditions = Conditions {
-        load: provenance.load,
-        cores: provenance.cores,
-        governor: provenance.governor.clone(),
-        denormals: machine::denormals(provenance.mxcsr),
-        debug: provenance.profile == "debug",
-        ..Conditions::default()
-    };
-    scene.epochs.iter().for_each(|epoch| epoch.environment.add_to(&mut conditions));
-    let mut warnings = conditions.warnings();
+    let during = Environment::of_all(scene.epochs.iter().map(|epoch| &epoch.environment));
+    let mut warnings = of_conditions(provenance, during.seconds, during.interruptions, during.clock_rates);
     warnings.extend(scene.epochs[0].structures.iter().enumerate().filter_map(|(place, structure)| {
         let outside = scene.epochs.iter().filter_map(|epoch| epoch.structures.get(place)?.outside);
         of_own_clock(&structure.label, median(&outside.collect::<Vec<_>>())?)

@@ -2,7 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::measure::advice::Conditions;
 use crate::measure::{Clock, machine};
 
 /// Conditions of the measuring thread during the sampling. `None` if the system does not report a value.
@@ -32,16 +31,15 @@ impl Environment {
         (result, environment)
     }
 
-    /// Adds this epoch to those before it.
-    pub fn add_to(&self, conditions: &mut Conditions) {
-        conditions.seconds += self.seconds;
-        if let Some(interruptions) = self.interruptions {
-            *conditions.interruptions.get_or_insert(0) += interruptions;
-        }
-        // From the first epoch to the last.
-        if let Some((before, after)) = self.clock_rates {
-            let first = conditions.clock_rates.map_or(before, |(first, _)| first);
-            conditions.clock_rates = Some((first, after));
-        }
+    /// The conditions of all `epochs`, in order; the process is that of none.
+    pub fn of_all<'a>(epochs: impl IntoIterator<Item = &'a Self>) -> Self {
+        let sum = |all: Self, own: &Self| Self {
+            process: 0,
+            seconds: all.seconds + own.seconds,
+            interruptions: own.interruptions.map(|n| all.interruptions.unwrap_or(0) + n).or(all.interruptions),
+            // From the first epoch to the last.
+            clock_rates: own.clock_rates.map(|own| (all.clock_rates.unwrap_or(own).0, own.1)).or(all.clock_rates),
+        };
+        epochs.into_iter().fold(Self::default(), sum)
     }
 }
