@@ -17,7 +17,7 @@ mod timing;
 
 use rayon::prelude::*;
 
-use super::epoch::{Rays, Structure};
+use super::epoch::{RayCounts, Rays, Structure};
 use super::{Case, Check, Epoch, Stage, StudyError};
 use crate::accel::{BuildError, Remote};
 use crate::measure::{Clock, SamplePlan, spread};
@@ -25,7 +25,6 @@ use crate::oracle::Oracle;
 use crate::scene::Workload;
 use built::Built;
 use check::{Checks, declined};
-use counted::Counted;
 use judge::{Judge, slowest};
 use pair::Pair;
 use prepared::build_all;
@@ -287,22 +286,19 @@ impl<'a> Bench<'a> {
             structure.refused.is_none() && structure.rays.get(pair.workload).is_some_and(counts)
         });
         // A quick run also counts fewer rays.
-        let count = if settings.is_quick() { Counted::few } else { Counted::affordable };
+        let count = if settings.is_quick() { counted::few } else { counted::affordable };
         let (built, workloads) = (&self.built, &self.workloads);
         let counted = |pair: &Pair| {
             let (built, workload) = (built[pair.structure].as_ref()?, &workloads[pair.workload]);
             guarded(|| count(built.accel.as_ref(), &workload.rays, workload.query))
         };
-        let counted: Vec<Option<Counted>> = pairs.par_iter().map(counted).collect();
+        let counted: Vec<Option<RayCounts>> = pairs.par_iter().map(counted).collect();
         for (pair, counted) in pairs.iter().zip(counted) {
             let Some(built) = &built[pair.structure] else { continue };
             let (structure, workload) = (&mut self.structures[pair.structure], &workloads[pair.workload]);
-            let accel = built.accel.as_ref();
-            let Some(counted) = refuse_unless(structure, built, counted) else { continue };
-            let mut counts = counted.in_export();
+            let Some(mut counts) = refuse_unless(structure, built, counted) else { continue };
             if settings.whole_counts.contains(&self.case.structures[pair.structure].spec) {
-                let whole = Counted::new(accel, &workload.rays, workload.query);
-                counts.whole_tests = counted.observed.tests.then_some(whole.counts.tests);
+                counts.whole_tests = counted::all(built.accel.as_ref(), &workload.rays, workload.query).tests;
             }
             structure.rays[pair.workload].counts = Some(counts);
         }

@@ -4,9 +4,10 @@ use rayon::prelude::*;
 
 use super::built::Built;
 use super::check::declined;
-use super::counted::Counted;
+use super::counted::few;
 use super::guarded::guarded;
 use super::pair::Pair;
+use crate::accel::Observed;
 use crate::measure::median;
 use crate::request::BRUTE_FORCE;
 use crate::scene::Workload;
@@ -44,14 +45,12 @@ pub fn picoseconds(cases: &[Pair], built: &[Option<&Built>], workloads: &[Worklo
 /// `None` if it cannot be queried, does not count, or panics: then its samples determine the cost.
 fn predicted(case: &Pair, built: &[Option<&Built>], workloads: &[Workload]) -> Option<f64> {
     let (accel, workload) = (built[case.structure]?.accel.as_ref(), &workloads[case.workload]);
-    let observed = accel.observed();
-    let cannot_count = accel.remote().is_some() || !observed.steps || !observed.tests;
-    if cannot_count || declined(accel, workload).is_some() {
+    if accel.remote().is_some() || accel.observed() != Observed::ALL || declined(accel, workload).is_some() {
         return None;
     }
-    let counted = guarded(|| Counted::few(accel, &workload.rays, workload.query))?;
-    let per_ray = |n: u64| n as f64 / counted.rays.max(1) as f64;
-    Some(RAY_NS + STEP_NS * per_ray(counted.counts.steps()) + BLOCK_NS * per_ray(counted.counts.blocks))
+    let counted = guarded(|| few(accel, &workload.rays, workload.query))?;
+    let per_ray = |n: Option<u64>| Some(n? as f64 / counted.rays.max(1) as f64);
+    Some(RAY_NS + STEP_NS * per_ray(counted.steps)? + BLOCK_NS * per_ray(counted.blocks)?)
 }
 
 #[cfg(test)]
