@@ -4,7 +4,6 @@ use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use clap::ValueEnum;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -13,7 +12,6 @@ use crate::builtin::{BUILTIN, Builtin, real_mesh_folder};
 use crate::escaped::{Escaped as _, stem};
 use crate::output::OutputFile;
 use crate::registry::Registry;
-use crate::report::words::listed;
 use crate::scene::{Scene, load};
 
 /// A scene in a case.
@@ -162,68 +160,6 @@ impl Scenes {
     pub fn read(&self, registry: &Registry, own: &[&str]) -> anyhow::Result<Vec<(OsString, Scene)>> {
         let own: Vec<OsString> = own.iter().map(|&name| name.into()).collect();
         loaded(registry, &words(if self.scenes.is_empty() { &own } else { &self.scenes }))
-    }
-}
-
-/// Which meshes the built-in scenes are measured with.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Meshes {
-    /// Stand-ins, and real meshes if present
-    #[default]
-    Both,
-    /// Real meshes only; fail if one is missing
-    Real,
-    /// Stand-ins only
-    StandIns,
-}
-
-/// Scenes and their meshes.
-#[derive(Clone, Debug, Default, clap::Args)]
-pub struct ScenesAndMeshes {
-    #[command(flatten)]
-    pub named: Scenes,
-    /// Meshes of the built-in scenes
-    #[arg(long, help_heading = super::SCENES, value_name = "WHICH", value_enum, default_value_t)]
-    pub meshes: Meshes,
-}
-
-impl ScenesAndMeshes {
-    /// The named scenes, or all built-in ones; with [`Meshes::Both`], a scene that has a stand-in is returned in both
-    /// forms. Each has its word. An error if real meshes are required and one is missing.
-    pub fn read(&self, registry: &Registry) -> anyhow::Result<Vec<(OsString, Scene)>> {
-        let mut forms: Vec<OsString> = vec![];
-        for word in words(&self.named.scenes) {
-            let builtin = Builtin::find(&word).is_ok();
-            forms.extend((builtin && self.meshes != Meshes::Real).then(|| stand_in(&word)));
-            forms.extend((!builtin || self.meshes != Meshes::StandIns).then_some(word));
-        }
-        // Without a real mesh both forms of a scene are equal.
-        let mut scenes = loaded(registry, &forms)?;
-        for (word, scene) in &mut scenes {
-            let plain = word.to_str().and_then(|word| word.strip_suffix(STAND_IN)?.strip_suffix(':'));
-            if let Some(plain) = plain.filter(|_| scene.stand_ins.is_empty()) {
-                *word = plain.into();
-            }
-        }
-        if let (Meshes::Real, Some(note)) = (self.meshes, self.note(scenes.iter().map(|(_, scene)| scene))) {
-            anyhow::bail!("{note} Omit `--meshes real` to measure stand-ins.");
-        }
-        Ok(scenes)
-    }
-
-    /// A note if a real mesh could have been measured but is missing.
-    pub fn note<'a>(&self, read: impl Iterator<Item = &'a Scene> + Clone) -> Option<String> {
-        let alone = |scene: &&Scene| {
-            let is_real = |other: &Scene| other.name == scene.name && other.stand_ins.is_empty();
-            !scene.stand_ins.is_empty() && !read.clone().any(is_real)
-        };
-        let names: Vec<&str> = read.clone().filter(alone).map(|scene| scene.name.as_str()).collect();
-        (!names.is_empty() && self.meshes != Meshes::StandIns).then(|| {
-            format!(
-                "The real meshes of {} are missing: `sahara fetch` downloads them; SAHARA_DATA sets their folder.",
-                listed(&names)
-            )
-        })
     }
 }
 

@@ -17,8 +17,9 @@ use clap::{ArgMatches, Args as _, Command, FromArgMatches};
 use super::{Dataset, Plan, PlannedScene, Presets, Settings, Study, claims};
 use crate::registry::Registry;
 use crate::report::Report;
+use crate::report::words::listed;
 use crate::request::{
-    Measuring, RAYS, STRUCTURES, ScenesAndMeshes, StructureRequest, WorkloadRequest, known_tests, rays_or_all,
+    Measuring, RAYS, SCENES, STRUCTURES, Scenes, StructureRequest, WorkloadRequest, known_tests, rays_or_all,
     scene_files, structure,
 };
 use crate::scene::WorkloadKind;
@@ -38,7 +39,10 @@ pub const STUDY: Study = Study {
 #[derive(Clone, Debug, clap::Args)]
 struct AttributionArgs {
     #[command(flatten)]
-    scenes: ScenesAndMeshes,
+    scenes: Scenes,
+    /// Fail if the real mesh of a scene is missing [default: measure its stand-in]
+    #[arg(long, help_heading = SCENES, value_parser = ["real"])]
+    meshes: Option<String>,
     /// Workload (see `sahara list`)
     #[arg(long, short, help_heading = RAYS, value_name = "WORKLOAD", default_value = "primary")]
     workload: WorkloadKind,
@@ -62,13 +66,22 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     let structures = trees().map(request).collect::<anyhow::Result<Vec<_>>>()?;
     let workloads = WorkloadRequest::of_scene(vec![args.workload], args.rays);
     let settings = Settings { whole: true, ..Settings::new(&args.measuring, registry)? };
-    let scenes = args.scenes.read(registry)?;
+    let scenes = args.scenes.read(registry, &[])?;
+    let stand_ins =
+        scenes.iter().filter(|(_, scene)| !scene.stand_ins.is_empty()).map(|(_, scene)| scene.name.as_str());
+    let stand_ins = listed(&stand_ins.collect::<Vec<_>>());
+    let missing = format!(
+        "The real meshes of {stand_ins} are missing: `sahara fetch` downloads them; SAHARA_DATA sets their folder."
+    );
+    anyhow::ensure!(
+        args.meshes.is_none() || stand_ins.is_empty(),
+        "{missing} Omit `--meshes real` to measure stand-ins."
+    );
     let epochs = args.measuring.epochs.into();
     let planned = scenes.iter().map(|scene| PlannedScene::new(scene, &structures, &workloads, &settings, epochs));
-    let read = scenes.iter().map(|(_, scene)| scene);
-    let mut plan = Plan::by_epoch(NAME, &planned.collect::<Vec<_>>()).noting(read.clone());
-    plan.notes.extend(args.scenes.note(read));
-    Ok(Plan { inputs: scene_files(registry, &args.scenes.named.scenes), ..plan })
+    let mut plan = Plan::by_epoch(NAME, &planned.collect::<Vec<_>>()).noting(scenes.iter().map(|(_, scene)| scene));
+    plan.notes.extend((!stand_ins.is_empty()).then_some(missing));
+    Ok(Plan { inputs: scene_files(registry, &args.scenes.scenes), ..plan })
 }
 
 fn report(dataset: &Dataset, _: &ArgMatches) -> Report {
