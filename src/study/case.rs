@@ -109,10 +109,7 @@ impl Settings {
         }
     }
 
-    /// The settings of the options, with hits checked against brute force.
-    ///
-    /// # Errors
-    /// If the registry is empty.
+    /// The settings of the options, with hits checked against brute force; an error if the registry is empty.
     pub fn new<const EPOCHS: u16, const RUNS: u16, const BUDGET: u32>(
         measuring: &Measuring<EPOCHS, RUNS, BUDGET>,
         registry: &Registry,

@@ -100,10 +100,7 @@ impl Dataset {
         ["schema", "provenance", "measured"].iter().all(|field| value.get(field).is_some())
     }
 
-    /// Reads what [`to_json`](Self::to_json) has written.
-    ///
-    /// # Errors
-    /// If it is not a dataset, or has another version.
+    /// Reads what [`to_json`](Self::to_json) has written; an error if it is not a dataset, or has another version.
     pub fn read(path: &std::path::Path, value: serde_json::Value) -> Result<Self, JournalError> {
         Self::check_schema(path, &value)?;
         serde_json::from_value(value).map_err(|cause| JournalError::damaged(path, &cause))

@@ -44,10 +44,8 @@ pub struct RunOutcome {
     pub failures: Vec<StudyError>,
 }
 
-/// Measures the cases of `plan` that the journal lacks, and reports.
-///
-/// # Errors
-/// If the journal or the threads cannot be used, or a case fails for a reason that is not specific to its scene.
+/// Measures the cases of `plan` that the journal lacks, and reports. An error if the journal or the threads cannot be
+/// used, or a case fails for a reason that is not specific to its scene.
 pub fn run(study: &Study, matches: &ArgMatches, plan: &Plan, run: &mut Run) -> anyhow::Result<RunOutcome> {
     let threads = plan.cases.first().map_or(1, |case| case.settings.threads);
     let threads = Threads::unstarted(threads);

@@ -216,7 +216,8 @@ impl Rays {
 }
 
 impl RayCounts {
-    fn per_ray(&self, n: Option<u64>) -> Option<f64> {
+    /// `n`, one of these counts, per ray.
+    pub fn per_ray(&self, n: Option<u64>) -> Option<f64> {
         Some(n? as f64 / self.rays.max(1) as f64)
     }
 
@@ -274,10 +275,8 @@ impl Epoch {
     }
 
     /// Checks that every structure has a time on every workload, and that all structures return the same `t`, bit for
-    /// bit. That requires one common triangle test.
-    ///
-    /// # Errors
-    /// The first structure without a time, or the first two that differ.
+    /// bit. That requires one common triangle test. The error names the first structure without a time, or the first two
+    /// that differ.
     pub fn check_complete(&self) -> Result<(), StudyError> {
         if let Some(failure) = self.failures().into_iter().next() {
             return Err(StudyError::Missing { failure: failure.sentence, wrong: failure.wrong });
@@ -291,10 +290,7 @@ impl Epoch {
     /// Checks that all structures over the exact triangle test return the same `t`, bit for bit, on the counted rays,
     /// which are far more than the rays that brute force checks. Other tests are not compared: a test that rounds may
     /// place a hit outside the box of its triangle, where one tree finds it and another culls it. Structures with known
-    /// defects or without a time are skipped.
-    ///
-    /// # Errors
-    /// The first two structures that differ.
+    /// defects or without a time are skipped. The error names the first two structures that differ.
     pub fn check_agreement(&self) -> Result<(), StudyError> {
         self.agree(|structure| {
             Some(structure.triangle_test.as_str()).filter(|test| *test == Exact::NAME && !structure.may_err())

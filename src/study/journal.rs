@@ -36,10 +36,8 @@ pub struct Journal {
 impl Journal {
     /// Opens the journal in `folder` to measure the missing cases of `cases`, and creates the folder if it is missing.
     /// With `fresh` the existing cases are measured again: their files stay, and the newest file counts. Only one run at
-    /// a time may measure: two would measure the same cases and disturb each other's times.
-    ///
-    /// # Errors
-    /// If a file cannot be read, the folder cannot be created, or cases are missing while another run measures into it.
+    /// a time may measure: two would measure the same cases and disturb each other's times. The second one is an error
+    /// if it lacks cases.
     pub fn open(folder: &Path, provenance: Provenance, fresh: bool, cases: &[Case]) -> Result<Self, JournalError> {
         fs::create_dir_all(folder).map_err(|cause| JournalError::Write { path: folder.into(), cause })?;
         // Take the lock before reading the cases: they then include everything an earlier run wrote.
@@ -73,9 +71,6 @@ impl Journal {
     }
 
     /// Adds the file at `path`, which was written meanwhile.
-    ///
-    /// # Errors
-    /// If it cannot be read.
     pub fn add(&mut self, path: &Path) -> Result<(), JournalError> {
         self.files.push(CaseFile::read(path)?);
         Ok(())
@@ -95,9 +90,6 @@ pub fn file_name(case: &Case, provenance: &Provenance) -> String {
 const LONGEST: usize = 100;
 
 /// The files of a folder that may be cases, by name.
-///
-/// # Errors
-/// If it cannot be read.
 pub fn files(folder: &Path) -> Result<Vec<PathBuf>, JournalError> {
     let paths = fs::read_dir(folder).and_then(|all| all.map(|entry| Ok(entry?.path())).collect::<io::Result<Vec<_>>>());
     let mut paths = paths.map_err(|cause| JournalError::Read { path: folder.into(), cause })?;

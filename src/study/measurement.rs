@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::epoch::{Rays, Shape};
+use super::epoch::{RayCounts, Rays, Shape};
 use super::{Dataset, SceneEpochs};
 use crate::accel::Query;
 use crate::measure::{AaNoise, SubsetSamples, log_ratios, median};
@@ -36,9 +36,8 @@ pub struct Measurement {
     /// Whether a sample has fewer rays than the workload; also `true` without a time.
     pub sampled: bool,
     pub parts: Vec<SubsetSamples>,
-    /// The number of rays over which hits, tests and steps are counted.
-    pub counted_rays: usize,
-    pub hits: usize,
+    /// All zero or `None` if not counted.
+    pub counts: RayCounts,
     /// Checksum of the hits on the rays that all epochs trace; `None` without a time.
     pub hit_checksum: Option<u64>,
     /// Build time, ns, the median over the epochs.
@@ -55,11 +54,6 @@ pub struct Measurement {
     pub twin_samples_ns: Option<Vec<f64>>,
     pub twin_builds_ns: Option<Vec<u64>>,
     pub mrays_per_s: Option<f64>,
-    pub tests_per_ray: Option<f64>,
-    pub steps_per_ray: Option<f64>,
-    pub leaf_steps_per_ray: Option<f64>,
-    pub empty_leaf_steps_per_ray: Option<f64>,
-    pub tests_over_minimum: Option<f64>,
     pub shape: Shape,
     pub declined: Option<String>,
     /// Rays of the check in epoch 0, see [`Checked`](super::epoch::Checked).
@@ -92,11 +86,11 @@ pub const COLUMNS: [MeasurementColumn; 36] = [
     ("build_peak_bytes", |own| own.build_peak_bytes.into()),
     ("trace_ns", |own| own.trace_ns.into()),
     ("mrays_per_s", |own| own.mrays_per_s.into()),
-    ("tests_per_ray", |own| own.tests_per_ray.into()),
-    ("steps_per_ray", |own| own.steps_per_ray.into()),
-    ("leaf_steps_per_ray", |own| own.leaf_steps_per_ray.into()),
-    ("empty_leaf_steps_per_ray", |own| own.empty_leaf_steps_per_ray.into()),
-    ("tests_over_minimum", |own| own.tests_over_minimum.into()),
+    ("tests_per_ray", |own| own.counts.tests_per_ray().into()),
+    ("steps_per_ray", |own| own.counts.steps_per_ray().into()),
+    ("leaf_steps_per_ray", |own| own.counts.per_ray(own.counts.leaves).into()),
+    ("empty_leaf_steps_per_ray", |own| own.counts.per_ray(own.counts.empty_leaves).into()),
+    ("tests_over_minimum", |own| own.counts.tests_over_minimum().into()),
     ("bytes", |own| own.shape.bytes.into()),
     ("inner_nodes", |own| own.shape.inner_nodes.into()),
     ("leaves", |own| own.shape.leaves.into()),
@@ -104,8 +98,8 @@ pub const COLUMNS: [MeasurementColumn; 36] = [
     ("references_per_triangle", |own| own.references_per_triangle().into()),
     ("depth", |own| own.shape.depth.into()),
     ("sah_cost", |own| own.shape.sah_cost.into()),
-    ("hits", |own| own.hits.into()),
-    ("counted_rays", |own| own.counted_rays.into()),
+    ("hits", |own| own.counts.hits.into()),
+    ("counted_rays", |own| own.counts.rays.into()),
     ("declined", |own| own.declined.as_ref().into()),
     ("checked_rays", |own| own.checked_rays.into()),
     ("structure_errors", |own| own.wrong_hits.into()),
@@ -166,8 +160,6 @@ fn measurement(scene: &SceneEpochs, place: usize, twin: Option<usize>, workload:
     // The clock of a runner may give the runner and its twin different numbers of rays: ignore the twin then.
     let twin = twin.filter(|&twin| timed && rays(scene, twin, workload).all(|own| own.rays == first.rays));
     let twin_samples = twin.map(|twin| samples(scene, twin, workload)).filter(|samples| !samples.is_empty());
-    let counts = first.counts.unwrap_or_default();
-    let per_ray = |n: Option<u64>| Some(n? as f64 / counts.rays.max(1) as f64);
     let (checked_rays, wrong_hits) = first.checked.as_ref().map_or((0, 0), |own| (own.rays, own.errors));
     Measurement {
         scene: epoch.scene.clone(),
@@ -187,8 +179,7 @@ fn measurement(scene: &SceneEpochs, place: usize, twin: Option<usize>, workload:
         rays: if timed { first.rays } else { 0 },
         sampled: !timed || first.rays < first.all,
         parts: if timed { parts(scene, place, workload) } else { vec![] },
-        counted_rays: counts.rays,
-        hits: counts.hits,
+        counts: first.counts.unwrap_or_default(),
         hit_checksum: timed.then_some(first.checksum),
         build_ns: median(&as_numbers).expect("every epoch builds") as u64,
         build_samples_ns,
@@ -199,11 +190,6 @@ fn measurement(scene: &SceneEpochs, place: usize, twin: Option<usize>, workload:
         twin_builds_ns: twin_samples.as_ref().and(twin).map(builds),
         twin_samples_ns: twin_samples,
         mrays_per_s: trace_ns.map(|ns| first.rays as f64 * 1e3 / ns),
-        tests_per_ray: counts.tests_per_ray(),
-        steps_per_ray: counts.steps_per_ray(),
-        leaf_steps_per_ray: per_ray(counts.leaves),
-        empty_leaf_steps_per_ray: per_ray(counts.empty_leaves),
-        tests_over_minimum: counts.tests_over_minimum(),
         shape: structure.shape,
         declined: first.declined.clone(),
         checked_rays,
@@ -325,8 +311,7 @@ pub(crate) mod tests {
             workload_rays: 1000,
             rays: 500,
             sampled: true,
-            counted_rays: 1000,
-            hits: 20,
+            counts: RayCounts { rays: 1000, hits: 20, steps: Some(1500), ..RayCounts::default() },
             hit_checksum: Some(1),
             build_ns: 1500,
             build_samples_ns: vec![1500; epochs],
@@ -335,8 +320,6 @@ pub(crate) mod tests {
             epochs,
             samples_ns: samples_ns.into(),
             mrays_per_s: trace_ns.map(|ns| 500.0 * 1e3 / ns),
-            steps_per_ray: Some(1.5),
-            tests_over_minimum: Some(2.5),
             shape: Shape { bytes: 4096, leaves: 7, ..Shape::default() },
             checked_rays: 100,
             ..Measurement::default()

@@ -81,17 +81,11 @@ pub enum Effort {
 
 impl Study {
     /// Parses the arguments `words`.
-    ///
-    /// # Errors
-    /// If its command rejects them.
     pub fn matches<W: AsRef<OsStr>>(&self, words: &[W]) -> Result<ArgMatches, clap::Error> {
         (self.options)().no_binary_name(true).try_get_matches_from(words.iter().map(OsString::from))
     }
 
-    /// Its default options.
-    ///
-    /// # Panics
-    /// If an option has no default.
+    /// Its default options. Panics if an option has no default.
     pub fn defaults(&self) -> ArgMatches {
         self.matches::<OsString>(&[]).unwrap_or_else(|error| panic!("study {}: {error}", self.name))
     }
@@ -138,10 +132,8 @@ impl Studies {
             .with(replicate::STUDY)
     }
 
-    /// Adds a study.
-    ///
-    /// # Panics
-    /// If its name is taken, is `all` or `plan`, or contains anything except lower-case letters, digits and hyphens.
+    /// Adds a study. Panics if its name is taken, is `all` or `plan`, or contains anything except lower-case letters, digits
+    /// and hyphens.
     pub fn with(mut self, study: Study) -> Self {
         let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
         let name = study.name;

@@ -45,9 +45,6 @@ const MARK: &str = "\u{1e}case ";
 
 /// Starts a process that measures a case and writes the file `out`. It receives the `options` of this process, such as
 /// the instruction level. Its threads are bound to `cores`, if these are known.
-///
-/// # Errors
-/// Like the measuring of a case, and if the process cannot be started or ends without a result.
 pub fn measure_apart(
     options: &[OsString],
     case: &Case,
@@ -153,11 +150,8 @@ pub enum Written {
     Meanwhile,
 }
 
-/// Measures a case and writes the file `out`, unless it exists.
-///
-/// # Errors
-/// If the file cannot be written or contains anything else, there are fewer cores than threads, or the measuring fails:
-/// then the file is unchanged.
+/// Measures a case and writes the file `out`, unless it exists. After an error the file is unchanged: if it cannot be
+/// written or contains anything else, there are fewer cores than threads, or the measuring fails.
 pub fn measure_into(
     case: &Case,
     out: &Path,
@@ -191,10 +185,7 @@ pub fn measure_into(
 }
 
 /// Measures a case like [`measure_into`], and reports the progress and a failure to the listening run. From now on this
-/// process ends with the run: a killed run leaves no process that disturbs the next run.
-///
-/// # Errors
-/// If a failure cannot be reported, because no run listens.
+/// process ends with the run: a killed run leaves no process that disturbs the next run. An error if no run listens.
 pub fn measure_for_run(case: &Case, out: &Path, registry: &Registry, watch: &BuildWatch) -> io::Result<()> {
     process_group::end_with_parent();
     let Err(error) = measure_into(case, out, registry, watch, &mut ListeningRun) else { return Ok(()) };

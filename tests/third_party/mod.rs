@@ -71,12 +71,12 @@ fn it_is_compared_like_our_own() {
     assert_eq!(records.len(), 6);
     assert!(records[..4].iter().all(|r| r.wrong_hits == 0 && r.mrays_per_s > Some(0.0)));
     assert_eq!(records[0].label, "grid");
-    assert_eq!(records[0].hits, records[2].hits);
+    assert_eq!(records[0].counts.hits, records[2].counts.hits);
 
     // Declined is neither a time nor an error.
     assert!(records[4].mrays_per_s.is_some() && records[4].declined.is_none());
     assert_eq!((records[5].mrays_per_s, records[5].declined.as_deref()), (None, Some("any hit")));
-    assert_eq!((records[5].wrong_hits, records[4].tests_per_ray), (0, None));
+    assert_eq!((records[5].wrong_hits, records[4].counts.tests_per_ray()), (0, None));
 }
 
 /// Some meshes: they trigger the faults that affect one ray in 10,000.

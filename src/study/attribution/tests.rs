@@ -102,7 +102,7 @@ fn without_noise_every_figure_is_exact() {
             (least, STOP),
             (most, STOP * TOGETHER),
             (r.plane_alone().estimate, PLANE),
-            (r.first().tests_per_ray.unwrap(), 24_000.0),
+            (r.first().counts.tests_per_ray().unwrap(), 24_000.0),
             (libm::exp(r.noise.log().unwrap()), 1.0),
         ] {
             assert!((found / truth - 1.0).abs() < 1e-5, "{found} {truth}");

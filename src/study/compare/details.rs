@@ -18,8 +18,8 @@ pub fn add_columns(table: &mut Table, all: &[Measurement], structures: &[String]
         ("refs/triangle", |r| known(r.shape.references).map(|_| r.references_per_triangle()).into()),
         ("depth", |r| known(r.shape.depth).into()),
         ("SAH cost", |r| r.shape.sah_cost.into()),
-        ("tests", |r| r.tests_per_ray.into()),
-        ("steps", |r| r.steps_per_ray.into()),
+        ("tests", |r| r.counts.tests_per_ray().into()),
+        ("steps", |r| r.counts.steps_per_ray().into()),
         ("checked", |r| r.checked_rays.into()),
         ("sampled", |r| Cell::number(r.rays as f64 / r.workload_rays.max(1) as f64, Format::Percent)),
     ];

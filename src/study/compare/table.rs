@@ -143,12 +143,12 @@ fn defects(all: &[Measurement]) -> Vec<String> {
 /// structure with its own test shows that.
 fn unfit_tests(all: &[Measurement]) -> Vec<String> {
     let exact = |of: &Measurement| {
-        let same = |r: &&Measurement| r.workload_hash == of.workload_hash && r.counted_rays == of.counted_rays;
-        all.iter().filter(|r| r.triangle_test == Exact::NAME).find(same).map(|r| r.hits)
+        let same = |r: &&Measurement| r.workload_hash == of.workload_hash && r.counts.rays == of.counts.rays;
+        all.iter().filter(|r| r.triangle_test == Exact::NAME).find(same).map(|r| r.counts.hits)
     };
     let note = |own: &Measurement| {
-        let exact = exact(own).filter(|&hits| 100 * hits.abs_diff(own.hits) > hits)?;
-        let [hits, rays, exact] = [own.hits, own.counted_rays, exact].map(|n| count(n as u64));
+        let exact = exact(own).filter(|&hits| 100 * hits.abs_diff(own.counts.hits) > hits)?;
+        let [hits, rays, exact] = [own.counts.hits, own.counts.rays, exact].map(|n| count(n as u64));
         let (test, workload) = (&own.triangle_test, &own.workload);
         Some(format!(
             "{test} finds hits for {hits} of {rays} {workload} rays, exact arithmetic for {exact}: its speed is not \

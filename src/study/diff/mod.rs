@@ -246,8 +246,8 @@ fn wrong(old: &Measurement, new: &Measurement) -> Option<Wrong> {
         }
         // Another triangle test has other hits; each run checks its hits against its own test.
         () if old.triangle_test != new.triangle_test => return None,
-        () if old.counted_rays == new.counted_rays && old.hits != new.hits => {
-            format!("{} of {} rays hit; in the old run {}", new.hits, new.counted_rays, old.hits)
+        () if old.counts.rays == new.counts.rays && old.counts.hits != new.counts.hits => {
+            format!("{} of {} rays hit; in the old run {}", new.counts.hits, new.counts.rays, old.counts.hits)
         }
         () if old.rays == new.rays && is_changed() => {
             "some hits have another t or primitive than in the old run".into()

@@ -40,53 +40,38 @@ fn assert_time(comparison: &Comparison, structure: &str, expected: f64) {
 }
 
 #[test]
-fn a_slower_machine_is_no_slower_structure() {
-    let comparison = compare(&run(1.0, 1.0), &run(1.5, 1.1), Some(5.0), 1);
-    assert_eq!(comparison.references, ["obvhs-bvh2", "obvhs-cwbvh"]);
-    for (structure, time, finding) in [("sah-kd", 1.1, Finding::Regression), ("median-kd", 1.0, Finding::NoDifference)]
-    {
-        assert_time(&comparison, structure, time);
-        let change = change_of(&comparison, structure);
-        assert_eq!((change.finding, change.cells), (finding, 2), "{structure}");
-    }
-    assert_eq!((comparison.structures.len(), comparison.cells.len()), (2, 4), "references are not judged");
-    assert!(comparison.wrong.is_empty() && comparison.only_old.is_empty() && comparison.only_new.is_empty());
-}
-
-#[test]
-fn what_has_our_triangle_test_is_no_reference() {
-    let with = |ours: f64| {
+fn times_are_relative_to_the_references() {
+    let without_obvhs =
+        |run: Vec<Measurement>| run.into_iter().filter(|own| !measurement::is_native_obvhs(own)).collect();
+    let with_our_test = |ours: f64| -> Vec<Measurement> {
         let exact = ["primary", "shadow"].map(|workload| record("obvhs-bvh2:test=exact", workload, 3e6 * ours));
         [run(1.0, ours), exact.map(|r| Measurement { structure: "obvhs-bvh2".into(), ..r }).into()].concat()
     };
-    let comparison = compare(&with(1.0), &with(1.2), None, 1);
-    assert_eq!(comparison.references, ["obvhs-bvh2", "obvhs-cwbvh"]);
-    assert_time(&comparison, "sah-kd", 1.2);
-    assert_eq!(change_of(&comparison, "obvhs-bvh2:test=exact").finding, Finding::Slower);
-}
-
-#[test]
-fn another_reference_can_be_named() {
-    let of = |sah: f64| Side::of(Provenance::capture(1), run(1.0, sah), Some("sah-kd"));
-    let (old, new) = (of(1.0), of(0.5));
-    assert_eq!(unlike(&old, &new, true), Ok(()));
-    let comparison = Comparison::new(&old, &new, None, 1);
-    assert_eq!(comparison.references, ["sah-kd"]);
-    assert_time(&comparison, "obvhs-bvh2", 2.0);
-}
-
-#[test]
-fn without_references_times_count_as_they_are() {
-    let [old, new] = [1.0, 1.5].map(|slow| {
-        let mut run = run(slow, 1.0);
-        run.retain(|own| !measurement::is_native_obvhs(own));
-        run
-    });
-    let comparison = compare(&old, &new, None, 1);
-    assert!(comparison.references.is_empty());
-    assert_time(&comparison, "sah-kd", 1.5);
-    assert_eq!(change_of(&comparison, "sah-kd").finding, Finding::Slower);
-    assert!(cautions(&comparison)[0].contains("not normalised"));
+    let obvhs = &["obvhs-bvh2", "obvhs-cwbvh"][..];
+    for (old, new, named, references, expected) in [
+        // A slower machine is not a slower structure.
+        (run(1.0, 1.0), run(1.5, 1.1), None, obvhs, [("sah-kd", 1.1), ("median-kd", 1.0)]),
+        // An obvhs structure with our triangle test is not a reference.
+        (with_our_test(1.0), with_our_test(1.2), None, obvhs, [("sah-kd", 1.2), ("obvhs-bvh2:test=exact", 1.2)]),
+        (run(1.0, 1.0), run(1.0, 0.5), Some("sah-kd"), &["sah-kd"], [("obvhs-bvh2", 2.0), ("median-kd", 2.0)]),
+        // Without references times count as they are.
+        (without_obvhs(run(1.0, 1.0)), without_obvhs(run(1.5, 1.0)), None, &[], [("sah-kd", 1.5), ("median-kd", 1.5)]),
+    ] {
+        let [old, new] = [old, new].map(|run| Side::of(Provenance::capture(1), run, named));
+        assert_eq!(unlike(&old, &new, !references.is_empty()), Ok(()));
+        let comparison = Comparison::new(&old, &new, None, 1);
+        assert_eq!(comparison.references, references);
+        for (structure, time) in expected {
+            assert_time(&comparison, structure, time);
+            let finding = if time > 1.0 { Finding::Slower } else { Finding::NoDifference };
+            let change = change_of(&comparison, structure);
+            assert_eq!((change.finding, change.cells), (finding, 2), "{structure}");
+        }
+        assert!(comparison.structures.iter().all(|own| !references.contains(&own.structure.as_str())));
+        assert!(comparison.wrong.is_empty() && comparison.only_old.is_empty() && comparison.only_new.is_empty());
+        let is_told = cautions(&comparison).iter().any(|caution| caution.contains("not normalised"));
+        assert_eq!(is_told, references.is_empty());
+    }
 }
 
 #[test]
@@ -119,10 +104,10 @@ fn answers_that_changed_are_wrong() {
     let changes: [(&str, &Edit); 7] = [
         ("", &|_| {}),
         ("3 of 100 rays have a wrong hit; in the old run 0 of 100", &|r| r.wrong_hits = 3),
-        ("19 of 1000 rays hit; in the old run 20", &|r| r.hits = 19),
+        ("19 of 1000 rays hit; in the old run 20", &|r| r.counts.hits = 19),
         ("some hits have another t or primitive than in the old run", &|r| r.hit_checksum = Some(0)),
         // Another number of timed or counted rays gives other hits; an unknown checksum is no change.
-        ("", &|r| (r.counted_rays, r.hits) = (500, 9)),
+        ("", &|r| (r.counts.rays, r.counts.hits) = (500, 9)),
         ("", &|r| (r.rays, r.hit_checksum) = (250, Some(0))),
         ("", &|r| r.hit_checksum = None),
     ];
@@ -156,7 +141,7 @@ fn a_structure_is_compared_with_itself_whatever_its_keys_and_its_test() {
     for own in new.iter_mut().filter(|own| own.label == "sah-kd") {
         own.label = "sah-kd:leaf=4,test=moller-trumbore".into();
         own.config = serde_json::json!({ "leaf": 4, "threshold": 0.7 });
-        (own.triangle_test, own.hits, own.hit_checksum) = ("other".into(), 19, Some(7));
+        (own.triangle_test, own.counts.hits, own.hit_checksum) = ("other".into(), 19, Some(7));
     }
     let (a, b) = (side(old.clone()), side(new.clone()));
     assert_eq!(unlike(&a, &b, true), Ok(()));

@@ -36,11 +36,9 @@ fn differ(what: &str, old: &str, new: &str, advice: &'static str) -> Result<(), 
 }
 
 /// Rejects runs that differ in more than their code and date, their settings, the keys and triangle tests of
-/// structures, and, without `gate` and if both time the same obvhs structure, their machine.
-///
-/// # Errors
-/// The first difference: in machine, instructions, profile, compiler flags, references, scene or rays; no common cell;
-/// or, for a gate, no obvhs structure.
+/// structures, and, without `gate` and if both time the same obvhs structure, their machine. The error names the first
+/// difference: in machine, instructions, profile, compiler flags, references, scene or rays; no common cell; or, for a
+/// gate, no obvhs structure.
 pub fn unlike(old: &Side, new: &Side, gate: bool) -> Result<(), Unlike> {
     let pairs = pairs(&old.all, &new.all);
     let are_timed = |old: &Measurement, new: &Measurement| old.trace_ns.is_some() && new.trace_ns.is_some();
@@ -95,10 +93,9 @@ fn other_machine(old: &Provenance, new: &Provenance, advice: &'static str) -> Re
     differ("the set of target features", &old.target_features, &new.target_features, SAME_BUILD)
 }
 
-/// Rejects cases that are about to be measured on `here` and that a gate could not compare with the run `old`.
-///
-/// # Errors
-/// The first difference: in machine, instructions or compiler flags; in a scene, its rays or the number of timed rays.
+/// Rejects cases that are about to be measured on `here` and that a gate could not compare with the run `old`. The error
+/// names the first difference: in machine, instructions or compiler flags; in a scene, its rays or the number of timed
+/// rays.
 pub fn unlike_plan(old: &Dataset, cases: &[Case], here: &Provenance) -> Result<(), Unlike> {
     other_machine(&old.provenance, here, SAME_MACHINE)?;
     differ("the version of obvhs, the reference,", &old.provenance.obvhs, &here.obvhs, SAME_BUILD)?;

@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use serde::{Deserialize, Serialize};
-use serde_json::Value;
+use serde::Deserialize;
+use serde_json::{Value, json};
 
 use super::JournalError;
 use crate::measure::Provenance;
@@ -12,43 +12,28 @@ use crate::output::{OutputError, OutputFile};
 use crate::study::{Case, Dataset, Epoch};
 
 /// A case with its results and provenance.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct CaseFile {
+    #[serde(skip)]
     pub path: PathBuf,
     pub provenance: Provenance,
     pub case: Case,
     pub epoch: Epoch,
 }
 
-/// The fields of the file.
-#[derive(Serialize, Deserialize)]
-struct Fields {
-    schema: u32,
-    provenance: Provenance,
-    case: Case,
-    epoch: Epoch,
-}
-
 impl CaseFile {
-    /// Reads the file `path`.
-    ///
-    /// # Errors
-    /// If it cannot be read, is not a case, or has another version.
+    /// Reads the file `path`; an error if it cannot be read, is not a case, or has another version.
     pub fn read(path: &Path) -> Result<Self, JournalError> {
         let bytes = fs::read(path).map_err(|cause| JournalError::Read { path: path.into(), cause })?;
         let value = serde_json::from_slice(&bytes).map_err(|cause| JournalError::damaged(path, &cause))?;
         if Self::is_case(&value) { Self::of(path, value) } else { Err(JournalError::Foreign(path.into())) }
     }
 
-    /// Converts the content of a file that [is a case](Self::is_case).
-    ///
-    /// # Errors
-    /// If it has another version.
+    /// Converts the content of a file that [is a case](Self::is_case); an error if it has another version.
     pub fn of(path: &Path, value: Value) -> Result<Self, JournalError> {
         Dataset::check_schema(path, &value)?;
-        let fields = serde_json::from_value(value).map_err(|cause| JournalError::damaged(path, &cause))?;
-        let Fields { provenance, case, epoch, .. } = fields;
-        Ok(Self { path: path.into(), provenance, case, epoch })
+        let file: Self = serde_json::from_value(value).map_err(|cause| JournalError::damaged(path, &cause))?;
+        Ok(Self { path: path.into(), ..file })
     }
 
     /// Whether this is a case, of any version.
@@ -57,28 +42,18 @@ impl CaseFile {
     }
 
     /// Prepares the file `path` before the case is measured; creates its folder.
-    ///
-    /// # Errors
-    /// If the folder cannot be created or written to.
     pub fn place(path: &Path) -> Result<OutputFile, JournalError> {
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
         folder.map_or(Ok(()), fs::create_dir_all).map_err(|cause| JournalError::Write { path: path.into(), cause })?;
         OutputFile::check(path).map_err(|error| unwritable(path, error))
     }
 
-    /// Writes the results as a new file; returns whether the file was new.
-    ///
-    /// # Errors
-    /// If the system refuses, or the disk is full: then there is no file.
-    ///
-    /// # Panics
-    /// If the epoch cannot be read back.
+    /// Writes the results as a new file; returns whether the file was new. After an error there is no file. Panics if the
+    /// epoch cannot be read back.
     pub fn write(file: &OutputFile, provenance: &Provenance, case: &Case, epoch: &Epoch) -> Result<bool, JournalError> {
-        let (provenance, case, epoch) = (provenance.clone(), case.clone(), epoch.clone());
-        let fields = Fields { schema: Dataset::SCHEMA, provenance, case, epoch };
-        let value = serde_json::to_value(fields).expect("names are text");
+        let value = json!({ "schema": Dataset::SCHEMA, "provenance": provenance, "case": case, "epoch": epoch });
         // Infinite numbers and NaN become null, and would make the case unreadable.
-        let read: Result<Fields, _> = Fields::deserialize(&value);
+        let read = Self::deserialize(&value);
         assert!(read.is_ok(), "the case does not read back ({:?}): {value}", read.err());
         file.write_new(format!("{value}\n").as_bytes()).map_err(|error| unwritable(&file.path, error))
     }

@@ -40,10 +40,7 @@ pub use prepared::Prepared;
 /// Builds all structures, checks and counts them if this is epoch 0, and takes their samples. Epochs are independent of
 /// each other; [`join`](super::join) checks what they must have in common. A structure that cannot be built, panics or
 /// changes its hits is refused; a structure with wrong hits gets no time; all others continue. `watch` observes the
-/// builds.
-///
-/// # Errors
-/// If the structures do not fit into memory, or the ray source of secondary rays cannot be built.
+/// builds. An error if the structures do not fit into memory, or the ray source of secondary rays cannot be built.
 pub fn measure(
     case: &Case,
     prepared: &Prepared,

@@ -17,10 +17,8 @@ pub struct Prepared {
 }
 
 impl Prepared {
-    /// Resolves the names in the case. `scene` is the scene, if it is already loaded.
-    ///
-    /// # Errors
-    /// If something does not exist, or the scene has changed since the plan.
+    /// Resolves the names in the case. `scene` is the scene, if it is already loaded. An error if something does not
+    /// exist, or the scene has changed since the plan.
     pub fn new(case: &Case, registry: &Registry, scene: Option<Scene>) -> anyhow::Result<Self> {
         let scene = scene.map_or_else(|| case.scene.load(registry), Ok)?;
         let choices = case.structures.iter().map(|own| own.choose(registry)).collect::<anyhow::Result<_>>()?;

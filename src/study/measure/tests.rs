@@ -149,11 +149,15 @@ fn a_right_structure_has_a_time_and_the_hits_of_all_others() {
     }
     // Nothing blocks the light of a single cube.
     for (workload, is_hit) in [("primary", true), ("shadow", false)] {
-        let hits: Vec<usize> = all.iter().filter(|r| r.workload == workload).map(|r| r.hits).collect();
+        let hits: Vec<usize> = all.iter().filter(|r| r.workload == workload).map(|r| r.counts.hits).collect();
         assert!((hits[0] > 0) == is_hit && hits.iter().all(|&n| n == hits[0]), "{workload} {hits:?}");
     }
-    assert_eq!(all[0].tests_per_ray, Some(12.0));
-    assert_eq!((all[4].tests_per_ray, all[4].steps_per_ray), (Some(12.0), None), "what is not observed is unknown");
+    assert_eq!(all[0].counts.tests_per_ray(), Some(12.0));
+    assert_eq!(
+        (all[4].counts.tests_per_ray(), all[4].counts.steps_per_ray()),
+        (Some(12.0), None),
+        "what is not observed is unknown"
+    );
     // The twin belongs to the first structure that is not slow.
     let twins: Vec<bool> = all.iter().map(|own| own.twin_samples_ns.is_some()).collect();
     assert_eq!(twins, [false, false, false, false, true, true]);

@@ -52,10 +52,7 @@ impl<'a> TimedCheck<'a> {
     /// Checks the hits on all timed rays, `rays` of them per epoch; `None` if the structure panics.
     ///
     /// With the triangle test of the tree, all bits must equal the tree's. Then the checksum of the timed hits of the
-    /// first epoch is enough, and later epochs must repeat it.
-    ///
-    /// # Errors
-    /// If no tree can be built over the mesh.
+    /// first epoch is enough, and later epochs must repeat it. An error if no tree can be built over the mesh.
     pub fn check(
         &mut self,
         built: &Built,

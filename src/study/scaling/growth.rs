@@ -114,8 +114,8 @@ fn growth(family: &'static str, points: Vec<Point>, [trace, build]: &[AaNoise; 2
         time_to_level_8: measured(&coarser, Measurement::log_paces, trace),
         build: measured(&fitted, |own| Some(own.log_builds()), build),
         bytes: counted(|own| Some(own.shape.bytes as f64)),
-        tests: counted(|own| own.tests_per_ray),
-        steps: counted(|own| own.steps_per_ray),
+        tests: counted(|own| own.counts.tests_per_ray()),
+        steps: counted(|own| own.counts.steps_per_ray()),
         points,
     }
 }

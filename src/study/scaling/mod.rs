@@ -17,11 +17,10 @@ use super::case::SLOWEST;
 use super::{Dataset, Plan, PlannedScene, Presets, Settings, Study, claims};
 use crate::registry::Registry;
 use crate::report::Report;
-use crate::report::number::count;
 use crate::request::{Measuring, Rays, SCENES, Scenes, Structures, scene_files, with_twin};
 use crate::scene::spheres::FINEST;
 use crate::scene::{Scene, WorkloadKind};
-use growth::{FAMILY, LEVEL, LEVEL_8, MESHES, SPHERES, growths};
+use growth::{FAMILY, LEVEL, MESHES, SPHERES, growths};
 
 const NAME: &str = "scaling";
 
@@ -36,9 +35,6 @@ pub const STUDY: Study = Study {
 
 const STRUCTURES: [&str; 7] =
     ["median-kd", "sah-kd", "sah-kd-wide", "sah-hybrid", "sah-bvh", "obvhs-bvh2", "obvhs-cwbvh"];
-
-/// Maximum number of epochs for meshes of more than [`LEVEL_8`] triangles, whose builds take minutes.
-const EPOCHS_OF_FINEST: usize = 3;
 
 /// The default of `--finest`, as far as the claims need: the trees of the default structures take about 1.3 GB together.
 const FINEST_BY_DEFAULT: u32 = 8;
@@ -71,25 +67,16 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     let spheres = Scenes { scenes: (0..=args.finest).map(|level| format!("icosphere:{level}").into()).collect() };
     let spheres = spheres.read(registry, &[])?;
 
-    let epochs = usize::from(args.measuring.epochs);
-    let few = epochs.min(EPOCHS_OF_FINEST);
     let planned = |own: &(OsString, Scene), family: &str| {
-        let epochs = if own.1.mesh.len() > LEVEL_8 { few } else { epochs };
-        PlannedScene::new(own, &structures, &workloads, &settings, epochs).labelled(FAMILY, family)
+        PlannedScene::new(own, &structures, &workloads, &settings, args.measuring.epochs.into())
+            .labelled(FAMILY, family)
     };
-    let levels = spheres.iter().zip(0..);
+    let levels = spheres.iter().zip(0_u32..);
     let mut all: Vec<PlannedScene> =
-        levels.map(|(own, level)| planned(own, SPHERES).labelled(LEVEL, i32::to_string(&level))).collect();
+        levels.map(|(own, level)| planned(own, SPHERES).labelled(LEVEL, level.to_string())).collect();
     all.extend(meshes.iter().map(|own| planned(own, MESHES)));
     let scenes = spheres.iter().chain(&meshes).map(|(_, scene)| scene);
-    let mut plan = Plan::by_epoch(NAME, &all).noting(scenes);
-
-    if all.iter().any(|planned| planned.case.epochs < epochs) {
-        plan.notes.push(format!(
-            "Meshes of more than {} triangles have only {few} epochs: their builds take minutes.",
-            count(LEVEL_8 as u64)
-        ));
-    }
+    let plan = Plan::by_epoch(NAME, &all).noting(scenes);
     Ok(Plan { inputs: scene_files(registry, &args.scenes.scenes), ..plan })
 }
 

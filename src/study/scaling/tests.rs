@@ -1,4 +1,4 @@
-use super::growth::Growth;
+use super::growth::{Growth, LEVEL_8};
 use super::*;
 use crate::measure::Estimate;
 use crate::study::Measured;

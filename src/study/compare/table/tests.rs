@@ -95,7 +95,7 @@ fn a_triangle_test_that_misses_what_is_hit_is_named() {
         record.triangle_test = test.into();
     }
     assert!(scene_table(&all, &[]).notes.is_empty());
-    all.iter_mut().find(|record| record.label == "obvhs-bvh2").unwrap().hits = 0;
+    all.iter_mut().find(|record| record.label == "obvhs-bvh2").unwrap().counts.hits = 0;
     let notes = scene_table(&all, &[]).notes;
     let said = "rt-triangle finds hits for 0 of 1,000 primary rays, exact arithmetic for 20";
     assert!(notes.len() == 1 && notes[0].starts_with(said), "{notes:?}");
