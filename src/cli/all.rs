@@ -1,16 +1,15 @@
 //! `study all`: all studies of the page in one run. A killed run resumes with the case that it was measuring.
 
 use std::ffi::OsString;
-use std::path::PathBuf;
 use std::time::Instant;
 
 use super::progress::spinner;
-use super::study::{Common, RUNS, run_as};
+use super::study::{Common, Keeping, RUNS, run_as};
 use super::{Session, interrupt};
 use crate::escaped::Escaped as _;
 use crate::report::Table;
 use crate::report::number::duration;
-use crate::request::{MEASURING, OUTPUT, SCENES, scenes};
+use crate::request::{MEASURING, SCENES, scenes};
 use crate::study::journal::JournalError;
 use crate::study::{Effort, Status, Study};
 
@@ -20,16 +19,8 @@ pub const NAME: &str = "all";
 #[derive(Clone, Debug, clap::Args)]
 #[command(next_help_heading = MEASURING)]
 pub struct Args {
-    /// Folder that keeps the results, one journal per study; repeat the command to resume an interrupted run
-    #[arg(long, help_heading = OUTPUT, value_name = "DIR", default_value = RUNS)]
-    dir: PathBuf,
-    /// Measure everything again. Earlier results are kept; reports use the newest result of each case
-    #[arg(long)]
-    fresh: bool,
-    /// Run everything in one process: faster, but the intervals no longer cover memory-layout effects, and builds have
-    /// no time limit
-    #[arg(long)]
-    in_process: bool,
+    #[command(flatten)]
+    keeping: Keeping,
     /// Run everything in a few minutes, with few scenes, rays and epochs: to try the program, not for results
     #[arg(long)]
     quick: bool,
@@ -40,8 +31,9 @@ pub struct Args {
 
 pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
     let &Session { suite, terminal, .. } = session;
-    let Args { dir, fresh, in_process, .. } = args.clone();
-    let common = Common { dir: Some(dir), fresh, in_process, ..Common::default() };
+    let dir = args.keeping.dir.clone().unwrap_or_else(|| RUNS.into());
+    let keeping = Keeping { dir: Some(dir.clone()), ..args.keeping.clone() };
+    let common = Common { keeping, ..Common::default() };
     if !args.scenes.is_empty() {
         // Reject missing scenes before any study is measured.
         let _waiting = spinner("loading scenes", terminal);
@@ -83,7 +75,7 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
         Status::Wrong => "The same command retries anything that failed.",
         _ => "Everything is measured.",
     };
-    let dir = args.dir.escaped();
+    let dir = dir.escaped();
     // Without the cases that were measured before.
     let table = Table::of_texts(&format!("All studies in {dir}"), ["study", "time taken", "result", "journal"], rows);
     terminal.print_table(&table.noted([format!("{left} `sahara report {dir} -o OUT` writes the page.")]));

@@ -40,7 +40,7 @@ use crate::panics;
 use crate::registry::Registry;
 use crate::request::{MEASURING, OUTPUT};
 use crate::simd::Level;
-use crate::study::process::{self, Written, build_watch, measure_for_run, measure_into};
+use crate::study::process::{self, build_watch, measure_for_run, measure_into};
 use crate::study::{Case, Status, Studies, Study};
 use progress::OnTerminal;
 use terminal::{Colour, Terminal};
@@ -270,12 +270,9 @@ fn measure_case(
         measure_for_run(case, out, &suite.registry, &watch)?;
         return Ok(Status::Right);
     }
-    let what = match measure_into(case, out, &suite.registry, &watch, &mut OnTerminal::new(terminal, true))? {
-        Written::Now => return Ok(Status::Right),
-        Written::Before => "already holds this case: nothing is measured.",
-        Written::Meanwhile => "was written by another process in the meantime: its case is kept.",
-    };
-    crate::output::tell(format_args!("{} {what}", out.escaped()));
+    if let Some(why) = measure_into(case, out, &suite.registry, &watch, &mut OnTerminal::new(terminal, true))? {
+        crate::output::tell(format_args!("{} {why}", out.escaped()));
+    }
     Ok(Status::Right)
 }
 

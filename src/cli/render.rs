@@ -45,7 +45,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         args.hottest.is_none() || args.view == ViewKind::Heat,
         "--hottest sets the scale of --view heat: omit it, or add --view heat"
     );
-    let choice = request::structure(registry, &args.structure)?;
+    let choice = registry.choose(&args.structure)?;
     let file = request::output(registry, &args.output, std::slice::from_ref(&args.scene), None)?;
     is_png(&args.output)?;
     let waiting = spinner(format!("loading {}", args.scene.escaped()), terminal);

@@ -18,22 +18,30 @@ use crate::study::{self, Run, RunOutcome, Status, Study};
 
 pub const RUNS: &str = "runs";
 
+/// How the results of a run are kept.
+#[derive(Clone, Debug, Default, clap::Args)]
+#[command(next_help_heading = MEASURING)]
+pub struct Keeping {
+    /// Folder that keeps the results, one journal per study. Repeat the command to resume an interrupted run; runs with
+    /// other scenes or settings are added [default: runs; in `compare`: no journal]
+    #[arg(long, help_heading = OUTPUT, value_name = "DIR")]
+    pub dir: Option<PathBuf>,
+    /// Measure every case again, even if the journal has it. Earlier results are kept; reports use the newest result of
+    /// each case
+    #[arg(long)]
+    pub fresh: bool,
+    /// Run everything in one process: faster, but the intervals no longer cover memory-layout effects, and builds have
+    /// no time limit
+    #[arg(long)]
+    pub in_process: bool,
+}
+
 /// Options of every study, in addition to its own.
 #[derive(Clone, Debug, Default, clap::Args)]
 #[command(next_help_heading = OUTPUT)]
 pub struct Common {
-    /// Folder that keeps the results, one journal per study. Repeat the command to resume an interrupted run; runs with
-    /// other scenes or settings are added [default: runs; in `compare`: no journal]
-    #[arg(long, value_name = "DIR")]
-    pub dir: Option<PathBuf>,
-    /// Measure every case again, even if the journal has it. Earlier results are kept; reports use the newest result of
-    /// each case
-    #[arg(long, help_heading = MEASURING)]
-    pub fresh: bool,
-    /// Run everything in one process: faster, but the intervals no longer cover memory-layout effects, and builds have
-    /// no time limit
-    #[arg(long, help_heading = MEASURING)]
-    pub in_process: bool,
+    #[command(flatten)]
+    pub keeping: Keeping,
     /// Write the results as JSON, for `report` and `diff`
     #[arg(long, value_name = "FILE")]
     pub export_json: Option<PathBuf>,
@@ -102,7 +110,8 @@ pub fn run(session: &Session, study: &Study, matches: &ArgMatches) -> anyhow::Re
 /// Runs a study, prints its report and writes the files.
 pub fn run_as(session: &Session, study: &Study, matches: &ArgMatches, common: &Common) -> anyhow::Result<Status> {
     let &Session { suite, terminal, .. } = session;
-    let folder = common.dir.clone().unwrap_or_else(|| RUNS.into());
+    let Keeping { dir, fresh, in_process } = &common.keeping;
+    let folder = dir.clone().unwrap_or_else(|| RUNS.into());
     let mut screen = OnTerminal::new(terminal, false);
     let files = common.files()?;
     let plan = (study.plan)(matches, &suite.registry)?;
@@ -110,9 +119,9 @@ pub fn run_as(session: &Session, study: &Study, matches: &ArgMatches, common: &C
     let mut run = Run {
         registry: &suite.registry,
         folder: &folder,
-        keep_journal: common.dir.is_some().then_some(true),
-        fresh: common.fresh,
-        processes: session.processes.filter(|_| !common.in_process),
+        keep_journal: dir.is_some().then_some(true),
+        fresh: *fresh,
+        processes: session.processes.filter(|_| !in_process),
         screen: &mut screen,
     };
     let outcome = study::run(study, matches, &plan, &mut run)?;

@@ -10,8 +10,8 @@ const INTERRUPTIONS: f64 = 20.0;
 const CLOCK_FALL: f64 = 0.9;
 
 /// One sentence for each condition that disturbs measurements: before the run, and in its timed part of `seconds`
-/// seconds, in which the system took the core from the measuring thread so many times. `clock_rates` are those of its
-/// core at the beginning and at the end, kHz. `None` if the system does not report it.
+/// seconds, in which the system took the core from the measuring thread so many times. `clock_rates` are the kHz
+/// of its core at the beginning and at the end. `None` if the system does not report it.
 pub fn of_conditions(
     before: &Provenance,
     seconds: f64,

@@ -54,8 +54,6 @@ pub struct Provenance {
     pub governor: Option<String>,
     /// Load average of the last minute before the run.
     pub load: Option<f64>,
-    /// Warnings about the run, one sentence each.
-    pub warnings: Vec<String>,
 }
 
 impl Provenance {
@@ -86,7 +84,6 @@ impl Provenance {
             denormals: machine::denormals(machine::mxcsr()).into(),
             governor: machine::governor(0),
             load: machine::load_at_start(),
-            warnings: vec![],
         }
     }
 

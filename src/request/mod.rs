@@ -17,7 +17,7 @@ pub use runners::{RUNNER_LIMIT, RunnerRequest, runner, runners};
 pub use scenes::{SceneRequest, Scenes, named_notes, output, scene, scene_files, scenes, stand_in};
 pub use structures::{
     ALL, BRUTE_FORCE, QUALITIES, REPORT_TREE, SAH_TREE, StructureRequest, Structures, TWIN, guide, is_brought,
-    is_large, is_obvhs, known_defect, known_tests, left_out, specs, structure, structures, structures_at, with_twin,
+    is_large, is_obvhs, known_defect, known_tests, left_out, specs, structures, structures_at, with_twin,
 };
 pub use view::ViewArgs;
 

@@ -73,22 +73,18 @@ fn words(named: &[OsString]) -> Vec<OsString> {
     if named.is_empty() { BUILTIN.iter().map(|builtin| builtin.name.into()).collect() } else { named.to_vec() }
 }
 
-/// The distinct scenes, each with its word.
+/// The distinct scenes, each with its word. Two different scenes with one name are rejected.
 fn loaded(registry: &Registry, words: &[OsString]) -> anyhow::Result<Vec<(OsString, Scene)>> {
     // Load in parallel, because large meshes take seconds; report the first failure in the order of `words`.
-    let scenes: Vec<_> = words.par_iter().map(|word| Ok((word.clone(), scene(registry, word)?))).collect();
-    distinct(scenes.into_iter().collect::<anyhow::Result<_>>()?)
-}
-
-/// The distinct scenes. Two different scenes with one name are rejected.
-fn distinct(scenes: Vec<(OsString, Scene)>) -> anyhow::Result<Vec<(OsString, Scene)>> {
+    let scenes: Vec<_> = words.par_iter().map(|word| scene(registry, word)).collect();
     let mut each: Vec<(OsString, Scene)> = vec![];
-    for (word, scene) in scenes {
+    for (word, scene) in words.iter().zip(scenes) {
+        let scene = scene?;
         let is_namesake = |(_, other): &&(OsString, Scene)| {
             other.name.eq_ignore_ascii_case(&scene.name) && other.stand_ins.is_empty() == scene.stand_ins.is_empty()
         };
         match each.iter().find(is_namesake) {
-            None => each.push((word, scene)),
+            None => each.push((word.clone(), scene)),
             Some((_, other)) if other.hash() == scene.hash() => {}
             Some(_) => anyhow::bail!("two different scenes have the name {}: rename one", scene.name),
         }

@@ -102,13 +102,8 @@ pub fn structures_at(registry: &Registry, named: &[String], quality: Option<&str
         let better = format!("{spec}{separator}quality={quality}");
         if spec.contains("quality=") || registry.choose(&better).is_err() { spec } else { better }
     };
-    let choices = specs(registry, named).into_iter().map(|spec| structure(registry, &at(spec)));
-    Ok(each_once_by(choices.collect::<anyhow::Result<Vec<_>>>()?, |one, other| one.label == other.label))
-}
-
-/// One structure.
-pub fn structure(registry: &Registry, spec: &str) -> anyhow::Result<Choice> {
-    Ok(registry.choose(spec)?)
+    let choices = specs(registry, named).into_iter().map(|spec| registry.choose(&at(spec)));
+    Ok(each_once_by(choices.collect::<Result<Vec<_>, _>>()?, |one, other| one.label == other.label))
 }
 
 /// Rejects names that are not triangle tests of any structure; the error lists the known tests.

@@ -1,9 +1,7 @@
 //! A case in its own process.
 //!
-//! The addresses of a program, its stack and its heap can change the speed of a structure by some percent as long as
-//! the process lives. Only samples from several processes show the size of this effect (Mytkowicz et al., Producing
-//! Wrong Data Without Doing Anything Obviously Wrong!, 2009; Kalibera and Jones, Rigorous Benchmarking in Reasonable
-//! Time, 2013).
+//! Only samples from several processes show how much the placement of memory changes times
+//! ([`interval`](mod@crate::measure::interval)).
 //!
 //! The process is this program with a case and a file, `--case JSON --out FILE`. It measures the case and writes the
 //! file; a run or the scheduler of a cluster may start it. A run that listens (`--listen`) reads the progress from the
@@ -140,31 +138,22 @@ pub fn end() {
     }
 }
 
-/// The result of a process with a case and a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Written {
-    Now,
-    /// The file existed before.
-    Before,
-    /// Another process measured the case meanwhile.
-    Meanwhile,
-}
-
 /// Measures a case and writes the file `out`, unless it exists. After an error the file is unchanged: if it cannot be
-/// written or contains anything else, there are fewer cores than threads, or the measuring fails.
+/// written or contains anything else, there are fewer cores than threads, or the measuring fails. Returns the reason why
+/// a file of another process is kept, as a clause; `None` if this one was written.
 pub fn measure_into(
     case: &Case,
     out: &Path,
     registry: &Registry,
     watch: &BuildWatch,
     screen: &mut dyn Screen,
-) -> anyhow::Result<Written> {
+) -> anyhow::Result<Option<&'static str>> {
     let check_same = || -> anyhow::Result<()> {
         anyhow::ensure!(CaseFile::read(out)?.case.is_same(case), JournalError::Other(out.into()));
         Ok(())
     };
     if out.exists() {
-        return check_same().map(|()| Written::Before);
+        return check_same().map(|()| Some("already holds this case: nothing is measured."));
     }
     let file = CaseFile::place(out)?;
     let prepared = Prepared::new(case, registry, None)?;
@@ -179,9 +168,9 @@ pub fn measure_into(
     let epoch = measure(case, &prepared, &SystemClock::start(), watch, &mut |stage| screen.stage(&stage))?;
     screen.end();
     if CaseFile::write(&file, &provenance, case, &epoch)? {
-        return Ok(Written::Now);
+        return Ok(None);
     }
-    check_same().map(|()| Written::Meanwhile)
+    check_same().map(|()| Some("was written by another process in the meantime: its case is kept."))
 }
 
 /// Measures a case like [`measure_into`], and reports the progress and a failure to the listening run. From now on this
@@ -236,7 +225,7 @@ pub fn build_watch(case: &Case, args: Vec<OsString>) -> BuildWatch {
         command.args(args.iter().skip(1).filter(is_other)).arg(format!("--{CASE}={text}"));
         replace(command);
     };
-    BuildWatch::new(Duration::from_secs_f64(limit), Box::new(again))
+    BuildWatch::new(Duration::from_secs_f64(limit), again)
 }
 
 /// Becomes the program that `command` starts.

@@ -226,7 +226,7 @@ pub fn update(registry: &Registry, args: &UpdateArgs, terminal: &Terminal) -> an
     for word in args.targets.words() {
         let Target { scene, golden, default, .. } = args.targets.target(registry, &word)?;
         let spec = args.structure.clone().unwrap_or_else(|| format!("{default}:test={TRIANGLE_TEST}"));
-        let accel = request::structure(registry, &spec)?.build(&scene.mesh)?;
+        let accel = registry.choose(&spec)?.build(&scene.mesh)?;
         let what = match golden.update(&scene, accel.as_ref(), overwrite)? {
             Update::Same => "unchanged".into(),
             Update::New => "created".into(),

@@ -141,10 +141,14 @@ fn part(scene: &Scene, args: &Args, waiting: &ProgressBar) -> anyhow::Result<(Fi
     Ok((files, counts))
 }
 
-type Answered = (RayFile, ExactHitFile);
-
 /// The rays of one kind and their exact hits. They name no scene, so they fit the mesh in the folder.
-fn answered(scene: &Scene, kind: RayKind, count: usize, seed: u64, oracle: &Oracle) -> Result<Answered, String> {
+fn answered(
+    scene: &Scene,
+    kind: RayKind,
+    count: usize,
+    seed: u64,
+    oracle: &Oracle,
+) -> Result<(RayFile, ExactHitFile), String> {
     let workload = Workload { name: kind.name().into(), query: Query::Closest, rays: kind.rays(scene, count, seed) };
     RayFile::check(&workload.rays)?;
     RayFile::check_names(&scene.name, &workload.name)?;

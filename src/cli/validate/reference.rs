@@ -11,7 +11,7 @@ use crate::geometry::{Hit, Ray};
 use crate::measure::spread;
 use crate::registry::{Choice, Registry};
 use crate::report::number::count;
-use crate::request::{self, BRUTE_FORCE, SAH_TREE};
+use crate::request::{BRUTE_FORCE, SAH_TREE};
 use crate::scene::Scene;
 use crate::triangle::{Exact, TriangleTest};
 use crate::validate::Reference;
@@ -33,7 +33,7 @@ impl ReferenceChoice {
     /// The structure of --against. Plain brute force shares each structure's test.
     pub fn named(registry: &Registry, name: &str) -> anyhow::Result<Self> {
         let is_shared = name.eq_ignore_ascii_case(BRUTE_FORCE);
-        Ok(Self(if is_shared { None } else { Some(request::structure(registry, name)?) }))
+        Ok(Self(if is_shared { None } else { Some(registry.choose(name)?) }))
     }
 
     pub fn build(&self, scene: &Scene, test: &str) -> anyhow::Result<Reference> {

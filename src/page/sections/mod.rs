@@ -4,9 +4,8 @@ mod answer;
 
 use super::document::{Document, Section};
 use super::runs::{Runs, StudyRun, also_measured, scene_titles};
-use crate::measure::Provenance;
 use crate::report::number::plural;
-use crate::report::words::{command_line, each_once, ended, listed};
+use crate::report::words::{ended, listed};
 use crate::report::{Block, Table};
 use crate::study::{Dataset, Studies};
 
@@ -61,7 +60,6 @@ fn provenance(runs: &Runs, missing: Vec<Block>) -> Section {
     let note = "For each study and scene, the page uses the newest cases that share settings, build and machine. The \
                 page shows the settings, build and machine with the most cases of a study.";
     let mut blocks = vec![Block::Table(machines(runs).noted([note]))];
-    blocks.extend(warnings(&runs.provenances()).map(Block::Table));
     blocks.extend(runs.notes.iter().map(|note| Block::Note(note.clone())));
     if !missing.is_empty() {
         blocks.push(Block::Fold(format!("Not measured: {}", plural(missing.len(), "part")), missing));
@@ -94,11 +92,4 @@ fn machines(runs: &Runs) -> Table {
         ["study", "scenes", "processor", "instructions", "threads", "sahara", "compiler", "target"],
         rows.collect(),
     )
-}
-
-/// The warnings of the runs.
-fn warnings(all: &[&Provenance]) -> Option<Table> {
-    let rows = all.iter().flat_map(|p| p.warnings.iter().map(|warning| [command_line(&p.command), warning.clone()]));
-    let rows: Vec<[String; 2]> = each_once(rows);
-    (!rows.is_empty()).then(|| Table::of_texts("Conditions that disturbed these runs", ["command", "warning"], rows))
 }

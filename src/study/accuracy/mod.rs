@@ -20,7 +20,7 @@ use crate::report::words::{each_once, each_once_by};
 use crate::report::{Block, Failure, Report};
 use crate::request::{
     BRUTE_FORCE, MEASURING, RAYS, RayKind, RaySource, STRUCTURES, Scenes, Seconds, StructureRequest, WorkloadRequest,
-    each_kind, guide, known_defect, known_tests, replayed, scene_files, specs, structure,
+    each_kind, guide, known_defect, known_tests, replayed, scene_files, specs,
 };
 use crate::scene::Scene;
 use crate::triangle::{Exact, TriangleTest};
@@ -123,7 +123,7 @@ fn structures(registry: &Registry, named: &[String], tests: &[String]) -> anyhow
     known_tests(registry, tests)?;
     let mut chosen: Vec<StructureRequest> = vec![];
     for spec in specs(registry, named) {
-        let choice = structure(registry, &spec)?;
+        let choice = registry.choose(&spec)?;
         let keys = spec.split_once(':').map_or("", |(_, keys)| keys);
         let names_test = keys.split(',').any(|key| key.starts_with("test="));
         for entry in registry.entries().iter().filter(|entry| entry.name == choice.entry.name) {
@@ -136,7 +136,7 @@ fn structures(registry: &Registry, named: &[String], tests: &[String]) -> anyhow
                 (false, "") => format!("{}:test={test}", entry.name),
                 (false, keys) => format!("{}:{keys},test={test}", entry.name),
             };
-            chosen.push((&structure(registry, &with_test)?).into());
+            chosen.push((&registry.choose(&with_test)?).into());
         }
     }
     let chosen = each_once_by(chosen, |one, other| one.spec == other.spec);

@@ -20,7 +20,7 @@ use crate::report::Report;
 use crate::report::words::listed;
 use crate::request::{
     Measuring, RAYS, SCENES, STRUCTURES, Scenes, StructureRequest, WorkloadRequest, known_tests, rays_or_all,
-    scene_files, structure,
+    scene_files,
 };
 use crate::scene::WorkloadKind;
 use design::{Treatment, trees};
@@ -61,7 +61,7 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     let args = AttributionArgs::from_arg_matches(matches)?;
     known_tests(registry, std::slice::from_ref(&args.test))?;
     let request = |(cell, role): (Treatment, String)| {
-        anyhow::Ok(StructureRequest::new(structure(registry, &cell.spec(&args.test))?.label, role))
+        anyhow::Ok(StructureRequest::new(registry.choose(&cell.spec(&args.test))?.label, role))
     };
     let structures = trees().map(request).collect::<anyhow::Result<Vec<_>>>()?;
     let workloads = WorkloadRequest::of_scene(vec![args.workload], args.rays);

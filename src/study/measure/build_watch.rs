@@ -4,9 +4,6 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::Duration;
 
-/// Starts this process again without the structure of this index, and does not return.
-pub type OnLimit = Box<dyn Fn(usize) + Send>;
-
 /// Watches builds. Between builds, and without a limit, it is idle.
 #[derive(Default)]
 pub struct BuildWatch {
@@ -15,8 +12,8 @@ pub struct BuildWatch {
 }
 
 impl BuildWatch {
-    /// Calls `on_limit` if a build takes longer than `limit`.
-    pub fn new(limit: Duration, on_limit: OnLimit) -> Self {
+    /// Calls `on_limit` with the index of the structure if a build takes longer than `limit`.
+    pub fn new(limit: Duration, on_limit: impl Fn(usize) + Send + 'static) -> Self {
         let (sender, receiver) = channel::<Option<usize>>();
         thread::spawn(move || {
             while let Ok(told) = receiver.recv() {
@@ -49,8 +46,7 @@ mod tests {
     #[test]
     fn a_build_beyond_its_limit_is_told_once_and_a_short_one_never() {
         let (sender, told) = channel();
-        let watch =
-            BuildWatch::new(Duration::from_millis(100), Box::new(move |structure| sender.send(structure).unwrap()));
+        let watch = BuildWatch::new(Duration::from_millis(100), move |structure| sender.send(structure).unwrap());
         watch.during(3, || ());
         assert_eq!(watch.during(7, || told.recv_timeout(Duration::from_secs(60))), Ok(7));
         watch.during(8, || ());

@@ -31,7 +31,7 @@ impl Environment {
         (result, environment)
     }
 
-    /// The conditions of all `epochs`, in order; the process is that of none.
+    /// The conditions of all `epochs`, in order; `process` is 0.
     pub fn of_all<'a>(epochs: impl IntoIterator<Item = &'a Self>) -> Self {
         let sum = |all: Self, own: &Self| Self {
             process: 0,

@@ -30,8 +30,7 @@ impl Prepared {
 /// Builds every structure of the case that is not skipped; epoch 0 also counts the peak memory of builds. Returns one
 /// structure per choice, or the reason why it is refused, and blocks of memory that must live as long.
 ///
-/// Each epoch builds in a random order and between random blocks of memory: the address of a structure can change its
-/// speed by some percent, and only samples at several addresses show the size of this effect.
+/// Each epoch builds in a random order and between random blocks of memory: its addresses differ from the others'.
 pub fn build_all(
     case: &Case,
     prepared: &Prepared,

@@ -114,7 +114,7 @@ fn choices(registry: &Registry, structures: Vec<Choice>, tests: &[String]) -> an
         }
         let separator = if choice.label.contains(':') { ',' } else { ':' };
         for test in offered {
-            choices.push(request::structure(registry, &format!("{}{separator}test={test}", choice.label))?);
+            choices.push(registry.choose(&format!("{}{separator}test={test}", choice.label))?);
         }
     }
     // Repeated tests, or a structure given with and without its test, lead to equal choices.
