@@ -1,15 +1,12 @@
 //! The report as a single self-contained page.
 
-use std::collections::BTreeMap;
-
 use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment, UndefinedBehavior, Value, context};
 use serde::Serialize;
-use serde_json::json;
 
 use crate::page::document::{Document, Section};
-use crate::report::plot::palette::{Role, hex, roles, roles_of};
-use crate::report::plot::{Chart, Tradeoff, TradeoffCase, TradeoffPoint, WIDTH};
+use crate::report::plot::palette::{Role, hex, roles};
+use crate::report::plot::{Chart, WIDTH};
 use crate::report::words::ended;
 use crate::report::{Art, Block, Cell, Colours, Figure, Overlay, Picture, Table, Tone};
 
@@ -30,7 +27,7 @@ pub fn page(document: &Document) -> String {
         answer => Serde(&document.answer),
         sections => values(&document.sections, section),
         css => sheet(),
-        js => concat!(include_str!("page.js"), include_str!("overlay.js"), include_str!("scatter.js")),
+        js => concat!(include_str!("page.js"), include_str!("overlay.js")),
         version => env!("CARGO_PKG_VERSION"),
     };
     let page = environment.render_named_str("page.html", include_str!("page.html"), values);
@@ -118,35 +115,10 @@ fn figure(figure: &Figure) -> Value {
         alt => &figure.alt,
         wide => chart.map(|chart| inline(&chart.svg(WIDTH))),
         narrow => chart.filter(shrinks).map(|chart| inline(&chart.svg(NARROW))),
-        // The data of an interactive chart.
-        scatter => if let Some(Chart::Tradeoff(tradeoff)) = chart { Some(scatter(tradeoff)) } else { None },
         overlay => if let Art::Overlay(drawn) = &figure.art { Some(overlay(drawn)) } else { None },
         pictures => values(figure.pictures(), picture),
         data => table(&figure.data),
     }
-}
-
-/// The data of a scatter plot for its script.
-fn scatter(tradeoff: &Tradeoff) -> String {
-    let all: Vec<String> = tradeoff.cases.iter().flat_map(|case| &case.points).map(|p| p.label.clone()).collect();
-    // A structure has one colour in all cases.
-    let roles: BTreeMap<&String, Role> = all.iter().zip(roles_of(&all)).collect();
-    let point = |p: &TradeoffPoint| {
-        json!({
-            "label": p.label,
-            // Name of the custom property with its colour.
-            "colour": format!("--{}", roles[&p.label].name),
-            "bytes": p.bytes,
-            "build": p.build_ns,
-            "ray": p.ns_per_ray,
-            "ratio": p.ratio,
-        })
-    };
-    let case = |case: &TradeoffCase| {
-        let points: Vec<_> = case.points.iter().map(point).collect();
-        json!({ "scene": case.scene, "rays": case.workload, "points": points })
-    };
-    in_script(&tradeoff.cases.iter().map(case).collect::<Vec<_>>())
 }
 
 /// Colours with a scale and its title; or with their meanings.

@@ -8,7 +8,7 @@ use clap::{ArgMatches, Command};
 
 use crate::measure::{Estimate, Provenance};
 use crate::page::{Document, RunError, Runs, Section, document};
-use crate::report::plot::{Bar, BarGroup, Bars, Chart, Curves, Line, Tradeoff, TradeoffCase, TradeoffPoint};
+use crate::report::plot::{Bar, BarGroup, Bars, Chart, Curves, Line, Point, Scatter};
 use crate::report::words::slug;
 use crate::report::{
     Art, Block, Cell, ClaimVerdict, Colours, Figure, Finding, Outcome, Overlay, Picture, Report, Table, Tone, Value,
@@ -79,16 +79,6 @@ fn compare(dataset: &Dataset, _: &ArgMatches) -> Report {
         let id = format!("speed-{}", slug(&title));
         blocks.push(Block::figure(figure(&id, Art::Chart(Chart::Bars(bars)))));
     }
-    let point = |label: &str, build_ns: f64| TradeoffPoint {
-        label: label.into(),
-        bytes: 4096.0 * build_ns,
-        build_ns,
-        ns_per_ray: 500.0 / build_ns,
-        ratio: String::new(),
-    };
-    let points = vec![point("sah-kd", 9.0), point("median-kd", 5.0)];
-    let cases = vec![TradeoffCase { scene: titles(dataset).remove(0), workload: "primary".into(), points }];
-    blocks.push(Block::figure(figure("tradeoff", Art::Chart(Chart::Tradeoff(Tradeoff { cases })))));
     blocks.push(Block::Fold("More".into(), vec![Block::Note(titles(dataset).join(" "))]));
     let findings = vec![
         Finding::new("right", "Of all structures sah-kd is the fastest.").with_value(ratio()),
@@ -203,11 +193,14 @@ pub fn whole(scene: &str) -> (Document, Runs<'static>) {
     let key = Overlay { colours: Colours::Key(vec![("#ff0000".into(), "missed".into())]), ..overlay.clone() };
     let line = Line { label: scene.into(), note: String::new(), points: vec![] };
     let curves = Curves { x_title: "x".into(), y_title: "y".into(), lines: vec![line] };
+    let point = Point { x: 1.0, y: 1.0, is_bound: false, is_front: true, label: scene.into(), group: scene.into() };
+    let scatter = Scatter { x_title: "x".into(), y_title: "y".into(), points: vec![point] };
     let arts = [
         ("gallery", Art::Gallery(vec![picture(scene)])),
         ("overlay", Art::Overlay(overlay)),
         ("overlay", Art::Overlay(key)),
         ("curves", Art::Chart(Chart::Curves(curves))),
+        ("scatter", Art::Chart(Chart::Scatter(scatter))),
     ];
     let blocks = arts.map(|(id, art)| Block::figure(figure(id, art))).into();
     let pictures = Section { id: "pictures", title: "Pictures", command: "sahara render".into(), blocks };

@@ -5,8 +5,6 @@ mod chart;
 #[cfg(feature = "page")]
 mod drawing;
 
-pub use chart::{
-    Bar, BarGroup, Bars, Chart, Curves, LABELLED, Line, Point, Scatter, Tradeoff, TradeoffCase, TradeoffPoint, WIDTH,
-};
+pub use chart::{Bar, BarGroup, Bars, Chart, Curves, LABELLED, Line, Point, Scatter, WIDTH};
 #[cfg(feature = "page")]
 pub use drawing::{palette, tick_text};

@@ -99,7 +99,7 @@ pub fn blocks(dataset: &Dataset, references: &[Reference], wide: bool) -> Vec<Bl
 
     // The question is about the largest scenes: they come first.
     scenes.sort_by_key(|scene| std::cmp::Reverse(scene[0].triangles));
-    blocks.extend(tradeoff::figure(&scenes, references).map(Block::figure));
+    blocks.extend(tradeoff::figure(&scenes).map(Block::figure));
     let mut figures: Vec<Block> = scenes.iter().map(|scene| Block::figure(bars(scene))).collect();
     let others = figures.split_off(figures.len().min(OPEN));
     blocks.extend(figures);

@@ -1,85 +1,91 @@
-//! Speed against memory and build time.
+//! Speed against memory, and build times.
 
-use super::Reference;
-use crate::report::plot::{Chart, Tradeoff, TradeoffCase, TradeoffPoint};
-use crate::report::words::{distinct, interval};
+use crate::report::plot::{Chart, Point, Scatter};
+use crate::report::words::distinct;
 use crate::report::{Art, Cell, Figure, Table};
 use crate::request::BRUTE_FORCE;
-use crate::study::measurement::{Measurement, trace_noise};
+use crate::study::measurement::Measurement;
 
-/// Every scene, in this order, with every workload; `None` if no two structures have a time on the same rays. Brute
-/// force, far away from all others, is left out.
-pub fn figure(scenes: &[Vec<Measurement>], references: &[Reference]) -> Option<Figure> {
-    let cases: Vec<TradeoffCase> = scenes.iter().flat_map(|all| cases(all, references.first())).collect();
+/// At least two structures on one workload of one scene, each with its nanoseconds per ray on the same rays.
+type Case<'a> = Vec<(&'a Measurement, f64)>;
+
+/// The first workload of the first scene as a chart, with the numbers of all; `None` if no two structures have a time
+/// on the same rays. Brute force, far away from all others, is left out.
+pub fn figure(scenes: &[Vec<Measurement>]) -> Option<Figure> {
+    let cases: Vec<Case> = scenes.iter().flat_map(|all| cases(all)).collect();
     let first = cases.first()?;
-    let best = |cost: fn(&TradeoffPoint) -> f64| {
-        let least = first.points.iter().min_by(|a, b| cost(a).total_cmp(&cost(b)));
-        least.map_or(String::new(), |point| point.label.clone())
+    let (scene, workload) = (first[0].0.scene_title(), &first[0].0.workload);
+    let best = |cost: fn(&(&Measurement, f64)) -> f64| {
+        let least = first.iter().min_by(|a, b| cost(a).total_cmp(&cost(b)));
+        least.map_or("", |(own, _)| own.label.as_str())
     };
     let alt = format!(
-        "Scatter plot of {} structures on {}, {} rays: fastest {}, smallest {}, fastest build {}.",
-        first.points.len(),
-        first.scene,
-        first.workload,
-        best(|point| point.ns_per_ray),
-        best(|point| point.bytes),
-        best(|point| point.build_ns)
+        "Scatter plot of {} structures on {scene}, {workload} rays: fastest {}, smallest {}, fastest build {}.",
+        first.len(),
+        best(|(_, ns_per_ray)| *ns_per_ray),
+        best(|(own, _)| own.shape.bytes as f64),
+        best(|(own, _)| own.build_ns as f64)
     );
-    let data = table(&cases);
     Some(Figure {
         id: "tradeoff".into(),
         caption: format!(
-            "{}, {} rays: speed against memory. Higher is faster, further left is smaller; both axes are logarithmic. \
-             The solid line joins the structures that no other one beats in both speed and memory. The web page has \
-             this plot for every scene and workload, and also with build time instead of memory. In the plot with \
-             build time, points on the dashed line need the same total time, for the build and a chosen number of \
-             rays, as the structure with the least total time. Points are medians on the same rays; the tables have \
-             their intervals. Brute force is left out.",
-            first.scene, first.workload
+            "{scene}, {workload} rays: speed against memory. Higher is faster, further left is smaller; both axes are \
+             logarithmic. The solid line joins the structures that no other one beats in both speed and memory. The \
+             numbers behind the figure include build times, and every scene and workload. Points are medians on the \
+             same rays; the tables have their intervals. Brute force is left out."
         ),
         alt,
-        art: Art::Chart(Chart::Tradeoff(Tradeoff { cases })),
-        data,
+        art: Art::Chart(Chart::Scatter(scatter(first))),
+        data: table(&cases),
     })
 }
 
-fn cases(all: &[Measurement], reference: Option<&Reference>) -> Vec<TradeoffCase> {
-    let noise = trace_noise(all);
-    let ratio = |own: &Measurement| {
-        let reference = reference?;
-        let ratio = Reference::ratio(&reference.pairs(all, [own]), &noise)?;
-        Some(format!("speedup {} over {}", interval(ratio), reference.words()))
-    };
+fn cases(all: &[Measurement]) -> Vec<Case<'_>> {
     let case = |workload: &String| {
         let is_drawn =
             |r: &&Measurement| r.workload == *workload && r.structure != BRUTE_FORCE && r.mrays_per_s.is_some();
         let drawn = || all.iter().filter(is_drawn);
         // Compare all on the same rays: the sample of the slowest.
         let common = drawn().map(|own| own.rays).min().unwrap_or(0);
-        let point = |own: &Measurement| {
-            Some(TradeoffPoint {
-                label: own.label.clone(),
-                bytes: own.shape.bytes.max(1) as f64,
-                build_ns: own.build_ns.max(1) as f64,
-                ns_per_ray: own.ns_per_ray_of(common)?,
-                ratio: ratio(own).unwrap_or_default(),
-            })
-        };
-        let points = drawn().filter_map(point).collect();
-        TradeoffCase { scene: all[0].scene_title(), workload: workload.clone(), points }
+        drawn().filter_map(|own| Some((own, own.ns_per_ray_of(common)?))).collect()
     };
     let workloads = distinct(all.iter().map(|r| &r.workload));
-    workloads.iter().map(case).filter(|case| case.points.len() > 1).collect()
+    workloads.iter().map(case).filter(|case: &Case| case.len() > 1).collect()
 }
 
-fn table(cases: &[TradeoffCase]) -> Table {
-    let row = |case: &TradeoffCase, point: &TradeoffPoint| -> Vec<Cell> {
-        let (size, build) = (Cell::bytes(point.bytes as usize), Cell::duration(point.build_ns));
-        let names = [&case.scene, &case.workload, &point.label].map(Cell::from);
-        names.into_iter().chain([Cell::from(1e3 / point.ns_per_ray), size, build]).collect()
+fn scatter(case: &Case) -> Scatter {
+    let is_better = |(a, a_ns): &(&Measurement, f64), (b, b_ns): &(&Measurement, f64)| {
+        let [a, b] = [(a.shape.bytes, *a_ns), (b.shape.bytes, *b_ns)];
+        a != b && a.0 <= b.0 && a.1 <= b.1
     };
-    let rows = cases.iter().flat_map(|case| case.points.iter().map(move |point| row(case, point)));
-    Table::new("", ["scene", "rays", "structure", "Mrays/s", "memory", "build"], rows)
+    let point = |drawn: &(&Measurement, f64)| Point {
+        x: drawn.0.shape.bytes.max(1) as f64 / f64::from(1 << 20),
+        y: 1e3 / drawn.1,
+        is_bound: false,
+        is_front: !case.iter().any(|other| is_better(other, drawn)),
+        label: drawn.0.label.clone(),
+        group: drawn.0.label.clone(),
+    };
+    Scatter {
+        x_title: "memory, MiB".into(),
+        y_title: "million rays per second".into(),
+        points: case.iter().map(point).collect(),
+    }
+}
+
+fn table(cases: &[Case]) -> Table {
+    Table::of(
+        "",
+        cases.iter().flatten(),
+        &[
+            ("scene", &|(own, _)| own.scene_title().into()),
+            ("rays", &|(own, _)| own.workload.as_str().into()),
+            ("structure", &|(own, _)| own.label.as_str().into()),
+            ("Mrays/s", &|(_, ns_per_ray)| (1e3 / ns_per_ray).into()),
+            ("memory", &|(own, _)| Cell::bytes(own.shape.bytes)),
+            ("build", &|(own, _)| Cell::duration(own.build_ns as f64)),
+        ],
+    )
 }
 
 #[cfg(test)]
@@ -104,18 +110,31 @@ mod tests {
             record("sah-kd", "shadow", Some(2.0)),
         ];
         let times = |all: &[Measurement]| {
-            let drawn = cases(all, None);
+            let drawn = cases(all);
             assert_eq!(drawn.len(), 1, "one structure alone is no comparison");
-            drawn[0].points.iter().map(|p| (p.label.clone(), p.ns_per_ray)).collect::<Vec<_>>()
+            drawn[0].iter().map(|(own, ns_per_ray)| (own.label.clone(), *ns_per_ray)).collect::<Vec<_>>()
         };
         assert_eq!(times(&all), [("sah-kd".into(), 500.0), ("sah-bvh".into(), 250.0)]);
-        let drawn = figure(std::slice::from_ref(&all), &[]).unwrap();
+        let drawn = figure(std::slice::from_ref(&all)).unwrap();
         assert!(drawn.alt.contains("fastest sah-bvh") && drawn.data.rows.len() == 2, "{}", drawn.alt);
-        assert!(figure(&[all[..2].to_vec()], &[]).is_none());
+        assert!(figure(&[all[..2].to_vec()]).is_none());
 
         // A structure that is timed on a subset of the rays, which take less time, is compared on that subset.
         all[1].parts = vec![SubsetSamples { rays: 25, ns: vec![10_000] }];
         all[2] = Measurement { rays: 25, samples_ns: vec![5_000.0], ..all[2].clone() };
         assert_eq!(times(&all), [("sah-kd".into(), 400.0), ("sah-bvh".into(), 200.0)]);
+    }
+
+    #[test]
+    fn the_front_is_what_nothing_beats_in_both() {
+        let of = |(label, bytes): (&str, usize)| {
+            let mut own = example(label, "primary", &[], 1);
+            own.shape.bytes = bytes;
+            own
+        };
+        let [small, fast, neither] = [("small", 1 << 20), ("fast", 2 << 20), ("neither", 3 << 20)].map(of);
+        let scatter = scatter(&vec![(&small, 500.0), (&fast, 100.0), (&neither, 200.0)]);
+        assert_eq!(scatter.points.iter().map(|point| point.is_front).collect::<Vec<_>>(), [true, true, false]);
+        assert_eq!((scatter.points[0].x, scatter.points[0].y), (1.0, 2.0));
     }
 }

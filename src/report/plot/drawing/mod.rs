@@ -31,7 +31,6 @@ impl Chart {
             Self::Bars(bars) => bars.height(width),
             Self::Curves(curves) => curves.height(width),
             Self::Scatter(scatter) => scatter.height(width),
-            Self::Tradeoff(tradeoff) => tradeoff.scatter().height(width),
         };
         (width as u32, height as u32)
     }
@@ -43,7 +42,6 @@ impl Chart {
             Self::Bars(bars) => bars.draw(area)?,
             Self::Curves(curves) => curves.draw(area)?,
             Self::Scatter(scatter) => scatter.draw(area)?,
-            Self::Tradeoff(tradeoff) => tradeoff.scatter().draw(area)?,
         }
         area.present()
     }

@@ -23,6 +23,10 @@ fn the_drawing_holds_its_texts_and_the_colours_of_its_groups() {
     for text in ["ns per ray", "error", "fast", "exact", "slow", "tree", "0.001", "1,000"] {
         assert!(svg.contains(&format!("\n{text}\n")), "{text} is not in {svg}");
     }
+    // Names beside the points are not repeated below the axes.
+    let mut named = scatter();
+    named.points.iter_mut().for_each(|point| point.group.clone_from(&point.label));
+    assert_eq!(Chart::Scatter(named).svg(900.0).matches("\nslow\n").count(), 1);
     assert!(svg.contains(&palette::hex(palette::colours(&["tree".to_owned()])[0])), "{svg}");
 }
 
@@ -33,25 +37,6 @@ fn charts_without_anything_to_show_have_their_axes() {
     let scatter = Scatter { points: vec![], ..scatter() };
     for chart in [Chart::Scatter(scatter), Chart::Curves(curves), Chart::Bars(bars)] {
         assert!([360.0, 900.0].iter().all(|width| chart.svg(*width).contains("\nerror\n")), "{chart:?}");
-    }
-}
-
-#[test]
-fn the_front_of_a_tradeoff_is_what_nothing_beats_in_both_and_names_are_said_once() {
-    let point = |(label, bytes, ns_per_ray): (&str, f64, f64)| TradeoffPoint {
-        label: label.into(),
-        bytes,
-        build_ns: 1.0,
-        ns_per_ray,
-        ratio: String::new(),
-    };
-    let points = [("small", 1e6, 500.0), ("fast", 2e6, 100.0), ("neither", 3e6, 200.0)].map(point);
-    let case = TradeoffCase { scene: "Cube".into(), workload: "primary".into(), points: points.into() };
-    let tradeoff = Tradeoff { cases: vec![case] };
-    let scatter = tradeoff.scatter();
-    assert_eq!(scatter.points.iter().map(|point| point.is_front).collect::<Vec<_>>(), [true, true, false]);
-    for width in [360.0, 900.0] {
-        assert_eq!(Chart::Tradeoff(tradeoff.clone()).svg(width).matches("\nneither\n").count(), 1, "{width}");
     }
 }
 
