@@ -14,15 +14,12 @@ use crate::conformance::passes;
 use crate::findings::{self, Finding, LOST, compared, mesh, wrong_by_stratum};
 
 /// Every configuration of the peers; those whose feature is off or whose library is absent are left out.
-const PEERS: [&str; 15] = [
+const PEERS: [&str; 12] = [
     "bvh",
     "bvh:test=moller-trumbore",
-    "bvh:traversal=nearest",
     "parry",
     "parry:test=moller-trumbore",
-    "parry:builder=ploc",
     "tinybvh",
-    "tinybvh:quality=medium",
     "embree",
     "embree:quality=medium",
     "embree:packet=8,rays=coherent",

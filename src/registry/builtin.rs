@@ -68,26 +68,24 @@ impl Registry {
 
         #[cfg(feature = "peer-bvh")]
         let this = {
-            use crate::external::bvh::{SvenstaroBvh, SvenstaroBvhConfig, SvenstaroTest};
-            let config = SvenstaroBvhConfig::default();
-            this.offering::<SvenstaroBvh<SvenstaroTest>>("bvh", config)
-                .offering::<SvenstaroBvh<MollerTrumbore>>("bvh", config)
-                .offering::<SvenstaroBvh<Exact>>("bvh", config)
+            use crate::external::bvh::{SvenstaroBvh, SvenstaroTest};
+            this.offering::<SvenstaroBvh<SvenstaroTest>>("bvh", ())
+                .offering::<SvenstaroBvh<MollerTrumbore>>("bvh", ())
+                .offering::<SvenstaroBvh<Exact>>("bvh", ())
                 .brute_force::<SvenstaroTest>()
         };
 
         #[cfg(feature = "peer-parry")]
         let this = {
-            use crate::external::parry::{ParryBvh, ParryConfig, ParryTest};
-            let config = ParryConfig::default();
-            this.offering::<ParryBvh<ParryTest>>("parry", config)
-                .offering::<ParryBvh<MollerTrumbore>>("parry", config)
-                .offering::<ParryBvh<Exact>>("parry", config)
+            use crate::external::parry::{ParryBvh, ParryTest};
+            this.offering::<ParryBvh<ParryTest>>("parry", ())
+                .offering::<ParryBvh<MollerTrumbore>>("parry", ())
+                .offering::<ParryBvh<Exact>>("parry", ())
                 .brute_force::<ParryTest>()
         };
 
         #[cfg(feature = "peer-tinybvh")]
-        let this = this.offering::<crate::external::tinybvh::TinyBvh>("tinybvh", Default::default());
+        let this = this.offering::<crate::external::tinybvh::TinyBvh>("tinybvh", ());
 
         #[cfg(feature = "peer-embree")]
         let this = {

@@ -1,8 +1,10 @@
 //! [bvh](https://github.com/svenstaro/bvh) 0.13 (crate `bvh`): a binary BVH by binned SAH, one triangle per leaf.
 //!
-//! The crate has no closest-hit query: it returns candidates, and its caller tests triangles. The adapter offers two of
-//! its traversals ([`Traversal`]), both with early termination. The crate's ray (unit direction and inverse, by its own
-//! constructor) is prepared before the clock starts. The builder runs on the threads of the caller.
+//! The crate has no closest-hit query: it returns candidates, and its caller tests triangles. The adapter passes a
+//! custom query to its plain iterator: the crate's ray, with a box test that also rejects boxes behind the nearest hit
+//! so far. The iterator visits left before right, and panics on trees deeper than 32. The crate's ray (unit direction
+//! and inverse, by its own constructor) is prepared before the clock starts. The builder runs on the threads of the
+//! caller.
 
 use std::cell::Cell;
 use std::sync::Arc;
@@ -13,7 +15,6 @@ use ::bvh::bvh::{Bvh, BvhNode};
 use ::bvh::ray::Ray as PreparedRay;
 use glam::Vec3;
 use nalgebra::{Point3, Vector3};
-use serde::{Deserialize, Serialize};
 
 use super::leaves::{Leaves, Start};
 use crate::accel::{Accel, BuildError, Footprint, Observed, Observer, Part, TreeShape};
@@ -29,27 +30,6 @@ pub struct SvenstaroBvh<T: TriangleTest> {
     tree: Bvh<f32, 3>,
     shapes: Vec<TriangleBox>,
     leaves: Leaves<T>,
-    traversal: Traversal,
-}
-
-/// The options of the adapter.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct SvenstaroBvhConfig {
-    /// The traversal of the closest-hit query. Any hit always uses the plain iterator and stops at the first hit.
-    pub traversal: Traversal,
-}
-
-/// The traversals that can stop early.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Traversal {
-    /// The plain iterator over a custom query: the crate's ray with a box test that also rejects boxes behind the
-    /// nearest hit so far. The iterator visits left before right, and panics on trees deeper than 32.
-    #[default]
-    Pruned,
-    /// The iterator from near to far, with a heap, up to the first box behind the nearest hit.
-    Nearest,
 }
 
 struct TriangleBox {
@@ -86,15 +66,9 @@ impl IntersectsAabb<f32, 3> for PrunedRay<'_> {
     #[inline(always)]
     fn intersects_aabb(&self, bounds: &Aabb<f32, 3>) -> bool {
         let limit = self.limit.get();
-        self.ray.intersects_aabb(bounds)
-            && (limit == f32::INFINITY || entry(self.ray, bounds).is_some_and(|entry| entry <= limit))
+        let is_near = || self.ray.intersection_slice_for_aabb(bounds).is_some_and(|(entry, _)| entry <= limit);
+        self.ray.intersects_aabb(bounds) && (limit == f32::INFINITY || is_near())
     }
-}
-
-/// The parameter at which the ray enters the box, by the crate's own box test.
-#[inline(always)]
-fn entry(ray: &PreparedRay<f32, 3>, bounds: &Aabb<f32, 3>) -> Option<f32> {
-    ray.intersection_slice_for_aabb(bounds).map(|(entry, _)| entry)
 }
 
 /// Boxes are tested in units of length, with more roundings than `t` has: their slack.
@@ -130,24 +104,11 @@ impl<T: TriangleTest> Prepare for SvenstaroBvh<T> {
         let Ready { walked, length, start } = ready;
         let mut nearest = start.nearest();
         let limit = |t: f32| t * length * SLACK;
-        match self.traversal {
-            Traversal::Pruned => {
-                let query = PrunedRay { ray: walked, limit: Cell::new(limit(nearest.t)) };
-                for shape in self.tree.traverse_iterator(&query, &self.shapes) {
-                    observer.test(1);
-                    self.leaves.test(shape.index as usize, start, &mut nearest);
-                    query.limit.set(limit(nearest.t));
-                }
-            }
-            Traversal::Nearest => {
-                for shape in self.tree.nearest_traverse_iterator(walked, &self.shapes) {
-                    if entry(walked, &shape.bounds).is_some_and(|entry| entry > limit(nearest.t)) {
-                        break;
-                    }
-                    observer.test(1);
-                    self.leaves.test(shape.index as usize, start, &mut nearest);
-                }
-            }
+        let query = PrunedRay { ray: walked, limit: Cell::new(limit(nearest.t)) };
+        for shape in self.tree.traverse_iterator(&query, &self.shapes) {
+            observer.test(1);
+            self.leaves.test(shape.index as usize, start, &mut nearest);
+            query.limit.set(limit(nearest.t));
         }
         nearest.answer::<false>(&start.asked)
     }
@@ -166,14 +127,14 @@ impl<T: TriangleTest> Prepare for SvenstaroBvh<T> {
 }
 
 impl<T: TriangleTest> Accel for SvenstaroBvh<T> {
-    type Config = SvenstaroBvhConfig;
+    type Config = ();
 
     const TRIANGLE_TEST: &'static str = T::NAME;
     const OBSERVED: Observed = Observed::TESTS;
     const CONVENTIONS: &'static [&'static str] =
         &["tests boxes with the unit direction, up to a distance of t times the direction's length"];
 
-    fn build(mesh: &Arc<Mesh>, config: &SvenstaroBvhConfig) -> Result<Self, BuildError> {
+    fn build(mesh: &Arc<Mesh>, (): &()) -> Result<Self, BuildError> {
         let leaves = Leaves::new(mesh);
         let boxed = |(index, [min, max]): (usize, [Vec3; 2])| TriangleBox {
             bounds: Aabb::with_bounds(point(min), point(max)),
@@ -182,7 +143,7 @@ impl<T: TriangleTest> Accel for SvenstaroBvh<T> {
         };
         let mut shapes: Vec<TriangleBox> = leaves.boxes(mesh).enumerate().map(boxed).collect();
         let tree = Bvh::build_par(&mut shapes);
-        Ok(Self { tree, shapes, leaves, traversal: config.traversal })
+        Ok(Self { tree, shapes, leaves })
     }
 
     prepared_queries!();

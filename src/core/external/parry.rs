@@ -1,6 +1,6 @@
 //! [parry](https://github.com/dimforge/parry) 0.31 (crate `parry3d`): a binary BVH, one triangle per leaf.
 //!
-//! The tree takes the leaf test as a closure, and traverses from near to far with early termination. The closure
+//! It is built by the builder of parry's own mesh shape, top down and binned, and takes the leaf test as a closure, and traverses from near to far with early termination. The closure
 //! respects `t_min`, which parry's own mesh shape does not support; nothing is culled. The ray is two vectors; the
 //! crate computes its inverse direction itself, in the timed region, and accepts no precomputed one. parry has no
 //! query that stops at the first hit. For any hit, the leaf test of the adapter reports its first hit at t = -infinity,
@@ -15,7 +15,6 @@ use ::parry3d::partitioning::{Bvh, BvhBuildStrategy};
 use ::parry3d::query::Ray as PreparedRay;
 use ::parry3d::query::details::local_ray_intersection_with_triangle;
 use glam::Vec3;
-use serde::{Deserialize, Serialize};
 
 use super::leaves::{Leaves, Start};
 use crate::accel::{Accel, BuildError, Footprint, Observed, Observer, TreeShape};
@@ -30,25 +29,6 @@ use crate::triangle::decided_at_once::decided_at_once;
 pub struct ParryBvh<T: TriangleTest> {
     tree: Bvh,
     leaves: Leaves<T>,
-}
-
-/// The build options of parry.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ParryConfig {
-    /// One of its two builders; both run on one thread.
-    pub builder: Builder,
-}
-
-/// The builders of parry.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Builder {
-    /// Top down, binned: the builder of its mesh shape.
-    #[default]
-    Binned,
-    /// Bottom up, locally ordered clustering.
-    Ploc,
 }
 
 fn vector(v: Vec3) -> Vector {
@@ -105,20 +85,16 @@ impl<T: TriangleTest> Prepare for ParryBvh<T> {
 }
 
 impl<T: TriangleTest> Accel for ParryBvh<T> {
-    type Config = ParryConfig;
+    type Config = ();
 
     const TRIANGLE_TEST: &'static str = T::NAME;
     const OBSERVED: Observed = Observed::TESTS;
     const CONVENTIONS: &'static [&'static str] = &["builds on one thread"];
 
-    fn build(mesh: &Arc<Mesh>, config: &ParryConfig) -> Result<Self, BuildError> {
-        let strategy = match config.builder {
-            Builder::Binned => BvhBuildStrategy::Binned,
-            Builder::Ploc => BvhBuildStrategy::Ploc,
-        };
+    fn build(mesh: &Arc<Mesh>, (): &()) -> Result<Self, BuildError> {
         let leaves = Leaves::new(mesh);
         let boxes = leaves.boxes(mesh).map(|[min, max]| Aabb::new(vector(min), vector(max)));
-        let tree = Bvh::from_iter(strategy, boxes.enumerate());
+        let tree = Bvh::from_iter(BvhBuildStrategy::Binned, boxes.enumerate());
         Ok(Self { tree, leaves })
     }
 

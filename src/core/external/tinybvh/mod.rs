@@ -1,4 +1,5 @@
-//! [tinybvh](https://github.com/jbikker/tinybvh) 1.6.8 by the crate `tinybvh-rs` 0.1: `BVH8_CPU`, its fastest layout.
+//! [tinybvh](https://github.com/jbikker/tinybvh) 1.6.8 by the crate `tinybvh-rs` 0.1: `BVH8_CPU`, its fastest layout,
+//! by its best builder, with spatial splits (SBVH).
 //!
 //! A C++ compiler builds it, for the instructions of this machine. Only the builders are called through the crate; both
 //! queries call the linked C++ library ([`query`]). The ray (unit direction, inverse) is made before the clock starts;
@@ -13,7 +14,6 @@ mod query;
 use std::sync::Arc;
 
 use glam::Vec3;
-use serde::{Deserialize, Serialize};
 use tinybvh_rs::{Positions, bvh, bvh8_cpu, mbvh};
 
 use crate::accel::{Accel, BuildError, Capabilities, Footprint, Observed, Observer, TreeShape};
@@ -28,25 +28,6 @@ pub struct TinyBvh {
     /// The triangle of the mesh for each triangle of the tree.
     ids: Vec<u32>,
     shape: TreeShape,
-}
-
-/// The build options of tinybvh.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct TinyBvhConfig {
-    /// Its builder.
-    pub quality: Quality,
-}
-
-/// The builders of tinybvh.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Quality {
-    /// Binned surface area heuristic.
-    Medium,
-    /// With spatial splits (SBVH).
-    #[default]
-    High,
 }
 
 /// Bytes of a node, and of a leaf of four triangles.
@@ -150,7 +131,7 @@ fn shape(nodes: &[mbvh::Node]) -> (TreeShape, usize) {
 }
 
 impl Accel for TinyBvh {
-    type Config = TinyBvhConfig;
+    type Config = ();
 
     const OBSERVED: Observed = Observed::NONE;
     const CAPABILITIES: Capabilities = Capabilities { closed_start: false, ..Capabilities::ALL };
@@ -162,7 +143,7 @@ impl Accel for TinyBvh {
         "builds large scenes on its own threads, regardless of --threads",
     ];
 
-    fn build(mesh: &Arc<Mesh>, config: &TinyBvhConfig) -> Result<Self, BuildError> {
+    fn build(mesh: &Arc<Mesh>, (): &()) -> Result<Self, BuildError> {
         if !cfg!(target_feature = "avx2") {
             let sentence = "tinybvh's 8-wide layout needs AVX2: build sahara for a processor that has it";
             return Err(BuildError::Unavailable(sentence.into()));
@@ -176,11 +157,7 @@ impl Accel for TinyBvh {
         // Its own layout is converted from two others.
         let refusal = |error: tinybvh_rs::Error| BuildError::Mesh(format!("tinybvh reports an error: {error}"));
         let corners: Positions = corners.as_slice().into();
-        let binary = match config.quality {
-            Quality::Medium => bvh::BVH::new(corners),
-            Quality::High => bvh::BVH::new_hq(corners),
-        };
-        let mut binary = binary.map_err(refusal)?;
+        let mut binary = bvh::BVH::new_hq(corners).map_err(refusal)?;
         binary.split_leaves(4);
         let wide = mbvh::BVH::new(&binary);
         let (shape, waiting) = shape(wide.nodes());
