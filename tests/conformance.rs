@@ -132,8 +132,6 @@ fn counting_and_loading_change_no_hit_of_any_structure() {
     let registry = Registry::builtin();
     let others = [
         "sah-kd-tight:batch=packets",
-        "obvhs-bvh2:rays=loaded",
-        "obvhs-cwbvh:rays=loaded",
         "embree:packet=16",
         "embree-robust:packet=16,rays=coherent",
     ];

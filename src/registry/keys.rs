@@ -65,22 +65,17 @@ const MEANINGS: [(&str, &str); 27] = [
          (packets)",
     ),
     ("preset", "the builder's preset, from fastest build to best tree"),
-    ("rays", "prepare rays in the timed query (asked) or before the clock starts (loaded)"),
+    ("rays", "Embree: coherence hint for the rays of a packet"),
     ("packet", "Embree: rays per query: 1, 8 or 16"),
     ("isa", "Embree: the instructions that it may use"),
 ];
-
-/// A key with another meaning in Embree.
-const OF_EMBREE: (&str, &str) = ("rays", "coherence hint for the rays of a packet");
 
 impl Entry {
     /// The keys, in the order of the configuration.
     pub fn keys(&self) -> Vec<Key> {
         // A structure of another crate may have a key of the same name with another meaning.
         let meanings = if self.is_builtin { &MEANINGS[..] } else { &[] };
-        let of_embree = Some(&OF_EMBREE).filter(|_| self.is_builtin && self.name.starts_with("embree"));
-        let all = || of_embree.into_iter().chain(meanings);
-        let known = |name: &str| all().find(|(key, _)| *key == name).map_or("", |(_, meaning)| meaning);
+        let known = |name: &str| meanings.iter().find(|(key, _)| *key == name).map_or("", |(_, meaning)| meaning);
         let key = |(name, value): (&String, &Value)| Key {
             name: name.clone(),
             meaning: known(name),

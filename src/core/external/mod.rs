@@ -26,6 +26,7 @@ mod leaves;
 pub mod obvhs;
 #[cfg(feature = "peer-parry")]
 pub mod parry;
+#[cfg(any(feature = "peer-bvh", feature = "peer-parry", feature = "peer-tinybvh"))]
 mod prepared;
 #[cfg(feature = "peer-tinybvh")]
 pub mod tinybvh;

@@ -1,8 +1,6 @@
-//! Rays in the format of a structure that traces them one by one.
+//! Rays in the format of a structure that traces them one by one, converted before the clock starts.
 
-use std::borrow::Cow;
-
-use crate::accel::{Accel, Loaded, Observer, RayBatch};
+use crate::accel::{Accel, Loaded, Observer};
 use crate::geometry::{Hit, Ray};
 
 /// A structure whose queries take a ray in another format.
@@ -16,11 +14,6 @@ pub(crate) trait Prepare: Accel {
     fn closest<O: Observer>(&self, ready: &Self::Ready, observer: &mut O) -> Option<Hit>;
 
     fn any<O: Observer>(&self, ready: &Self::Ready, observer: &mut O) -> bool;
-
-    /// Whether rays are converted when they are loaded, before the clock starts.
-    fn prepares_loaded(&self) -> bool {
-        true
-    }
 }
 
 /// The queries of an [`Accel`] that implements [`Prepare`].
@@ -44,7 +37,7 @@ macro_rules! prepared_queries {
             &'a self,
             rays: std::borrow::Cow<'a, [$crate::geometry::Ray]>,
         ) -> Box<dyn $crate::accel::Loaded + 'a> {
-            $crate::external::prepared::load(self, rays)
+            $crate::external::prepared::load(self, &rays)
         }
     };
 }
@@ -52,12 +45,8 @@ macro_rules! prepared_queries {
 pub(crate) use prepared_queries;
 
 /// [`Accel::load`] of a structure that implements [`Prepare`].
-pub(crate) fn load<'a, S: Prepare>(structure: &'a S, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
-    if structure.prepares_loaded() {
-        Box::new(PreparedBatch { structure, rays: rays.iter().map(|ray| structure.ready(ray)).collect() })
-    } else {
-        Box::new(RayBatch { accel: structure, rays })
-    }
+pub(crate) fn load<'a, S: Prepare>(structure: &'a S, rays: &[Ray]) -> Box<dyn Loaded + 'a> {
+    Box::new(PreparedBatch { structure, rays: rays.iter().map(|ray| structure.ready(ray)).collect() })
 }
 
 /// A batch of such rays.

@@ -43,6 +43,9 @@ impl Tree for Bvh2 {
     }
 
     /// The traversal of obvhs, step by step, without its assertions, and with an observer. A test compares the hits.
+    ///
+    /// # Safety
+    /// As for [`Tree::walk`].
     #[inline(always)]
     unsafe fn walk<const ANY: bool>(
         &self,
@@ -70,7 +73,7 @@ impl Tree for Bvh2 {
 }
 
 /// # Safety
-/// All links of `nodes` must lead to nodes.
+/// As for [`Tree::walk`], whose tree has these `nodes`.
 #[inline(always)]
 unsafe fn descend<const ANY: bool, O: Observer>(
     nodes: &[Bvh2Node],

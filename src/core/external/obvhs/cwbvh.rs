@@ -50,6 +50,9 @@ impl Tree for CwBvh {
 
     /// The traversal of obvhs through its own macro, as its documentation recommends, over nodes without a check of
     /// bounds. A group of triangles in a node does not count as a node, so only inner nodes are steps.
+    ///
+    /// # Safety
+    /// As for [`Tree::walk`].
     #[inline(always)]
     unsafe fn walk<const ANY: bool>(
         &self,

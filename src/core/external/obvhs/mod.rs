@@ -3,7 +3,7 @@
 //! Each BVH is offered over the triangle tests of this crate and over obvhs' own [`RtTest`], which is its fastest
 //! configuration. Triangles are stored in the order of the tree, so no traversal follows an index; the number of the
 //! final hit is mapped back once. The ray is prepared once with obvhs' own inverse direction, in the timed region like
-//! the rays of the structures of this crate; `rays=loaded` prepares it before the clock starts.
+//! the rays of the structures of this crate.
 //!
 //! The adapter gives these trees the same advantages as the trees of this crate: arrays on large pages, triangles
 //! converted on all threads, no bounds checks. The traversals are obvhs' own without its checks: the links that they
@@ -32,7 +32,6 @@ use serde::{Deserialize, Serialize};
 pub use leaf_test::{LeafTest, Native, Over, RtTest};
 
 use crate::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
-use crate::external::prepared::{Prepare, prepared_queries};
 use crate::geometry::{Aabb, Hit, Mesh, Ray};
 use leaves::{Leaves, input};
 
@@ -46,7 +45,6 @@ pub type ObvhsCwBvh<T> = Obvhs<CwBvh, T>;
 pub struct Obvhs<B, T: LeafTest> {
     tree: B,
     leaves: Leaves<T>,
-    rays: Rays,
 }
 
 /// The build options of obvhs.
@@ -55,19 +53,6 @@ pub struct Obvhs<B, T: LeafTest> {
 pub struct ObvhsConfig {
     /// One of the crate's presets.
     pub preset: Preset,
-    /// When its rays are prepared.
-    pub rays: Rays,
-}
-
-/// When a ray is converted to the ray of obvhs, with its inverse direction.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Rays {
-    /// In the query, inside the timed region, like the structures of this crate.
-    #[default]
-    Asked,
-    /// When a batch is loaded, before the clock starts.
-    Loaded,
 }
 
 /// The presets of obvhs, from the fastest build to the best tree. Only `slow` and `very-slow` split large triangles, so
@@ -119,7 +104,8 @@ pub trait Tree: Send + Sync + Sized + 'static {
     /// The nearest hit; with `ANY` the first one found.
     ///
     /// # Safety
-    /// [`Tree::leads_inside`] must hold.
+    /// [`Tree::leads_inside`] must return true for the number of triangles that `test` accepts: the traversal follows
+    /// links, and passes places in leaves to `test`, without checking them.
     unsafe fn walk<const ANY: bool>(
         &self,
         ray: PreparedRay,
@@ -129,32 +115,6 @@ pub trait Tree: Send + Sync + Sized + 'static {
 
     /// The shape of the tree, with its stored boxes.
     fn shape(&self) -> TreeShape;
-}
-
-impl<B: Tree, T: LeafTest> Prepare for Obvhs<B, T> {
-    type Ready = (PreparedRay, T::Ray);
-
-    #[inline(always)]
-    fn ready(&self, ray: &Ray) -> Option<Self::Ready> {
-        self.leaves.start(ray)
-    }
-
-    #[inline(always)]
-    fn closest<O: Observer>(&self, &(ray, prepared): &Self::Ready, observer: &mut O) -> Option<Hit> {
-        // SAFETY: `build` has asserted `leads_inside`: links lead to nodes, and places in leaves lead to triangles.
-        let found = unsafe { self.tree.walk::<false>(ray, self.leaves.test(prepared), observer) };
-        found.map(|hit| self.leaves.hit(hit))
-    }
-
-    #[inline(always)]
-    fn any<O: Observer>(&self, &(ray, prepared): &Self::Ready, observer: &mut O) -> bool {
-        // SAFETY: as in `closest`.
-        unsafe { self.tree.walk::<true>(ray, self.leaves.test(prepared), observer) }.is_some()
-    }
-
-    fn prepares_loaded(&self) -> bool {
-        self.rays == Rays::Loaded
-    }
 }
 
 impl<B: Tree, T: LeafTest> Accel for Obvhs<B, T> {
@@ -169,10 +129,23 @@ impl<B: Tree, T: LeafTest> Accel for Obvhs<B, T> {
         let order = tree.settle();
         let leaves = Leaves::new(mesh, &solid, &order);
         assert!(tree.leads_inside(leaves.len()), "obvhs has built a tree with links to nowhere");
-        Ok(Self { tree, leaves, rays: config.rays })
+        Ok(Self { tree, leaves })
     }
 
-    prepared_queries!();
+    #[inline]
+    fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
+        let (ray, prepared) = self.leaves.start(ray)?;
+        // SAFETY: `build` has asserted `leads_inside` for the number of triangles that the test accepts.
+        let found = unsafe { self.tree.walk::<false>(ray, self.leaves.test(prepared), observer) };
+        found.map(|hit| self.leaves.hit(hit))
+    }
+
+    #[inline]
+    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
+        let Some((ray, prepared)) = self.leaves.start(ray) else { return false };
+        // SAFETY: as in `closest_hit`.
+        unsafe { self.tree.walk::<true>(ray, self.leaves.test(prepared), observer) }.is_some()
+    }
 
     fn footprint(&self) -> Footprint {
         let (triangles, references) = self.leaves.bytes();

@@ -31,7 +31,7 @@ fn same_answers<B: Tree>(own: impl Fn(&Obvhs<B, Native>, &Ray) -> (Option<Hit>, 
     for triangles in [1, 2, 3, 3000] {
         let mesh = soup(triangles);
         for preset in [Preset::Fastest, Preset::VerySlow] {
-            let built = Obvhs::<B, Native>::build(&mesh, &ObvhsConfig { preset, ..Default::default() }).unwrap();
+            let built = Obvhs::<B, Native>::build(&mesh, &ObvhsConfig { preset }).unwrap();
             let mut hits = 0;
             for ray in rays(5000) {
                 let answers = (built.closest_hit(&ray, &mut ()), built.any_hit(&ray, &mut ()));
