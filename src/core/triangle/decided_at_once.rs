@@ -36,5 +36,29 @@ macro_rules! decided_on_corners {
     };
 }
 
+/// [`decided_on_corners`] for a test in `f64`: `$solve` gives the lanes whose triangle the line may meet, and the
+/// parameters.
+macro_rules! decided_in_f64 {
+    ($solve:ident) => {
+        decided_on_corners!();
+
+        #[inline(always)]
+        fn candidates<const N: usize, L: $crate::simd::Lanes<N>>(
+            &(origin, direction): &Self::Ray,
+            block: &Self::Block<N>,
+            from: f32,
+            to: f32,
+        ) -> (u32, L) {
+            let wide = |v| $crate::simd::LaneVec3::<N, L>::splat(v).widen();
+            let corners = $crate::simd::each(&block.load::<L>(), |corner| corner.widen());
+            let (inside, t) = $solve(wide(origin), wide(direction), corners);
+            // Compare the beginning before rounding, which may turn a hit behind it into zero.
+            let inside = inside & L::splat(from).widen().le(t);
+            let t = L::narrow(t);
+            (inside & t.le(L::splat(to)), t)
+        }
+    };
+}
+
 #[cfg(feature = "suite")]
 pub(crate) use decided_at_once;

@@ -1,5 +1,5 @@
-use super::{Corners, TriangleTest};
-use crate::simd::{Arithmetic, LaneVec3, Lanes, each};
+use super::TriangleTest;
+use crate::simd::{Arithmetic, LaneVec3};
 
 /// The edge test of [`Plucker`](super::Plucker) in `f64` over corners in `f32`, widened by its own rounding error:
 /// scalar triple products for the sides, `t` from the plane equation relative to the origin, with a final rounding to
@@ -58,20 +58,5 @@ fn solve<const N: usize, L: Arithmetic<N, Scalar = f64>>(
 impl TriangleTest for EdgeF64 {
     const NAME: &'static str = "edge-f64";
 
-    decided_on_corners!();
-
-    #[inline(always)]
-    fn candidates<const N: usize, L: Lanes<N>>(
-        &(origin, direction): &Self::Ray,
-        block: &Corners<N>,
-        from: f32,
-        to: f32,
-    ) -> (u32, L) {
-        let wide = |v| LaneVec3::<N, L>::splat(v).widen();
-        let (inside, t) = solve(wide(origin), wide(direction), each(&block.load::<L>(), |corner| corner.widen()));
-        // Compare the beginning before rounding, which may turn a hit behind it into zero.
-        let inside = inside & L::splat(from).widen().le(t);
-        let t = L::narrow(t);
-        (inside & t.le(L::splat(to)), t)
-    }
+    decided_in_f64!(solve);
 }

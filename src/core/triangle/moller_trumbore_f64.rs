@@ -1,5 +1,5 @@
-use super::{Corners, TriangleTest};
-use crate::simd::{Arithmetic, LaneVec3, Lanes, each};
+use super::TriangleTest;
+use crate::simd::{Arithmetic, LaneVec3};
 
 /// [`MollerTrumbore`](super::MollerTrumbore) in `f64`, widened by its own rounding error; `t` is rounded to `f32`.
 ///
@@ -35,10 +35,11 @@ pub struct MollerTrumboreF64;
 /// less than 4 n E E (|s| + |t| D) / |det|.
 #[inline(always)]
 fn solve<const N: usize, L: Arithmetic<N, Scalar = f64>>(
+    origin: LaneVec3<N, L>,
     direction: LaneVec3<N, L>,
-    to_origin: LaneVec3<N, L>,
-    [edge1, edge2]: [LaneVec3<N, L>; 2],
+    [a, b, c]: [LaneVec3<N, L>; 3],
 ) -> (u32, L) {
+    let (to_origin, edge1, edge2) = (origin - a, b - a, c - a);
     let p = direction.cross(edge2);
     let q = to_origin.cross(edge1);
     let det = edge1.dot(p);
@@ -58,21 +59,5 @@ fn solve<const N: usize, L: Arithmetic<N, Scalar = f64>>(
 impl TriangleTest for MollerTrumboreF64 {
     const NAME: &'static str = "moller-trumbore-f64";
 
-    decided_on_corners!();
-
-    #[inline(always)]
-    fn candidates<const N: usize, L: Lanes<N>>(
-        &(origin, direction): &Self::Ray,
-        block: &Corners<N>,
-        from: f32,
-        to: f32,
-    ) -> (u32, L) {
-        let [a, b, c] = each(&block.load::<L>(), |corner| corner.widen());
-        let wide = |v| LaneVec3::<N, L>::splat(v).widen();
-        let (inside, t) = solve(wide(direction), wide(origin) - a, [b - a, c - a]);
-        // Compare the beginning before rounding, which may turn a hit behind it into zero.
-        let inside = inside & L::splat(from).widen().le(t);
-        let t = L::narrow(t);
-        (inside & t.le(L::splat(to)), t)
-    }
+    decided_in_f64!(solve);
 }
