@@ -116,8 +116,8 @@ pub struct Overlay {
     pub heading: String,
     pub pictures: Vec<Picture>,
     pub colours: Colours,
-    /// Data for inspecting single pixels; `None` if there is none.
-    pub inspector: Option<serde_json::Value>,
+    /// Data for inspecting single pixels.
+    pub inspector: serde_json::Value,
 }
 
 #[derive(Clone, Debug, PartialEq)]

@@ -129,8 +129,7 @@ fn overlay(overlay: &Overlay) -> Value {
         }
         Colours::Key(key) => context! { ramp => "", key => Serde(key) },
     };
-    let inspector = overlay.inspector.as_ref().map(in_script);
-    context! { heading => &overlay.heading, inspector => inspector, ..colours }
+    context! { heading => &overlay.heading, inspector => in_script(&overlay.inspector), ..colours }
 }
 
 fn picture(picture: &Picture) -> Value {

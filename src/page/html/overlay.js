@@ -152,10 +152,7 @@
   for (const overlay of document.querySelectorAll("[data-overlay]")) {
     const figure = overlay.closest("figure"), pictures = [...figure.querySelectorAll(".maps img")];
     const onBorder = overlaid(overlay, pictures);
-    const panel = figure.querySelector(".inspector");
-    if (panel) {
-      const data = JSON.parse(figure.querySelector("script").textContent);
-      inspected(figure, panel, data, overlay.querySelector(".stage"), pictures, onBorder);
-    }
+    const data = JSON.parse(figure.querySelector("script").textContent);
+    inspected(figure, figure.querySelector(".inspector"), data, overlay.querySelector(".stage"), pictures, onBorder);
   }
 })();

@@ -1,10 +1,13 @@
 //! The work of all structures on the camera rays of one scene.
 
+use image::RgbImage;
+
 use super::scenes::LoadedScene;
 use crate::accel::Observed;
 use crate::page::runs::{COMPARE, Runs};
 use crate::registry::Registry;
-use crate::render::{ErrorMap, ExactPicture, Work, coarse_size};
+use crate::render::{ErrorMap, ExactPicture, Work, coarse_size, png};
+use crate::report::Picture;
 use crate::report::words::{each_once, scene_name};
 use crate::request::{BRUTE_FORCE, REPORT_TREE, SAH_TREE};
 use crate::study::measure::guarded;
@@ -53,5 +56,10 @@ impl<'a> CameraRays<'a> {
 
     pub fn errors(&self, structure: &StructureWork) -> ErrorMap {
         ErrorMap::of(&self.exact, structure.work.iter().map(|work| work.hit))
+    }
+
+    /// A picture of one structure's results on these rays.
+    pub fn picture(&self, label: &str, alt: String, note: String, image: &RgbImage) -> Picture {
+        Picture { name: label.into(), note, alt, png: png(image), size: self.exact.size }
     }
 }

@@ -1,77 +1,65 @@
 //! Heat maps: the work of every structure, pixel by pixel.
 
 use super::camera_rays::{CameraRays, StructureWork};
-use super::hex;
-use super::inspect::{inspector, most_rays};
+use super::inspect::most_rays;
+use super::maps::{Maps, hex};
 use crate::accel::Observed;
-use crate::render::{Work, from_pixels, heat_colour, hottest, png};
+use crate::render::{Work, from_pixels, heat_colour, hottest};
 use crate::report::number::{count, figures};
 use crate::report::plot::tick_text;
-use crate::report::words::slug;
-use crate::report::{Art, Block, Colours, Figure, Overlay, Picture, Table};
+use crate::report::{Colours, Table};
 
-/// The maps of all structures that report their work, with the command that draws one. `None` if no structure does.
-pub fn block(camera: &CameraRays) -> Option<(Block, String)> {
+/// The maps of all structures that report their work. `None` if no structure does.
+pub fn maps(camera: &CameraRays) -> Option<Maps> {
     let told = camera.structures.iter().filter(|own| own.observed == Observed::ALL);
     let costs = |own: &StructureWork| own.work.iter().map(Work::cost).collect();
-    let maps: Vec<(String, Vec<u64>)> = told.map(|own| (own.label.clone(), costs(own))).collect();
+    let costs: Vec<(&str, Vec<u64>)> = told.map(|own| (own.label.as_str(), costs(own))).collect();
     let mean = |costs: &[u64]| costs.iter().sum::<u64>() as f64 / costs.len() as f64;
     // Use one scale for all: equal work has equal brightness.
-    let scale = maps.iter().map(|(_, costs)| hottest(costs)).max()?;
+    let scale = costs.iter().map(|(_, costs)| hottest(costs)).max()?;
     let (name, size) = (&camera.name, camera.exact.size);
-    let picture = |(label, costs): &(String, Vec<u64>)| {
+    let picture = |(label, costs): &(&str, Vec<u64>)| {
         let colours = costs.iter().map(|&cost| heat_colour(stepped(cost, scale), scale));
         let mean = figures(mean(costs));
-        Picture {
-            name: label.clone(),
-            note: format!("{mean} per ray"),
-            alt: format!("Heat map of {label} on {name}: {mean} tests and steps per ray on average"),
-            png: png(&from_pixels(size, colours.collect())),
-            size,
-        }
+        let alt = format!("Heat map of {label} on {name}: {mean} tests and steps per ray on average");
+        camera.picture(label, alt, format!("{mean} per ray"), &from_pixels(size, colours.collect()))
     };
-    let rows = maps.iter().map(|(label, costs)| {
+    let rows = costs.iter().map(|(label, costs)| {
         let most = costs.iter().max().copied().unwrap_or(0);
-        vec![label.into(), mean(costs).into(), hottest(costs).into(), most.into()]
+        vec![(*label).into(), mean(costs).into(), hottest(costs).into(), most.into()]
     });
-    let figure = Figure {
-        id: format!("heat-{}", slug(&camera.loaded.scene.name)),
+    let (pixels, which) = grid(camera);
+    Some(Maps {
+        view: format!("heat --hottest {scale}"),
         caption: format!(
             "{name}: triangle tests and traversal steps of each camera ray. All structures share one logarithmic \
              scale from 0 to {}; 99.5 % of the pixels are below its end. Brute force is left out: its cost would \
              darken all other maps.",
             count(scale)
         ),
-        alt: String::new(),
-        art: Art::Overlay(Overlay {
-            heading: name.clone(),
-            pictures: maps.iter().map(picture).collect(),
-            colours: ramp(scale),
-            inspector: Some(grid(camera)),
-        }),
+        pictures: costs.iter().map(picture).collect(),
+        colours: ramp(scale),
         data: Table::new("", ["structure", "mean", "99.5 % below", "most"], rows),
-    };
-    let words = camera.loaded.words();
-    let command = format!("sahara render {words} --view heat --hottest {scale} --structure NAME -o NAME.png");
-    Some((Block::figure(figure), command))
+        pixels,
+        which,
+    })
 }
 
-/// The rays of a coarse grid of pixels.
-fn grid(camera: &CameraRays) -> serde_json::Value {
+/// The pixels of a coarse grid, and what they are.
+fn grid(camera: &CameraRays) -> (Vec<usize>, String) {
     let [width, height] = camera.exact.size.map(|side| side as usize);
     let of = |stride: usize| {
         let places = |side: usize| (stride / 2..side).step_by(stride);
         places(height).flat_map(|y| places(width).map(move |x| y * width + x)).collect::<Vec<_>>()
     };
     let most = most_rays(camera.structures.len());
-    let strides = (1..).map(|stride| (stride, of(stride)));
-    let found = strides.into_iter().find(|(_, pixels)| pixels.len() <= most);
+    let found = (1..).map(|stride| (stride, of(stride))).find(|(_, pixels)| pixels.len() <= most);
     let (stride, pixels) = found.expect("no pixel is few enough");
     let which = match stride {
         1 => "Select any pixel.".into(),
         _ => format!("Select any pixel of a grid with a spacing of {stride} pixels."),
     };
-    inspector(camera, &pixels, &which)
+    (pixels, which)
 }
 
 fn ramp(scale: u64) -> Colours {

@@ -4,6 +4,7 @@ mod camera_rays;
 mod errors;
 mod heat;
 mod inspect;
+mod maps;
 mod scenes;
 
 use std::ffi::OsStr;
@@ -93,15 +94,14 @@ pub fn draw(runs: &Runs, registry: &Registry, progress: &mut dyn FnMut(String)) 
     for own in largest.into_iter().take(LARGEST) {
         progress(format!("drawing heat and errors of {}", own.scene.name));
         let rays = CameraRays::new(own, runs, registry);
-        heat.extend(heat::block(&rays));
-        errors.extend(errors::block(&rays));
+        heat.extend(heat::maps(&rays).map(|maps| maps.figure(HEAT.id, &rays)));
+        errors.extend(errors::maps(&rays).map(|maps| match maps {
+            Ok(maps) => maps.figure(ERRORS.id, &rays),
+            Err(sentence) => (Block::Text(sentence), String::new()),
+        }));
     }
     let (blocks, command) = scenes::blocks(pictures, &loaded, &lost);
     vec![Section { command, ..SCENES.section(blocks) }, HEAT.introduced(heat), ERRORS.introduced(errors)]
-}
-
-fn hex([r, g, b]: [u8; 3]) -> String {
-    format!("#{r:02x}{g:02x}{b:02x}")
 }
 
 /// The sections of a report without pictures, with a note.

@@ -85,7 +85,7 @@ fn are_shown(results: &Results) {
 
 #[test]
 fn a_figure_that_is_the_answer_is_kept_once() {
-    let results = results(&runs(&[("attribution", &["Dragon"])])).unwrap();
+    let results = results(&runs(&[("replicate", &["Dragon"]), ("attribution", &["Dragon"])])).unwrap();
     are_shown(&results);
     assert_eq!(results.paper.matches("](figures/answer.svg)").count(), 2, "{}", results.paper);
 }

@@ -2,11 +2,11 @@
 
 use crate::measure::Estimate;
 use crate::page::document::{Answer, Headline};
-use crate::page::runs::{COMPARE, Runs, StudyRun, scene_titles};
+use crate::page::runs::{COMPARE, Runs, scene_titles};
 use crate::report::Figure;
 use crate::report::number::{figures, plural};
 use crate::report::plot::{Bar, Bars, Chart};
-use crate::report::words::{ended, ends, interval, listed, slug};
+use crate::report::words::{ended, ends, listed, slug};
 use crate::study::claims;
 use crate::study::compare::FASTEST;
 
@@ -18,7 +18,7 @@ const SCENES: [&str; 3] = ["dragon", "lucy", "sponza"];
 /// From this ratio on a tree is called much faster: half of the time.
 const MUCH: f64 = 2.0;
 
-/// The studies that measure the speed of the SAH tree on the hard scenes.
+/// The study that measures the speedup by the SAH tree on the hard scenes, and the one that divides it into factors.
 const REPLICATE: &str = "replicate";
 const ATTRIBUTION: &str = "attribution";
 
@@ -29,29 +29,18 @@ struct Hard {
     ratio: Estimate,
 }
 
-/// The hard scenes of a study by its findings `PREFIX-SCENE`.
-fn of_findings(run: &StudyRun, prefix: &str) -> Vec<Hard> {
+/// The hard scenes of `replicate`, their mean and a sentence on them; `None` if it was run on none of them.
+fn hard(runs: &Runs) -> Option<(Vec<Hard>, Option<Estimate>, String)> {
+    let run = runs.of(REPLICATE)?;
     let hard = |key: &'static str| {
-        let ratio = run.report.finding(&format!("{prefix}-{key}"))?.value?;
+        let ratio = run.report.finding(&format!("hard-{key}"))?.value?;
         let case = run.dataset.measured.iter().map(|own| &own.case).find(|case| slug(&case.scene.name) == key);
         Some(Hard { key, title: case.map_or(key.into(), |case| case.scene_title()), ratio })
     };
-    SCENES.into_iter().filter_map(hard).collect()
-}
-
-/// The hard scenes, their mean and a sentence on them: from `replicate`, or else from `attribution`, which has no mean.
-fn hard(runs: &Runs) -> Option<(Vec<Hard>, Option<Estimate>, String)> {
-    let of = |study: &str, prefix: &str| Some(of_findings(runs.of(study)?, prefix)).filter(|hard| !hard.is_empty());
-    if let Some(hard) = of(REPLICATE, "hard") {
-        let finding = runs.of(REPLICATE)?.report.finding("hard");
-        let sentence = finding.map_or(String::new(), |finding| finding.sentence.clone());
-        return Some((hard, finding.and_then(|finding| finding.value), sentence));
-    }
-    let hard = of(ATTRIBUTION, "whole")?;
-    let times: Vec<String> = hard.iter().map(|own| format!("{} times on {}", interval(own.ratio), own.title)).collect();
-    let sentence =
-        format!("The SAH tree traces the same primary rays faster than the report's tree: {}.", listed(&times));
-    Some((hard, None, sentence))
+    let hard: Vec<Hard> = SCENES.into_iter().filter_map(hard).collect();
+    let mean = run.report.finding("hard");
+    let sentence = mean.map_or(String::new(), |finding| finding.sentence.clone());
+    (!hard.is_empty()).then_some((hard, mean.and_then(|finding| finding.value), sentence))
 }
 
 /// A warning if one of the runs was a quick one.

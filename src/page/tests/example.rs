@@ -188,7 +188,7 @@ pub fn whole(scene: &str) -> (Document, Runs<'static>) {
             colours: vec!["#000000".into(), "#ffffff".into()],
             ticks: vec![(0.0, "0".into()), (1.0, "10".into())],
         },
-        inspector: Some(serde_json::json!({ "command": format!("sahara validate {scene} --ray") })),
+        inspector: serde_json::json!({ "command": format!("sahara validate {scene} --ray") }),
     };
     let key = Overlay { colours: Colours::Key(vec![("#ff0000".into(), "missed".into())]), ..overlay.clone() };
     let line = Line { label: scene.into(), note: String::new(), points: vec![] };

@@ -1,0 +1,37 @@
+//! The figure of one picture per structure, whose pixels can be inspected.
+
+use super::camera_rays::CameraRays;
+use super::inspect::inspector;
+use crate::report::words::slug;
+use crate::report::{Art, Block, Colours, Figure, Overlay, Picture, Table};
+
+/// Pictures of all structures on the camera rays of one scene, in one scale of colours.
+pub struct Maps {
+    /// The view of `sahara render` that draws one of them, with its options.
+    pub view: String,
+    pub caption: String,
+    pub pictures: Vec<Picture>,
+    pub colours: Colours,
+    pub data: Table,
+    /// The pixels that can be inspected, in ascending order.
+    pub pixels: Vec<usize>,
+    /// Describes these pixels in a sentence.
+    pub which: String,
+}
+
+impl Maps {
+    /// The figure, and the command that draws one of its pictures. The id of the figure begins with `kind`.
+    pub fn figure(self, kind: &str, camera: &CameraRays) -> (Block, String) {
+        let Self { view, caption, pictures, colours, data, pixels, which } = self;
+        let inspector = inspector(camera, &pixels, &which);
+        let art = Art::Overlay(Overlay { heading: camera.name.clone(), pictures, colours, inspector });
+        let id = format!("{kind}-{}", slug(&camera.loaded.scene.name));
+        let command = format!("sahara render {} --view {view} --structure NAME -o NAME.png", camera.loaded.words());
+        (Block::figure(Figure { id, caption, alt: String::new(), art, data }), command)
+    }
+}
+
+/// A colour as in style sheets.
+pub fn hex([r, g, b]: [u8; 3]) -> String {
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
