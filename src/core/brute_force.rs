@@ -54,7 +54,7 @@ impl<T: TriangleTest> Accel for BruteForce<T> {
 
     fn shape(&self) -> TreeShape {
         // Every ray enters it, regardless of its box.
-        let sah_cost = Some(TreeShape::leaf_cost(self.references));
+        let sah_cost = Some(self.references as f64);
         TreeShape { sah_cost, ..TreeShape::one_leaf(self.references) }
     }
 }

@@ -8,7 +8,7 @@ use serde_json::Value;
 use crate::escaped::Escaped as _;
 use crate::measure::Provenance;
 use crate::report::Report;
-use crate::report::words::{command_line, each_once, listed};
+use crate::report::words::{command_line, each_once, each_once_by, listed};
 use crate::request::SceneRequest;
 use crate::study::journal::{self, CaseFile, JournalError};
 use crate::study::{Dataset, Studies, Study};
@@ -173,14 +173,7 @@ fn folder(path: &Path, studies: &Studies) -> Result<Vec<PathBuf>, RunError> {
 
 /// Removes duplicates: cases of an export that are also in a journal.
 fn each_measured_once(cases: Vec<CaseFile>) -> Vec<CaseFile> {
-    let mut kept: Vec<CaseFile> = vec![];
-    for file in cases {
-        let is_same = |own: &CaseFile| {
-            own.epoch == file.epoch && own.case == file.case && own.provenance.machine() == file.provenance.machine()
-        };
-        if !kept.iter().any(is_same) {
-            kept.push(file);
-        }
-    }
-    kept
+    each_once_by(cases, |one, other| {
+        one.epoch == other.epoch && one.case == other.case && one.provenance.machine() == other.provenance.machine()
+    })
 }

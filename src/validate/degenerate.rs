@@ -51,9 +51,8 @@ pub(crate) const TRIANGLE: [Vec3; 3] =
 
 /// Triangles that share no vertex.
 pub(crate) fn mesh(triangles: impl IntoIterator<Item = [Vec3; 3]>) -> Arc<Mesh> {
-    let positions: Vec<Vec3> = triangles.into_iter().flatten().collect();
-    let indices = (0..positions.len() as u32 / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-    Arc::new(Mesh::new(positions, indices).expect("made of finite numbers"))
+    let triangles: Vec<[Vec3; 3]> = triangles.into_iter().collect();
+    Arc::new(Mesh::from_triangles(&triangles).expect("made of finite numbers"))
 }
 
 pub(crate) fn soup_triangles(n: usize, seed: u64) -> impl Iterator<Item = [Vec3; 3]> {

@@ -18,7 +18,7 @@ pub struct TreeShape {
     /// References in the largest leaf.
     pub largest_leaf: usize,
     /// Expected cost of a random line through the root box, in triangle tests (MacDonald, Booth 1990), with the same
-    /// constants for every structure: [`TreeShape::INNER_COST`] and [`TreeShape::leaf_cost`]. `None` if undefined.
+    /// constants for every structure: [`TreeShape::INNER_COST`], and 1 per triangle of a leaf. `None` if undefined.
     pub sah_cost: Option<f64>,
 }
 
@@ -33,11 +33,6 @@ pub enum Part<N> {
 impl TreeShape {
     /// Cost of an inner node in triangle tests (Aila, Karras, Laine 2013).
     pub const INNER_COST: f64 = 1.2;
-
-    /// Cost of a leaf: 1 per triangle.
-    pub fn leaf_cost(references: usize) -> f64 {
-        references as f64
-    }
 
     /// The shape of a structure without a known tree: one leaf, of unknown cost.
     pub fn one_leaf(references: usize) -> Self {
@@ -54,7 +49,7 @@ impl TreeShape {
         while let Some((at, bounds, depth)) = waiting.pop() {
             match open(at, &bounds) {
                 Part::Leaf(references) => {
-                    cost += bounds.half_area() * Self::leaf_cost(references);
+                    cost += bounds.half_area() * references as f64;
                     shape.leaves += 1;
                     shape.empty += usize::from(references == 0);
                     shape.references += references;

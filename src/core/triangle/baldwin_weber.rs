@@ -1,7 +1,6 @@
 use glam::{DVec3, Vec3};
 
 use super::TriangleTest;
-use crate::geometry::Ray;
 use crate::simd::{LaneVec3, Lanes, indexed};
 
 /// Baldwin-Weber, in `f32`: the test transforms the ray into the space of the unit triangle.
@@ -46,15 +45,9 @@ fn to_unit(corners: [Vec3; 3]) -> [(DVec3, f64); 3] {
 impl TriangleTest for BaldwinWeber {
     const NAME: &'static str = "baldwin-weber";
 
-    type Ray = (Vec3, Vec3);
     type Block<const N: usize> = ToUnit<N>;
 
-    decided_at_once!();
-
-    #[inline(always)]
-    fn prepare(ray: &Ray) -> Self::Ray {
-        (ray.origin, ray.direction)
-    }
+    decided_on_rays!();
 
     fn block<const N: usize>(triangles: &[[Vec3; 3]]) -> ToUnit<N> {
         assert!(triangles.len() <= N, "a block of {N} lanes cannot hold {} triangles", triangles.len());

@@ -17,11 +17,10 @@ macro_rules! decided_at_once {
     };
 }
 
-/// The common part of such tests that use rays and corners unchanged.
-macro_rules! decided_on_corners {
+/// The common part of such tests that use rays unchanged.
+macro_rules! decided_on_rays {
     () => {
         type Ray = (glam::Vec3, glam::Vec3);
-        type Block<const N: usize> = $crate::triangle::Corners<N>;
 
         decided_at_once!();
 
@@ -29,6 +28,15 @@ macro_rules! decided_on_corners {
         fn prepare(ray: &$crate::geometry::Ray) -> Self::Ray {
             (ray.origin, ray.direction)
         }
+    };
+}
+
+/// The common part of such tests that use rays and corners unchanged.
+macro_rules! decided_on_corners {
+    () => {
+        type Block<const N: usize> = $crate::triangle::Corners<N>;
+
+        decided_on_rays!();
 
         fn block<const N: usize>(triangles: &[[glam::Vec3; 3]]) -> Self::Block<N> {
             $crate::triangle::Corners::new(triangles)

@@ -1,7 +1,6 @@
 use glam::Vec3;
 
 use super::{EightHits, EightRays, TriangleTest};
-use crate::geometry::Ray;
 use crate::simd::{EightLanes, LaneVec3, Lanes};
 
 /// Möller-Trumbore in `f32`: no precomputation, two-sided, division only for `t`.
@@ -60,15 +59,9 @@ impl TriangleTest for MollerTrumbore {
     const BATCHED: bool = true;
     const EIGHT: bool = true;
 
-    type Ray = (Vec3, Vec3);
     type Block<const N: usize> = Edges<N>;
 
-    decided_at_once!();
-
-    #[inline(always)]
-    fn prepare(ray: &Ray) -> Self::Ray {
-        (ray.origin, ray.direction)
-    }
+    decided_on_rays!();
 
     fn block<const N: usize>(triangles: &[[Vec3; 3]]) -> Edges<N> {
         assert!(triangles.len() <= N, "a block of {N} lanes cannot hold {} triangles", triangles.len());

@@ -60,8 +60,8 @@ pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(),
         let accel = subject.built(name, mesh)?;
         let observed = accel.observed();
         for stratum in Stratum::ALL {
-            let rays = stratum.rays(mesh, count, SEED);
-            let rays = accel.capabilities().admitted(&rays);
+            let mut rays = stratum.rays(mesh, count, SEED);
+            rays.retain(|ray| accel.capabilities().declines(ray).is_none());
             let place = format!("{} on {name:?}, {} rays", subject.name, stratum.name());
             let traced = match trace(&accel, &rays, subject.limit) {
                 Ok(traced) => traced,
