@@ -14,6 +14,4 @@ pub use loaded::{Loaded, Remote};
 pub use observer::{Counts, Observed, Observer};
 pub use query::Query;
 pub use shape::{Part, TreeShape};
-#[cfg(feature = "suite")]
-pub(crate) use traits::RayBatch;
 pub use traits::{Accel, BuildError, DynAccel};

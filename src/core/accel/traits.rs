@@ -223,9 +223,9 @@ impl<A: Accel> DynAccel for A {
 }
 
 /// A batch of unprepared rays: the structure prepares them in each query.
-pub(crate) struct RayBatch<'a, A: ?Sized> {
-    pub accel: &'a A,
-    pub rays: Cow<'a, [Ray]>,
+struct RayBatch<'a, A: ?Sized> {
+    accel: &'a A,
+    rays: Cow<'a, [Ray]>,
 }
 
 impl<A: DynAccel + ?Sized> Loaded for RayBatch<'_, A> {

@@ -18,7 +18,7 @@ const SCENES: [&str; 3] = ["dragon", "lucy", "sponza"];
 /// From this ratio on a tree is called much faster: half of the time.
 const MUCH: f64 = 2.0;
 
-/// The study that measures the speedup by the SAH tree on the hard scenes, and the one that divides it into factors.
+/// The study of the SAH tree's speedup on the hard scenes, and the study of its factors.
 const REPLICATE: &str = "replicate";
 const ATTRIBUTION: &str = "attribution";
 
