@@ -1,10 +1,10 @@
 //! [parry](https://github.com/dimforge/parry) 0.31 (crate `parry3d`): a binary BVH, one triangle per leaf.
 //!
-//! It is built by the builder of parry's own mesh shape, top down and binned, and takes the leaf test as a closure, and traverses from near to far with early termination. The closure
-//! respects `t_min`, which parry's own mesh shape does not support; nothing is culled. The ray is two vectors; the
-//! crate computes its inverse direction itself, in the timed region, and accepts no precomputed one. parry has no
-//! query that stops at the first hit. For any hit, the leaf test of the adapter reports its first hit at t = -infinity,
-//! so every remaining box lies behind it.
+//! The tree is built by the builder of parry's own mesh shape: top down, binned. It takes the leaf test as a closure,
+//! and traverses from near to far with early termination. The closure respects `t_min`, which parry's own mesh shape
+//! does not support; nothing is culled. The ray is two vectors; the crate computes its inverse direction itself, in the
+//! timed region, and accepts no precomputed one. parry has no query that stops at the first hit. For any hit, the leaf
+//! test of the adapter reports its first hit at t = -infinity, so every remaining box lies behind it.
 
 use std::cell::Cell;
 use std::sync::Arc;
