@@ -11,7 +11,7 @@ use crate::report::Table;
 use crate::report::number::duration;
 use crate::request::{MEASURING, SCENES, scenes};
 use crate::study::journal::JournalError;
-use crate::study::{Effort, Status, Study};
+use crate::study::{Status, Study};
 
 pub const NAME: &str = "all";
 
@@ -40,14 +40,14 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
         scenes(&suite.registry, &args.scenes)?;
     }
     let (mut outcome, mut rows) = (Status::Right, vec![]);
-    let effort = if args.quick { Effort::Quick } else { Effort::Full };
     let studies: Vec<&Study> = suite.studies.iter().collect();
     for (i, study) in studies.iter().enumerate() {
         let rest: Vec<&str> = studies[i + 1..].iter().map(|study| study.name).collect();
         let left = if rest.is_empty() { "nothing".into() } else { rest.join(", ") };
         terminal.tell(&format!("{}; remaining: {left}", study.name));
         let start = Instant::now();
-        let words = study.preset(effort, &args.scenes);
+        let preset = if args.quick { study.presets.quick } else { study.presets.full };
+        let words = study.preset(preset, &args.scenes);
         let found = study.matches(&words).map_err(anyhow::Error::from);
         let found = match found.and_then(|matches| run_as(session, study, &matches, &common)) {
             Err(error) if !ends_all(&error) => {

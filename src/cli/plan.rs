@@ -15,7 +15,7 @@ use crate::request::{MEASURING, OUTPUT, SCENES};
 use crate::simd::Level;
 use crate::study::journal::file_name;
 use crate::study::process::{CASE, OUT};
-use crate::study::{Case, Effort, Status};
+use crate::study::{Case, Status};
 
 pub const NAME: &str = "plan";
 
@@ -117,8 +117,8 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
         }
         // Reject options that a study does not accept before loading scenes for another study.
         let mut words = match (args.quick, whole) {
-            (true, _) => study.preset(Effort::Quick, &args.scenes),
-            (false, true) => study.preset(Effort::Full, &args.scenes),
+            (true, _) => study.preset(study.presets.quick, &args.scenes),
+            (false, true) => study.preset(study.presets.full, &args.scenes),
             (false, false) if study.names_scenes() => args.scenes.clone(),
             (false, false) => vec![],
         };

@@ -29,7 +29,7 @@ pub use memory::{CountingAllocator, peak_bytes};
 pub use order::RandomOrder;
 pub use pass::{Pass, spread};
 pub use provenance::Provenance;
-pub use quantiles::{LEVEL, beta_quantile, factor};
+pub use quantiles::beta_quantile;
 pub use query_results::{QueryResults, checksum};
 pub use ray_allotment::{Allotment, Cost, allot, level_by_clock, pilot_level};
 pub use remote_pass::{Failure, RemotePass};

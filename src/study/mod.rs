@@ -71,14 +71,6 @@ pub struct Presets {
     pub quick: &'static str,
 }
 
-/// The extent of `study all`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Effort {
-    Full,
-    /// A few minutes, for trying out: few scenes, rays and epochs.
-    Quick,
-}
-
 impl Study {
     /// Parses the arguments `words`.
     pub fn matches<W: AsRef<OsStr>>(&self, words: &[W]) -> Result<ArgMatches, clap::Error> {
@@ -95,14 +87,11 @@ impl Study {
         (self.options)().get_positionals().next().is_some()
     }
 
-    /// The arguments with which `study all` runs it. If `scenes` is not empty, it replaces the scenes of the preset.
-    pub fn preset(&self, effort: Effort, scenes: &[OsString]) -> Vec<OsString> {
-        let own = match effort {
-            Effort::Full => self.presets.full,
-            Effort::Quick => self.presets.quick,
-        };
+    /// The arguments `preset`, one of its [presets](Self::presets), with `scenes` instead of those of the preset if there
+    /// are any.
+    pub fn preset(&self, preset: &str, scenes: &[OsString]) -> Vec<OsString> {
         let scenes = if self.names_scenes() { scenes } else { &[] };
-        let options = own.split_whitespace().skip_while(|word| !scenes.is_empty() && !word.starts_with('-'));
+        let options = preset.split_whitespace().skip_while(|word| !scenes.is_empty() && !word.starts_with('-'));
         scenes.iter().cloned().chain(options.map(OsString::from)).collect()
     }
 

@@ -90,9 +90,9 @@ fn scenes_that_fail_are_told_and_cut_no_mean() {
 #[test]
 fn presets_are_options_of_each_study() {
     for study in Studies::builtin().iter() {
-        for effort in [Effort::Full, Effort::Quick] {
+        for preset in [study.presets.full, study.presets.quick] {
             for scenes in [vec![], vec!["a.ply".into()]] {
-                let taken = study.matches(&study.preset(effort, &scenes));
+                let taken = study.matches(&study.preset(preset, &scenes));
                 assert!(taken.is_ok(), "{}: {:?}", study.name, taken.err());
             }
         }

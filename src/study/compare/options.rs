@@ -227,7 +227,6 @@ mod tests {
 
     use super::*;
     use crate::request::ALL;
-    use crate::study::Effort;
     use crate::study::compare::STUDY;
 
     fn plan(words: &[&str]) -> Plan {
@@ -262,7 +261,7 @@ mod tests {
     #[test]
     fn study_all_compares_every_structure_with_right_answers_and_in_single_precision() {
         let registry = Registry::builtin();
-        let matches = STUDY.matches(&STUDY.preset(Effort::Full, &["cube".into()])).unwrap();
+        let matches = STUDY.matches(&STUDY.preset(STUDY.presets.full, &["cube".into()])).unwrap();
         let plan = (STUDY.plan)(&matches, &registry).unwrap();
         let labels: Vec<&str> = plan.cases[0].structures.iter().map(|own| own.spec.as_str()).collect();
         assert!(registry.names().iter().all(|name| labels.contains(name)), "{labels:?}");

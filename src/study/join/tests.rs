@@ -65,7 +65,8 @@ fn what_the_first_epoch_found_wrong_has_no_time_anywhere() {
 
 #[test]
 fn structures_over_the_exact_test_that_answer_otherwise_are_a_wrong_answer() {
-    let changes: [([&str; 2], fn(&mut Structure), bool); 6] = [
+    type Change = ([&'static str; 2], fn(&mut Structure), bool);
+    let changes: [Change; 6] = [
         (["exact", "exact"], |_| (), true),
         // A test that rounds.
         (["exact", "moller-trumbore"], |_| (), false),

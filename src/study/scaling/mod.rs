@@ -36,7 +36,7 @@ pub const STUDY: Study = Study {
 const STRUCTURES: [&str; 7] =
     ["median-kd", "sah-kd", "sah-kd-wide", "sah-hybrid", "sah-bvh", "obvhs-bvh2", "obvhs-cwbvh"];
 
-/// The default of `--finest`, as far as the claims need: the trees of the default structures take about 1.3 GB together.
+/// The default of `--finest`, as far as the claims need: the trees of the default structures take about 1 GB together.
 const FINEST_BY_DEFAULT: u32 = 8;
 
 #[derive(Clone, Debug, clap::Args)]
