@@ -87,8 +87,8 @@ impl Study {
         (self.options)().get_positionals().next().is_some()
     }
 
-    /// The arguments `preset`, one of its [presets](Self::presets), with `scenes` instead of those of the preset if there
-    /// are any.
+    /// The arguments `preset`, one of its [presets](Self::presets). If `scenes` is not empty, it replaces the scenes of
+    /// the preset.
     pub fn preset(&self, preset: &str, scenes: &[OsString]) -> Vec<OsString> {
         let scenes = if self.names_scenes() { scenes } else { &[] };
         let options = preset.split_whitespace().skip_while(|word| !scenes.is_empty() && !word.starts_with('-'));
