@@ -74,15 +74,14 @@ mod tests {
 
     use super::*;
 
-    const UNIT: Aabb = Aabb { min: Vec3::ZERO, max: Vec3::ONE };
-
     #[test]
     fn nodes_are_counted_and_weighed_by_their_area() {
+        let unit = Aabb { min: Vec3::ZERO, max: Vec3::ONE };
         let halved = |bounds: &Aabb, children: [u32; 2]| {
             let (low, high) = bounds.cut(0, bounds.centre().x);
             Part::Inner(children.into_iter().zip([low, high]).collect())
         };
-        let shape = TreeShape::of(Some((0, UNIT)), |node, bounds| match node {
+        let shape = TreeShape::of(Some((0, unit)), |node, bounds| match node {
             0 => halved(bounds, [1, 2]),
             1 => halved(bounds, [3, 4]),
             2 => Part::Leaf(3),
@@ -93,11 +92,8 @@ mod tests {
         assert_eq!((shape.depth, shape.largest_leaf), (2, 3));
         // Half areas 3, 2 and 1.5: (1.2 * 3 + 1.2 * 2 + 2 * 1.5 + 3 * 2) / 3.
         assert!((shape.sah_cost.unwrap() - 5.0).abs() < 1e-12, "{shape:?}");
-    }
-
-    #[test]
-    fn no_tree_and_a_single_leaf_have_a_shape() {
+        // No tree, and a single leaf.
         assert_eq!(TreeShape::of(None::<((), Aabb)>, |_, _| Part::Leaf(0)), TreeShape::default());
-        assert_eq!(TreeShape::of(Some(((), UNIT)), |(), _| Part::Leaf(1)).sah_cost, Some(1.0));
+        assert_eq!(TreeShape::of(Some(((), unit)), |(), _| Part::Leaf(1)).sah_cost, Some(1.0));
     }
 }

@@ -128,6 +128,14 @@ mod tests {
 
     use super::*;
 
+    /// Checks the sign and the approximation of `sum`, whose value is `right`.
+    fn approximates(sum: &Expansion, right: RBig) {
+        assert_eq!(sum.sign(), right.cmp(&RBig::ZERO));
+        let error = (RBig::try_from(sum.approximate()).unwrap() - &right) * RBig::from(1_u64 << 51);
+        let size = right.clone().max(-right);
+        assert!(error >= -size.clone() && error <= size);
+    }
+
     #[test]
     fn integers_are_those_of_rationals() {
         // The second term is half of the lowest bit of the first; also numbers around all powers of two.
@@ -139,9 +147,7 @@ mod tests {
                 let sum = Expansion::of_integer(x, exponent);
                 let right = RBig::from(x) * scale;
                 assert_eq!(RBig::from(&sum), right, "{x} {exponent}");
-                assert_eq!(sum.sign(), x.cmp(&0));
-                let error = (RBig::try_from(sum.approximate()).unwrap() - &right) * RBig::from(1_u64 << 51);
-                assert!(error >= -right.clone().max(-right.clone()) && error <= right.clone().max(-right));
+                approximates(&sum, right);
             }
         }
     }
@@ -153,28 +159,23 @@ mod tests {
         // Of similar size, and of all sizes.
         let number = |i: u32| {
             let bits = i.wrapping_mul(2_654_435_761);
-            f64::from(f32::from_bits(if i.is_multiple_of(3) {
-                bits & 0xff7f_ffff
-            } else {
-                bits & 0xbfff_ffff | 0x2000_0000
-            }))
+            let similar = bits & 0xbfff_ffff | 0x2000_0000;
+            f64::from(f32::from_bits(if i.is_multiple_of(3) { bits & 0xff7f_ffff } else { similar }))
         };
         for i in 0..2_000 {
             let [a, b, c, d] = [0, 1, 2, 3].map(|k| Expansion::difference(number(5 * i + k), number(7 * i + 2 * k)));
             let minor = Expansion::minor(&a, &b, &c, &d);
             let right = rational(&a) * rational(&b) - rational(&c) * rational(&d);
             assert_eq!(rational(&minor), right);
-            assert_eq!(minor.sign(), right.cmp(&RBig::ZERO));
             // Each is less than half of the lowest bit of the next.
             for pair in minor.0.windows(2) {
-                let (bits, exponent) =
-                    (pair[1].to_bits() & ((1 << 52) - 1), (pair[1].to_bits() >> 52 & 0x7ff) as i32 - 1075);
+                let next = pair[1].to_bits();
+                let (bits, exponent) = (next & ((1 << 52) - 1), (next >> 52 & 0x7ff) as i32 - 1075);
                 let lowest = 2.0_f64.powi(exponent + (bits | 1 << 52).trailing_zeros() as i32);
                 assert!(pair[0] != 0.0 && 2.0 * pair[0].abs() < lowest, "{minor:?}");
             }
             assert_eq!(Expansion::minor(&minor, &minor, &minor, &minor).sign(), Ordering::Equal);
-            let error = (RBig::try_from(minor.approximate()).unwrap() - &right) * RBig::from(1_u64 << 51);
-            assert!(error >= -right.clone().max(-right.clone()) && error <= right.clone().max(-right));
+            approximates(&minor, right);
         }
     }
 }

@@ -107,12 +107,12 @@ fn dot(p: [i64; 3], q: [i128; 3]) -> i128 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{difference, direction, hit_by_sums, side_by_sums};
+    use super::super::{difference, direction, hit_by_sums, side_by_sums, tracked};
     use super::*;
 
     /// Numbers of a coarse grid, which are often coplanar, on edges and at corners; and of a fine one.
     #[test]
-    fn integers_give_what_sums_give() {
+    fn integers_and_unrounded_floats_give_what_sums_give() {
         const ALL_SIZES: u32 = 1 << 24;
         let number = |i: u32, steps: u32, fine: f32| {
             let bits = i.wrapping_mul(2_654_435_761).rotate_left(13).wrapping_mul(0x9e37_79b1);
@@ -120,19 +120,30 @@ mod tests {
             ((bits % steps) as f32 - steps as f32 / 2.0) * fine * size
         };
         let (mut hits, mut misses, mut others) = (0, 0, 0);
+        let (mut unrounded, mut zeros) = (0, 0);
         for i in 0..60_000 {
             let (steps, fine) = [(4, 1.0), (5, 0.1), (3000, 0.37), (ALL_SIZES, 1e-3)][i as usize % 4];
             let vector = |k: u32| Vec3::from_array([0, 1, 2].map(|axis| number(15 * i + 3 * k + axis, steps, fine)));
             let ray = Ray::new(vector(0), vector(1));
             let corners = [vector(2), vector(3), vector(4)];
             let right = hit_by_sums(&ray, corners);
+            let edge = [corners[0], corners[1]];
+            let sum = |ray: &Ray| {
+                let [p, q] = edge.map(|corner| difference(corner, ray.origin));
+                side_by_sums(&direction(ray), &p, &q)
+            };
+            let axes = [Vec3::X, -Vec3::Y, Vec3::Z, ray.direction, ray.direction];
+            let turned = Ray { direction: axes[i as usize % 5], ..ray };
+            if let Some(side) = tracked::side(&turned, edge) {
+                assert_eq!(side, sum(&turned), "{turned} {edge:?}");
+                unrounded += 1;
+                zeros += usize::from(side.is_eq());
+            }
             match hit(&ray, corners) {
                 None => others += 1,
                 Some(found) => {
                     assert_eq!(found, right, "{ray:?} {corners:?}");
-                    let edge = [corners[0], corners[1]];
-                    let [p, q] = edge.map(|corner| difference(corner, ray.origin));
-                    assert_eq!(side(&ray, edge), Some(side_by_sums(&direction(&ray), &p, &q)), "{ray:?} {edge:?}");
+                    assert_eq!(side(&ray, edge), Some(sum(&ray)), "{ray:?} {edge:?}");
                     if let (Some(found), Some(right)) = (found, right) {
                         assert_eq!(found.round().to_bits(), right.round().to_bits());
                         hits += 1;
@@ -143,6 +154,7 @@ mod tests {
             }
         }
         assert!(hits > 5_000 && misses > 30_000 && others > 50, "{hits} {misses} {others}");
+        assert!((20_000..59_000).contains(&unrounded) && zeros > 2_000, "{unrounded} {zeros}");
     }
 
     /// The largest integers, of all signs, in the smallest and the largest units.
@@ -172,10 +184,8 @@ mod tests {
         let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
         let [fits, does_not] = [-39, -40].map(|exponent| 2.0_f32.powi(exponent));
         assert!(hit(&ray(fits), corners).is_some() && hit(&ray(does_not), corners).is_none());
-        let most = f32::from_bits(0x7f7f_ffff);
-        assert!(
-            hit(&Ray::new(Vec3::splat(most), Vec3::splat(-most)), [Vec3::ZERO; 3]).is_some_and(|hit| hit.is_none())
-        );
+        let most = Vec3::splat(f32::MAX);
+        assert!(hit(&Ray::new(most, -most), [Vec3::ZERO; 3]).is_some_and(|hit| hit.is_none()));
         assert_eq!(integers([Vec3::splat(1e-45)]), Some(([[1; 3]], -149, 24)));
         assert_eq!(integers([Vec3::new(-0.0, 0.0, 0.0)]), Some(([[0; 3]], 0, 0)));
     }

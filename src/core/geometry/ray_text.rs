@@ -109,15 +109,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_whole_half_line_needs_no_interval() {
+    fn the_whole_half_line_needs_no_interval_and_blanks_commas_or_both_stand_between_numbers() {
         let ray = Ray::new(Vec3::new(0.0, 1.5, -2.0), Vec3::new(-0.0, 0.0, 1e-30));
         assert_eq!(ray.to_string(), "0.0,1.5,-2.0 -0.0,0.0,1e-30");
         assert_eq!("0,1.5,-2 -0,0,1e-30 [0,inf)".parse(), Ok(ray));
         assert_eq!(ray.until(2.0).to_string(), "0.0,1.5,-2.0 -0.0,0.0,1e-30 [0.0,2.0]");
-    }
 
-    #[test]
-    fn blanks_commas_or_both_stand_between_numbers() {
         let ray = Ray::new(Vec3::new(0.0, 0.5, 100.0), Vec3::new(0.0, 0.0, -1.0));
         for text in ["0 0.5 100 0 0 -1", "0,0.5,100,0,0,-1", "0, 0.5, 100, 0, 0, -1", " 0,.5 , 100\t0 0,-1 "] {
             assert_eq!(text.parse(), Ok(ray), "{text}");

@@ -96,18 +96,11 @@ mod tests {
 
     #[test]
     fn an_odd_number_of_negative_scales_is_a_mirror() {
-        for (scale, expected) in [
-            ([1.0, 1.0, 1.0], false),
-            ([-1.0, 1.0, 1.0], true),
-            ([1.0, -2.0, 1.0], true),
-            ([1.0, 1.0, -1e-30], true),
-            ([-1.0, -1.0, 1.0], false),
-            ([-1.0, -1e30, -1e30], true),
-            ([0.0, -1.0, 1.0], false),
-        ] {
-            for rotation in [Vec3::ZERO, Vec3::new(10.0, 200.0, 77.0)] {
-                assert_eq!(Transform::new(rotation, scale.into(), Vec3::X).is_mirror(), expected, "{scale:?}");
-            }
+        let mirrors = [[-1.0, 1.0, 1.0], [1.0, -2.0, 1.0], [1.0, 1.0, -1e-30], [-1.0, -1e30, -1e30]];
+        let others = [[1.0, 1.0, 1.0], [-1.0, -1.0, 1.0], [0.0, -1.0, 1.0]];
+        for rotation in [Vec3::ZERO, Vec3::new(10.0, 200.0, 77.0)] {
+            let is_mirror = |scale: [f32; 3]| Transform::new(rotation, scale.into(), Vec3::X).is_mirror();
+            assert_eq!((mirrors.map(is_mirror), others.map(is_mirror)), ([true; 4], [false; 3]), "{rotation}");
         }
     }
 }

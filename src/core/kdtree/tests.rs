@@ -8,7 +8,7 @@ use super::tree::{Plan, plan};
 use super::*;
 use crate::accel::{Accel, BuildError, Counts};
 use crate::brute_force::BruteForce;
-use crate::build::check::{needles, same_on_threads, straddling_soup, unit};
+use crate::build::check::{mesh, needles, same_on_threads, straddling_soup, unit};
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::traversal::pages;
 use crate::triangle::{Exact, MollerTrumbore, MollerTrumboreF64, TriangleTest};
@@ -48,12 +48,11 @@ fn configs() -> Vec<KdConfig> {
 #[test]
 fn rays_that_leave_a_flat_floor_test_none_of_its_triangles() {
     let corner = |i: usize, j: usize| Vec3::new(i as f32, 0.0, j as f32);
-    let halves = |i, j| {
-        let [a, b, c, d] = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
-        [[a, b, c], [a, c, d]]
-    };
-    let floor: Vec<[Vec3; 3]> = (0..16).flat_map(|i| (0..16).flat_map(move |j| halves(i, j))).collect();
-    let mesh = Arc::new(Mesh::from_triangles(&floor).unwrap());
+    let mesh = Arc::new(mesh(2 * 16 * 16, |half| {
+        let (i, j) = (half / 32, half / 2 % 16);
+        let third = if half % 2 == 0 { corner(i + 1, j) } else { corner(i, j + 1) };
+        [corner(i, j), corner(i + 1, j + 1), third]
+    }));
     for config in configs() {
         let tree = Tree::build(&mesh, &config).unwrap();
         for height in [1e-45, 1e-40, f32::MIN_POSITIVE, 1e-20, 1.0] {
@@ -87,8 +86,7 @@ fn hits_near_the_largest_t_are_found() {
 
     let below = |x: f32, ulps: u32| f32::from_bits(x.to_bits() - ulps);
     let sheet = |z: f32| [[-1e30, -1e30], [1e30, -1e30], [0.0, 2e30]].map(|[x, y]| Vec3::new(x, y, z));
-    let sheets: Vec<[Vec3; 3]> = (0..24).map(|ulps| sheet(below(2.0_f32.powi(100), ulps))).collect();
-    let mesh = Arc::new(Mesh::from_triangles(&sheets).unwrap());
+    let mesh = Arc::new(mesh(24, |ulps| sheet(below(2.0_f32.powi(100), ulps as u32))));
     let mut rays = vec![];
     for ulps in 0..40 {
         for z in [0.0, -7.555_786_4e22, 3e23] {
@@ -107,11 +105,10 @@ fn hits_near_the_largest_t_are_found() {
 #[test]
 fn the_middle_of_a_cell_finds_a_small_mesh_on_a_large_floor() {
     let mut rng = rand_pcg::Pcg32::seed_from_u64(9);
-    let mut corner = |i: u16| Vec3::new(f32::from(i) / 500.0, 0.0, 0.0) + unit(&mut rng) * 0.01;
-    let mut triangles: Vec<[Vec3; 3]> = (0..500).map(|i| [corner(i), corner(i), corner(i)]).collect();
+    let mut corner = |i: usize| Vec3::new(i as f32 / 500.0, 0.0, 0.0) + unit(&mut rng) * 0.01;
     let [a, b, c, d] = [[-9.0, -7.0], [10.0, -7.0], [-9.0, 8.0], [10.0, 8.0]].map(|[x, z]| Vec3::new(x, 0.0, z));
-    triangles.extend([[a, b, c], [b, c, d]]);
-    let mesh = Arc::new(Mesh::from_triangles(&triangles).unwrap());
+    let floor = [[a, b, c], [b, c, d]];
+    let mesh = Arc::new(mesh(502, |i| if i < 500 { [corner(i), corner(i), corner(i)] } else { floor[i - 500] }));
     for stop in [Stop::Leaf, Stop::Report] {
         let config =
             KdConfig { plane: Plane::SpatialMedian, axis: AxisRule::Longest, stop, leaf: 400, ..KdConfig::REPORT };

@@ -42,8 +42,7 @@ pub enum Outcome {
     FalseHit,
     /// A hit at a wrong depth, at any primitive.
     WrongDepth,
-    /// A hit at the right depth, but at a primitive that is not among the nearest: its depth equals theirs within the
-    /// tolerance.
+    /// A hit at a primitive that is not among the nearest, but at their depth within the tolerance.
     WrongPrimitive,
 }
 
@@ -64,8 +63,7 @@ pub fn outcome(truth: Option<&Truth>, answer: Option<Hit>, rule: DepthRule) -> O
     }
 }
 
-/// The distance between floats around `t`, which is not negative; for numbers below the normal range, the distance
-/// between denormals.
+/// The distance between floats around `t`, which is not negative; below the normal range, between denormals.
 pub fn ulp(t: f64) -> f64 {
     let exponent = if t > 0.0 { libm::ilogb(t).clamp(-126, 127) } else { -126 };
     libm::ldexp(1.0, exponent - 23)
@@ -81,33 +79,25 @@ mod tests {
     use crate::geometry::{Mesh, Ray};
     use crate::oracle::Oracle;
 
-    /// Two triangles, one behind the other; the truth of a ray that hits both at 1 and 1 + `gap`, and of a ray that
-    /// misses both.
-    fn truths(gap: f32) -> [Option<Truth>; 2] {
+    /// The truth of a ray that hits two triangles, at 1 and 1.0001, and of a ray that misses both.
+    fn truths() -> [Option<Truth>; 2] {
         let corners = |z: f32| [Vec3::new(-1.0, -1.0, z), Vec3::new(3.0, -1.0, z), Vec3::new(-1.0, 3.0, z)];
-        let positions = [corners(1.0), corners(1.0 + gap)].concat();
+        let positions = [corners(1.0), corners(1.0001)].concat();
         let oracle = Oracle::new(&Arc::new(Mesh::new(positions, vec![[0, 1, 2], [3, 4, 5]]).unwrap()));
         [Vec3::Z, -Vec3::Z].map(|direction| oracle.nearest(&Ray::new(Vec3::ZERO, direction)))
     }
 
     #[test]
-    fn every_answer_has_its_outcome() {
-        let [hit, none] = &truths(0.5);
-        let of = |truth: &Option<Truth>, answer| outcome(truth.as_ref(), answer, DepthRule::STRICT);
-        assert_eq!(of(none, None), Outcome::Nothing);
-        assert_eq!(of(none, Some(Hit::new(1.0, 0))), Outcome::FalseHit);
-        assert_eq!(of(hit, None), Outcome::Missed);
-        assert_eq!(of(hit, Some(Hit::new(1.0, 0))), Outcome::Right);
-        assert_eq!(of(hit, Some(Hit::new(1.5, 1))), Outcome::WrongDepth);
-        assert_eq!(of(hit, Some(Hit::new(1.0, 1))), Outcome::WrongPrimitive);
-        assert_eq!(of(hit, Some(Hit::new(f32::NAN, 0))), Outcome::WrongDepth);
-    }
-
-    #[test]
-    fn the_rules_draw_their_lines_where_they_say() {
-        let [hit, _] = truths(1e-4);
-        let of = |t: f32, id, rule| outcome(hit.as_ref(), Some(Hit::new(t, id)), rule);
+    fn every_answer_has_its_outcome_and_the_rules_draw_their_lines_where_they_say() {
+        let [hit, none] = &truths();
+        let of = |truth: &Option<Truth>, answer, rule| outcome(truth.as_ref(), answer, rule);
+        assert_eq!(of(none, None, DepthRule::STRICT), Outcome::Nothing);
+        assert_eq!(of(none, Some(Hit::new(1.0, 0)), DepthRule::STRICT), Outcome::FalseHit);
+        assert_eq!(of(hit, None, DepthRule::STRICT), Outcome::Missed);
         for (t, id, coarse, strict) in [
+            (1.0, 0, Outcome::Right, Outcome::Right),
+            (1.0, 1, Outcome::WrongPrimitive, Outcome::WrongPrimitive),
+            (f32::NAN, 0, Outcome::WrongDepth, Outcome::WrongDepth),
             (1.0 + 8.0 * f32::EPSILON, 0, Outcome::Right, Outcome::Right),
             (1.0 + 9.0 * f32::EPSILON, 0, Outcome::Right, Outcome::WrongDepth),
             (0.991, 0, Outcome::Right, Outcome::WrongDepth),
@@ -115,8 +105,8 @@ mod tests {
             (1.0009, 1, Outcome::WrongPrimitive, Outcome::WrongDepth),
             (1.0011, 1, Outcome::WrongDepth, Outcome::WrongDepth),
         ] {
-            assert_eq!(of(t, id, DepthRule::COARSE), coarse, "{t} {id}");
-            assert_eq!(of(t, id, DepthRule::STRICT), strict, "{t} {id}");
+            let outcomes = [DepthRule::COARSE, DepthRule::STRICT].map(|rule| of(hit, Some(Hit::new(t, id)), rule));
+            assert_eq!(outcomes, [coarse, strict], "{t} {id}");
         }
     }
 

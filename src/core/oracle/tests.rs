@@ -4,46 +4,27 @@ use rand_pcg::Pcg32;
 
 use super::*;
 use crate::exact::rational;
+use crate::triangle::tests::{Number, any, grid, point, unit};
 
 /// A source of floats.
 pub struct Numbers {
     random: Pcg32,
-    kind: Kind,
-}
-
-#[derive(Clone, Copy)]
-enum Kind {
-    /// Even in [-1, 1], times a power of two; denormals are coarse.
-    Scaled(f32),
-    /// Integers from -2 to 2: many are equal, nothing is rounded.
-    Grid,
-    /// Any finite float, both zeros included.
-    Bits,
+    number: Number,
+    /// A power of two, with which denormals are coarse.
+    scale: f32,
 }
 
 impl Numbers {
     /// From harmless to hostile.
     pub fn all() -> impl Iterator<Item = Self> {
         let powers = [127 << 23, 1 << 10, 1 << 23, 97 << 23, 157 << 23, 253 << 23];
-        let kinds = powers.map(|bits| Kind::Scaled(f32::from_bits(bits))).into_iter().chain([Kind::Grid, Kind::Bits]);
-        (0..).zip(kinds).map(|(seed, kind)| Self { random: Pcg32::seed_from_u64(seed), kind })
-    }
-
-    fn number(&mut self) -> f32 {
-        match self.kind {
-            Kind::Scaled(scale) => (self.random.next_u32() as f32 / (1u32 << 31) as f32 - 1.0) * scale,
-            Kind::Grid => (self.random.next_u32() % 5) as f32 - 2.0,
-            Kind::Bits => loop {
-                let x = f32::from_bits(self.random.next_u32());
-                if x.is_finite() {
-                    return x;
-                }
-            },
-        }
+        let scaled = powers.map(|bits| (unit as Number, f32::from_bits(bits)));
+        let kinds = scaled.into_iter().chain([(grid as Number, 1.0), (any, 1.0)]);
+        (0..).zip(kinds).map(|(seed, (number, scale))| Self { random: Pcg32::seed_from_u64(seed), number, scale })
     }
 
     pub fn point(&mut self) -> Vec3 {
-        Vec3::new(self.number(), self.number(), self.number())
+        point(&mut self.random, self.number) * self.scale
     }
 
     /// A point, some of whose components may be zeros of either sign.
@@ -60,8 +41,7 @@ impl Numbers {
     }
 }
 
-/// The fast and the slow oracle and the exact test use the same exact sums; the rational arithmetic shares nothing with
-/// them.
+/// Both oracles and the exact test use the same exact sums; the rational arithmetic shares nothing with them.
 #[test]
 fn rational_arithmetic_agrees() {
     let mut hits = 0;

@@ -19,13 +19,8 @@ fn all_widths_agree<T: TriangleTest>() {
             for (lane, &corners) in chunk.iter().enumerate() {
                 let is_candidate = candidates >> lane & 1 == 1;
                 let hit = is_candidate.then(|| T::decide(&prepared, &block, lane, &values)).flatten();
-                let scalar = scalar_hit::<T>(ray, corners);
-                assert_eq!(
-                    hit.map(|d| d.t(ray).to_bits()),
-                    scalar.map(f32::to_bits),
-                    "{}: {ray:?} {corners:?}",
-                    T::NAME
-                );
+                let [own, scalar] = [hit.map(|d| d.t(ray)), scalar_hit::<T>(ray, corners)].map(|t| t.map(f32::to_bits));
+                assert_eq!(own, scalar, "{}: {ray:?} {corners:?}", T::NAME);
                 hits += usize::from(hit.is_some());
             }
         }
