@@ -136,8 +136,8 @@ impl<T: TriangleTest> Accel for SvenstaroBvh<T> {
 
     fn build(mesh: &Arc<Mesh>, (): &()) -> Result<Self, BuildError> {
         let leaves = Leaves::new(mesh);
-        let boxed = |(index, [min, max]): (usize, [Vec3; 2])| TriangleBox {
-            bounds: Aabb::with_bounds(point(min), point(max)),
+        let boxed = |(index, bounds): (usize, geometry::Aabb)| TriangleBox {
+            bounds: Aabb::with_bounds(point(bounds.min), point(bounds.max)),
             index: index as u32,
             node: 0,
         };
@@ -149,9 +149,9 @@ impl<T: TriangleTest> Accel for SvenstaroBvh<T> {
     prepared_queries!();
 
     fn footprint(&self) -> Footprint {
-        let (triangles, ids) = self.leaves.bytes();
-        let references = size_of_val(&self.shapes[..]) + ids;
-        Footprint { nodes: size_of_val(&self.tree.nodes[..]), references, triangles, other: 0 }
+        let leaves = self.leaves.footprint();
+        let references = size_of_val(&self.shapes[..]) + leaves.references;
+        Footprint { nodes: size_of_val(&self.tree.nodes[..]), references, ..leaves }
     }
 
     fn shape(&self) -> TreeShape {

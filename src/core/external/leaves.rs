@@ -1,5 +1,4 @@
-use glam::Vec3;
-
+use crate::accel::Footprint;
 use crate::geometry::{Aabb, Mesh, Ray};
 use crate::traversal::leaf::{Nearest, start};
 use crate::triangle::TriangleTest;
@@ -42,11 +41,8 @@ impl<T: TriangleTest> Leaves<T> {
     }
 
     /// The boxes of the triangles, in order.
-    pub fn boxes(&self, mesh: &Mesh) -> impl Iterator<Item = [Vec3; 2]> {
-        self.ids.iter().map(|&id| {
-            let Aabb { min, max } = mesh.triangle_bounds(id);
-            [min, max]
-        })
+    pub fn boxes(&self, mesh: &Mesh) -> impl Iterator<Item = Aabb> {
+        self.ids.iter().map(|&id| mesh.triangle_bounds(id))
     }
 
     /// Tests triangle `index`, and keeps its hit if it is the nearest so far.
@@ -57,8 +53,8 @@ impl<T: TriangleTest> Leaves<T> {
         }
     }
 
-    /// Bytes of the triangles and of their numbers.
-    pub fn bytes(&self) -> (usize, usize) {
-        (size_of_val(&self.triangles[..]), size_of_val(&self.ids[..]))
+    pub fn footprint(&self) -> Footprint {
+        let (triangles, references) = (size_of_val(&self.triangles[..]), size_of_val(&self.ids[..]));
+        Footprint { triangles, references, ..Footprint::default() }
     }
 }

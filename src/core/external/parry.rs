@@ -93,7 +93,7 @@ impl<T: TriangleTest> Accel for ParryBvh<T> {
 
     fn build(mesh: &Arc<Mesh>, (): &()) -> Result<Self, BuildError> {
         let leaves = Leaves::new(mesh);
-        let boxes = leaves.boxes(mesh).map(|[min, max]| Aabb::new(vector(min), vector(max)));
+        let boxes = leaves.boxes(mesh).map(|bounds| Aabb::new(vector(bounds.min), vector(bounds.max)));
         let tree = Bvh::from_iter(BvhBuildStrategy::Binned, boxes.enumerate());
         Ok(Self { tree, leaves })
     }
@@ -102,8 +102,7 @@ impl<T: TriangleTest> Accel for ParryBvh<T> {
 
     /// Nodes with the tables for moving objects.
     fn footprint(&self) -> Footprint {
-        let (triangles, references) = self.leaves.bytes();
-        Footprint { nodes: self.tree.total_memory_size(), references, triangles, other: 0 }
+        Footprint { nodes: self.tree.total_memory_size(), ..self.leaves.footprint() }
     }
 
     /// Without SAH cost: only a traversal can see the nodes of the tree.

@@ -84,10 +84,8 @@ api! {
     occluded16 = "rtcOccluded16": fn(*const c_int, Handle, *mut c_void, *const Arguments);
 }
 
-/// Embree 4, loaded once and never unloaded: its threads outlive its objects.
-///
-/// # Errors
-/// If it is missing or has another version: the sentence contains a remedy.
+/// Embree 4, loaded once and never unloaded: its threads outlive its objects. If it is missing or has another version,
+/// the sentence contains a remedy.
 pub fn api() -> Result<&'static Api, String> {
     static LOADED: OnceLock<Result<(Library, Api), String>> = OnceLock::new();
     LOADED.get_or_init(load).as_ref().map(|(_, api)| api).map_err(String::clone)

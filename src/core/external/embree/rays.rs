@@ -49,8 +49,6 @@ pub struct Packet<const LANES: usize> {
 }
 
 impl<const LANES: usize> Packet<LANES> {
-    /// # Panics
-    /// If there are more than `LANES` rays.
     pub fn new(rays: &[Ray]) -> Self {
         assert!(rays.len() <= LANES, "a packet has {LANES} lanes");
         let mut valid = [0; LANES];

@@ -12,7 +12,6 @@ use obvhs::triangle::Triangle;
 
 use super::{Tree, aabb};
 use crate::accel::{Observer, Part, TreeShape};
-use crate::traversal::pages;
 
 const _: () = assert!(size_of::<Bvh2Node>() == 32);
 
@@ -22,17 +21,14 @@ const _: () = assert!(size_of::<Bvh2Node>() == 32);
 /// Meister, Bittner: Parallel locally-ordered clustering for bounding volume hierarchy construction, 2018; Parallel
 /// reinsertion for bounding volume hierarchy optimization, 2018.
 impl Tree for Bvh2 {
+    type Node = Bvh2Node;
+
     fn build(triangles: &[Triangle], params: BvhBuildParams) -> Self {
         build_bvh2_from_tris(triangles, params, &mut Duration::default())
     }
 
-    fn settle(&mut self) -> Vec<u32> {
-        self.nodes = pages::moved(mem::take(&mut self.nodes));
-        mem::take(&mut self.primitive_indices)
-    }
-
-    fn node_bytes(&self) -> usize {
-        size_of_val(&self.nodes[..])
+    fn arrays(&mut self) -> (&mut Vec<Bvh2Node>, &mut Vec<u32>) {
+        (&mut self.nodes, &mut self.primitive_indices)
     }
 
     fn leads_inside(&self, triangles: usize) -> bool {

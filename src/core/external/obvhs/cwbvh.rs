@@ -1,4 +1,3 @@
-use std::mem;
 use std::ops::Index;
 use std::time::Duration;
 
@@ -13,24 +12,20 @@ use obvhs::triangle::Triangle;
 
 use super::{Tree, aabb};
 use crate::accel::{Observer, Part, TreeShape};
-use crate::traversal::pages;
 
 /// Compressed, 8 wide: 80-byte nodes, at most three triangles a leaf.
 ///
 /// # References
 /// Ylitie, Karras, Laine: Efficient incoherent ray traversal on GPUs through compressed wide BVHs. HPG 2017.
 impl Tree for CwBvh {
+    type Node = CwBvhNode;
+
     fn build(triangles: &[Triangle], params: BvhBuildParams) -> Self {
         build_cwbvh_from_tris(triangles, params, &mut Duration::default())
     }
 
-    fn settle(&mut self) -> Vec<u32> {
-        self.nodes = pages::moved(mem::take(&mut self.nodes));
-        mem::take(&mut self.primitive_indices)
-    }
-
-    fn node_bytes(&self) -> usize {
-        size_of_val(&self.nodes[..])
+    fn arrays(&mut self) -> (&mut Vec<CwBvhNode>, &mut Vec<u32>) {
+        (&mut self.nodes, &mut self.primitive_indices)
     }
 
     /// Follows the links as a traversal does: children have triangles (the first, a bit for each) or an index.

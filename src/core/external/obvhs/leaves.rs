@@ -6,6 +6,7 @@ use obvhs::triangle::Triangle;
 use rayon::prelude::*;
 
 use super::LeafTest;
+use crate::accel::Footprint;
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::traversal::pages;
 
@@ -63,9 +64,9 @@ impl<T: LeafTest> Leaves<T> {
         }
     }
 
-    /// Bytes of the triangles and of their numbers.
-    pub fn bytes(&self) -> (usize, usize) {
-        (size_of_val(&self.triangles[..]), size_of_val(&self.ids[..]))
+    pub fn footprint(&self) -> Footprint {
+        let (triangles, references) = (size_of_val(&self.triangles[..]), size_of_val(&self.ids[..]));
+        Footprint { triangles, references, ..Footprint::default() }
     }
 
     #[inline(always)]

@@ -20,6 +20,7 @@ mod leaves;
 #[cfg(test)]
 mod tests;
 
+use std::mem;
 use std::sync::Arc;
 
 use obvhs::BvhBuildParams;
@@ -33,6 +34,7 @@ pub use leaf_test::{LeafTest, Native, Over, RtTest};
 
 use crate::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
 use crate::geometry::{Aabb, Hit, Mesh, Ray};
+use crate::traversal::pages;
 use leaves::{Leaves, input};
 
 /// The binary BVH of obvhs.
@@ -44,6 +46,7 @@ pub type ObvhsCwBvh<T> = Obvhs<CwBvh, T>;
 /// A BVH of obvhs over the triangle test `T`.
 pub struct Obvhs<B, T: LeafTest> {
     tree: B,
+    node_bytes: usize,
     leaves: Leaves<T>,
 }
 
@@ -89,14 +92,14 @@ fn aabb(bounds: obvhs::aabb::Aabb) -> Aabb {
 
 /// The interface of both trees of obvhs. Tests return `t` of a triangle in the order of the tree, infinity for a miss.
 pub trait Tree: Send + Sync + Sized + 'static {
+    /// A node.
+    type Node: Copy;
+
     /// Builds it.
     fn build(triangles: &[Triangle], params: BvhBuildParams) -> Self;
 
-    /// Moves the nodes to their final memory; takes the triangle for each place out of the tree.
-    fn settle(&mut self) -> Vec<u32>;
-
-    /// Bytes of its nodes.
-    fn node_bytes(&self) -> usize;
+    /// The nodes, and the triangle for each place.
+    fn arrays(&mut self) -> (&mut Vec<Self::Node>, &mut Vec<u32>);
 
     /// Whether all links lead to nodes, and all leaves contain places below `triangles`. Traversals rely on it.
     fn leads_inside(&self, triangles: usize) -> bool;
@@ -126,10 +129,12 @@ impl<B: Tree, T: LeafTest> Accel for Obvhs<B, T> {
         let (triangles, solid) = input(mesh);
         let mut tree = B::build(&triangles, config.preset.params());
         drop(triangles);
-        let order = tree.settle();
+        let (nodes, order) = tree.arrays();
+        *nodes = pages::moved(mem::take(nodes));
+        let (node_bytes, order) = (size_of_val(&nodes[..]), mem::take(order));
         let leaves = Leaves::new(mesh, &solid, &order);
         assert!(tree.leads_inside(leaves.len()), "obvhs has built a tree with links to nowhere");
-        Ok(Self { tree, leaves })
+        Ok(Self { tree, node_bytes, leaves })
     }
 
     #[inline]
@@ -148,8 +153,7 @@ impl<B: Tree, T: LeafTest> Accel for Obvhs<B, T> {
     }
 
     fn footprint(&self) -> Footprint {
-        let (triangles, references) = self.leaves.bytes();
-        Footprint { nodes: self.tree.node_bytes(), references, triangles, other: 0 }
+        Footprint { nodes: self.node_bytes, ..self.leaves.footprint() }
     }
 
     fn shape(&self) -> TreeShape {

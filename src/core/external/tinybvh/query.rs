@@ -50,8 +50,7 @@ unsafe impl Sync for Tree {}
 #[cfg(target_env = "msvc")]
 compile_error!("peer-tinybvh calls C++ by the names of the Itanium ABI, which Microsoft's compiler does not follow");
 
-// SAFETY: the names encode the types of the arguments, and the results have the types of tinybvh in the version that
-// `Cargo.toml` pins.
+// SAFETY: the names encode the types of the arguments; the results have the types of the version in `Cargo.toml`.
 unsafe extern "C" {
     #[link_name = "_ZNK7tinybvh8BVH8_CPU9IntersectERNS_3RayE"]
     fn intersect(tree: *const c_void, ray: *mut FullRay) -> i32;
