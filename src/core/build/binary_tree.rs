@@ -3,9 +3,8 @@
 use crate::geometry::Aabb;
 
 /// Leaves of a partition and the splits above them, depth first: a node, then the subtree of its first child, then the
-/// subtree of its second child. So the subtree of a node is a range of nodes and a range of references.
-///
-/// A tree without triangles has no nodes.
+/// subtree of its second child. So the subtree of a node is a range of nodes and a range of references. A tree without
+/// triangles has no nodes.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BinaryTree {
     pub nodes: Vec<BinaryNode>,

@@ -91,13 +91,10 @@ pub(crate) fn halves(references: Vec<Reference>) -> [Part; 2] {
 
 pub(crate) fn by_group(references: Vec<Reference>, group: Group, counts: [usize; 2]) -> [Part; 2] {
     match group {
-        Group::Bins { bins, last } => {
-            deal(
-                references,
-                counts,
-                |r, [below, above]| if bins.of(r) <= last { below.push(*r) } else { above.push(*r) },
-            )
-        }
+        Group::Bins { bins, last } => deal(references, counts, |r, [below, above]| match bins.of(r) <= last {
+            true => below.push(*r),
+            false => above.push(*r),
+        }),
         Group::First { axis, count } => {
             let order = order(&references, axis);
             let part = |places: &[u32]| Part::new(places.iter().map(|&i| references[i as usize]).collect());

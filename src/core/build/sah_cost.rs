@@ -26,15 +26,11 @@ impl CostModel {
         self.block * count.div_ceil(BLOCK) as f64
     }
 
-    /// Cost of a cell with half area `1 / inverse_area` whose sides become leaves with the given half areas and counts.
+    /// Cost of a cell that is cut at `plane` into two leaves with these counts.
     #[inline(always)]
-    pub fn cell_split(
-        &self,
-        inverse_area: f64,
-        (below_area, below): (f64, usize),
-        (above_area, above): (f64, usize),
-    ) -> f64 {
-        let areas = (below_area * self.leaf(below) + above_area * self.leaf(above)) * inverse_area;
+    pub fn cell_split(&self, cell: &SideAreas, plane: f32, [below, above]: [usize; 2]) -> f64 {
+        let [below_area, above_area] = cell.at(plane.into());
+        let areas = (below_area * self.leaf(below) + above_area * self.leaf(above)) * cell.inverse;
         let cost = self.step + areas;
         if below == 0 || above == 0 { cost * (1.0 - self.empty_bonus) } else { cost }
     }
@@ -65,21 +61,21 @@ pub(crate) struct SideAreas {
     max: f64,
     caps: f64,
     girth: f64,
+    /// The reciprocal half area of the cell.
+    inverse: f64,
 }
 
 impl SideAreas {
     pub fn new(cell: &Aabb, axis: usize) -> Self {
         let extent = cell.max.as_dvec3() - cell.min.as_dvec3();
         let (u, v) = (extent[(axis + 1) % 3], extent[(axis + 2) % 3]);
-        Self { min: cell.min[axis].into(), max: cell.max[axis].into(), caps: u * v, girth: u + v }
+        let (min, max) = (f64::from(cell.min[axis]), f64::from(cell.max[axis]));
+        let (caps, girth) = (u * v, u + v);
+        Self { min, max, caps, girth, inverse: 1.0 / (caps + (max - min) * girth) }
     }
 
     #[inline(always)]
-    pub fn at(&self, split: f64) -> (f64, f64) {
-        (self.caps + (split - self.min) * self.girth, self.caps + (self.max - split) * self.girth)
-    }
-
-    pub fn whole(&self) -> f64 {
-        self.caps + (self.max - self.min) * self.girth
+    fn at(&self, split: f64) -> [f64; 2] {
+        [self.caps + (split - self.min) * self.girth, self.caps + (self.max - split) * self.girth]
     }
 }

@@ -47,8 +47,7 @@ impl<const AXIS: usize> Slicer<AXIS> {
     }
 }
 
-/// Grows the bins `first..=last` by the slices of the part of a triangle in `part`, which begins in `first` and ends in
-/// `last`.
+/// Grows the bins by the slices of the part of a triangle in `part`, which begins in `first` and ends in `last`.
 #[inline(always)]
 pub(super) fn slice<const AXIS: usize>(
     corners: [Vec3A; 3],

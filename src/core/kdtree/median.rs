@@ -49,9 +49,7 @@ impl Triangles {
         // Vertices may lie outside the cell, and so may their median.
         let inside = place.cell.min[cut.axis] < cut.plane && cut.plane < place.cell.max[cut.axis];
         let (model, areas) = (context.config.costs(), SideAreas::new(&place.cell, cut.axis));
-        let (below_area, above_area) = areas.at(cut.plane.into());
-        let cost = model.cell_split(1.0 / areas.whole(), (below_area, below), (above_area, above));
-        inside && cost < model.leaf(self.ids.len())
+        inside && model.cell_split(&areas, cut.plane, [below, above]) < model.leaf(self.ids.len())
     }
 }
 
@@ -63,11 +61,6 @@ fn middle(mut values: Vec<f32>, rule: Median) -> f32 {
         Some(upper) if even && rule == Median::Mean => lower * 0.5 + upper * 0.5,
         _ => lower,
     }
-}
-
-/// Whether too many of the triangles of a node are on both sides for a cut.
-fn is_too_many(context: &Context<KdConfig>, matches: usize, count: usize) -> bool {
-    context.rules.threshold.is_some_and(|share| matches as f64 >= f64::from(share) * count as f64)
 }
 
 impl Content for Triangles {
@@ -107,7 +100,7 @@ impl Content for Triangles {
             matches += usize::from(!all_above && !all_below);
         }
 
-        let discarded = context.config.count == CountOf::Parent && is_too_many(context, matches, self.ids.len());
+        let discarded = context.config.count == CountOf::Parent && context.rules.discards(matches, self.ids.len());
         let (b, a) = (below.len(), above.len());
         let dear = context.rules.pays && !self.pays(context, place, cut, b, a);
         if discarded || dear || !place.affords(b, a) || !place.progresses(context, self.ids.len(), b, a) {
@@ -117,6 +110,6 @@ impl Content for Triangles {
     }
 
     fn may_divide(&self, context: &Context<KdConfig>) -> bool {
-        context.config.count == CountOf::Parent || !is_too_many(context, self.matches, self.ids.len())
+        context.config.count == CountOf::Parent || !context.rules.discards(self.matches, self.ids.len())
     }
 }

@@ -28,19 +28,6 @@ pub struct KdTree<T: TriangleTest> {
 }
 
 impl<T: TriangleTest> KdTree<T> {
-    /// Turns the references of a plan into blocks, leaf by leaf.
-    fn finish(mesh: &Mesh, config: &KdConfig, Plan { mut nodes, references }: Plan) -> Self {
-        let leaves = nodes.iter().filter(|node| node.is_leaf());
-        let count = leaves.map(|leaf| (leaf.references() as usize).div_ceil(BLOCK)).sum();
-        let mut blocks = pages::with_capacity(count);
-        for node in nodes.iter_mut().filter(|node| node.is_leaf()) {
-            let (first, count) = (node.first() as usize, node.references());
-            *node = Node::leaf(blocks.len() as u32, count);
-            LeafBlock::fill(mesh, &references[first..first + count as usize], &mut blocks);
-        }
-        Self { nodes: pages::moved(nodes), blocks, bounds: mesh.bounds(), config: *config }
-    }
-
     #[inline(always)]
     pub(super) fn blocks_of(&self, leaf: Node) -> &[LeafBlock<T>] {
         let first = leaf.first() as usize;
@@ -54,7 +41,17 @@ impl<T: TriangleTest> Accel for KdTree<T> {
     const TRIANGLE_TEST: &'static str = T::NAME;
 
     fn build(mesh: &Arc<Mesh>, config: &KdConfig) -> Result<Self, BuildError> {
-        Ok(Self::finish(mesh, config, plan(mesh, config, &Limits::OF_NODES)?))
+        let Plan { mut nodes, references } = plan(mesh, config, &Limits::OF_NODES)?;
+        // Turn the references into blocks, leaf by leaf.
+        let leaves = nodes.iter().filter(|node| node.is_leaf());
+        let count = leaves.map(|leaf| (leaf.references() as usize).div_ceil(BLOCK)).sum();
+        let mut blocks = pages::with_capacity(count);
+        for node in nodes.iter_mut().filter(|node| node.is_leaf()) {
+            let (first, count) = (node.first() as usize, node.references());
+            *node = Node::leaf(blocks.len() as u32, count);
+            LeafBlock::fill(mesh, &references[first..first + count as usize], &mut blocks);
+        }
+        Ok(Self { nodes: pages::moved(nodes), blocks, bounds: mesh.bounds(), config: *config })
     }
 
     walked_queries!();

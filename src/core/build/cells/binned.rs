@@ -27,10 +27,8 @@ struct Counts {
 }
 
 impl Counts {
-    const NONE: Self = Self { begin: [0; PLANES + 1], end: [0; PLANES + 1], flat: [0; PLANES + 1] };
-
     fn of(sample: &Sample, planes: &Planes) -> Self {
-        let mut counts = Self::NONE;
+        let mut counts = Self { begin: [0; PLANES + 1], end: [0; PLANES + 1], flat: [0; PLANES + 1] };
         for r in sample.iter() {
             let first = planes.first_bin(r.min(planes.axis));
             let last = planes.last_bin(r.max(planes.axis));
@@ -91,16 +89,14 @@ fn along(
     let bounds = Aabb::from(part.extent);
     let range = (bounds.min[axis], bounds.max[axis]);
     let (areas, min, max) = (SideAreas::new(cell, axis), cell.min[axis], cell.max[axis]);
-    let inverse = 1.0 / areas.whole();
     let mut best: Option<(f64, Cut)> = None;
     let mut offer = |plane: f32, below: usize, above: usize, flat_below: bool| {
         // A plane on a face of the cell cuts nothing.
         if min < plane && plane < max {
-            let (below_area, above_area) = areas.at(plane.into());
             // Both sides of an inner plane have references, in the sample or not.
             let least = usize::from(range.0 < plane && plane < range.1);
             let [below, above] = [below, above].map(|count| sample.scaled(count).max(least));
-            let cost = model.cell_split(inverse, (below_area, below), (above_area, above));
+            let cost = model.cell_split(&areas, plane, [below, above]);
             if best.is_none_or(|(least, _)| cost < least) && place.affords(below, above) {
                 best = Some((cost, Cut { axis, plane, flat_below }));
             }
@@ -217,9 +213,8 @@ mod tests {
                     if plane <= cell.min[axis] || plane >= cell.max[axis] {
                         continue;
                     }
-                    let [below, above] = Cut { axis, plane, flat_below }.counts(&part.references);
-                    let (below_area, above_area) = areas.at(plane.into());
-                    least = least.min(model.cell_split(1.0 / areas.whole(), (below_area, below), (above_area, above)));
+                    let counts = Cut { axis, plane, flat_below }.counts(&part.references);
+                    least = least.min(model.cell_split(&areas, plane, counts));
                 }
                 assert_eq!(cost, least);
             }

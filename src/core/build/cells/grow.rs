@@ -193,9 +193,7 @@ impl Place {
 
     /// Whether the rules accept a cut of `count` clipped triangles into sides of these sizes.
     pub fn accepts<C>(&self, context: &Context<C>, count: usize, [below, above]: [usize; 2]) -> bool {
-        let both = (below + above - count) as f64;
-        let discarded = context.rules.threshold.is_some_and(|share| both >= f64::from(share) * count as f64);
-        !discarded && self.affords(below, above)
+        !context.rules.discards(below + above - count, count) && self.affords(below, above)
     }
 
     /// Whether sides of these sizes are progress, or another split without progress is allowed: not the third in a row.
@@ -210,5 +208,10 @@ impl Rules {
     fn is_progress(&self, count: usize, below: usize, above: usize) -> bool {
         let most = if self.one_side_is_progress { below.min(above) } else { below.max(above) };
         most < count
+    }
+
+    /// Whether too many of `count` triangles are on both sides for a cut.
+    pub fn discards(&self, both: usize, count: usize) -> bool {
+        self.threshold.is_some_and(|share| both as f64 >= f64::from(share) * count as f64)
     }
 }

@@ -89,7 +89,6 @@ impl Events {
     /// The cost and the cut of the cheapest plane of one axis.
     fn sweep(&self, model: &CostModel, cell: &Aabb, axis: usize) -> Option<(f64, Cut)> {
         let areas = SideAreas::new(cell, axis);
-        let inverse = 1.0 / areas.whole();
         let (min, max) = (cell.min[axis], cell.max[axis]);
         let events = &self.axes[axis];
         let (mut below, mut above) = (0, self.references.len());
@@ -109,9 +108,8 @@ impl Events {
 
             // A plane on a face of the cell cuts nothing.
             if min < plane && plane < max {
-                let (below_area, above_area) = areas.at(plane.into());
                 let mut offer = |below, above, flat_below| {
-                    let cost = model.cell_split(inverse, (below_area, below), (above_area, above));
+                    let cost = model.cell_split(&areas, plane, [below, above]);
                     if best.is_none_or(|(least, _)| cost < least) {
                         best = Some((cost, Cut { axis, plane, flat_below }));
                     }

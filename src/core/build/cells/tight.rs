@@ -11,51 +11,47 @@ use crate::geometry::{Aabb, Mesh};
 /// Maximum number of references of a leaf. The references of a cell with more are divided among several leaves.
 const MOST: usize = 64;
 
-/// Nonempty cells, each as the tight box of its clipped triangles, and the inner nodes with two nonempty children.
-#[derive(Default)]
-struct Cells(BinaryTree);
-
 /// The nonempty cells of `mesh` as tight boxes, with on average at most `duplication` references per triangle.
 pub(crate) fn build(mesh: &Mesh, config: &CellConfig, duplication: f32) -> BinaryTree {
     let context = Context::new(mesh, Rules::sah(duplication), config);
-    let Cells(tree) = grow(&context, Binned::all(&context));
-    tree
+    grow(&context, Binned::all(&context))
 }
 
-impl Cells {
+impl BinaryTree {
     fn deal(&mut self, part: Part) {
-        let (first, count) = (self.0.references.len() as u32, part.references.len());
+        let (first, count) = (self.references.len() as u32, part.references.len());
         if count > MOST {
-            let inner = self.0.nodes.len();
+            let inner = self.nodes.len();
             self.push(Aabb::EMPTY, Content::Inner([0; 2]));
             let [below, above] = halves(part.references);
             self.deal(below);
-            let second = self.0.nodes.len();
+            let second = self.nodes.len();
             self.deal(above);
             self.join(inner, second);
         } else {
-            self.0.references.extend(part.references.iter().map(|r| r.id()));
+            self.references.extend(part.references.iter().map(|r| r.id()));
             self.push(part.extent.into(), Content::Leaf { first, count: count as u32 });
         }
     }
 
     fn push(&mut self, bounds: Aabb, content: Content) {
-        self.0.nodes.push(BinaryNode { bounds, content });
+        self.nodes.push(BinaryNode { bounds, content });
     }
 
     /// Makes the node after `inner` and the node `second` the children of `inner`.
     fn join(&mut self, inner: usize, second: usize) {
-        let nodes = &mut self.0.nodes;
+        let nodes = &mut self.nodes;
         let bounds = nodes[inner + 1].bounds.union(nodes[second].bounds);
         nodes[inner] = BinaryNode { bounds, content: Content::Inner([inner as u32 + 1, second as u32]) };
     }
 }
 
-impl Tree<Binned> for Cells {
+/// Has nonempty cells, each as the tight box of its clipped triangles, and inner nodes with two nonempty children.
+impl Tree<Binned> for BinaryTree {
     const SKIPS_EMPTY: bool = true;
 
     fn len(&self) -> usize {
-        self.0.nodes.len()
+        self.nodes.len()
     }
 
     fn leaf(&mut self, content: Binned) {
@@ -71,6 +67,6 @@ impl Tree<Binned> for Cells {
     }
 
     fn append(&mut self, other: Self) {
-        self.0.append(other.0);
+        BinaryTree::append(self, other);
     }
 }

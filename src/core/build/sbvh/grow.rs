@@ -82,7 +82,7 @@ fn grow(context: &Context, part: Part, place: Place, tree: &mut BinaryTree, slot
     merge(context, tree, own, first, area, cost).unwrap_or(cost)
 }
 
-/// The split and the references on both sides; an error returns the part if a leaf is better.
+/// The split and the numbers of references on both sides; `None` if a leaf is better.
 fn choose(
     context: &Context,
     references: &[Reference],
