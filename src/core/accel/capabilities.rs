@@ -32,11 +32,8 @@ impl Capabilities {
     pub fn declines(self, ray: &Ray) -> Option<&'static str> {
         // A NaN end is not an omitted one.
         let (from_start, endless) = (ray.t_min <= 0.0, ray.t_max == f32::INFINITY);
-        match () {
-            () if !self.t_min && !from_start => Some("t_min"),
-            () if !self.t_max && !endless => Some("t_max"),
-            () => None,
-        }
+        let t_max = (!self.t_max && !endless).then_some("t_max");
+        if self.t_min || from_start { t_max } else { Some("t_min") }
     }
 
     /// The declined features, as printed.

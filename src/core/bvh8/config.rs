@@ -57,17 +57,13 @@ impl Bvh8Config {
     }
 
     pub(super) fn check<T: TriangleTest>(&self) -> Result<(), BuildError> {
-        let refuse = |what: &str| Err(BuildError::Config(what.into()));
-        if !(self.block_cost > 0.0 && self.block_cost.is_finite()) {
-            return refuse("block_cost must be a positive number");
-        }
-        if !(self.duplication >= 1.0 && self.duplication.is_finite()) {
-            return refuse("duplication must be a number of at least 1");
-        }
-        if self.batch != Batch::Single && !T::BATCHED {
-            return refuse("batch must be `single` with this triangle test");
-        }
-        Ok(())
+        let demands = [
+            (self.block_cost > 0.0 && self.block_cost.is_finite(), "block_cost must be a positive number"),
+            (self.duplication >= 1.0 && self.duplication.is_finite(), "duplication must be a number of at least 1"),
+            (self.batch == Batch::Single || T::BATCHED, "batch must be `single` with this triangle test"),
+        ];
+        let unmet = demands.iter().find(|(is_met, _)| !is_met);
+        unmet.map_or(Ok(()), |(_, sentence)| Err(BuildError::Config((*sentence).into())))
     }
 
     pub(super) fn partition(&self, mesh: &Mesh) -> BinaryTree {

@@ -21,6 +21,8 @@
 //! Shewchuk: Adaptive precision floating-point arithmetic and fast robust geometric predicates. 1997 (the idea of the
 //! filter). Higham: Accuracy and stability of numerical algorithms. 2nd ed. 2002.
 
+use std::cmp::Ordering;
+
 use glam::{DVec3, Vec3};
 
 use crate::geometry::Ray;
@@ -70,46 +72,32 @@ impl TripleProduct {
         Self { value, error: BOUND * size }
     }
 
-    fn is_positive(self) -> bool {
-        self.value > self.error
-    }
-
-    fn is_negative(self) -> bool {
-        -self.value > self.error
-    }
-
-    fn is_zero(self) -> bool {
-        self.error == 0.0
-    }
-
-    fn is_known(self) -> bool {
-        self.is_positive() || self.is_negative() || self.is_zero()
+    /// The order of the true product and zero; `None` if the error hides it.
+    fn sign(self) -> Option<Ordering> {
+        let is_known = self.value.abs() > self.error || self.error == 0.0;
+        is_known.then(|| self.value.partial_cmp(&0.0))?
     }
 }
 
-/// Classifies the whole line of `ray` by the three volumes of [`exact::hit`](crate::exact::hit), and encloses `t`. All
-/// numbers must be finite.
+/// Classifies the whole line of `ray`, of finite numbers, by the volumes of [`exact::hit`](crate::exact::hit).
 pub fn classify(ray: &Ray, corners: [Vec3; 3]) -> Proof {
     let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
     let corners = corners.map(|p| p.as_dvec3());
     let [a, b, c] = corners.map(|p| p - origin);
 
-    let sides = [(c, b), (a, c), (b, a)].map(|(p, q)| TripleProduct::of(direction, p, q));
-    if sides.iter().any(|s| s.is_positive()) && sides.iter().any(|s| s.is_negative()) {
+    let sides = [(c, b), (a, c), (b, a)].map(|(p, q)| TripleProduct::of(direction, p, q).sign());
+    if sides.contains(&Some(Ordering::Less)) && sides.contains(&Some(Ordering::Greater)) {
         return Proof::Missed;
     }
-    let known = sides.iter().all(|s| s.is_known());
 
     // Compute the edges from the corners themselves: each component then has one rounding.
     let (e1, e2) = (corners[1] - corners[0], corners[2] - corners[0]);
     let whole = TripleProduct::of(direction, e1, e2);
-    if whole.is_zero() {
-        return Proof::Missed;
+    match whole.sign() {
+        Some(Ordering::Equal) => Proof::Missed,
+        Some(_) if !sides.contains(&None) => Proof::Hit(quotient(TripleProduct::of(a, e1, e2), whole)),
+        _ => Proof::Undecided,
     }
-    if !known || !whole.is_known() {
-        return Proof::Undecided;
-    }
-    Proof::Hit(quotient(TripleProduct::of(a, e1, e2), whole))
 }
 
 /// Encloses `numerator / denominator`, whose denominator is known not to be 0.
@@ -117,8 +105,7 @@ fn quotient(numerator: TripleProduct, denominator: TripleProduct) -> Span {
     let sign = denominator.value.signum();
     let (value, denominator) =
         (numerator.value * sign, TripleProduct { value: denominator.value * sign, ..denominator });
-    // Each of these has one rounding, and each quotient one more: three together. None underflows to 0: they are
-    // multiples of 2^-700.
+    // Each of these has one rounding, each quotient one more: three together. Multiples of 2^-700 do not become 0.
     let (top_low, top_high) = (value - numerator.error, value + numerator.error);
     let (small, large) = (denominator.value - denominator.error, denominator.value + denominator.error);
     let low = top_low / if top_low < 0.0 { small } else { large };
@@ -132,8 +119,7 @@ mod tests {
     use crate::exact;
     use crate::oracle::tests::Numbers;
 
-    /// Checks the proof of the filter against exact sums; returns whether there is a hit, or `None` if the filter is
-    /// undecided.
+    /// Checks the filter's proof against exact sums; returns whether there is a hit, `None` if the filter is undecided.
     fn is_confirmed(ray: &Ray, corners: [Vec3; 3]) -> Option<bool> {
         let truth = exact::hit(ray, corners);
         match classify(ray, corners) {

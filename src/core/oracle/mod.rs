@@ -58,8 +58,7 @@ impl Oracle {
         Self { mesh: mesh.clone(), tree: tree::Tree::new(mesh) }
     }
 
-    /// The exact nearest hit of `ray` in its half-open interval, on closed triangles, with all triangles that are hit
-    /// there.
+    /// The exact nearest hit of `ray` in its half-open interval, on closed triangles, with all triangles hit there.
     ///
     /// `None` for a ray that is not valid. A ray in the plane of a triangle misses it.
     pub fn nearest(&self, ray: &Ray) -> Option<Truth> {

@@ -2,8 +2,7 @@
 //!
 //! # No hit is lost
 //! The box of a node is the exact box of the corners of its triangles: minima and maxima of `f32` are not rounded. A
-//! point of a closed triangle is in the triangle's box, and so in the box of every node above it, since a box is
-//! convex.
+//! box is convex, so a point of a closed triangle is in the triangle's box, and in the box of every node above it.
 //!
 //! Let a ray hit a triangle at the exact `t`. For each axis, the coordinate `o + t d` is in the slab `[low, high]` of
 //! each of those boxes. If `d` is 0, of either sign, then `o` is in it, and the comparison of the two floats decides
@@ -32,13 +31,9 @@ struct Node {
 
 enum NodeKind {
     /// The first child is the next node.
-    Inner {
-        second: u32,
-    },
-    Leaf {
-        first: u32,
-        count: u32,
-    },
+    Inner { second: u32 },
+    /// A range of `ids`.
+    Leaf { first: u32, count: u32 },
 }
 
 const LEAF: usize = 4;

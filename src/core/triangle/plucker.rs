@@ -14,28 +14,6 @@ use crate::simd::{LaneVec3, Lanes, each};
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Plucker;
 
-/// The lanes whose triangle the line meets, and the parameters.
-///
-/// Any of the three volumes may be zero: the triangle is closed.
-#[inline(always)]
-fn solve<const N: usize, L: Lanes<N>>(
-    origin: LaneVec3<N, L>,
-    direction: LaneVec3<N, L>,
-    corners: [LaneVec3<N, L>; 3],
-) -> (u32, L) {
-    let [a, b, c] = each(&corners, |&corner| corner - origin);
-    let volumes = each(&[c.cross(b), a.cross(c), b.cross(a)], |&side| direction.dot(side));
-    let zero = L::zero();
-    let above = volumes.iter().fold(u32::MAX, |lanes, v| lanes & zero.le(*v));
-    let below = volumes.iter().fold(u32::MAX, |lanes, v| lanes & v.le(zero));
-
-    let [first, second, third] = corners;
-    let normal = (second - first).cross(third - first);
-    let det = direction.dot(normal);
-    let abs_det = det.flip_sign(det);
-    ((above | below) & zero.lt(abs_det), a.dot(normal).div(det))
-}
-
 impl TriangleTest for Plucker {
     const NAME: &'static str = "plucker";
 
@@ -48,7 +26,20 @@ impl TriangleTest for Plucker {
         from: f32,
         to: f32,
     ) -> (u32, L) {
-        let (inside, t) = solve::<N, L>(LaneVec3::splat(origin), LaneVec3::splat(direction), block.load());
-        (inside & L::splat(from).le(t) & t.le(L::splat(to)), t)
+        let (origin, direction) = (LaneVec3::splat(origin), LaneVec3::splat(direction));
+        let corners = block.load::<L>();
+        let [a, b, c] = each(&corners, |&corner| corner - origin);
+        let volumes = each(&[c.cross(b), a.cross(c), b.cross(a)], |&side| direction.dot(side));
+        // Any of the three volumes may be zero: the triangle is closed.
+        let zero = L::zero();
+        let above = volumes.iter().fold(u32::MAX, |lanes, v| lanes & zero.le(*v));
+        let below = volumes.iter().fold(u32::MAX, |lanes, v| lanes & v.le(zero));
+
+        let [first, second, third] = corners;
+        let normal = (second - first).cross(third - first);
+        let det = direction.dot(normal);
+        let abs_det = det.flip_sign(det);
+        let t = a.dot(normal).div(det);
+        ((above | below) & zero.lt(abs_det) & L::splat(from).le(t) & t.le(L::splat(to)), t)
     }
 }

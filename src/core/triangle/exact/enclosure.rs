@@ -8,12 +8,10 @@ use crate::simd::{Arithmetic, LaneVec3, Lanes, Portable, each};
 
 /// The decision of `f64` about a line and a triangle.
 pub(super) enum Bounds {
+    /// The line misses the triangle.
     Miss,
     /// The line meets the closed triangle at an exact `t` in [`low`, `high`].
-    Hit {
-        low: f64,
-        high: f64,
-    },
+    Hit { low: f64, high: f64 },
     /// Undecided, because of rounding.
     Unclear,
 }
