@@ -209,9 +209,6 @@ fn alike(rays: &[Ray; RAYS]) -> bool {
 }
 
 /// Traces `rays` on the current SIMD level; hits are in the order of the rays.
-///
-/// # Panics
-/// If the slices differ in length.
 pub(super) fn answer<const ANY: bool, T: TriangleTest, A, O: Observer>(
     tree: &Bvh8<T>,
     rays: &[Ray],

@@ -20,10 +20,7 @@ pub(super) struct Layout<T: TriangleTest> {
 }
 
 impl<T: TriangleTest> Layout<T> {
-    /// The tree of `collapse`, in pieces of at most `most` references; the same for any pieces and threads.
-    ///
-    /// # Errors
-    /// If it exceeds the limits.
+    /// The tree of `collapse` within the limits, in pieces of at most `most` references, which do not change it.
     pub fn new(mesh: &Mesh, collapse: &Collapse, limits: &Limits, most: usize) -> Result<Self, BuildError> {
         let Some(root) = collapse.root() else {
             return Ok(Self { root: Child::NOTHING, nodes: vec![], blocks: vec![] });

@@ -25,10 +25,8 @@ impl Limits {
     pub const OF_NODES: Self =
         Self { levels: DEPTH, nodes: Child::LARGEST, blocks: Child::LARGEST, binary: u32::MAX as usize };
 
-    /// Checks before the build that `triangles` triangles with on average at most `duplication` references are allowed.
-    ///
-    /// # Errors
-    /// If the binary tree, with fewer than two nodes per reference, might have more than it can number.
+    /// Checks before the build that the binary tree of `triangles` triangles with on average at most `duplication`
+    /// references, with fewer than two nodes per reference, cannot have more nodes than it can number.
     pub fn admit(&self, triangles: usize, duplication: f32) -> Result<(), BuildError> {
         let most = 2.0 * f64::from(duplication) * triangles as f64;
         if most <= self.binary as f64 {
@@ -41,8 +39,7 @@ impl Limits {
         )))
     }
 
-    /// # Errors
-    /// If a tree of this size exceeds them.
+    /// Checks the size of a tree.
     pub fn check(&self, levels: usize, nodes: usize, blocks: usize) -> Result<(), BuildError> {
         if levels <= self.levels && nodes <= self.nodes && blocks <= self.blocks {
             return Ok(());

@@ -62,8 +62,7 @@ impl<T: TriangleTest> Bvh8<T> {
                 self.one_by_one::<ANY, L>(child, active, &mut packet, &mut state);
             } else {
                 // SAFETY: a child that is no leaf names one of `nodes`, and a path has at most `DEPTH` of them
-                // (invariants of `Bvh8`). Each node above this one has left at most seven entries, so eight more fit in
-                // `SIZE`.
+                // (invariants of `Bvh8`). Each node above has left at most seven entries, so eight more fit in `SIZE`.
                 unsafe {
                     let node = self.nodes.get_unchecked(child.index());
                     let met = frustum.meet(node);

@@ -159,9 +159,8 @@ impl Stack<'_, false> {
     /// The entries were [`reset`](Entries::reset), and the bottom has not been returned since.
     #[inline(always)]
     pub unsafe fn pop_down(&mut self, end: f32) -> Child {
-        // SAFETY: by the contracts of this function and of `of`, the functions `reset`, `push` and `push_all` have
-        // written the entries below `len`. The loop ends at the bottom or above it, because the bottom is entered at
-        // minus infinity.
+        // SAFETY: by the contracts of this function and of `of`, `reset`, `push` and `push_all` have written the entries
+        // below `len`. The loop ends at the bottom or above, because the bottom is entered at minus infinity.
         unsafe {
             self.len -= 1;
             while self.entries.enters.get_unchecked(self.len).assume_init() > end {

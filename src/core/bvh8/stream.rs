@@ -162,9 +162,8 @@ impl<'a, T: TriangleTest> Stream<'a, T> {
         let (mut nodes, rays) = (0, self.at_nodes);
         for k in 0..rays {
             // SAFETY: `push` has filled the first `at_nodes` slots of `nodes`, and each is in one list, so this is the
-            // only reference to it, and no list becomes longer than `SLOTS`. Its child is a node, and a path has at
-            // most `DEPTH` nodes (invariants of `Bvh8`). The bottom of its stack is left, because `Child::BOTTOM` is a
-            // leaf.
+            // only reference to it, and no list becomes longer than `SLOTS`. Its child is a node, so the bottom of its
+            // stack, a leaf, is left; a path has at most `DEPTH` nodes (invariants of `Bvh8`).
             unsafe {
                 let slot = self.nodes.get(k);
                 let at = &mut *slot;

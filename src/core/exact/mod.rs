@@ -39,9 +39,8 @@ pub fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactT> {
 }
 
 /// Six times the volume of the tetrahedron of `origin` and a triangle, (a - origin) . (e x f), with a relative error
-/// below 2^-49: the numerator of `t`. Zero if and only if `origin` lies in the plane. For finite numbers.
-///
-/// Costs a quarter of [`hit`].
+/// below 2^-49: the numerator of `t`. Zero only if `origin` lies in the plane. For finite numbers, at a quarter of the
+/// cost of [`hit`].
 pub fn height(origin: Vec3, corners: [Vec3; 3]) -> f64 {
     let of_sums = || {
         let [a, ..] = corners;
@@ -51,9 +50,7 @@ pub fn height(origin: Vec3, corners: [Vec3; 3]) -> f64 {
 }
 
 /// The side on which the line of `ray` passes the line through two points: the sign of direction . ((p - origin) x (q -
-/// origin)). `Ordering::Equal` if the two lines meet or are parallel. For finite numbers.
-///
-/// Costs a sixth of [`hit`].
+/// origin)). `Ordering::Equal` if both meet or are parallel. For finite numbers, at a sixth of the cost of [`hit`].
 #[inline(always)]
 pub fn side(ray: &Ray, edge: [Vec3; 2]) -> Ordering {
     tracked::side(ray, edge).unwrap_or_else(|| side_of_any_size(ray, edge))

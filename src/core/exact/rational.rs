@@ -1,6 +1,7 @@
 //! A second implementation of [`hit`](super::hit()): another formula, in rationals.
 //!
-//! It shares no code and no library with the first. For tests; a hundred times slower.
+//! It shares no code and no library with the first. For tests; a hundred times slower. Its functions panic if a number
+//! of an origin, a direction or a corner is not finite.
 
 use dashu_ratio::RBig;
 use glam::Vec3;
@@ -21,9 +22,6 @@ pub struct Solution {
 }
 
 /// Cramer's rule for `o + t d = a + u e1 + v e2`; `None` if the line is parallel to the plane.
-///
-/// # Panics
-/// If a number is not finite.
 pub fn solve(ray: &Ray, corners: [Vec3; 3]) -> Option<Solution> {
     type V = [RBig; 3];
     let rational = |p: Vec3| -> V { p.to_array().map(|x| RBig::try_from(x).expect("finite")) };
@@ -49,9 +47,6 @@ pub fn solve(ray: &Ray, corners: [Vec3; 3]) -> Option<Solution> {
 }
 
 /// The parameter at which the whole line of `ray` meets the closed triangle.
-///
-/// # Panics
-/// If a number is not finite.
 pub fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<RBig> {
     let Solution { u, v, t, .. } = solve(ray, corners)?;
     (u >= RBig::ZERO && v >= RBig::ZERO && u + v <= RBig::ONE).then_some(t)
@@ -71,17 +66,11 @@ fn nearest_float(t: &RBig) -> f32 {
 }
 
 /// The nearest `f32` of the hit of `ray` within its half-open interval; an infinite `t` is beyond the end.
-///
-/// # Panics
-/// If a number of the ray's origin or direction or of a corner is not finite.
 pub fn hit_within(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
     Some(nearest_float(&within(ray, corners)?))
 }
 
 /// Like [`hit_within`] for the nearest hit among `triangles`, with the lowest index at equal exact `t`.
-///
-/// # Panics
-/// If a corner is not finite.
 pub fn nearest(ray: &Ray, triangles: impl IntoIterator<Item = (u32, [Vec3; 3])>) -> Option<(f32, u32)> {
     if !ray.is_valid() {
         return None;

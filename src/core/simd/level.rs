@@ -151,8 +151,7 @@ pub fn dispatch<K: Kernel>(level: Level, kernel: K) -> K::Output {
     debug_assert!(level.is_available());
     match level {
         // SAFETY: the machine has the instructions: `available` and `choose_highest` return a level only after
-        // `is_available` has detected its features, and no other code makes one except the portable level (see
-        // `Level`).
+        // `is_available` has detected its features, and no other code makes one except the portable one (see `Level`).
         #[cfg(target_arch = "x86_64")]
         Level::Avx2 if WITH_AVX2 => unsafe { avx2(kernel) },
         // SAFETY: as above.

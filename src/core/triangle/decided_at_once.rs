@@ -44,8 +44,7 @@ macro_rules! decided_on_corners {
     };
 }
 
-/// [`decided_on_corners`] for a test in `f64`: `$solve` gives the lanes whose triangle the line may meet, and the
-/// parameters.
+/// [`decided_on_corners`] for a test in `f64`: `$solve` gives the lanes that the line may meet, and the parameters.
 macro_rules! decided_in_f64 {
     ($solve:ident) => {
         decided_on_corners!();

@@ -98,8 +98,6 @@ impl FilterRay {
 }
 
 impl<const N: usize> FilterBlock<N> {
-    /// # Panics
-    /// If there are more than `N` triangles.
     pub fn new(triangles: &[[Vec3; 3]]) -> Self {
         let corners = Corners::new(triangles);
         let (mut extents, mut areas) = ([-1.0; N], [0.0; N]);
