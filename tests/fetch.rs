@@ -10,9 +10,8 @@ use std::time::{Duration, Instant};
 
 use sahara::fetch::{Client, DataFile, FetchOutcome};
 use sha2::{Digest, Sha256};
-use tempfile::TempDir;
 
-use crate::cli::command::{command, stderr, stdout};
+use crate::cli::command::{Folder, RIGHT, USAGE, ends};
 
 /// The file to fetch.
 fn mesh() -> Vec<u8> {
@@ -23,7 +22,7 @@ fn mesh() -> Vec<u8> {
 struct Server {
     address: String,
     requests: Arc<Mutex<Vec<String>>>,
-    folder: TempDir,
+    folder: Folder,
 }
 
 impl Server {
@@ -48,12 +47,12 @@ impl Server {
                 }
             }
         });
-        Self { address, requests, folder: tempfile::tempdir().unwrap() }
+        Self { address, requests, folder: Folder::new() }
     }
 
     /// The server's file at `path`, to be fetched into a folder of that name.
     fn file(&self, path: &str) -> DataFile {
-        let (folder, bytes) = (self.folder.path().join(&path[1..]), mesh());
+        let (folder, bytes) = (self.folder.path(&path[1..]), mesh());
         let url = format!("{}{path}", self.address);
         DataFile { url, path: folder.join("mesh.obj"), sha256: hex(&bytes), bytes: Some(bytes.len() as u64) }
     }
@@ -98,19 +97,9 @@ fn answer(own: &str, path: &str) -> Vec<u8> {
     }
 }
 
-/// Checks that the folder of a file contains only the named files.
+/// Checks that a file is refused in one line with all of `parts`.
 #[track_caller]
-fn holds(file: &DataFile, names: &[&str]) {
-    let entries = fs::read_dir(file.path.parent().unwrap()).into_iter().flatten();
-    let mut found: Vec<String> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
-    found.sort();
-    assert_eq!(found, names, "{}", file.url);
-}
-
-/// Checks that the one-line error for a file contains all of `parts`.
-#[track_caller]
-fn refused(file: &DataFile, patience: Option<Duration>, parts: &[&str]) {
-    let client = patience.map_or_else(Client::default, Client::with_patience);
+fn refused(file: &DataFile, client: &Client, parts: &[&str]) {
     let error = client.fetch(file, &mut |_| ()).unwrap_err().to_string();
     assert!(error.lines().count() == 1 && parts.iter().all(|part| error.contains(part)), "{}: {error}", file.url);
 }
@@ -123,7 +112,7 @@ fn a_file_is_fetched_once_and_whole() {
     let fetched = Client::default().fetch(&file, &mut |got| last = got).unwrap();
     assert_eq!((fetched, last), (FetchOutcome::Downloaded { bytes }, bytes));
     assert_eq!(fs::read(&file.path).unwrap(), mesh());
-    holds(&file, &["mesh.obj"]);
+    assert_eq!(fs::read_dir(server.folder.path("moved")).unwrap().count(), 1, "nothing else is left behind");
     assert_eq!(Client::default().fetch(&file, &mut |_| ()).unwrap(), FetchOutcome::AlreadyThere);
     assert_eq!(server.requests().len(), 2, "a redirect and the file, and then nothing");
 }
@@ -143,71 +132,66 @@ fn what_is_wrong_is_refused_in_a_sentence_and_not_kept() {
         ("/endless", None, ["8589934592", "/endless"]),
     ] {
         let file = DataFile { bytes: bytes.map(|bytes| bytes as u64), ..server.file(path) };
-        refused(&file, None, &parts);
-        holds(&file, &[]);
+        refused(&file, &Client::default(), &parts);
+        let kept = fs::read_dir(file.path.parent().unwrap()).map_or(0, Iterator::count);
+        assert_eq!(kept, 0, "{path} is kept");
         assert!(server.requests().len() < 20, "{path}");
     }
     for path in STALLS {
         let (begun, server) = (Instant::now(), Server::start());
         let file = server.file(path);
-        refused(&file, Some(Duration::from_secs(2)), &["timeout", &file.url]);
+        refused(&file, &Client::with_patience(Duration::from_secs(2)), &["timeout", &file.url]);
         assert!(begun.elapsed() < Duration::from_secs(20), "{:?}", begun.elapsed());
     }
 }
 
 #[test]
 fn what_is_there_with_other_contents_is_not_touched() {
-    let server = Server::start();
+    let (server, client) = (Server::start(), Client::default());
     let file = server.file("/mesh.obj");
     fs::create_dir_all(file.path.parent().unwrap()).unwrap();
     fs::write(&file.path, b"mine").unwrap();
-    refused(&file, None, &["other contents", "mesh.obj"]);
+    refused(&file, &client, &["other contents", "mesh.obj"]);
     assert_eq!(fs::read(&file.path).unwrap(), b"mine");
     // It is not a folder; a folder in its place opens but cannot be read.
-    refused(&DataFile { path: file.path.join("x"), ..file.clone() }, None, &["cannot write"]);
+    refused(&DataFile { path: file.path.join("x"), ..file.clone() }, &client, &["cannot write"]);
     fs::remove_file(&file.path).unwrap();
     fs::create_dir(&file.path).unwrap();
-    refused(&file, None, &["cannot read"]);
+    refused(&file, &client, &["cannot read"]);
     assert!(server.requests().is_empty());
     fs::remove_dir(&file.path).unwrap();
     let nobody = DataFile { url: "http://127.0.0.1:9/mesh.obj".into(), ..file };
-    refused(&nobody, None, &["check the connection"]);
+    refused(&nobody, &client, &["check the connection"]);
 }
 
 /// The command, with a user's scene file.
 #[test]
 fn the_command_shows_the_licence_before_it_fetches() {
     let server = Server::start();
+    let folder = &server.folder;
     let hash = format!("sha256 = \"{}\"\nbytes = {}\n", hex(&mesh()), mesh().len());
-    let scene = |file: &str, url: &str, hash: &str| {
+    let describe = |file: &str, url: &str, hash: &str| {
         let text = format!(
             "name = \"Mine\"\n[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 0]\nvertical_fov = 40\n[[objects]]\nmesh = \"cube\"\n\
              [objects.real]\nfile = \"{file}\"\nurl = \"{url}\"\nlicence = \"free for tests\"\norigin = \"made up\"\n\
              reported_triangles = 1\n{hash}"
         );
-        let path = server.folder.path().join("scene.toml");
-        fs::write(&path, text).unwrap();
-        path.to_str().unwrap().to_owned()
+        folder.write("scene.toml", text);
     };
-    let data = server.folder.path().join("data");
-    let run = |args: &[&str]| {
-        let output = command(&[&["fetch"], args].concat()).env("SAHARA_DATA", &data).output().unwrap();
-        (output.status.code(), stdout(&output), stderr(&output))
-    };
+    let run = |line: &str, status: i32| ends(status, folder.command(line).env("SAHARA_DATA", "data"));
     let url = format!("{}/mesh.obj", server.address);
-    let file = scene("mesh.obj", &url, &hash);
+    describe("mesh.obj", &url, &hash);
 
-    let (code, printed, _) = run(&[&file, "--list", &file]);
-    assert!(code == Some(0) && server.requests().is_empty(), "{printed}");
+    let [printed, _] = run("fetch scene.toml --list scene.toml", RIGHT);
+    assert!(server.requests().is_empty());
     assert_eq!(printed.matches("licence: free for tests").count(), 1, "{printed}");
-    let (code, printed, errors) = run(&[&file]);
-    assert_eq!(code, Some(0), "{errors}");
+    let [printed, _] = run("fetch scene.toml", RIGHT);
     assert!(printed.find("free for tests").unwrap() < printed.find("SHA-256 verified").unwrap(), "{printed}");
-    assert_eq!(fs::read(data.join("mesh.obj")).unwrap(), mesh());
-    let (code, printed, _) = run(&[&file]);
-    assert!(code == Some(0) && printed.contains("present, SHA-256 verified"), "{printed}");
+    assert_eq!(fs::read(folder.path("data/mesh.obj")).unwrap(), mesh());
+    let [printed, _] = run("fetch scene.toml", RIGHT);
+    assert!(printed.contains("present, SHA-256 verified"), "{printed}");
 
-    fs::remove_file(data.join("mesh.obj")).unwrap();
+    fs::remove_file(folder.path("data/mesh.obj")).unwrap();
     let missing = format!("{}/missing", server.address);
     for (file, url, hash, parts) in [
         ("mesh.obj", &*missing, &*hash, ["404", "1 of 1 files"]),
@@ -216,7 +200,8 @@ fn the_command_shows_the_licence_before_it_fetches() {
         ("mesh.obj", "file:///etc/hosts", &hash, ["https://", "url"]),
         ("..", &url, &hash, ["without folders", "file"]),
     ] {
-        let (code, _, errors) = run(&[&scene(file, url, hash)]);
-        assert!(code == Some(1) && parts.iter().all(|part| errors.contains(part)), "{parts:?}: {errors}");
+        describe(file, url, hash);
+        let [_, errors] = run("fetch scene.toml", USAGE);
+        assert!(parts.iter().all(|part| errors.contains(part)), "{parts:?}: {errors}");
     }
 }

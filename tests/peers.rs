@@ -11,7 +11,7 @@ use sahara::validate::Stratum;
 use sahara::validate::conformance::{Named, counting, findings, shapes};
 
 use crate::conformance::passes;
-use crate::findings::{self, Finding, LOST, compared, mesh, wrong_by_stratum};
+use crate::findings::{self, CleanStrata, Finding, LOST, assert_clean, compared, mesh};
 
 /// Every configuration of the peers; those whose feature is off or whose library is absent are left out.
 const PEERS: [&str; 12] = [
@@ -49,9 +49,8 @@ fn meshes(choice: &Choice) -> Vec<Named> {
     meshes
 }
 
-/// Strata that a peer gets right on every mesh, and whether it is known to err on all others: the instructions of
-/// Embree and tinybvh depend on the machine, and so do their errors.
-const CLEAN: [(&str, &[Stratum], bool); 5] = {
+/// The peers, see [`CleanStrata`].
+const CLEAN: [CleanStrata; 5] = {
     use Stratum::{Edges, Invalid, Lengths, NearSurface, Random, RoundedEnds, Vertices, Windows};
     [
         ("bvh", &[Random, Lengths, NearSurface, Windows, Invalid, RoundedEnds], true),
@@ -64,13 +63,9 @@ const CLEAN: [(&str, &[Stratum], bool); 5] = {
 
 #[test]
 fn rays_without_a_named_cause_are_right() {
-    for (name, clean, all_others_err) in CLEAN {
-        let Some(choice) = present(name) else { continue };
-        for (stratum, wrong) in wrong_by_stratum(&choice, &meshes(&choice)) {
-            let is_clean = clean.contains(&stratum);
-            assert!(!is_clean || wrong.is_empty(), "{name}, {}: {wrong:#?}", stratum.name());
-            assert!(is_clean || !all_others_err || !wrong.is_empty(), "{name} errs no more: {}", stratum.name());
-        }
+    for clean in CLEAN {
+        let Some(choice) = present(clean.0) else { continue };
+        assert_clean(&choice, &meshes(&choice), clean);
     }
 }
 
@@ -144,22 +139,19 @@ fn deep_trees_overflow_the_stack_of_bvh_and_are_refused_for_that_of_tinybvh() {
 #[cfg(feature = "peer-embree")]
 #[test]
 fn an_absent_or_wrong_library_is_named_and_ends_no_run() {
-    use crate::cli::command::{command, stdout};
+    use crate::cli::command::{command, ends};
 
     const ABSENT: &str = "/nowhere/libembree4.so";
-    let compare = ["-q", "compare", "cube", "-s", "sah-kd", "-s", "embree", "--rays", "100", "--budget", "1"];
+    let compare = "-q compare cube -s sah-kd -s embree --rays 100 --budget 1";
     let mut runs = vec![
-        (ABSENT, &compare[..], 5, &["embree", "refused", ABSENT, "\n  sah-kd "][..]),
-        (ABSENT, &["list", "structures"], 0, &["absent"]),
+        (ABSENT, compare, 5, &["embree", "refused", ABSENT, "\n  sah-kd "][..]),
+        (ABSENT, "list structures", 0, &["absent"]),
     ];
     if cfg!(all(target_os = "linux", target_env = "gnu")) {
-        let validate = &["-q", "validate", "cube", "-s", "embree", "--rays", "50"];
-        runs.push(("libm.so.6", validate, 5, &["libm.so.6 is not Embree 4"]));
+        runs.push(("libm.so.6", "-q validate cube -s embree --rays 50", 5, &["libm.so.6 is not Embree 4"]));
     }
-    for (library, args, status, parts) in runs {
-        let output = command(args).env("SAHARA_EMBREE", library).output().expect("the command runs");
-        let text = stdout(&output);
-        assert_eq!(output.status.code(), Some(status), "{text}");
-        assert!(parts.iter().all(|part| text.contains(part)), "{args:?}: {text}");
+    for (library, line, status, parts) in runs {
+        let [text, _] = ends(status, command(line).env("SAHARA_EMBREE", library));
+        assert!(parts.iter().all(|part| text.contains(part)), "{line}: {text}");
     }
 }

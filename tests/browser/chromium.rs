@@ -162,7 +162,7 @@ impl Chromium {
     }
 
     /// The console messages of the page, its errors, and its requests for other files.
-    pub fn complaints(&self) -> Vec<String> {
+    fn complaints(&self) -> Vec<String> {
         let asked = |event: &Value| {
             let url = event["params"]["request"]["url"].as_str().unwrap_or_default();
             event["method"] == "Network.requestWillBeSent" && !url.starts_with("file:") && !url.starts_with("data:")
@@ -173,10 +173,13 @@ impl Chromium {
     }
 }
 
+/// The test fails if the page complained.
 impl Drop for Chromium {
     fn drop(&mut self) {
         let _ = self.process.kill();
         let _ = self.process.wait();
+        let complaints = self.complaints();
+        assert!(thread::panicking() || complaints.is_empty(), "{complaints:#?}");
     }
 }
 

@@ -1,7 +1,7 @@
 //! Runs the command, and checks its output.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
 use serde_json::Value;
@@ -13,83 +13,60 @@ pub const WRONG: i32 = 2;
 pub const REGRESSION: i32 = 3;
 pub const NOT_BUILT: i32 = 5;
 
-/// The words of a command line without quotes.
-pub fn words(line: &str) -> Vec<&str> {
-    line.split(' ').collect()
-}
+/// A mesh of one square.
+pub const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
 
-/// The command in a fixed environment: without real meshes.
-pub fn command(args: &[&str]) -> Command {
+/// The command with these words, quoted as for a shell, in a fixed environment: without real meshes.
+pub fn command(line: &str) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_sahara"));
-    command.args(args).env_remove("SAHARA_DATA").stdin(Stdio::null());
-    ["NO_COLOR", "CLICOLOR_FORCE", "COLUMNS"].iter().for_each(|name| _ = command.env_remove(name));
+    command.args(shlex::split(line).unwrap_or_else(|| panic!("{line}"))).stdin(Stdio::null());
+    ["SAHARA_DATA", "NO_COLOR", "CLICOLOR_FORCE", "COLUMNS"].iter().for_each(|name| _ = command.env_remove(name));
     command
 }
 
-pub fn sahara(args: &[&str]) -> Output {
-    command(args).output().expect("the command runs")
-}
-
-pub fn stdout(output: &Output) -> String {
-    String::from_utf8(output.stdout.clone()).expect("output is UTF-8")
-}
-
-pub fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).expect("messages are UTF-8")
-}
-
-/// The output of a successful command.
-#[track_caller]
-pub fn prints(args: &[&str]) -> String {
-    ends(RIGHT, &mut command(args)).0
+/// Its output and its messages.
+pub fn said(output: &Output) -> [String; 2] {
+    [&output.stdout, &output.stderr].map(|text| String::from_utf8(text.clone()).expect("output is UTF-8"))
 }
 
 /// The output and the messages of a command, which must end with this status.
 #[track_caller]
-pub fn ends(status: i32, command: &mut Command) -> (String, String) {
+pub fn ends(status: i32, command: &mut Command) -> [String; 2] {
     let output = command.output().expect("the command runs");
-    let (text, messages) = (stdout(&output), stderr(&output));
-    assert_eq!(output.status.code(), Some(status), "{command:?}: {text}{messages}");
-    (text, messages)
+    assert_eq!(output.status.code(), Some(status), "{command:?}: {:?}", said(&output));
+    said(&output)
 }
 
-/// A text in one line: the terminal breaks lines anywhere.
-pub fn unwrapped(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-/// Checks that a command has failed with one message that contains all of `parts`, which is returned, and that it
-/// printed no result.
+/// Checks that a text contains all of `parts`.
 #[track_caller]
-fn refused(output: &Output, parts: &[&str]) -> String {
-    let message = stderr(output);
-    assert_eq!(output.status.code(), Some(USAGE), "{message}");
-    assert!(output.stdout.is_empty(), "{message}: it prints {}", stdout(output));
+pub fn assert_contains(text: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(text.contains(part), "{part:?} is not in {text}");
+    }
+}
+
+/// Checks that a command fails with one message that contains all of `parts`, which is returned, and that it prints no
+/// result.
+#[track_caller]
+pub fn refused(command: &mut Command, parts: &[&str]) -> String {
+    let [text, message] = ends(USAGE, command);
+    assert_eq!(text, "", "{message}");
     assert!(message.starts_with("error: "), "{message}");
     assert!(!message.contains("panicked") && !message.contains("backtrace"), "{message}");
-    for part in parts {
-        assert!(message.contains(part), "{part:?} is not in {message:?}");
-    }
+    assert_contains(&message, parts);
     message
 }
 
 /// Like [`refused`], in one line.
 #[track_caller]
-pub fn refused_in_a_line(output: &Output, parts: &[&str]) {
-    let message = refused(output, parts);
+pub fn refused_in_a_line(command: &mut Command, parts: &[&str]) {
+    let message = refused(command, parts);
     assert_eq!(message.lines().count(), 1, "{message}");
 }
 
-/// Like [`refused`], for the command with these arguments.
-#[track_caller]
-pub fn refuses(args: &[&str], parts: &[&str]) -> String {
-    refused(&sahara(&[&["--quiet"], args].concat()), parts)
-}
-
-/// Like [`refuses`], in one line.
-#[track_caller]
-pub fn refuses_in_a_line(args: &[&str], parts: &[&str]) {
-    refused_in_a_line(&sahara(&[&["--quiet"], args].concat()), parts);
+/// A text in one line: the terminal breaks lines anywhere.
+pub fn unwrapped(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// The content of a JSON file.
@@ -98,35 +75,79 @@ pub fn json(path: impl AsRef<Path>) -> Value {
     serde_json::from_slice(&fs::read(path).unwrap()).unwrap()
 }
 
-/// The path of a file in a folder.
-pub fn at(folder: &TempDir, name: &str) -> String {
-    path_text(&folder.path().join(name))
-}
+/// A new folder, and commands in it.
+pub struct Folder(TempDir);
 
-/// The path of a new file.
-pub fn write(folder: &TempDir, name: &str, text: &str) -> String {
-    fs::write(folder.path().join(name), text).unwrap();
-    at(folder, name)
-}
+impl Folder {
+    pub fn new() -> Self {
+        Self(TempDir::new().unwrap())
+    }
 
-/// The path of a new executable file.
-#[cfg(unix)]
-pub fn program(folder: &TempDir, name: &str, text: &str) -> String {
-    use std::os::unix::fs::PermissionsExt;
-    fs::create_dir_all(folder.path().join(name).parent().unwrap()).unwrap();
-    let path = write(folder, name, text);
-    fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
-    path
-}
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
 
-pub fn path_text(path: &Path) -> String {
-    path.to_str().unwrap().to_owned()
-}
+    pub fn write(&self, name: &str, content: impl AsRef<[u8]>) {
+        fs::write(self.path(name), content).unwrap();
+    }
 
-/// A mesh of one square.
-pub const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+    pub fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).unwrap()
+    }
 
-/// A comparison that takes no time.
-pub fn small(scene: &str) -> Vec<&str> {
-    vec!["compare", scene, "--rays", "400", "--runs", "2", "--budget", "1", "-w", "primary", "-w", "shadow"]
+    /// The sorted names of all files.
+    pub fn names(&self) -> Vec<String> {
+        let entries = fs::read_dir(&self.0).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        let mut names: Vec<String> = entries.collect();
+        names.sort();
+        names
+    }
+
+    /// Writes an executable file.
+    #[cfg(unix)]
+    pub fn program(&self, name: &str, text: &str) {
+        use std::os::unix::fs::PermissionsExt;
+        fs::create_dir_all(self.path(name).parent().unwrap()).unwrap();
+        self.write(name, text);
+        fs::set_permissions(self.path(name), fs::Permissions::from_mode(0o755)).unwrap();
+    }
+
+    pub fn command(&self, line: &str) -> Command {
+        let mut command = command(line);
+        command.current_dir(&self.0);
+        command
+    }
+
+    /// See [`ends`].
+    #[track_caller]
+    pub fn ends(&self, status: i32, line: &str) -> [String; 2] {
+        ends(status, &mut self.command(line))
+    }
+
+    /// The output of a successful command.
+    #[track_caller]
+    pub fn prints(&self, line: &str) -> String {
+        let [text, _] = self.ends(RIGHT, line);
+        text
+    }
+
+    /// The output of a successful command, which must contain all of `parts`.
+    #[track_caller]
+    pub fn shows(&self, line: &str, parts: &[&str]) -> String {
+        let text = self.prints(line);
+        assert_contains(&text, parts);
+        text
+    }
+
+    /// See [`refused`].
+    #[track_caller]
+    pub fn refuses(&self, line: &str, parts: &[&str]) -> String {
+        refused(&mut self.command(&format!("--quiet {line}")), parts)
+    }
+
+    /// See [`refused_in_a_line`].
+    #[track_caller]
+    pub fn refuses_in_a_line(&self, line: &str, parts: &[&str]) {
+        refused_in_a_line(&mut self.command(&format!("--quiet {line}")), parts);
+    }
 }

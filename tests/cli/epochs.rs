@@ -9,10 +9,10 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
-use tempfile::TempDir;
 
-use super::command::{RIGHT, command, ends, json, prints, stderr, words};
+use super::command::{Folder, RIGHT, assert_contains, ends, json, said};
 use super::journal::{answers, cases};
+use super::plan::{file, job, plan};
 
 #[test]
 fn a_study_goes_on_where_it_stopped_and_repeats_what_it_said() {
@@ -20,12 +20,11 @@ fn a_study_goes_on_where_it_stopped_and_repeats_what_it_said() {
         ("scaling", "study scaling cube --finest 2 -s median-kd -s sah-bvh"),
         ("compare", "compare cube torus -s median-kd -s sah-kd"),
     ] {
-        let folder = TempDir::new().unwrap();
-        let dir = folder.path().to_str().unwrap();
-        let cases = || cases(folder.path(), name);
+        let folder = Folder::new();
+        let cases = || cases(&folder.path(""), name);
         let run = |options: &str| {
-            let small = format!("{study} -w primary --rays 64 --runs 1 --budget 1 --dir {dir} --epochs {options}");
-            (prints(&words(&small)), cases().len())
+            let small = "-w primary --rays 64 --runs 1 --budget 1 --dir . --epochs";
+            (folder.prints(&format!("{study} {small} {options}")), cases().len())
         };
         let (first, measured) = run("1");
         assert!(measured > 0, "{study}");
@@ -42,9 +41,10 @@ fn a_study_goes_on_where_it_stopped_and_repeats_what_it_said() {
 }
 
 /// A study of seconds, of twelve epochs, into the folder `dir`.
-fn study(dir: &Path) -> Command {
-    let mut command = command(&words("study attribution cube --rays 64 --runs 1 --budget 1 --epochs 12 --quiet --dir"));
-    command.arg(dir).stdout(Stdio::piped()).stderr(Stdio::piped());
+fn study(folder: &Folder, dir: &str) -> Command {
+    let small = "study attribution cube --rays 64 --runs 1 --budget 1 --epochs 12 --quiet --dir";
+    let mut command = folder.command(&format!("{small} {dir}"));
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
     command
 }
 
@@ -62,18 +62,19 @@ fn kill_at(mut child: Child, dir: &Path, wanted: usize) {
 
 #[test]
 fn a_killed_study_ends_as_one_that_was_left_alone() {
-    let folder = TempDir::new().unwrap();
-    let (alone, killed) = (folder.path().join("alone"), folder.path().join("killed"));
-    ends(RIGHT, &mut study(&alone));
+    let folder = Folder::new();
+    ends(RIGHT, &mut study(&folder, "alone"));
+    let [alone, killed] = ["alone", "killed"].map(|name| folder.path(name));
 
     // Once with one case, and once with another.
-    kill_at(study(&killed).spawn().unwrap(), &killed, 1);
-    kill_at(study(&killed).spawn().unwrap(), &killed, 2);
+    for wanted in [1, 2] {
+        kill_at(study(&folder, "killed").spawn().unwrap(), &killed, wanted);
+    }
     // As after a power failure while a case was written.
-    fs::write(killed.join("attribution/.sahara-1234.part"), "{\"schema\":4,\"pr").unwrap();
+    folder.write("killed/attribution/.sahara-1234.part", "{\"schema\":4,\"pr");
     let before = cases(&killed, "attribution").len();
 
-    ends(RIGHT, &mut study(&killed));
+    ends(RIGHT, &mut study(&folder, "killed"));
     assert!(before < cases(&killed, "attribution").len());
     assert_eq!(answers(&alone, "attribution").len(), 12);
     assert_eq!(answers(&killed, "attribution"), answers(&alone, "attribution"));
@@ -81,58 +82,43 @@ fn a_killed_study_ends_as_one_that_was_left_alone() {
 
 const TWO_SCENES: &str = "compare cube torus -s sah-kd -s sah-bvh -w diffuse --rays 256 --epochs 2 --dir";
 
-/// The numbers of the processes that measured the cases of a journal.
-fn processes(folder: &Path) -> BTreeSet<u64> {
-    let process = |path| json(path)["epoch"]["environment"]["process"].as_u64().unwrap();
-    cases(folder, "compare").iter().map(process).collect()
-}
-
 #[test]
 fn each_epoch_of_a_scene_has_a_process_and_one_process_answers_the_same() {
-    let folder = TempDir::new().unwrap();
-    let [apart, one] = ["apart", "one"].map(|name| folder.path().join(name));
-    let run = |dir: &Path, more: &[&str]| prints(&[&words(TWO_SCENES)[..], &[dir.to_str().unwrap()], more].concat());
-    run(&apart, &[]);
-    run(&one, &["--in-process"]);
+    let folder = Folder::new();
+    let [apart, one] = ["apart", "one"].map(|name| folder.path(name));
+    let processes = |dir: &Path| -> BTreeSet<u64> {
+        let process = |path| json(path)["epoch"]["environment"]["process"].as_u64().unwrap();
+        cases(dir, "compare").iter().map(process).collect()
+    };
+    folder.prints(&format!("{TWO_SCENES} apart"));
+    folder.prints(&format!("{TWO_SCENES} one --in-process"));
     assert_eq!((processes(&apart).len(), processes(&one).len()), (4, 1), "two epochs of two scenes");
     assert_eq!(answers(&apart, "compare"), answers(&one, "compare"));
     // Both kinds lie side by side.
-    run(&apart, &["--in-process"]);
+    folder.prints(&format!("{TWO_SCENES} apart --in-process"));
     assert_eq!(cases(&apart, "compare").len(), 8);
 }
 
-/// The messages of a process with a case to a listening run, with replies.
-fn said(case: &Value, out: &Path) -> Vec<Value> {
-    let mut command = command(&[&format!("--case={case}"), "--out", out.to_str().unwrap(), "--listen"]);
-    let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
-    // It may have ended before.
-    let _ = child.stdin.take().unwrap().write_all("\n".repeat(10_000).as_bytes());
-    let output = child.wait_with_output().unwrap();
-    assert!(output.status.success(), "{}", stderr(&output));
-    let lines = String::from_utf8(output.stdout).unwrap();
-    let line = |line: &str| serde_json::from_str(line.strip_prefix("\u{1e}case ").unwrap()).unwrap();
-    lines.lines().map(line).collect()
-}
-
 #[test]
-fn a_process_measures_its_case_alone_and_says_what_it_does() {
-    let folder = TempDir::new().unwrap();
-    prints(&[&words(TWO_SCENES)[..], &[folder.path().to_str().unwrap()]].concat());
-    let first = json(&cases(folder.path(), "compare")[0]);
-    let out = folder.path().join("again.json");
-    let lines = said(&first["case"], &out);
-    assert!(lines.iter().any(|line| line["Stage"]["Build"] == "sah-bvh"), "{lines:?}");
-    let checksums = |file: &Value| -> Vec<Value> {
-        let structures = file["epoch"]["structures"].as_array().unwrap();
-        structures.iter().map(|structure| structure["rays"][0]["checksum"].clone()).collect()
+fn a_listening_run_is_told_what_a_job_does_and_why_it_measures_nothing() {
+    let folder = Folder::new();
+    let line = &plan(&folder.path(""), "compare --scenes cube --rays 256 --epochs 1 -s sah-bvh")[0];
+    let messages = |line: &str| -> Vec<Value> {
+        let mut child = job(line).arg("--listen").stdin(Stdio::piped()).spawn().unwrap();
+        // It may have ended before.
+        let _ = child.stdin.take().unwrap().write_all("\n".repeat(10_000).as_bytes());
+        let output = child.wait_with_output().unwrap();
+        let [lines, errors] = said(&output);
+        assert!(output.status.success(), "{errors}");
+        let line = |line: &str| serde_json::from_str(line.strip_prefix("\u{1e}case ").unwrap()).unwrap();
+        lines.lines().map(line).collect()
     };
-    assert_eq!(checksums(&json(&out)), checksums(&first));
-
     // A changed scene is rejected, with the error that the run shows.
-    let mut changed = first["case"].clone();
-    changed["scene"]["hash"] = "0123456789abcdef".into();
-    let lines = said(&changed, &folder.path().join("never.json"));
-    let sentence = lines[0]["Failed"]["sentence"].as_str().unwrap();
-    assert!(sentence.contains("cube") && sentence.contains("plan it again"), "{sentence}");
-    assert!(!folder.path().join("never.json").exists());
+    let hash = &line.split("\"hash\":\"").nth(1).unwrap()[..16];
+    let refusal = &messages(&line.replace(hash, "0123456789abcdef"))[0]["Failed"]["sentence"];
+    assert_contains(refusal.as_str().unwrap(), &["cube", "plan it again"]);
+    assert!(!file(line).exists());
+    let messages = messages(line);
+    assert!(messages.iter().any(|message| message["Stage"]["Build"] == "sah-bvh"), "{messages:?}");
+    assert!(file(line).exists());
 }

@@ -4,27 +4,32 @@
 use std::fs;
 use std::process::{Command, Output};
 
-use tempfile::TempDir;
-
-use super::command::{REGRESSION, RIGHT, at, prints, program, stderr, stdout, write};
+use super::command::{Folder, REGRESSION, RIGHT, said};
 use super::runner::NOTHING;
 
 const DOCUMENT: &str = include_str!("../../src/study/diff/GATE.md");
 
-/// The script of the document with fewer epochs, over rays that miss everything, with the runner `only`, further options
-/// and the reference `steady`.
-fn script(rays: &str, only: &str, runners: &str) -> String {
+/// A folder with 64 rays that miss the cube, and with the script of the document, `gate.sh`: over these rays with fewer
+/// epochs, the runner `only`, further options and the reference `steady`, which a program of this folder is.
+fn gated(only: &str, options: &str) -> Folder {
+    let folder = Folder::new();
+    folder.write("away.txt", "9,9,9 0,0,1\n".repeat(64));
+    folder.prints("rays import away.txt -o away.rays --scene cube");
+    folder.program("steady.sh", NOTHING);
+    let steady = format!("--reference steady --runner steady={}", folder.path("steady.sh").display());
     let script = DOCUMENT.split("```sh\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
     let replaced = [
-        ("teapot starters cornellbox", format!("--rays {rays}")),
-        ("--only $name", format!("--only {only} --reference steady {runners} --quiet")),
+        ("teapot starters cornellbox", format!("--rays {}", folder.path("away.rays").display())),
+        ("--only $name", format!("--only {only} {steady} {options} --quiet")),
         ("4 8 16", "3 6".into()),
         ("--looks 3", "--looks 3 --reference steady".into()),
     ];
-    replaced.iter().fold(script.to_owned(), |script, (there, here)| {
+    let script = replaced.iter().fold(script.to_owned(), |script, (there, here)| {
         assert!(script.contains(there), "{there:?} is not in {script}");
         script.replace(there, here)
-    })
+    });
+    folder.program("gate.sh", &script);
+    folder
 }
 
 /// The arguments of the script in the workflows of the document.
@@ -32,45 +37,35 @@ fn arguments(nth: usize) -> &'static str {
     DOCUMENT.lines().filter_map(|line| line.trim().strip_prefix("- run: sh gate.sh ")).nth(nth).unwrap()
 }
 
-/// Makes a file of 64 rays that miss the cube.
-fn misses(folder: &TempDir) -> String {
-    let (text, rays) = (write(folder, "away.txt", &"9,9,9 0,0,1\n".repeat(64)), at(folder, "away.rays"));
-    prints(&["rays", "import", &text, "-o", &rays, "--scene", "cube"]);
-    rays
-}
-
 /// Runs a line of the document in a folder.
-fn shell(folder: &TempDir, line: &str) -> Output {
+fn shell(folder: &Folder, line: &str) -> Output {
     let mut shell = Command::new("sh");
-    shell.args(["-c", line]).env("RUNNER_TEMP", folder.path()).current_dir(folder.path()).output().unwrap()
+    shell.args(["-c", line]).env("RUNNER_TEMP", folder.path("")).current_dir(folder.path("")).output().unwrap()
 }
 
 /// Runs the `nth` command of the document that runs the script, with prescribed seconds per pass on both sides, for
 /// even and for odd epochs. Returns its output, and the number of measured epochs of the branch.
 fn gate(nth: usize, base: [f64; 2], branch: [f64; 2]) -> (Output, usize) {
     let command = arguments(nth);
-    let folder = TempDir::new().unwrap();
-    let program = |name: &str, text: &str| program(&folder, name, text);
+    // A runner must not have the name of a structure.
+    let folder = gated("my-$name", "--runner my-$name=$RUNNER_TEMP/told.sh");
     // Each epoch is a process that starts the runner and its twin: the runners of every second process have the same
     // seconds.
     let starts = "grep -qx $PPID \"$STARTS\" 2>/dev/null || echo $PPID >> \"$STARTS\"\n\
                   n=$(grep -nx $PPID \"$STARTS\" | cut -d: -f1)\n\
                   if [ $((n % 2)) -eq 1 ]; then own=$EVEN; else own=$ODD; fi\n";
     let runner = NOTHING.replacen("#!/bin/sh\n", &format!("#!/bin/sh\n{starts}"), 1);
-    let runner = program("told.sh", &runner.replace("*) echo \"passed 0.001\"", "*) echo \"passed $own\""));
-    let yardstick = program("steady.sh", NOTHING);
-    // A runner must not have the name of a structure.
-    let runners = format!("--runner my-$name={runner} --runner steady={yardstick}");
-    program("gate.sh", &script(&misses(&folder), "my-$name", &runners));
+    folder.program("told.sh", &runner.replace("*) echo \"passed 0.001\"", "*) echo \"passed $own\""));
     let sahara = env!("CARGO_BIN_EXE_sahara");
     // The programs of both sides, at the place of the workflow's builds.
     let sides = command.split_whitespace().take(2).map(|word| word.trim_matches('"').replace("$RUNNER_TEMP/", ""));
     for (path, [even, odd]) in sides.zip([base, branch]) {
-        let starts = at(&folder, &(path.replace('/', "-") + ".starts"));
-        program(&path, &format!("#!/bin/sh\nexport STARTS={starts} EVEN={even} ODD={odd}\nexec {sahara} \"$@\"\n"));
+        let starts = folder.path(&(path.replace('/', "-") + ".starts"));
+        let environment = format!("STARTS={} EVEN={even} ODD={odd}", starts.display());
+        folder.program(&path, &format!("#!/bin/sh\nexport {environment}\nexec {sahara} \"$@\"\n"));
     }
     let output = shell(&folder, &format!("sh gate.sh {command}"));
-    let epochs = fs::read_dir(folder.path().join("runs-branch/compare")).map_or(0, Iterator::count);
+    let epochs = fs::read_dir(folder.path("runs-branch/compare")).map_or(0, Iterator::count);
     (output, epochs)
 }
 
@@ -84,9 +79,9 @@ fn the_gate_passes_what_is_unchanged_fails_what_is_slower_and_ends_where_it_cann
         (1, [0.001; 2], [0.0012; 2], REGRESSION, 3, "my-mybvh (own clock): right on 64 checked rays;"),
     ] {
         let (output, measured) = gate(nth, base, branch);
-        let said = stdout(&output) + &stderr(&output);
-        assert_eq!((output.status.code(), measured), (Some(status), epochs), "{base:?} {branch:?}: {said}");
-        assert!(said.contains(verdict), "{verdict:?} is not in {said}");
+        let text = said(&output).concat();
+        assert_eq!((output.status.code(), measured), (Some(status), epochs), "{base:?} {branch:?}: {text}");
+        assert!(text.contains(verdict), "{verdict:?} is not in {text}");
     }
 }
 
@@ -94,14 +89,12 @@ fn the_gate_passes_what_is_unchanged_fails_what_is_slower_and_ends_where_it_cann
 fn one_sahara_gates_a_program() {
     for (seconds, status, verdict) in [("0.001", RIGHT, "no change"), ("0.0012", REGRESSION, "over the limit of 10 %")]
     {
-        let folder = TempDir::new().unwrap();
-        let steady = program(&folder, "steady.sh", NOTHING);
-        program(&folder, "gate.sh", &script(&misses(&folder), "$name", &format!("--runner steady={steady}")));
-        program(&folder, "bvh-base", NOTHING);
-        program(&folder, "bvh", &NOTHING.replace("passed 0.001", &format!("passed {seconds}")));
-        program(&folder, "bin/sahara", &format!("#!/bin/sh\nexec {} \"$@\"\n", env!("CARGO_BIN_EXE_sahara")));
+        let folder = gated("$name", "");
+        folder.program("bvh-base", NOTHING);
+        folder.program("bvh", &NOTHING.replace("passed 0.001", &format!("passed {seconds}")));
+        folder.program("bin/sahara", &format!("#!/bin/sh\nexec {} \"$@\"\n", env!("CARGO_BIN_EXE_sahara")));
         let output = shell(&folder, &format!("PATH=$PWD/bin:$PATH sh gate.sh {}", arguments(2)));
-        let said = stdout(&output) + &stderr(&output);
-        assert!(output.status.code() == Some(status) && said.contains(verdict), "{seconds}: {said}");
+        let text = said(&output).concat();
+        assert!(output.status.code() == Some(status) && text.contains(verdict), "{seconds}: {text}");
     }
 }

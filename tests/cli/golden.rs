@@ -1,39 +1,25 @@
 //! `golden`: pictures of any renderer, and golden images of any scene.
 
 use std::fs;
-use std::path::Path;
 
 use sahara::golden::numbers::{packed, unpacked};
 use sahara::golden::{read, write as write_picture};
 use sahara::image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use sahara::image::{DynamicImage, GrayImage, Luma, Rgb, RgbImage};
-use tempfile::TempDir;
+use serde_json::json as value;
 
-use super::command::{
-    RIGHT, USAGE, WRONG, at, command, ends, json, prints, refuses, refuses_in_a_line, unwrapped, words, write,
-};
+use super::command::{Folder, RIGHT, USAGE, WRONG, assert_contains, json, unwrapped};
 
-/// Folders of pictures, `expected` and `actual`.
-struct Folders(TempDir);
-
-impl Folders {
-    fn new() -> Self {
-        Self(TempDir::new().unwrap())
-    }
-
-    fn path(&self, name: &str) -> String {
-        at(&self.0, name)
-    }
-
+impl Folder {
     fn add(&self, name: &str, picture: impl Into<DynamicImage>) {
-        write_picture(Path::new(&self.path(name)), &picture.into()).unwrap();
+        write_picture(&self.path(name), &picture.into()).unwrap();
     }
 
-    /// Compares the folders, which must end with this status; returns the output.
+    /// Compares the folders `expected` and `actual`, with this status.
     #[track_caller]
     fn compare(&self, options: &str, status: i32) -> String {
-        let line = format!("golden compare {} {} {options}", self.path("expected"), self.path("actual"));
-        ends(status, &mut command(&words(line.trim_end()))).0
+        let [text, _] = self.ends(status, &format!("golden compare expected actual {options}"));
+        text
     }
 }
 
@@ -49,15 +35,15 @@ fn changed(pixels: usize, by: u8) -> RgbImage {
 
 #[test]
 fn folders_of_pictures_are_compared_by_name() {
-    let folders = Folders::new();
-    for side in ["expected", "actual"] {
-        folders.add(&format!("{side}/same.png"), picture());
-        folders.add(&format!("{side}/deep/er.png"), if side == "actual" { changed(9, 2) } else { picture() });
-        fs::write(folders.path(&format!("{side}/notes.txt")), side).unwrap();
+    let folder = Folder::new();
+    for (side, other) in [("expected", picture()), ("actual", changed(9, 2))] {
+        folder.add(&format!("{side}/same.png"), picture());
+        folder.add(&format!("{side}/deep/er.png"), other);
+        folder.write(&format!("{side}/notes.txt"), side);
     }
-    let text = folders.compare("", WRONG);
+    let text = folder.compare("", WRONG);
     let difference = "deep/er.png: 9 of 1,200 pixels differ, first at column 0, row 0, by up to 2 of 255";
-    assert!(text.contains(difference) && text.contains("1 different, 1 identical"), "{text}");
+    assert_contains(&text, &[difference, "1 different, 1 identical"]);
     assert!(!text.contains("notes"), "{text}");
     for (options, accepted) in [
         ("--max-difference 2", true),
@@ -70,35 +56,33 @@ fn folders_of_pictures_are_compared_by_name() {
         ("--max-flip 0.01", true),
         ("--max-flip 0.00001", false),
     ] {
-        let text = folders.compare(options, if accepted { RIGHT } else { WRONG });
+        let text = folder.compare(options, if accepted { RIGHT } else { WRONG });
         assert_eq!(text.contains("1 accepted, 1 identical"), accepted, "{options}: {text}");
     }
 
     // A failing picture names the number that is compared, and its limit.
-    let json_file = folders.path("run.json");
     for (options, sentence, limit) in [
         (
             "--max-difference 1 --allow-pixels 0.7%",
             "9 pixels differ by more than 1 of 255, and 8 are allowed",
-            serde_json::json!({ "max_difference": 1.0, "pixels_over": 9, "allow_pixels": 8 }),
+            value!({ "max_difference": 1.0, "pixels_over": 9, "allow_pixels": 8 }),
         ),
-        ("--max-flip 0", "the mean of FLIP is 0.00", serde_json::json!({ "max_flip": 0.0 })),
+        ("--max-flip 0", "the mean of FLIP is 0.00", value!({ "max_flip": 0.0 })),
     ] {
-        let text = folders.compare(&format!("{options} --export-json {json_file}"), WRONG);
+        let text = folder.compare(&format!("{options} --export-json run.json"), WRONG);
         assert!(unwrapped(&text).contains(&format!("; {sentence}")), "{text}");
-        let own = &json(&json_file)["comparisons"][0];
+        let own = &json(folder.path("run.json"))["comparisons"][0];
         assert!(own["said"][1].as_str().unwrap().starts_with(sentence), "{own}");
-        let is_equal = |(name, value): (&String, &serde_json::Value)| own["limit"][name] == *value;
-        assert!(limit.as_object().unwrap().iter().all(is_equal), "{own}");
+        assert!(limit.as_object().unwrap().iter().all(|(name, value)| own["limit"][name] == *value), "{own}");
     }
 
     // A picture that is missing in one folder is a failure, and less severe than a difference.
-    folders.add("expected/gone.png", picture());
-    folders.add("actual/new.png", picture());
-    let text = folders.compare(&format!("--max-difference 2 --export-json {json_file}"), USAGE);
-    assert!(text.contains("gone.png: exists in") && text.contains("new.png: exists in"), "{text}");
-    assert!(text.contains("1 missing, 1 additional, 1 accepted, 1 identical"), "{text}");
-    let run = json(&json_file);
+    folder.add("expected/gone.png", picture());
+    folder.add("actual/new.png", picture());
+    let text = folder.compare("--max-difference 2 --export-json run.json", USAGE);
+    let sum = "1 missing, 1 additional, 1 accepted, 1 identical";
+    assert_contains(&text, &["gone.png: exists in", "new.png: exists in", sum]);
+    let run = json(folder.path("run.json"));
     for (i, verdict) in ["accepted", "missing", "additional", "identical"].into_iter().enumerate() {
         assert_eq!(run["comparisons"][i]["verdict"], verdict, "{run}");
     }
@@ -107,178 +91,170 @@ fn folders_of_pictures_are_compared_by_name() {
     assert!(measures["flip"]["mean"].as_f64() > Some(0.0) && measures["ssim"].as_f64() < Some(1.0), "{measures}");
 
     // A damaged picture fails, and all others are compared.
-    fs::write(folders.path("actual/same.png"), "no picture").unwrap();
-    let text = folders.compare("--max-difference 2", USAGE);
-    assert!(text.contains("same.png: cannot read") && text.contains("1 failed"), "{text}");
+    folder.write("actual/same.png", "no picture");
+    assert_contains(&folder.compare("--max-difference 2", USAGE), &["same.png: cannot read", "1 failed"]);
     // A difference is more severe.
-    folders.compare("", WRONG);
+    folder.compare("", WRONG);
 }
 
 #[test]
 fn pictures_of_another_layout_and_what_cannot_be_compared_are_told() {
-    let folders = Folders::new();
-    folders.add("a.png", picture());
-    folders.add("rgba.png", DynamicImage::from(picture()).to_rgba8());
-    folders.add("deep.png", DynamicImage::from(picture()).to_rgb16());
-    folders.add("small.png", RgbImage::new(4, 4));
+    let folder = Folder::new();
+    folder.add("a.png", picture());
+    folder.add("rgba.png", DynamicImage::from(picture()).to_rgba8());
+    folder.add("deep.png", DynamicImage::from(picture()).to_rgb16());
+    folder.add("small.png", RgbImage::new(4, 4));
     for (other, words, advice) in [
         ("rgba", "RGBA with 8", "convert one of the pictures, or replace"),
         ("deep", "RGB with 16", "convert one of the pictures, or replace"),
         ("small", "4 x 4 pixels", "at the size of the golden image, or replace"),
     ] {
-        let [one, other] = ["a", other].map(|name| folders.path(&format!("{name}.png")));
-        let mut compare = command(&["golden", "compare", &one, &other, "--max-difference", "255"]);
-        let (text, _) = ends(WRONG, &mut compare);
-        assert!(["40 x 30 pixels of RGB with 8 bits", words, advice].iter().all(|part| text.contains(part)), "{text}");
+        let [text, _] = folder.ends(WRONG, &format!("golden compare a.png {other}.png --max-difference 255"));
+        assert_contains(&text, &["40 x 30 pixels of RGB with 8 bits", words, advice]);
     }
     // The same picture in other bytes is identical.
-    let file = fs::File::create(folders.path("again.png")).unwrap();
+    let file = fs::File::create(folder.path("again.png")).unwrap();
     let theirs = PngEncoder::new_with_quality(file, CompressionType::Uncompressed, FilterType::NoFilter);
     picture().write_with_encoder(theirs).unwrap();
-    let [a, again, none, folder] = ["a.png", "again.png", "none.png", ""].map(|name| folders.path(name));
-    assert!(fs::read(&a).unwrap() != fs::read(&again).unwrap());
-    assert_eq!(prints(&["golden", "compare", &a, &again]), "1 identical\n");
+    assert!(fs::read(folder.path("a.png")).unwrap() != fs::read(folder.path("again.png")).unwrap());
+    assert_eq!(folder.prints("golden compare a.png again.png"), "1 identical\n");
 
-    refuses_in_a_line(&["golden", "compare", &a, &none], &["none.png", "there is no"]);
-    refuses_in_a_line(&["golden", "compare", &a, &folder], &["a folder and a file"]);
-    let empty = folders.path("empty");
-    fs::create_dir(&empty).unwrap();
-    refuses_in_a_line(&["golden", "compare", &empty, &empty], &["no pictures"]);
-    refuses(&["golden", "compare", &a, &a, "--max-flip", "1", "--allow-pixels", "1"], &["cannot be used with"]);
-    refuses(&["golden", "compare", &a, &a, "--max-flip", "5"], &["--max-flip", "give a number from 0 to 1"]);
-    refuses(&["golden", "compare", &a, &a, "--allow-pixels", "101%"], &["0.1%"]);
-    refuses(&["golden", "compare", &a, &a, "--max-difference", "-1"], &["at least 0"]);
-    // Neither result may replace a compared picture.
-    if cfg!(feature = "page") {
-        let inside = folders.path("empty/page");
-        refuses_in_a_line(&["golden", "compare", &empty, &folder, "--page", &inside], &["outside", "empty"]);
-        refuses_in_a_line(&["golden", "compare", &a, &a, "--page", &folder], &["a.png", "another folder"]);
+    fs::create_dir(folder.path("empty")).unwrap();
+    for (line, parts) in [
+        ("golden compare a.png none.png", &["none.png", "there is no"][..]),
+        ("golden compare a.png .", &["a folder and a file"]),
+        ("golden compare empty empty", &["no pictures"]),
+        // No result may replace a compared picture.
+        ("golden compare a.png a.png --export-json a.png", &["a.png", "an input file"]),
+        #[cfg(feature = "page")]
+        ("golden compare empty . --page empty/page", &["outside", "empty"]),
+        #[cfg(feature = "page")]
+        ("golden compare a.png a.png --page .", &["a.png", "another folder"]),
+        #[cfg(not(feature = "page"))]
+        ("golden check cube --page page", &["--page", "feature `page`"]),
+    ] {
+        folder.refuses_in_a_line(line, parts);
     }
-    refuses_in_a_line(&["golden", "compare", &a, &a, "--export-json", &a], &["a.png", "an input file"]);
+    for (options, parts) in [
+        ("--max-flip 1 --allow-pixels 1", &["cannot be used with"][..]),
+        ("--max-flip 5", &["--max-flip", "give a number from 0 to 1"]),
+        ("--allow-pixels 101%", &["0.1%"]),
+        ("--max-difference -1", &["at least 0"]),
+    ] {
+        folder.refuses(&format!("golden compare a.png a.png {options}"), parts);
+    }
 }
 
 #[test]
 fn what_is_black_in_the_mask_is_not_compared() {
-    let folders = Folders::new();
+    let folder = Folder::new();
     let mut other = picture();
     other.put_pixel(3, 4, Rgb([0; 3]));
-    folders.add("a.png", picture());
-    folders.add("b.png", other);
-    let [a, b, mask] = ["a.png", "b.png", "mask.png"].map(|name| folders.path(name));
-    ends(WRONG, &mut command(&["golden", "compare", &a, &b]));
-    folders.add("mask.png", GrayImage::from_fn(40, 30, |_, y| Luma([u8::from(y > 9)])));
-    let text = prints(&["golden", "compare", &a, &b, "--mask", &mask]);
-    assert!(text.contains("mask.png: 400 of 1,200 pixels are masked") && text.contains("1 identical"), "{text}");
-    folders.add("mask.png", GrayImage::new(40, 30));
-    refuses_in_a_line(&["golden", "compare", &a, &b, "--mask", &mask], &["mask.png", "all black"]);
-    folders.add("mask.png", GrayImage::from_pixel(4, 3, Luma([9])));
-    let (_, message) = ends(USAGE, &mut command(&["golden", "compare", &a, &b, "--mask", &mask]));
+    folder.add("a.png", picture());
+    folder.add("b.png", other);
+    folder.ends(WRONG, "golden compare a.png b.png");
+    let masked = "golden compare a.png b.png --mask mask.png";
+    folder.add("mask.png", GrayImage::from_fn(40, 30, |_, y| Luma([u8::from(y > 9)])));
+    folder.shows(masked, &["mask.png: 400 of 1,200 pixels are masked", "1 identical"]);
+    folder.add("mask.png", GrayImage::new(40, 30));
+    folder.refuses_in_a_line(masked, &["mask.png", "all black"]);
+    folder.add("mask.png", GrayImage::from_pixel(4, 3, Luma([9])));
+    let [_, message] = folder.ends(USAGE, masked);
     assert!(message.contains("the mask has 4 x 3 pixels"), "{message}");
+}
+
+/// A folder with the scene of a user in `mine.toml`.
+fn with_a_scene() -> Folder {
+    let folder = Folder::new();
+    folder.write(
+        "mine.toml",
+        "name = \"Mine\"\ncamera = { eye = [0, 2, 5], target = [0, 0.5, 0], vertical_fov = 45 }\n\
+         lights = [{ pos = [3, 5, 4], col = [1, 1, 1] }]\nobjects = [{ mesh = \"cube\" }]\n",
+    );
+    folder
 }
 
 #[test]
 fn depths_and_triangles_are_compared_as_numbers() {
-    let directory = TempDir::new().unwrap();
-    let scene = write(&directory, "mine.toml", SCENE);
-    let export = at(&directory, "run.json");
+    let folder = with_a_scene();
     for (view, changed, words) in [
         ("depth", 100f32.to_bits(), "the golden image has t = 100, and sah-kd gives t = "),
         ("depth", f32::INFINITY.to_bits(), "the golden image has no hit, and sah-kd gives t = "),
         ("primitive", 70_001, "the golden image has triangle 70001, and sah-kd gives triangle "),
     ] {
-        let own = ["--size", "32x24", "--view", view];
-        prints(&[&["golden", "update", &scene, "--force"], &own[..]].concat());
-        let golden = directory.path().join(format!("mine.{view}.golden.png"));
+        let own = format!("mine.toml --size 32x24 --view {view}");
+        folder.prints(&format!("golden update {own} --force"));
+        let golden = folder.path(&format!("mine.{view}.golden.png"));
         let mut numbers = unpacked(&read(&golden).unwrap()).unwrap();
         numbers[12 * 32 + 16] = changed;
         write_picture(&golden, &packed([32, 24], &numbers)).unwrap();
-        let check = ["golden", "check", &scene, "-s", "sah-kd", "--export-json", &export];
-        let (text, _) = ends(WRONG, &mut command(&[&check, &own[..]].concat()));
-        assert!(text.contains("1 of 768 pixels differs, first at column 16, row 12") && text.contains(words), "{text}");
-        let measures = &json(&export)["comparisons"][0]["measures"];
+        let [text, _] = folder.ends(WRONG, &format!("golden check {own} -s sah-kd --export-json run.json"));
+        assert_contains(&text, &["1 of 768 pixels differs, first at column 16, row 12", words]);
+        let measures = &json(folder.path("run.json"))["comparisons"][0]["measures"];
         assert!(measures["flip"].is_null() && measures["pixels"] == 1, "{measures}");
         assert_eq!(measures["largest"].as_f64().is_some(), changed == 100f32.to_bits(), "{measures}");
     }
 }
 
-/// A user's scene.
-const SCENE: &str = "name = \"Mine\"\ncamera = { eye = [0, 2, 5], target = [0, 0.5, 0], vertical_fov = 45 }\n\
-                     lights = [{ pos = [3, 5, 4], col = [1, 1, 1] }]\nobjects = [{ mesh = \"cube\" }]\n";
-
 #[test]
 fn scene_files_and_meshes_have_golden_images_beside_them() {
-    let directory = TempDir::new().unwrap();
-    let scene = write(&directory, "mine.toml", SCENE);
-    let small = ["--size", "32x24", "-s", "sah-kd", "-s", "sah-bvh"];
-    let check = |view: &'static str| [&["golden", "check", &scene, "--view", view], &small[..]].concat();
-    refuses_in_a_line(&check("shaded"), &["mine.golden.png", "sahara golden update"]);
+    let folder = with_a_scene();
+    let check = |options: &str| format!("golden check mine.toml --size 32x24 -s sah-kd -s sah-bvh {options}");
+    let update = |options: &str| folder.prints(&format!("golden update mine.toml --size 32x24 {options}"));
+    folder.refuses_in_a_line(&check(""), &["mine.golden.png", "sahara golden update"]);
     for (view, file) in
         [("shaded", "mine.golden.png"), ("depth", "mine.depth.golden.png"), ("primitive", "mine.primitive.golden.png")]
     {
-        let text = prints(&["golden", "update", &scene, "--size", "32x24", "--view", view]);
-        assert!(text.contains("created") && text.contains(file), "{text}");
-        assert!(directory.path().join(file).exists());
-        let text = prints(&check(view));
-        assert!(text.contains("identical bytes with sah-kd, sah-bvh"), "{text}");
-        assert!(prints(&["golden", "update", &scene, "--size", "32x24", "--view", view]).contains("unchanged"));
+        let view = format!("--view {view}");
+        let text = update(&view);
+        assert!(text.contains("created") && text.contains(file) && folder.path(file).exists(), "{text}");
+        folder.shows(&check(&view), &["identical bytes with sah-kd, sah-bvh"]);
+        assert!(update(&view).contains("unchanged"));
     }
-    refuses_in_a_line(&["golden", "check", &scene, "-s", "sah-kd"], &["32 x 24 pixels, but 512 x 512", "--size 32x24"]);
-    let moved = [&check("shaded")[..], &["--camera", "0,1,5 0,0,0 30"]].concat();
-    refuses_in_a_line(&moved, &["--camera '0,2,5 0,0.5,0 45'", "--camera '0,1,5 0,0,0 30'"]);
-    refuses(&check("heat"), &["heat", "shaded, depth, normal, primitive"]);
+    let cameras = ["--camera '0,2,5 0,0.5,0 45'", "--camera '0,1,5 0,0,0 30'"];
+    folder.refuses_in_a_line(&check(cameras[1]), &cameras);
+    let sizes = ["32 x 24 pixels, but 512 x 512", "--size 32x24"];
+    folder.refuses_in_a_line("golden check mine.toml -s sah-kd", &sizes);
+    folder.refuses(&check("--view heat"), &["heat", "shaded, depth, normal, primitive"]);
 
     // A picture of another program is not replaced.
-    let golden = directory.path().join("mine.golden.png");
-    fs::write(&golden, "mine").unwrap();
-    refuses_in_a_line(&["golden", "update", &scene, "--size", "32x24"], &["mine.golden.png", "--force"]);
-    prints(&["golden", "update", &scene, "--size", "32x24", "--force"]);
-    prints(&check("shaded"));
+    folder.write("mine.golden.png", "mine");
+    folder.refuses_in_a_line("golden update mine.toml --size 32x24", &["mine.golden.png", "--force"]);
+    update("--force");
+    folder.prints(&check(""));
 
     // In a folder.
-    let goldens = at(&directory, "goldens");
-    let own = ["cube", "--size", "16x16", "--view", "normal", "--goldens", &goldens, "-s", "sah-hybrid"];
     for action in ["update", "check"] {
-        prints(&[&["golden", action], &own[..]].concat());
-        assert!(Path::new(&goldens).join("cube.normal.golden.png").exists());
+        folder.prints(&format!("golden {action} cube --size 16x16 --view normal --goldens goldens -s sah-hybrid"));
+        assert!(folder.path("goldens/cube.normal.golden.png").exists());
     }
-    refuses_in_a_line(&["golden", "check", "cube", "--view", "depth"], &["160 x 160", "depth", "--goldens DIR"]);
-    refuses_in_a_line(&["golden", "check", "icosphere:2"], &["icosphere:2", "--goldens DIR"]);
-}
-
-#[test]
-#[cfg(not(feature = "page"))]
-fn a_page_is_refused_by_a_program_that_makes_none() {
-    refuses_in_a_line(&["golden", "check", "cube", "--page", "page"], &["--page", "feature `page`"]);
+    folder.refuses_in_a_line("golden check cube --view depth", &["160 x 160", "depth", "--goldens DIR"]);
+    folder.refuses_in_a_line("golden check icosphere:2", &["icosphere:2", "--goldens DIR"]);
 }
 
 #[test]
 #[cfg(feature = "page")]
 fn a_wrong_pixel_is_named_with_its_ray_and_who_is_right() {
-    let directory = TempDir::new().unwrap();
-    let scene = write(&directory, "mine.toml", SCENE);
-    let golden = directory.path().join("mine.golden.png");
-    prints(&["golden", "update", &scene, "--size", "32x24"]);
-    let mut picture = read(&golden).unwrap().into_rgb8();
+    let folder = with_a_scene();
+    folder.prints("golden update mine.toml --size 32x24");
+    let mut picture = read(&folder.path("mine.golden.png")).unwrap().into_rgb8();
     picture.put_pixel(16, 12, Rgb([1, 2, 3]));
-    write_picture(&golden, &picture.into()).unwrap();
+    folder.add("mine.golden.png", picture);
 
-    let [page, export] = ["page", "run.json"].map(|name| at(&directory, name));
-    let line = format!("golden check {scene} --size 32x24 -s sah-kd --page {page} --export-json {export}");
-    let (text, _) = ends(WRONG, command(&words(&line)).current_dir(directory.path()));
-    for part in [
+    let line = "golden check mine.toml --size 32x24 -s sah-kd --page page --export-json run.json";
+    let [text, _] = folder.ends(WRONG, line);
+    let sentences = [
         "Mine with sah-kd: differs from",
         "1 of 768 pixels differs, first at column 16, row 12",
         "the golden image has 1, 2, 3, and sah-kd gives",
         "exact arithmetic confirms sah-kd: the golden image is out of date",
-    ] {
-        assert!(text.contains(part), "{part:?} is not in {text}");
-    }
-    let command = text.lines().find_map(|line| line.trim().strip_prefix("sahara validate ")).expect("a command");
-    let (words_before, ray) = command.split_once(" \"").unwrap();
-    let traced = prints(&[&["validate"], &words(words_before)[..], &[ray.trim_end_matches('"')]].concat());
-    assert!(traced.contains("sah-kd"), "{traced}");
-    assert!(Path::new(&page).join("index.html").exists());
-    let run = json(&export);
-    assert_eq!(run["comparisons"][0]["command"], format!("sahara validate {command}"));
-    assert_eq!(run["comparisons"][0]["measures"]["worst"], serde_json::json!([16, 12]));
+    ];
+    assert_contains(&text, &sentences);
+    let command = text.lines().find_map(|line| line.trim().strip_prefix("sahara ")).expect("a command");
+    let traced = folder.shows(command, &["sah-kd"]);
+    assert!(command.starts_with("validate "), "{traced}");
+    assert!(folder.path("page/index.html").exists());
+    let run = json(folder.path("run.json"));
+    assert_eq!(run["comparisons"][0]["command"], format!("sahara {command}"));
+    assert_eq!(run["comparisons"][0]["measures"]["worst"], value!([16, 12]));
 }

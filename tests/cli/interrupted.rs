@@ -3,7 +3,6 @@
 use std::fs;
 use std::io::{BufRead, BufReader, Read};
 use std::os::unix::process::{CommandExt, ExitStatusExt};
-use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread;
 use std::time::Duration;
@@ -11,18 +10,18 @@ use std::time::Duration;
 use nix::sys::signal::{self, SigHandler, Signal, kill};
 use nix::unistd::Pid;
 
-use super::command::{RIGHT, command, ends, words};
+use super::command::{Folder, RIGHT, ends};
 use super::corpus::files;
 use super::plan::{file, job, plan};
-use super::runner::nothing;
+use super::runner::NOTHING;
 
 const CASES: usize = 16;
 
 /// A comparison of some seconds, the larger scene named first.
-fn compare(folder: &Path, more: &[&str]) -> Command {
-    let small = words("compare torus cube -s sah-kd -s sah-bvh -w primary --rays 256 --epochs 8");
-    let mut command = command(&[&small, more].concat());
-    command.current_dir(folder).stdout(Stdio::piped()).stderr(Stdio::piped());
+fn compare(folder: &Folder, more: &str) -> Command {
+    let small = "compare torus cube -s sah-kd -s sah-bvh -w primary --rays 256 --epochs 8";
+    let mut command = folder.command(&format!("{small} {more}"));
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
     command
 }
 
@@ -41,7 +40,7 @@ fn spawn(mut command: Command, way: SigHandler) -> Child {
 }
 
 /// Interrupts a run after its first table, for the smallest scene; returns its exit status and its whole output.
-fn signalled(folder: &Path, more: &[&str], way: SigHandler) -> (ExitStatus, String) {
+fn signalled(folder: &Folder, more: &str, way: SigHandler) -> (ExitStatus, String) {
     let mut child = spawn(compare(folder, more), way);
     let mut reader = BufReader::new(child.stdout.take().unwrap());
     let mut text = String::new();
@@ -55,7 +54,7 @@ fn signalled(folder: &Path, more: &[&str], way: SigHandler) -> (ExitStatus, Stri
 }
 
 /// The output of an interrupted run.
-fn interrupted(folder: &Path, more: &[&str]) -> String {
+fn interrupted(folder: &Folder, more: &str) -> String {
     let (status, text) = signalled(folder, more, SigHandler::SigDfl);
     assert_eq!(status.signal(), Some(Signal::SIGINT as i32), "{text}");
     text
@@ -70,14 +69,15 @@ fn measured(text: &str) -> usize {
 }
 
 /// Processes that work in a folder.
-fn processes(folder: &Path) -> usize {
+fn processes(folder: &Folder) -> usize {
+    let folder = folder.path("").canonicalize().unwrap();
     let entries = fs::read_dir("/proc").unwrap().flatten();
-    entries.filter(|entry| fs::read_link(entry.path().join("cwd")).is_ok_and(|cwd| cwd == *folder)).count()
+    entries.filter(|entry| fs::read_link(entry.path().join("cwd")).is_ok_and(|cwd| cwd == folder)).count()
 }
 
 /// Checks that no process works in a folder. The system takes a moment to remove a killed one.
 #[track_caller]
-fn is_left(folder: &Path) {
+fn is_left(folder: &Folder) {
     let is_left = (0..500).any(|_| {
         thread::sleep(Duration::from_millis(10));
         processes(folder) == 0
@@ -87,24 +87,22 @@ fn is_left(folder: &Path) {
 
 #[test]
 fn what_is_interrupted_is_shown_and_nothing_goes_on() {
-    let folder = tempfile::tempdir().unwrap();
-    let folder = &folder.path().canonicalize().unwrap();
-    let text = interrupted(folder, &["--export-json", "r.json"]);
+    let folder = Folder::new();
+    let text = interrupted(&folder, "--export-json r.json");
     let before = measured(&text);
-    assert_eq!(processes(folder), 0, "nothing goes on in the background");
+    assert_eq!(processes(&folder), 0, "nothing goes on in the background");
     assert!(before == 8 || text.contains(&format!(" ({} of 8 epochs)", before - 8)), "{text}");
-    assert!(text.contains("--dir DIR keeps") && fs::read_dir(folder).unwrap().count() == 0, "{text}");
+    assert!(text.contains("--dir DIR keeps") && folder.names().is_empty(), "{text}");
 }
 
 #[test]
 fn a_journal_that_was_interrupted_is_only_added_to() {
-    let folder = tempfile::tempdir().unwrap();
-    let dir = ["--dir", "kept"];
-    let before = measured(&interrupted(folder.path(), &dir));
-    let journal = folder.path().join("kept/compare");
+    let folder = Folder::new();
+    let before = measured(&interrupted(&folder, "--dir kept"));
+    let journal = folder.path("kept/compare");
     let kept = files(&journal);
     assert_eq!(kept.len(), before);
-    ends(RIGHT, &mut compare(folder.path(), &dir));
+    ends(RIGHT, &mut compare(&folder, "--dir kept"));
     let whole = files(&journal);
     assert!(whole.len() == CASES && kept.iter().all(|(name, bytes)| whole.get(name) == Some(bytes)));
 }
@@ -112,20 +110,20 @@ fn a_journal_that_was_interrupted_is_only_added_to() {
 /// A process prints this and is ended by a signal at once, as if the signal had not been caught: a shell then ends its
 /// script.
 #[track_caller]
-fn ends_by(signal: Signal, command: Command, said: &str) {
+fn ends_by(signal: Signal, command: Command, message: &str) {
     let mut child = spawn(command, SigHandler::SigDfl);
     let mut line = String::new();
     BufReader::new(child.stderr.take().unwrap()).read_line(&mut line).unwrap();
-    assert_eq!(line, said);
+    assert_eq!(line, message);
     kill(Pid::from_raw(child.id() as i32), signal).unwrap();
     assert_eq!(child.wait().unwrap().signal(), Some(signal as i32));
 }
 
 #[test]
 fn a_job_ends_at_once_and_leaves_nothing() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     // Half a minute of samples.
-    let lines = plan(folder.path(), "attribution --scenes sphere --runs 1000 --budget 30 --epochs 2");
+    let lines = plan(&folder.path(""), "attribution --scenes sphere --runs 1000 --budget 30 --epochs 2");
     for signal in [Signal::SIGINT, Signal::SIGKILL] {
         ends_by(signal, job(&lines[1]), "measuring attribution, epoch 2 of 2: Sphere\n");
         assert_eq!(fs::read_dir(file(&lines[1]).parent().unwrap()).unwrap().count(), 0);
@@ -134,19 +132,18 @@ fn a_job_ends_at_once_and_leaves_nothing() {
 
 #[test]
 fn what_was_started_to_ignore_ctrl_c_goes_on() {
-    let folder = tempfile::tempdir().unwrap();
-    let (status, text) = signalled(folder.path(), &[], SigHandler::SigIgn);
+    let (status, text) = signalled(&Folder::new(), "", SigHandler::SigIgn);
     assert!(status.code() == Some(RIGHT) && !text.contains("Interrupted"), "{text}");
 }
 
 #[test]
 fn what_a_runner_has_started_ends_with_the_run_and_one_that_does_not_answer_with_the_command() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().canonicalize().unwrap();
-    interrupted(&path, &["--runner", &format!("{} leaves", nothing(&folder))]);
-    is_left(&path);
+    let folder = Folder::new();
+    folder.program("nothing.sh", NOTHING);
+    interrupted(&folder, "--runner './nothing.sh leaves'");
+    is_left(&folder);
     for signal in [Signal::SIGINT, Signal::SIGTERM] {
-        ends_by(signal, compare(&path, &["--runner", "sh -c 'echo here >&2; sleep 600; exit'"]), "here\n");
-        is_left(&path);
+        ends_by(signal, compare(&folder, "--runner \"sh -c 'echo here >&2; sleep 600; exit'\""), "here\n");
+        is_left(&folder);
     }
 }

@@ -10,7 +10,7 @@ mod golden;
 mod input;
 #[cfg(target_os = "linux")]
 mod interrupted;
-mod journal;
+pub mod journal;
 #[cfg(target_os = "linux")]
 mod names;
 mod output;

@@ -1,21 +1,21 @@
 //! The verdict if its output cannot be written, and output that is never printed.
 
 use std::fs::File;
-use std::process::Stdio;
+use std::process::Command;
 
-use super::command::{NOT_BUILT, RIGHT, USAGE, WRONG, at, command, ends, stderr, words, write};
+use super::command::{Folder, NOT_BUILT, RIGHT, USAGE, WRONG, ends, said};
 
-/// The status with this standard output.
-fn status(line: &str, out: impl Into<Stdio>) -> i32 {
-    let output = command(&words(line)).stdout(out).output().unwrap();
-    let said = stderr(&output);
-    assert!(!said.contains("panicked"), "{line}: {said}");
-    output.status.code().unwrap_or_else(|| panic!("{line} is ended by a signal: {said}"))
+/// The status of a command that must not panic.
+fn status(command: &mut Command) -> i32 {
+    let output = command.output().unwrap();
+    let [_, messages] = said(&output);
+    assert!(!messages.contains("panicked"), "{command:?}: {messages}");
+    output.status.code().unwrap_or_else(|| panic!("{command:?} is ended by a signal: {messages}"))
 }
 
-/// Triangles at 2^100, along two axes: a builder of another crate panics on them.
-fn huge(folder: &tempfile::TempDir) -> String {
-    let mut text = String::new();
+/// A folder with triangles at 2^100, along two axes, in `huge.obj`: a builder of another crate panics on them.
+fn huge() -> Folder {
+    let (folder, mut text) = (Folder::new(), String::new());
     for corners in [
         [[-1e30, -1e30, 1.26765e30], [1e30, -1e30, 1.26765e30], [0.0, 2e30, 1.26765e30]],
         [[-1e30, -1e30, -1.26765e30], [1e30, -1e30, -1.26765e30], [0.0, 2e30, -1.26765e30]],
@@ -24,15 +24,14 @@ fn huge(folder: &tempfile::TempDir) -> String {
         text.extend(corners.map(|[x, y, z]: [f32; 3]| format!("v {x:e} {y:e} {z:e}\n")));
         text += "f -3 -2 -1\n";
     }
-    write(folder, "huge.obj", &text)
+    folder.write("huge.obj", text);
+    folder
 }
 
 #[test]
 fn a_verdict_outlives_the_reader_of_its_output() {
-    let folder = tempfile::tempdir().unwrap();
-    let huge = huge(&folder);
-    let wrong = "validate cube -s sah-kd:test=moller-trumbore --against brute-force:test=exact --adversarial --rays 2000 --strict";
-    let refused = format!("validate {huge} -s obvhs-cwbvh --rays 10");
+    let folder = huge();
+    let full = || File::options().write(true).open("/dev/full").ok();
     for (line, expected) in [
         ("--help", RIGHT),
         ("compare --help", RIGHT),
@@ -44,32 +43,38 @@ fn a_verdict_outlives_the_reader_of_its_output() {
         ("compare cube -s sah-kd --rays 64 --epochs 1", RIGHT),
         ("compare cube -s sah-kd --rays 64 --epochs 1 --export-json -", RIGHT),
         ("study accuracy cube -s sah-kd --rays 64 --in-process", RIGHT),
-        (wrong, WRONG),
+        (
+            "validate cube -s sah-kd:test=moller-trumbore --against brute-force:test=exact --adversarial --rays 2000 --strict",
+            WRONG,
+        ),
         ("validate --hard cube_random -s sah-kd --rays 64", RIGHT),
-        (&refused, NOT_BUILT),
+        ("validate huge.obj -s obvhs-cwbvh --rays 10", NOT_BUILT),
         ("compare sponsa", USAGE),
     ] {
         // No process can have read anything.
         let (reader, writer) = std::io::pipe().unwrap();
         drop(reader);
-        assert_eq!(status(line, writer), expected, "{line} without a reader");
-        if let Ok(full) = File::options().write(true).open("/dev/full") {
-            assert_eq!(status(line, full), expected.max(USAGE), "{line} on a full disk");
+        assert_eq!(status(folder.command(line).stdout(writer)), expected, "{line} without a reader");
+        if let Some(full) = full() {
+            assert_eq!(status(folder.command(line).stdout(full)), expected.max(USAGE), "{line} on a full disk");
         }
+    }
+    for (line, expected) in [("compare cube -s sah-kd --quick", RIGHT), ("compare sponsa", USAGE)] {
+        let Some(full) = full() else { continue };
+        assert_eq!(status(folder.command(line).stderr(full)), expected, "{line} with messages to a full disk");
     }
 }
 
 #[test]
 fn a_builder_that_panics_is_a_sentence_and_no_backtrace() {
-    let folder = tempfile::tempdir().unwrap();
-    let huge = huge(&folder);
-    let run = |line: &str, status| ends(status, command(&words(line)).env("RUST_BACKTRACE", "1"));
+    let folder = huge();
+    let run = |line: &str, status| ends(status, folder.command(line).env("RUST_BACKTRACE", "1"));
     for command in ["validate", "compare"] {
-        let line = format!("--quiet {command} {huge} -s obvhs-cwbvh -s sah-kd --rays 10");
-        let (text, message) = run(&line, NOT_BUILT);
+        let line = format!("--quiet {command} huge.obj -s obvhs-cwbvh -s sah-kd --rays 10");
+        let [text, message] = run(&line, NOT_BUILT);
         assert_eq!(message, "", "{command}");
         assert_eq!(text.matches("its builder panicked on this mesh").count(), 1, "{text}");
     }
-    let (_, message) = run(&format!("render {huge} -s obvhs-cwbvh -o {}", at(&folder, "x.png")), USAGE);
+    let [_, message] = run("render huge.obj -s obvhs-cwbvh -o x.png", USAGE);
     assert!(message.lines().count() == 1 && message.contains("its builder panicked"), "{message}");
 }

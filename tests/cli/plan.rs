@@ -5,11 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-use tempfile::TempDir;
-
-use super::command::{
-    RIGHT, SQUARE, command, ends, json, prints, refused_in_a_line, refuses, refuses_in_a_line, stderr, words, write,
-};
+use super::command::{Folder, RIGHT, SQUARE, command, ends, json, refused_in_a_line, said};
 use super::journal::answers;
 
 /// A study of seconds.
@@ -17,47 +13,42 @@ const SMALL: &str = "attribution --rays 64 --runs 1 --budget 1 --epochs 2";
 
 /// The lines of a plan.
 pub fn plan(folder: &Path, args: &str) -> Vec<String> {
-    let args = [words("study plan"), words(args), vec!["--dir", folder.to_str().unwrap()]].concat();
-    prints(&args).lines().map(String::from).collect()
-}
-
-/// The words that a shell makes of a line of a plan.
-fn shell_words(line: &str) -> Vec<String> {
-    let words = shlex::split(line).unwrap_or_else(|| panic!("{line}"));
-    assert_eq!(words[0], "sahara", "{line}");
-    words
-}
-
-pub fn file(line: &str) -> PathBuf {
-    let words = shell_words(line);
-    assert_eq!(words[words.len() - 2], "--out", "{line}");
-    words[words.len() - 1].clone().into()
+    Folder::new().prints(&format!("study plan {args} --dir '{}'", folder.display())).lines().map(String::from).collect()
 }
 
 /// A job, as a shell on some machine would start it.
 pub fn job(line: &str) -> Command {
-    let words = shell_words(line);
-    let mut command = command(&words[1..].iter().map(String::as_str).collect::<Vec<_>>());
+    let mut command = command(line.strip_prefix("sahara ").unwrap_or_else(|| panic!("{line}")));
     command.stdout(Stdio::piped()).stderr(Stdio::piped());
     command
 }
 
+/// The file of a job: its last word.
+pub fn file(line: &str) -> PathBuf {
+    let job = job(line);
+    let words: Vec<_> = job.get_args().collect();
+    let [.., "--out", file] = words.iter().map(|word| word.to_str().unwrap()).collect::<Vec<_>>()[..] else {
+        panic!("{line}")
+    };
+    file.into()
+}
+
 /// Runs a job, which must succeed; returns its log.
 fn done(line: &str) -> String {
-    let (text, log) = ends(RIGHT, &mut job(line));
+    let [text, log] = ends(RIGHT, &mut job(line));
     assert!(text.is_empty() && file(line).is_file());
     log
 }
 
 #[track_caller]
 fn refused(line: &str, parts: &[&str]) {
-    refused_in_a_line(&job(line).output().unwrap(), parts);
+    refused_in_a_line(&mut job(line), parts);
 }
 
 #[test]
 fn a_plan_is_one_command_a_case_with_a_file_of_its_own() {
-    let folder = TempDir::new().unwrap();
-    let dir = folder.path().join("my runs");
+    let folder = Folder::new();
+    let dir = folder.path("my runs");
     let args = format!("{SMALL} --scenes cube sphere");
     let lines = plan(&dir, &args);
     assert_eq!(lines.len(), 4, "two epochs of two scenes");
@@ -75,17 +66,16 @@ fn a_plan_is_one_command_a_case_with_a_file_of_its_own() {
     assert_eq!(plan(&dir, "compare --scenes torus --scenes cube"), plan(&dir, "compare --scenes torus cube"));
 
     // All studies, in the quick version.
-    let text = prints(&["study", "plan", "--quick", "--dir", "r"]);
-    let files: BTreeSet<PathBuf> = text.lines().map(file).collect();
+    let lines = plan(Path::new("r"), "--quick");
+    let files: BTreeSet<PathBuf> = lines.iter().map(|line| file(line)).collect();
     for study in ["compare", "replicate", "attribution", "scaling", "accuracy"] {
         assert!(files.iter().any(|file| file.starts_with(format!("r/{study}"))), "{study}: {files:?}");
     }
-    assert_eq!(files.len(), text.lines().count());
+    assert_eq!(files.len(), lines.len());
 }
 
 #[test]
 fn what_cannot_be_planned_is_one_sentence() {
-    let plan = |line: &'static str| [words("study plan"), words(line)].concat();
     // A repeated option, at any place; one of them may come from the preset.
     let twice = "cannot be used multiple times";
     for (line, parts) in [
@@ -104,102 +94,108 @@ fn what_cannot_be_planned_is_one_sentence() {
         // A job that finds its case measures nothing, with any options.
         ("attribution --rays 64 --fresh", &["--fresh", "--dir"]),
     ] {
-        refuses_in_a_line(&plan(line), parts);
+        Folder::new().refuses_in_a_line(&format!("study plan {line}"), parts);
     }
-    refuses(&plan("attribution --quick --epoch 3"), &["--epoch"]);
-    refuses(&plan("attribution --quick --epochs 3"), &["--epochs", twice]);
-    refuses(&plan("--no-such-option 64"), &["--no-such-option"]);
-    refuses(&plan("compare --dir a --dir b"), &["--dir", twice]);
+    for (line, parts) in [
+        ("attribution --quick --epoch 3", &["--epoch"][..]),
+        ("attribution --quick --epochs 3", &["--epochs", twice]),
+        ("--no-such-option 64", &["--no-such-option"]),
+        ("compare --dir a --dir b", &["--dir", twice]),
+    ] {
+        Folder::new().refuses(&format!("study plan {line}"), parts);
+    }
 }
 
 #[test]
 fn jobs_in_any_order_are_the_study() {
-    let folder = TempDir::new().unwrap();
-    let [apart, one] = ["apart", "one"].map(|name| folder.path().join(name));
+    let folder = Folder::new();
+    let [apart, one] = ["apart", "one"].map(|name| folder.path(name));
     let lines = plan(&apart, &format!("{SMALL} --scenes cube sphere"));
     // The last one first.
     for line in lines.iter().rev() {
         let log = done(line);
         assert!(log.starts_with("measuring "), "its log says what it was: {log}");
     }
-    let study =
-        |dir: &Path, more: &str| prints(&words(&format!("study {SMALL} --dir {}{more} cube sphere", dir.display())));
-    study(&one, " --in-process");
+    folder.prints(&format!("study {SMALL} --dir one --in-process cube sphere"));
     assert_eq!(answers(&apart, "attribution").len(), 4);
     assert_eq!(answers(&apart, "attribution"), answers(&one, "attribution"));
 
     // The files are the journal of the study: nothing remains to be measured, and nothing changes.
     let before: Vec<Vec<u8>> = lines.iter().map(|line| fs::read(file(line)).unwrap()).collect();
-    assert!(study(&apart, "").contains("Cube"));
+    assert!(folder.prints(&format!("study {SMALL} --dir apart cube sphere")).contains("Cube"));
     assert_eq!(lines.iter().map(|line| fs::read(file(line)).unwrap()).collect::<Vec<_>>(), before);
     assert_eq!(fs::read_dir(apart.join("attribution")).unwrap().count(), 4);
 
     // Each contains its provenance, with the command of the run and not of the job.
-    let case = json(file(&lines[0]));
+    let provenance = &json(file(&lines[0]))["provenance"];
     for field in ["host", "cpu", "commit", "target_features", "date", "command"] {
-        assert!(!case["provenance"][field].as_str().unwrap().is_empty(), "{field}");
+        assert!(!provenance[field].as_str().unwrap().is_empty(), "{field}");
     }
-    let command = case["provenance"]["command"].as_str().unwrap();
+    let command = provenance["command"].as_str().unwrap();
     assert!(command.ends_with("study attribution cube sphere --rays 64 --runs 1 --budget 1 --epochs 2"), "{command}");
 }
 
 #[test]
 fn a_job_measures_once_and_refuses_what_is_not_its_own() {
-    let folder = TempDir::new().unwrap();
-    let mesh = write(&folder, "square.obj", SQUARE);
-    let lines = plan(folder.path(), &format!("{SMALL} --scenes {mesh}"));
+    let folder = Folder::new();
+    folder.write("square.obj", SQUARE);
+    let mesh = folder.path("square.obj").to_str().unwrap().to_owned();
+    let lines = plan(&folder.path(""), &format!("{SMALL} --scenes {mesh}"));
     // Of two jobs for one file one wins, and both succeed.
     let both = [0, 1].map(|_| job(&lines[0]).spawn().unwrap());
     let both = both.map(|child| child.wait_with_output().unwrap());
     assert!(both.iter().all(|output| output.status.code() == Some(RIGHT)), "{both:?}");
     let is_other = |output: &&Output| {
-        ["already holds this case", "its case is kept"].iter().any(|part| stderr(output).contains(part))
+        ["already holds this case", "its case is kept"].iter().any(|part| said(output)[1].contains(part))
     };
     assert_eq!(both.iter().filter(is_other).count(), 1, "{both:?}");
-    assert_eq!(fs::read_dir(folder.path().join("attribution")).unwrap().count(), 1);
+    assert_eq!(fs::read_dir(folder.path("attribution")).unwrap().count(), 1);
     let path = file(&lines[0]);
     assert_eq!(json(&path)["case"]["study"], "attribution");
     let before = fs::read(&path).unwrap();
     // A repeated job loads nothing.
-    let away = folder.path().join("away.obj");
+    let away = folder.path("away.obj");
     fs::rename(&mesh, &away).unwrap();
     let log = done(&lines[0]);
     assert!(log.contains("nothing is measured") && log.lines().count() == 1, "{log}");
     refused(&lines[1], &[&mesh]);
     fs::rename(&away, &mesh).unwrap();
 
-    refused(&lines[1].replace(file(&lines[1]).to_str().unwrap(), path.to_str().unwrap()), &["holds another case"]);
-    assert_eq!(fs::read(&path).unwrap(), before);
     // Its scene must be unchanged since the plan, and each thread needs a core.
-    let hash = lines[1].split("\"hash\":\"").nth(1).unwrap()[..16].to_owned();
-    refused(&lines[1].replace(&hash, "0123456789abcdef"), &["plan it again"]);
-    refused(&lines[1].replace(&format!("\"word\":\"{mesh}"), "\"word\":\"torus"), &["plan it again"]);
+    let hash = &lines[1].split("\"hash\":\"").nth(1).unwrap()[..16];
+    for (from, to, part) in [
+        (file(&lines[1]).to_str().unwrap(), path.to_str().unwrap(), "holds another case"),
+        (hash, "0123456789abcdef", "plan it again"),
+        (&format!("\"word\":\"{mesh}"), "\"word\":\"torus", "plan it again"),
+    ] {
+        refused(&lines[1].replace(from, to), &[part]);
+    }
+    assert_eq!(fs::read(&path).unwrap(), before);
     let cores = std::thread::available_parallelism().unwrap().get();
     let threads = cores + 1;
-    let many = plan(folder.path(), &format!("{SMALL} --scenes {mesh} --threads {threads}"));
+    let many = plan(&folder.path(""), &format!("{SMALL} --scenes {mesh} --threads {threads}"));
     refused(&many[0], &["cannot be measured", &format!("{threads} threads share {cores} core")]);
     assert!(!file(&lines[1]).exists() && !file(&many[0]).exists());
 }
 
 #[test]
 fn what_cannot_be_written_is_one_sentence_and_no_file() {
-    let folder = TempDir::new().unwrap();
-    let lines = plan(&folder.path().join("runs"), &format!("{SMALL} --scenes cube"));
+    let folder = Folder::new();
+    let lines = plan(&folder.path("runs"), &format!("{SMALL} --scenes cube"));
     // A file has the place of the folder.
-    fs::write(folder.path().join("runs"), "x").unwrap();
+    folder.write("runs", "x");
     refused(&lines[0], &["cannot write", "runs/attribution"]);
-    fs::remove_file(folder.path().join("runs")).unwrap();
+    fs::remove_file(folder.path("runs")).unwrap();
 
     // As on a full disk: the system accepts at most a thousand bytes per file.
     #[cfg(target_os = "linux")]
     {
         let job = lines[0].strip_prefix("sahara ").unwrap();
-        let shell = format!("trap '' XFSZ; ulimit -f 1; exec \"$0\" --quiet {job}");
-        let mut command = Command::new("sh");
-        command.args(["-c", &shell, env!("CARGO_BIN_EXE_sahara")]).env_remove("SAHARA_DATA");
-        let output = command.stdin(Stdio::null()).output().unwrap();
-        refused_in_a_line(&output, &["cannot write", "free some space"]);
-        assert_eq!(fs::read_dir(folder.path().join("runs/attribution")).unwrap().count(), 0, "nothing is left");
+        let script = format!("trap '' XFSZ; ulimit -f 1; exec \"$0\" --quiet {job}");
+        let mut shell = Command::new("sh");
+        shell.args(["-c", &script, env!("CARGO_BIN_EXE_sahara")]).env_remove("SAHARA_DATA").stdin(Stdio::null());
+        refused_in_a_line(&mut shell, &["cannot write", "free some space"]);
+        assert_eq!(fs::read_dir(folder.path("runs/attribution")).unwrap().count(), 0, "nothing is left");
     }
     done(&lines[0]);
 }

@@ -1,81 +1,78 @@
 //! `sahara validate`, including its hard cases.
 
-use super::command::{
-    RIGHT, SQUARE, WRONG, at, command, ends, json, prints, refuses, refuses_in_a_line, unwrapped, words, write,
-};
+use super::command::{Folder, RIGHT, SQUARE, WRONG, assert_contains, json, unwrapped};
 
 #[test]
 fn validation_tells_right_from_wrong() {
-    prints(&["validate", "cube", "torus", "--rays", "2000", "-s", "median-kd", "-s", "sah-kd"]);
+    Folder::new().prints("validate cube torus --rays 2000 -s median-kd -s sah-kd");
 
     // obvhs' CwBvh misses every ray with a component of -0.0: this one hits the cube in the middle of a face.
-    let ray = ["validate", "cube", "--ray", "0.5,0.25,5 -0,0,-1", "-s"];
+    let validate =
+        |structures: &str| Folder::new().prints(&format!("validate cube --ray '0.5,0.25,5 -0,0,-1' -s {structures}"));
     // A known defect of a baseline is printed with its name, and does not change the status of any command.
-    let printed = prints(&[&ray[..], &["obvhs-cwbvh", "--verbose"]].concat());
-    assert!(printed.contains("obvhs-cwbvh: known defects (they do not change the exit status)"), "{printed}");
-    assert!(printed.contains("0.5,0.25,5.0 -0.0,0.0,-1.0"), "the ray can be asked again: {printed}");
+    let defects = "obvhs-cwbvh: known defects (they do not change the exit status)";
+    // The ray can be asked again.
+    assert_contains(&validate("obvhs-cwbvh --verbose"), &[defects, "0.5,0.25,5.0 -0.0,0.0,-1.0"]);
     // The hit of each structure is printed, right or wrong: the cube's front face is at z = 1.
-    let both = prints(&[&ray[..], &["sah-kd", "-s", "obvhs-cwbvh"]].concat());
-    let row = |name: &str| -> Vec<String> {
-        let answers = both.split("Cube: hits").nth(1).expect("a table of hits");
-        let row = answers.lines().find(|line| line.trim_start().starts_with(name)).expect("a row");
-        row.split_whitespace().map(String::from).collect()
+    let both = validate("sah-kd -s obvhs-cwbvh");
+    let row = |name: &str| -> Vec<&str> {
+        let mut rows = both.split("Cube: hits").nth(1).expect("a table of hits").lines();
+        rows.find(|line| line.trim_start().starts_with(name)).expect("a row").split_whitespace().collect()
     };
-    assert!(row("obvhs-cwbvh").ends_with(&["no".into(), "hit".into()]), "{both}");
-    let right = row("sah-kd");
-    let [t, triangle, u, v] = &right[right.len() - 4..] else { panic!("{right:?}") };
-    assert!(t == "4" && triangle.parse::<u32>().is_ok_and(|n| n < 12), "{right:?}");
-    assert!([u, v].iter().all(|x| x.parse::<f64>().is_ok_and(|x| (0.0..=1.0).contains(&x))), "{right:?}");
-    prints(&[&ray[..], &["sah-kd", "--against", "obvhs-bvh2"]].concat());
+    assert!(row("obvhs-cwbvh").ends_with(&["no", "hit"]), "{both}");
+    let [.., t, triangle, u, v] = row("sah-kd")[..] else { panic!("{both}") };
+    assert!(t == "4" && triangle.parse::<u32>().is_ok_and(|n| n < 12), "{both}");
+    assert!([u, v].iter().all(|x| x.parse::<f64>().is_ok_and(|x| (0.0..=1.0).contains(&x))), "{both}");
+    validate("sah-kd --against obvhs-bvh2");
 }
 
 /// A ray grazes along a needle: the depth in `f64` is wrong by 115 ulps, which is not an error of 1 %.
 #[test]
 fn validation_against_exact_answers_judges_depths_strictly() {
-    let directory = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let corners = "v -405851.38 785724.8 -466819.28\nv 405851.56 -785725.3 466820.28\nv 365266.44 -707152.8 420138.3\n";
-    let mesh = write(&directory, "needle.obj", &format!("{corners}f 1 2 3\n"));
+    folder.write("needle.obj", format!("{corners}f 1 2 3\n"));
     let ray = "49.000397,-704.82355,176.40697 -9731.703,19450.404,-11313.292";
-    for (structure, status) in [("sah-kd:test=moller-trumbore-f64", WRONG), ("sah-kd:test=exact", RIGHT)] {
-        let strict = ["--against", "brute-force:test=exact", "--strict"];
-        let args = [&["validate", &mesh, "--ray", ray, "-s", structure], &strict[..]].concat();
-        let text = unwrapped(&ends(status, &mut command(&args)).0);
-        assert_eq!(text.contains("115 ulps away"), status == WRONG, "{text}");
+    for (test, status) in [("moller-trumbore-f64", WRONG), ("exact", RIGHT)] {
+        let line = format!(
+            "validate needle.obj --ray '{ray}' -s sah-kd:test={test} --against brute-force:test=exact --strict"
+        );
+        let [text, _] = folder.ends(status, &line);
+        assert_eq!(unwrapped(&text).contains("115 ulps away"), status == WRONG, "{text}");
     }
 }
 
 #[test]
 fn hard_cases_are_named_and_tell_what_each_structure_gets_wrong() {
     let near = ["flat_grasing", "flat_grazing_1e-3", "sahara list hard"];
-    refuses_in_a_line(&["validate", "--hard", "flat_grasing"], &near);
-    refuses_in_a_line(&["validate", "--hard", "--test", "moeller"], &["\"moeller\"", "moller-trumbore", "exact"]);
-    let list = prints(&["list", "hard"]);
-    assert!(list.contains("41 duplicates_20000: 200 rays\n") && list.contains("84 limits: a property\n"), "{list}");
+    Folder::new().refuses_in_a_line("validate --hard flat_grasing", &near);
+    Folder::new().refuses_in_a_line("validate --hard --test moeller", &["\"moeller\"", "moller-trumbore", "exact"]);
+    Folder::new().shows("list hard", &["41 duplicates_20000: 200 rays\n", "84 limits: a property\n"]);
 
-    let directory = tempfile::tempdir().unwrap();
-    let export = at(&directory, "hard.json");
-    let hard = "validate --hard cube_axis_negzero limits --rays 50 -s sah-kd -s obvhs-cwbvh --verbose --export-json";
     // Known defects of a baseline do not fail the run.
-    let text = prints(&[words(hard), vec![&export]].concat());
+    let folder = Folder::new();
+    let structures = "-s sah-kd -s obvhs-cwbvh --verbose --export-json r.json";
+    let text = folder.prints(&format!("validate --hard cube_axis_negzero limits --rays 50 {structures}"));
     let row = text.lines().find(|line| line.trim_start().starts_with("cube_axis_negzero")).expect("a row");
-    assert_eq!(row.split_whitespace().collect::<Vec<_>>(), ["cube_axis_negzero", ".", "m", "100", "S", "100"]);
+    assert_eq!(unwrapped(row), "cube_axis_negzero . m 100 S 100");
 
-    let run = json(&export);
+    let run = json(folder.path("r.json"));
     let results = run["results"].as_array().unwrap();
     assert_eq!(results.len(), 4);
     let of = |case: &str, structure: &str| {
-        results.iter().find(|r| r["case"] == case && r["structure"] == structure).expect("a record").clone()
+        results.iter().find(|r| r["case"] == case && r["structure"] == structure).expect("a record")
     };
     let lost = of("cube_axis_negzero", "obvhs-cwbvh");
-    assert_eq!((lost["missed"].as_u64(), lost["structure_errors"].as_u64()), (Some(50), Some(50)));
+    assert_eq!([&lost["missed"], &lost["structure_errors"]], [50, 50]);
     assert_eq!(of("cube_axis_negzero", "sah-kd")["clean"], true);
     assert_eq!(of("limits", "sah-kd")["property"]["broken"], 0);
     assert!(of("limits", "sah-kd")["rays"].is_null());
 
     // They run over the requested tests.
-    let tests = "--test exact --test edge-f64 -s median-kd --verbose";
-    let text = prints(&words(&format!("validate --hard one_triangle --rays 20 {tests}")));
-    assert!(text.contains("median-kd  median-kd:test=edge-f64"), "{text}");
+    Folder::new().shows(
+        "validate --hard one_triangle --rays 20 --test exact --test edge-f64 -s median-kd --verbose",
+        &["median-kd  median-kd:test=edge-f64"],
+    );
 }
 
 #[test]
@@ -87,32 +84,31 @@ fn what_is_named_twice_counts_once() {
         ("compare cube -w primary -w primary --quick -s sah-kd --export-csv -", "\nCube,"),
         ("golden check cube Cube", "Cube: "),
     ] {
-        let text = prints(&words(line));
+        let text = Folder::new().prints(line);
         assert_eq!(text.matches(once).count(), 1, "{line}: {text}");
     }
 }
 
 #[test]
 fn options_that_the_rays_asked_for_do_not_heed_are_refused() {
-    let ray = ["--ray", "0,0,9 0,0,-1"];
-    let hard = ["--hard", "limits", "-s", "sah-kd"];
     for (asked, unheeded) in [
-        (&hard[..], &[&["--against", "sah-bvh"][..], &["--seed", "2"], &["--inside"], &["--size", "8x8"]][..]),
-        (&ray, &[&["--rays", "9"], &["--seed", "2"], &["--inside"], &["--camera", "0,0,5 0,0,0"]]),
-        (&["--adversarial"], &[&["--inside"], &["--size", "8x8"], &["--camera", "0,0,5 0,0,0"]]),
-        (&["--hits", "a.hits", "--rays", "a.rays"], &[&["--quality", "fast"], &["--limit", "3"]]),
-        (&["--export-hits", "a.hits", "--rays", "a.rays"], &[&["--against", "sah-kd"]]),
+        ("--hard limits -s sah-kd", &["--against sah-bvh", "--seed 2", "--inside", "--size 8x8"][..]),
+        ("cube --ray '0,0,9 0,0,-1'", &["--rays 9", "--seed 2", "--inside", "--camera '0,0,5 0,0,0'"]),
+        ("cube --adversarial", &["--inside", "--size 8x8", "--camera '0,0,5 0,0,0'"]),
+        ("cube --hits a.hits --rays a.rays", &["--quality fast", "--limit 3"]),
+        ("cube --export-hits a.hits --rays a.rays", &["--against sah-kd"]),
     ] {
+        let option = asked.split(' ').find(|word| word.starts_with("--")).unwrap();
         for unheeded in unheeded {
-            let scene = if asked[0] == "--hard" { &[][..] } else { &["cube"] };
-            refuses(&[&["validate"], scene, asked, unheeded].concat(), &[asked[0], unheeded[0], "cannot be used with"]);
+            let other = unheeded.split(' ').next().unwrap();
+            Folder::new().refuses(&format!("validate {asked} {unheeded}"), &[option, other, "cannot be used with"]);
         }
     }
     // These rays do not depend on the camera, so there is no advice about it.
-    let directory = tempfile::tempdir().unwrap();
-    let mesh = write(&directory, "square.obj", SQUARE);
-    for rays in [&ray[..], &["--adversarial", "--rays", "20"]] {
-        let text = prints(&[&["validate", &mesh, "-s", "sah-kd"], rays].concat());
+    let folder = Folder::new();
+    folder.write("square.obj", SQUARE);
+    for rays in ["--ray '0,0,9 0,0,-1'", "--adversarial --rays 20"] {
+        let text = folder.prints(&format!("validate square.obj -s sah-kd {rays}"));
         assert!(!text.contains("--inside"), "{text}");
     }
 }
@@ -120,12 +116,11 @@ fn options_that_the_rays_asked_for_do_not_heed_are_refused() {
 /// Möller-Trumbore overflows on such a large triangle, and finds none of its hits.
 #[test]
 fn a_wrong_reference_is_no_error_of_a_triangle_test() {
-    let directory = tempfile::tempdir().unwrap();
-    let huge = write(&directory, "huge.obj", "v 1e30 0 0\nv 1e30 1e30 0\nv 0 1e30 1e30\nf 1 2 3\n");
-    let reference = "brute-force:test=moller-trumbore";
-    let text = prints(&words(&format!("validate {huge} -s sah-kd --rays 300 --against {reference} --verbose")));
-    let row: Vec<&str> = text.lines().find(|line| line.contains("  sah-kd ")).unwrap().split_whitespace().collect();
-    assert_eq!(row, ["sah-kd", "exact", "0", "0", "0", "0", "0", "0", "0", "0"], "{text}");
-    assert!(text.contains("rays the reference is wrong, not sah-kd"), "{text}");
-    assert!(text.contains("The reference hits nothing"), "{text}");
+    let folder = Folder::new();
+    folder.write("huge.obj", "v 1e30 0 0\nv 1e30 1e30 0\nv 0 1e30 1e30\nf 1 2 3\n");
+    let reference = "--against brute-force:test=moller-trumbore";
+    let text = folder.prints(&format!("validate huge.obj -s sah-kd --rays 300 {reference} --verbose"));
+    let row = text.lines().find(|line| line.contains("  sah-kd ")).unwrap();
+    assert_eq!(unwrapped(row), "sah-kd exact 0 0 0 0 0 0 0 0", "{text}");
+    assert_contains(&text, &["rays the reference is wrong, not sah-kd", "The reference hits nothing"]);
 }
