@@ -10,52 +10,37 @@ use sahara::scene::load;
 use serde_json::{Value, json};
 
 use crate::alone::alone;
+use crate::cli::command::assert_contains;
 
 /// Files in one folder; the first one is loaded.
 type Files = Vec<(&'static str, Vec<u8>)>;
 
 const SLACK: usize = 64 << 20;
 
-/// Loads the first file. Returns the triangles, or the message from its name on; an error if that is not one sentence,
-/// or if it took too much memory.
-fn loaded(files: &Files) -> Result<Result<usize, String>, String> {
+/// Loads the first file. Returns the triangles, or the message from its name on, which must be one sentence.
+fn loaded(files: &Files) -> Result<usize, String> {
     let (name, folder) = (files[0].0, tempfile::tempdir().unwrap());
     for (name, bytes) in files {
         fs::write(folder.path().join(name), bytes).unwrap();
     }
     let path = folder.path().join(name);
-    let (result, peak) = match path.extension().and_then(|ending| ending.to_str()) {
-        Some("rays") => measured(|| RayFile::read(&path).map(|file| file.workload.rays.len())),
-        Some("hits") => measured(|| HitFile::read(&path).map(|_| 0)),
-        _ => measured(|| load(&path).map(|model| model.triangles.len())),
-    };
+    let (result, peak) = peak_bytes(|| -> anyhow::Result<usize> {
+        Ok(match path.extension().and_then(|ending| ending.to_str()) {
+            Some("rays") => RayFile::read(&path)?.workload.rays.len(),
+            Some("hits") => HitFile::read(&path).map(|_| 0)?,
+            _ => load(&path)?.triangles.len(),
+        })
+    });
+    let peak = peak.expect("the allocator is installed");
     let size: usize = files.iter().map(|(_, bytes)| bytes.len()).sum();
     let times = if name.ends_with(".obj") { 16 } else { 2 };
-    if peak > times * size + SLACK {
-        return Err(format!("{name}: {peak} bytes for files of {size}: {result:?}"));
-    }
-    match &result {
-        Ok(triangles) => Ok(Ok(*triangles)),
-        Err(message) if message.contains('\n') || message.chars().count() > 600 => Err(format!("{message:?}")),
-        Err(message) => match message.find(name) {
-            Some(start) => Ok(Err(message[start..].to_owned())),
-            None => Err(format!("{message:?} does not name {name}")),
-        },
-    }
-}
-
-fn measured<E: ToString>(work: impl FnOnce() -> Result<usize, E>) -> (Result<usize, String>, usize) {
-    let (result, peak) = peak_bytes(work);
-    (result.map_err(|error| error.to_string()), peak.expect("the allocator is installed"))
-}
-
-/// A description of the fault if no message with these words rejects the file.
-fn not_refused(files: &Files, words: &[&str]) -> Option<String> {
-    match loaded(files) {
-        Ok(Err(message)) if words.iter().all(|word| message.contains(word)) => None,
-        Ok(other) => Some(format!("{words:?}: {other:?}")),
-        Err(wrong) => Some(format!("{words:?}: {wrong}")),
-    }
+    assert!(peak <= times * size + SLACK, "{name}: {peak} bytes for files of {size}: {result:?}");
+    result.map_err(|error| {
+        let message = error.to_string();
+        assert!(!message.contains('\n') && message.chars().count() <= 600, "{message:?}");
+        let start = message.find(name).unwrap_or_else(|| panic!("{message:?} does not name {name}"));
+        message[start..].to_owned()
+    })
 }
 
 /// A triangle in `a.bin` with `count` vertices: positions only.
@@ -64,10 +49,7 @@ fn document(count: usize) -> Value {
         "asset": {"version": "2.0"},
         "buffers": [{"uri": "a.bin", "byteLength": 12 * count}],
         "bufferViews": [{"buffer": 0, "byteLength": 12 * count}],
-        "accessors": [
-            {"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": count},
-            {"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": count + 1}
-        ],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": count}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
         "nodes": [{"mesh": 0}]
     })
@@ -97,10 +79,6 @@ fn obj_files() -> Vec<(Files, [&'static str; 2])> {
     };
     let names: String = (0..500_000).map(|i| format!("usemtl m{i}\nf 1 2 3\n")).collect();
     vec![
-        (obj(vec![0; 100]), ["line 1:", "OBJ keyword"]),
-        (obj(b"\x89PNG\r\n\x1a\n\0\0".to_vec()), ["line 1:", "another format"]),
-        (obj(b"solid cube\nfacet normal 0 0 1\n".to_vec()), ["line 1: `solid cube`", "another format"]),
-        (after(TRIANGLE, "", 0, "f 1 2 99999999999\n"), ["line 4:", "exceeds the limit of a mesh"]),
         (after("", "v 0 0 1\n", 3_000_000, "v 0 0 x\n"), ["line 3000001:", "three finite numbers are needed"]),
         (after(TRIANGLE, "f 1 1 1\n", 3_000_000, "f 1 2 x\n"), ["line 3000004:", "`x` is not a vertex index"]),
         (after("v 0 0 0\nvn 0 0 1\n", "f 1//1 1//1 1//1\n", 2_000_000, "f x"), ["line 2000003:", "not a vertex index"]),
@@ -129,22 +107,17 @@ fn ply_files() -> Vec<(Files, [&'static str; 2])> {
     let wide = [&1000_u32.to_le_bytes()[..], &[0; 1000]].concat();
     let wrong = [&[0; 3][..], &wide.repeat(15_000), &3_u32.to_le_bytes(), &[0, 0, 1]].concat();
     vec![
-        (vec![("a.ply", vec![0; 1000])], ["line 1:", "begins with the line `ply`"]),
-        (vec![("a.ply", b"ply".to_vec())], ["line 1:", "does not end"]),
         (vec![("a.ply", [&b"ply\n"[..], &b"comment\n".repeat(4_000_000)].concat())], ["line 13", "does not end"]),
         (
             vec![("a.ply", [b"ply\nformat ascii 1.0\n", &b"element e 0\n".repeat(4_000_000)[..]].concat())],
             ["line 4:", "declared twice"],
         ),
-        (ply("format ascii 2.0\n", b""), ["a.ply", "PLY header"]),
         (ply("format ascii 1.0\nelement vertex -1\n", b""), ["line 3:", "not a line of a PLY header"]),
         (ply("format ascii 1.0\nproperty float x\n", b""), ["a.ply", "PLY header"]),
         (ply("format ascii 1.0\nelement vertex 1\nproperty quad x\n", b""), ["line 4:", "not a line of a PLY header"]),
         (ply(&mesh(little, 1 << 49, 1), &[0; 100]), ["element vertex:", "rows"]),
         (ply(&mesh(little, 1, 1 << 49), &[0; 100]), ["element face:", "rows"]),
-        (ply(&mesh(little, 1, 1), &[&[0; 3][..], &[0xff; 4], &[0; 99]].concat()), ["face 0:", "4294967295 entries"]),
         (ply(&mesh(little, 1, 15_001), &wrong), ["face 15000:", "its corner 1 is not one of the 1"]),
-        (ply(&mesh("ascii", 1, 1), b"0 0 0\n99999999999 0\n"), ["face 0:", "the limit is"]),
         (ply(&mesh("ascii", 1, 1), b"0 0 0\n3 0 -1 0\n"), ["face 0:", "`3 0 -1 0`"]),
         (ply(&mesh("ascii", 1, 1), b"0 0 \xff\n3 0 0 0\n"), ["vertex 0:", "not ASCII text"]),
     ]
@@ -154,13 +127,8 @@ fn gltf_files() -> Vec<(Files, [&'static str; 2])> {
     let text = |text: Vec<u8>| vec![("a.gltf", text)];
     let with = |pointer: &str, value: Value| {
         let mut document = document(3);
-        // The other accessor extends beyond its view.
-        document["accessors"].as_array_mut().unwrap().truncate(1);
         let (parent, key) = pointer.rsplit_once('/').unwrap();
-        match document.pointer_mut(parent).unwrap() {
-            Value::Array(list) => list[key.parse::<usize>().unwrap()] = value,
-            object => object[key] = value,
-        }
+        document.pointer_mut(parent).unwrap()[key] = value;
         gltf(&document, 36)
     };
     let list = |start: &str, item: &str, times: usize| {
@@ -168,19 +136,20 @@ fn gltf_files() -> Vec<(Files, [&'static str; 2])> {
         text([start.as_bytes(), &item.as_bytes().repeat(times), b"{}]}"].concat())
     };
 
-    // Large data is named often, and there is one more fault.
+    // Large data is named often, and the last primitive reaches beyond it.
     let megabyte = 87_381;
-    let mut buffers = document(megabyte);
+    let with_primitives = |accessors: &[usize]| {
+        let mut document = document(megabyte);
+        let mut beyond = document["accessors"][0].clone();
+        beyond["count"] = (megabyte + 1).into();
+        document["accessors"].as_array_mut().unwrap().push(beyond);
+        let mesh = |accessor: &usize| json!({"primitives": [{"attributes": {"POSITION": accessor}}]});
+        document["meshes"] = accessors.iter().map(mesh).collect();
+        document["nodes"] = (0..accessors.len()).map(|mesh| json!({"mesh": mesh})).collect();
+        document
+    };
+    let mut buffers = with_primitives(&[1]);
     buffers["buffers"] = (0..30_000).map(|_| json!({"uri": "a.bin", "byteLength": 12 * megabyte})).collect();
-    buffers["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 1.into();
-    let mut primitives = document(megabyte);
-    let primitive = |accessor: u32| json!({"attributes": {"POSITION": accessor}});
-    primitives["meshes"] = (0..2001).map(|i| json!({"primitives": [primitive(i / 2000)]})).collect();
-    primitives["nodes"] = (0..2001).map(|mesh| json!({"mesh": mesh})).collect();
-    let mut shown = document(megabyte);
-    shown["accessors"].as_array_mut().unwrap().truncate(1);
-    shown["meshes"] = (0..2000).map(|_| json!({"primitives": [primitive(0)]})).collect();
-    shown["nodes"] = (0..2000).map(|mesh| json!({"mesh": mesh})).collect();
 
     let mut embedded = document(3);
     embedded["accessors"][0]["count"] = 4.into();
@@ -194,7 +163,6 @@ fn gltf_files() -> Vec<(Files, [&'static str; 2])> {
 
     vec![
         (text(vec![]), ["a.gltf", "not a glTF 2.0 file"]),
-        (text(b"{".to_vec()), ["line 1 column 1", "not a glTF 2.0 file"]),
         (text(b"{\"asset\":{\"version\":\"2.0\"}}\xff".to_vec()), ["line 1 column", "not a glTF 2.0 file"]),
         (text(b"\xff\xfe{\0".to_vec()), ["line 1:", "UTF-16"]),
         (text(b"[".repeat(5_000_000)), ["a.gltf", "5000000 entries"]),
@@ -214,12 +182,10 @@ fn gltf_files() -> Vec<(Files, [&'static str; 2])> {
         (with("/buffers/0/uri", json!("data:;base64,AAA")), ["buffer 0:", "should have 36 bytes but has 2"]),
         (with("/buffers/0/byteLength", json!(u64::MAX)), ["buffer 0:", "it is truncated"]),
         (gltf(&buffers, 12 * megabyte), ["accessor 1:", "reach beyond"]),
-        (gltf(&primitives, 12 * megabyte), ["accessor 1:", "reach beyond"]),
-        (gltf(&shown, 12 * megabyte), ["a.gltf", "174762000 vertices"]),
+        (gltf(&with_primitives(&[&[0; 2000][..], &[1]].concat()), 12 * megabyte), ["accessor 1:", "reach beyond"]),
+        (gltf(&with_primitives(&[0; 2000]), 12 * megabyte), ["a.gltf", "174762000 vertices"]),
         (text(embedded.to_string().into_bytes()), ["accessor 0:", "4 elements reach beyond the 36 bytes"]),
         (vec![("a.glb", glb(binary.to_string().as_bytes(), &chunk))], ["accessor 0:", "4 elements reach beyond"]),
-        (vec![("a.glb", b"glTF\x02\0\0\0\x0c\0\0\0".to_vec())], ["a.glb", "not a glTF 2.0 file"]),
-        (vec![("a.glb", b"glTF".to_vec())], ["a.glb", "within its header"]),
     ]
 }
 
@@ -240,8 +206,9 @@ fn each_is_refused_in_a_sentence_and_takes_little_memory() {
         return;
     }
     let all = obj_files().into_iter().chain(ply_files()).chain(gltf_files()).chain(ray_files());
-    let wrong: Vec<String> = all.filter_map(|(files, words)| not_refused(&files, &words)).collect();
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    for (files, words) in all {
+        assert_contains(&loaded(&files).expect_err(words[1]), &words);
+    }
 
     // Good files have a limit too; tobj would take thirty times their size.
     for (faces, triangles) in
@@ -249,18 +216,17 @@ fn each_is_refused_in_a_sentence_and_takes_little_memory() {
     {
         let times = 16_000_000 / faces.len();
         let text = [b"v 0 0 0\nvn 0 0 1\n", &faces.as_bytes().repeat(times)[..]].concat();
-        assert_eq!(loaded(&vec![("a.obj", text)]), Ok(Ok(triangles * times)));
+        assert_eq!(loaded(&vec![("a.obj", text)]), Ok(triangles * times));
     }
     // Data that is named often is read once, in good files too.
     let mut often = document(1_000_000);
     often["buffers"] = (0..30_000).map(|_| json!({"uri": "a.bin", "byteLength": 12_000_000})).collect();
     often["accessors"][0]["count"] = 300.into();
-    often["accessors"].as_array_mut().unwrap().truncate(1);
-    assert_eq!(loaded(&gltf(&often, 12_000_000)), Ok(Ok(100)));
+    assert_eq!(loaded(&gltf(&often, 12_000_000)), Ok(100));
     // There are many missing libraries: comparing each with all would take hours.
     let missing: String = (0..1_000_000).map(|i| format!("mtllib {i}\n")).collect();
-    assert_eq!(loaded(&vec![("a.obj", format!("{missing}{TRIANGLE}f 1 2 3\n").into_bytes())]), Ok(Ok(1)));
+    assert_eq!(loaded(&vec![("a.obj", format!("{missing}{TRIANGLE}f 1 2 3\n").into_bytes())]), Ok(1));
     let libraries = [b"mtllib a.mtl\n".repeat(100_000), format!("{TRIANGLE}usemtl a\nf 1 2 3\n").into_bytes()].concat();
     let materials: String = (0..1_000_000).map(|i| format!("newmtl a{i}\nKd x\n")).collect();
-    assert_eq!(loaded(&vec![("a.obj", libraries), ("a.mtl", materials.into_bytes())]), Ok(Ok(1)));
+    assert_eq!(loaded(&vec![("a.obj", libraries), ("a.mtl", materials.into_bytes())]), Ok(1));
 }
