@@ -260,6 +260,17 @@ mod tests {
         assert_eq!(picture("difference"), crate::golden::difference_picture(&expected, &actual).into());
         assert!(error.to_string().contains("Cube with sah-kd:leaf=1"), "{error}");
         assert_eq!(golden.update(&scene, &tree, Overwrite::Own).unwrap(), Update::Changed(**difference));
+
+        // Alpha and low bits count: it is another picture.
+        let drawn = golden.expected().unwrap();
+        for other in [DynamicImage::from(drawn.to_rgba8()), drawn.to_rgb16().into()] {
+            file::write(golden.path(), &other).unwrap();
+            let refused = golden.check(&scene, "sah-kd", &tree, &out).unwrap_err();
+            assert!(matches!(refused, GoldenError::Layout { .. }), "{refused}");
+            let updated = golden.update(&scene, &tree, Overwrite::Own).unwrap();
+            assert_eq!(updated, Update::Layout(Layout::of(&other)));
+            assert_eq!(golden.expected().unwrap(), drawn);
+        }
     }
 
     #[test]
