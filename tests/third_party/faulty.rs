@@ -46,14 +46,18 @@ pub struct FaultyConfig {
     pub fault: Fault,
 }
 
+/// A box around triangles: its least and greatest corner.
+type Bounds = [Vec3; 2];
+
 enum Node {
-    Inner([(Vec3, Vec3, usize); 2]),
-    Leaf(Vec<u32>),
+    Inner(Box<[(Bounds, Node); 2]>),
+    /// Its place in the order of the tree, and triangles.
+    Leaf(u32, Vec<u32>),
 }
 
 pub struct Faulty {
     mesh: Arc<Mesh>,
-    nodes: Vec<Node>,
+    root: Node,
     fault: Fault,
 }
 
@@ -61,35 +65,33 @@ const LEAF: usize = 4;
 const DEEP: usize = 6;
 const STACK: usize = 10;
 
-impl Faulty {
-    fn node(&mut self, mut triangles: Vec<u32>, depth: usize) -> usize {
-        let place = self.nodes.len();
+fn bounds(mesh: &Mesh, triangles: &[u32]) -> Bounds {
+    let corners = || triangles.iter().flat_map(|&index| mesh.corners(index));
+    [corners().fold(Vec3::INFINITY, Vec3::min), corners().fold(Vec3::NEG_INFINITY, Vec3::max)]
+}
+
+impl Node {
+    /// Splits triangles in the middle; `count` nodes are before it.
+    fn new(mesh: &Mesh, fault: Fault, mut triangles: Vec<u32>, depth: usize, count: &mut u32) -> Self {
+        let place = *count;
+        *count += 1;
         if triangles.len() <= LEAF || depth > 40 {
-            let is_dropped = self.fault == Fault::LeafDropped && depth > DEEP && place.is_multiple_of(50);
-            self.nodes.push(Node::Leaf(if is_dropped { vec![] } else { triangles }));
-            return place;
+            let is_dropped = fault == Fault::LeafDropped && depth > DEEP && place.is_multiple_of(50);
+            return Self::Leaf(place, if is_dropped { vec![] } else { triangles });
         }
-        let (low, high) = self.bounds(&triangles);
+        let [low, high] = bounds(mesh, &triangles);
         let axis = (high - low).max_position();
-        let centre = |index: &u32| self.mesh.corners(*index).iter().map(|corner| corner[axis]).sum::<f32>();
+        let centre = |index: &u32| mesh.corners(*index).iter().map(|corner| corner[axis]).sum::<f32>();
         triangles.sort_by(|one, other| centre(one).total_cmp(&centre(other)));
-        self.nodes.push(Node::Leaf(vec![]));
         let above = triangles.split_off(triangles.len() / 2);
-        let children = [triangles, above].map(|own| {
-            let (low, high) = self.bounds(&own);
-            (low, high, self.node(own, depth + 1))
-        });
-        self.nodes[place] = Node::Inner(children);
-        place
+        let child = |own: Vec<u32>| (bounds(mesh, &own), Self::new(mesh, fault, own, depth + 1, count));
+        Self::Inner(Box::new([triangles, above].map(child)))
     }
+}
 
-    fn bounds(&self, triangles: &[u32]) -> (Vec3, Vec3) {
-        let corners = || triangles.iter().flat_map(|&index| self.mesh.corners(index));
-        (corners().fold(Vec3::INFINITY, Vec3::min), corners().fold(Vec3::NEG_INFINITY, Vec3::max))
-    }
-
+impl Faulty {
     /// The parameter at which the ray enters a box, if it does.
-    fn enters(&self, ray: &Ray, t_max: f32, low: Vec3, high: Vec3) -> Option<f32> {
+    fn enters(&self, ray: &Ray, t_max: f32, [low, high]: Bounds) -> Option<f32> {
         let (mut near, mut far) = (ray.t_min.max(0.0), t_max);
         for axis in 0..3 {
             let inverse = 1.0 / ray.direction[axis];
@@ -125,50 +127,39 @@ impl Faulty {
         (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t >= least && t < ray.t_max).then_some(t)
     }
 
-    fn traverse(&self, ray: &Ray, place: usize, stack: usize, best: &mut Option<Hit>) {
-        match &self.nodes[place] {
-            Node::Leaf(triangles) => {
-                let count = triangles.len() - usize::from(self.fault == Fault::LastTriangle && triangles.len() > 1);
-                for &index in &triangles[..count] {
+    fn traverse<'a>(&self, ray: &Ray, node: &'a Node, stack: usize, best: &mut Option<Hit>) {
+        let children = match node {
+            Node::Inner(children) => children,
+            Node::Leaf(place, triangles) => {
+                let last = usize::from(self.fault == Fault::LastTriangle && triangles.len() > 1);
+                for &index in &triangles[..triangles.len() - last] {
                     let Some(t) = self.hit(ray, index) else { continue };
-                    let id = if self.fault == Fault::WrongId { place as u32 % self.mesh.len() as u32 } else { index };
+                    let id = if self.fault == Fault::WrongId { place % self.mesh.len() as u32 } else { index };
                     match best {
                         Some(old) if old.t == t && self.fault == Fault::Ties => *best = None,
                         Some(old) if old.t <= t && self.fault != Fault::StaleTMax => {}
                         _ => *best = Some(Hit::new(t, id)),
                     }
                 }
+                return;
             }
-            Node::Inner(children) => {
-                let end = |best: &Option<Hit>| match best {
-                    Some(hit) if self.fault != Fault::StaleTMax => hit.t,
-                    _ => ray.t_max,
-                };
-                let mut entered: Vec<(f32, usize)> = children
-                    .iter()
-                    .filter_map(|&(low, high, child)| Some((self.enters(ray, end(best), low, high)?, child)))
-                    .collect();
-                entered.sort_by(|one, other| one.0.total_cmp(&other.0));
-                if entered.len() == 2 && stack == 0 && self.fault == Fault::OverflowedStack {
-                    entered.pop();
-                }
-                let pushes = entered.len() - 1.min(entered.len());
-                for (t, child) in entered {
-                    let had = best.is_some();
-                    if t <= end(best) && !(had && self.fault == Fault::ChildOrder) {
-                        self.traverse(ray, child, stack.saturating_sub(pushes), best);
-                    }
-                }
+        };
+        let end = |best: &Option<Hit>| match best {
+            Some(hit) if self.fault != Fault::StaleTMax => hit.t,
+            _ => ray.t_max,
+        };
+        let entered = |(own, child): &'a (Bounds, Node)| Some((self.enters(ray, end(best), *own)?, child));
+        let mut entered: Vec<(f32, &Node)> = children.iter().filter_map(entered).collect();
+        entered.sort_by(|one, other| one.0.total_cmp(&other.0));
+        if stack == 0 && self.fault == Fault::OverflowedStack {
+            entered.truncate(1);
+        }
+        let pushes = entered.len().saturating_sub(1);
+        for (t, child) in entered {
+            if t <= end(best) && !(best.is_some() && self.fault == Fault::ChildOrder) {
+                self.traverse(ray, child, stack.saturating_sub(pushes), best);
             }
         }
-    }
-
-    fn closest(&self, ray: &Ray) -> Option<Hit> {
-        let mut best = None;
-        if ray.is_valid() && !self.mesh.is_empty() {
-            self.traverse(ray, 0, STACK, &mut best);
-        }
-        best
     }
 }
 
@@ -178,23 +169,26 @@ impl Accel for Faulty {
     const OBSERVED: Observed = Observed::NONE;
 
     fn build(mesh: &Arc<Mesh>, config: &FaultyConfig) -> Result<Self, BuildError> {
-        let mut tree = Self { mesh: Arc::clone(mesh), nodes: vec![], fault: config.fault };
         let solid = (0..mesh.len() as u32).filter(|&index| !mesh.is_degenerate(index)).collect();
-        tree.node(solid, 0);
-        Ok(tree)
+        let root = Node::new(mesh, config.fault, solid, 0, &mut 0);
+        Ok(Self { mesh: Arc::clone(mesh), root, fault: config.fault })
     }
 
     fn closest_hit<O: Observer>(&self, ray: &Ray, _: &mut O) -> Option<Hit> {
-        self.closest(ray)
+        let mut best = None;
+        if ray.is_valid() {
+            self.traverse(ray, &self.root, STACK, &mut best);
+        }
+        best
     }
 
-    fn any_hit<O: Observer>(&self, ray: &Ray, _: &mut O) -> bool {
+    fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
         let end = if self.fault == Fault::AnyHit { f32::INFINITY } else { ray.t_max };
-        self.closest(&Ray { t_max: end, ..*ray }).is_some()
+        self.closest_hit(&Ray { t_max: end, ..*ray }, observer).is_some()
     }
 
     fn footprint(&self) -> Footprint {
-        Footprint { other: self.nodes.len() * size_of::<Node>(), ..Footprint::default() }
+        Footprint { other: size_of::<Self>(), ..Footprint::default() }
     }
 
     fn shape(&self) -> TreeShape {

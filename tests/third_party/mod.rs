@@ -5,7 +5,7 @@ mod faulty;
 mod grid;
 mod question;
 
-use std::path::Path;
+use std::fs;
 use std::process::{Command, ExitCode, Stdio};
 use std::time::Duration;
 
@@ -13,20 +13,19 @@ use broken::{Broken, BrokenConfig, Fault, Modest, picks};
 use faulty::{Faulty, FaultyConfig};
 use grid::{Grid, GridConfig};
 use question::{DUPLICATION, staircase};
-use sahara::builtin::Builtin;
 use sahara::cli::Suite;
 use sahara::geometry::Ray;
-use sahara::measure::{Provenance, SystemClock};
+use sahara::measure::SystemClock;
 use sahara::registry::Registry;
-use sahara::request::{StructureRequest, WorkloadRequest, scene};
-use sahara::scene::WorkloadKind;
-use sahara::study::measure::{BuildWatch, Prepared, measure};
-use sahara::study::measurement::measurements;
-use sahara::study::{Dataset, Measured, Plan, PlannedScene, Settings, Studies};
+use sahara::study::Studies;
 use sahara::triangle::{Exact, MollerTrumbore};
 use sahara::validate::conformance::{Named, Subject, answers, counting, shapes};
 use sahara::validate::hard_cases::{CaseTruth, find, run};
 use sahara::validate::{degenerate_meshes, stacked_sheets};
+use serde_json::Value;
+
+use crate::cli::command::{Folder, assert_contains, said, unwrapped};
+use crate::cli::journal::rows;
 
 // Few cells: each of two thousand coincident triangles is in all cells that it meets.
 sahara::conformance!(my_grid, Grid<MollerTrumbore>, GridConfig { resolution: 2 }, lowest_id);
@@ -41,52 +40,10 @@ fn registry() -> Registry {
         .with_generator("staircase", staircase)
 }
 
-#[test]
-fn a_registered_structure_is_chosen_like_the_others_and_draws_the_golden_images() {
-    let choice = registry().choose("grid:resolution=3").unwrap();
-    assert_eq!((choice.label.as_str(), choice.triangle_test()), ("grid:resolution=3", "exact"));
-    let refusal = registry().choose("grid:resolution=0").map(|_| ()).unwrap_err().to_string();
-    assert!(refusal.contains("resolution must be from 1 to 256"), "{refusal}");
-    let choice = registry().choose("grid").unwrap();
-    for name in ["cube", "torus", "cornellbox"] {
-        let scene = Builtin::find(name).unwrap().scene(None).unwrap();
-        let (golden, out) = (Builtin::find(name).unwrap().golden(), Path::new(env!("CARGO_TARGET_TMPDIR")));
-        golden.check(&scene, "grid", choice.build(&scene.mesh).unwrap().as_ref(), out).unwrap();
-    }
-}
-
-#[test]
-fn it_is_compared_like_our_own() {
-    let registry = registry();
-    let structures = ["grid", "sah-kd", "modest"].map(|spec| StructureRequest::new(spec, ""));
-    let kinds = vec![WorkloadKind::Primary, WorkloadKind::Shadow];
-    let workloads = WorkloadRequest::Scene { kinds, rays: Some(1024) };
-    let settings = Settings { runs: 3, ..Settings::for_guide("sah-kd") };
-    let own = ("sphere".to_owned(), scene(&registry, "sphere").unwrap());
-    let plan = Plan::by_epoch("compare", &[PlannedScene::new(&own, &structures, &workloads, &settings, 1)]);
-    let case = plan.cases[0].clone();
-    let prepared = Prepared::new(&case, &registry, Some(own.1)).unwrap();
-    let epoch = measure(&case, &prepared, &SystemClock::start(), &BuildWatch::default(), &mut |_| {}).unwrap();
-    let records = measurements(&Dataset::new(Provenance::capture(1), vec![Measured { case, epoch }]));
-    assert_eq!(records.len(), 6);
-    assert!(records[..4].iter().all(|r| r.wrong_hits == 0 && r.mrays_per_s > Some(0.0)));
-    assert_eq!(records[0].label, "grid");
-    assert_eq!(records[0].counts.hits, records[2].counts.hits);
-
-    // Declined is neither a time nor an error.
-    assert!(records[4].mrays_per_s.is_some() && records[4].declined.is_none());
-    assert_eq!((records[5].mrays_per_s, records[5].declined.as_deref()), (None, Some("any hit")));
-    assert_eq!((records[5].wrong_hits, records[4].counts.tests_per_ray()), (0, None));
-}
-
 /// Some meshes: they trigger the faults that affect one ray in 10,000.
 fn meshes() -> Vec<Named> {
     let wanted = ["closed sphere", "soup", "nested shells", "crossing needles", "same centroid"];
     degenerate_meshes().into_iter().filter(|(name, _)| wanted.contains(&name.as_str())).collect()
-}
-
-fn subject(fault: Fault) -> Subject {
-    Subject { limit: Duration::from_secs(5), ..Subject::of::<Broken>("broken", BrokenConfig { fault }) }
 }
 
 #[test]
@@ -99,13 +56,24 @@ fn the_grid_that_the_broken_ones_are_made_from_is_right_and_what_is_declined_is_
 }
 
 #[test]
-fn a_structure_that_hangs_is_given_up_and_the_ray_is_named() {
-    let report = answers(&subject(Fault::Hangs), &meshes(), 200).unwrap_err();
-    assert!(report.contains("worst: hangs on ray \"") && report.contains("no result within 5s"), "{report}");
-    let ray: Option<Ray> = report.split('"').find_map(|part| part.parse().ok());
-    assert!(ray.is_some_and(|ray| picks(&ray, 500)), "{report}");
-    let counted = counting(&subject(Fault::Hangs), &meshes()[..1], 2000).unwrap_err();
-    assert!(counted.contains("it hangs") && counted.contains("tracing ray \""), "{counted}");
+fn what_hangs_is_given_up_and_told_from_what_panics() {
+    // On one triangle everything but a hang takes far less time than the limit, on a busy machine as well.
+    let one: Vec<Named> = degenerate_meshes().into_iter().filter(|(name, _)| name == "one triangle").collect();
+    let subject =
+        |fault| Subject { limit: Duration::from_secs(5), ..Subject::of::<Broken>("broken", BrokenConfig { fault }) };
+    let unbuilt = "does not build over \"one triangle\": it";
+    for (report, parts) in [
+        (answers(&subject(Fault::Hangs), &one, 200), ["worst: hangs on ray \"", "no result within 5s"]),
+        (counting(&subject(Fault::Hangs), &one, 2000), ["it hangs", "tracing ray \""]),
+        (answers(&subject(Fault::BuilderPanics), &one, 1), [unbuilt, "panics: the message is \"no triangle"]),
+        (answers(&subject(Fault::BuilderHangs), &one, 1), [unbuilt, "it hangs"]),
+        (shapes(&subject(Fault::BuilderHangs), &one), [unbuilt, "it hangs"]),
+    ] {
+        let report = report.unwrap_err();
+        assert_contains(&report, &parts);
+        let named: Option<Ray> = report.split('"').find_map(|part| part.parse().ok());
+        assert_eq!(named.map(|ray| picks(&ray, 500)), report.contains("ray \"").then_some(true), "{report}");
+    }
 }
 
 /// Ten places are enough for the small meshes.
@@ -114,15 +82,6 @@ fn a_short_stack_is_found_by_stacked_sheets() {
     let of = |fault| answers(&Subject::of::<Faulty>("mybvh", FaultyConfig { fault }), &stacked_sheets(), 10);
     of(faulty::Fault::None).unwrap();
     assert!(of(faulty::Fault::OverflowedStack).unwrap_err().contains("8192 stacked sheets"));
-}
-
-#[test]
-fn builders_that_panic_or_hang_are_told_from_each_other() {
-    let of = |fault| answers(&subject(fault), &meshes(), 1).unwrap_err();
-    let words = "does not build over \"crossing needles\": it";
-    assert!(of(Fault::BuilderPanics).contains(&format!("{words} panics: the message is \"no triangle")));
-    assert!(of(Fault::BuilderHangs).contains(&format!("{words} hangs")));
-    assert!(shapes(&subject(Fault::BuilderHangs), &meshes()).unwrap_err().contains("it hangs"));
 }
 
 /// The command of a crate with these structures: the tests below run it in a separate process.
@@ -139,23 +98,27 @@ fn command() {
     std::process::exit(if status == ExitCode::SUCCESS { 0 } else { 42 });
 }
 
-/// The output of the command, and whether it succeeds.
-fn sahara(args: &str) -> (String, bool) {
+/// The output of the command in a folder, and whether it succeeds.
+fn sahara(folder: &Folder, args: &str) -> (String, bool) {
     let mut command = Command::new(std::env::current_exe().unwrap());
     command
         .args(["--exact", "third_party::command", "--nocapture", "--test-threads=1"])
-        .env("SAHARA_THIRD_PARTY", args);
-    let output = command.env_remove("SAHARA_DATA").stdin(Stdio::null()).output().unwrap();
-    let printed = String::from_utf8(output.stdout).unwrap() + &String::from_utf8_lossy(&output.stderr);
+        .env("SAHARA_THIRD_PARTY", args)
+        .env_remove("SAHARA_DATA")
+        .current_dir(folder.path(""))
+        .stdin(Stdio::null());
+    let output = command.output().unwrap();
+    let printed = said(&output).concat();
     assert!(matches!(output.status.code(), Some(0 | 42)), "{args}: {printed}");
     (printed, output.status.code() == Some(0))
 }
 
-/// The output of the command; it must succeed, and contain all of `parts`.
+/// Like [`sahara`]; it must succeed, and print all of `parts`.
 #[track_caller]
-fn content(args: &str, parts: &[&str]) -> String {
-    let (printed, right) = sahara(args);
-    assert!(right && parts.iter().all(|part| printed.contains(part)), "{args}: {printed}");
+fn content(folder: &Folder, args: &str, parts: &[&str]) -> String {
+    let (printed, right) = sahara(folder, args);
+    assert!(right, "{args}: {printed}");
+    assert_contains(&printed, parts);
     printed
 }
 
@@ -173,7 +136,8 @@ fn the_command_rejects_each_fault_for_its_own_reason() {
         ("builder-panics", 100, "refused", 1),
         ("builder-hangs", 100, "hangs", 1),
     ] {
-        let (printed, right) = sahara(&format!("validate sphere -s broken:fault={fault} --rays {rays} --limit 5"));
+        let validate = format!("validate cube -s broken:fault={fault} --rays {rays} --limit 5");
+        let (printed, right) = sahara(&Folder::new(), &validate);
         assert!(!right && printed.contains(reason), "{fault}: {printed}");
         let named: Option<Ray> = printed.split('"').find_map(|part| part.parse().ok());
         assert_eq!(named.is_some(), reason.contains("ray"), "{fault}: {printed}");
@@ -187,13 +151,10 @@ fn the_command_rejects_each_fault_for_its_own_reason() {
 #[test]
 fn each_fault_of_a_tree_is_told_from_what_its_triangle_test_rounds() {
     const LOSES: &str = "loses hits that no rounding explains";
-    let validate =
-        |fault: &str, options: &str| sahara(&format!("validate -s mybvh:fault={fault} --rays 4000 {options}"));
-    let (printed, right) = validate("none", "teapot cornellbox");
-    assert!(right && printed.contains("always within the rounding of the triangle"), "{printed}");
-    let (printed, right) = validate("none", "teapot cornellbox --strict");
-    assert!(!right, "{printed}");
+    const ROUNDS: &str = "always within the rounding of the triangle";
     for (fault, options, sentence) in [
+        ("none", "teapot cornellbox", ROUNDS),
+        ("none", "teapot cornellbox --strict", ""),
         ("leaf-dropped", "teapot", LOSES),
         ("child-order", "teapot", LOSES),
         ("stale-t-max", "teapot", LOSES),
@@ -205,9 +166,10 @@ fn each_fault_of_a_tree_is_told_from_what_its_triangle_test_rounds() {
         ("not-a-number", "cornellbox", "returns hits that no rounding explains"),
         ("t-off", "teapot", "returns depths that no rounding explains"),
     ] {
-        let (printed, right) = validate(fault, options);
-        let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(!right && words(&printed).contains(&format!("{fault} {}", sentence)), "{fault}: {printed}");
+        let validate = format!("validate -s mybvh:fault={fault} --rays 4000 {options}");
+        let (printed, right) = sahara(&Folder::new(), &validate);
+        let verdict = if fault == "none" { sentence.into() } else { format!("{fault} {sentence}") };
+        assert!(right == (sentence == ROUNDS) && unwrapped(&printed).contains(&verdict), "{fault}: {printed}");
     }
     // Axis-parallel rays in the sides of boxes, boxes without thickness, and deep trees: hard cases show them.
     for (fault, case, is_found) in [
@@ -231,63 +193,77 @@ fn each_fault_of_a_tree_is_told_from_what_its_triangle_test_rounds() {
 fn wrong_answers_are_seen_where_speed_is() {
     for (fault, is_timed) in [("none", true), ("leaf-dropped", false), ("epsilon", false)] {
         let args = format!("compare teapot -s mybvh:fault={fault} -s sah-kd -w diffuse --budget 1 --runs 2 --epochs 1");
-        let (printed, right) = sahara(&args);
-        assert_eq!(right, is_timed, "{fault}: {printed}");
+        let (printed, right) = sahara(&Folder::new(), &args);
         let advice = format!("see: sahara validate teapot -s mybvh:fault={fault} --ray");
-        assert_eq!(printed.split_whitespace().collect::<Vec<_>>().join(" ").contains(&advice), !is_timed, "{printed}");
+        assert_eq!([right, !unwrapped(&printed).contains(&advice)], [is_timed; 2], "{fault}: {printed}");
     }
 }
 
 #[test]
-fn the_command_knows_the_structures_and_what_they_decline() {
-    content("validate torus -s grid -s modest --rays 2000 --verbose", &["modest declines any hit, t_min, t_max: "]);
-    let compare = "compare cube -s grid -s modest -w primary -w shadow --rays 400 --runs 2 --verbose";
-    content(compare, &["declined", "modest declines any hit, which shadow"]);
-    content("list structures", &["declines", "grid"]);
-    content("list grid", &["resolution"]);
+fn registered_structures_are_chosen_compared_and_drawn_like_our_own_and_may_decline_queries() {
+    let folder = &Folder::new();
+    let (printed, right) = sahara(folder, "validate cube -s grid:resolution=0");
+    assert!(!right && printed.contains("resolution must be from 1 to 256"), "{printed}");
+    let compare = "compare sphere -s grid:resolution=32 -s sah-kd -s modest -w primary -w shadow --rays 1024 --runs 3 \
+                   --epochs 1 --verbose --export-json r.json";
+    for (args, parts) in [
+        ("golden check cube torus cornellbox -s grid", &["Cornellbox: identical bytes with grid"][..]),
+        ("validate torus -s grid -s modest --rays 2000 --verbose", &["modest declines any hit, t_min, t_max: "]),
+        (compare, &["declined", "modest declines any hit, which shadow"]),
+        ("list structures", &["declines", "grid"]),
+        ("list grid", &["resolution"]),
+    ] {
+        content(folder, args, parts);
+    }
+    let rows = rows(folder.path("r.json"));
+    let timed: Vec<bool> = rows.iter().map(|row| !row["ns"].as_array().unwrap().is_empty()).collect();
+    // Declined is neither a time nor an error.
+    assert_eq!(timed, [true, true, true, true, true, false], "{rows:?}");
+    assert!(rows.iter().all(|row| row["checked"]["errors"].as_u64().unwrap_or(0) == 0), "{rows:?}");
+    assert_eq!([&rows[0]["label"], &rows[0]["triangle_test"]], ["grid:resolution=32", "exact"]);
+    assert_eq!(rows[0]["counts"]["hits"], rows[2]["counts"]["hits"]);
+    assert_eq!([&rows[5]["declined"], &rows[4]["counts"]["tests"]], [&"any hit".into(), &Value::Null]);
 }
 
 #[test]
 fn a_command_about_one_structure_says_when_it_panics_or_hangs() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).display().to_string();
-    let (rays, hits, picture) = (path("f.rays"), path("f.hits"), path("f.png"));
-    content(&format!("rays record sphere -o {rays} --rays 10000"), &[]);
-    for (fault, reason) in [("panics", "it panics"), ("hangs", "it hangs"), ("builder-hangs", "it hangs")] {
-        let export = format!("validate --rays {rays} -s broken:fault={fault} --limit 3 --export-hits {hits}");
-        let (printed, right) = sahara(&export);
-        assert!(!right && printed.contains(reason) && printed.contains("error: "), "{fault}: {printed}");
+    let folder = Folder::new();
+    content(&folder, "rays record cube -o f.rays --rays 10000", &[]);
+    let export = "--rays f.rays --limit 3 --export-hits f.hits";
+    for (args, reason) in [
+        (format!("validate {export} -s broken:fault=panics"), "it panics"),
+        (format!("validate {export} -s broken:fault=hangs"), "it hangs"),
+        (format!("validate {export} -s broken:fault=builder-hangs"), "it hangs"),
+        ("render cube -o f.png -s broken:fault=panics --size 128x128".into(), "its traversal panicked"),
+    ] {
+        let (printed, right) = sahara(&folder, &args);
+        assert!(!right && printed.contains(reason) && printed.contains("error: "), "{args}: {printed}");
     }
-    let (printed, right) = sahara(&format!("render sphere -o {picture} -s broken:fault=panics --size 128x128"));
-    assert!(!right && printed.contains("its traversal panicked"), "{printed}");
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "nothing is written");
+    assert_eq!(folder.names(), ["f.rays"], "nothing is written");
 }
 
 #[test]
 fn a_study_of_another_crate_is_in_the_command_in_study_all_and_on_the_page() {
-    content("study --help", &[DUPLICATION.question]);
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).display().to_string();
-    let (runs, page) = (path("runs"), path("page"));
-    let exports = format!("--export-json {0}.json --export-csv {0}.csv", path("d"));
-    let study = format!("study duplication -s grid -s sah-bvh --dir {runs} {exports}");
-    content(&study, &["References for each triangle", "staircase 64"]);
-    assert!(std::fs::read_to_string(path("d.json")).unwrap().contains("\"word\":\"staircase:64\""));
-    let csv = std::fs::read_to_string(path("d.csv")).unwrap();
+    let folder = &Folder::new();
+    content(folder, "study --help", &[DUPLICATION.question]);
+    let study = "study duplication -s grid -s sah-bvh --dir runs --export-json d.json --export-csv d.csv";
+    content(folder, study, &["References for each triangle", "staircase 64"]);
+    assert_contains(&folder.read("d.json"), &["\"word\":\"staircase:64\""]);
+    let csv = folder.read("d.csv");
     assert!(csv.starts_with("scene,structure,references_per_triangle\n") && csv.lines().count() == 5, "{csv}");
     // Other settings are added, and a job in another process measures a case from its line.
-    content(&format!("study duplication -s grid --dir {runs}"), &[]);
-    let lines = content(&format!("study plan duplication -s sah-kd --dir {}", path("jobs")), &[]);
+    content(folder, "study duplication -s grid --dir runs", &[]);
+    let plan = content(folder, "study plan duplication -s sah-kd --dir jobs", &[]);
     // The harness prints the name of the test before the first line.
-    let lines: Vec<&str> = lines.lines().filter_map(|line| Some(line.split_once("sahara ")?.1)).collect();
-    assert_eq!(lines.len(), 2, "{lines:?}");
-    content(lines[0], &[]);
-    content(lines[0], &[]);
-    assert_eq!(std::fs::read_dir(path("jobs/duplication")).unwrap().count(), 1);
+    let jobs: Vec<&str> = plan.lines().filter_map(|line| Some(line.split_once("sahara ")?.1)).collect();
+    assert_eq!(jobs.len(), 2, "{plan}");
+    for _ in 0..2 {
+        content(folder, jobs[0], &[]);
+    }
+    assert_eq!(fs::read_dir(folder.path("jobs/duplication")).unwrap().count(), 1);
 
-    content(&format!("study all --quick --fresh --dir {runs}"), &["duplication/", "Everything is measured"]);
-    content(&format!("report {runs} -o {page} --no-pictures"), &["index.html"]);
-    let html = std::fs::read_to_string(folder.path().join("page/index.html")).unwrap();
-    assert!(html.contains(DUPLICATION.question) && html.contains("staircase 64"), "the page");
-    assert!(folder.path().join("page/data/duplication.csv").is_file());
+    content(folder, "study all --quick --fresh --dir runs", &["duplication/", "Everything is measured"]);
+    content(folder, "report runs -o page --no-pictures", &["index.html"]);
+    assert_contains(&folder.read("page/index.html"), &[DUPLICATION.question, "staircase 64"]);
+    assert!(folder.path("page/data/duplication.csv").is_file());
 }
