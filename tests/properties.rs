@@ -68,10 +68,8 @@ fn most_drawn_cases_are_meshes_that_rays_hit() {
 
 /// A number from the environment, for longer runs than usual: see tests/fuzz/README.md.
 fn from_environment(name: &str, otherwise: u32) -> u32 {
-    match std::env::var(name) {
-        Ok(text) => text.parse().unwrap_or_else(|_| panic!("{name}={text} is not a whole number")),
-        Err(_) => otherwise,
-    }
+    let number = |text: String| text.parse().unwrap_or_else(|_| panic!("{name}={text} is not a whole number"));
+    std::env::var(name).map_or(otherwise, number)
 }
 
 /// The same cases on every run.
