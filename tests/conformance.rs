@@ -130,11 +130,7 @@ fn everything_offered_counts_and_has_a_possible_shape() {
 #[test]
 fn counting_and_loading_change_no_hit_of_any_structure() {
     let registry = Registry::builtin();
-    let others = [
-        "sah-kd-tight:batch=packets",
-        "embree:packet=16",
-        "embree-robust:packet=16,rays=coherent",
-    ];
+    let others = ["sah-kd-tight:batch=packets", "embree:packet=16", "embree-robust:packet=16,rays=coherent"];
     let others = others.iter().filter_map(|spec| registry.choose(spec).ok());
     let mut meshes = degenerate_meshes();
     meshes.retain(|(name, _)| name == "box of a grid" || name == "only without area");
