@@ -159,7 +159,7 @@ impl Stack<'_, false> {
     /// The entries were [`reset`](Entries::reset), and the bottom has not been returned since.
     #[inline(always)]
     pub unsafe fn pop_down(&mut self, end: f32) -> Child {
-        // SAFETY: by the contracts of this function and of `of`, `reset`, `push` and `push_all` have written the entries
+        // SAFETY: by the contracts of this function and `of`, `reset`, `push` and `push_all` have written the entries
         // below `len`. The loop ends at the bottom or above, because the bottom is entered at minus infinity.
         unsafe {
             self.len -= 1;

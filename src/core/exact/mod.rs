@@ -39,8 +39,8 @@ pub fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactT> {
 }
 
 /// Six times the volume of the tetrahedron of `origin` and a triangle, (a - origin) . (e x f), with a relative error
-/// below 2^-49: the numerator of `t`. Zero only if `origin` lies in the plane. For finite numbers, at a quarter of the
-/// cost of [`hit`].
+/// below 2^-49: the numerator of `t`. Zero if and only if `origin` lies in the plane. For finite numbers, at a quarter
+/// of the cost of [`hit`].
 pub fn height(origin: Vec3, corners: [Vec3; 3]) -> f64 {
     let of_sums = || {
         let [a, ..] = corners;
