@@ -4,7 +4,7 @@ use crate::simd::{Arithmetic, LaneVec3};
 /// The edge test of [`Plucker`](super::Plucker) in `f64` over corners in `f32`, widened by its own rounding error:
 /// scalar triple products for the sides, `t` from the plane equation relative to the origin, rounded to `f32`.
 ///
-/// Proved, where the size of a vector is the sum of its components' magnitudes, D the size of d, and det = d . (e1 x e2):
+/// Proved, where a vector's size is the sum of its components' magnitudes, D the size of d, and det = d . (e1 x e2):
 ///
 /// - The test finds a triangle that the ray hits if |det| >= 2^-48 D |e1| |e2|.
 /// - If it reports a hit, the volume of the direction and an edge e from a corner p, which is the barycentric of the
