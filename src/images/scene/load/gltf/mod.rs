@@ -47,8 +47,7 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
     let accessors = Accessors::new(&document, &buffers)?;
     let (shown, worlds) = graph::walk(&document)?;
     let placements = shown.into_iter().filter_map(|node| {
-        let instances = instances.get(&node.index()).copied().unwrap_or_default();
-        Some(Placement { mesh: node.mesh()?, node, instances })
+        Some(Placement { mesh: node.mesh()?, instances: instances[node.index()], node })
     });
     let placements: Vec<Placement> = placements.collect();
     let mut shapes = HashMap::new();

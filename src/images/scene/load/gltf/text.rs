@@ -4,11 +4,10 @@
 //! that this loader does not read, and misreads some invalid files. The document is therefore reduced to the parts that
 //! are read before the crate parses it.
 
-use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
 use gltf::json::validation::{Error, Validate as _};
-use gltf::json::{Index, Node, Path, Root};
+use gltf::json::{Path, Root};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::value::RawValue;
@@ -39,8 +38,8 @@ const LARGE: &str = "baseColorFactor byteLength byteOffset count matrix rotation
 pub(super) struct Document {
     /// All indices are in range; accessors are not checked against their buffers.
     pub root: Root,
-    /// By nodes, the accessors of translations, rotations and scales of the instances of their meshes.
-    pub instances: HashMap<usize, [Option<usize>; 3]>,
+    /// For each node, the accessors of translations, rotations and scales of the instances of its mesh.
+    pub instances: Vec<[Option<usize>; 3]>,
     /// Whether each material has a texture.
     pub textured: Vec<bool>,
     /// About extensions.
@@ -61,56 +60,41 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fa
     let mut notes = Notes::default();
     extensions::check(&members.extensions_required, &members.extensions_used, &mut notes)?;
 
-    let mut instances = HashMap::new();
-    let mut root = Root { scene: typed("scene", members.scene)?, ..Root::default() };
-    let nodes: Vec<&RawValue> = serde_json::from_str(members.nodes.map_or("[]", RawValue::get)).map_err(broken)?;
-    for (number, text) in nodes.into_iter().map(RawValue::get).enumerate() {
-        root.nodes.push(match plain_node(text) {
-            Some(node) => node,
-            None => {
-                let place = format!("nodes[{number}]");
-                let node = serde_json::from_str(text).map_err(|error| Fault::part(&place, error.to_string()))?;
-                instances.insert(number, extensions::instances(&node));
-                typed(&place, node)?
-            }
-        });
+    let texts: Vec<&RawValue> = serde_json::from_str(members.nodes.map_or("[]", RawValue::get)).map_err(broken)?;
+    let (mut nodes, mut instances) = (vec![], vec![]);
+    for (number, text) in texts.into_iter().enumerate() {
+        let place = format!("nodes[{number}]");
+        let node = serde_json::from_str(text.get()).map_err(|error| Fault::part(&place, error.to_string()))?;
+        instances.push(extensions::instances(&node));
+        nodes.push(typed(&place, node)?);
     }
     // The crate wants a list of nodes, which is optional.
     let mut scenes = members.scenes;
     for scene in scenes.as_array_mut().into_iter().flatten().filter_map(Value::as_object_mut) {
         scene.entry("nodes").or_insert_with(|| json!([]));
     }
-    root.scenes = typed_list("scenes", scenes)?;
     let textured = members.materials.as_array().into_iter().flatten().map(is_textured).collect();
-    root.materials = typed_list("materials", members.materials)?;
-    root.skins = typed_list("skins", members.skins)?;
-
-    // What nothing refers to may be anything.
-    let read = numbers(root.nodes.iter().filter_map(|node| node.mesh));
-    root.meshes = typed_list("meshes", without(&read, members.meshes, &json!({"primitives": []})))?;
-    let mut read = numbers(root.skins.iter().filter_map(|skin| skin.inverse_bind_matrices));
-    read.extend(instances.values().flatten().flatten());
-    let accessors = members.accessors.as_array().map_or(0, Vec::len);
+    let root = Root {
+        scene: typed("scene", members.scene)?,
+        scenes: typed_list("scenes", scenes)?,
+        nodes,
+        materials: typed_list("materials", members.materials)?,
+        skins: typed_list("skins", members.skins)?,
+        meshes: typed_list("meshes", members.meshes)?,
+        accessors: typed_list("accessors", members.accessors)?,
+        buffer_views: typed_list("bufferViews", members.buffer_views)?,
+        buffers: typed_list("buffers", members.buffers)?,
+        ..Root::default()
+    };
     for (m, mesh) in root.meshes.iter().enumerate() {
         for (p, primitive) in mesh.primitives.iter().enumerate() {
             // The crate panics at an accessor of positions that is out of bounds.
-            if let Some(index) = primitive.attributes.values().find(|index| index.value() >= accessors) {
+            if let Some(index) = primitive.attributes.values().find(|index| index.value() >= root.accessors.len()) {
                 let problem = format!("index {index} is out of bounds: export the file again");
                 return Err(Fault::part(format!("meshes[{m}].primitives[{p}].attributes"), problem));
             }
-            read.extend(numbers(primitive.attributes.values().copied().chain(primitive.indices)));
         }
     }
-    let empty = json!({"componentType": 5126, "count": 0, "type": "SCALAR"});
-    root.accessors = typed_list("accessors", without(&read, members.accessors, &empty))?;
-    let sparse = root.accessors.iter().filter_map(|accessor| accessor.sparse.as_ref());
-    let mut read = numbers(sparse.flat_map(|sparse| [sparse.indices.buffer_view, sparse.values.buffer_view]));
-    read.extend(numbers(root.accessors.iter().filter_map(|accessor| accessor.buffer_view)));
-    let empty = json!({"buffer": 0, "byteLength": 0});
-    root.buffer_views = typed_list("bufferViews", without(&read, members.buffer_views, &empty))?;
-    let read = numbers(root.buffer_views.iter().map(|view| view.buffer));
-    let empty = json!({"byteLength": 0, "uri": "data:;base64,"});
-    root.buffers = typed_list("buffers", without(&read, members.buffers, &empty))?;
     validate(&root)?;
     Ok((Document { root, instances, textured, notes }, chunk))
 }
@@ -133,29 +117,6 @@ struct Members<'a> {
     accessors: Value,
     buffer_views: Value,
     buffers: Value,
-}
-
-fn numbers<T>(indices: impl Iterator<Item = Index<T>>) -> HashSet<usize> {
-    indices.map(|index| index.value()).collect()
-}
-
-/// A list with empty items in the place of those that are not read.
-fn without(read: &HashSet<usize>, mut list: Value, empty: &Value) -> Value {
-    for (number, item) in list.as_array_mut().into_iter().flatten().enumerate() {
-        if !read.contains(&number) {
-            item.clone_from(empty);
-        }
-    }
-    list
-}
-
-/// A node without extensions and without anything wrong, as most are. It is read at once, for there may be very many.
-fn plain_node(text: &str) -> Option<Node> {
-    let node: Node = serde_json::from_str(text).ok()?;
-    let mut numbers = text.as_bytes().split(|byte| !byte.is_ascii_digit() && *byte != b'.');
-    let may_be_cut_off = numbers.any(|number| number.len() > 9 && !number.contains(&b'.'));
-    let is_plain = text.starts_with('{') && node.extensions.is_none() && !may_be_cut_off;
-    is_plain.then_some(Node { camera: None, extras: None, weights: None, ..node })
 }
 
 /// A list of items of the crate; a missing one is empty.
