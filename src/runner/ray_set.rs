@@ -86,7 +86,7 @@ impl<'a> RaySet<'a> {
         }
         let file = HitFile::read(&path).map_err(|error| format!("its hits cannot be read: {error}"))?;
         let _ = std::fs::remove_file(&path);
-        let hits = file.hits_of_rays(&id).map_err(|problem| format!("its hits do not fit the rays: {problem}"))?;
+        let hits = file.hits_of(&id).map_err(|problem| format!("its hits do not fit the rays: {problem}"))?;
         Ok(hits.to_vec())
     }
 

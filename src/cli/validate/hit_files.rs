@@ -16,7 +16,7 @@ use crate::geometry::{Hit, Ray};
 use crate::report::number::plural;
 use crate::request;
 use crate::scene::Scene;
-use crate::scene::files::{HitFile, RayFile};
+use crate::scene::files::{HitFile, RayFile, RaysId};
 use crate::study::Status;
 use crate::validate::{ExpectedHits, has_replied, validate_any_hits, validate_hits, watched};
 
@@ -71,7 +71,8 @@ impl Run<'_> {
         request::known_tests(self.registry, &args.test)?;
         let hit_file = HitFile::read(path)?;
         let name = path.escaped().to_string();
-        let hits = hit_file.hits_of(&file.workload).map_err(|problem| anyhow::anyhow!("{name}: {problem}"))?;
+        let rays = RaysId::of(&file.workload);
+        let hits = hit_file.hits_of(&rays).map_err(|problem| anyhow::anyhow!("{name}: {problem}"))?;
         let recorded: Vec<(Ray, Option<Hit>)> = file.workload.rays.iter().copied().zip(hits.iter().copied()).collect();
         let (sample, note) = choice.sample(&recorded, scene.mesh.len());
         let (rays, hits): (Vec<Ray>, Vec<Option<Hit>>) = sample.into_iter().unzip();

@@ -44,19 +44,11 @@ impl HitFile {
         Ok(file.write(&self.to_bytes())?)
     }
 
-    /// The hits, if they belong to `workload`.
+    /// The hits, if they belong to these rays.
     ///
     /// # Errors
     /// If they are the hits of other rays or of another query.
-    pub fn hits_of(&self, workload: &Workload) -> Result<&[Option<Hit>], String> {
-        self.hits_of_rays(&RaysId::of(workload))
-    }
-
-    /// Like [`HitFile::hits_of`], for rays that are known by their hash.
-    ///
-    /// # Errors
-    /// Like [`HitFile::hits_of`].
-    pub fn hits_of_rays(&self, rays: &RaysId) -> Result<&[Option<Hit>], String> {
+    pub fn hits_of(&self, rays: &RaysId) -> Result<&[Option<Hit>], String> {
         if (self.rays.hash, self.rays.count) != (rays.hash, rays.count) {
             let [theirs, ours] =
                 [&self.rays, rays].map(|rays| format!("{} rays with the hash {}", rays.count, hexadecimal(&rays.hash)));
