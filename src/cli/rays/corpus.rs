@@ -25,7 +25,7 @@ use crate::report::Table;
 use crate::report::number::{bytes, count, plural};
 use crate::report::words::{listed, slug};
 use crate::request::{self, OUTPUT, RAYS as HEADING, RayKind, stand_in};
-use crate::scene::files::{ExactHitFile, RayFile, mesh_bytes};
+use crate::scene::files::{ExactHit, RayFile, exact_hits_bytes, mesh_bytes};
 use crate::scene::{Scene, Workload};
 use crate::study::Status;
 
@@ -133,10 +133,10 @@ fn part(scene: &Scene, args: &Args, waiting: &ProgressBar) -> anyhow::Result<(Fi
         waiting.set_message(format!("{}: computing exact hits of {}: {name}", scene.name, plural(rays, "ray")));
         let (file, truth) = answered(scene, kind, rays, args.seed, &oracle)
             .map_err(|problem| anyhow::anyhow!("{} has no {name} rays: {problem}: scale the mesh", scene.name))?;
-        counts[0] += truth.hits.len();
-        counts[1] += truth.hits.iter().flatten().count();
+        counts[0] += truth.len();
+        counts[1] += truth.iter().flatten().count();
         files.insert(format!("{stem}-{name}.rays"), file.to_bytes());
-        files.insert(format!("{stem}-{name}.truth"), truth.to_bytes());
+        files.insert(format!("{stem}-{name}.truth"), exact_hits_bytes(&file.workload, &truth));
     }
     Ok((files, counts))
 }
@@ -148,7 +148,7 @@ fn answered(
     count: usize,
     seed: u64,
     oracle: &Oracle,
-) -> Result<(RayFile, ExactHitFile), String> {
+) -> Result<(RayFile, Vec<ExactHit>), String> {
     let workload = Workload { name: kind.name().into(), query: Query::Closest, rays: kind.rays(scene, count, seed) };
     RayFile::check(&workload.rays)?;
     RayFile::check_names(&scene.name, &workload.name)?;
@@ -159,6 +159,6 @@ fn answered(
         let t = exact::hit(ray, scene.mesh.corners(ids[0])).expect("the oracle has found it");
         Some((t.approximate(), ids))
     };
-    let truth = ExactHitFile::new(&workload, workload.rays.par_iter().map(exact_answer).collect());
+    let truth = workload.rays.par_iter().map(exact_answer).collect();
     Ok((RayFile { scene: scene.name.clone(), scene_hash: None, workload }, truth))
 }

@@ -39,8 +39,9 @@ fn the_python_of_the_document_counts_the_errors_that_we_count() {
         path
     };
     let script = write("judge.py", code.as_bytes());
-    let judge = |truth: &ExactHitFile, hits: &PathBuf| {
-        Command::new("python3").args([&script, &write("f.truth", &truth.to_bytes()), hits]).output().unwrap()
+    let judge = |(file, truth): &(RayFile, Vec<ExactHit>), hits: &PathBuf| {
+        let truth = write("f.truth", &exact_hits_bytes(&file.workload, truth));
+        Command::new("python3").args([&script, &truth, hits]).output().unwrap()
     };
 
     let scene = Builtin::find("cornellbox").unwrap().scene(None).unwrap();
@@ -48,15 +49,16 @@ fn the_python_of_the_document_counts_the_errors_that_we_count() {
     let tree = KdTree::<MollerTrumbore>::build(&scene.mesh, &KdConfig::SAH).unwrap();
     let mut wrong = 0;
     for kind in [RayKind::Vertex, RayKind::Edge] {
-        let (rays, truth) = answered(&scene, kind, 2000, 3, &oracle).unwrap();
-        let found = tree.closest(&rays.workload.rays);
-        let truths: Vec<_> = rays.workload.rays.iter().map(|ray| oracle.nearest(ray)).collect();
+        let answered = answered(&scene, kind, 2000, 3, &oracle).unwrap();
+        let workload = &answered.0.workload;
+        let found = tree.closest(&workload.rays);
+        let truths: Vec<_> = workload.rays.iter().map(|ray| oracle.nearest(ray)).collect();
         let ours = count_errors(&truths, &found, DepthRule::STRICT);
-        let hits = HitFile::new(&rays.workload, found);
+        let hits = HitFile::new(workload, found);
         let hits_path = folder.path().join("f.hits");
         hits.write(&crate::output::OutputFile::check(&hits_path).unwrap()).unwrap();
 
-        let judged = judge(&truth, &hits_path);
+        let judged = judge(&answered, &hits_path);
         assert!(judged.status.success(), "{}", String::from_utf8_lossy(&judged.stderr));
         let expected = format!(
             "missed {}\nfalse hits {}\nwrong depth {}\nwrong primitive {}\n",
@@ -67,7 +69,7 @@ fn the_python_of_the_document_counts_the_errors_that_we_count() {
     }
     assert!(wrong > 0, "without wrong hits, a program that finds no errors would pass");
 
-    let other = answered(&scene, RayKind::Uniform, 10, 3, &oracle).unwrap().1;
+    let other = answered(&scene, RayKind::Uniform, 10, 3, &oracle).unwrap();
     let refused = judge(&other, &folder.path().join("f.hits"));
     assert!(String::from_utf8_lossy(&refused.stderr).contains("the hits belong to other rays"));
 }

@@ -16,9 +16,8 @@ use crate::escaped::Escaped as _;
 use crate::output::OutputError;
 
 pub use bytes::RaysId;
-pub use exact_hits::ExactHitFile;
-pub use hits::HitFile;
-pub use hits::{hits_from_bytes, hits_to_bytes};
+pub use exact_hits::{ExactHit, exact_hits_bytes};
+pub use hits::{HitFile, hits_from_bytes, hits_to_bytes};
 pub use mesh::mesh_bytes;
 pub use rays::RayFile;
 
