@@ -1,12 +1,12 @@
-//! Checks that imports go downward only, between modules of the crate and between their files, without circles, under
-//! any path of an import. Some other crates may be imported in only one folder.
+//! Checks that imports between modules go downward only, also within a crate. Some other crates may be imported in only
+//! one folder.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-/// The modules of the crate by layer, as ARCHITECTURE.md draws them. Within a layer a module may import those before it,
-/// unless they are structures.
+/// The modules of the three crates by layer, as ARCHITECTURE.md draws them. Within a layer a module may import those
+/// before it, unless they are structures.
 const LAYERS: [&[&str]; 9] = [
     &["escaped", "geometry", "names", "output", "panics", "plural", "simd"],
     &["exact", "triangle", "accel"],
@@ -25,15 +25,12 @@ const STRUCTURES: usize = 3;
 /// Other crates, and the only folder that may import them; other modules use that folder.
 const ENCLOSED: [(&str, &str); 2] = [("gltf", "scene::load"), ("tobj", "scene::load")];
 
-/// The imports of each module.
-type Graph = BTreeMap<String, BTreeSet<String>>;
-
 /// Source files by module path, `bvh8::node`; a folder's `mod.rs` is the folder. Without comments, and without items
 /// that are compiled only for tests.
 struct Sources(BTreeMap<String, String>);
 
 impl Sources {
-    fn of_the_crate() -> Self {
+    fn of_the_crates() -> Self {
         let mut found = vec![];
         collect(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), "", &mut found);
         Self::new(found)
@@ -54,79 +51,36 @@ impl Sources {
         Self(sources)
     }
 
-    /// The file in which the item of a path is defined; re-exports are followed, `rounds` of them so far.
-    fn home(&self, path: &str, rounds: usize) -> Option<String> {
-        let mut module = String::new();
-        let mut rest = path;
-        while !rest.is_empty() {
-            let (segment, after) = rest.split_once("::").unwrap_or((rest, ""));
-            let below = join(&module, segment);
-            if !self.0.contains_key(&below) {
-                // A name that the module only re-exports is defined elsewhere.
-                let exports =
-                    imports(self.0.get(&module)?).into_iter().filter(|used| used.public == Some(true) && rounds < 8);
-                let mut targets = exports.filter_map(|used| self.absolute(&module, &used.path));
-                let target = targets.find(|target| target.rsplit("::").next() == Some(segment));
-                return target.map_or(Some(module), |target| self.home(&join(&target, after), rounds + 1));
-            }
-            (module, rest) = (below, after);
-        }
-        (!module.is_empty()).then_some(module)
-    }
-
-    /// The path from the root of the crate for a path written in `module`; `None` for other crates.
-    fn absolute(&self, module: &str, path: &str) -> Option<String> {
-        let base = match top(path) {
-            "crate" | "sahara_core" | "sahara_images" => "",
-            "self" | "super" => module,
-            child if self.0.contains_key(&join(module, child)) => module,
-            _ => return None,
-        };
-        let mut own: Vec<&str> = base.split("::").filter(|segment| !segment.is_empty()).collect();
-        for segment in path.split("::") {
-            match segment {
-                "crate" | "sahara_core" | "sahara_images" | "self" => {}
-                "super" => _ = own.pop(),
-                segment => own.push(segment),
-            }
-        }
-        Some(own.join("::"))
-    }
-
     /// All faults, one line each.
-    fn faults(&self) -> Vec<String> {
-        let (mut faults, mut graph) = (vec![], Graph::new());
-        for (module, text) in &self.0 {
-            let mut homes = BTreeSet::new();
-            for Import { public, path } in imports(text) {
-                let first = top(path.trim_start_matches(':'));
-                if ENCLOSED.iter().any(|(name, folder)| *name == first && !is_in(module, folder)) {
-                    faults.push(format!("{module} imports {first}"));
-                }
-                // A re-export of a folder's files is not its own import, and calls of its code into them have a `mod`.
-                let is_own = public.map_or(["crate", "super"].contains(&first), |public| !public);
-                let home = self.absolute(module, &path).filter(|_| is_own).and_then(|path| self.home(&path, 0));
-                homes.extend(home.filter(|home| home != module));
-            }
+    fn faults(&self) -> BTreeSet<String> {
+        let mut faults = BTreeSet::new();
+        for (file, text) in &self.0 {
+            let module = file.split("::").next().unwrap();
             // The roots of the crates have no layer.
-            if !["", "lib", "main"].contains(&module.as_str()) {
-                graph.insert(module.clone(), homes);
+            let is_root = ["", "lib", "main"].contains(&module);
+            if !is_root && place(module).is_none() {
+                faults.insert(format!("the module {module:?} has no layer: add it to tests/layers.rs"));
+            }
+            for path in paths(text) {
+                let name = path.trim_start_matches(':').split("::").next().unwrap();
+                if ENCLOSED.iter().any(|(enclosed, folder)| *enclosed == name && !is_in(file, folder)) {
+                    faults.insert(format!("{file} imports {name}"));
+                }
+                let Some(other) = imported(file, path).filter(|other| *other != module && !is_root) else { continue };
+                let is_module = place(other).is_some() || self.0.contains_key(other);
+                if other.is_empty() {
+                    faults.insert(format!("{file} imports a list of modules: import each by itself"));
+                } else if is_module && !may_import(module, other) {
+                    faults.insert(format!("{file} imports {other}"));
+                }
             }
         }
-        faults.extend(upward(&graph));
-        faults.extend(circles(&graph).into_iter().map(|file| format!("{file} is in a circle")));
-        faults.dedup();
         faults
     }
 }
 
 fn join(module: &str, name: &str) -> String {
     [module, name].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("::")
-}
-
-/// The first name of a path: for a file, its module of the crate.
-fn top(path: &str) -> &str {
-    path.split("::").next().unwrap_or(path)
 }
 
 /// Whether a file is the file of a folder or lies in it.
@@ -166,144 +120,71 @@ fn without_test_items(text: &str) -> (String, Vec<&str>) {
     (left + rest, items)
 }
 
-/// One path of a `use`, which may be public, or a path in code.
-struct Import {
-    public: Option<bool>,
-    path: String,
+/// The paths in a text, and the names after `use`.
+fn paths(text: &str) -> impl Iterator<Item = &str> {
+    let mut last = "";
+    let words = text.split(|c: char| !c.is_alphanumeric() && c != '_' && c != ':').filter(|word| !word.is_empty());
+    words.filter(move |word| word.contains("::") || std::mem::replace(&mut last, word) == "use")
 }
 
-/// All paths of all `use` items, their lists written out, and the paths in code.
-fn imports(text: &str) -> Vec<Import> {
-    let is_of_path = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
-    let mut found = vec![];
-    // Whether the current `use` is public, the prefixes of its open lists, and the previous word.
-    let (mut public, mut heads, mut last, mut at) = (None, vec![String::new()], "", 0);
-    for piece in text.split_inclusive(|c| !is_of_path(c)) {
-        let word = piece.trim_end_matches(|c| !is_of_path(c));
-        let line = text[..at].rsplit('\n').next().unwrap_or("").trim();
-        at += piece.len();
-        if public.is_none() {
-            if word == "use" && (line.is_empty() || line.starts_with("pub")) {
-                public = Some(line.starts_with("pub"));
-            } else if word.contains("::") {
-                found.push(Import { public, path: word.trim_end_matches(':').into() });
-            }
-            continue;
-        }
-        let path = format!("{}{word}", heads.last().expect("braces are paired"));
-        match &piece[word.len()..] {
-            "{" => heads.push(path),
-            _ if word.is_empty() || word == "as" || last == "as" => {}
-            _ => found.push(Import { public, path: path.trim_end_matches(':').into() }),
-        }
-        match &piece[word.len()..] {
-            "}" => _ = heads.pop(),
-            ";" => public = None,
-            _ => {}
-        }
-        if !word.is_empty() {
-            last = word;
-        }
+/// The module that a path in a file names from the root of the crates: empty for a list of modules, `None` for a path
+/// within the file's own folder and for another crate.
+fn imported<'a>(file: &str, path: &'a str) -> Option<&'a str> {
+    let (first, rest) = path.split_once("::")?;
+    if ["crate", "sahara_core", "sahara_images"].contains(&first) {
+        return rest.split("::").next();
     }
-    found
+    let above = path.split("::").take_while(|name| *name == "super").count();
+    if above == file.split("::").count() { path.split("::").nth(above) } else { None }
 }
 
-/// Faults between modules of the crate: because the modules have one order, none may import each other in circles.
-fn upward(graph: &Graph) -> Vec<String> {
-    let place = |module: &str| {
-        let mut places = LAYERS.iter().enumerate();
-        places.find_map(|(layer, names)| Some([layer, names.iter().position(|name| *name == module)?]))
-    };
-    let mut faults = BTreeSet::new();
-    for (file, homes) in graph {
-        let Some(own) = place(top(file)) else {
-            faults.insert(format!("the module {:?} has no layer: add it to tests/layers.rs", top(file)));
-            continue;
-        };
-        for home in homes.iter().filter(|home| top(home) != top(file)) {
-            let is_right = |other: [usize; 2]| other < own && [other[0], own[0]] != [STRUCTURES; 2];
-            if !place(top(home)).is_some_and(is_right) {
-                faults.insert(format!("{file} imports {home}"));
-            }
-        }
-    }
-    faults.into_iter().collect()
+/// The layer of a module, and its place within the layer: because modules have one order, none may import each other in
+/// circles.
+fn place(module: &str) -> Option<[usize; 2]> {
+    let mut places = LAYERS.iter().enumerate();
+    places.find_map(|(layer, names)| Some([layer, names.iter().position(|name| *name == module)?]))
 }
 
-/// The files that import each other in circles, or lie between two circles: those that remain after repeatedly removing
-/// files that import none of the remaining ones, and files that none of them imports.
-fn circles(graph: &Graph) -> BTreeSet<&str> {
-    let mut left: BTreeSet<&str> = graph.keys().map(String::as_str).collect();
-    loop {
-        let imported: BTreeSet<&str> = left.iter().flat_map(|name| &graph[*name]).map(String::as_str).collect();
-        let is_bound = |name: &&&str| imported.contains(**name) && graph[**name].iter().any(|to| left.contains(&**to));
-        let bound: BTreeSet<&str> = left.iter().filter(is_bound).copied().collect();
-        if bound.len() == left.len() {
-            return left;
-        }
-        left = bound;
-    }
+fn may_import(module: &str, other: &str) -> bool {
+    let is_below = |(own, other): ([usize; 2], [usize; 2])| other < own && [other[0], own[0]] != [STRUCTURES; 2];
+    place(module).zip(place(other)).is_some_and(is_below)
 }
 
 #[test]
-fn imports_go_downward_without_circles() {
-    let sources = Sources::of_the_crate();
+fn imports_go_downward() {
+    let sources = Sources::of_the_crates();
     assert!(sources.0.len() > 300, "the files of all crates are found");
     let faults = sources.faults();
-    assert!(faults.is_empty(), "imports must go downward, and these crates into their folders:\n{}", faults.join("\n"));
+    assert!(faults.is_empty(), "imports must go downward, and these crates into their folders: {faults:#?}");
 }
-
-/// Modules and their texts.
-type Files<'a> = &'a [(&'a str, &'a str)];
 
 #[test]
 fn planted_faults_are_found() {
-    const NODE: (&str, &str) = ("bvh8", "mod node;\nmod stack;\npub use node::Node;\npub(crate) use stack::Stack;\n");
-    const OF_TWO: &[&str] = &["bvh8::node is in a circle", "bvh8::stack is in a circle"];
-    let cases: [(Files, &[&str]); 26] = [
-        (&[("accel", "use crate::geometry::Ray;\nuse super::geometry::Mesh;")], &[]),
+    let test_file = [("bvh8", "#[cfg(test)]\nmod tests;\n"), ("bvh8::tests", "use crate::registry::Registry;")];
+    for (files, expected) in [
+        (&[("accel", "use crate::geometry::Ray;\nuse super::geometry::Mesh;")][..], &[][..]),
         (&[("accel", "use crate::kdtree::KdTree as Tree;")], &["accel imports kdtree"]),
-        (&[("accel", "use super::kdtree::KdTree;")], &["accel imports kdtree"]),
+        (&[("accel", "pub use super::kdtree::KdTree;")], &["accel imports kdtree"]),
+        (&[("accel::counts", "use super::super::kdtree::KdTree;")], &["accel::counts imports kdtree"]),
+        (&[("accel::counts", "use super::kdtree::KdTree;")], &[]),
         (&[("accel", "fn f() { let x = crate::registry::builtin(); }")], &["accel imports registry"]),
-        (&[("accel", "use crate::{geometry::{Mesh, Ray}, scene::Model, exact};")], &["accel imports scene"]),
-        (&[("accel", "use crate::{\n    kdtree,\n    cli::f,\n};")], &["accel imports cli", "accel imports kdtree"]),
+        (&[("accel", "use crate::{geometry::Ray, cli};")], &["accel imports a list of modules: import each by itself"]),
         (&[("accel", "/// See [`crate::registry`].\n// use crate::cli;\nuse my_crate::cli;")], &[]),
         (&[("accel", "#[cfg(test)]\nmod tests {\n    use crate::registry::Registry;\n}\n")], &[]),
+        (&test_file, &[]),
         (&[("attic", "")], &["the module \"attic\" has no layer: add it to tests/layers.rs"]),
         // Structures do not import each other, and modules of one layer import one way.
         (&[("bvh8", "use crate::kdtree::KdTree;")], &["bvh8 imports kdtree"]),
-        (&[("scene", "use crate::oracle::Tree;"), ("oracle", "")], &["scene imports oracle"]),
-        (&[("build", "use crate::bvh8::node::Node;"), ("bvh8::node", "")], &["build imports bvh8::node"]),
+        (&[("scene", "use crate::oracle::Tree;")], &["scene imports oracle"]),
         // Crates that only one folder may import.
         (&[("scene::loaded", "use gltf::{Document, json};")], &["scene::loaded imports gltf"]),
-        (&[("scene", "use ::gltf as reader;")], &["scene imports gltf"]),
-        (&[("cli", "use std::{fs, io};\nfn f() { ::gltf::Gltf::open(path) }")], &["cli imports gltf"]),
+        (&[("scene", "use ::gltf as reader;\nuse gltf;")], &["scene imports gltf"]),
         (&[("cli", "fn f() { tobj::load_obj(path) }")], &["cli imports tobj"]),
         (&[("cli", "use super::gltf;\nfn f(gltf: u32) { g(\"gltf\", gltf) }")], &[]),
-        (&[("cli", "#[cfg(test)]\nuse tobj::Model;")], &[]),
         (&[("scene::load", "use gltf::Document;"), ("scene::load::obj", "fn f() { tobj::load_obj(path) }")], &[]),
-        // Files of one folder; its re-exports are defined in their files, and its own items count.
-        (&[NODE, ("bvh8::node", "use super::stack::DEPTH;"), ("bvh8::stack", "use super::node::Node;")], OF_TWO),
-        (&[NODE, ("bvh8::node", "use super::Stack;"), ("bvh8::stack", "use crate::bvh8::Node;")], OF_TWO),
-        (&[NODE, ("bvh8::node", "fn f() { super::stack::g() }"), ("bvh8::stack", "use super::{node::Node};")], OF_TWO),
-        (&[NODE, ("bvh8::node", ""), ("bvh8::stack", "use crate::bvh8::Node;")], &[]),
-        (
-            &[("bvh8", "mod node;\nuse node::Node;\nstruct Tree;"), ("bvh8::node", "use super::Tree;")],
-            &["bvh8 is in a circle", "bvh8::node is in a circle"],
-        ),
-        (&[("bvh8", "mod node;\nfn f() { node::g() }"), ("bvh8::node", "")], &[]),
-        (
-            &[
-                ("bvh8", "mod node;\n#[cfg(test)]\nmod tests;\n"),
-                ("bvh8::node", "#[cfg(test)]\nuse super::tests::mesh;"),
-                ("bvh8::tests", "use super::node::Node;"),
-            ],
-            &[],
-        ),
-    ];
-    for (files, expected) in cases {
-        let others = ["kdtree", "bvh8", "registry", "scene", "geometry", "exact", "cli"].map(|name| (name, ""));
-        let all = others.iter().chain(files).map(|(module, text)| (module.to_string(), text.to_string()));
-        assert_eq!(Sources::new(all.collect()).faults(), expected, "{files:?}");
+    ] {
+        let own = files.iter().map(|(module, text)| (module.to_string(), text.to_string()));
+        let faults = Sources::new(own.collect()).faults();
+        assert!(faults.iter().eq(expected), "{files:?}: {faults:?}");
     }
 }
