@@ -46,7 +46,7 @@ const OURS: [&str; 36] = [
     "sah-kd:plane=spatial-median,axis=longest",
     "sah-kd:plane=spatial-median,axis=longest,stop=leaf,leaf=4",
     "sah-kd:plane=centroid-median,median=mean,stop=leaf,leaf=4",
-    "sah-kd:plane=sah-binned,candidates=5,traversal=child-boxes",
+    "sah-kd:plane=sah-binned,traversal=child-boxes",
     "sah-kd:plane=sah-binned,stop=leaf,leaf=1",
     "sah-kd-wide:block_cost=50",
     "sah-kd-wide:block_cost=0.01",

@@ -16,7 +16,7 @@ pub struct Key {
 }
 
 /// The keys of the structures of this crate and of obvhs; a key means the same in all of them.
-const MEANINGS: [(&str, &str); 27] = [
+const MEANINGS: [(&str, &str); 24] = [
     ("plane", "split plane of a node"),
     ("axis", "split axis of a median"),
     ("stop", "stop rule: when a node becomes a leaf"),
@@ -52,9 +52,6 @@ const MEANINGS: [(&str, &str); 27] = [
     ),
     ("intersection_cost", "SAH cost of a block of eight triangles; larger values give smaller leaves"),
     ("block_cost", "SAH cost of a block of eight triangles relative to a node; larger values give smaller leaves"),
-    ("exact", "for nodes with at most this many references, the builder tries every plane (plane=sah-binned)"),
-    ("candidates", "candidate planes per axis (plane=sah-binned); 2 to 62"),
-    ("sample", "references sampled to split a large node (plane=sah-binned); at least 16"),
     ("empty_bonus", "SAH cost reduction for cutting off empty space; in [0, 1)"),
     ("duplication", "maximum number of references, as a multiple of the triangles; at least 1"),
     ("partition", "how triangles are partitioned"),

@@ -38,12 +38,6 @@ pub struct KdConfig {
     pub traversal_cost: f32,
     /// SAH cost of a block of eight triangles. Positive; a higher cost gives smaller leaves.
     pub intersection_cost: f32,
-    /// With [`Plane::SahBinned`], nodes of at most this many references try every SAH plane.
-    pub exact: u32,
-    /// Candidate planes of [`Plane::SahBinned`] per axis, in 2..=62.
-    pub candidates: u32,
-    /// In larger nodes, [`Plane::SahBinned`] selects the plane from about this many references. At least 16.
-    pub sample: u32,
     /// Share of the cost that a split saves if it cuts off empty space, in [0, 1); Wald and Havran use 0.2.
     pub empty_bonus: f32,
     /// Maximum number of references, as a multiple of the triangles. At least 1.
@@ -60,7 +54,7 @@ pub enum Plane {
     SpatialMedian,
     /// The median of the centroids of the node's triangles.
     CentroidMedian,
-    /// The plane of least SAH cost among a few planes per axis (Hunt, Mark, Stoll 2006).
+    /// The plane of least SAH cost among 32 planes per axis (Hunt, Mark, Stoll 2006), sampled in large nodes.
     SahBinned,
     /// The plane of least SAH cost among all edges of clipped triangles.
     SahSweep,
@@ -167,9 +161,6 @@ impl KdConfig {
         mailbox: false,
         traversal_cost: 1.0,
         intersection_cost: 1.0,
-        exact: 0,
-        candidates: 32,
-        sample: 16384,
         empty_bonus: 0.0,
         duplication: 100.0,
     };
@@ -203,8 +194,8 @@ impl KdConfig {
 
     /// The configuration of the search for the cheapest plane.
     pub(super) fn sah(&self) -> CellConfig {
-        let exact = if self.plane == Plane::SahSweep { CellConfig::ALL_PLANES } else { self.exact };
-        CellConfig { costs: self.costs(), exact, candidates: self.candidates, sample: self.sample }
+        let exact = if self.plane == Plane::SahSweep { CellConfig::ALL_PLANES } else { 0 };
+        CellConfig { costs: self.costs(), exact, candidates: 32, sample: 16384 }
     }
 
     pub(super) fn costs(&self) -> CostModel {
@@ -220,8 +211,6 @@ impl KdConfig {
                 positive(self.traversal_cost) && positive(self.intersection_cost),
                 "traversal_cost and intersection_cost must be positive numbers",
             ),
-            ((2..=62).contains(&self.candidates), "candidates must be in 2..=62"),
-            (self.sample >= 16, "sample must be at least 16"),
             ((0.0..1.0).contains(&self.empty_bonus), "empty_bonus must be at least 0 and below 1"),
             (self.duplication >= 1.0 && self.duplication.is_finite(), "duplication must be a number of at least 1"),
         ];
@@ -234,7 +223,6 @@ impl KdConfig {
     /// Rejects an option without effect whose value is not the one in [`REPORT`](Self::REPORT) or [`SAH`](Self::SAH).
     fn check_unread(&self) -> Result<(), BuildError> {
         let is_median = !matches!(self.plane, Plane::SahBinned | Plane::SahSweep);
-        let is_binned = self.plane == Plane::SahBinned;
         let asks_costs = !is_median || self.stop == Stop::Sah;
         macro_rules! refuse_unread {
             ($($key:ident: $is_read:expr, $with:literal;)*) => {$(
@@ -256,9 +244,6 @@ impl KdConfig {
             traversal_cost: asks_costs, "plane=sah-binned, plane=sah-sweep or stop=sah";
             intersection_cost: asks_costs, "plane=sah-binned, plane=sah-sweep or stop=sah";
             empty_bonus: asks_costs, "plane=sah-binned, plane=sah-sweep or stop=sah";
-            exact: is_binned, "plane=sah-binned";
-            candidates: is_binned, "plane=sah-binned";
-            sample: is_binned, "plane=sah-binned";
         }
         Ok(())
     }

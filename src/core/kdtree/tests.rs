@@ -162,8 +162,6 @@ fn a_bad_configuration_is_refused_in_a_sentence() {
     let bad = [
         KdConfig { leaf: 0, ..KdConfig::REPORT },
         KdConfig { threshold: 0.0, ..KdConfig::REPORT },
-        KdConfig { sample: 15, plane: Plane::SahBinned, ..KdConfig::SAH },
-        KdConfig { candidates: 1, plane: Plane::SahBinned, ..KdConfig::SAH },
         KdConfig { threshold: f32::NAN, ..KdConfig::REPORT },
         KdConfig { traversal_cost: -1.0, ..KdConfig::SAH },
         KdConfig { empty_bonus: 1.0, ..KdConfig::SAH },
@@ -175,7 +173,6 @@ fn a_bad_configuration_is_refused_in_a_sentence() {
         KdConfig { plane: Plane::SpatialMedian, median: Median::Mean, ..KdConfig::REPORT },
         KdConfig { count: CountOf::Child, stop: Stop::Report, ..KdConfig::SAH },
         KdConfig { intersection_cost: 2.0, ..KdConfig::REPORT },
-        KdConfig { candidates: 8, ..KdConfig::SAH },
     ];
     for config in bad {
         let error = Tree::build(&mesh, &config).err().expect("refused").to_string();
