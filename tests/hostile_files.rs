@@ -113,12 +113,9 @@ fn ply_files() -> Vec<(Files, [&'static str; 2])> {
             ["line 4:", "declared twice"],
         ),
         (ply("format ascii 1.0\nelement vertex -1\n", b""), ["line 3:", "not a line of a PLY header"]),
-        (ply("format ascii 1.0\nproperty float x\n", b""), ["a.ply", "PLY header"]),
-        (ply("format ascii 1.0\nelement vertex 1\nproperty quad x\n", b""), ["line 4:", "not a line of a PLY header"]),
         (ply(&mesh(little, 1 << 49, 1), &[0; 100]), ["element vertex:", "rows"]),
         (ply(&mesh(little, 1, 1 << 49), &[0; 100]), ["element face:", "rows"]),
         (ply(&mesh(little, 1, 15_001), &wrong), ["face 15000:", "its corner 1 is not one of the 1"]),
-        (ply(&mesh("ascii", 1, 1), b"0 0 0\n3 0 -1 0\n"), ["face 0:", "`3 0 -1 0`"]),
         (ply(&mesh("ascii", 1, 1), b"0 0 \xff\n3 0 0 0\n"), ["vertex 0:", "not ASCII text"]),
     ]
 }
@@ -167,19 +164,12 @@ fn gltf_files() -> Vec<(Files, [&'static str; 2])> {
         (text(b"\xff\xfe{\0".to_vec()), ["line 1:", "UTF-16"]),
         (text(b"[".repeat(5_000_000)), ["a.gltf", "5000000 entries"]),
         (text(b"{\"a\":".repeat(60_000)), ["line 1 column", "not a glTF 2.0 file"]),
-        (text(b"{\"asset\":{\"version\":\"2.0\"},\"meshes\":7}".to_vec()), ["a.gltf, meshes:", "integer `7`"]),
         (list("\"nodes\":", "{},", 10_000_000), ["a.gltf", "10000003 objects"]),
         (list("\"accessors\":[{\"min\":", "0,", 20_000_000), ["a.gltf", "entries"]),
-        (with("/scene", json!(-1)), ["a.gltf, scene:", "integer `-1`"]),
         (
             with("/nodes", (0..50_000).map(|i| json!({"children": [i + 1]})).collect()),
             ["nodes[49999]", "out of bounds"],
         ),
-        (
-            with("/nodes/0/matrix", json!([1e300, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1])),
-            ["node 0:", "not finite"],
-        ),
-        (with("/buffers/0/uri", json!("data:;base64,AAA")), ["buffer 0:", "should have 36 bytes but has 2"]),
         (with("/buffers/0/byteLength", json!(u64::MAX)), ["buffer 0:", "it is truncated"]),
         (gltf(&buffers, 12 * megabyte), ["accessor 1:", "reach beyond"]),
         (gltf(&with_primitives(&[&[0; 2000][..], &[1]].concat()), 12 * megabyte), ["accessor 1:", "reach beyond"]),

@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use sahara::accel::Accel;
 use sahara::bvh8::{Bvh8, Bvh8Config};
 use sahara::geometry::{Aabb, Mesh};
-use sahara::scene::format::SceneFile;
 use sahara::scene::{Model, Scene, SceneError, View, load};
 use sahara::triangle::MollerTrumbore;
 
@@ -93,20 +92,5 @@ fn the_views_look_at_their_meshes() {
         let pixels = (0..128 * 128).map(|i| view.ray(i % 128, i / 128, View::CENTRE));
         let hits = pixels.filter(|ray| tree.any_hit(ray, &mut ())).count();
         assert!(filled.contains(&(hits * 100 / (128 * 128))), "{name}: {hits} pixels");
-    }
-}
-
-/// The Dragon, Lucy and Sponza of the built-in scenes are the same files.
-#[test]
-fn the_views_name_the_meshes_of_the_built_in_scenes() {
-    let real = |text: &str, file: &str| {
-        let scene = SceneFile::parse(text, file).unwrap();
-        scene.objects.into_iter().find_map(|object| object.real).unwrap()
-    };
-    for (name, view) in [("dragon", "dragon-scan"), ("lucy", "lucy-scan"), ("sponza", "sponza-nave")] {
-        let [own, other] = [format!("scenes/{name}/scene.toml"), format!("scenes/views/{view}.toml")]
-            .map(|file| real(&std::fs::read_to_string(&file).unwrap(), &file));
-        assert_eq!((&own.file, &own.url, &own.licence), (&other.file, &other.url, &other.licence));
-        assert_eq!((own.sha256, own.bytes, own.origin), (other.sha256, other.bytes, other.origin));
     }
 }

@@ -214,12 +214,9 @@ fn what_cannot_be_read_is_one_sentence() {
     let case = String::from_utf8(journal("compare", &["Cube"], &provenance("x")).remove(0).1).unwrap();
     let changed = |from: &str, to: &str| case.replacen(from, to, 1).into_bytes();
     let newer = String::from_utf8(export.clone()).unwrap().replacen("\"schema\":4", "\"schema\":5", 1);
-    let cases: [(&str, Vec<u8>, &str); 10] = [
+    let cases: [(&str, Vec<u8>, &str); 7] = [
         ("torn.json", export[..export.len() / 2].to_vec(), "cannot be parsed"),
-        ("empty.json", vec![], "cannot be parsed"),
-        ("text.json", b"hello".to_vec(), "cannot be parsed"),
         ("other.json", b"{\"a\": 1}".to_vec(), "not a run of sahara"),
-        ("list.json", b"[1, 2]".to_vec(), "not a run of sahara"),
         ("half.json", case.as_bytes()[..case.len() / 2].to_vec(), "cannot be parsed"),
         ("astrology.json", changed("\"study\":\"compare\"", "\"study\":\"astrology\""), "astrology"),
         ("broken.json", changed("\"scene_hash\":", "\"scene_hush\":"), "missing field `scene_hash`"),

@@ -3,16 +3,12 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::io::Write;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use serde_json::Value;
-
-use super::command::{Folder, RIGHT, assert_contains, ends, json, said};
+use super::command::{Folder, RIGHT, ends, json};
 use super::journal::{answers, cases};
-use super::plan::{file, job, plan};
 
 #[test]
 fn a_study_goes_on_where_it_stopped_and_repeats_what_it_said() {
@@ -97,28 +93,4 @@ fn each_epoch_of_a_scene_has_a_process_and_one_process_answers_the_same() {
     // Both kinds lie side by side.
     folder.prints(&format!("{TWO_SCENES} apart --in-process"));
     assert_eq!(cases(&apart, "compare").len(), 8);
-}
-
-#[test]
-fn a_listening_run_is_told_what_a_job_does_and_why_it_measures_nothing() {
-    let folder = Folder::new();
-    let line = &plan(&folder.path(""), "compare --scenes cube --rays 256 --epochs 1 -s sah-bvh")[0];
-    let messages = |line: &str| -> Vec<Value> {
-        let mut child = job(line).arg("--listen").stdin(Stdio::piped()).spawn().unwrap();
-        // It may have ended before.
-        let _ = child.stdin.take().unwrap().write_all("\n".repeat(10_000).as_bytes());
-        let output = child.wait_with_output().unwrap();
-        let [lines, errors] = said(&output);
-        assert!(output.status.success(), "{errors}");
-        let line = |line: &str| serde_json::from_str(line.strip_prefix("\u{1e}case ").unwrap()).unwrap();
-        lines.lines().map(line).collect()
-    };
-    // A changed scene is rejected, with the error that the run shows.
-    let hash = &line.split("\"hash\":\"").nth(1).unwrap()[..16];
-    let refusal = &messages(&line.replace(hash, "0123456789abcdef"))[0]["Failed"]["sentence"];
-    assert_contains(refusal.as_str().unwrap(), &["cube", "plan it again"]);
-    assert!(!file(line).exists());
-    let messages = messages(line);
-    assert!(messages.iter().any(|message| message["Stage"]["Build"] == "sah-bvh"), "{messages:?}");
-    assert!(file(line).exists());
 }

@@ -44,20 +44,3 @@ fn real_meshes_that_are_asked_for_are_never_replaced() {
     let mut command = folder.command("--quiet study attribution cube dragon --meshes real");
     refused_in_a_line(command.env("SAHARA_DATA", "."), &["real meshes of Dragon are missing: `sahara fetch`"]);
 }
-
-/// A limit of the address space acts as a limit of threads.
-#[test]
-#[cfg(target_os = "linux")]
-fn more_threads_than_the_system_gives_are_refused_before_anything_is_measured() {
-    let folder = Folder::new();
-    for words in ["study attribution cube --threads 1024", "compare cube --threads 1024"] {
-        // Eight and a half gigabytes of addresses, and one for the stack of each thread: the system refuses a stack,
-        // which leaves more than everything else requires. A thread that fails while it starts would end the process.
-        let script = format!("ulimit -v 8300000; exec {} -q {words}", env!("CARGO_BIN_EXE_sahara"));
-        let mut command = std::process::Command::new("sh");
-        command.env("RUST_MIN_STACK", "1000000000").env("RAYON_NUM_THREADS", "1").env("MALLOC_ARENA_MAX", "1");
-        command.args(["-c", &script]).current_dir(folder.path("."));
-        refused_in_a_line(&mut command, &["error: the system cannot start 1024 threads", "lower --threads"]);
-    }
-    assert!(journal::cases(&folder.path("runs"), "compare").is_empty());
-}

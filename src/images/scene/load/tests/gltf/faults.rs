@@ -91,7 +91,6 @@ fn node_graphs_that_are_no_forest_are_refused() {
 fn malformed_files_are_refused_with_their_part() {
     let cases: &[(&str, Value, [&str; 2])] = &[
         ("attributes/POSITION", json!(77), ["meshes[0].primitives[0].attributes:", "index 77 is out of bounds"]),
-        ("attributes/NORMAL", json!(77), ["meshes[0].primitives[0].attributes:", "index 77 is out of bounds"]),
         ("attributes", json!({"POSITION": 3}), ["accessor 3: it must be Vec3", "not Scalar of U16"]),
         (
             "/meshes/0/primitives/0",
@@ -104,7 +103,6 @@ fn malformed_files_are_refused_with_their_part() {
         ("/accessors/0/count", json!(5), ["accessor 0:", "5 elements reach beyond the 48 bytes"]),
         ("/accessors/0/count", json!(u64::MAX), ["accessor 0:", "reach beyond"]),
         ("/accessors/0/count", json!(2), ["mesh 0, primitive 0:", "its NORMAL has 4 elements for 2 vertices"]),
-        ("/accessors/0/count", json!(0), ["mesh 0, primitive 0:", "its NORMAL has 4 elements for 0 vertices"]),
         ("/accessors/0/byteOffset", json!(u64::MAX), ["accessor 0:", "reach beyond"]),
         ("/accessors/3/count", json!(5), ["mesh 0, primitive 0:", "5 corners"]),
         ("/bufferViews/0/byteLength", json!(1000), ["accessor 0:", "buffer view 0 reaches beyond"]),
@@ -119,7 +117,6 @@ fn malformed_files_are_refused_with_their_part() {
         ("/buffers/0/uri", json!("https://example.org/a.bin"), ["buffer 0:", "not a relative path"]),
         ("/buffers/0/uri", json!("data:text/plain,abc"), ["buffer 0:", "not base64"]),
         ("/buffers/0/uri", json!("data:;base64,%%%"), ["buffer 0:", "cannot be read: Invalid byte 37, offset 0."]),
-        ("/buffers/0/uri", json!("."), ["buffer 0:", "its file `.` cannot be read (it is not a regular file)"]),
         (
             "/nodes",
             json!([{"scale": [1e30, 1, 1], "children": [1]}, {"mesh": 0, "scale": [1e30, 1, 1]}]),

@@ -30,7 +30,7 @@ fn quantised(component: u32, one: [u8; 4], stride: usize, is_normalized: bool, i
         ("/buffers/0/byteLength", bytes.len().into()),
         ("/bufferViews/0", json!({"buffer": 0, "byteLength": 4 * stride, "byteStride": stride})),
         ("/bufferViews/1", json!({"buffer": 0, "byteOffset": 4 * stride, "byteLength": 4})),
-        ("/accessors/0", positions),
+        ("/accessors", json!([positions])),
         ("/meshes/0/primitives/0", json!({"attributes": {"POSITION": 0}, "mode": 6})),
     ]);
     load_files(&[("a.gltf", &document), ("a.bin", &bytes)]).unwrap()

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::super::load_files;
-use super::{binary, changed, data, gltf, loaded, refused};
+use super::{binary, changed, data, gltf, loaded};
 
 #[test]
 fn what_is_not_read_is_no_reason_to_refuse() {
