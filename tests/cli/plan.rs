@@ -5,6 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
+use sahara::study::{Studies, Study};
+
 use super::command::{Folder, RIGHT, SQUARE, command, ends, json, refused_in_a_line, said};
 use super::journal::answers;
 
@@ -68,8 +70,8 @@ fn a_plan_is_one_command_a_case_with_a_file_of_its_own() {
     // All studies, in the quick version.
     let lines = plan(Path::new("r"), "--quick");
     let files: BTreeSet<PathBuf> = lines.iter().map(|line| file(line)).collect();
-    for study in ["compare", "replicate", "attribution", "scaling", "accuracy"] {
-        assert!(files.iter().any(|file| file.starts_with(format!("r/{study}"))), "{study}: {files:?}");
+    for Study { name, .. } in Studies::builtin().iter() {
+        assert!(files.iter().any(|file| file.starts_with(format!("r/{name}"))), "{name}: {files:?}");
     }
     assert_eq!(files.len(), lines.len());
 }
