@@ -45,7 +45,7 @@ use crate::study::{Case, Status, Studies, Study};
 use progress::OnTerminal;
 use terminal::{Colour, Terminal};
 
-/// One screen of 80 x 24, including the prompt. The options of all commands are in the help of each command.
+/// The help of `sahara` fits a terminal of 80 x 24 with its prompt. The global options are in the help of each command.
 const SCREEN: &str = "\
 {about}
 
@@ -56,7 +56,7 @@ Commands (`sahara COMMAND --help` explains options and exit statuses):
 
 const EXAMPLES: &str = "\
 Examples:
-  sahara compare mesh.obj -s sah-bvh -s obvhs-bvh2  # time with checked hits
+  sahara compare mesh.obj -s sah-bvh -s obvhs-bvh2  # measure times, check hits
   sahara validate mesh.obj --adversarial            # check hits only
   sahara golden compare expected/ actual/           # compare rendered images";
 
@@ -99,7 +99,7 @@ struct Process {
     /// Measure this case (used by runs and schedulers)
     #[arg(id = "process-case", long = process::CASE, global = true, hide = true, requires = "process-out", value_parser = read_case)]
     case: Option<Case>,
-    /// Write the case into this file
+    /// Write the measured case into this file
     #[arg(id = "process-out", long = process::OUT, global = true, hide = true, requires = "process-case")]
     out: Option<PathBuf>,
     /// Report progress on standard output and wait for replies
@@ -117,7 +117,7 @@ fn read_case(text: &str) -> Result<Case, String> {
 struct Session<'a> {
     suite: &'a Suite,
     terminal: &'a Terminal,
-    /// The options for a process per case; `None` measures all cases in this process.
+    /// The options of the process that measures a case; `None`: this process measures all cases.
     processes: Option<&'a [OsString]>,
 }
 
@@ -154,14 +154,14 @@ const REPLICATE: &str = "replicate";
 const STUDY: &str = "study";
 const REPORT: &str = "report";
 
-/// The message without HTML and figures.
+/// The message about what needs the feature `page`, without it.
 pub(crate) const NO_PAGE: &str = "this sahara was built without the feature `page`: rebuild it with `--features page`";
 
 /// The commands that the help lists.
 fn shown(studies: &Studies) -> clap::Command {
     let whole = clap::Command::new("sahara").version(env!("CARGO_PKG_VERSION")).max_term_width(100);
     let command = Global::augment_args(whole)
-        // The options bring their own description: set it again.
+        // The options of `Global` bring a description of their own: replace it.
         .about("Benchmark, validate and image-test ray-tracing acceleration structures.")
         .long_about(None)
         .override_usage("sahara [COMMAND] [OPTIONS]  (no command: compare on the built-in scenes)")
@@ -172,7 +172,7 @@ fn shown(studies: &Studies) -> clap::Command {
         .about("Run a study, or plan its jobs for a cluster")
         .subcommand_required(true)
         .arg_required_else_help(true)
-        // An unknown study gets an error with the known ones.
+        // `find` reports an unknown study, with the known ones.
         .allow_external_subcommands(true)
         .subcommand(all::Args::augment_args(clap::Command::new(all::NAME)))
         .subcommand(plan::Args::augment_args(clap::Command::new(plan::NAME)))
@@ -194,11 +194,11 @@ fn command(studies: &Studies) -> clap::Command {
     command.mut_subcommand("help", |help| help.hide(true))
 }
 
-/// The command with the exit statuses at the end of its long help, and of all subcommands.
+/// Adds the exit statuses to the end of the long help of a command and of its subcommands, unless it has an end.
 fn with_statuses(command: clap::Command) -> clap::Command {
-    let own = command.get_after_help().is_none();
+    let has_end = command.get_after_help().is_some();
     let command = command.mut_subcommands(with_statuses);
-    if own { command.after_long_help(exit_status::STATUSES) } else { command }
+    if has_end { command } else { command.after_long_help(exit_status::STATUSES) }
 }
 
 /// Runs the command line of this process with a registry and the studies of this crate, or with a whole [`Suite`].
@@ -207,11 +207,11 @@ pub fn main(suite: impl Into<Suite>) -> ExitCode {
     run_with(&suite.into(), std::env::args_os(), true)
 }
 
-const PANIC: &str = "the panic above ended the command: if a structure caused it, omit the structure or find the mesh or ray with \
+const PANIC: &str = "the panic above ended the command: if a structure caused it, omit the structure, or find the mesh or ray with \
                      `sahara validate`; otherwise it is a bug in sahara";
 
-/// Runs `args`, whose first element is the name of the program. They may not be this process's arguments, so all cases
-/// are measured in this process.
+/// Runs `args`, whose first element is the name of the program. They might not be the arguments of this process, so this
+/// process measures all cases.
 pub fn run(suite: &Suite, args: impl IntoIterator<Item = OsString>) -> ExitCode {
     run_with(suite, args, false)
 }
@@ -281,7 +281,7 @@ fn dispatch(session: &Session, matches: &ArgMatches, global: &Global) -> anyhow:
     let registry = &suite.registry;
     match matches.subcommand() {
         None => {
-            let compare = suite.studies.find(COMPARE).ok_or_else(|| anyhow::anyhow!("name a command: see --help"))?;
+            let compare = suite.studies.find(COMPARE).ok_or_else(|| anyhow::anyhow!("give a command: see --help"))?;
             return study::run_as(session, compare, &compare.defaults(), &study::Common::default());
         }
         Some((name @ (COMPARE | REPLICATE), matches)) => return study::run(session, find(suite, name)?, matches),

@@ -40,17 +40,17 @@ pub struct Args {
     /// Scenes and mesh files instead of the studies' own
     #[arg(long, help_heading = SCENES, value_name = "SCENE|FILE", num_args = 1..)]
     scenes: Vec<OsString>,
-    /// More studies, then options: of this command, or of the named studies
+    /// More studies, then options of this command or of the named studies
     #[arg(value_name = "NAME|OPTION", trailing_var_arg = true, allow_hyphen_values = true)]
     rest: Vec<OsString>,
 }
 
 impl Args {
-    /// The requested studies and the options of the studies. A repeated option is rejected, as clap rejects one before
-    /// `rest`.
+    /// The completed arguments of this command, the requested studies and the options for them. A repeated `--quick` or
+    /// `--dir` is rejected in the words of clap, which does not parse `rest`.
     fn split(&self) -> anyhow::Result<(Self, Vec<OsString>, Vec<OsString>)> {
         let (mut own, mut options) = (self.clone(), vec![]);
-        // To clap the studies' options after scenes are scenes, and without a name the first one is the name.
+        // clap takes options after `--scenes` for scenes, and the first option for the name if there is no other.
         let scenes = own.scenes.iter().take_while(|word| !word.starts_with("-")).count();
         let behind = own.scenes.split_off(scenes);
         anyhow::ensure!(scenes > 0 || behind.is_empty(), NO_SCENE);
@@ -96,12 +96,14 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
         let name = word.split_once("=").map_or(&**word, |(name, _)| name);
         anyhow::ensure!(
             !OUTPUTS.iter().any(|output| name == *output),
-            "{} needs a whole study, but each job measures one case: pass it to the study when all jobs are done",
+            "{} writes the results of a whole study, but each job measures one case: pass it to the study when all jobs \
+             are done",
             word.escaped()
         );
         anyhow::ensure!(
             word != "--fresh",
-            "--fresh needs a whole study, but each job measures one case: choose another folder with --dir"
+            "--fresh has no effect on jobs, which never measure a case again whose file exists: choose another folder \
+             with --dir"
         );
     }
     let named = names.iter().filter(|name| *name != super::all::NAME);
@@ -110,12 +112,12 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
     let studies = if whole { suite.studies.iter().collect() } else { named };
     let dir = args.dir.as_deref().unwrap_or(Path::new(RUNS));
     let mut commands = vec![];
-    // Two jobs of one case would write the same file.
+    // A repeated study is planned once: otherwise two jobs would write the same file.
     for study in each_once_by(studies, |one, other| one.name == other.name) {
         if !args.scenes.is_empty() && !study.names_scenes() {
-            terminal.tell(&format!("{}: has its own scenes and ignores --scenes", study.name));
+            terminal.tell(&format!("{} has its own scenes and ignores --scenes", study.name));
         }
-        // Reject options that a study does not accept before loading scenes for another study.
+        // Every study must accept its options before the scenes of any study are loaded.
         let mut words = match (args.quick, whole) {
             (true, _) => study.preset(study.presets.quick, &args.scenes),
             (false, true) => study.preset(study.presets.full, &args.scenes),
@@ -146,7 +148,7 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
             lines += &(line(words) + "\n");
         }
     }
-    // Several studies may measure the same scene.
+    // Studies of the same scene may give the same warning.
     each_once(warnings).iter().for_each(|warning| terminal.tell(&format!("warning: {warning}")));
     terminal.print(&lines);
     Ok(Status::Right)

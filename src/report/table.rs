@@ -24,7 +24,7 @@ pub struct Table {
 pub type Column<'a, T> = (&'a str, &'a dyn Fn(&T) -> Cell);
 
 impl Table {
-    /// Adds a note on estimates without an interval, if it has some.
+    /// Adds a note about estimates without an interval, if the table has any.
     #[must_use]
     pub fn explained(mut self) -> Self {
         let has_no_interval = |cell: &Cell| matches!(cell.value, Value::Estimate(x, _) if x.interval.is_none());
@@ -43,7 +43,7 @@ impl Table {
         Self { title: title.into(), columns, rows: rows.into_iter().collect(), ..Self::default() }
     }
 
-    /// A table with one row per item of `items`, column by column, without notes.
+    /// A table with one row per item, without notes; the function of each column makes the cell.
     pub fn of<T>(title: impl Into<String>, items: impl IntoIterator<Item = T>, columns: &[Column<T>]) -> Self {
         let row = |item: T| columns.iter().map(|(_, of)| of(&item)).collect();
         Self::new(title, columns.iter().map(|(name, _)| *name), items.into_iter().map(row))
@@ -79,7 +79,7 @@ impl Table {
         Self { of_scene: true, ..self }
     }
 
-    /// The same table without empty columns; the first one stays.
+    /// The same table without empty columns; the first one stays, and all of a table without rows.
     pub fn without_empty_columns(self) -> Self {
         let says = |i: usize| self.rows.is_empty() || self.rows.iter().any(|row| !row[i].is_empty());
         let kept = (0..self.columns.len()).map(says).collect();
@@ -100,13 +100,13 @@ impl Table {
         Self { columns, rows, ..self }
     }
 
-    /// Whether the column contains words, which are aligned to the left; numbers are aligned to the right.
+    /// Whether the column is aligned to the left: the first column, and columns of text alone.
     pub fn is_words(&self, column: usize) -> bool {
         let mut cells = self.rows.iter().map(|row| &row[column]).filter(|cell| !cell.is_empty()).peekable();
         column == 0 || cells.peek().is_some() && cells.all(Cell::is_text)
     }
 
-    /// Whether it has rows with more than their names.
+    /// Whether a cell outside the first column is not empty.
     pub fn says_something(&self) -> bool {
         self.rows.iter().flat_map(|row| row.iter().skip(1)).any(|cell| !cell.is_empty())
     }

@@ -208,7 +208,7 @@ fn scene_files_and_meshes_have_golden_images_beside_them() {
         let view = format!("--view {view}");
         let text = update(&view);
         assert!(text.contains("created") && text.contains(file) && folder.path(file).exists(), "{text}");
-        folder.shows(&check(&view), &["identical bytes with sah-kd, sah-bvh"]);
+        folder.shows(&check(&view), &["identical to the golden image: sah-kd, sah-bvh"]);
         assert!(update(&view).contains("unchanged"));
     }
     let cameras = ["--camera '0,2,5 0,0.5,0 45'", "--camera '0,1,5 0,0,0 30'"];

@@ -207,7 +207,7 @@ fn registered_structures_are_chosen_compared_and_drawn_like_our_own_and_may_decl
     let compare = "compare sphere -s grid:resolution=32 -s sah-kd -s modest -w primary -w shadow --rays 1024 --runs 3 \
                    --epochs 1 --verbose --export-json r.json";
     for (args, parts) in [
-        ("golden check cube torus cornellbox -s grid", &["Cornellbox: identical bytes with grid"][..]),
+        ("golden check cube torus cornellbox -s grid", &["Cornellbox: identical to the golden image: grid"][..]),
         ("validate torus -s grid -s modest --rays 2000 --verbose", &["modest declines any hit, t_min, t_max: "]),
         (compare, &["declined", "modest declines any hit, which shadow"]),
         ("list structures", &["declines", "grid"]),

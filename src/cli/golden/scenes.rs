@@ -20,7 +20,8 @@ use crate::request::{self, BRUTE_FORCE, OUTPUT, SAH_TREE, SCENES, STRUCTURES, Vi
 use crate::scene::Scene;
 use crate::study::Status;
 
-/// Above this number of triangles times pixels, brute force would take minutes on a user's scene.
+/// Above this number of triangles times pixels, brute force would take minutes: on scenes without a built-in golden
+/// image the default is then [`SAH_TREE`].
 const WORK: u64 = 1 << 32;
 
 #[derive(Debug, clap::Args)]
@@ -43,8 +44,8 @@ struct Targets {
 pub struct CheckArgs {
     #[command(flatten)]
     targets: Targets,
-    /// Structure with options (see `sahara list NAME`); may be repeated [default: all structures, with the exact
-    /// triangle test]
+    /// Structure with options (see `sahara list NAME`); may be repeated [default: all structures that offer the exact
+    /// triangle test, with it]
     #[arg(long, short, help_heading = STRUCTURES, value_name = "NAME[:key=value,..]")]
     structure: Vec<String>,
     #[command(flatten)]
@@ -71,9 +72,9 @@ fn view(name: &str) -> Result<ViewKind, String> {
 struct Target {
     scene: Scene,
     golden: SceneGolden,
-    /// The scene on the command line.
+    /// The argument that names the scene on a command line.
     word: String,
-    /// The default structure for rendering.
+    /// The default structure of `update`. If it is not brute force, `check` skips brute force by default.
     default: &'static str,
 }
 
@@ -99,24 +100,20 @@ impl Targets {
             let path = Path::new(word);
             let beside = || path.is_file().then(|| path.parent().unwrap_or(Path::new("")).to_path_buf());
             let folder = self.goldens.clone().or_else(beside);
-            let folder = folder.with_context(|| {
-                format!("{}: name the folder of its golden image with --goldens DIR", word.escaped())
-            })?;
+            let folder = folder
+                .with_context(|| format!("{}: pass --goldens DIR, the folder of its golden image", word.escaped()))?;
             let name = if path.is_file() { stem(path) } else { slug(&word.escaped().to_string()) };
             let golden = SceneGolden::file(&folder, &name, self.view, &scene);
             return Ok(Target::new(scene, golden, word));
         };
-        // A real mesh on this machine must not change the picture.
+        // The stand-in, always: a real mesh on this machine must not change the picture.
         let mut scene = builtin.scene(None)?;
         scene.size = SIZE;
         let scene = self.from.seen(scene)?;
         let name = builtin.name.to_lowercase();
         let golden = match &self.goldens {
             Some(folder) => SceneGolden::file(folder, &name, self.view, &scene),
-            None if self.from.is_default() && self.view == ViewKind::Shaded => Builtin::find(&name)
-                .ok()
-                .map(Builtin::golden)
-                .with_context(|| format!("{name} has no built-in golden image: name a folder with --goldens DIR"))?,
+            None if self.from.is_default() && self.view == ViewKind::Shaded => builtin.golden(),
             None => {
                 let ([width, height], view) = (SIZE, self.view.name());
                 let options = self.from.words();
@@ -135,7 +132,7 @@ impl Targets {
 pub fn check(registry: &Registry, args: &CheckArgs, terminal: &Terminal) -> anyhow::Result<Status> {
     let inputs = request::scene_files(registry, &args.targets.scenes);
     let outputs = args.outputs.check(inputs.iter().map(PathBuf::as_path))?;
-    // A golden image belongs to the scene: all structures with one triangle test must return the same bytes.
+    // A golden image belongs to the scene: all structures with the same triangle test must render the same picture.
     let choices: Vec<Choice> = if args.structure.is_empty() {
         registry.all().into_iter().filter(|choice| choice.triangle_test() == TRIANGLE_TEST).collect()
     } else {
@@ -199,7 +196,7 @@ fn check_scene(
                 comparison.command = Some(command);
             }
             if is_known {
-                comparison.said.push("known defects do not change the exit status".into());
+                comparison.said.push("this structure has known defects: the exit status does not change".into());
             } else {
                 status = Status::Wrong;
             }
@@ -216,7 +213,7 @@ fn check_scene(
         comparisons.push(comparison);
     }
     if !right.is_empty() {
-        terminal.print(&format!("{}: identical bytes with {}\n", scene.name, right.join(", ")));
+        terminal.print(&format!("{}: identical to the golden image: {}\n", scene.name, right.join(", ")));
     }
     Ok(status)
 }

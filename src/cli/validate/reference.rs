@@ -1,4 +1,4 @@
-//! The reference of a comparison.
+//! The reference of `validate`: how it is chosen, how many rays it can trace, and its hits.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -16,21 +16,22 @@ use crate::scene::Scene;
 use crate::triangle::{Exact, TriangleTest};
 use crate::validate::Reference;
 
-/// Default number of rays of a scene, and the limit of brute-force triangle tests for them, per triangle test.
+/// Default number of rays per scene.
 pub const DEFAULT_RAYS: usize = 10_000;
+/// Maximum number of triangle tests of one brute-force reference for these rays.
 const TESTS: usize = 1 << 33;
 
-/// The limit for the rays of a file, as a power of two: about two minutes, because the user wants these rays.
+/// The same limit for the rays of a file, which the user chose, as a power of two: about two minutes.
 const FILE_TESTS: u32 = 36;
 
-/// Triangle tests after which brute force reports its progress: about a second.
+/// Rays times triangles between two messages about progress: about a second of brute force.
 const PROGRESS_TESTS: usize = 1 << 29;
 
-/// A structure chosen as the reference; `None`: brute force with the triangle test of each structure.
+/// The structure of `--against`; `None`: brute force with the triangle test of the structure that is checked.
 pub struct ReferenceChoice(Option<Choice>);
 
 impl ReferenceChoice {
-    /// The structure of --against. Plain brute force shares each structure's test.
+    /// The structure of `--against`. `brute-force` without options uses the triangle test of each structure.
     pub fn named(registry: &Registry, name: &str) -> anyhow::Result<Self> {
         let is_shared = name.eq_ignore_ascii_case(BRUTE_FORCE);
         Ok(Self(if is_shared { None } else { Some(registry.choose(name)?) }))
@@ -42,11 +43,11 @@ impl ReferenceChoice {
         Ok(Reference::structure(choice.build(&scene.mesh).with_context(failure)?, test))
     }
 
-    /// `reference` in words, for hits from a file over this triangle test.
+    /// The name of `reference` in messages about a file of hits that were computed with this triangle test.
     pub fn name_for_file(&self, reference: &Reference, test: &str) -> String {
         match self.0 {
             Some(_) => self.to_string(),
-            None if reference.knows_structure_errors() => format!("brute force with {test}"),
+            None if reference.test.is_some() => format!("brute force with {test}"),
             None => format!("brute force with {}", Exact::NAME),
         }
     }
@@ -56,20 +57,21 @@ impl ReferenceChoice {
         self.most(triangles, TESTS).min(DEFAULT_RAYS)
     }
 
-    /// The traced rays of a file, all or an even selection, with their data; and a note if these are not all.
+    /// The entries of a ray file to trace: all, or a sample spread evenly and a note that says so.
     pub fn sample<T: Copy>(&self, recorded: &[T], triangles: usize) -> (Vec<T>, Option<String>) {
         let sample = spread(recorded, self.most(triangles, 1 << FILE_TESTS));
         let note = (sample.len() < recorded.len()).then(|| {
             let [some, all] = [sample.len(), recorded.len()].map(|rays| count(rays as u64));
             format!(
-                "only {some} of the {all} rays of the file, evenly spread: all would take brute force more than \
-                 2^{FILE_TESTS} triangle tests; --against {SAH_TREE} traces all"
+                "only {some} of the {all} rays of the file, evenly spread, are traced: for all of them brute force \
+                 would need more than 2^{FILE_TESTS} triangle tests; --against {SAH_TREE} traces all"
             )
         });
         (sample, note)
     }
 
-    /// The maximum number of rays for which brute force, which tests every triangle, stays below `tests` tests.
+    /// The number of rays that brute force can trace with at most `tests` triangle tests, but at least one. Other
+    /// references have no limit.
     fn most(&self, triangles: usize, tests: usize) -> usize {
         let is_brute_force = self.0.as_ref().is_none_or(|choice| choice.entry.name == BRUTE_FORCE);
         if is_brute_force { (tests / triangles.max(1)).max(1) } else { usize::MAX }
@@ -92,13 +94,13 @@ pub struct References<'a> {
     pub scene: &'a Scene,
     pub rays: &'a [Ray],
     pub choice: &'a ReferenceChoice,
-    /// By triangle test; a chosen structure is for all tests.
+    /// By triangle test; `None`: a structure chosen with `--against`, for all tests except `exact`.
     pub known: BTreeMap<Option<&'static str>, ReferenceHits>,
 }
 
 impl References<'_> {
     pub fn get(&mut self, test: &'static str, waiting: &ProgressBar) -> anyhow::Result<&ReferenceHits> {
-        // A chosen structure is the same for all tests that round.
+        // A chosen structure is one reference for all tests except `exact`, the only one that does not round.
         let key = (self.choice.0.is_none() || test == Exact::NAME).then_some(test);
         if !self.known.contains_key(&key) {
             let reference = self.choice.build(self.scene, test)?;
@@ -111,7 +113,7 @@ impl References<'_> {
     }
 }
 
-/// The hits of a reference, `name` in words, for rays of a scene.
+/// The hits of a reference for rays of a scene. Messages about progress call it `name`.
 pub fn closest_hits(
     reference: &Reference,
     scene: &Scene,
@@ -157,7 +159,7 @@ mod tests {
         assert_eq!(tree.sample(&recorded, 10_000_000), (recorded, None));
     }
 
-    /// The rounding of a test decides which side is wrong, so `exact` has a separate reference.
+    /// Differences that the rounding of a test explains are excused; `exact` does not round.
     #[test]
     fn one_structure_for_all_tests_that_round_is_built_and_traced_once() {
         let scene = Builtin::find("cube").unwrap().scene(None).unwrap();

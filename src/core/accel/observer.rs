@@ -7,7 +7,7 @@
     note = "pass `&mut ()` to watch nothing, or `&mut Counts::default()` to count steps and tests"
 )]
 pub trait Observer {
-    /// Whether the observer uses events. If so, a structure may need a slower path.
+    /// Whether the observer uses the events. If not, a structure may take a faster path that reports none.
     const ACTIVE: bool = true;
 
     /// The traversal enters an inner node.
@@ -45,7 +45,7 @@ impl Observed {
     pub const NONE: Self = Self { steps: false, tests: false };
 }
 
-/// Counts over the observed rays, the same on every machine (Havran, Purgathofer 2003).
+/// Sums over the observed rays, the same on every machine (counts as proposed by Havran, Purgathofer 2003).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// Inner nodes entered.

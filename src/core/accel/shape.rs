@@ -18,11 +18,12 @@ pub struct TreeShape {
     /// References in the largest leaf.
     pub largest_leaf: usize,
     /// Expected cost of a random line through the root box, in triangle tests (MacDonald, Booth 1990), with the same
-    /// constants for every structure: [`TreeShape::INNER_COST`], and 1 per triangle of a leaf. `None` if undefined.
+    /// constants for every structure: [`TreeShape::INNER_COST`], and 1 per triangle of a leaf. `None` if
+    /// the tree is unknown, or the area of its root box is zero or not finite.
     pub sah_cost: Option<f64>,
 }
 
-/// A part of a tree.
+/// A node of a tree.
 pub enum Part<N> {
     /// A leaf, with its number of references.
     Leaf(usize),
@@ -40,7 +41,7 @@ impl TreeShape {
         Self { leaves: 1, empty, references, largest_leaf: references, ..Self::default() }
     }
 
-    /// Counts the parts of the tree below `root`, if any, depth first. `open` returns the part at a node.
+    /// Counts the nodes of the tree with this root, if any, depth first. `open` tells whether a node is a leaf.
     pub fn of<N>(root: Option<(N, Aabb)>, mut open: impl FnMut(N, &Aabb) -> Part<N>) -> Self {
         let root_area = root.as_ref().map_or(0.0, |(_, bounds)| bounds.half_area());
         let mut shape = Self::default();
@@ -75,7 +76,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nodes_are_counted_and_weighed_by_their_area() {
+    fn nodes_are_counted_and_weighted_by_area() {
         let unit = Aabb { min: Vec3::ZERO, max: Vec3::ONE };
         let halved = |bounds: &Aabb, children: [u32; 2]| {
             let (low, high) = bounds.cut(0, bounds.centre().x);

@@ -1,10 +1,9 @@
-//! The binary tree of tight boxes: every partition builds one, and collapsing it gives a wide tree.
+//! The binary tree with the bounds of each node that every partition builds; collapsing it gives the eight-wide tree.
 
 use crate::geometry::Aabb;
 
-/// Leaves of a partition and the splits above them, depth first: a node, then the subtree of its first child, then the
-/// subtree of its second child. So the subtree of a node is a range of nodes and a range of references. A tree without
-/// triangles has no nodes.
+/// The nodes in depth-first order: a node, then the subtree of its first child, then the subtree of its second child.
+/// So the subtree of a node is a range of nodes and a range of references. A tree without triangles has no nodes.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BinaryTree {
     pub nodes: Vec<BinaryNode>,
@@ -14,14 +13,15 @@ pub(crate) struct BinaryTree {
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BinaryNode {
-    /// The box of the node's triangles, clipped to its part of space if they were split; rounded outward, never empty.
+    /// The bounds of the node's references, rounded outward: of a triangle that a split plane has cut, only the clipped
+    /// part. Never empty in a finished tree.
     pub bounds: Aabb,
     pub content: Content,
 }
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Content {
-    /// The numbers of the two children.
+    /// The indices of the two children.
     Inner([u32; 2]),
     /// A range of references, not empty.
     Leaf { first: u32, count: u32 },

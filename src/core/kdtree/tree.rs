@@ -14,8 +14,8 @@ use crate::triangle::{BLOCK, TriangleTest};
 
 /// A binary space partition by axis-aligned planes: 8-byte nodes in depth-first order, leaves of blocks of triangles.
 ///
-/// The configuration selects the planes, the leaves and the traversal. A build takes O(n log n) time and memory for a
-/// bounded duplication of references; the tree is the same for every number of threads. It cannot be updated.
+/// The configuration selects the planes, the leaves and the traversal. If the duplication of references is
+/// bounded, a build takes O(n log n) time; the tree is the same for every number of threads. It cannot be updated.
 ///
 /// # References
 /// Wald, Havran: On building fast kd-trees for ray tracing, and on doing that in O(N log N), 2006. Havran: Heuristic
@@ -83,7 +83,7 @@ pub(super) struct Plan {
 /// Grows the tree of `config`, if it stays within the limits.
 pub(super) fn plan(mesh: &Mesh, config: &KdConfig, limits: &Limits) -> Result<Plan, BuildError> {
     config.check()?;
-    // Every triangle takes at least one reference: reject a hopeless build at once.
+    // Every triangle with an area has at least one reference: reject a mesh that is too large before building.
     limits.check(1, mesh.solid().count())?;
     let rules = config.rules();
     let plan: Plan = match config.plane {
@@ -97,7 +97,7 @@ pub(super) fn plan(mesh: &Mesh, config: &KdConfig, limits: &Limits) -> Result<Pl
             grow(&context, Binned::all(&context))
         }
     };
-    // The numbers in nodes only grow: if the last one fits, all of them fit.
+    // No number in a node exceeds these totals: if they fit, every node fits.
     limits.check(plan.nodes.len(), plan.references.len())?;
     Ok(plan)
 }
@@ -115,6 +115,7 @@ impl<C: Content> Tree<C> for Plan {
     }
 
     fn open(&mut self) {
+        // `close` replaces it.
         self.nodes.push(Node::leaf(0, 0));
     }
 

@@ -23,18 +23,18 @@ fn data() -> ResultsData {
 }
 
 #[test]
-fn readme_and_paper_are_those_of_the_data_file() {
+fn readme_and_paper_match_the_data_file() {
     let data = data();
     for (name, known) in &data.files {
         assert_eq!(
             digest(&file(&format!("papers/{name}"))),
             *known,
-            "papers/{name} was changed: `{COMMAND}` makes it anew"
+            "papers/{name} does not match its digest in the data file: `{COMMAND}` writes it again"
         );
     }
     for (key, text) in marked(&readme()).unwrap() {
         let known = data.statements.get(&key).map(|known| known.text.split_whitespace().collect::<Vec<_>>().join(" "));
-        assert_eq!(Some(text), known, "README.md, {key}: `{COMMAND}` writes it anew");
+        assert_eq!(Some(text), known, "README.md, {key}: not as in the data file: `{COMMAND}` writes it again");
     }
 }
 
@@ -63,13 +63,13 @@ fn marked_places_are_filled_in_and_wrapped() {
     assert!(open.contains("\"k\" is not closed"), "{open}");
 }
 
-/// The results of runs without pictures.
+/// The results of `runs`, without rendered pictures.
 fn results(runs: &Runs) -> anyhow::Result<Results> {
     Results::new(&document(runs, &STUDIES, vec![]), runs)
 }
 
-/// Each figure and file of the paper is written, no other one, and none twice.
-fn are_shown(results: &Results) {
+/// The paper names each file of a table once, shows each figure and no others, and no two figures are equal.
+fn assert_files_match_paper(results: &Results) {
     let paper = results.paper.replace('\n', " ");
     for (name, _) in &results.tables {
         assert_eq!(paper.matches(&format!("(results/{name}, ")).count(), 1, "{name}");
@@ -84,9 +84,9 @@ fn are_shown(results: &Results) {
 }
 
 #[test]
-fn a_figure_that_is_the_answer_is_kept_once() {
+fn a_figure_equal_to_that_of_the_answer_is_stored_once() {
     let results = results(&runs(&[("replicate", &["Dragon"]), ("attribution", &["Dragon"])])).unwrap();
-    are_shown(&results);
+    assert_files_match_paper(&results);
     assert_eq!(results.paper.matches("](figures/answer.svg)").count(), 2, "{}", results.paper);
 }
 
@@ -102,7 +102,7 @@ fn every_statement_is_in_the_paper_and_in_the_data() {
         assert!(paper.contains(&plain(&statement.text)), "{key}: {}", statement.text);
     }
     assert!(!results.paper.contains("{{") && results.paper.lines().all(|line| line.trim_end() == line));
-    are_shown(&results);
+    assert_files_match_paper(&results);
 
     let mut results = self::results(&runs(&[("compare", &["Cube"])])).unwrap();
     let text = "A <!-- sahara: compare.right -->?<!-- / --> b <!-- sahara: replicate.hard -->?<!-- / -->\n";
@@ -113,13 +113,13 @@ fn every_statement_is_in_the_paper_and_in_the_data() {
 }
 
 #[test]
-fn results_are_of_one_commit_and_one_machine_and_tell_its_threads() {
+fn results_need_one_commit_and_state_the_threads() {
     let two = |changed: Provenance| {
         let files = [journal("compare", &["Cube"], &provenance("x")), journal("replicate", &["Cube"], &changed)];
         results(&read(folder(&files.concat()).path()))
     };
     let other = Provenance { commit: "0ther".into(), ..provenance("x") };
-    let Err(error) = two(other) else { panic!("two commits are one run") };
+    let Err(error) = two(other) else { panic!("two commits were accepted as one run") };
     assert!(error.to_string().contains("more than one commit (0ther, c0ffee)"), "{error}");
     for (threads, part) in [(1, "on one thread ("), (2, "where no other number is named")] {
         let sentence = two(Provenance { threads, ..provenance("x") }).unwrap().data.run.sentence();
@@ -152,12 +152,12 @@ fn numbers(text: &str) -> Vec<String> {
     starts.map(around).collect()
 }
 
-/// Numbers without a measurement: statuses, the level of intervals, the value that ratios are compared with, and a
+/// Numbers that are not measured: the level of intervals, the value that ratios are compared with, the version of a
 /// licence.
 const ALLOWED: [&str; 3] = ["are 95 % prediction", "from 1.", "Apache 2.0,"];
 
 #[test]
-fn readme_holds_no_number_that_nothing_holds() {
+fn numbers_of_readme_are_marked_or_allowed_and_exit_statuses_match_the_help() {
     let text = unmarked(&readme());
     let (before, statuses) = text.split_once("Exit status: ").unwrap();
     let (statuses, after) = statuses.split_once("\n\n").unwrap();

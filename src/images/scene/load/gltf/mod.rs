@@ -46,9 +46,9 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
     let document = Document::from_json_without_validation(root);
     let accessors = Accessors::new(&document, &buffers)?;
     let (shown, worlds) = graph::walk(&document)?;
-    let placements = shown.into_iter().filter_map(|node| {
-        Some(Placement { mesh: node.mesh()?, instances: instances[node.index()], node })
-    });
+    let placements = shown
+        .into_iter()
+        .filter_map(|node| Some(Placement { mesh: node.mesh()?, instances: instances[node.index()], node }));
     let placements: Vec<Placement> = placements.collect();
     let mut shapes = HashMap::new();
     let mut sizes = Sizes::default();

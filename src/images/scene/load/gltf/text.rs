@@ -4,11 +4,12 @@
 //! that this loader does not read, and misreads some invalid files. The document is therefore reduced to the parts that
 //! are read before the crate parses it.
 
+use std::borrow::Cow;
+use std::collections::HashMap;
 use std::ops::Range;
 
 use gltf::json::validation::{Error, Validate as _};
 use gltf::json::{Path, Root};
-use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::value::RawValue;
 use serde_json::{Value, json};
@@ -56,11 +57,13 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fa
     let broken = |error: serde_json::Error| no_gltf(&error.to_string());
     let members: Members = serde_json::from_slice(text).map_err(broken)?;
     // Other versions and extensions first: they explain what is wrong with the rest.
-    check_version(&members.asset)?;
+    check_version(&value(&members, "asset")?)?;
     let mut notes = Notes::default();
-    extensions::check(&members.extensions_required, &members.extensions_used, &mut notes)?;
+    let [required, used] = ["extensionsRequired", "extensionsUsed"].map(|key| value(&members, key));
+    extensions::check(&required?, &used?, &mut notes)?;
 
-    let texts: Vec<&RawValue> = serde_json::from_str(members.nodes.map_or("[]", RawValue::get)).map_err(broken)?;
+    let nodes = members.get("nodes").map_or("[]", |nodes| nodes.get());
+    let texts: Vec<&RawValue> = serde_json::from_str(nodes).map_err(broken)?;
     let (mut nodes, mut instances) = (vec![], vec![]);
     for (number, text) in texts.into_iter().enumerate() {
         let place = format!("nodes[{number}]");
@@ -69,21 +72,22 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fa
         nodes.push(typed(&place, node)?);
     }
     // The crate wants a list of nodes, which is optional.
-    let mut scenes = members.scenes;
+    let mut scenes = value(&members, "scenes")?;
     for scene in scenes.as_array_mut().into_iter().flatten().filter_map(Value::as_object_mut) {
         scene.entry("nodes").or_insert_with(|| json!([]));
     }
-    let textured = members.materials.as_array().into_iter().flatten().map(is_textured).collect();
+    let materials = value(&members, "materials")?;
+    let textured = materials.as_array().into_iter().flatten().map(is_textured).collect();
     let root = Root {
-        scene: typed("scene", members.scene)?,
+        scene: typed("scene", value(&members, "scene")?)?,
         scenes: typed_list("scenes", scenes)?,
         nodes,
-        materials: typed_list("materials", members.materials)?,
-        skins: typed_list("skins", members.skins)?,
-        meshes: typed_list("meshes", members.meshes)?,
-        accessors: typed_list("accessors", members.accessors)?,
-        buffer_views: typed_list("bufferViews", members.buffer_views)?,
-        buffers: typed_list("buffers", members.buffers)?,
+        materials: typed_list("materials", materials)?,
+        skins: typed_list("skins", value(&members, "skins")?)?,
+        meshes: typed_list("meshes", value(&members, "meshes")?)?,
+        accessors: typed_list("accessors", value(&members, "accessors")?)?,
+        buffer_views: typed_list("bufferViews", value(&members, "bufferViews")?)?,
+        buffers: typed_list("buffers", value(&members, "buffers")?)?,
         ..Root::default()
     };
     for (m, mesh) in root.meshes.iter().enumerate() {
@@ -99,24 +103,14 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fa
     Ok((Document { root, instances, textured, notes }, chunk))
 }
 
-/// A document. Nodes are text, for as values they would take twenty times as much memory, and there may be very many; in
-/// glTF 1.0 they are no list.
-#[derive(Default, Deserialize)]
-#[serde(rename_all = "camelCase", default)]
-struct Members<'a> {
-    asset: Value,
-    extensions_required: Value,
-    extensions_used: Value,
-    scene: Value,
-    scenes: Value,
-    #[serde(borrow)]
-    nodes: Option<&'a RawValue>,
-    materials: Value,
-    skins: Value,
-    meshes: Value,
-    accessors: Value,
-    buffer_views: Value,
-    buffers: Value,
+/// The members of a document as text: all values of a document would take twenty times as much memory.
+type Members<'a> = HashMap<Cow<'a, str>, &'a RawValue>;
+
+/// A member, null if there is none.
+fn value(members: &Members, key: &str) -> Result<Value, Fault> {
+    let read = |text: &&RawValue| serde_json::from_str(text.get());
+    let value = members.get(key).map_or(Ok(Value::Null), read);
+    value.map_err(|error| Fault::part(key, error.to_string()))
 }
 
 /// A list of items of the crate; a missing one is empty.
