@@ -79,7 +79,7 @@ fn all_levels_return_the_same() {
 
 /// Adversarial rays in an order that makes packets of one octant, and the same in their original order.
 fn bundles(mesh: &Mesh) -> Vec<Ray> {
-    let mixed: Vec<Ray> = Stratum::ALL.into_iter().flat_map(|stratum| stratum.rays(mesh, 16, 5)).collect();
+    let mixed: Vec<Ray> = Stratum::ALL.into_iter().flat_map(|stratum| stratum.rays(mesh, 6, 5)).collect();
     let mut sorted = mixed.clone();
     sorted.sort_by_key(|ray| ray.direction.to_array().map(f32::is_sign_negative));
     // Similar rays, with ends that cut through the scene; and the same with directions of very different lengths:
@@ -108,7 +108,7 @@ fn coarse() -> Arc<Mesh> {
 fn from_the_grid() -> Vec<Ray> {
     let mut random = Pcg32::seed_from_u64(9);
     let mut rays = vec![];
-    for _ in 0..1_000 {
+    for _ in 0..300 {
         let mut some = |n: u32| (random.next_u32() % n) as f32;
         let origin = Vec3::new(some(4) - 1.0, some(4) - 1.0, some(4) - 1.0);
         let signs = [(); 3].map(|()| 2.0 * some(2) - 1.0);
@@ -131,7 +131,7 @@ fn packets_and_interleaved_rays_return_what_single_rays_do() {
     cases.push(("a coarse grid".into(), from_the_grid(), coarse()));
     for scene in ["teapot", "cornellbox", "dragon"].map(scene) {
         let reference = registry.choose("sah-kd").unwrap().build(&scene.mesh).unwrap();
-        let sampling = Sampling::some(&scene, 1_000, 3);
+        let sampling = Sampling::some(&scene, 300, 3);
         let mut rays = bundles(&scene.mesh);
         for kind in [WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse] {
             rays.extend(Workload::new(&scene, kind, &sampling, &*reference).rays);

@@ -36,9 +36,9 @@ fn a_study_goes_on_where_it_stopped_and_repeats_what_it_said() {
     }
 }
 
-/// A study of seconds, of twelve epochs, into the folder `dir`.
+/// A study of seconds, of six epochs, into the folder `dir`.
 fn study(folder: &Folder, dir: &str) -> Command {
-    let small = "study attribution cube --rays 64 --runs 1 --budget 1 --epochs 12 --quiet --dir";
+    let small = "study attribution cube --rays 64 --runs 1 --budget 1 --epochs 6 --quiet --dir";
     let mut command = folder.command(&format!("{small} {dir}"));
     command.stdout(Stdio::piped()).stderr(Stdio::piped());
     command
@@ -72,7 +72,7 @@ fn a_killed_study_ends_as_one_that_was_left_alone() {
 
     ends(RIGHT, &mut study(&folder, "killed"));
     assert!(before < cases(&killed, "attribution").len());
-    assert_eq!(answers(&alone, "attribution").len(), 12);
+    assert_eq!(answers(&alone, "attribution").len(), 6);
     assert_eq!(answers(&killed, "attribution"), answers(&alone, "attribution"));
 }
 

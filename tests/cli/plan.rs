@@ -68,7 +68,7 @@ fn a_plan_is_one_command_a_case_with_a_file_of_its_own() {
     assert_eq!(plan(&dir, "compare --scenes torus --scenes cube"), plan(&dir, "compare --scenes torus cube"));
 
     // All studies, in the quick version.
-    let lines = plan(Path::new("r"), "--quick");
+    let lines = plan(Path::new("r"), "--quick --scenes cube");
     let files: BTreeSet<PathBuf> = lines.iter().map(|line| file(line)).collect();
     for Study { name, .. } in Studies::builtin().iter() {
         assert!(files.iter().any(|file| file.starts_with(format!("r/{name}"))), "{name}: {files:?}");

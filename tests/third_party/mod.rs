@@ -28,7 +28,7 @@ use crate::cli::command::{Folder, assert_contains, said, unwrapped};
 use crate::cli::journal::rows;
 
 // Few cells: each of two thousand coincident triangles is in all cells that it meets.
-sahara::conformance!(my_grid, Grid<MollerTrumbore>, GridConfig { resolution: 2 }, lowest_id);
+sahara::conformance!(my_grid, Grid<MollerTrumbore>, GridConfig { resolution: 4 }, lowest_id);
 sahara::conformance!(my_bvh, Faulty, FaultyConfig::default());
 
 fn registry() -> Registry {
@@ -48,7 +48,7 @@ fn meshes() -> Vec<Named> {
 
 #[test]
 fn the_grid_that_the_broken_ones_are_made_from_is_right_and_what_is_declined_is_not_asked() {
-    answers(&Subject::of::<Broken>("broken", BrokenConfig::default()), &meshes(), 200).unwrap();
+    answers(&Subject::of::<Broken>("broken", BrokenConfig::default()), &meshes(), 60).unwrap();
     let modest = Subject::of::<Modest>("modest", GridConfig::default());
     answers(&modest, &meshes(), 60).unwrap();
     counting(&modest, &meshes(), 10).unwrap();
@@ -60,10 +60,10 @@ fn what_hangs_is_given_up_and_told_from_what_panics() {
     // On one triangle everything but a hang takes far less time than the limit, on a busy machine as well.
     let one: Vec<Named> = degenerate_meshes().into_iter().filter(|(name, _)| name == "one triangle").collect();
     let subject =
-        |fault| Subject { limit: Duration::from_secs(5), ..Subject::of::<Broken>("broken", BrokenConfig { fault }) };
+        |fault| Subject { limit: Duration::from_secs(2), ..Subject::of::<Broken>("broken", BrokenConfig { fault }) };
     let unbuilt = "does not build over \"one triangle\": it";
     for (report, parts) in [
-        (answers(&subject(Fault::Hangs), &one, 200), ["worst: hangs on ray \"", "no result within 5s"]),
+        (answers(&subject(Fault::Hangs), &one, 200), ["worst: hangs on ray \"", "no result within 2s"]),
         (counting(&subject(Fault::Hangs), &one, 2000), ["it hangs", "tracing ray \""]),
         (answers(&subject(Fault::BuilderPanics), &one, 1), [unbuilt, "panics: the message is \"no triangle"]),
         (answers(&subject(Fault::BuilderHangs), &one, 1), [unbuilt, "it hangs"]),
@@ -136,7 +136,7 @@ fn the_command_rejects_each_fault_for_its_own_reason() {
         ("builder-panics", 100, "refused", 1),
         ("builder-hangs", 100, "hangs", 1),
     ] {
-        let validate = format!("validate cube -s broken:fault={fault} --rays {rays} --limit 5");
+        let validate = format!("validate cube -s broken:fault={fault} --rays {rays} --limit 2");
         let (printed, right) = sahara(&Folder::new(), &validate);
         assert!(!right && printed.contains(reason), "{fault}: {printed}");
         let named: Option<Ray> = printed.split('"').find_map(|part| part.parse().ok());
@@ -229,7 +229,7 @@ fn registered_structures_are_chosen_compared_and_drawn_like_our_own_and_may_decl
 fn a_command_about_one_structure_says_when_it_panics_or_hangs() {
     let folder = Folder::new();
     content(&folder, "rays record cube -o f.rays --rays 10000", &[]);
-    let export = "--rays f.rays --limit 3 --export-hits f.hits";
+    let export = "--rays f.rays --limit 2 --export-hits f.hits";
     for (args, reason) in [
         (format!("validate {export} -s broken:fault=panics"), "it panics"),
         (format!("validate {export} -s broken:fault=hangs"), "it hangs"),
