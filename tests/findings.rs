@@ -114,7 +114,7 @@ pub fn meshes() -> Vec<Named> {
 pub type CleanStrata = (&'static str, &'static [Stratum]);
 
 pub fn assert_clean(choice: &Choice, meshes: &[Named], (name, clean): CleanStrata) {
-    let all = findings(&choice.subject(), meshes, 100).unwrap();
+    let all = findings(&choice.subject(), meshes, 200).unwrap();
     for stratum in Stratum::ALL {
         let wrong = all.iter().filter(|f| f.stratum == stratum && f.validation.errors() > 0);
         let wrong: Vec<String> = wrong.map(|f| f.line(&choice.label)).collect();

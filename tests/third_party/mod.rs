@@ -18,7 +18,7 @@ use sahara::geometry::Ray;
 use sahara::measure::SystemClock;
 use sahara::registry::Registry;
 use sahara::study::Studies;
-use sahara::triangle::{Exact, MollerTrumbore};
+use sahara::triangle::Exact;
 use sahara::validate::conformance::{Named, Subject, answers, counting, shapes};
 use sahara::validate::hard_cases::{CaseTruth, find, run};
 use sahara::validate::{degenerate_meshes, stacked_sheets};
@@ -27,8 +27,6 @@ use serde_json::Value;
 use crate::cli::command::{Folder, assert_contains, said, unwrapped};
 use crate::cli::journal::rows;
 
-// Few cells: each of two thousand coincident triangles is in all cells that it meets.
-sahara::conformance!(my_grid, Grid<MollerTrumbore>, GridConfig { resolution: 4 }, lowest_id);
 sahara::conformance!(my_bvh, Faulty, FaultyConfig::default());
 
 fn registry() -> Registry {
