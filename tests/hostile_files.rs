@@ -206,7 +206,7 @@ fn each_is_refused_in_a_sentence_and_takes_little_memory() {
     for (faces, triangles) in
         [("f 1 1 1\n", 1), ("f 1 1 1 1 1\n", 3), ("usemtl a\nf 1//1 1//1 1//1\nusemtl b\nf 1 1 1\n", 2)]
     {
-        let times = 16_000_000 / faces.len();
+        let times = 8_000_000 / faces.len();
         let text = [b"v 0 0 0\nvn 0 0 1\n", &faces.as_bytes().repeat(times)[..]].concat();
         assert_eq!(loaded(&vec![("a.obj", text)]), Ok(triangles * times));
     }

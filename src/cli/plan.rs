@@ -1,5 +1,6 @@
 //! `study plan`: studies as independent jobs for the machines of a cluster.
 
+use std::collections::BTreeMap;
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
@@ -131,6 +132,8 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
     let (mut lines, mut warnings) = (String::new(), vec![]);
     let level = level.iter().flat_map(|level| ["--level", level.name()]);
     let program: Vec<&str> = ["sahara"].into_iter().chain(level).collect();
+    // By number of threads: to choose idle cores takes a tenth of a second.
+    let mut provenances: BTreeMap<usize, Provenance> = BTreeMap::new();
     for (study, words, matches) in commands {
         let waiting = spinner(format!("planning {}", study.name), terminal);
         let plan = (study.plan)(&matches, &suite.registry)?;
@@ -139,9 +142,12 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
         let command =
             line(["sahara", "study", study.name].map(OsStr::new).into_iter().chain(words.iter().map(|own| &**own)));
         for case in plan.cases {
-            let threads = Threads::unstarted(case.settings.threads);
-            let provenance = Provenance { process_per_epoch: true, ..Provenance::of(&threads) };
-            let file = dir.join(study.name).join(file_name(&case, &provenance) + ".json");
+            let of = |threads: &usize| Provenance {
+                process_per_epoch: true,
+                ..Provenance::of(&Threads::unstarted(*threads))
+            };
+            let provenance = provenances.entry(case.settings.threads).or_insert_with_key(of);
+            let file = dir.join(study.name).join(file_name(&case, provenance) + ".json");
             let case = serde_json::to_string(&Case { command: command.clone(), ..case }).expect("a case has text keys");
             let options = [&*format!("--{CASE}={case}"), &*format!("--{OUT}")];
             let words = program.iter().chain(&options).map(OsStr::new).chain([file.as_os_str()]);

@@ -8,7 +8,7 @@ use sahara::geometry::{Hit, Mesh, Ray};
 use sahara::serde::{Deserialize, Serialize};
 use sahara::triangle::MollerTrumbore;
 
-use super::grid::{Grid, GridConfig};
+use crate::grid::{Grid, GridConfig};
 
 /// The grid and its fault.
 pub struct Broken {

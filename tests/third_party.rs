@@ -1,42 +1,27 @@
 //! An example of adding a structure: a type, the public interface, one macro; and the results of broken structures.
 
-mod broken;
-mod faulty;
-mod grid;
-mod question;
-
 use std::fs;
 use std::process::{Command, ExitCode, Stdio};
 use std::time::Duration;
 
-use broken::{Broken, BrokenConfig, Fault, Modest, picks};
-use faulty::{Faulty, FaultyConfig};
-use grid::{Grid, GridConfig};
-use question::{DUPLICATION, staircase};
 use sahara::cli::Suite;
 use sahara::geometry::Ray;
 use sahara::measure::SystemClock;
-use sahara::registry::Registry;
 use sahara::study::Studies;
-use sahara::triangle::Exact;
 use sahara::validate::conformance::{Named, Subject, answers, counting, shapes};
 use sahara::validate::hard_cases::{CaseTruth, find, run};
 use sahara::validate::{degenerate_meshes, stacked_sheets};
 use serde_json::Value;
+use third_party_structures::broken::{Broken, BrokenConfig, Fault, Modest, picks};
+use third_party_structures::faulty::{self, Faulty, FaultyConfig};
+use third_party_structures::grid::GridConfig;
+use third_party_structures::question::DUPLICATION;
+use third_party_structures::registry;
 
 use crate::cli::command::{Folder, assert_contains, said, unwrapped};
 use crate::cli::journal::rows;
 
 sahara::conformance!(my_bvh, Faulty, FaultyConfig::default());
-
-fn registry() -> Registry {
-    Registry::builtin()
-        .with::<Grid<Exact>>("grid", GridConfig::default())
-        .with::<Broken>("broken", BrokenConfig::default())
-        .with::<Modest>("modest", GridConfig::default())
-        .with::<Faulty>("mybvh", FaultyConfig::default())
-        .with_generator("staircase", staircase)
-}
 
 /// Some meshes: they trigger the faults that affect one ray in 10,000.
 fn meshes() -> Vec<Named> {
