@@ -12,9 +12,8 @@ use sahara::validate::conformance::{Named, Subject, answers, counting, shapes};
 use sahara::validate::hard_cases::{CaseTruth, find, run};
 use sahara::validate::{degenerate_meshes, stacked_sheets};
 use serde_json::Value;
-use third_party_structures::broken::{Broken, BrokenConfig, Fault, Modest, picks};
+use third_party_structures::broken::{Broken, BrokenConfig, Fault, picks};
 use third_party_structures::faulty::{self, Faulty, FaultyConfig};
-use third_party_structures::grid::GridConfig;
 use third_party_structures::question::DUPLICATION;
 use third_party_structures::registry;
 
@@ -31,8 +30,8 @@ fn meshes() -> Vec<Named> {
 
 #[test]
 fn the_grid_that_the_broken_ones_are_made_from_is_right_and_what_is_declined_is_not_asked() {
-    answers(&Subject::of::<Broken>("broken", BrokenConfig::default()), &meshes(), 60).unwrap();
-    let modest = Subject::of::<Modest>("modest", GridConfig::default());
+    let [broken, modest] = ["broken", "modest"].map(|name| registry().choose(name).unwrap().subject());
+    answers(&broken, &meshes(), 60).unwrap();
     answers(&modest, &meshes(), 60).unwrap();
     counting(&modest, &meshes(), 10).unwrap();
     shapes(&modest, &meshes()).unwrap();
