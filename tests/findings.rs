@@ -126,10 +126,8 @@ pub fn assert_clean(choice: &Choice, meshes: &[Named], (name, clean): CleanStrat
 fn rays_without_a_named_cause_are_answered_rightly() {
     use Stratum::{Invalid, NearSurface, Random};
     let registry = Registry::builtin();
-    for (specs, clean) in [(BVH2, &[Random, Invalid, NearSurface][..]), (CWBVH, &[Random, Invalid])] {
-        for spec in specs {
-            assert_clean(&registry.choose(spec).unwrap(), &meshes(), (spec, clean));
-        }
+    for clean in [(BVH2[0], &[Random, Invalid, NearSurface][..]), (CWBVH[0], &[Random, Invalid])] {
+        assert_clean(&registry.choose(clean.0).unwrap(), &meshes(), clean);
     }
 }
 

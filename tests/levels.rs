@@ -62,7 +62,7 @@ fn all_levels_return_the_same() {
     let mut hits = 0;
     for choice in registry.all().iter().filter(|choice| !choice.entry.name.starts_with("obvhs")) {
         for (name, mesh) in &meshes {
-            let rays: Vec<Ray> = Stratum::ALL.into_iter().flat_map(|stratum| stratum.rays(mesh, 8, 7)).collect();
+            let rays: Vec<Ray> = Stratum::ALL.into_iter().flat_map(|stratum| stratum.rays(mesh, 5, 7)).collect();
             let accel = choice.build(mesh).unwrap();
             levels[0].choose();
             let first = counted(&*accel, &rays);

@@ -1,4 +1,4 @@
-//! An example of adding a structure: a type, the public interface, one macro; and the results of broken structures.
+//! Structures and a study of another crate: how they are judged, and how broken ones are found out.
 
 use std::fs;
 use std::process::{Command, ExitCode, Stdio};
@@ -19,8 +19,6 @@ use third_party_structures::registry;
 
 use crate::cli::command::{Folder, assert_contains, said, unwrapped};
 use crate::cli::journal::rows;
-
-sahara::conformance!(my_bvh, Faulty, FaultyConfig::default());
 
 /// Some meshes: they trigger the faults that affect one ray in 10,000.
 fn meshes() -> Vec<Named> {
@@ -148,7 +146,7 @@ fn each_fault_of_a_tree_is_told_from_what_its_triangle_test_rounds() {
         ("not-a-number", "cornellbox", "returns hits that no rounding explains"),
         ("t-off", "teapot", "returns depths that no rounding explains"),
     ] {
-        let validate = format!("validate -s mybvh:fault={fault} --rays 4000 {options}");
+        let validate = format!("validate -s mybvh:fault={fault} --rays 2000 {options}");
         let (printed, right) = sahara(&Folder::new(), &validate);
         let verdict = if fault == "none" { sentence.into() } else { format!("{fault} {sentence}") };
         assert!(right == (sentence == ROUNDS) && unwrapped(&printed).contains(&verdict), "{fault}: {printed}");
@@ -228,14 +226,14 @@ fn a_command_about_one_structure_says_when_it_panics_or_hangs() {
 fn a_study_of_another_crate_is_in_the_command_in_study_all_and_on_the_page() {
     let folder = &Folder::new();
     content(folder, "study --help", &[DUPLICATION.question]);
-    let study = "study duplication -s grid -s sah-bvh --dir runs --export-json d.json --export-csv d.csv";
+    let study = "study duplication -s grid -s sah-bvh --rays 256 --dir runs --export-json d.json --export-csv d.csv";
     content(folder, study, &["References for each triangle", "staircase 64"]);
     assert_contains(&folder.read("d.json"), &["\"word\":\"staircase:64\""]);
     let csv = folder.read("d.csv");
     assert!(csv.starts_with("scene,structure,references_per_triangle\n") && csv.lines().count() == 5, "{csv}");
     // Other settings are added, and a job in another process measures a case from its line.
-    content(folder, "study duplication -s grid --dir runs", &[]);
-    let plan = content(folder, "study plan duplication -s sah-kd --dir jobs", &[]);
+    content(folder, "study duplication -s grid --rays 256 --dir runs", &[]);
+    let plan = content(folder, "study plan duplication -s sah-kd --rays 256 --dir jobs", &[]);
     // The harness prints the name of the test before the first line.
     let jobs: Vec<&str> = plan.lines().filter_map(|line| Some(line.split_once("sahara ")?.1)).collect();
     assert_eq!(jobs.len(), 2, "{plan}");
