@@ -139,9 +139,7 @@ fn gltf_files() -> Vec<(Files, [&'static str; 2])> {
         let mut document = document(megabyte);
         let mut beyond = document["accessors"][0].clone();
         beyond["count"] = (megabyte + 1).into();
-        if accessors.contains(&1) {
-            document["accessors"].as_array_mut().unwrap().push(beyond);
-        }
+        document["accessors"].as_array_mut().unwrap().extend(accessors.contains(&1).then_some(beyond));
         let mesh = |accessor: &usize| json!({"primitives": [{"attributes": {"POSITION": accessor}}]});
         document["meshes"] = accessors.iter().map(mesh).collect();
         document["nodes"] = (0..accessors.len()).map(|mesh| json!({"mesh": mesh})).collect();

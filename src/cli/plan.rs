@@ -133,6 +133,7 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
     let level = level.iter().flat_map(|level| ["--level", level.name()]);
     let program: Vec<&str> = ["sahara"].into_iter().chain(level).collect();
     // By number of threads: to choose idle cores takes a tenth of a second.
+    let of = |&threads: &usize| Provenance { process_per_epoch: true, ..Provenance::of(&Threads::unstarted(threads)) };
     let mut provenances: BTreeMap<usize, Provenance> = BTreeMap::new();
     for (study, words, matches) in commands {
         let waiting = spinner(format!("planning {}", study.name), terminal);
@@ -142,10 +143,6 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
         let command =
             line(["sahara", "study", study.name].map(OsStr::new).into_iter().chain(words.iter().map(|own| &**own)));
         for case in plan.cases {
-            let of = |threads: &usize| Provenance {
-                process_per_epoch: true,
-                ..Provenance::of(&Threads::unstarted(*threads))
-            };
             let provenance = provenances.entry(case.settings.threads).or_insert_with_key(of);
             let file = dir.join(study.name).join(file_name(&case, provenance) + ".json");
             let case = serde_json::to_string(&Case { command: command.clone(), ..case }).expect("a case has text keys");

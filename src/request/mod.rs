@@ -14,7 +14,7 @@ pub use measuring::{Limit, Measuring, Seconds};
 pub use ray_kind::RayKind;
 pub use rays::{RaySource, Rays, WORKLOADS, WorkloadRequest, each_kind, rays_or_all, recorded, replayed};
 pub use runners::{RUNNER_LIMIT, RunnerRequest, runner, runners};
-pub use scenes::{SceneRequest, Scenes, named_notes, output, scene, scene_files, scenes, stand_in};
+pub use scenes::{SceneRequest, Scenes, named_notes, output, scene, scene_files, scenes, stand_in, words};
 pub use structures::{
     ALL, BRUTE_FORCE, QUALITIES, REPORT_TREE, SAH_TREE, StructureRequest, Structures, TWIN, guide, is_brought,
     is_large, is_obvhs, known_defect, known_tests, left_out, specs, structures, structures_at, with_twin,

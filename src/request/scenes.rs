@@ -69,7 +69,7 @@ pub fn scenes(registry: &Registry, named: &[OsString]) -> anyhow::Result<Vec<Sce
 }
 
 /// The words `named`; without any, all built-in scenes.
-fn words(named: &[OsString]) -> Vec<OsString> {
+pub fn words(named: &[OsString]) -> Vec<OsString> {
     if named.is_empty() { BUILTIN.iter().map(|builtin| builtin.name.into()).collect() } else { named.to_vec() }
 }
 

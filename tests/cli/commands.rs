@@ -40,7 +40,6 @@ fn what_is_not_known_is_refused_with_what_is() {
     }
     for (line, parts) in [
         ("compare cube --workload primry", &["primry", "did you mean primary?", "shadow"][..]),
-        ("compare --frobnicate", &["--frobnicate"]),
         ("compare cube --threads 0", &["0"]),
         ("compare cube --budget -1", &["--budget", "-1", "give seconds from 0.001 to 86400"]),
         ("compare cube --runner none --runner-limit -1", &["--runner-limit", "-1", "give seconds from 0.001 to 86400"]),

@@ -58,10 +58,7 @@ struct CheckedOutputs {
 impl Outputs {
     /// Rejects outputs that cannot be written or that contain `inputs`.
     fn check<'a>(&self, inputs: impl Iterator<Item = &'a Path> + Clone) -> anyhow::Result<CheckedOutputs> {
-        anyhow::ensure!(
-            self.page.is_none() || cfg!(feature = "page"),
-            "--page: this sahara was built without the feature `page`: omit the option, or rebuild with `--features page`"
-        );
+        anyhow::ensure!(self.page.is_none() || cfg!(feature = "page"), "--page: {}", crate::cli::NO_PAGE);
         let page = self.page.as_deref().map(|path| OutputFolder::check(path)?.apart_from(inputs.clone()));
         let json = self.export_json.as_deref().map(|path| OutputFile::check(path)?.apart_from(inputs));
         Ok(CheckedOutputs { page: page.transpose()?, json: json.transpose()? })

@@ -7,7 +7,7 @@ use anyhow::Context;
 
 use super::blame::Judge;
 use super::{Outputs, tally};
-use crate::builtin::{BUILTIN, Builtin};
+use crate::builtin::Builtin;
 use crate::cli::terminal::Terminal;
 use crate::escaped::{Escaped as _, quoted, stem};
 use crate::golden::page::{Page, Sides};
@@ -88,10 +88,8 @@ impl Target {
 
 impl Targets {
     fn words(&self) -> Vec<OsString> {
-        let all = || BUILTIN.iter().map(|builtin| builtin.name.into()).collect();
-        let words = if self.scenes.is_empty() { all() } else { self.scenes.clone() };
         // A repeated name counts once.
-        each_once_by(words, |one, other| one.eq_ignore_ascii_case(other))
+        each_once_by(request::words(&self.scenes), |one, other| one.eq_ignore_ascii_case(other))
     }
 
     fn target(&self, registry: &Registry, word: &OsString) -> anyhow::Result<Target> {
