@@ -10,7 +10,7 @@ use crate::escaped::Escaped as _;
 use crate::output;
 use crate::study::{Status, StudyError};
 
-/// One rule for all commands. Known defects of a baseline or peer are not a failure of a run.
+/// The same for all commands.
 pub(crate) const STATUSES: &str = "\
 Exit status:
   0    correct
@@ -45,14 +45,14 @@ pub(super) fn of(found: anyhow::Result<Status>) -> ExitCode {
     })
 }
 
-/// Reports a result that could not be written; it is a failure unless the verdict is more severe.
+/// Exits with `status`; if standard output could not be written, reports that and exits with at least 1.
 fn ended(status: u8) -> ExitCode {
     let Some(cause) = output::FAILURE.get() else { return ExitCode::from(status) };
     output::tell_error(format_args!("cannot write to standard output: {cause}"));
     ExitCode::from(status.max(1))
 }
 
-/// A wrong hit may be an error if it leaves no other result.
+/// The status of an error: 2 if wrong hits have left a study without a result.
 fn of_error(error: &anyhow::Error) -> u8 {
     let is_wrong = error.downcast_ref::<StudyError>().is_some_and(StudyError::is_wrong_answer);
     if is_wrong { 2 } else { 1 }
@@ -75,7 +75,7 @@ pub(super) fn told(message: clap::Error) -> ExitCode {
     ended(message.use_stderr().into())
 }
 
-/// The message with the typed text escaped, and without tips that do not help: no command takes an option after `--`.
+/// The message with the typed text escaped, and without the tip to write an option after `--`: no command takes one.
 fn shown(mut message: clap::Error) -> clap::Error {
     let context: Vec<(ContextKind, ContextValue)> =
         message.context().map(|(kind, value)| (kind, value.clone())).collect();

@@ -15,17 +15,17 @@
 //!
 //! **The estimate.** z(e) is the median of y over the rounds of an epoch, because heavy tails hardly move a median; the
 //! estimate is exp(mean of z). Over several cells (scenes, workloads) z(e) is the mean of their medians: cells of the
-//! same epoch share its placement effect, and the spread of z includes it without a model of their correlations.
+//! same epoch share its placement effect. The spread of z contains this correlation, so it needs no model.
 //!
 //! **The interval.** With E epochs the variance of an estimate is s^2 / E, where s^2 is the sample variance of z, which
 //! includes placement and noise. Another run varies as much, independently, so the difference of the two estimates has
-//! variance 2 s^2 / E, and with s from E epochs it follows Student's t with E - 1 degrees of freedom: the
+//! variance 2 s^2 / E. Divided by s sqrt(2 / E) it follows Student's t with E - 1 degrees of freedom: the
 //! half-width is t(E - 1) s sqrt(2 / E) (Hahn, Meeker, Escobar, "Statistical intervals", 2nd edition 2017, chapter 4:
 //! prediction of the mean of a future sample).
 //!
 //! **The A/A noise.** Effects that differ between two runs, but not between the epochs of one run, do not show in the
-//! spread of z. The A/A ratios show a part of them, the [A/A noise](super::AaNoise): its variance is added once for
-//! each run, and the sum has the degrees of freedom of Satterthwaite (1946).
+//! spread of z. The ratios of a structure to its twin show a part of them, the [A/A noise](super::AaNoise): its
+//! variance is added once for each run, and the sum has the degrees of freedom of Satterthwaite (1946).
 //!
 //! **One epoch** does not show placement effects: it gives an estimate and no interval.
 //!
@@ -34,8 +34,8 @@
 //!
 //! The tests simulate thousands of pairs of runs with placement effects, heavy tails, drift and A/A noise, and count
 //! how often the second estimate lies within the first interval: in 93 to 97 % of pairs, for one cell and many cells.
-//! Known limits: if one sample in eight is interrupted for a third of its time, five epochs of one round contain only
-//! 86 %; and a single A/A ratio is not enough if the effects of whole runs dominate.
+//! Known limits: if one sample in eight takes up to a third longer, the interval of five epochs of one round contains
+//! only 86 % of the second estimates; and a single A/A ratio is not enough if the effects of whole runs dominate.
 
 use super::estimate::{Estimate, Interval};
 use super::quantiles::{LEVEL, factor};
@@ -48,14 +48,14 @@ use super::summary::{Variance, mean, median};
 /// If the numbers of samples differ or are no multiple of `epochs`, or a sample is not positive.
 pub fn log_ratios(numerator: &[f64], denominator: &[f64], epochs: usize) -> Vec<Vec<f64>> {
     assert_eq!(numerator.len(), denominator.len(), "samples come in pairs");
-    assert!(epochs > 0 && numerator.len().is_multiple_of(epochs), "every epoch has as many rounds");
+    assert!(epochs > 0 && numerator.len().is_multiple_of(epochs), "each epoch has the same number of rounds");
     assert!(numerator.iter().chain(denominator).all(|&t| t > 0.0), "a sample takes time");
     let logs: Vec<f64> = numerator.iter().zip(denominator).map(|(a, b)| libm::log(a / b)).collect();
     logs.chunks((logs.len() / epochs).max(1)).map(<[f64]>::to_vec).collect()
 }
 
-/// Cuts all cells to the number of epochs that each of them has, because a mean over cells needs the same epochs of
-/// all. The first epochs stay, regardless of their results, so the mean is not biased.
+/// Cuts all cells to the number of epochs of the shortest, because a mean over cells needs the same epochs of all. The
+/// first epochs stay, regardless of their results, so the mean is not biased.
 pub fn cut_to_shared_epochs(cells: &mut [Vec<Vec<f64>>]) {
     let fewest = cells.iter().map(Vec::len).min().unwrap_or(0);
     cells.iter_mut().for_each(|cell| cell.truncate(fewest));
@@ -80,13 +80,13 @@ pub fn epoch_values(cells: &[Vec<Vec<f64>>]) -> Option<Vec<f64>> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rerun {
     centre: f64,
-    /// The variance of the difference; `None` with a single epoch.
+    /// The variance of the difference between this figure and another run's; `None` with a single epoch.
     variance: Option<Variance>,
 }
 
 impl Rerun {
-    /// The mean of `values`, one per epoch, in another run with as many epochs. `noise` is the variance that the [A/A
-    /// noise](super::AaNoise) adds to one run. `None` without epochs.
+    /// The mean of `values`, one per epoch, as it varies in another run with as many epochs. `noise` is the variance
+    /// that the [A/A noise](super::AaNoise) adds to one run. `None` without epochs.
     pub fn of(values: &[f64], noise: Variance) -> Option<Self> {
         if values.is_empty() {
             return None;

@@ -45,7 +45,7 @@ impl Dispute<'_> {
         let of = |hit: Option<Hit>| hit.and_then(|hit| own(self.ray, self.corners(hit.prim)?));
         let by_the_test = |sentence: &str| (Kind::TriangleTest, format!("{}, but {sentence}", other.1));
         match (other.0, self.found) {
-            // No traversal can return a hit that its test does not find, or does not find in front of the returned one.
+            // The traversal is right if its own test misses the triangle, or finds it no nearer than the returned hit.
             (Kind::Lost | Kind::NearerLost, found) => match (of(self.expected), found) {
                 (None, _) => by_the_test("the structure's own triangle test misses it"),
                 (Some(t), Some(f)) if t >= f.t => {
@@ -94,7 +94,7 @@ impl Dispute<'_> {
         }
     }
 
-    /// The structure returns less than its test found: an error if the missing hit is real.
+    /// Brute force with the same test has a hit, the structure a farther one or none: an error if the hit is real.
     fn lost(&self, expected: Hit) -> Blame {
         let Some(nearer) = self.true_hit(expected) else {
             let sentence = format!("by exact arithmetic the ray does not hit {:?} in its interval", expected.prim);
@@ -125,7 +125,7 @@ impl Dispute<'_> {
         (Kind::Tie, "both primitives have this computed t".into())
     }
 
-    /// The nearest of both hits that is exactly a hit.
+    /// The nearest of the two returned hits that exact arithmetic confirms, with its exact t.
     fn nearest(&self) -> Option<(ExactT, PrimId)> {
         let truths = [self.expected, self.found].map(|hit| Some((self.true_hit(hit?)?, hit?.prim)));
         truths.into_iter().flatten().min_by(|(a, _), (b, _)| a.cmp(b))
@@ -138,7 +138,7 @@ impl Dispute<'_> {
         if let Some(blame) = found.and_then(|hit| self.no_hit(hit, truth.as_ref())) {
             return Some(blame);
         }
-        // The structure compares computed depths: it has lost a hit that is computed before this one.
+        // The structure compares computed depths: a hit is lost if every t that its test may compute is less.
         let limit = found.map_or(f64::INFINITY, |hit| hit.t.into());
         let is_found = |t: &ExactT, prim| {
             found.is_some_and(|f| f.prim == prim || DepthRule::STRICT.allows(t.approximate(), f.t, false))
@@ -149,8 +149,8 @@ impl Dispute<'_> {
             if margin.latest() < limit && !margin.may_miss(self.ray) {
                 return Some((kind, exactly(*prim, t.round())));
             }
-            // A test may miss the nearest triangle or place it behind a later one, but may not return a hit behind that
-            // one.
+            // Rounding may hide the nearest triangle or move it behind a farther one. But no hit may lie behind a
+            // triangle that no rounding can hide.
             if self.reference.precision == Precision::Single
                 && let Some((t, prim)) = nearest_sure(self.mesh, self.ray, limit)
             {
@@ -181,7 +181,7 @@ impl Dispute<'_> {
         }
     }
 
-    /// Rounding may explain every lost or invented hit: decides whether structure or reference is wrong.
+    /// Where rounding may explain a lost or invented hit: whether the structure or the reference is wrong.
     fn rounded(&self, truth: Option<(ExactT, PrimId)>) -> Option<Blame> {
         let is_right = |hit: Option<Hit>| match (&truth, hit) {
             (None, None) => true,
@@ -190,7 +190,7 @@ impl Dispute<'_> {
         };
         let sure = match &truth {
             Some((t, prim)) => exactly(*prim, t.round()),
-            None => "by exact arithmetic the ray hits no such triangle in its interval".into(),
+            None => "by exact arithmetic the ray hits neither of the returned triangles in its interval".into(),
         };
         match (is_right(self.expected), is_right(self.found), &truth, self.found) {
             (true, true, ..) => None,

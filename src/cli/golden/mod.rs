@@ -21,7 +21,7 @@ use crate::study::Status;
 
 #[derive(Debug, clap::Subcommand)]
 pub enum Action {
-    /// Check that structures reproduce the golden images of scenes byte for byte
+    /// Check that structures reproduce the golden images of scenes exactly
     Check(scenes::CheckArgs),
     /// Create or update golden images of scenes
     Update(scenes::UpdateArgs),

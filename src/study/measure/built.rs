@@ -11,7 +11,7 @@ pub struct Built {
     pub accel: Box<dyn DynAccel>,
     /// Build time, ns; for a runner, the time that it reports. The median of several builds.
     pub build_ns: u64,
-    /// Peak memory of the first build, bytes; `None` if not counted.
+    /// Peak memory in bytes, of the first build whose peak is known; `None` if there is none.
     pub peak_bytes: Option<usize>,
 }
 
@@ -24,14 +24,14 @@ impl Built {
         Self::repeated(|_| Self::once(choice, scene, threads, clock))
     }
 
-    /// Like [`new`](Self::new), and counts the peak memory, which takes less time than builds vary.
+    /// Like [`new`](Self::new), and counts the peak memory: that slows a build by less than build times vary.
     pub fn counted(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, BuildError> {
         Self::repeated(|known_peak| {
             let once = || Self::once(choice, scene, threads, clock);
-            // Another thread that frees memory meanwhile may hide the peak of one build.
+            // Count until a peak is known: another thread that frees memory during a build may hide its peak.
             let (built, peak) = if known_peak.is_none() { peak_bytes(once) } else { (once(), None) };
             let built = built?;
-            // A peak below the size of the structure was not seen: the memory belongs to C++ or to another process.
+            // The counter misses memory of C++ and of other processes: then the peak is below the structure's size.
             let is_seen = |peak: &usize| built.accel.remote().is_none() && *peak >= built.accel.footprint().total();
             Ok(Self { peak_bytes: known_peak.or(peak.filter(is_seen)), ..built })
         })
@@ -51,7 +51,7 @@ impl Built {
 
     fn once(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, BuildError> {
         let mesh = Arc::clone(&scene.mesh);
-        // As for rays: on a single thread, the time that other processes take of the core is no build time.
+        // As for rays: the time of a single thread does not include the time in which other processes use its core.
         let own = CpuClock::Process.on(threads);
         let clock = own.as_ref().map_or(clock, |clock| clock as &dyn Clock);
         let start = clock.now_ns();

@@ -6,8 +6,8 @@ use robust::{Coord, orient2d};
 
 use super::notes::Notes;
 
-/// Ear clipping takes time quadratic in the corners of a polygon that crosses itself. A file may use up to so many pairs
-/// of corners, not counting polygons of up to so many corners; concave polygons beyond that become fans.
+/// Ear clipping takes time quadratic in the corners of a polygon that crosses itself. All concave polygons of more than
+/// [`SMALL`] corners in a file may have so many pairs of corners; further ones become fans.
 const MOST_PAIRS: usize = 1 << 27;
 const SMALL: usize = 64;
 
@@ -16,11 +16,11 @@ const BENT: f64 = 0.01;
 
 type Point = [f64; 2];
 
-/// Splits polygons into triangles, two fewer than corners, and counts polygons that are not simple and flat.
+/// Splits polygons of n corners into n - 2 triangles, and counts polygons that are not simple and flat.
 ///
 /// A convex polygon becomes the fan around its first corner, a concave quad is split along the diagonal inside it, and
-/// other polygons by ear clipping, which gives fewer triangles if corners repeat or lie on a line. All project the
-/// polygon along the axis of its largest normal component, which makes it counterclockwise. If a polygon crosses
+/// other polygons by ear clipping, which gives fewer triangles if corners repeat or lie on a line. This is decided in a
+/// projection along the axis of the largest component of the normal, seen counterclockwise. If a polygon crosses
 /// itself, the areas of its triangles do not add up to its own.
 ///
 /// # References
@@ -244,7 +244,7 @@ mod tests {
             assert_eq!(Splitter::default().split(&arrow), expected);
             arrow.rotate_left(1);
         }
-        // The surface of a bent quad does not shrink where two of its corners are seen as one.
+        // Two corners of a bent quad that coincide in the projection are both kept.
         let bent = [Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::new(1.0, 1.0, 0.1)];
         assert_eq!(Splitter::default().split(&bent), [[3, 0, 1], [1, 2, 3]]);
     }
@@ -260,7 +260,7 @@ mod tests {
         assert_eq!(splitter.split(&straight), [[0, 1, 2], [0, 2, 3]]);
         assert_eq!(splitter.split(&octagon[..3]), [[0, 1, 2]]);
         assert!(splitter.split(&octagon[..2]).is_empty());
-        // A quad that is bent but convex is as good as most quads.
+        // A bent quad whose projection is convex is a fan, without a note.
         let bent = [Vec3::ZERO, Vec3::X, Vec3::ONE, Vec3::Y];
         assert_eq!(splitter.split(&bent), [[0, 1, 2], [0, 2, 3]]);
         assert!(notes(&splitter).is_empty());
@@ -280,7 +280,7 @@ mod tests {
         let mut arrow = polygon(&ARROW);
         arrow[2].z = 0.5;
         assert!(noted(&arrow).contains("neither convex nor flat"));
-        // The limit of pairs of corners is for one polygon or for all together; small polygons do not count.
+        // The limit holds for the sum over all polygons, and one may exceed it alone; small polygons add nothing.
         let saw = |teeth: usize| {
             let middle = [teeth as f32 / 2.0, -9.0];
             polygon(&(0..teeth).map(|i| [i as f32, (i % 2) as f32]).chain([middle]).collect::<Vec<_>>())
