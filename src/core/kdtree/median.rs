@@ -1,4 +1,4 @@
-//! Planes selected without a cost: a median or the middle of the cell. The corners of a triangle decide its sides: it is not clipped.
+//! Planes selected without a cost: a median or the middle of the cell. Triangles are not clipped to their cells.
 
 use super::config::{AxisRule, CountOf, Equal, KdConfig, Median, Plane};
 use crate::build::cells::{Content, Context, Place};

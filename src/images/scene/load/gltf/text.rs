@@ -62,7 +62,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fa
     let [required, used] = ["extensionsRequired", "extensionsUsed"].map(|key| value(&members, key));
     extensions::check(&required?, &used?, &mut notes)?;
 
-    let nodes = members.get("nodes").map_or("[]", |nodes| nodes.get());
+    let nodes = members.get("nodes").map(|nodes| nodes.get()).filter(|nodes| *nodes != "null").unwrap_or("[]");
     let texts: Vec<&RawValue> = serde_json::from_str(nodes).map_err(broken)?;
     let (mut nodes, mut instances) = (vec![], vec![]);
     for (number, text) in texts.into_iter().enumerate() {
