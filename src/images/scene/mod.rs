@@ -14,6 +14,7 @@ pub mod meshes;
 mod model;
 mod normals;
 pub mod offset;
+mod polygon;
 #[allow(clippy::module_inception)]
 mod scene;
 pub mod spheres;

@@ -7,7 +7,6 @@ mod mtl;
 mod notes;
 mod obj;
 mod ply;
-mod polygon;
 #[cfg(test)]
 mod tests;
 mod text;

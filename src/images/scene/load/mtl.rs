@@ -42,8 +42,8 @@ pub(super) fn read(
             Err(problem) => notes.add(problem),
         }
     }
-    let textured = ["material has a texture: ignored, Kd is used", "materials have textures: ignored, Kd is used"];
-    notes.count(materials.values().flatten().filter(|(_, has_texture)| *has_texture).count(), textured);
+    let textured = materials.values().flatten().filter(|(_, has_texture)| *has_texture).count();
+    notes.count(textured, "material", "with a texture, which is ignored: Kd is used");
 
     let all = materials.into_iter().map(|(name, defined)| {
         if defined.is_none() && name != b"default" {

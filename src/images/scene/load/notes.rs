@@ -1,5 +1,8 @@
 //! Notes about the parts of a file that were left out.
 
+use crate::plural::plural;
+use crate::scene::polygon::Splitter;
+
 /// Sentences without repetition, limited in number.
 #[derive(Debug, Default)]
 pub(super) struct Notes {
@@ -10,9 +13,8 @@ pub(super) struct Notes {
 /// The most sentences; further ones are only counted.
 const MOST: usize = 12;
 
-/// The sentence of [`Notes::count`] about faces that make no triangle.
-pub(super) const SMALL_FACES: [&str; 2] =
-    ["face with fewer than three corners: ignored", "faces with fewer than three corners: ignored"];
+/// The remark of [`Notes::count`] about faces that make no triangle.
+pub(super) const SMALL: &str = "with fewer than three corners: ignored";
 
 impl Notes {
     pub fn add(&mut self, note: impl Into<String>) {
@@ -24,11 +26,17 @@ impl Notes {
         }
     }
 
-    /// Adds a sentence about a count, unless it is 0; it covers all occurrences and is never left out.
-    pub fn count(&mut self, count: usize, [one, many]: [&str; 2]) {
-        let what = if count == 1 { one } else { many };
+    /// Adds a sentence about all parts of a kind, unless there are none; it is never left out.
+    pub fn count(&mut self, count: usize, kind: &str, remark: &str) {
         if count > 0 {
-            self.kept.push(format!("{count} {what}"));
+            self.kept.push(format!("{} {remark}", plural(count, kind)));
+        }
+    }
+
+    /// Adds what a reader found wrong with polygons.
+    pub fn polygons(&mut self, splitter: &Splitter) {
+        for (count, defect) in splitter.defects() {
+            self.count(count, "polygon", defect);
         }
     }
 

@@ -34,8 +34,8 @@ pub(super) fn walk(document: &Document) -> Result<(Vec<Node<'_>>, Vec<DMat4>), F
     };
     let mut is_shown = vec![false; nodes.len()];
     for &root in &roots {
-        if std::mem::replace(&mut is_shown[root], true) {
-            return fault(root, "the scene lists it twice: list each root once".to_owned());
+        if !is_root(root) || std::mem::replace(&mut is_shown[root], true) {
+            return fault(root, "the scene lists it twice, or another node does: list only roots, once".to_owned());
         }
     }
 
@@ -65,10 +65,6 @@ pub(super) fn walk(document: &Document) -> Result<(Vec<Node<'_>>, Vec<DMat4>), F
     }
     if let Some(node) = depths.iter().position(|depth| *depth == 0) {
         return fault(node, "it is its own ancestor: remove the cycle".to_owned());
-    }
-    if let (Some(scene), Some(i)) = (document.default_scene(), roots.iter().position(|&node| !is_root(node))) {
-        let problem = format!("node {} is a child of another node: list roots only", roots[i]);
-        return Err(Fault::part(format!("scenes[{}].nodes[{i}]", scene.index()), problem));
     }
     Ok((shown, worlds))
 }

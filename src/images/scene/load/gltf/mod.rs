@@ -68,8 +68,7 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
         let surfaces = plural(shapes.values().map(|shape| shape.parts.len()).sum(), "triangle primitive");
         let others = plural(shapes.values().map(|shape| shape.left_out).sum(), "primitive");
         let shown = format!("{surfaces} without triangles, and {others} of points or lines or without positions");
-        let whole = format!("the file has {} nodes and {} meshes", document.nodes().len(), document.meshes().len());
-        return Err(Fault::file(format!("it has no visible triangles: it shows {shown}; {whole}")));
+        return Err(Fault::file(format!("it has no visible triangles: its nodes show {shown}")));
     }
     reserve(&mut model, sizes.map(|size| size.0), size)?;
     for placement in &placements {
@@ -94,25 +93,15 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
         let mut positions = shapes[&placement.mesh.index()].positions.iter();
         placement.node.skin().is_some() && positions.any(|attribute| attribute.influences.is_empty())
     };
-    let unposed = [
-        "node has a skin, but its mesh has no joints: shown as stored, without a pose",
-        "nodes have skins, but their meshes have no joints: shown as stored, without a pose",
-    ];
-    notes.count(placements.iter().filter(is_unposed).count(), unposed);
-    let texture = [
-        "material has a texture: ignored, the base colour is used",
-        "materials have textures: ignored, the base colours are used",
-    ];
+    let unposed = placements.iter().filter(is_unposed).count();
+    notes.count(unposed, "node", "with a skin, but without joints in its mesh: shown as stored, without a pose");
     let textured = (0..).zip(&textured).filter(|(number, is_textured)| **is_textured && used.contains(number)).count();
-    notes.count(textured, texture);
-    let morph = ["primitive has morph targets: ignored", "primitives have morph targets: ignored"];
+    notes.count(textured, "material", "with a texture, which is ignored: the base colour is used");
     let parts = shapes.values().flat_map(|shape| &shape.parts);
-    notes.count(parts.filter(|part| part.primitive.morph_targets().len() > 0).count(), morph);
-    let left_out = [
-        "primitive consists of points or lines, or has no positions: ignored",
-        "primitives consist of points or lines, or have no positions: ignored",
-    ];
-    notes.count(shapes.values().map(|shape| shape.left_out).sum(), left_out);
+    let morphed = parts.filter(|part| part.primitive.morph_targets().len() > 0).count();
+    notes.count(morphed, "primitive", "with morph targets, which are ignored");
+    let left_out = shapes.values().map(|shape| shape.left_out).sum();
+    notes.count(left_out, "primitive", "of points or lines or without positions: ignored");
     model.notes = notes.into_vec();
     Ok(model)
 }
@@ -135,11 +124,9 @@ fn reserve(model: &mut Model, sizes: [usize; 4], bytes: usize) -> Result<(), Fau
         return Ok(());
     }
     let shown = format!("its nodes instantiate {triangles} triangles and {vertices} vertices");
-    if sizes.iter().all(|&size| size <= most) {
-        return Err(Fault::file(format!("{shown}, which do not fit into memory: split the scene")));
-    }
-    let shown = format!("{shown}, and need {normals} normals and {others} other elements");
-    Err(Fault::file(format!("{shown}, but the limit for files of {bytes} bytes is {most} of each: split the scene")))
+    let shown = format!("{shown}, with {normals} normals and {others} other elements");
+    let limit = format!("the limit for files of {bytes} bytes is {most} of each, if memory suffices");
+    Err(Fault::file(format!("{shown}, but {limit}: split the scene")))
 }
 
 /// Adds the triangles of a mesh in a pose.

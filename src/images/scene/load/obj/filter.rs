@@ -11,7 +11,7 @@ use indexmap::IndexSet;
 
 use super::vectors::Vectors;
 use crate::scene::load::error::{Fault, quoted};
-use crate::scene::load::notes::{Notes, SMALL_FACES};
+use crate::scene::load::notes::{Notes, SMALL};
 use crate::scene::load::text::{is_among, name, number, statements, words};
 
 /// Statements for visible elements other than faces: points, lines, curves and surfaces.
@@ -115,11 +115,9 @@ impl Contents {
     /// Notes what is left out. An error if there are no triangles: it may be another format, in which tobj finds nothing
     /// wrong.
     pub fn check(&self, notes: &mut Notes) -> Result<(), Fault> {
-        notes.count(self.small_faces, SMALL_FACES);
-        let shapes = ["point, line, curve or surface: ignored", "points, lines, curves or surfaces: ignored"];
-        notes.count(self.shapes, shapes);
-        let weights = ["vertex has a weight w other than 1: ignored", "vertices have weights w other than 1: ignored"];
-        notes.count(self.weighted, weights);
+        notes.count(self.small_faces, "face", SMALL);
+        notes.count(self.shapes, "statement", "of points, lines, curves or surfaces: ignored");
+        notes.count(self.weighted, "weight", "w other than 1 in statements `v`: ignored");
         match &self.first_unknown {
             None if self.triangles == 0 => Err(Fault::file("it has no triangles: no face has three corners")),
             Some((line, statement)) if self.triangles == 0 => {

@@ -15,9 +15,9 @@ use self::filter::{Contents, Filter};
 use super::error::Fault;
 use super::mtl;
 use super::notes::Notes;
-use super::polygon::Splitter;
 use super::text::plain;
 use crate::scene::Model;
+use crate::scene::polygon::Splitter;
 
 /// Reads the text of an OBJ file and the MTL files that it names, which are searched in `folder`.
 ///
@@ -86,6 +86,6 @@ fn triangles(parts: Vec<tobj::Model>, contents: &mut Contents, notes: &mut Notes
         vertices = &vertices[mesh.positions.len() / 3..];
         normals = &normals[mesh.normals.len() / 3..];
     }
-    splitter.note(notes);
+    notes.polygons(&splitter);
     model
 }

@@ -7,8 +7,8 @@ use glam::Vec3;
 
 use self::element::{Element, Header, STRIPS, VECTORS};
 use super::error::Fault;
-use super::notes::{Notes, SMALL_FACES};
-use super::polygon::Splitter;
+use super::notes::{Notes, SMALL};
+use crate::scene::polygon::Splitter;
 use crate::scene::{Material, Model};
 
 /// Reads a PLY file: the positions and, if there are any, normals of its vertices, and the triangles of its faces and
@@ -62,8 +62,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Model, Fault> {
         model.normal_indices = model.triangles.clone();
     }
     let mut notes = Notes::default();
-    notes.count(small, SMALL_FACES);
-    splitter.note(&mut notes);
+    notes.count(small, "face", SMALL);
+    notes.polygons(&splitter);
     model.notes = notes.into_vec();
     Ok(model)
 }

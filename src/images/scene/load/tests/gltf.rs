@@ -130,7 +130,7 @@ fn strips_and_fans_and_what_is_no_triangle() {
         refused(&[("mode", json!(lines))], &["no visible triangles", why]);
         let primitive = json!({"attributes": {"POSITION": 0}, "mode": lines});
         let Model { triangles, notes, .. } = gltf(&[("/meshes/0/primitives/-", primitive)]);
-        assert!(triangles.len() == 2 && notes[0].starts_with("1 primitive consists of points or lines"), "{notes:?}");
+        assert!(triangles.len() == 2 && notes[0].starts_with("1 primitive of points or lines"), "{notes:?}");
     }
 }
 
@@ -145,8 +145,8 @@ fn textures_and_morph_targets_are_reported() {
         ("targets", json!([{"POSITION": 0}])),
     ];
     let notes = gltf(&changes).notes;
-    assert!(notes[0].starts_with("1 material has a texture"), "{notes:?}");
-    assert!(notes[1].starts_with("1 primitive has morph"), "{notes:?}");
+    assert!(notes[0].starts_with("1 material with a texture"), "{notes:?}");
+    assert!(notes[1].starts_with("1 primitive with morph"), "{notes:?}");
 }
 
 #[test]

@@ -27,7 +27,8 @@ fn polygons_are_fans_and_vertices_keep_their_order() {
     assert_eq!(model.positions, [Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y]);
     assert!(model.normals.is_empty() && model.normal_indices.is_empty() && model.material_of.is_empty());
     assert_eq!(model.materials, [Material::named("default")]);
-    let left_out = ["1 face with fewer than three corners: ignored", "2 points, lines, curves or surfaces: ignored"];
+    let left_out =
+        ["1 face with fewer than three corners: ignored", "2 statements of points, lines, curves or surfaces: ignored"];
     assert_eq!(model.notes, left_out);
 }
 
@@ -67,7 +68,7 @@ fn materials_come_from_the_mtl_file() {
     assert_eq!((red.specular, red.shininess, red.mirror), (Vec3::splat(0.5), 64.0, 0.0));
     assert_eq!(model.materials[2], Material { diffuse: Vec3::splat(0.5), ..Material::named("grey") });
     assert_eq!(model.notes.len(), 4, "{:?}", model.notes);
-    for (note, words) in model.notes.iter().zip(["line 13", "line 14", "1 material has a texture", "`lost`"]) {
+    for (note, words) in model.notes.iter().zip(["line 13", "line 14", "1 material with a texture", "`lost`"]) {
         assert!(note.contains(words), "{note}");
     }
 }
@@ -93,7 +94,7 @@ fn a_library_is_read_once_and_notes_are_few() {
     // Notes that stand for many occurrences follow all others.
     let textured = format!("newmtl a\n{}map_Kd a.png\n", lines(20, "Kd #x\n"));
     let notes = with_library(triangle, textured.as_bytes()).notes;
-    assert!(notes.iter().any(|note| note.starts_with("1 material has a texture")), "{notes:?}");
+    assert!(notes.iter().any(|note| note.starts_with("1 material with a texture")), "{notes:?}");
 }
 
 #[test]
@@ -115,7 +116,7 @@ fn marks_line_ends_and_comments_do_not_hide_vertices() {
 #[test]
 fn elements_other_than_faces_are_reported_and_a_material_may_have_no_name() {
     let model = obj(&format!("{SQUARE}l 1 2\np 1\nf 1 2 3\ncurv 0 1 1 2\no name\n"));
-    assert_eq!(model.notes, ["3 points, lines, curves or surfaces: ignored"]);
+    assert_eq!(model.notes, ["3 statements of points, lines, curves or surfaces: ignored"]);
     let text = format!("{SQUARE}usemtl red\nf 1 2 3\nusemtl\nf 1 2 3\n");
     let model = with_library(&text, b"newmtl red\nKd 1 0 0\nnewmtl\nKd 0 1 0\n");
     assert_eq!((colours(&model), model.notes), (vec![Vec3::X, Vec3::Y], vec![]));
@@ -183,7 +184,7 @@ fn what_tobj_misreads_is_read() {
     let weights = "v 2 0 0 2\nv 0 2 0 0\nv 0 0 2 x\nv 1 1 1 1.0\n";
     let model = obj(&format!("{weights}f 1 2 3 4\n"));
     assert_eq!(model.positions[..2], [Vec3::X * 2.0, Vec3::Y * 2.0]);
-    assert_eq!(model.notes[0], "3 vertices have weights w other than 1: ignored");
+    assert_eq!(model.notes[0], "3 weights w other than 1 in statements `v`: ignored");
 
     // It panics on these normals.
     for (normal, words) in [

@@ -167,7 +167,7 @@ fn joints_place_a_mesh_with_a_skin_and_its_node_does_not() {
 
     let bare = gltf(&with(("attributes", json!({"POSITION": 0}))));
     assert_eq!(bare.positions, gltf(&[]).positions, "unposed, around the origin");
-    assert!(bare.notes[0].starts_with("1 node has a skin, but its mesh has no joints"), "{:?}", bare.notes);
+    assert!(bare.notes[0].starts_with("1 node with a skin, but without joints"), "{:?}", bare.notes);
 }
 
 #[test]

@@ -4,8 +4,6 @@ use earcut::Earcut;
 use glam::{DVec3, Vec3};
 use robust::{Coord, orient2d};
 
-use super::notes::Notes;
-
 /// Ear clipping takes time quadratic in the corners of a polygon that crosses itself. All concave polygons of more than
 /// [`SMALL`] corners in a file may have so many pairs of corners; further ones become fans.
 const MOST_PAIRS: usize = 1 << 27;
@@ -47,20 +45,14 @@ impl Splitter {
         self.triangles.as_chunks().0
     }
 
-    /// One note for each kind of polygon that has no correct triangulation or was not examined.
-    pub fn note(&self, notes: &mut Notes) {
-        for (count, what) in [
-            (self.crossing, "cross themselves: split into fans around their first corner, perhaps not as intended"),
-            (self.bent, "are neither convex nor flat: their surface is ambiguous"),
-            (
-                self.large,
-                "have too many corners to search for crossings and are not convex: split into fans, which may overlap",
-            ),
-        ] {
-            if count > 0 {
-                notes.add(format!("{count} polygons {what}"));
-            }
-        }
+    /// The numbers of polygons so far that have no correct triangulation or were not examined.
+    pub fn defects(&self) -> [(usize, &'static str); 3] {
+        let large = "not convex and too large to search for crossing edges: split into fans, which may overlap";
+        [
+            (self.crossing, "with crossing edges: split into fans around the first corner, perhaps not as intended"),
+            (self.bent, "neither convex nor flat: the surface is ambiguous"),
+            (self.large, large),
+        ]
     }
 
     /// Whether `triangles` hold a better triangulation than a fan.
@@ -179,10 +171,8 @@ mod tests {
         polygon(&corners.map(|(angle, r)| [r * angle.cos(), r * angle.sin()]).collect::<Vec<_>>())
     }
 
-    fn notes(splitter: &Splitter) -> Vec<String> {
-        let mut notes = Notes::default();
-        splitter.note(&mut notes);
-        notes.into_vec()
+    fn defects(splitter: &Splitter) -> Vec<&'static str> {
+        splitter.defects().into_iter().filter(|(count, _)| *count > 0).map(|(_, defect)| defect).collect()
     }
 
     /// Exact except for the last bits of the result.
@@ -200,7 +190,7 @@ mod tests {
         let areas = triangles.iter().map(|t| area(t.map(|i| corners[i])) * own.signum());
         assert!(areas.clone().all(|area| area >= 0.0), "{triangles:?}");
         assert!((areas.sum::<f64>() - own.abs()).abs() < 1e-6, "{triangles:?}");
-        assert!(notes(&splitter).is_empty(), "{:?}", notes(&splitter));
+        assert!(defects(&splitter).is_empty(), "{:?}", defects(&splitter));
     }
 
     #[test]
@@ -263,7 +253,7 @@ mod tests {
         // A bent quad whose projection is convex is a fan, without a note.
         let bent = [Vec3::ZERO, Vec3::X, Vec3::ONE, Vec3::Y];
         assert_eq!(splitter.split(&bent), [[0, 1, 2], [0, 2, 3]]);
-        assert!(notes(&splitter).is_empty());
+        assert!(defects(&splitter).is_empty());
     }
 
     #[test]
@@ -271,11 +261,11 @@ mod tests {
         let noted = |corners: &[Vec3]| {
             let mut splitter = Splitter::default();
             assert_eq!(splitter.split(corners).len(), corners.len() - 2);
-            notes(&splitter).concat()
+            defects(&splitter).concat()
         };
         let bow = polygon(&[[0.0, 0.0], [2.0, 2.0], [2.0, 0.0], [0.0, 2.0]]);
         let star = polygon(&[[0.0, 3.0], [2.0, -3.0], [-3.0, 1.0], [3.0, 1.0], [-2.0, -3.0]]);
-        assert!(noted(&bow).starts_with("1 polygons cross") && noted(&star).starts_with("1 polygons cross"));
+        assert!(noted(&bow).starts_with("with crossing edges") && noted(&star).starts_with("with crossing edges"));
         assert_eq!(noted(&polygon(&[[0.0, 0.0], [1.0, 1.0], [3.0, 3.0], [2.0, 2.0]])), "", "a line has no surface");
         let mut arrow = polygon(&ARROW);
         arrow[2].z = 0.5;
@@ -285,7 +275,7 @@ mod tests {
             let middle = [teeth as f32 / 2.0, -9.0];
             polygon(&(0..teeth).map(|i| [i as f32, (i % 2) as f32]).chain([middle]).collect::<Vec<_>>())
         };
-        assert!(noted(&saw(12_000)).contains("too many corners"));
+        assert!(noted(&saw(12_000)).contains("too large"));
         let mut splitter = Splitter { pairs: MOST_PAIRS - 1000 * (1000 - SMALL), ..Splitter::default() };
         for (teeth, large) in [(999, 0), (99, 1), (63, 1)] {
             splitter.split(&saw(teeth));
