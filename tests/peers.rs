@@ -73,7 +73,9 @@ fn every_configuration_is_right_on_random_rays_counts_and_has_a_possible_shape()
         passes(counting(&subject, &meshes, 10));
         passes(shapes(&subject, &meshes));
         for finding in findings(&subject, &meshes, 40).unwrap() {
-            let wrong = finding.validation.errors() > 0;
+            // In a packet of coherent rays, Embree may choose another of several triangles at one `t`.
+            let another = if choice.label.ends_with("coherent") { finding.validation.unrepeatable } else { 0 };
+            let wrong = finding.validation.errors() > another;
             assert!(finding.stratum != Stratum::Random || !wrong, "{}", finding.line(&choice.label));
         }
     }

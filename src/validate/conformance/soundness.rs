@@ -75,7 +75,7 @@ pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(),
 
             // The choice among several primitives at one `t` is free, unless the lowest is promised.
             let number = |h: Hit| if subject.lowest_id { h.prim.index() } else { 0 };
-            let answer = |hit: Option<Hit>| hit.map(|h| (h.t, number(h)));
+            let answer = |hit: Option<Hit>| hit.map(|h| (h.t.to_bits(), number(h)));
             let agree = |a: Option<Hit>, b: Option<Hit>| answer(a) == answer(b);
             let plain = &traced.plain;
             let differ = |other: &Hits, agree: &dyn Fn(Option<Hit>, Option<Hit>) -> bool| {
