@@ -20,12 +20,15 @@ const IN_F64: [&str; 2] = ["moller-trumbore-f64", "edge-f64"];
 const SAME_WALK: [&str; 3] = ["sah-kd-wide", "sah-kd-tight", "sah-bvh"];
 const FEW_TESTS: [&str; 2] = ["moller-trumbore", "exact"];
 
-/// The structures of this crate over every test that they offer.
+/// The triangle tests of peers, which brute force offers too.
+const OF_PEERS: [&str; 2] = ["bvh-triangle", "parry-triangle"];
+
+/// The structures of this crate over every other test that they offer.
 fn ours() -> Vec<Choice> {
     let mut choices = Registry::builtin().all();
     choices.retain(|choice| {
         let repeats = SAME_WALK.contains(&choice.entry.name.as_str()) && !FEW_TESTS.contains(&choice.triangle_test());
-        !repeats && known_defect(&choice.entry.name).is_none()
+        !repeats && known_defect(&choice.entry.name).is_none() && !OF_PEERS.contains(&choice.triangle_test())
     });
     choices
 }
