@@ -1,8 +1,8 @@
 //! The inner loops: `cargo bench --bench kernels`.
 //!
 //! The group `observer` traces the same rays through the same tree with `()`, with an observer that does nothing, and
-//! with one that counts. Their times differ by more than the observing: with `()` a traversal runs on the current SIMD
-//! level, with an [`ACTIVE`](Observer::ACTIVE) observer, such as the other two, on portable lanes.
+//! with one that counts. The times differ by more than the cost of observing: with `()`, the traversal runs on the
+//! current SIMD level; with the other two, which are [`ACTIVE`](Observer::ACTIVE), it runs on portable lanes.
 
 use std::hint::black_box;
 use std::sync::Arc;
@@ -29,7 +29,7 @@ fn triangles() -> Vec<[Vec3; 3]> {
     (0..512).map(|i| [corner(3 * i), corner(3 * i + 1), corner(3 * i + 2)]).collect()
 }
 
-/// Decides all candidates of all blocks.
+/// Tests a ray against all blocks. Returns the number of hits.
 fn test_all<T: TriangleTest, const N: usize, L: Lanes<N>>(ray: &Ray, blocks: &[T::Block<N>]) -> usize {
     let prepared = T::prepare(ray);
     let hits = |block| {
@@ -44,7 +44,7 @@ fn test_all<T: TriangleTest, const N: usize, L: Lanes<N>>(ray: &Ray, blocks: &[T
     blocks.iter().map(hits).sum()
 }
 
-/// The same with eight lanes of a SIMD level.
+/// Runs [`test_all`] with eight lanes of a SIMD level.
 struct Eight<'a, T: TriangleTest>(&'a Ray, &'a [T::Block<8>]);
 
 impl<T: TriangleTest> Kernel for Eight<'_, T> {
@@ -84,7 +84,7 @@ fn triangle_tests(criterion: &mut Criterion) {
     triangle_test::<Exact>(criterion);
 }
 
-/// An observer of its own type that does nothing.
+/// An observer that ignores all events but is active, unlike `()`.
 struct Silent;
 
 impl Observer for Silent {}

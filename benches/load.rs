@@ -1,5 +1,5 @@
-//! Loads a mesh in each format, and a glTF file of many nodes: `cargo bench --bench load -- obj`. A million triangles
-//! and a hundred thousand nodes, few in a test.
+//! Load times of a mesh of a million triangles in each format, and of a glTF file of a hundred thousand nodes:
+//! `cargo bench --bench load -- obj`. In a test, the files are small.
 
 use std::fs;
 use std::path::Path;
@@ -51,7 +51,7 @@ impl Grid {
         header.into_bytes().into_iter().chain(self.positions().flat_map(bytes)).chain(faces).collect()
     }
 
-    /// The document and its buffer, `mesh.bin`.
+    /// The document, and its buffer, which must be in the file `mesh.bin`.
     fn gltf(&self) -> (String, Vec<u8>) {
         let [vertices, triangles] = self.counts();
         let [before, after] = [12 * vertices, 12 * triangles];
@@ -71,7 +71,7 @@ impl Grid {
     }
 }
 
-/// A triangle of the buffer at each of as many nodes, with matrices.
+/// A glTF document of `count` nodes with different matrices; each node has the first triangle of `mesh.bin`.
 fn nodes(count: usize) -> String {
     let matrix = |i: usize| format!("[1,0,0.125,0,0,1,0,0,-0.125,0,1,0,{},{},0.5,1]", i as f64 / 7.0, i as f64 / -3.0);
     let node = |i: usize| format!(r#"{{"name":"node {i}","mesh":0,"matrix":{}}}"#, matrix(i));
@@ -91,7 +91,7 @@ fn little(triangle: [usize; 3]) -> Vec<u8> {
     triangle.map(|corner| (corner as u32).to_le_bytes()).concat()
 }
 
-/// Writes the mesh in each format, once for all benches.
+/// Writes the files of all benches: the mesh in each format, and the nodes.
 fn write(grid: &Grid, node_count: usize, folder: &Path) {
     let (document, buffer) = grid.gltf();
     let files = [

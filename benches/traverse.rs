@@ -1,4 +1,4 @@
-//! Trace times, one thread, in rays per second: `cargo bench --bench traverse -- dragon`.
+//! Trace times on one thread: `cargo bench --bench traverse -- dragon`. The throughput is in rays per second.
 
 mod common;
 
@@ -19,7 +19,7 @@ fn workloads(scene: &Scene) -> Vec<Workload> {
     workloads.filter(|workload| !workload.rays.is_empty()).collect()
 }
 
-/// Whole pictures, each after the same lead-in and with the same clock as in `sahara compare`: both print the same
+/// Times passes of a workload with the lead-in and the clock of `sahara compare`, which therefore measures the same
 /// times.
 fn bench(criterion: &mut Criterion, group: &str, name: &str, accel: &dyn DynAccel, workload: &Workload) {
     let threads = Threads::pinned(1).expect("there is a thread");

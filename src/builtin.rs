@@ -41,7 +41,7 @@ macro_rules! builtin {
     };
 }
 
-/// All built-in scenes, in the order of the report.
+/// All built-in scenes, in the order of the source report.
 pub const BUILTIN: &[Builtin] = builtin! {
     Easy "Cube" "cube";
     Easy "Sphere" "sphere";
@@ -61,7 +61,7 @@ impl Builtin {
     /// The scene called `name`, in upper or lower case.
     ///
     /// # Errors
-    /// [`SceneError::Unknown`], which suggests a name and lists all.
+    /// [`SceneError::Unknown`], which suggests a name and lists all names.
     pub fn find(name: impl AsRef<OsStr>) -> Result<&'static Self, SceneError> {
         let name = name.escaped().to_string();
         named(BUILTIN, &name, |builtin| builtin.name).ok_or_else(|| {
@@ -74,20 +74,20 @@ impl Builtin {
         })
     }
 
-    /// Its scene file, parsed.
+    /// The parsed scene file.
     pub fn file(&self) -> SceneFile {
         SceneFile::parse(self.text, self.name).expect("a test reads all built-in scenes")
     }
 
-    /// Makes the scene with the real meshes in the folder `real_meshes`; `None` for generated meshes only.
+    /// Makes the scene with the real meshes in the folder `real_meshes`, or, if it is `None`, with generated meshes.
     ///
     /// # Errors
-    /// A file of `real_meshes` that cannot be loaded.
+    /// If a file of `real_meshes` cannot be loaded.
     pub fn scene(&self, real_meshes: Option<&Path>) -> Result<Scene, SceneError> {
         Scene::from_text(self.text, self.name, None, real_meshes)
     }
 
-    /// Its golden image: shaded, of 160 x 160 pixels. [`SceneGolden::update`] writes it to the source tree.
+    /// The golden image of the scene: shaded, 160 x 160 pixels. [`SceneGolden::update`] writes it to the source tree.
     pub fn golden(&self) -> SceneGolden {
         SceneGolden::in_program(self.golden, Path::new(env!("CARGO_MANIFEST_DIR")), Path::new(self.golden_file))
     }

@@ -5,8 +5,8 @@
 //!
 //! # The trees in a renderer
 //!
-//! The trees are a separate crate, [`sahara_core`], with five small dependencies. This crate re-exports its modules under
-//! the same names.
+//! The trees are a separate crate, [`sahara_core`], with five small dependencies. This crate re-exports its modules
+//! with the same names.
 //!
 #![doc = include_str!("WALK_THROUGH_1_STRUCTURE.md")]
 #![doc = "```"]
@@ -38,7 +38,7 @@ pub mod runner;
 pub mod study;
 pub mod validate;
 
-// Other crates that a structure or study of your crate needs: the versions that this crate uses.
+// Crates that a structure or study in your crate needs, in the versions that this crate uses.
 pub use anyhow;
 pub use clap;
 pub use glam;

@@ -1,4 +1,4 @@
-//! Panics of structures, caught and not printed.
+//! Catches panics of structures without printing them.
 
 use std::cell::Cell;
 use std::panic::{self, AssertUnwindSafe};
@@ -21,10 +21,10 @@ fn held_back() -> MutexGuard<'static, Vec<String>> {
     HELD_BACK.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The result of `work`, or the payload of its panic, which is not printed: the caller must report it.
+/// Returns the result of `work`, or the payload of its panic. The panic is not printed: the caller must report it.
 ///
-/// Threads of rayon are silent as well while this runs: rayon passes their panics to the waiting thread. If no thread
-/// catches one, [`uncaught`] has its message. Panics of all other threads are printed as usual.
+/// While `work` runs, panics of rayon threads are not printed either: rayon passes them to the waiting thread. If no
+/// thread catches such a panic, [`uncaught`] returns its message. Panics of all other threads are printed as usual.
 pub fn caught<R>(work: impl FnOnce() -> R) -> thread::Result<R> {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {
@@ -45,7 +45,7 @@ pub fn caught<R>(work: impl FnOnce() -> R) -> thread::Result<R> {
     result
 }
 
-/// The messages of panics that were not printed and that no [`caught`] has caught.
+/// The messages of panics that were neither printed nor caught by [`caught`].
 pub fn uncaught() -> Vec<String> {
     std::mem::take(&mut held_back())
 }

@@ -1,4 +1,4 @@
-//! The structures by name: the only place that names them all.
+//! The registry of structures and scene generators, by name.
 
 mod builtin;
 mod choice;
@@ -33,7 +33,7 @@ pub struct Registry {
 pub type Generate = fn(&str) -> anyhow::Result<Scene>;
 
 impl Registry {
-    /// A registry without structures.
+    /// A registry without structures and generators.
     pub fn empty() -> Self {
         Self { entries: vec![], generators: vec![] }
     }
@@ -41,8 +41,7 @@ impl Registry {
     /// Adds a generator of scenes, which commands name as `name:parameters`.
     ///
     /// # Panics
-    /// If there is already one of that name, or the name has characters other than lower-case letters, digits and
-    /// hyphens.
+    /// If the name is taken or empty, or has characters other than lower-case letters, digits and hyphens.
     pub fn with_generator(mut self, name: &'static str, generate: Generate) -> Self {
         let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
         assert!(!name.is_empty() && name.chars().all(plain), "the name {name:?}");
@@ -68,13 +67,13 @@ impl Registry {
     /// Adds a structure under `name`, with the default configuration `config`.
     ///
     /// # Panics
-    /// If `name` is `all` or contains a character with a meaning on the command line (`:`, `,`, `=` or white space), if
-    /// the name is taken for the same triangle test, or if `config` does not serialise to a map of keys.
+    /// If `name` is empty or `all`, or contains a character with a meaning on the command line (`:`, `,`, `=` or white
+    /// space), if the name is taken for the same triangle test, or if `config` does not serialise to a map of keys.
     pub fn with<A: Accel>(self, name: &str, config: A::Config) -> Self {
         self.entered::<A>(name, config, |mesh, config| Ok(Box::new(A::build(mesh, config)?)))
     }
 
-    /// Like [`with`](Self::with), for structures that are compiled elsewhere.
+    /// Like [`with`](Self::with), for structures that are compiled in `sahara-core`.
     fn offering<A: Offered>(self, name: &str, config: A::Config) -> Self {
         self.entered::<A>(name, config, A::boxed)
     }
@@ -98,7 +97,7 @@ impl Registry {
         };
         let build: Build = Arc::new(move |mesh, config| {
             let config = parse::<A>(config).map_err(BuildError::Config)?;
-            // Builders of other crates may panic on an unexpected mesh, which must not end a run.
+            // A builder of another crate may panic on an unexpected mesh: this must not end a run.
             caught(|| build(mesh, &config)).unwrap_or(Err(BuildError::Panic))
         });
         self.entries.push(Entry {
@@ -120,16 +119,16 @@ impl Registry {
         &self.entries
     }
 
-    /// The entry `name` over `test`.
+    /// The entry `name` with the triangle test `test`.
     pub fn find(&self, name: &str, test: &str) -> Option<&Entry> {
         self.entries.iter().find(|e| e.name == name && e.triangle_test == test)
     }
 
-    /// Reads `NAME` or `NAME:key=value,..`. The key `test` chooses the triangle test; without it the first entry of
-    /// that name is taken.
+    /// Reads `NAME` or `NAME:key=value,..`. The key `test` chooses the triangle test; without it, the first entry
+    /// `NAME` is chosen.
     ///
     /// # Errors
-    /// If the name, a key or the test is unknown (the error lists the known ones), or a value is not accepted.
+    /// If the name, a key or the test is unknown (the error lists the known names), or a value is not accepted.
     pub fn choose(&self, spec: &str) -> Result<Choice, ChoiceError> {
         let (name, pairs) = spec.split_once(':').unwrap_or((spec, ""));
         let mut overrides = vec![];
@@ -161,7 +160,7 @@ impl Registry {
         self.entries.iter().map(default).collect()
     }
 
-    /// Names without repetition, in order.
+    /// The distinct names, in order.
     pub fn names(&self) -> Vec<&str> {
         self.entries.iter().filter(|e| self.is_first(e)).map(|e| e.name.as_str()).collect()
     }
@@ -172,7 +171,7 @@ impl Registry {
     }
 }
 
-/// A configuration from its map of keys; a type without fields serialises to null.
+/// Parses a configuration from its map of keys. An empty map may represent null, the value of a type without fields.
 fn parse<A: Accel>(config: &Value) -> Result<A::Config, String> {
     serde_json::from_value(config.clone()).or_else(|error| match config {
         Value::Object(map) if map.is_empty() => serde_json::from_value(Value::Null).map_err(|_| error.to_string()),

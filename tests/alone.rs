@@ -1,12 +1,12 @@
-//! Runs tests in a separate process: their measurements or settings concern the whole process.
+//! Runs a test in a separate process if it measures or sets something that concerns the whole process.
 
 use std::process::Command;
 
-/// Set in the process of such a test.
+/// The environment variable that marks the separate process.
 const ALONE: &str = "SAHARA_TEST_ALONE";
 
-/// Runs the test with this path (`module::function`) again in a separate process, and fails if it fails there. Returns
-/// whether this is that process: only then the test continues.
+/// Returns true in the separate process, where the test must continue. Otherwise runs the test with this path
+/// (`module::function`) in a separate process, panics if it fails there, and returns false.
 pub fn alone(path: &str) -> bool {
     if std::env::var_os(ALONE).is_some() {
         return true;

@@ -1,4 +1,4 @@
-//! Checks every structure of the registry against the contract, on every mesh of the suite and every stratum.
+//! Checks structures of the registry against the contract of `Accel`, on degenerate meshes, scenes and every stratum.
 
 use std::fs;
 use std::path::Path;
@@ -22,7 +22,7 @@ sahara::conformance!(sah_kd_tight, Bvh8<MollerTrumbore>, Bvh8Config::new(Partiti
 sahara::conformance!(sah_hybrid, Bvh8<MollerTrumbore>, Bvh8Config::new(Partition::Hybrid), lowest_id);
 sahara::conformance!(sah_bvh, Bvh8<MollerTrumbore>, Bvh8Config::new(Partition::Objects), lowest_id);
 
-/// Configurations that differ in their trees or traversals. `exit=first-leaf` is left out: it is wrong by design.
+/// Configurations that differ in their trees or traversals, except `exit=first-leaf`, which is wrong by design.
 const OURS: [&str; 36] = [
     "brute-force:test=rt-triangle",
     "median-kd:leaf=1",
@@ -83,7 +83,7 @@ fn are_right(specs: &[&str], meshes: &[Named], count: usize) {
     }
 }
 
-/// The built-in scenes have realistic sizes, and materials that divide them.
+/// Besides the degenerate meshes, tests the built-in scenes, which have realistic sizes.
 #[test]
 #[ignore = "a minute and a half; the default configurations are tested above"]
 fn every_configuration_of_ours_is_right() {
@@ -109,8 +109,8 @@ fn our_trees_are_right_where_surfaces_coincide() {
     are_right(&TREES, &meshes, 12);
 }
 
-/// The wrong hits of the baseline are in `tests/findings.rs`; here its counts and shape are sound. Structures with
-/// their own conventions are peers: `tests/peers.rs`.
+/// Checks only counts and shapes: `tests/findings.rs` lists the wrong hits of the baseline. `tests/peers.rs` tests the
+/// peers, which have their own conventions.
 #[test]
 #[ignore = "a minute"]
 fn everything_offered_counts_and_has_a_possible_shape() {
@@ -126,7 +126,7 @@ fn everything_offered_counts_and_has_a_possible_shape() {
     }
 }
 
-/// Includes peers and packets. The same for all meshes and more rays is in the tests of each structure.
+/// Includes peers and packets. `conformance!` checks the counting of a structure on all degenerate meshes.
 #[test]
 fn counting_and_loading_change_no_hit_of_any_structure() {
     let registry = Registry::builtin();

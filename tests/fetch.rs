@@ -1,4 +1,4 @@
-//! Downloads from a test server on the loopback device that misbehaves on request.
+//! Tests downloads with a server on the loopback interface that misbehaves on request.
 #![cfg(feature = "fetch")]
 
 use std::fs;
@@ -50,7 +50,7 @@ impl Server {
         Self { address, requests, folder: Folder::new() }
     }
 
-    /// The server's file at `path`, to be fetched into a folder of that name.
+    /// The server's file at `path`, to be fetched into a folder that has the name of the path.
     fn file(&self, path: &str) -> DataFile {
         let (folder, bytes) = (self.folder.path(&path[1..]), mesh());
         let url = format!("{}{path}", self.address);
@@ -63,7 +63,7 @@ impl Server {
     }
 }
 
-/// After their head these send one byte, and then nothing.
+/// Paths at which the server stalls, in the body or in the head of the response.
 const STALLS: [&str; 2] = ["/silent", "/headless"];
 
 fn hex(bytes: &[u8]) -> String {
@@ -76,19 +76,19 @@ fn response(status: &str, head: &str, body: &[u8]) -> Vec<u8> {
     [head.as_bytes(), body].concat()
 }
 
-/// Every behaviour by its path.
+/// The response to a request for `path`; `own` is the address of the server.
 fn answer(own: &str, path: &str) -> Vec<u8> {
     let whole = mesh();
     match path {
         "/mesh.obj" => response("200 OK", "", &whole),
-        // Announces the whole length and sends half.
+        // Announces the whole length, but sends half.
         "/cut" => response("200 OK", "", &whole)[..whole.len() / 2].to_vec(),
         "/wrong" => response("200 OK", "", &vec![b'#'; whole.len()]),
         "/long" => response("200 OK", "", &[&whole[..], b"more"].concat()),
         "/moved" => response("302 Found", &format!("Location: {own}/mesh.obj\r\n"), b""),
         "/circle" => response("302 Found", &format!("Location: {own}/circle\r\n"), b""),
         "/broken" => response("503 Service Unavailable", "", b""),
-        // More than any number can count.
+        // Announces 2^64 - 1 bytes.
         "/endless" => format!("HTTP/1.1 200 OK\r\nContent-Length: {}\r\n\r\nv 0", u64::MAX).into_bytes(),
         "/silent" => format!("HTTP/1.1 200 OK\r\nContent-Length: {}\r\n\r\n", whole.len()).into_bytes(),
         "/headless" => b"HTTP/1.1 200 OK\r\nServer: ".to_vec(),
@@ -128,7 +128,7 @@ fn what_is_wrong_is_refused_in_a_sentence_and_not_kept() {
         ("/circle", None, ["redirects", "circle"]),
         ("/nonsense", None, ["/nonsense", "check the connection"]),
         ("/cut", Some(mesh().len()), ["the connection ended after", "fetch again"]),
-        // A file of unknown size eventually exceeds the limit.
+        // A file of unknown size may have at most 8 GiB.
         ("/endless", None, ["8589934592", "/endless"]),
     ] {
         let file = DataFile { bytes: bytes.map(|bytes| bytes as u64), ..server.file(path) };
@@ -153,7 +153,7 @@ fn what_is_there_with_other_contents_is_not_touched() {
     fs::write(&file.path, b"mine").unwrap();
     refused(&file, &client, &["other contents", "mesh.obj"]);
     assert_eq!(fs::read(&file.path).unwrap(), b"mine");
-    // It is not a folder; a folder in its place opens but cannot be read.
+    // A file cannot contain another file, and a folder in place of the file cannot be read.
     refused(&DataFile { path: file.path.join("x"), ..file.clone() }, &client, &["cannot write"]);
     fs::remove_file(&file.path).unwrap();
     fs::create_dir(&file.path).unwrap();
@@ -164,7 +164,6 @@ fn what_is_there_with_other_contents_is_not_touched() {
     refused(&nobody, &client, &["check the connection"]);
 }
 
-/// The command, with a user's scene file.
 #[test]
 fn the_command_shows_the_licence_before_it_fetches() {
     let server = Server::start();

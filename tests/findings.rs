@@ -1,5 +1,5 @@
-//! The known defects of the baseline obvhs 0.4.0, by name and cause: shown, not hidden. If one disappears, this fails
-//! and the list must shrink; if a new one appears, this fails too.
+//! The known defects of the baseline obvhs 0.4.0, by name and cause. The tests fail if a listed defect disappears (then
+//! remove it from the list) or if a new defect appears.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ const BOTH: [&str; 4] = [BVH2[0], BVH2[1], CWBVH[0], CWBVH[1]];
 
 /// One ray that some structures get wrong over every triangle test.
 pub struct Finding {
-    /// The special property of the ray, and the reason in their sources why they miss it.
+    /// The special property of the ray, and why the code of these structures misses its hit.
     pub cause: &'static str,
     pub structures: &'static [&'static str],
     pub mesh: &'static str,
@@ -25,7 +25,7 @@ pub struct Finding {
     pub kind: Kind,
 }
 
-/// A ray that hits the box of a grid, and that no structure loses.
+/// A template for findings: a lost hit on the mesh `box of a grid`.
 pub const LOST: Finding = Finding { cause: "", structures: &[], mesh: "box of a grid", ray: "", kind: Kind::Lost };
 
 const FINDINGS: [Finding; 6] = [
@@ -69,12 +69,12 @@ const FINDINGS: [Finding; 6] = [
     },
 ];
 
-/// A degenerate mesh.
+/// The degenerate mesh of this name.
 pub fn mesh(name: &str) -> Arc<Mesh> {
     degenerate_meshes().into_iter().find(|(known, _)| known == name).expect("a mesh of the suite").1
 }
 
-/// One ray over a degenerate mesh, compared with brute force.
+/// Compares the result of one ray on a degenerate mesh with brute force.
 pub fn compared(choice: &Choice, mesh_name: &str, ray: &str) -> Validation {
     let mesh = mesh(mesh_name);
     let reference = Reference::of_test(choice.triangle_test(), &mesh).unwrap();
@@ -82,7 +82,7 @@ pub fn compared(choice: &Choice, mesh_name: &str, ray: &str) -> Validation {
 }
 
 impl Finding {
-    /// Checks that the ray has this fault on exactly the named structures.
+    /// Checks that `choice` has this error on the ray if, and only if, `structures` contains its `spec`.
     #[track_caller]
     pub fn assert_on(&self, choice: &Choice, spec: &str) {
         let found = compared(choice, self.mesh, self.ray);
@@ -102,7 +102,7 @@ fn each_finding_is_still_there_and_ours_find_the_hit() {
     }
 }
 
-/// The degenerate meshes, except for two on which every stratum fails: the directions on one are too short, and the
+/// The degenerate meshes except two on which every stratum has errors: one makes the directions of rays too short, the
 /// other has boxes of all sizes.
 pub fn meshes() -> Vec<Named> {
     let mut meshes = degenerate_meshes();
@@ -110,7 +110,7 @@ pub fn meshes() -> Vec<Named> {
     meshes
 }
 
-/// The name of a structure, and the strata that it gets right on every mesh; it errs on all others.
+/// The name of a structure, and the strata on which it has no error on any mesh; it has errors on all other strata.
 pub type CleanStrata = (&'static str, &'static [Stratum]);
 
 pub fn assert_clean(choice: &Choice, meshes: &[Named], (name, clean): CleanStrata) {
@@ -131,8 +131,8 @@ fn rays_without_a_named_cause_are_answered_rightly() {
     }
 }
 
-/// An error of the triangle test, which brute force shares and no structure can repair: coordinates are quotients,
-/// whose sum rounds beyond 1 on an edge, and signs are read from the sign bit, which makes -0.0 outside.
+/// Errors of the triangle test, which brute force has as well: on an edge, the sum of two rounded quotients can exceed
+/// 1, and the test reads only the sign bit, so -0.0 is outside.
 #[test]
 fn rt_triangle_misses_hits_on_edges() {
     let corners = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]].map(glam::Vec3::from_array);

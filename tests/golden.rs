@@ -1,5 +1,5 @@
 //! Golden images: every structure over the exact triangle test renders every built-in scene byte for byte as committed,
-//! and so does the SAH tree over the default test.
+//! except the differences of the baseline in `FINDINGS`.
 
 use std::path::Path;
 
@@ -7,12 +7,12 @@ use sahara::builtin::BUILTIN;
 use sahara::golden::{GoldenError, TRIANGLE_TEST};
 use sahara::registry::{Choice, Registry};
 
-/// Pixels of the baseline that differ: structure, scene and number of pixels. Any other number of pixels or another
-/// scene fails the test.
+/// Pictures of the baseline that differ: structure, scene and number of different pixels. The test demands exactly
+/// these differences.
 ///
-/// In the Cornell box, rays of the picture's diagonals meet the edges between walls exactly, and hit two walls of
-/// different colours at one t. The structures of this crate must return the lower primitive number; obvhs returns
-/// either, which the contract allows. obvhs-bvh2 loses no ray; obvhs-cwbvh loses one there, since boxes have no slack.
+/// In the Cornell box, rays through the picture's diagonals meet the edges between walls exactly, and hit two walls of
+/// different colours at one `t`. The structures of this crate must return the lower primitive number; obvhs returns
+/// either, which the contract allows. obvhs-bvh2 loses no hit; obvhs-cwbvh loses one, because its boxes have no margin.
 const FINDINGS: [(&str, &str, usize); 2] =
     [("obvhs-bvh2:test=exact", "Cornellbox", 103), ("obvhs-cwbvh:test=exact", "Cornellbox", 49)];
 
@@ -34,7 +34,7 @@ fn every_structure_draws_every_scene_as_committed() {
     assert_eq!(draw_as_committed(&common), expected);
 }
 
-/// Renders all built-in scenes; returns where pixels differ, and how many.
+/// Renders all built-in scenes with all `choices`. Returns structure, scene and number of pixels of each difference.
 fn draw_as_committed(choices: &[Choice]) -> Vec<(String, String, usize)> {
     let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("golden");
     let mut differing = vec![];
@@ -56,7 +56,7 @@ fn draw_as_committed(choices: &[Choice]) -> Vec<(String, String, usize)> {
     differing
 }
 
-/// Other formats than PNG.
+/// Golden images in formats other than PNG.
 #[cfg(feature = "pictures")]
 mod pictures {
     use std::fs;
@@ -72,10 +72,10 @@ mod pictures {
         Rgb32FImage::from_fn(40, 30, |x, y| Rgb([x as f32 / 7.0, -0.1 * y as f32, 1e-9]))
     }
 
-    /// Writes a width and a height that exceed any memory into the bytes of a picture.
+    /// Sets width and height in the bytes of a picture to values for which no memory suffices.
     type Enlarge = fn(&mut [u8]);
 
-    /// A picture of each format, and the function that makes its bytes describe a picture that is too large.
+    /// A picture of each format, and the function that changes the size in its bytes.
     fn of_each_format() -> [(DynamicImage, ImageFormat, Enlarge); 3] {
         [
             (colours().into(), ImageFormat::Jpeg, |bytes| {
@@ -84,7 +84,7 @@ mod pictures {
             }),
             (colours().into(), ImageFormat::WebP, |bytes| {
                 let size = place(bytes, b"VP8L") + 9;
-                // Less one, in 14 bits each; the decoder misreads the largest number.
+                // WebP stores each side less one in 14 bits; the decoder misreads the largest value.
                 let side = 16_382_u32;
                 let flags = u32::from(bytes[size + 3] & 0xf0) << 24;
                 bytes[size..size + 4].copy_from_slice(&(side | side << 14 | flags).to_le_bytes());
@@ -138,7 +138,7 @@ mod pictures {
             let mut huge = bytes.clone();
             enlarge(&mut huge);
             let refused = refusal(&huge);
-            // EXR also contains the number of chunks, which then does not fit.
+            // EXR also contains the number of chunks, which contradicts the changed size.
             let why = if format == ImageFormat::OpenExr { "chunk count" } else { "512 MiB" };
             assert!(refused.contains(why), "{format:?}: {refused}");
         }

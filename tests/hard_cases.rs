@@ -1,5 +1,5 @@
-//! The hard cases as a gate: the structures of this crate lose no hit over any triangle test, the tests in `f64` are
-//! right on all ranked cases, and the exact test returns the exact hits.
+//! Runs the hard cases. The structures of this crate must lose no hit over any triangle test; triangle tests in `f64`
+//! must be right on all ranked cases, and `exact` must return the exact hits.
 
 use rayon::prelude::*;
 use sahara::measure::SystemClock;
@@ -7,23 +7,23 @@ use sahara::registry::{Choice, Registry};
 use sahara::request::known_defect;
 use sahara::validate::hard_cases::{CaseTruth, Content, HardCase, Rank, catalogue, run};
 
-/// Rays of a case.
+/// Rays per case.
 const RAYS: usize = 200;
-/// Rays of the cases in which every ray needs thousands of exact decisions.
+/// Rays per case of `LABORIOUS`: each of these rays needs thousands of exact decisions.
 const FEW: usize = 10;
 const LABORIOUS: [&str; 3] = ["duplicates_20000", "fan_apex", "far_1e8"];
 
-/// Tests whose hits are right except for the final rounding to `f32`.
+/// Triangle tests whose hits are right except for the final rounding to `f32`.
 const IN_F64: [&str; 2] = ["moller-trumbore-f64", "edge-f64"];
 
-/// These partitions share the traversal of `sah-hybrid`: two tests are enough.
+/// Structures with the traversal of `sah-hybrid`; they run only over the triangle tests in `FEW_TESTS`.
 const SAME_WALK: [&str; 3] = ["sah-kd-wide", "sah-kd-tight", "sah-bvh"];
 const FEW_TESTS: [&str; 2] = ["moller-trumbore", "exact"];
 
 /// The triangle tests of peers, which brute force offers too.
 const OF_PEERS: [&str; 2] = ["bvh-triangle", "parry-triangle"];
 
-/// The structures of this crate over every other test that they offer.
+/// The structures of this crate over every other triangle test that they offer, except as `SAME_WALK` states.
 fn ours() -> Vec<Choice> {
     let mut choices = Registry::builtin().all();
     choices.retain(|choice| {
@@ -33,7 +33,7 @@ fn ours() -> Vec<Choice> {
     choices
 }
 
-/// The fault of a structure on a case, with its hits judged by `truth`.
+/// Describes the failure of a structure on a case; `None` if its hits are right according to `truth`.
 fn fault(case: &HardCase, rays: usize, truth: &mut CaseTruth, choice: &Choice) -> Option<String> {
     let test = choice.triangle_test();
     let ranked = matches!(case.rank, Rank::Moderate | Rank::Extreme);
@@ -48,8 +48,8 @@ fn fault(case: &HardCase, rays: usize, truth: &mut CaseTruth, choice: &Choice) -
     (is_wrong || !score.is_sound()).then(|| format!("{} on {}: {score:?}", choice.label, case.name))
 }
 
-/// Runs each case of rays, or each property, on the structures for which `is_run` returns true; its arguments are the
-/// indices of the case and of the structure.
+/// Runs each case of rays (each property if `of_rays` is false) on the structures for which `is_run` returns true; its
+/// arguments are the indices of the case and of the structure.
 #[track_caller]
 fn assert_sound(of_rays: bool, is_run: fn(usize, usize) -> bool) {
     let (choices, mut cases) = (ours(), catalogue());
@@ -65,7 +65,7 @@ fn assert_sound(of_rays: bool, is_run: fn(usize, usize) -> bool) {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// Diagonals of the whole table: every case with some structures, every structure with some cases.
+/// The sample consists of the pairs whose case and structure have equal indices modulo `STEP`.
 const STEP: usize = 9;
 
 #[test]

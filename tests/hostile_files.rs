@@ -1,6 +1,6 @@
-//! Malformed and malicious files: each is rejected in one sentence that names it and a place in it, and none takes more
-//! memory than twice its size and 64 MiB, an OBJ file sixteen times. The files that such files name count as part of
-//! their size.
+//! Malformed and malicious files. Each is rejected with one sentence that names the file and the place of the fault.
+//! Loading a file takes at most 64 MiB of memory plus twice its size (OBJ: sixteen times); its size includes the files
+//! to which it refers.
 
 use std::fs;
 
@@ -17,7 +17,7 @@ type Files = Vec<(&'static str, Vec<u8>)>;
 
 const SLACK: usize = 64 << 20;
 
-/// Loads the first file. Returns the triangles, or the message from its name on, which must be one sentence.
+/// Loads the first file. Returns its number of triangles or rays, or its one-line error message from the file name on.
 fn loaded(files: &Files) -> Result<usize, String> {
     let (name, folder) = (files[0].0, tempfile::tempdir().unwrap());
     for (name, bytes) in files {
@@ -43,7 +43,7 @@ fn loaded(files: &Files) -> Result<usize, String> {
     })
 }
 
-/// A triangle in `a.bin` with `count` vertices: positions only.
+/// A glTF document of one mesh with `count` vertices, whose positions are in `a.bin`; it has no indices.
 fn document(count: usize) -> Value {
     json!({
         "asset": {"version": "2.0"},
@@ -133,7 +133,7 @@ fn gltf_files() -> Vec<(Files, [&'static str; 2])> {
         text([start.as_bytes(), &item.as_bytes().repeat(times), b"{}]}"].concat())
     };
 
-    // Large data is named often, and the last primitive reaches beyond it.
+    // Many primitives or buffers refer to one megabyte of data; accessor 1 reaches beyond it.
     let megabyte = 87_381;
     let with_primitives = |accessors: &[usize]| {
         let mut document = document(megabyte);
@@ -189,7 +189,7 @@ fn ray_files() -> Vec<(Files, [&'static str; 2])> {
     ]
 }
 
-/// In a separate process: no other test allocates while it measures.
+/// Runs in a separate process, where no other test allocates during the measurement.
 #[test]
 fn each_is_refused_in_a_sentence_and_takes_little_memory() {
     if !alone("hostile_files::each_is_refused_in_a_sentence_and_takes_little_memory") {
@@ -200,7 +200,7 @@ fn each_is_refused_in_a_sentence_and_takes_little_memory() {
         assert_contains(&loaded(&files).expect_err(words[1]), &words);
     }
 
-    // Good files have a limit too; tobj would take thirty times their size.
+    // Valid files have the same memory limit; tobj would take thirty times their size.
     for (faces, triangles) in
         [("f 1 1 1\n", 1), ("f 1 1 1 1 1\n", 3), ("usemtl a\nf 1//1 1//1 1//1\nusemtl b\nf 1 1 1\n", 2)]
     {
@@ -208,12 +208,12 @@ fn each_is_refused_in_a_sentence_and_takes_little_memory() {
         let text = [b"v 0 0 0\nvn 0 0 1\n", &faces.as_bytes().repeat(times)[..]].concat();
         assert_eq!(loaded(&vec![("a.obj", text)]), Ok(triangles * times));
     }
-    // Data that is named often is read once, in good files too.
+    // A file to which many buffers refer is read only once.
     let mut often = document(1_000_000);
     often["buffers"] = (0..30_000).map(|_| json!({"uri": "a.bin", "byteLength": 12_000_000})).collect();
     often["accessors"][0]["count"] = 300.into();
     assert_eq!(loaded(&gltf(&often, 12_000_000)), Ok(100));
-    // There are many missing libraries: comparing each with all would take hours.
+    // Many material libraries are missing: comparing each of them with all others would take hours.
     let missing: String = (0..300_000).map(|i| format!("mtllib {i}\n")).collect();
     assert_eq!(loaded(&vec![("a.obj", format!("{missing}{TRIANGLE}f 1 2 3\n").into_bytes())]), Ok(1));
     let libraries = [b"mtllib a.mtl\n".repeat(100_000), format!("{TRIANGLE}usemtl a\nf 1 2 3\n").into_bytes()].concat();

@@ -1,12 +1,12 @@
-//! Checks that imports between modules go downward only, also within a crate. Some other crates may be imported in only
-//! one folder.
+//! Checks that a module imports only modules of lower layers or earlier ones of its own layer, also within a crate, and
+//! that some external crates are imported in only one folder.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-/// The modules of the three crates by layer, as ARCHITECTURE.md draws them. Within a layer a module may import those
-/// before it, unless they are structures.
+/// The modules of the three crates by layer; ARCHITECTURE.md draws them. Within a layer, a module may import the
+/// modules before it; structures are an exception.
 const LAYERS: [&[&str]; 9] = [
     &["escaped", "geometry", "names", "output", "panics", "plural", "simd"],
     &["exact", "triangle", "accel"],
@@ -19,14 +19,14 @@ const LAYERS: [&[&str]; 9] = [
     &["cli", "build_info"],
 ];
 
-/// No structure imports another.
+/// The layer of the structures, which must not import each other.
 const STRUCTURES: usize = 3;
 
-/// Other crates, and the only folder that may import them; other modules use that folder.
+/// External crates, each with the only folder that may import it.
 const ENCLOSED: [(&str, &str); 2] = [("gltf", "scene::load"), ("tobj", "scene::load")];
 
-/// Source files by module path, `bvh8::node`; a folder's `mod.rs` is the folder. Without comments, and without items
-/// that are compiled only for tests.
+/// Source code by module path, such as `bvh8::node`; a `mod.rs` has the path of its folder. Comments and items that are
+/// compiled only for tests are removed.
 struct Sources(BTreeMap<String, String>);
 
 impl Sources {
@@ -42,7 +42,7 @@ impl Sources {
             let lines: Vec<&str> = text.lines().map(|line| line.split("//").next().unwrap_or("")).collect();
             let code = lines.join("\n");
             let (left, items) = without_test_items(&code);
-            // `mod tests;`: a whole file for tests.
+            // `mod tests;` declares a file that is only for tests.
             let names = items.iter().filter_map(|item| item.strip_suffix(';')?.rsplit_once("mod "));
             tests.extend(names.map(|(_, name)| join(&module, name)));
             sources.insert(module, left);
@@ -51,7 +51,7 @@ impl Sources {
         Self(sources)
     }
 
-    /// All faults, one line each.
+    /// All forbidden imports and modules without a layer, one line each.
     fn faults(&self) -> BTreeSet<String> {
         let mut faults = BTreeSet::new();
         for (file, text) in &self.0 {
@@ -83,7 +83,7 @@ fn join(module: &str, name: &str) -> String {
     [module, name].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("::")
 }
 
-/// Whether a file is the file of a folder or lies in it.
+/// Whether a module is `folder` or lies in it.
 fn is_in(module: &str, folder: &str) -> bool {
     module.strip_prefix(folder).is_some_and(|rest| rest.is_empty() || rest.starts_with("::"))
 }
@@ -93,7 +93,7 @@ fn collect(folder: &Path, module: &str, found: &mut Vec<(String, String)>) {
         let path = entry.unwrap().path();
         let stem = path.file_stem().unwrap().to_str().unwrap().to_owned();
         if path.is_dir() {
-            // These are separate crates; the suite re-exports their modules under their names.
+            // `core` and `images` are separate crates; the suite re-exports their modules.
             let is_crate = module.is_empty() && ["core", "images"].contains(&stem.as_str());
             collect(&path, &if is_crate { String::new() } else { join(module, &stem) }, found);
         } else if path.extension().is_some_and(|extension| extension == "rs") {
@@ -127,8 +127,8 @@ fn paths(text: &str) -> impl Iterator<Item = &str> {
     words.filter(move |word| word.contains("::") || std::mem::replace(&mut last, word) == "use")
 }
 
-/// The module that a path in a file names from the root of the crates: empty for a list of modules, `None` for a path
-/// within the file's own folder and for another crate.
+/// The top-level module to which a path in `file` leads: empty if the path is a list of modules, `None` if it stays
+/// within the file's own folder or leads to an external crate.
 fn imported<'a>(file: &str, path: &'a str) -> Option<&'a str> {
     let (first, rest) = path.split_once("::")?;
     if ["crate", "sahara_core", "sahara_images"].contains(&first) {
@@ -138,8 +138,7 @@ fn imported<'a>(file: &str, path: &'a str) -> Option<&'a str> {
     if above == file.split("::").count() { path.split("::").nth(above) } else { None }
 }
 
-/// The layer of a module, and its place within the layer: because modules have one order, none may import each other in
-/// circles.
+/// The layer of a module, and its position within the layer. This order of all modules excludes cycles.
 fn place(module: &str) -> Option<[usize; 2]> {
     let mut places = LAYERS.iter().enumerate();
     places.find_map(|(layer, names)| Some([layer, names.iter().position(|name| *name == module)?]))
@@ -173,7 +172,7 @@ fn planted_faults_are_found() {
         (&[("accel", "#[cfg(test)]\nmod tests {\n    use crate::registry::Registry;\n}\n")], &[]),
         (&test_file, &[]),
         (&[("attic", "")], &["the module \"attic\" has no layer: add it to tests/layers.rs"]),
-        // Structures do not import each other, and modules of one layer import one way.
+        // Structures do not import each other; within a layer, modules import only earlier ones.
         (&[("bvh8", "use crate::kdtree::KdTree;")], &["bvh8 imports kdtree"]),
         (&[("scene", "use crate::oracle::Tree;")], &["scene imports oracle"]),
         // Crates that only one folder may import.

@@ -1,7 +1,7 @@
-//! All SIMD levels return the same hits, bit for bit, and count the same steps; so do rays in packets and interleaved
-//! rays, on every level.
+//! All SIMD levels return the same hits, bit for bit, and the same counts. On every level, packets and interleaved rays
+//! return the same hits as single rays.
 //!
-//! Each test runs in a separate process, because the level belongs to the process.
+//! Each test runs in a separate process, because it sets the SIMD level of the whole process.
 
 use std::io::Write;
 use std::sync::Arc;
@@ -20,7 +20,7 @@ use sahara::validate::{Stratum, degenerate_meshes};
 
 use crate::alone::alone;
 
-/// For a ray: bits of `t` and number of the primitive of its closest hit, and whether it hits anything.
+/// The results for a ray: bits of `t` and primitive number of the closest hit, and the result of any hit.
 type Answer = (Option<(u32, u32)>, bool);
 
 fn answers(closest: Vec<Option<Hit>>, any: Vec<bool>) -> Vec<Answer> {
@@ -56,7 +56,7 @@ fn all_levels_return_the_same() {
     let registry = Registry::builtin();
     let levels = Level::available();
     if let [level] = &levels[..] {
-        // A pass would prove nothing: print a note where it is visible, because the output of a passing test is hidden.
+        // Nothing is compared. Write to stderr directly: the harness hides what a passing test prints.
         let note = format!("\nwarning: this machine or build has only the level {level}: levels are not compared\n");
         std::io::stderr().write_all(note.as_bytes()).expect("a sentence is written");
     }
@@ -78,13 +78,13 @@ fn all_levels_return_the_same() {
     assert!(hits > 20_000, "too few hits to prove anything: {hits}");
 }
 
-/// Adversarial rays in an order that makes packets of one octant, and the same in their original order.
+/// Adversarial rays: in their original order, sorted by octant to form packets, and in groups of sixteen similar rays.
 fn bundles(mesh: &Mesh) -> Vec<Ray> {
     let mixed: Vec<Ray> = Stratum::ALL.into_iter().flat_map(|stratum| stratum.rays(mesh, 6, 5)).collect();
     let mut sorted = mixed.clone();
     sorted.sort_by_key(|ray| ray.direction.to_array().map(f32::is_sign_negative));
-    // Similar rays, with ends that cut through the scene; and the same with directions of very different lengths:
-    // certain results for the longest are uncertain for the others.
+    // Sixteen similar rays, some with intervals that end within the scene. Unless `is_equal`, the lengths of their
+    // directions differ a lot: bounds may decide the result for long directions, but not for short ones.
     let neighbours = |is_equal: bool| {
         let step = move |i: u32, ray: &Ray| {
             let longer = if is_equal { 1.0 } else { (3.0 * i as f32).exp2() };
@@ -97,7 +97,7 @@ fn bundles(mesh: &Mesh) -> Vec<Ray> {
     [mixed.clone(), sorted, neighbours(true), neighbours(false)].concat()
 }
 
-/// Triangles on a coarse grid: many are hit at once, at 0 and -0, on edges, and by rays in their planes.
+/// Triangles on a coarse grid: rays hit many at one `t`, also at 0 and -0, meet their edges, or lie in their planes.
 fn coarse() -> Arc<Mesh> {
     let mut random = Pcg32::seed_from_u64(8);
     let mut corner = || Vec3::from_array(std::array::from_fn(|_| (random.next_u32() % 4) as f32 - 1.0));
@@ -105,7 +105,7 @@ fn coarse() -> Arc<Mesh> {
     Arc::new(Mesh::new(positions, (0..300).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect()).unwrap())
 }
 
-/// Sixteen rays at a time from a point of the grid, in directions of one octant; some end at a point of the grid.
+/// Groups of sixteen rays that start at one grid point, in directions of one octant; some end at integer coordinates.
 fn from_the_grid() -> Vec<Ray> {
     let mut random = Pcg32::seed_from_u64(9);
     let mut rays = vec![];
@@ -152,7 +152,7 @@ fn packets_and_interleaved_rays_return_what_single_rays_do() {
         for (name, rays, mesh) in &cases {
             let single = traced(&*build(structure, mesh), rays);
             let together = build(&format!("{structure},batch=packets"), mesh);
-            // Rays outside packets are interleaved in large trees only.
+            // Only large trees interleave the rays outside packets; the trees of the Dragon must be large enough.
             assert!(name != "Dragon" || together.footprint().total() > 3 << 20, "{structure}");
             for level in Level::available() {
                 level.choose();

@@ -1,10 +1,10 @@
-//! Checks that all compiled code may be distributed: the licences of all dependencies.
+//! Checks that the licences of all dependencies allow redistribution.
 
 use std::process::Command;
 
 use serde_json::Value;
 
-/// The licences that a person has read and found permissive.
+/// The licences that a person has read and judged permissive.
 const ALLOWED: [&str; 12] = [
     "0BSD",
     "Apache-2.0",
@@ -20,7 +20,7 @@ const ALLOWED: [&str; 12] = [
     "Zlib",
 ];
 
-/// The other licences of packages with fonts.
+/// Further licences that are allowed for packages with fonts.
 const ALLOWED_FONTS: [&str; 2] = ["OFL-1.1", "Ubuntu-font-1.0"];
 
 /// Whether all parts of an `AND` and one part of each `OR` are allowed. Manifests have parentheses only around an `OR`.
@@ -38,7 +38,7 @@ fn all_dependencies_may_be_passed_on() {
         cargo.args(["metadata", "--format-version", "1", "--locked", "--offline"]).args(more);
         cargo.current_dir(env!("CARGO_MANIFEST_DIR")).output().unwrap()
     };
-    // Dependencies of other platforms may never have been downloaded.
+    // If dependencies of other platforms were never downloaded, check only the dependencies of this platform.
     let mut output = metadata(&[]);
     if !output.status.success() {
         output = metadata(&["--filter-platform", env!("SAHARA_TARGET")]);

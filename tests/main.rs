@@ -1,4 +1,4 @@
-//! All integration tests in one binary: the trees are compiled and linked once.
+//! All integration tests form one binary, which compiles and links the trees only once.
 
 use sahara::measure::CountingAllocator;
 
@@ -21,6 +21,6 @@ mod properties;
 mod real_meshes;
 mod third_party;
 
-/// The allocator of the command.
+/// The allocator of the command; tests measure memory with it.
 #[global_allocator]
 static ALLOCATOR: CountingAllocator = CountingAllocator;

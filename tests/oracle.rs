@@ -1,4 +1,4 @@
-//! Compares the fast oracle with its slow twin, on every mesh of the suite and every stratum.
+//! Compares the fast oracle with the slow one, on the degenerate meshes, two scenes and every stratum.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use sahara::geometry::{Mesh, Ray};
 use sahara::oracle::{Oracle, nearest};
 use sahara::validate::{Stratum, degenerate_meshes};
 
-/// The number of rays with a hit. Checks that both agree: the exact `t` and the set of triangles.
+/// Checks that both oracles return the same exact `t` and set of triangles. Returns the number of rays with a hit.
 fn agree(mesh: &Arc<Mesh>, rays: impl IntoIterator<Item = Ray>, name: &str) -> usize {
     let oracle = Oracle::new(mesh);
     let mut hits = 0;
@@ -25,7 +25,7 @@ fn fast_and_slow_agree_on_degenerate_meshes_and_scenes() {
         ["cornellbox", "teapot"].map(|name| (name.into(), Builtin::find(name).unwrap().scene(None).unwrap().mesh));
     let mut hits = [0; Stratum::ALL.len()];
     for (name, mesh) in degenerate_meshes().into_iter().chain(scenes) {
-        // The slow twin takes some microseconds per triangle.
+        // The slow oracle takes some microseconds per ray and triangle.
         let count = (4000 / (mesh.len() + 1)).clamp(4, 60);
         for (sum, stratum) in hits.iter_mut().zip(Stratum::ALL) {
             *sum += agree(&mesh, stratum.rays(&mesh, count, 7), &format!("{name}, {}", stratum.name()));

@@ -1,5 +1,5 @@
-//! The peers whose features are on: their correct hits, and their known defects by name and cause. If a defect
-//! disappears, this fails and the list must shrink; if a new one appears, this fails too.
+//! The peers whose features are on: their correct hits, and their known defects by name and cause. The tests fail if a
+//! listed defect disappears (then remove it from the list) or if a new defect appears.
 #![cfg(any(feature = "peer-bvh", feature = "peer-embree", feature = "peer-parry", feature = "peer-tinybvh"))]
 
 use std::panic::{self, AssertUnwindSafe};
@@ -13,7 +13,7 @@ use sahara::validate::conformance::{Named, counting, findings, shapes};
 use crate::conformance::passes;
 use crate::findings::{self, CleanStrata, Finding, LOST, assert_clean, compared, mesh};
 
-/// Every configuration of the peers; those whose feature is off or whose library is absent are left out.
+/// Configurations of the peers. The tests skip peers whose feature is off or whose library is absent.
 const PEERS: [&str; 12] = [
     "bvh",
     "bvh:test=moller-trumbore",
@@ -29,7 +29,7 @@ const PEERS: [&str; 12] = [
     "embree-robust:packet=16",
 ];
 
-/// The peer, if it is present; otherwise prints why it is skipped.
+/// The peer; if it is absent, prints the reason and returns `None`.
 fn present(spec: &str) -> Option<Choice> {
     let registry = Registry::builtin();
     let is_on = registry.names().contains(&spec.split(':').next().unwrap());
@@ -49,7 +49,7 @@ fn meshes(choice: &Choice) -> Vec<Named> {
     meshes
 }
 
-/// The peers whose errors do not depend on the instructions of the machine, see [`CleanStrata`].
+/// The clean strata of the peers whose errors are the same with every instruction set.
 const CLEAN: [CleanStrata; 2] = {
     use Stratum::{Invalid, Lengths, NearSurface, Random, RoundedEnds, Windows};
     [
@@ -90,7 +90,7 @@ const FINDINGS: [Finding; 4] = [
     },
     Finding {
         cause: "in the far face of a box: the same, and elsewhere 1 / 0 is a large number, which makes boxes half-open",
-        // tinybvh too, on the rim of the mesh; its own triangle test may round there as well.
+        // tinybvh misses such rays at the border of the mesh too, but there its own triangle test may also round.
         structures: &["bvh", "parry", "embree", "embree-robust"],
         ray: "0.375,3.875,1.0 0.0,-1.0,0.0",
         ..LOST
@@ -109,7 +109,7 @@ fn each_finding_is_still_there() {
     for name in ["bvh", "parry", "tinybvh", "embree", "embree-robust"] {
         let Some(choice) = present(name) else { continue };
         FINDINGS.iter().for_each(|finding| finding.assert_on(&choice, name));
-        // Embree's default and tinybvh are open at the beginning, and declare it: hits at the origin are not counted.
+        // Embree without `robust` and tinybvh declare that they exclude hits at `t_min`: this ray counts as declined.
         let declined = match name {
             "embree" | "tinybvh" => 1,
             "embree-robust" => 0,

@@ -1,4 +1,4 @@
-//! Properties of every mesh and ray, tested on generated ones.
+//! Properties that hold for every mesh and ray, tested on generated meshes and rays.
 
 #[path = "fuzz/target.rs"]
 mod target;
@@ -19,7 +19,7 @@ fn built((name, keys): (&str, &str), mesh: &Arc<Mesh>) -> Box<dyn DynAccel> {
     Registry::builtin().choose(&format!("{name}:test=moller-trumbore,{keys}")).unwrap().build(mesh).unwrap()
 }
 
-/// A triangle mesh with corners that `number` makes, most triangles sharing corners with others.
+/// Meshes of fewer than `most` triangles, with coordinates from `number`; most triangles share corners.
 fn meshes(number: impl Strategy<Value = f32> + Clone, most: usize) -> impl Strategy<Value = Arc<Mesh>> {
     let point = prop::array::uniform3(number).prop_map(Vec3::from_array);
     (prop::collection::vec(point, 3..40), prop::collection::vec(any::<[prop::sample::Index; 3]>(), 0..most)).prop_map(
@@ -36,12 +36,12 @@ fn rays(number: impl Strategy<Value = f32> + Clone, count: usize) -> impl Strate
     prop::collection::vec(ray, count)
 }
 
-/// Small integers and zeros of both signs: on them Möller-Trumbore rounds only in its one division.
+/// Small integers and zeros of both signs. On these coordinates, Möller-Trumbore rounds only in its one division.
 fn integers() -> impl Strategy<Value = f32> + Clone {
     prop_oneof![9 => (-4_i8..=4).prop_map(f32::from), 1 => Just(-0.0_f32)]
 }
 
-/// The fuzzer's reader makes a case of any bytes.
+/// Cases that the fuzzer reads from random bytes.
 fn cases() -> impl Strategy<Value = Case> {
     prop::collection::vec(any::<u8>(), 0..1600).prop_map(|bytes| Case::read(&bytes))
 }
@@ -51,7 +51,7 @@ fn the_fuzzer_leaves_out_no_structure_of_this_crate() {
     assert_eq!(target::left_out(), Vec::<String>::new());
 }
 
-/// Cases without hits would prove nothing.
+/// Cases without hits would test little.
 #[test]
 fn most_drawn_cases_are_meshes_that_rays_hit() {
     let mut runner = TestRunner::new(config());
@@ -72,13 +72,13 @@ fn from_environment(name: &str, otherwise: u32) -> u32 {
     std::env::var(name).map_or(otherwise, number)
 }
 
-/// The same cases on every run.
+/// A fixed seed makes the cases of every run the same.
 fn config() -> ProptestConfig {
     let (rng_seed, failure_persistence) = (RngSeed::Fixed(2003), None);
     ProptestConfig { cases: 400, failure_persistence, rng_seed, ..ProptestConfig::default() }
 }
 
-/// The exact oracle judges, not brute force: nearest `t`, correctly rounded, and the lowest number there.
+/// Compares all variants with the exact oracle: nearest `t`, correctly rounded, and its lowest primitive number.
 fn all_are_exact(mesh: &Arc<Mesh>, rays: &[Ray]) -> Result<(), TestCaseError> {
     let exact: Vec<Option<(f32, u32)>> =
         rays.iter().map(|ray| oracle::nearest(ray, mesh).map(|truth| truth.first())).collect();
@@ -94,8 +94,8 @@ fn all_are_exact(mesh: &Arc<Mesh>, rays: &[Ray]) -> Result<(), TestCaseError> {
 proptest! {
     #![proptest_config(config())]
 
-    /// The ends of intervals coincide with the hits, and with halves: the structures find the hits of the oracle, and
-    /// no others. On this grid a `t` is a fraction with a small denominator, so only a half rounds to a half.
+    /// Intervals end at hits and at multiples of 1/2; all structures must return the hits of the oracle. On this grid,
+    /// `t` is a fraction with a small denominator: it rounds to a multiple of 1/2 only if it is one.
     #[test]
     fn on_an_integer_grid_every_structure_is_exact_and_intervals_are_half_open(
         mesh in meshes(integers(), 60),
@@ -105,7 +105,7 @@ proptest! {
         let mut windowed = rays.clone();
         for ray in &rays {
             windowed.push(Ray { t_min: f32::from(ends.0) / 2.0, t_max: f32::from(ends.1) / 2.0, ..*ray });
-            // An end at a hit is decisive only if that is a float: otherwise it is rounded to either side.
+            // An interval can end exactly at a hit only if `t` is a float; otherwise its end is rounded to either side.
             let Some(t) = oracle::nearest(ray, &mesh).map(|truth| truth.t) else { continue };
             if t.compare(t.round()) == Some(std::cmp::Ordering::Equal) {
                 let (at, behind) = (t.round(), t.round().next_up());
@@ -116,7 +116,7 @@ proptest! {
         all_are_exact(&mesh, &windowed)?;
     }
 
-    /// Scaling by a power of two changes only the coordinates: the same `t`, the same primitive, to the bit.
+    /// If mesh and rays are scaled by a power of two, all bits of `t` and the primitive stay the same.
     #[test]
     fn powers_of_two_change_nothing(mesh in meshes(-2.0_f32..2.0, 40), rays in rays(-2.0_f32..2.0, 40), k in -12_i32..12) {
         let scale = libm::scalbnf(1.0, k);
@@ -148,7 +148,7 @@ proptest! {
         ..config()
     })]
 
-    /// The properties that the fuzzer checks for arbitrary numbers.
+    /// Checks the properties of the fuzzer, on arbitrary floats.
     #[test]
     fn anything_is_answered_right(case in cases()) {
         if let Err(report) = case.check() {

@@ -9,7 +9,7 @@ use sahara::geometry::{Aabb, Mesh};
 use sahara::scene::{Model, Scene, SceneError, View, load};
 use sahara::triangle::MollerTrumbore;
 
-/// The folder with the files; without it, prints so, and the treatment of `name`.
+/// The folder with the files. Without one, prints what happens to `name`: `treated` is "skipped" or "only read".
 fn folder(name: &str, treated: &str) -> Option<PathBuf> {
     let folder = std::env::var_os("SAHARA_DATA").map(PathBuf::from);
     if folder.is_none() {
@@ -31,7 +31,7 @@ fn real(name: &str) -> Option<(Model, Mesh)> {
     Some((model, Mesh::new(positions, triangles).unwrap()))
 }
 
-/// Files, their triangles, vertices, degenerate triangles and materials, and the corners of their boxes.
+/// Files, their numbers of triangles, vertices, degenerate triangles and materials, and both corners of their boxes.
 const MESHES: &str = "
     dragon.obj 100000 50000 0 1 -7.0467 0 -3.15129995 7.0467 9.9399004 3.15129995
     lucy.ply 100000 50002 0 1 -464.913574 -798.450562 -266.838562 464.913574 798.450562 266.838562
@@ -58,7 +58,7 @@ fn the_loaders_find_what_is_in_them() {
     }
 }
 
-/// The share of a picture of 128 x 128 pixels that they fill, in percent.
+/// Views, and the range of percentages of a picture of 128 x 128 pixels that the mesh fills.
 const VIEWS: [(&str, std::ops::RangeInclusive<usize>); 6] = [
     ("bunny", 20..=30),
     ("dragon-scan", 22..=32),
@@ -70,7 +70,7 @@ const VIEWS: [(&str, std::ops::RangeInclusive<usize>); 6] = [
 
 #[test]
 fn the_views_look_at_their_meshes() {
-    // The one view without a file: a built-in mesh stands on a floor at y = 0.
+    // This view needs no file: a built-in mesh stands on a floor at y = 0.
     let scene = Scene::read(Path::new("scenes/views/on-floor.toml"), Some(Path::new("/nowhere"))).unwrap();
     assert!(scene.name == "on-floor" && scene.mesh.bounds().min.y == 0.0 && !scene.shadow_terminator_fix);
     for (name, filled) in VIEWS {
@@ -85,7 +85,7 @@ fn the_views_look_at_their_meshes() {
             }
             scene => scene.unwrap(),
         };
-        // A ray that starts off the surface by its area would start behind the next wall.
+        // The fix starts shadow rays about one unit of length off the surface, which may be behind the next wall.
         assert!(scene.name == name && !scene.shadow_terminator_fix);
         let tree = Bvh8::<MollerTrumbore>::build(&scene.mesh, &Bvh8Config::default()).unwrap();
         let view = scene.camera.view([128, 128]);

@@ -1,4 +1,4 @@
-//! Structures and a study of another crate: how they are judged, and how broken ones are found out.
+//! Structures and a study of another crate: the suite treats them like its own, and detects broken structures.
 
 use std::fs;
 use std::process::{Command, ExitCode, Stdio};
@@ -20,7 +20,7 @@ use third_party_structures::registry;
 use crate::cli::command::{Folder, assert_contains, said, unwrapped};
 use crate::cli::journal::rows;
 
-/// Some meshes: they trigger the faults that affect one ray in 10,000.
+/// Some of the degenerate meshes.
 fn meshes() -> Vec<Named> {
     let wanted = ["closed sphere", "soup", "nested shells", "crossing needles", "same centroid"];
     degenerate_meshes().into_iter().filter(|(name, _)| wanted.contains(&name.as_str())).collect()
@@ -37,7 +37,7 @@ fn the_grid_that_the_broken_ones_are_made_from_is_right_and_what_is_declined_is_
 
 #[test]
 fn what_hangs_is_given_up_and_told_from_what_panics() {
-    // On one triangle everything but a hang takes far less time than the limit, on a busy machine as well.
+    // On one triangle, everything except a hang ends long before the limit, even on a busy machine.
     let one: Vec<Named> = degenerate_meshes().into_iter().filter(|(name, _)| name == "one triangle").collect();
     let subject =
         |fault| Subject { limit: Duration::from_secs(2), ..Subject::of::<Broken>("broken", BrokenConfig { fault }) };
@@ -56,7 +56,7 @@ fn what_hangs_is_given_up_and_told_from_what_panics() {
     }
 }
 
-/// Ten places are enough for the small meshes.
+/// A stack of ten entries suffices for small meshes, so only stacked sheets reveal the fault.
 #[test]
 fn a_short_stack_is_found_by_stacked_sheets() {
     let of = |fault| answers(&Subject::of::<Faulty>("mybvh", FaultyConfig { fault }), &stacked_sheets(), 10);
@@ -69,7 +69,7 @@ fn a_short_stack_is_found_by_stacked_sheets() {
 fn command() {
     let Some(args) = std::env::var_os("SAHARA_THIRD_PARTY") else { return };
     let args = args.into_string().unwrap();
-    // The whole list takes minutes: if all of it is run, use only this crate's study.
+    // All built-in studies take minutes: run only this crate's study in `study all` and `report`.
     let all = args.starts_with("study all") || args.starts_with("report");
     let studies = if all { Studies::empty() } else { Studies::builtin() };
     let suite = Suite { registry: registry(), studies: studies.with(DUPLICATION) };
@@ -104,7 +104,7 @@ fn content(folder: &Folder, args: &str, parts: &[&str]) -> String {
 
 #[test]
 fn the_command_rejects_each_fault_for_its_own_reason() {
-    // The named ray triggers the fault, if the fault affects one ray in so many.
+    // If a fault affects one ray in `one_in`, the ray in the message must be such a ray.
     for (fault, rays, reason, one_in) in [
         ("drops", 100_000, "lost on ray \"", 10_000),
         ("wrong-id", 1000, "wrong-primitive on ray \"", 1),
@@ -126,8 +126,8 @@ fn the_command_rejects_each_fault_for_its_own_reason() {
     }
 }
 
-/// Faults of a BVH with its own triangle test, and the final sentence of `validate` and `compare`. Ordinary rays show
-/// most of them.
+/// Checks the final sentence of `validate` for each fault of a BVH with its own triangle test. Ordinary rays reveal
+/// most of the faults.
 #[test]
 fn each_fault_of_a_tree_is_told_from_what_its_triangle_test_rounds() {
     const LOSES: &str = "loses hits that no rounding explains";
@@ -151,7 +151,7 @@ fn each_fault_of_a_tree_is_told_from_what_its_triangle_test_rounds() {
         let verdict = if fault == "none" { sentence.into() } else { format!("{fault} {sentence}") };
         assert!(right == (sentence == ROUNDS) && unwrapped(&printed).contains(&verdict), "{fault}: {printed}");
     }
-    // Axis-parallel rays in the sides of boxes, boxes without thickness, and deep trees: hard cases show them.
+    // Hard cases reveal faults on axis-parallel rays in box faces, on boxes without thickness and in deep trees.
     for (fault, case, is_found) in [
         ("zero-times-infinity", "straight_down", true),
         ("degenerate-box", "planar_in_split_plane", true),
@@ -197,7 +197,7 @@ fn registered_structures_are_chosen_compared_and_drawn_like_our_own_and_may_decl
     }
     let rows = rows(folder.path("r.json"));
     let timed: Vec<bool> = rows.iter().map(|row| !row["ns"].as_array().unwrap().is_empty()).collect();
-    // Declined is neither a time nor an error.
+    // A declined workload has neither a time nor an error.
     assert_eq!(timed, [true, true, true, true, true, false], "{rows:?}");
     assert!(rows.iter().all(|row| row["checked"]["errors"].as_u64().unwrap_or(0) == 0), "{rows:?}");
     assert_eq!([&rows[0]["label"], &rows[0]["triangle_test"]], ["grid:resolution=32", "exact"]);
@@ -231,10 +231,10 @@ fn a_study_of_another_crate_is_in_the_command_in_study_all_and_on_the_page() {
     assert_contains(&folder.read("d.json"), &["\"word\":\"staircase:64\""]);
     let csv = folder.read("d.csv");
     assert!(csv.starts_with("scene,structure,references_per_triangle\n") && csv.lines().count() == 5, "{csv}");
-    // Other settings are added, and a job in another process measures a case from its line.
+    // The journal keeps cases of other settings; a job measures its case from the plan line in another process.
     content(folder, "study duplication -s grid --rays 256 --dir runs", &[]);
     let plan = content(folder, "study plan duplication -s sah-kd --rays 256 --dir jobs", &[]);
-    // The harness prints the name of the test before the first line.
+    // The test harness prints the test name before the first line of the plan.
     let jobs: Vec<&str> = plan.lines().filter_map(|line| Some(line.split_once("sahara ")?.1)).collect();
     assert_eq!(jobs.len(), 2, "{plan}");
     for _ in 0..2 {

@@ -5,13 +5,13 @@
 #   sahara study plan all --dir runs > runs/plan.txt
 #   sbatch --array="1-$(wc -l < runs/plan.txt)%16" benches/cluster/slurm-array.sh runs/plan.txt
 #
-# %16 is how many run at once. The same command again measures what is missing: a job whose file is there ends at once.
-# SAHARA names the program where `sahara` is not on the PATH of the nodes.
+# %16 limits the number of simultaneous jobs. Run the same command again to measure missing cases: a job whose file
+# exists ends at once. If `sahara` is not on the PATH of the nodes, set SAHARA to the path of the program.
 #
 #SBATCH --job-name=sahara
 #SBATCH --ntasks=1
 #SBATCH --cpus-per-task=1
-# Lost with its node, a task is measured anew by itself; what it has said so far stays in its log.
+# If a node fails, Slurm runs its task again; the log keeps the earlier output.
 #SBATCH --requeue
 #SBATCH --open-mode=append
 #SBATCH --output=slurm-%A_%a.log
@@ -24,7 +24,7 @@ if [ -z "$line" ]; then
   exit 1
 fi
 
-# sahara binds itself to the idlest core that it may use. Two jobs that may use each other's cores can choose the same one.
+# sahara pins threads to the idlest allowed cores. Two jobs that may use each other's cores can choose the same core.
 if [ "$(nproc)" -gt "${SLURM_CPUS_ON_NODE:-$(nproc)}" ]; then
   echo "warning: this cluster does not bind jobs to their cores: ask for whole nodes, sbatch --exclusive" >&2
 fi

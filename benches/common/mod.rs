@@ -7,7 +7,7 @@ use sahara::geometry::Mesh;
 use sahara::registry::{Choice, Registry};
 use sahara::scene::{Scene, WorkloadKind};
 
-/// The rays of `traverse`.
+/// The workloads of `traverse`.
 pub const KINDS: [WorkloadKind; 4] =
     [WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse, WorkloadKind::Random];
 
@@ -25,8 +25,8 @@ pub fn scene(name: &str) -> Scene {
     Builtin::find(name).and_then(|builtin| builtin.scene(None)).expect("a built-in scene is whole")
 }
 
-/// Before all benches of `build` or `traverse` run, prints how long they take at least. Prints nothing in a test, or if a
-/// filter or another option chooses some of them.
+/// Prints how long all benches of `build` or `traverse` take at least. Prints nothing in a test, or if the command has
+/// a filter or another option.
 pub fn announce(target: &str, scenes: &[Scene]) {
     let mut arguments = std::env::args().skip(1);
     if arguments.next().as_deref() != Some("--bench") || arguments.next().is_some() {
@@ -45,7 +45,7 @@ pub fn announce(target: &str, scenes: &[Scene]) {
     );
 }
 
-/// Every structure over its first triangle test. Brute force only if it finishes within seconds.
+/// Every structure over its first triangle test; brute force only on meshes of fewer than 10,000 triangles.
 pub fn structures(mesh: &Arc<Mesh>) -> Vec<Choice> {
     let registry = Registry::builtin();
     let names = registry.names().into_iter().filter(|&name| name != "brute-force" || mesh.len() < 10_000);

@@ -76,14 +76,14 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
         _ => "Everything is measured.",
     };
     let dir = dir.escaped();
-    // Without the cases that were measured before.
+    // The times do not include cases that earlier runs have measured.
     let table = Table::of_texts(&format!("All studies in {dir}"), ["study", "time taken", "result", "journal"], rows);
     terminal.print_table(&table.noted([format!("{left} `sahara report {dir} -o OUT` writes the page.")]));
     Ok(outcome)
 }
 
-/// Whether the next studies would fail as well: the folder of journals is not writable, or another run measures in it,
-/// which forbids a second one.
+/// Whether the next studies would fail as well, because the folder of journals is not writable or another run is using
+/// it.
 fn ends_all(error: &anyhow::Error) -> bool {
     let of_journal = error.downcast_ref::<JournalError>();
     matches!(of_journal, Some(JournalError::Write { .. } | JournalError::Place(_) | JournalError::Busy(_)))

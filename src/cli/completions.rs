@@ -1,4 +1,4 @@
-//! `completions`, and the manual page.
+//! `completions`: completion scripts for shells, and the manual page.
 
 use clap_complete::Shell;
 use clap_mangen::Man;

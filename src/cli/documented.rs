@@ -7,7 +7,7 @@ use clap::error::ErrorKind;
 
 use crate::study::Studies;
 
-/// The files below `folder` whose names end with `ending`, with their texts, except those in build folders.
+/// The files below `folder` whose names end with `ending`, with their texts. Skips build folders and hidden folders.
 pub fn files(folder: &Path, ending: &str) -> Vec<(PathBuf, String)> {
     let mut found = vec![];
     for entry in fs::read_dir(folder).unwrap() {
@@ -23,21 +23,21 @@ pub fn files(folder: &Path, ending: &str) -> Vec<(PathBuf, String)> {
     found
 }
 
-/// The commands of a document: its lines of code that begin with a command, including continuation lines, and the
-/// commands within sentences.
+/// The commands of a document: first the commands in blocks of code, with their continuation lines, then the commands
+/// in backticks within sentences.
 fn commands(text: &str) -> (Vec<String>, Vec<String>) {
     let text = &text.replace("\\\n", " ");
     let own = |text: &str| {
         let rest = text.strip_prefix("$ ").unwrap_or(text);
         let cargo = rest.strip_prefix("cargo run --release");
         let cargo = cargo.map(|rest| rest.split_once("-- ").map_or("", |(_, args)| args));
-        // The line of a manifest names the crate.
+        // `sahara = ..` is a line of a manifest, not a command.
         let args = cargo.or_else(|| rest.strip_prefix("sahara ").filter(|rest| !rest.starts_with('=')))?;
         Some(format!("sahara {args}"))
     };
     let code = text.split("```").skip(1).step_by(2).flat_map(str::lines);
     let lines = code.map(|line| line.split("  #").next().unwrap_or(line)).map(str::trim).filter_map(own);
-    // A placeholder is not a name, and a line of a protocol is not a command.
+    // Skip texts with placeholders, among them lines of the protocol of runners.
     let is_command = |span: &&str| {
         span.starts_with("sahara ") && !["NAME", "THREADS", "JSON", "\n"].iter().any(|other| span.contains(other))
     };
@@ -52,7 +52,7 @@ fn commands_of_documents_are_understood() {
         let words = words.into_iter().take_while(|word| !word.starts_with(['#', '>', '|']));
         super::command(&Studies::builtin()).try_get_matches_from(words)
     };
-    // Sentences name commands without their arguments.
+    // Sentences may name commands without their arguments.
     let partial = [ErrorKind::MissingRequiredArgument, ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand];
     let mut understood = 0;
     for (path, text) in files(Path::new(env!("CARGO_MANIFEST_DIR")), ".md") {

@@ -10,7 +10,7 @@ use crate::escaped::Escaped as _;
 use crate::output;
 use crate::study::{Status, StudyError};
 
-/// The same for all commands.
+/// The exit statuses, for the help of commands.
 pub(crate) const STATUSES: &str = "\
 Exit status:
   0    correct
@@ -25,7 +25,7 @@ Wrong hits of structures of other projects (obvhs, Embree, tinybvh, bvh, parry)
 with known defects do not change the status; tables name the defects. `-` as an
 output file is standard output; tables and messages then go to standard error.";
 
-/// Exits with the status of the result; prints an error first.
+/// Prints the error of a result, if it has one, and returns the exit code.
 pub(super) fn of(found: anyhow::Result<Status>) -> ExitCode {
     ended(match found {
         Ok(Status::Right) => 0,
@@ -45,7 +45,7 @@ pub(super) fn of(found: anyhow::Result<Status>) -> ExitCode {
     })
 }
 
-/// Exits with `status`; if standard output could not be written, reports that and exits with at least 1.
+/// The exit code `status`; if standard output could not be written, prints that, and the code is at least 1.
 fn ended(status: u8) -> ExitCode {
     let Some(cause) = output::FAILURE.get() else { return ExitCode::from(status) };
     output::tell_error(format_args!("cannot write to standard output: {cause}"));
@@ -75,7 +75,7 @@ pub(super) fn told(message: clap::Error) -> ExitCode {
     ended(message.use_stderr().into())
 }
 
-/// The message with the typed text escaped, and without the tip to write an option after `--`: no command takes one.
+/// The message with the user's text escaped, and without the tip to write an option after `--`: no command accepts it.
 fn shown(mut message: clap::Error) -> clap::Error {
     let context: Vec<(ContextKind, ContextValue)> =
         message.context().map(|(kind, value)| (kind, value.clone())).collect();

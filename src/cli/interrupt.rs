@@ -1,5 +1,6 @@
-//! Ctrl-C: a measuring run stops, shows its results and keeps them; all other commands end at once, and so does the run
-//! at the second Ctrl-C. SIGTERM ends everything at once, because `timeout` and schedulers, which send it, do not wait.
+//! Ctrl-C and SIGTERM. At the first Ctrl-C, a measuring run stops, prints its results and keeps them; at the second, it
+//! ends at once. All other commands end at the first Ctrl-C. SIGTERM ends every command at once, because its senders
+//! (`timeout`, schedulers) do not wait.
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -8,14 +9,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 #[cfg(target_os = "linux")]
 use nix::sys::signal::{SigSet, Signal, raise};
 
-/// Whether a run stops by itself on a signal.
+/// Whether Ctrl-C asks a run to stop instead of ending the process at once.
 static LISTENS: AtomicBool = AtomicBool::new(false);
 static ASKED: AtomicBool = AtomicBool::new(false);
 /// Whether a signal is ending this process.
 static ENDING: AtomicBool = AtomicBool::new(false);
 
-/// Waits for both signals in a separate thread. Call it before other threads start: they must not receive the signals
-/// instead.
+/// Starts a thread that waits for SIGINT and SIGTERM. Call it first: threads that already run could receive them.
 pub fn watch() {
     #[cfg(target_os = "linux")]
     {
@@ -38,8 +38,8 @@ pub fn watch() {
     }
 }
 
-/// Ends the process and its programs as if the signal had not been caught: after a program that catches it, a shell
-/// continues with the next line of its script.
+/// Ends the programs that this process has started, then the process by the uncaught signal. After a program that
+/// catches the signal, a shell would continue its script.
 #[cfg(target_os = "linux")]
 fn end_by(signal: Signal, caught: SigSet) -> ! {
     ENDING.store(true, Ordering::SeqCst);
@@ -49,8 +49,8 @@ fn end_by(signal: Signal, caught: SigSet) -> ! {
     std::process::exit(128 + signal as i32);
 }
 
-/// A bit for each signal that this process was started to ignore, as a shell does for background jobs. The process
-/// would receive them anyway, because they are blocked.
+/// A bit for each signal that this process was started to ignore; a shell makes background jobs ignore signals. `watch`
+/// must not block these signals: a blocked signal arrives although it is ignored.
 #[cfg(target_os = "linux")]
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
@@ -58,7 +58,7 @@ fn ignored() -> u64 {
     mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0)
 }
 
-/// Ends a run that has stopped, after showing and keeping its results.
+/// Ends the process after a stopped run has printed and kept its results.
 pub fn end() -> ExitCode {
     let _ = std::io::stdout().flush();
     #[cfg(target_os = "linux")]
@@ -67,8 +67,8 @@ pub fn end() -> ExitCode {
     ExitCode::from(130)
 }
 
-/// If a signal is ending this process, waits for that: its programs end first, and the error about them must not end
-/// this process with another status.
+/// Waits forever if a signal is ending this process. The programs that it has started end first; errors about their end
+/// must not give this process another exit status.
 pub fn wait_for_end() {
     while ENDING.load(Ordering::SeqCst) {
         std::thread::park();
@@ -79,7 +79,7 @@ pub fn is_asked() -> bool {
     ASKED.load(Ordering::SeqCst)
 }
 
-/// Whether a run stops by itself on a signal from now on.
+/// From now on, Ctrl-C asks a run to stop if `listens`; otherwise it ends the process at once.
 pub fn listen(listens: bool) {
     LISTENS.store(listens, Ordering::SeqCst);
 }

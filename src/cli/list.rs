@@ -65,7 +65,7 @@ fn names(suite: &Suite) -> Table {
         ("views", ViewKind::ALL.map(ViewKind::name).into()),
         ("studies", suite.studies.iter().map(|study| study.name).collect()),
     ];
-    // Notes are wrapped.
+    // Print the names as notes, which are wrapped.
     let notes = lines.into_iter().map(|(what, names): (&str, Vec<&str>)| format!("{what}: {}.", names.join(", ")));
     let more = format!("More: `sahara list STRUCTURE` (its options), or: {}.", KINDS.join(", "));
     Table { title: "Names".into(), ..Table::default() }.noted(notes.chain([more]))
@@ -115,7 +115,7 @@ fn declined(entry: &Entry) -> Vec<&'static str> {
     declined
 }
 
-/// How a structure deviates from the contract by design, and the reason why it is absent.
+/// Sentences on a structure: how it deviates from the contract by design, and why it is not available.
 fn remarks(entry: &Entry) -> impl Iterator<Item = String> {
     let (name, conventions) = (&entry.name, entry.conventions.join("; "));
     let deviation = format!("{name} deviates by design from the contract of `Accel`: {conventions}.");

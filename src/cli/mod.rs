@@ -45,7 +45,7 @@ use crate::study::{Case, Status, Studies, Study};
 use progress::OnTerminal;
 use terminal::{Colour, Terminal};
 
-/// The help of `sahara` fits a terminal of 80 x 24 with its prompt. The global options are in the help of each command.
+/// The template of `sahara --help`. To fit 80 x 24 characters with a prompt, it omits the global options.
 const SCREEN: &str = "\
 {about}
 
@@ -117,7 +117,7 @@ fn read_case(text: &str) -> Result<Case, String> {
 struct Session<'a> {
     suite: &'a Suite,
     terminal: &'a Terminal,
-    /// The options of the process that measures a case; `None`: this process measures all cases.
+    /// The options of processes that measure a case each; `None` if this process measures all cases.
     processes: Option<&'a [OsString]>,
 }
 
@@ -154,14 +154,14 @@ const REPLICATE: &str = "replicate";
 const STUDY: &str = "study";
 const REPORT: &str = "report";
 
-/// The message about what needs the feature `page`, without it.
+/// The message for commands and options that need the feature `page`, if it is missing.
 pub(crate) const NO_PAGE: &str = "this sahara was built without the feature `page`: rebuild it with `--features page`";
 
 /// The commands that the help lists.
 fn shown(studies: &Studies) -> clap::Command {
     let whole = clap::Command::new("sahara").version(env!("CARGO_PKG_VERSION")).max_term_width(100);
     let command = Global::augment_args(whole)
-        // The options of `Global` bring a description of their own: replace it.
+        // The doc comment of `Global` has become the description: replace it.
         .about("Benchmark, validate and image-test ray-tracing acceleration structures.")
         .long_about(None)
         .override_usage("sahara [COMMAND] [OPTIONS]  (no command: compare on the built-in scenes)")
@@ -172,7 +172,7 @@ fn shown(studies: &Studies) -> clap::Command {
         .about("Run a study, or plan its jobs for a cluster")
         .subcommand_required(true)
         .arg_required_else_help(true)
-        // `find` reports an unknown study, with the known ones.
+        // The function `find` reports an unknown study and lists the known studies.
         .allow_external_subcommands(true)
         .subcommand(all::Args::augment_args(clap::Command::new(all::NAME)))
         .subcommand(plan::Args::augment_args(clap::Command::new(plan::NAME)))
@@ -189,12 +189,12 @@ fn command(studies: &Studies) -> clap::Command {
     let command = command.subcommands(moved::COMMANDS.iter().map(old));
     let command = if cfg!(feature = "page") { command } else { command.subcommand(old(&(REPORT, NO_PAGE))) };
     let mut command = command.mut_subcommands(with_statuses);
-    // `sahara help` exists only after building; its line would leave no space for a prompt.
+    // `build` adds the command `help`. Hide it: its line would leave no space for a prompt.
     command.build();
     command.mut_subcommand("help", |help| help.hide(true))
 }
 
-/// Adds the exit statuses to the end of the long help of a command and of its subcommands, unless it has an end.
+/// Adds the exit statuses to the end of the long help of a command and of its subcommands, unless one has a text there.
 fn with_statuses(command: clap::Command) -> clap::Command {
     let has_end = command.get_after_help().is_some();
     let command = command.mut_subcommands(with_statuses);
@@ -210,14 +210,14 @@ pub fn main(suite: impl Into<Suite>) -> ExitCode {
 const PANIC: &str = "the panic above ended the command: if a structure caused it, omit the structure, or find the mesh or ray with \
                      `sahara validate`; otherwise it is a bug in sahara";
 
-/// Runs `args`, whose first element is the name of the program. They might not be the arguments of this process, so this
-/// process measures all cases.
+/// Runs `args`, whose first element is the name of the program. This process measures all cases, because `args` might
+/// not be its own arguments.
 pub fn run(suite: &Suite, args: impl IntoIterator<Item = OsString>) -> ExitCode {
     run_with(suite, args, false)
 }
 
 fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, starts_processes: bool) -> ExitCode {
-    // The date of a measurement is the start of the run.
+    // Record the start of the run, which is the date of all its measurements.
     program::started();
     let args: Vec<OsString> = args.into_iter().collect();
     let parsed = command(&suite.studies).try_get_matches_from(&args);
@@ -231,7 +231,7 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, starts_proc
         level.choose();
     }
     let terminal = Terminal::new(global.color, global.quiet, global.verbose);
-    // A child of `validate --hard` reports a panic to its parent by ending with one.
+    // A child of `validate --hard` reports a panic to its parent by its exit status: do not catch it.
     let may_panic = matches.subcommand_name() == Some(validate::CHILD);
     let level = global.level.iter().flat_map(|level| ["--level", level.name()]).map(OsString::from);
     let processes: Option<Vec<OsString>> = starts_processes.then(|| level.collect());

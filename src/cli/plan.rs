@@ -47,11 +47,11 @@ pub struct Args {
 }
 
 impl Args {
-    /// The completed arguments of this command, the requested studies and the options for them. A repeated `--quick` or
-    /// `--dir` is rejected in the words of clap, which does not parse `rest`.
+    /// The completed arguments of this command, the names of studies, and the options for the studies. clap does not
+    /// parse `rest`: this function rejects a repeated `--quick` or `--dir` there, with the message of clap.
     fn split(&self) -> anyhow::Result<(Self, Vec<OsString>, Vec<OsString>)> {
         let (mut own, mut options) = (self.clone(), vec![]);
-        // clap takes options after `--scenes` for scenes, and the first option for the name if there is no other.
+        // clap parses options after `--scenes` as scenes, and the first option as the name if there is no name.
         let scenes = own.scenes.iter().take_while(|word| !word.starts_with("-")).count();
         let behind = own.scenes.split_off(scenes);
         anyhow::ensure!(scenes > 0 || behind.is_empty(), NO_SCENE);
@@ -132,7 +132,7 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
     let (mut lines, mut warnings) = (String::new(), vec![]);
     let level = level.iter().flat_map(|level| ["--level", level.name()]);
     let program: Vec<&str> = ["sahara"].into_iter().chain(level).collect();
-    // By number of threads: to choose idle cores takes a tenth of a second.
+    // Keep one provenance per number of threads, because choosing idle cores takes a tenth of a second.
     let of = |&threads: &usize| Provenance { process_per_epoch: true, ..Provenance::of(&Threads::unstarted(threads)) };
     let mut provenances: BTreeMap<usize, Provenance> = BTreeMap::new();
     for (study, words, matches) in commands {
@@ -157,7 +157,7 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
     Ok(Status::Right)
 }
 
-/// A line for a shell.
+/// The words as one command line for a shell.
 fn line<'a>(words: impl Iterator<Item = &'a OsStr>) -> String {
     words.map(quoted).collect::<Vec<String>>().join(" ")
 }

@@ -1,4 +1,4 @@
-//! The progress bar: on stderr, drawn only when a study reports a stage, which is never inside a timed region.
+//! The progress bar on stderr. While samples are taken, it is drawn only between timed regions.
 
 use std::fmt::Display;
 use std::io::{self, IsTerminal};
@@ -21,7 +21,7 @@ fn bar(steps: Option<u64>, template: &str, terminal: &Terminal) -> ProgressBar {
     ProgressBar::with_draw_target(steps, target).with_style(style(template)).with_finish(ProgressFinish::AndClear)
 }
 
-/// The bar of a download of `bytes`, if the size is known; its position is in bytes.
+/// The bar of a download. Its length `bytes` may be unknown; its position is in bytes.
 #[cfg(feature = "fetch")]
 pub fn download(name: &str, bytes: Option<u64>, terminal: &Terminal) -> ProgressBar {
     bar(bytes, "{bar:24} {bytes} of {total_bytes} {wide_msg}", terminal).with_message(name.to_owned())
@@ -37,9 +37,9 @@ pub fn spinner(what: impl Into<String>, terminal: &Terminal) -> ProgressBar {
     bar
 }
 
-/// Lines in a log, which has no bar: the progress of a run, at most one line every five seconds.
+/// The progress of a run if stderr is a log and not a terminal: at most one line every five seconds.
 pub struct LogLines {
-    /// The time of the last line; `None` if there is a bar, or progress is hidden.
+    /// The time of the last line; `None` if stderr is a terminal, or progress is hidden.
     last: Option<Instant>,
 }
 
@@ -70,7 +70,7 @@ pub struct OnTerminal<'a> {
     log: LogLines,
     /// Warnings that were shown.
     warned: Vec<String>,
-    /// Whether it shows a job, a single case without earlier results: it prints the case in a line, also in a log.
+    /// Whether this process is a job, which measures a single case: a line names the case, also in a log.
     is_job: bool,
 }
 
@@ -93,7 +93,7 @@ impl Screen for OnTerminal<'_> {
         self.bar.set_length(work * STEPS);
         self.bar.set_style(style("{bar:24} {percent:>3}% {elapsed_precise}, {eta} left {wide_msg}"));
         if !self.is_job {
-            // Ctrl-C ends all commands at once, except a measuring run.
+            // From now on, Ctrl-C stops the run instead of ending the process at once.
             interrupt::listen(true);
         }
     }
@@ -105,7 +105,7 @@ impl Screen for OnTerminal<'_> {
         self.log(title);
         (self.case, self.work) = (title.into(), work);
         self.bar.set_message(title.to_owned());
-        // Its process loads it now.
+        // The process of the case loads the scene now.
         self.bar.enable_steady_tick(TICK);
     }
 
@@ -118,12 +118,12 @@ impl Screen for OnTerminal<'_> {
             Stage::Count => ("counting".into(), STEPS),
         };
         let text = format!("{}: {text}", self.case);
-        // Draw nothing while samples are taken.
+        // No ticks while samples are taken: they would disturb the times.
         match stage {
             Stage::Trace(..) => self.bar.disable_steady_tick(),
             _ => self.bar.enable_steady_tick(TICK),
         }
-        // Structures are rebuilt between samples.
+        // Some checks follow the samples: do not move the bar back.
         self.bar.set_position(self.bar.position().max(self.done * STEPS + self.work * step));
         self.log(&text);
         self.bar.set_message(text);

@@ -89,7 +89,7 @@ struct ResultsFolder {
     tables: OutputFolder,
     paper: OutputFile,
     data: OutputFile,
-    /// README with its text.
+    /// README.md and its text; `None` if it has no marked places.
     readme: Option<(OutputFile, String)>,
 }
 

@@ -70,7 +70,7 @@ impl Files {
 }
 
 impl Common {
-    /// Rejects files that cannot be written. It runs before scenes are loaded, which takes seconds.
+    /// Rejects files that cannot be written. Call it before scenes are loaded, which takes seconds.
     fn files(&self) -> anyhow::Result<Files> {
         let check = |path: &PathBuf| OutputFile::check(path);
         let files = Files {
@@ -95,7 +95,7 @@ const RARE: &str = "camera inside size quality runner_limit reference only like 
 
 pub fn command(study: &Study) -> clap::Command {
     let command = Common::augment_args((study.options)().name(study.name));
-    // The doc comments of the options have replaced the description: set it again.
+    // The doc comment of `Common` has replaced the description: set it again.
     let command = command.about(study.question).long_about(None);
     command.mut_args(|option| {
         let is_rare = RARE.split(' ').any(|rare| option.get_id() == rare);

@@ -1,4 +1,4 @@
-//! The place and the appearance of output.
+//! Output to the terminal: streams, colours, widths, tables and notes.
 
 use std::cell::RefCell;
 use std::collections::HashSet;
@@ -32,7 +32,7 @@ pub struct Terminal {
     pub quiet: bool,
     /// Whether tables are printed with all their columns and notes.
     pub verbose: bool,
-    /// Notes that were not printed.
+    /// The notes that were not printed.
     hidden: RefCell<HashSet<String>>,
 }
 
@@ -50,7 +50,7 @@ impl Terminal {
         Self { screen: Screen { width, colour }, shown, quiet, verbose, hidden: RefCell::default() }
     }
 
-    /// Whether a person may want to see intermediate results.
+    /// Whether to print intermediate results: a person may be reading standard output.
     pub fn is_watched(&self) -> bool {
         self.shown && !self.quiet && !stdout_is_taken()
     }

@@ -7,17 +7,17 @@ use crate::study::Studies;
 
 const GLOSSARY: &str = include_str!("../../papers/GLOSSARY.md");
 
-/// Phrases of the glossary that have another meaning as well, in which they are used.
+/// Phrases of the glossary that are not checked, because they are correct in another meaning.
 const AMBIGUOUS: [&str; 9] =
     ["a case", "a ray", "a job", "a second", "a triangle", "the others", "the rest", "the same", "stands in for"];
 
-/// Words of the glossary that have no other meaning. Whether most single words are wrong, only a reader can decide.
+/// Single words that are checked, because they are always wrong. Only a reader can judge other single words.
 const WORDS: [&str; 8] = ["anew", "caster", "likewise", "owes", "surely", "whatever", "whoever", "yardstick"];
 
 /// First words of a doc comment that hide its subject.
 const OPENINGS: [&str; 6] = ["Likewise", "Nothing", "Of", "That", "Those", "What"];
 
-/// The field's words for what a traversal must not do, with a phrase of the glossary in them.
+/// Terms of the field that contain a phrase of the glossary, but are correct.
 const TECHNICAL: [&str; 2] = ["box is lost", "hit is lost"];
 
 /// Claims stay as they were written before the measurement.
@@ -28,7 +28,7 @@ fn not_used() -> Vec<String> {
     let section = GLOSSARY.split("\n## Words to avoid\n").nth(1).expect("the section");
     let section = section.split("\n## ").next().unwrap_or(section);
     let cells = section.lines().filter_map(|line| line.strip_prefix("| ")?.split(" | ").next()).skip(1);
-    // A remark in parentheses says when a phrase is not used.
+    // Drop remarks in parentheses, which restrict a phrase to some meanings.
     let plain =
         |cell: &str| cell.split(" (").map(|part| part.rsplit_once(')').map_or(part, |(_, rest)| rest)).collect();
     let cells: Vec<String> = cells.map(plain).collect();
@@ -42,7 +42,7 @@ fn not_used() -> Vec<String> {
     phrases.filter(is_plain).collect()
 }
 
-/// The helps, long and short, of a command and of all commands below it, on a screen of 80 columns.
+/// The long and short helps of a command and of all its subcommands, on a screen of 80 columns.
 fn helps(command: &mut clap::Command, into: &mut Vec<String>) {
     let mut narrow = command.clone().term_width(80);
     into.extend([narrow.render_long_help(), narrow.render_help()].map(|help| help.to_string()));
@@ -54,7 +54,7 @@ fn literals(source: &str) -> Vec<String> {
     let source = source.split("\n#[cfg(test)]\n").next().unwrap_or(source);
     let code = source.lines().map(|line| format!(" {line}").split(" // ").next().unwrap_or_default().to_owned());
     let code = code.filter(|line| !line.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n");
-    // What remains of quotes begins or ends a literal.
+    // Remove quotes inside literals: every remaining quote begins or ends a literal.
     let code = code.replace("\\\\", "").replace("\\\"", "").replace("'\"'", "");
     let in_a_line = |text: &str| text.split_whitespace().filter(|word| *word != "\\").collect::<Vec<_>>().join(" ");
     code.split('"').skip(1).step_by(2).map(in_a_line).collect()
@@ -81,7 +81,7 @@ fn comments(source: &str) -> Vec<(usize, String)> {
     found.into_iter().map(|(line, text)| (line, prose(text))).collect()
 }
 
-/// The text of a document without what a run fills in.
+/// The text of a document without the places that a run fills in.
 fn written(text: &str) -> String {
     let parts = text.split("<!-- sahara: ").map(|part| part.split_once("<!-- / -->").map_or(part, |(_, rest)| rest));
     parts.collect()
@@ -89,7 +89,7 @@ fn written(text: &str) -> String {
 
 /// The `phrases` that occur in `text`, in upper or lower case and across lines.
 fn found(phrases: &[String], text: &str) -> Vec<String> {
-    // A placeholder is a word of its own.
+    // A placeholder counts as a word.
     let plain = |c: char| if c.is_alphanumeric() || "'{}".contains(c) { c.to_ascii_lowercase() } else { ' ' };
     let text: String = text.chars().map(plain).collect();
     let text = format!(" {} ", text.split_whitespace().collect::<Vec<_>>().join(" "));
@@ -142,7 +142,7 @@ fn helps_fit_a_screen_and_no_text_has_a_phrase_that_the_glossary_replaces() {
         }
     }
     for (path, text) in files(root, ".md") {
-        // Exceptions: notes on papers, and results that a run has written.
+        // Exceptions: notes on papers, results that a run has written, and the claims.
         if !path.starts_with(root.join("papers")) && !path.ends_with(CLAIMS) {
             documents.push((path.display().to_string(), written(&text)));
         }

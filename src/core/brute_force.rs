@@ -53,7 +53,7 @@ impl<T: TriangleTest> Accel for BruteForce<T> {
     }
 
     fn shape(&self) -> TreeShape {
-        // Every ray enters it, regardless of its box.
+        // Every ray tests every triangle, even if it misses the box.
         let sah_cost = Some(self.references as f64);
         TreeShape { sah_cost, ..TreeShape::one_leaf(self.references) }
     }

@@ -1,4 +1,4 @@
-//! The trees of **sahara**, for renderers: meshes, triangle tests, acceleration structures; five small dependencies.
+//! The trees of **sahara** for renderers: meshes, triangle tests and acceleration structures, with five dependencies.
 //!
 //! A structure is built over a mesh and traces slices of rays:
 //!
@@ -24,8 +24,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The generic structures are compiled in your crate, with the profile of your workspace. This project measures with
-//! `codegen-units = 1` in `[profile.release]`.
+//! The generic structures are compiled in your crate, with the profile of your workspace. For its measurements, this
+//! project compiles `sahara-core` with `codegen-units = 1`.
 
 #![warn(missing_docs)]
 
@@ -47,6 +47,6 @@ pub mod simd;
 mod traversal;
 pub mod triangle;
 
-// The versions that this crate uses.
+// Re-exported, so your crate can use the versions that this crate uses.
 pub use glam;
 pub use serde;

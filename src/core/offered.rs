@@ -1,9 +1,9 @@
-//! The structures that the registry offers by name, each over each of its triangle tests. This crate compiles their
-//! builds and traversals once, with its own settings; otherwise each user of a generic structure would again.
+//! The structures that the registry offers by name, each with every triangle test that it supports. They are compiled
+//! once, here, with the settings of this crate; otherwise every crate that uses a structure would compile it again.
 //!
 //! To add a structure of this crate, add its type to `offered_over!`, or to `offered!` if it has one triangle test.
-//! Tests then require that it works over every test of `offered_over!`, returns the lowest primitive number at equal
-//! `t`, loses no hit in the ranked hard cases, and returns the same bits at every SIMD level.
+//! Tests then require that it works with every triangle test of `offered_over!`, returns the lowest primitive number at
+//! equal `t`, misses no hit in the ranked hard cases, and returns the same bits at every SIMD level.
 
 use std::sync::Arc;
 
@@ -33,7 +33,7 @@ pub trait Offered: Accel {
 macro_rules! offered {
     ($($structure:ty),* $(,)?) => {$(
         impl Offered for $structure {
-            // A function without type parameters, which is never copied into another crate.
+            // Neither generic nor inlined: no other crate compiles a copy of this function.
             #[inline(never)]
             fn boxed(mesh: &Arc<Mesh>, config: &Self::Config) -> Result<Box<dyn DynAccel>, BuildError> {
                 Ok(Box::new(Self::build(mesh, config)?))
@@ -42,7 +42,7 @@ macro_rules! offered {
     )*};
 }
 
-/// All structures of this crate, over each of these tests.
+/// Every structure of this crate with each of these triangle tests.
 macro_rules! offered_over {
     ($($test:ty),* $(,)?) => {
         $(offered!(BruteForce<$test>, KdTree<$test>, Bvh8<$test>);)*

@@ -26,7 +26,7 @@ impl Default for Client {
 }
 
 impl Client {
-    /// A client with the time limit `patience` for a connection, a response and bytes; the default is a minute.
+    /// A client with the time limit `patience` for a connection, a response or the next bytes; the default is a minute.
     pub fn with_patience(patience: Duration) -> Self {
         let config = ureq::Agent::config_builder()
             .max_redirects(REDIRECTS)
@@ -41,10 +41,10 @@ impl Client {
         Self(config.into())
     }
 
-    /// Downloads `file`, verifies it and moves it to its place in one step. `progress` gets the number of bytes so far.
+    /// Downloads `file`, verifies it and moves it to its place in one step. `progress` receives the bytes so far.
     ///
     /// # Errors
-    /// If the file exists with other contents, or the server does not send the expected ones: nothing of them is kept.
+    /// If the file exists with other contents, or the download fails or has other contents; it is then discarded.
     pub fn fetch(&self, file: &DataFile, progress: &mut dyn FnMut(u64)) -> Result<FetchOutcome, FetchError> {
         if file.is_there()? {
             return Ok(FetchOutcome::AlreadyThere);

@@ -7,19 +7,19 @@ use crate::scene::format::RealMesh;
 /// A file of the folder of real meshes: its path and its expected contents.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DataFile {
-    /// Its address.
+    /// The address of the download.
     pub url: String,
     /// The finished file.
     pub path: PathBuf,
     /// SHA-256 in hexadecimal.
     pub sha256: String,
-    /// Its size, if the scene file gives it.
+    /// The size of the file, if the scene file gives it.
     pub bytes: Option<u64>,
 }
 
 impl DataFile {
     /// # Errors
-    /// If there is no hash to verify it, or its URL is not HTTP.
+    /// If the scene file has no hash, the file must be unpacked, or its URL is not HTTP.
     pub fn new(real: &RealMesh, folder: &Path) -> Result<Self, FetchError> {
         let RealMesh { file, url, sha256, unpack, bytes, .. } = real.clone();
         if unpack.is_none() && !["https://", "http://"].iter().any(|scheme| url.starts_with(scheme)) {

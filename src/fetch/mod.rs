@@ -1,7 +1,7 @@
 //! Downloads of real meshes: verified, whole or not at all.
 //!
-//! The feature `fetch` is on by default. It brings an HTTP client with its own TLS and certificates, and uses none of
-//! the system's. Without the feature everything else works, and `sahara fetch` lists what to download by hand.
+//! The feature `fetch` is on by default. It adds an HTTP client with its own TLS and certificates, which needs no
+//! libraries of the system. Without the feature, `sahara fetch` prints what to download by hand and verifies it.
 
 #[cfg(feature = "fetch")]
 mod client;

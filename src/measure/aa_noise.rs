@@ -4,19 +4,18 @@ use super::estimate::Estimate;
 use super::interval::{Rerun, epoch_values};
 use super::summary::{Variance, mean};
 
-/// The A/A ratios of a run: the same structure built twice and timed as two. Without noise they are 1 (Georges,
-/// Buytaert, Eeckhout, "Statistically rigorous Java performance evaluation", 2007, on comparing alternatives; the twin
-/// is a control).
+/// The A/A ratios of a run: one structure is built twice, and the builds are timed as two structures. Without noise the
+/// ratios are 1 (for the comparison of alternatives: Georges, Buytaert, Eeckhout, "Statistically rigorous Java
+/// performance evaluation", 2007).
 ///
-/// Every interval already includes their spread over the epochs. If they differ from 1 by more than that, whole runs
-/// differ by an effect that epochs do not show: the **A/A noise**, the root of the mean square of their logarithms
-/// minus the sampling variance. More cells estimate it better; they do not make it larger.
+/// Every interval already includes the spread of the ratios over the epochs. If the ratios differ from 1 by more than
+/// this spread, whole runs differ by an effect that epochs do not show. The **A/A noise** is its size: the root of the
+/// mean square of the log ratios minus their sampling variance. More cells make the estimate more precise, not larger.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AaNoise {
-    /// One per cell, with its interval without A/A noise.
+    /// One ratio per cell. Its interval does not include the A/A noise.
     pub ratios: Vec<Estimate>,
-    /// Variance of the logarithm of an A/A ratio between runs, beyond the variance between epochs, and its degrees of
-    /// freedom.
+    /// The variance of a log A/A ratio between runs, beyond its variance between epochs.
     noise: Variance,
 }
 
@@ -27,7 +26,7 @@ impl Default for AaNoise {
 }
 
 impl AaNoise {
-    /// The noise of the cells of a run; a cell contains the [log ratios](super::log_ratios) of one twin to the other.
+    /// The noise of a run. Each of `cells` contains the [log ratios](super::log_ratios) of a structure to its twin.
     pub fn new(cells: &[Vec<Vec<f64>>]) -> Self {
         let (mut ratios, mut squares) = (vec![], vec![]);
         for values in cells.iter().filter_map(|cell| epoch_values(std::slice::from_ref(cell))) {
@@ -38,37 +37,37 @@ impl AaNoise {
         if squares.is_empty() {
             return Self::default();
         }
-        // Use as many degrees of freedom as there are ratios, but at least as many as their epochs have: with a single
-        // degree of freedom one ratio would widen intervals tenfold. The tests count the cost of this approximation.
+        // Use one degree of freedom per ratio, but at least the number of epochs minus 1: one degree of freedom would
+        // widen intervals tenfold. The tests of `interval` measure the effect of this rule.
         let epochs = cells.iter().map(Vec::len).max().unwrap_or(0);
         let freedom = squares.len().max(epochs.saturating_sub(1)).max(1) as f64;
         Self { ratios, noise: Variance { square: mean(&squares).max(0.0), freedom } }
     }
 
-    /// The A/A noise, a logarithm; `None` without a ratio.
+    /// The A/A noise, as a standard deviation of ln(ratio); `None` without A/A ratios.
     pub fn log(&self) -> Option<f64> {
         (!self.ratios.is_empty()).then(|| libm::sqrt(self.noise.square))
     }
 
-    /// The variance that it adds to the logarithm of one ratio of two structures; none without an A/A ratio.
+    /// The variance that the noise adds to the logarithm of one ratio of two structures; 0 without A/A ratios.
     pub fn of_ratio(&self) -> Variance {
         self.weighted(&[1.0, -1.0])
     }
 
-    /// The variance that it adds to the mean of the logarithms of `cells` ratios: the cells vary independently.
+    /// The variance that the noise adds to the mean of the logarithms of the ratios of `cells` independent cells.
     pub fn of_mean(&self, cells: usize) -> Variance {
         self.of_ratio().times(1.0 / libm::sqrt(cells.max(1) as f64))
     }
 
-    /// The variance that it adds to a weighted sum of logarithms of times, each of one build: a ratio has the weights 1
-    /// and -1.
+    /// The variance that the noise adds to a weighted sum of logarithms of times of different builds. A ratio has the
+    /// weights 1 and -1.
     pub fn weighted(&self, weights: &[f64]) -> Variance {
         let squares: f64 = weights.iter().map(|weight| weight * weight).sum();
         self.noise.times(libm::sqrt(squares / 2.0))
     }
 
-    /// The number of ratios whose interval contains 1, and the number of ratios with an interval; `None` if none has
-    /// one.
+    /// The number of ratios whose interval contains 1, and the number of ratios with an interval; `None` if no ratio
+    /// has an interval.
     pub fn holding_one(&self) -> Option<(usize, usize)> {
         let known = self.ratios.iter().filter(|ratio| ratio.interval.is_some());
         let holding = known.clone().filter(|ratio| ratio.holds(1.0)).count();
@@ -80,7 +79,7 @@ impl AaNoise {
 mod tests {
     use super::*;
 
-    /// Cells of five epochs whose A/A ratios have these logarithms and do not spread.
+    /// One cell per logarithm, with five epochs of the same A/A ratio.
     fn twins(logs: &[f64]) -> AaNoise {
         AaNoise::new(&logs.iter().map(|&log| vec![vec![log; 3]; 5]).collect::<Vec<_>>())
     }
@@ -98,7 +97,7 @@ mod tests {
 
     #[test]
     fn what_epochs_explain_is_left_out() {
-        // The mean is 0.01 and its standard error 0.01: all of it may come from the epochs.
+        // The mean is 0.01 and its standard error 0.012: the spread of the epochs explains all of it.
         let epochs = [-0.02, 0.01, 0.04, 0.01].map(|log| vec![log]);
         let error = Variance::of_mean(&epochs.concat()).unwrap().square;
         let noise = AaNoise::new(&[epochs.to_vec()]);
@@ -113,7 +112,7 @@ mod tests {
         // A cell of one epoch beside another cell has no interval.
         let both = AaNoise::new(&[vec![vec![0.01, 0.03]], vec![vec![0.0; 3]; 5]]);
         assert_eq!((both.ratios.len(), both.holding_one()), (2, Some((1, 1))));
-        // Figures have it as their weights say.
+        // The variance is proportional to the sum of the squared weights.
         let noise = twins(&[0.02; 4]);
         let squares = [noise.of_ratio(), noise.of_mean(4), noise.weighted(&[2.0])].map(|variance| variance.square);
         assert!(squares.iter().zip([4e-4, 1e-4, 8e-4]).all(|(one, other)| (one - other).abs() < 1e-12), "{squares:?}");

@@ -3,15 +3,15 @@
 use super::{Provenance, machine};
 use crate::plural::plural;
 
-/// With more interruptions per second than this, another program wants the core.
+/// More interruptions per second than this mean that another program uses the core.
 const INTERRUPTIONS: f64 = 20.0;
 
 /// A core whose clock rate falls below this share of its first value is throttled.
 const CLOCK_FALL: f64 = 0.9;
 
-/// One sentence for each condition that disturbs measurements: before the run, and in its timed part of `seconds`
-/// seconds, in which the system took the core from the measuring thread so many times. `clock_rates` are the kHz
-/// of its core at the beginning and at the end. `None` if the system does not report it.
+/// Returns one sentence for each condition that disturbs measurements. `before` describes the machine before the run.
+/// In the `seconds` of the timed part, the system took the core from the measuring thread `interruptions` times.
+/// `clock_rates` are the kHz of the core at the beginning and at the end; `None` if unknown.
 pub fn of_conditions(
     before: &Provenance,
     seconds: f64,
@@ -53,8 +53,8 @@ pub fn of_conditions(
 /// The plausible range of the elapsed time, as a multiple of the time that a runner reports.
 const OWN_CLOCK: std::ops::RangeInclusive<f64> = 0.95..=1.25;
 
-/// A sentence about the clock of the runner `label` if it disagrees with the elapsed time; `outside` is the ratio of
-/// the elapsed time to the reported one.
+/// A warning if the clock of the runner `label` disagrees with the elapsed time; `outside` is the ratio of the elapsed
+/// time to the reported one.
 pub fn of_own_clock(label: &str, outside: f64) -> Option<String> {
     let why = if outside < 1.0 {
         "its times are not seconds, or are sums over threads: report the elapsed time"

@@ -4,24 +4,24 @@ use std::time::Instant;
 
 use super::Threads;
 
-/// A monotonic clock. A trait, so everything that depends on time is tested without it.
+/// A monotonic clock. It is a trait because tests replace it with a mock clock.
 pub trait Clock {
     /// Nanoseconds since some fixed moment.
     fn now_ns(&self) -> u64;
 }
 
-/// Times pieces of work, without the cost of reading the clock.
+/// Times work and subtracts the cost of reading the clock.
 pub struct Stopwatch<'a> {
     clock: &'a dyn Clock,
-    /// The cost of a reading.
+    /// The cost of reading the clock.
     reading_ns: u64,
 }
 
-/// Readings for measuring the cost of one reading, their minimum.
+/// The cost of reading the clock is the minimum of this many measurements.
 const READINGS: usize = 256;
 
 impl<'a> Stopwatch<'a> {
-    /// Reads the clock a few hundred times.
+    /// Measures the cost of reading `clock`, which takes a few hundred readings.
     pub fn new(clock: &'a dyn Clock) -> Self {
         let reading = |_| {
             let start = clock.now_ns();
@@ -56,7 +56,7 @@ impl Clock for SystemClock {
     }
 }
 
-/// Processor time: it stops while another program, or the host of a virtual machine, has the core. For work on one
+/// Processor time: it stops while another program, or the host of a virtual machine, uses the core. For work on one
 /// thread it is the time that would elapse on an idle machine.
 #[derive(Clone, Copy)]
 pub enum CpuClock {

@@ -19,11 +19,11 @@ pub struct Interval {
     pub low: f64,
     pub high: f64,
     /// Degrees of freedom of Student's t; infinite if nothing varies. They determine how much wider the interval
-    /// becomes if many are judged together.
+    /// becomes if several are judged together.
     pub freedom: f64,
 }
 
-/// The form in files: one object, with `null` for an unknown end or unknown degrees of freedom.
+/// The form in files: one object, with `null` for an unknown end and for infinite degrees of freedom.
 #[derive(Serialize, Deserialize)]
 struct Flat {
     estimate: f64,
@@ -49,7 +49,7 @@ impl From<Estimate> for Flat {
 }
 
 impl Estimate {
-    /// Without an interval.
+    /// An estimate without an interval.
     pub fn alone(estimate: f64) -> Self {
         Self { estimate, interval: None }
     }
@@ -89,14 +89,14 @@ impl Estimate {
         self.interval.is_some_and(|interval| (interval.low..=interval.high).contains(&value))
     }
 
-    /// The estimate of an increasing function of the number.
+    /// The estimate of an increasing function `of` the number.
     pub fn map(self, of: impl Fn(f64) -> f64) -> Self {
         let ends = |Interval { low, high, freedom }: Interval| Interval { low: of(low), high: of(high), freedom };
         Self { estimate: of(self.estimate), interval: self.interval.map(ends) }
     }
 
-    /// The estimate as one of `looks` that are judged together: with 95 % probability all of their intervals contain
-    /// the true value (Bonferroni). Both sides of the interval grow by the same factor.
+    /// The estimate as one of `looks` estimates that are judged together: its interval grows until, with 95 %
+    /// probability, all `looks` intervals contain their true values (Bonferroni). Both sides grow by the same factor.
     pub fn among(self, looks: usize) -> Self {
         if looks < 2 {
             return self;
@@ -175,7 +175,7 @@ mod tests {
 
     #[test]
     fn among_many_an_interval_is_wider() {
-        // With four degrees of freedom: 2.776 for one interval, 4.604 for one of five (1 %).
+        // Student's t with four degrees of freedom: 2.776 for one interval (5 %), 4.604 for one of five (1 %).
         let one = Estimate { estimate: 1.2, interval: Some(Interval { low: 1.1, high: 1.3, freedom: 4.0 }) };
         let five = one.among(5);
         assert!((five.high().unwrap() - (1.2 + 0.1 * 4.604 / 2.776)).abs() < 1e-4, "{five:?}");

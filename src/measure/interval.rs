@@ -1,4 +1,4 @@
-//! Prediction intervals: the range of the same figure in another run. All tables, studies and pages use these.
+//! Prediction intervals: the range of the same figure in another run. All tables, studies and pages use them.
 //!
 //! **The question.** A plain 95 % interval of a mean contains the true mean in 95 % of runs, but the *estimate of a
 //! second run* only in about 83 %, because that estimate varies as well (Cumming, Williams, Fidler, "Replication and
@@ -6,12 +6,12 @@
 //! prediction intervals for the estimate of another run of the same plan: they contain that estimate in 95 % of cases.
 //!
 //! **The model.** Each epoch e is a separate process that rebuilds all structures. In each round r of an epoch every
-//! case is timed once: workloads in random order, and the structures of a workload in random order. For two cases let y
-//! = ln(time of one / time of the other) in the same round: a slow phase of the machine slows both and cancels. Then y
-//! = theta + p(e) + n(e, r). The placement effect p is the same for a whole epoch, because a process has one layout of
-//! address space, stack and heap (Kalibera, Jones, "Rigorous benchmarking in reasonable time", 2013; Mytkowicz, Diwan,
-//! Hauswirth, Sweeney, "Producing wrong data without doing anything obviously wrong", 2009). The noise n of a sample
-//! has heavy tails.
+//! structure is timed once on every workload: workloads in random order, and the structures of a workload in random
+//! order. For two structures on a workload let y = ln(time of one / time of the other) in the same round: a slow phase
+//! of the machine slows both and cancels. Then y = theta + p(e) + n(e, r). The placement effect p is the same for a
+//! whole epoch, because a process has one layout of address space, stack and heap (Kalibera, Jones, "Rigorous
+//! benchmarking in reasonable time", 2013; Mytkowicz, Diwan, Hauswirth, Sweeney, "Producing wrong data without doing
+//! anything obviously wrong", 2009). The noise n of a sample has heavy tails.
 //!
 //! **The estimate.** z(e) is the median of y over the rounds of an epoch, because heavy tails hardly move a median; the
 //! estimate is exp(mean of z). Over several cells (scenes, workloads) z(e) is the mean of their medians: cells of the
@@ -19,18 +19,18 @@
 //!
 //! **The interval.** With E epochs the variance of an estimate is s^2 / E, where s^2 is the sample variance of z, which
 //! includes placement and noise. Another run varies as much, independently, so the difference of the two estimates has
-//! variance 2 s^2 / E. Divided by s sqrt(2 / E) it follows Student's t with E - 1 degrees of freedom: the
+//! variance 2 s^2 / E. Divided by s sqrt(2 / E), the difference follows Student's t with E - 1 degrees of freedom: the
 //! half-width is t(E - 1) s sqrt(2 / E) (Hahn, Meeker, Escobar, "Statistical intervals", 2nd edition 2017, chapter 4:
 //! prediction of the mean of a future sample).
 //!
 //! **The A/A noise.** Effects that differ between two runs, but not between the epochs of one run, do not show in the
-//! spread of z. The ratios of a structure to its twin show a part of them, the [A/A noise](super::AaNoise): its
-//! variance is added once for each run, and the sum has the degrees of freedom of Satterthwaite (1946).
+//! spread of z. The ratios of a structure to its twin show a part of these effects, the [A/A noise](super::AaNoise).
+//! Its variance is added once for each of the two runs, and the sum has the degrees of freedom of Satterthwaite (1946).
 //!
 //! **One epoch** does not show placement effects: it gives an estimate and no interval.
 //!
-//! **Multiple comparisons.** If m findings are judged together, each has the interval of the level 1 - 0.05 / m
-//! ([`Estimate::among`], Bonferroni): in 95 % of cases all of them are correct.
+//! **Multiple comparisons.** If m findings are judged together, each has an interval of the level 1 - 0.05 / m
+//! ([`Estimate::among`], Bonferroni): in 95 % of cases all m intervals are correct.
 //!
 //! The tests simulate thousands of pairs of runs with placement effects, heavy tails, drift and A/A noise, and count
 //! how often the second estimate lies within the first interval: in 93 to 97 % of pairs, for one cell and many cells.
@@ -45,7 +45,7 @@ use super::summary::{Variance, mean, median};
 /// number of rounds.
 ///
 /// # Panics
-/// If the numbers of samples differ or are no multiple of `epochs`, or a sample is not positive.
+/// If the numbers of samples differ or are not a multiple of `epochs`, `epochs` is 0, or a sample is not positive.
 pub fn log_ratios(numerator: &[f64], denominator: &[f64], epochs: usize) -> Vec<Vec<f64>> {
     assert_eq!(numerator.len(), denominator.len(), "samples come in pairs");
     assert!(epochs > 0 && numerator.len().is_multiple_of(epochs), "each epoch has the same number of rounds");
@@ -54,18 +54,18 @@ pub fn log_ratios(numerator: &[f64], denominator: &[f64], epochs: usize) -> Vec<
     logs.chunks((logs.len() / epochs).max(1)).map(<[f64]>::to_vec).collect()
 }
 
-/// Cuts all cells to the number of epochs of the shortest, because a mean over cells needs the same epochs of all. The
-/// first epochs stay, regardless of their results, so the mean is not biased.
+/// Cuts all cells to the number of epochs of the shortest cell, because a mean over cells needs the same epochs in
+/// each. The first epochs stay: a choice by results would bias the mean.
 pub fn cut_to_shared_epochs(cells: &mut [Vec<Vec<f64>>]) {
     let fewest = cells.iter().map(Vec::len).min().unwrap_or(0);
     cells.iter_mut().for_each(|cell| cell.truncate(fewest));
 }
 
-/// z(e) of every epoch: the mean over the cells of the median of its rounds, a logarithm. A cell is a result of
-/// [`log_ratios`]. `None` if there is no cell or one is empty.
+/// z(e) of every epoch, a logarithm: the mean over the cells of the median over the rounds. A cell is a result of
+/// [`log_ratios`]. `None` without cells or epochs, or if an epoch has no rounds.
 ///
 /// # Panics
-/// If the cells differ in their epochs.
+/// If the cells differ in their number of epochs.
 pub fn epoch_values(cells: &[Vec<Vec<f64>>]) -> Option<Vec<f64>> {
     let epochs = cells.first()?.len();
     assert!(cells.iter().all(|cell| cell.len() == epochs), "all cells have the same epochs");
@@ -80,13 +80,13 @@ pub fn epoch_values(cells: &[Vec<Vec<f64>>]) -> Option<Vec<f64>> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rerun {
     centre: f64,
-    /// The variance of the difference between this figure and another run's; `None` with a single epoch.
+    /// The variance of the difference between this figure and the figure of another run; `None` with a single epoch.
     variance: Option<Variance>,
 }
 
 impl Rerun {
-    /// The mean of `values`, one per epoch, as it varies in another run with as many epochs. `noise` is the variance
-    /// that the [A/A noise](super::AaNoise) adds to one run. `None` without epochs.
+    /// The mean of `values`, one per epoch, and its variation in another run with as many epochs. `noise` is the
+    /// variance that the [A/A noise](super::AaNoise) adds to one run. `None` without epochs.
     pub fn of(values: &[f64], noise: Variance) -> Option<Self> {
         if values.is_empty() {
             return None;
@@ -96,8 +96,8 @@ impl Rerun {
         Some(Self { centre: mean(values), variance })
     }
 
-    /// The difference of two measured runs, `new` minus `old`. `noises` are the variances that the A/A noise adds to
-    /// each. No variance if one of them has a single epoch.
+    /// The mean of `new` minus the mean of `old`, two measured runs. `noises` are the variances that the A/A noise adds
+    /// to each run. `None` if a run has no epochs; no variance if a run has a single epoch.
     pub fn change(old: &[f64], new: &[f64], noises: [Variance; 2]) -> Option<Self> {
         if old.is_empty() || new.is_empty() {
             return None;

@@ -1,4 +1,4 @@
-//! The system's report on the machine: load, clock rates, rounding of floats. `None` for unreported values.
+//! Facts about the machine: load, clock rates, memory, floating-point mode. `None` if the system reports no value.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::time::Duration;
 
-/// The load average of the last minute at the first call: later it includes the load of this process.
+/// The load average of the last minute, read at the first call: later values include the load of this process.
 pub fn load_at_start() -> Option<f64> {
     static LOAD: OnceLock<Option<f64>> = OnceLock::new();
     *LOAD.get_or_init(|| first_number(&fs::read_to_string("/proc/loadavg").ok()?))

@@ -4,8 +4,8 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicBool, AtomicIsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// The system's allocator with a counter that runs during [`peak_bytes`]; at other times it costs the load of a flag. A
-/// program installs it with `#[global_allocator]`, as the command `sahara` does; without it peaks are unknown.
+/// The system's allocator with a counter that runs during [`peak_bytes`]; at other times an allocation only loads a
+/// flag. A program installs it with `#[global_allocator]`, as the command `sahara` does; otherwise peaks are unknown.
 /// Allocations of C and C++ code are not counted.
 pub struct CountingAllocator;
 
@@ -51,9 +51,9 @@ unsafe impl GlobalAlloc for CountingAllocator {
     }
 }
 
-/// Runs `work`; returns its result and the peak of allocated bytes on all threads beyond the bytes allocated before.
-/// The bytes are unknown if the [`CountingAllocator`] is not installed. One call runs at a time; other calls wait. Each
-/// allocation costs two more atomic operations.
+/// Runs `work`. Returns its result and the peak increase of allocated bytes on all threads; `None` if the
+/// [`CountingAllocator`] is not installed. Only one call runs at a time; other calls wait. Meanwhile each allocation
+/// takes two more atomic operations.
 pub fn peak_bytes<R>(work: impl FnOnce() -> R) -> (R, Option<usize>) {
     static ONE: Mutex<()> = Mutex::new(());
     /// Stops the counter when it is dropped, also after a panic.
@@ -69,7 +69,7 @@ pub fn peak_bytes<R>(work: impl FnOnce() -> R) -> (R, Option<usize>) {
     PEAK.store(0, Ordering::Relaxed);
     COUNTS.store(true, Ordering::Relaxed);
     let counting = Counting;
-    // Probe whether the allocator is installed: then this allocation is counted.
+    // Probe whether the allocator is installed: if it is, it counts this allocation.
     drop(std::hint::black_box(Box::new(0_u64)));
     let installed = PEAK.load(Ordering::Relaxed) > 0;
     let result = work();

@@ -3,7 +3,7 @@
 use rand_core::{RngCore, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-/// Returns the numbers from 0 to `n` in a new random order each time.
+/// A seeded generator of random orders and numbers.
 pub struct RandomOrder(Pcg64Mcg);
 
 impl RandomOrder {
@@ -20,7 +20,7 @@ impl RandomOrder {
         ((u128::from(self.0.next_u64()) * n as u128) >> 64) as usize
     }
 
-    /// The numbers from 0 to `n` shuffled (Fisher, Yates 1938; Durstenfeld 1964).
+    /// The numbers below `n` in random order (Fisher, Yates 1938; Durstenfeld 1964).
     pub fn shuffled(&mut self, n: usize) -> Vec<usize> {
         let mut order: Vec<usize> = (0..n).collect();
         for last in (1..n).rev() {
@@ -29,8 +29,8 @@ impl RandomOrder {
         order
     }
 
-    /// The indices of all members in an order in which the members of a group follow each other: the groups are in
-    /// random order, and so are the members of each. `groups` contains the group of each member.
+    /// The indices of all members, group by group: the groups in random order, and the members of each group in random
+    /// order. `groups` contains the group of each member.
     pub fn shuffled_by_group(&mut self, groups: &[usize]) -> Vec<usize> {
         let ranks = self.shuffled(groups.iter().max().map_or(0, |last| last + 1));
         let mut order = self.shuffled(groups.len());

@@ -1,4 +1,4 @@
-//! One structure that traces one workload, as a renderer would use it.
+//! One structure that traces one workload in this process, in batches as a renderer would.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -12,7 +12,7 @@ use super::{RandomOrder, Stopwatch, Threads, Timed};
 use crate::accel::{DynAccel, Loaded, Query};
 use crate::geometry::Ray;
 
-/// Neighbouring rays that are traced in one call, at most [`TILE`].
+/// At most [`TILE`] neighbouring rays, which are traced in one call.
 struct Piece<'a> {
     rays: Box<dyn Loaded + 'a>,
     count: usize,
@@ -28,7 +28,7 @@ fn query_all(results: &mut QueryResults, first: usize, pieces: &[Piece]) -> usiz
     })
 }
 
-/// Traces the pieces on all threads. Their results are the first ones, in order.
+/// Traces the pieces on all threads. Their results become the first of `results`, in the order of the pieces.
 fn share(results: &mut QueryResults, pieces: &[&Piece], threads: &Threads) {
     fn each<T: Send>(mut rest: &mut [T], pieces: &[&Piece], query: fn(&dyn Loaded, &mut [T]), threads: &Threads) {
         let own = |piece: &&Piece| rest.split_off_mut(..piece.count).expect("there is a result for each ray");
@@ -41,8 +41,8 @@ fn share(results: &mut QueryResults, pieces: &[&Piece], threads: &Threads) {
     }
 }
 
-/// `count` of `all`, in order: one from each of `count` parts of equal length, at a seeded random position, to avoid a
-/// preference for rows and columns of an image. All if there are not more. For checks and counts; [`tiles`] are timed.
+/// Selects `count` items for checks and counts: in order, one at a pseudo-random position of each equal part of `all`.
+/// Equal distances could select only some columns of an image. If there are at most `count` items, selects all.
 pub fn spread<T: Copy>(all: &[T], count: usize) -> Vec<T> {
     if count >= all.len() {
         return all.to_vec();
@@ -54,10 +54,10 @@ pub fn spread<T: Copy>(all: &[T], count: usize) -> Vec<T> {
 
 /// A structure, a workload and a query: the unit of timing.
 ///
-/// One thread traces the rays piece by piece in the order of the workload. Every pass begins with a lead-in that is not
-/// timed, over other rays of the workload if there are any. It leaves caches and branch predictors in the state of this
-/// structure, not in the state of the structure timed before. If tiles do not adjoin, each tile has a short lead-in as
-/// well.
+/// One thread traces the pieces in the order of the workload; several threads share them. A pass begins with an untimed
+/// lead-in over the last rays of the workload. The lead-in leaves caches and branch predictors in the state of this
+/// structure, not in the state of the structure timed before. On one thread, a tile that does not adjoin the tile
+/// before it has a short lead-in as well.
 pub struct Pass<'a> {
     accel: &'a dyn DynAccel,
     threads: &'a Threads,
@@ -68,23 +68,23 @@ pub struct Pass<'a> {
     levels: usize,
     results: QueryResults,
     lead_in_results: QueryResults,
-    /// If a pass traces all rays: how many of the last ones the lead-in traces too, and the checksum of their results.
+    /// If a pass traces all rays: the number of last rays that the lead-in traced, and the checksum of their results.
     lead_in_checksum: Option<(usize, u64)>,
-    /// Picoseconds per ray of the lead-in; `u128::MAX` without one, and then tiles have no lead-in either.
+    /// Picoseconds per ray of the lead-in; `u128::MAX` without a lead-in: tiles then have no lead-in either.
     lead_in_ps: u128,
     /// `clear` alternates between two fillings: a pass that leaves a result untouched then cannot give the same
     /// checksum twice.
     filled: bool,
 }
 
-/// The lead-in of a pass has this fraction, 1 / 8, of the rays of the workload.
+/// The lead-in of a pass has an eighth of the rays of the workload.
 pub(super) const LEAD_IN_SHARE: usize = 8;
 
-/// Time limit of a lead-in before tiles: slow structures need fewer rays to fill the caches.
+/// Time limit of the lead-in if only a subset of the rays is timed: slow structures need fewer rays to fill the caches.
 const LEAD_IN: Duration = Duration::from_millis(10);
 
-/// The time for the lead-in before a tile, which has at most the rays of a tile. It is longer than the caches take to
-/// load the tile's data, so slower structures use fewer rays.
+/// Time limit of the lead-in of a tile, which has at most [`TILE`] rays. The caches load the data of a tile in less
+/// time, so slow structures can use fewer rays.
 const TILE_LEAD_IN_NS: u128 = 200_000;
 
 impl<'a> Pass<'a> {
@@ -116,8 +116,8 @@ impl<'a> Pass<'a> {
         Piece { rays: self.accel.load(Cow::Borrowed(&self.all[first..first + count])), count, levels }
     }
 
-    /// The neighbours before `end`, or the last rays of the workload if there are too few. The pieces shrink towards
-    /// the end, so some can be left out.
+    /// The lead-in of a tile that starts at `end`: the rays before `end`, or the last rays of the workload if there are
+    /// too few. Each piece has half of the remaining rays, so a slow structure can skip the first pieces.
     fn before(&self, end: usize) -> impl Iterator<Item = Piece<'a>> {
         let count = TILE.min(self.all.len());
         let mut rest = if end < count { self.all.len() - count..self.all.len() } else { end - count..end };
@@ -160,7 +160,7 @@ impl Timed for Pass<'_> {
             }
         }
 
-        // Before tiles the first pieces are small: a slow structure can then stop early.
+        // If only a subset is timed, the first pieces are small: a slow structure can then stop early.
         let lead_in = self.all.len() / LEAD_IN_SHARE;
         let mut first = self.all.len() - lead_in;
         let mut size = if levels[0] == 0 { TILE } else { 1 };

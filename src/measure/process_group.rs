@@ -22,9 +22,9 @@ use nix::{
 #[cfg(target_os = "linux")]
 pub fn set_apart(command: &mut Command) {
     command.process_group(0);
-    // This process blocks the signals that it waits for, and a program inherits the mask: unblock them. SAFETY: between
-    // fork and exec only async-signal-safe calls are sound. The closure makes one, `pthread_sigmask`, and allocates
-    // nothing: the error that it returns is a number.
+    // This process blocks the signals that it waits for, and a program inherits the mask: unblock them.
+    // SAFETY: between fork and exec only async-signal-safe calls are sound. The closure only calls `pthread_sigmask`
+    // and does not allocate, because its error is a number.
     unsafe { command.pre_exec(|| Ok(SigSet::empty().thread_set_mask()?)) };
 }
 
@@ -42,7 +42,7 @@ fn has_ended(child: &mut Child) -> bool {
     !matches!(child.try_wait(), Ok(None))
 }
 
-/// Pause between two looks at a program.
+/// Pause between two checks whether a program has ended.
 const PAUSE: Duration = Duration::from_millis(1);
 
 /// Whether a program ends within `limit`. The caller must still wait for it.
@@ -66,7 +66,7 @@ pub fn output_within(command: &mut Command, limit: Duration) -> io::Result<Optio
     set_apart(command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()));
     let mut child = command.spawn()?;
 
-    // Empty both pipes at once: a full one would stop the program.
+    // Read both pipes concurrently: a full pipe would block the program.
     let (mut out, mut err) = (child.stdout.take().expect("piped"), child.stderr.take().expect("piped"));
     thread::scope(|scope| {
         let (out, err) = (scope.spawn(move || drain(&mut out)), scope.spawn(move || drain(&mut err)));
@@ -84,7 +84,7 @@ fn drain(pipe: &mut dyn Read) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Makes this process end with the thread that started it: a killed run leaves no process that disturbs the next run.
+/// Makes this process end with the thread that started it (Linux only): a leftover process would disturb the next run.
 pub fn end_with_parent() {
     #[cfg(target_os = "linux")]
     let _ = nix::sys::prctl::set_pdeathsig(Signal::SIGKILL);
@@ -92,7 +92,7 @@ pub fn end_with_parent() {
 
 /// Ends a program that was [set apart](set_apart), and all programs that it has started, unless it has been waited for.
 pub fn end(child: &mut Child) {
-    // Until it has been waited for, no other group can receive its number.
+    // Until a program has been waited for, the system does not reuse its number.
     #[cfg(target_os = "linux")]
     if state(child) != Err(Errno::ECHILD) {
         end_group(child.id());
@@ -168,7 +168,7 @@ mod tests {
         assert_eq!(output.stdout, b"done\n");
     }
 
-    /// The pipe is open until the last of them ends.
+    /// The pipes stay open until the last program ends.
     #[test]
     fn what_takes_too_long_is_killed_with_all_that_it_started() {
         let start = Instant::now();

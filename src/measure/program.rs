@@ -9,13 +9,13 @@ use std::time::SystemTime;
 use sha2::{Digest, Sha256};
 
 /// The first 16 digits of the SHA-256 of the running program; `unknown` if its file cannot be read. Another source,
-/// compiler or flag gives another program, committed or not.
+/// compiler or flag gives other digits, even without a new commit.
 pub fn build() -> &'static str {
     static BUILD: OnceLock<String> = OnceLock::new();
     BUILD.get_or_init(|| file_id(&executable()).unwrap_or_else(|_| "unknown".into()))
 }
 
-/// The file of the running program. Linux keeps it at this path even after another file has taken its name.
+/// The file of the running program. On Linux the path remains valid after another file has taken its name.
 pub fn executable() -> PathBuf {
     let kept = Path::new("/proc/self/exe");
     if kept.exists() { kept.into() } else { std::env::current_exe().unwrap_or_default() }

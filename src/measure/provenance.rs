@@ -23,7 +23,7 @@ pub struct Provenance {
     pub rustc: String,
     /// `release` or `debug`.
     pub profile: String,
-    /// A triple.
+    /// The target triple.
     pub target: String,
     /// Instruction set extensions that the compiler could use; the same for all structures.
     pub target_features: String,
@@ -35,7 +35,7 @@ pub struct Provenance {
     pub cpu: String,
     /// Processors available to this process.
     pub cores: usize,
-    /// Threads that built and traced; 1 is the unit of all comparisons.
+    /// Threads that built and traced; 1 by default.
     pub threads: usize,
     pub os: String,
     /// Version of obvhs, whose structures are the references of comparisons between runs.
@@ -48,7 +48,7 @@ pub struct Provenance {
     pub process_per_epoch: bool,
     /// Control word of floating-point arithmetic, if the processor has one.
     pub mxcsr: Option<u32>,
-    /// Its effect on denormal numbers; `kept` is right.
+    /// The effect of `mxcsr` on denormal numbers; `kept` is correct.
     pub denormals: String,
     /// The name of the policy with which the system chooses clock rates.
     pub governor: Option<String>,
@@ -87,7 +87,7 @@ impl Provenance {
         }
     }
 
-    /// The provenance of this process, which builds and traces on `threads`.
+    /// Like [`capture`](Self::capture), with the clock and the cores of `threads`.
     pub fn of(threads: &Threads) -> Self {
         let pinned = threads.cores().map(<[usize]>::to_vec);
         let core = pinned.as_ref().map_or(0, |cores| cores[0]);
@@ -95,8 +95,8 @@ impl Provenance {
         Self { pinned, clock, governor: machine::governor(core), ..Self::capture(threads.count()) }
     }
 
-    /// The known facts that affect the speed of a program. Hosts with the same processor are one machine: their cases
-    /// are epochs of one measurement, and samples are paired only within one case.
+    /// The facts that affect the speed of a program. Hosts with equal facts count as one machine: their cases can be
+    /// epochs of one measurement, because samples are paired only within a case.
     pub fn machine(&self) -> Map<String, Value> {
         let facts = "version commit build rustc profile target_features simd cpu threads process_per_epoch";
         let all = serde_json::to_value(self).expect("keys are text");
@@ -115,8 +115,8 @@ impl Provenance {
         })
     }
 
-    /// The instruction set that the lanes of this suite use on this machine although the compiler was not allowed to:
-    /// libraries without run-time dispatch do not use it.
+    /// The instruction set that our SIMD lanes select at run time but that the build does not enable, if any: libraries
+    /// without run-time dispatch do not use it.
     fn lacking(&self) -> Option<&'static str> {
         let needed = match self.simd.as_str() {
             "avx512" => "avx512f",
@@ -136,7 +136,7 @@ impl Provenance {
         };
         let Self { cpu, simd, rustc, version, commit, profile, date, .. } = self;
         let day = date.split('T').next().unwrap_or(date);
-        // The data contain the digest of the compiler.
+        // Omit the commit of the compiler, which exports contain.
         let rustc = rustc.split(" (").next().unwrap_or(rustc);
         let lacking = self.lacking().map_or(String::new(), |feature| {
             format!(" (baselines are built without {feature}: set target-cpu=native)")

@@ -5,7 +5,7 @@ use std::cell::Cell;
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 use statrs::function::beta::beta_reg;
 
-/// The probability that an interval, or any of the intervals judged together, does not contain the value: 5 %.
+/// The probability that an interval, or any of the intervals judged together, does not contain its value: 5 %.
 pub const LEVEL: f64 = 0.05;
 
 /// The half-width of an interval that misses with probability `level`, in standard errors with `freedom` degrees of
@@ -16,7 +16,7 @@ pub const LEVEL: f64 = 0.05;
 pub fn factor(freedom: f64, level: f64) -> f64 {
     assert!(freedom >= 1.0, "an interval needs a degree of freedom");
     assert!((1e-6..1.0).contains(&level), "an interval leaves a chance of at least a millionth to its outside");
-    // Tables use the same factor again and again.
+    // Cache the last factor: tables use the same factor many times.
     thread_local! {
         static LAST: Cell<(f64, f64, f64)> = const { Cell::new((0.0, 0.0, 0.0)) };
     }
@@ -31,7 +31,7 @@ pub fn factor(freedom: f64, level: f64) -> f64 {
 
 /// The t that is exceeded in magnitude with probability `level`. For many degrees of freedom it uses the series of
 /// Cornish and Fisher (Abramowitz, Stegun, "Handbook of mathematical functions", 1964, 26.7.5), because `statrs` is
-/// wrong by 3e-6 at 10^5 and does not return at 10^8. Its relative error is below 1e-10.
+/// wrong by 3e-6 at 10^5 degrees of freedom and does not return at 10^8. The relative error is below 1e-10.
 fn quantile(freedom: f64, level: f64) -> f64 {
     const MANY: f64 = 1000.0;
     if freedom <= MANY {
@@ -51,9 +51,9 @@ fn quantile(freedom: f64, level: f64) -> f64 {
 /// The quantile of the beta distribution with the positive parameters `a` and `b`: the `x` for which the regularised
 /// incomplete beta function I_x(a, b) is `probability`.
 ///
-/// At 0.95 its relative error is below 1e-5 for parameters up to a thousand million; near the median and below only up
-/// to a hundred thousand, because the continued fraction of `statrs` ends after 140 terms. It bisects: the quantile of
-/// `statrs` never returns if it is small, as for (2, 10^7), and is wrong before that.
+/// For `probability` 0.95 the relative error is below 1e-5 for parameters up to 10^9; for 0.5 and less, only up to
+/// 10^5, because the continued fraction of `statrs` ends after 140 terms. The function bisects: the quantile function
+/// of `statrs` is inaccurate for small quantiles, and for (2, 10^7) it does not return.
 pub fn beta_quantile(probability: f64, a: f64, b: f64) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     // Bisect first in the exponent: quantiles near 0 then have the same relative precision.
@@ -79,7 +79,7 @@ mod tests {
 
     #[test]
     fn the_factors_are_students() {
-        // Computed by bisection of the incomplete beta function in 30 digits.
+        // Computed by bisection of the incomplete beta function with 30 digits.
         let computed = [
             (1.0, 0.05, 12.7062047361747),
             (1.0, 1e-6, 636619.7723670577),
@@ -115,15 +115,15 @@ mod tests {
             for (n, error) in [(10.0, 1e-12), (1e4, 1e-9), (1e5, 1e-8)] {
                 close(beta_quantile(p, 1.0, n), -libm::expm1(libm::log1p(-p) / n), error);
             }
-            // Arcsine.
+            // The arcsine distribution.
             let sine = libm::sin(std::f64::consts::FRAC_PI_2 * p);
             close(beta_quantile(p, 0.5, 0.5), sine * sine, 1e-12);
         }
-        // No event in n trials: about three in n.
+        // The bound on a rate after no event in n trials: about 3 / n.
         for n in [1e7, 1e9] {
             close(beta_quantile(0.95, 1.0, n), -libm::expm1(libm::log(0.05) / n), 1e-5);
         }
-        // Nearly normal: 1.645 deviations from one half.
+        // Nearly normal: 1.645 standard deviations above one half.
         for n in [1e3, 1e5, 1e7, 1e9] {
             let deviation = 0.5 / libm::sqrt(2.0 * n + 1.0);
             close(beta_quantile(0.95, n, n), 0.5 + 1.644_853_627 * deviation, deviation / n + 1e-9);

@@ -19,7 +19,7 @@ impl QueryResults {
         }
     }
 
-    /// Overwrites all results: with hits that no structure returns if `otherwise`, and with misses if not.
+    /// Overwrites all results: with hits if `otherwise` (closest hits with `t` = NaN), else with misses.
     pub fn fill(&mut self, otherwise: bool) {
         let nowhere = Hit { t: f32::NAN, prim: PrimId::new(0) };
         match self {
@@ -28,7 +28,7 @@ impl QueryResults {
         }
     }
 
-    /// Traces a batch with as many rays as there are indices in `at`, the places of its results.
+    /// Traces a batch of rays and stores their results at the indices `at`, one per ray.
     pub fn query(&mut self, at: Range<usize>, rays: &dyn Loaded) {
         match self {
             Self::Closest(hits) => rays.closest_hits(&mut hits[at]),

@@ -1,9 +1,9 @@
-//! The number of rays and samples of each case. It is decided before any sample, from the cost per ray.
+//! Decides the number of rays and samples of each case before the first sample, from the cost per ray.
 
 use super::tiles::{last_level, level_within, rays_at};
 use super::{SamplePlan, Stopwatch, Timed, median};
 
-/// A case before it is timed.
+/// The size and the approximate cost of a case, before it is timed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cost {
     /// Rays of its workload, at least 1.
@@ -25,8 +25,8 @@ pub struct Allotment {
     pub share_ns: u64,
 }
 
-/// Determines how many rays of each case and how many samples fit the budget. It depends only on its arguments, so all
-/// epochs agree, on any machine.
+/// Determines how many rays of each case and how many samples fit the budget. The result depends only on the arguments,
+/// so it is the same in all epochs and on all machines.
 pub fn allot(cases: &[Cost], plan: &SamplePlan) -> Allotment {
     let mut levels: Vec<usize> = cases.iter().map(|case| level_within(case.rays, plan.most_rays)).collect();
     let cost = |case: usize, level: usize| {
@@ -58,19 +58,19 @@ pub fn allot(cases: &[Cost], plan: &SamplePlan) -> Allotment {
     Allotment { runs, levels, share_ns }
 }
 
-/// The minimum number of rays of the first pass of a case, which measures how slow it is.
+/// The minimum number of rays of the pilot, the first pass of a case, which measures its cost per ray.
 const PILOT: usize = 64;
 
-/// A pass of this length measures the speed well enough.
+/// A pilot of this length measures the cost accurately enough.
 const LONG_PILOT_NS: u64 = 5_000_000;
 
-/// The level of the first pass: it has at least 64 rays, or all if there are fewer.
+/// The level of the pilot: the last level with at least 64 rays; 0, all rays, if the workload has fewer.
 pub fn pilot_level(rays: usize) -> usize {
     (0..=last_level(rays)).rev().find(|&level| rays_at(rays, level) >= PILOT).unwrap_or(0)
 }
 
-/// The first level from `from` on at which a sample of `case`, whose cost is unknown, takes at most `most_ns`. The
-/// level is found by timing `case`.
+/// Finds, by timing `case`, the first level from `from` on at which a sample takes at most `most_ns`; the last level if
+/// all take longer.
 pub fn level_by_clock(watch: &Stopwatch, case: &mut dyn Timed, from: usize, most_ns: u64) -> usize {
     let all = case.rays();
     let mut pace = |level: usize| {
@@ -79,13 +79,13 @@ pub fn level_by_clock(watch: &Stopwatch, case: &mut dyn Timed, from: usize, most
         let ns = case.run(watch)[0].max(1);
         (u128::from(ns) * 1000 / rays_at(all, level) as u128).max(1)
     };
-    // Time a pass over few rays, and a pass that is long enough for a good estimate.
+    // Time a pass over few rays, then, if it was too short, a pass that is long enough for a good estimate.
     let few = pilot_level(all).max(from);
     let first = pace(few);
     let rays = u128::from(LONG_PILOT_NS) * 1000 / first;
     let enough = (from..few).rev().find(|&level| rays_at(all, level) as u128 >= rays).unwrap_or(from);
     let ps = if enough < few && rays > rays_at(all, few) as u128 { pace(enough) } else { first };
-    // A sample traces its lead-in and the rays of the next level as well, and all rays once before to warm up.
+    // Add 1 / 8 for the lead-in, 1 / 4 for the next level, and 1 for the first pass, which warms up.
     let fits = |level: &usize| rays_at(all, *level) as u128 * ps * 19 / 8 / 1000 <= u128::from(most_ns);
     let last = last_level(all);
     (from..last).find(fits).unwrap_or(last.max(from))
@@ -110,8 +110,8 @@ mod tests {
     #[test]
     fn the_slow_do_with_fewer_rays_then_all_with_fewer_samples_and_then_with_fewer_rays() {
         let of = |budget_ns| rays(&cases(&[10, 15, 10_000]), &SamplePlan { budget_ns, ..PLAN });
-        // All rays of the two fast cases take 1.84 ms with their lead-ins, all rays of the slow case 737 ms, and 2.88
-        // ms if it takes at most eight times as long as the middle one.
+        // With lead-ins, all rays of the two fast cases take 1.84 ms, and all rays of the slow case 737 ms. The slow
+        // case may take eight times as long as the median case: 256 of its rays take 2.88 ms.
         assert_eq!(of(4_000_000_000), (5, vec![65_536, 65_536, 256]));
         assert_eq!(of(24_000_000), (5, vec![65_536, 65_536, 256]));
         assert_eq!(of(12_000_000), (2, vec![65_536, 65_536, 256]));
@@ -120,7 +120,7 @@ mod tests {
         // Without a limit for slow cases, samples are reduced first and all rays stay.
         let patient = SamplePlan { slowest: f64::INFINITY, budget_ns: 1_000_000_000, ..PLAN };
         assert_eq!(rays(&cases(&[10, 15, 10_000]), &patient), (1, vec![65_536; 3]));
-        // At least one ray always remains.
+        // The rays of the last level always remain.
         assert_eq!(of(1), (1, vec![rays_at(65_536, last_level(65_536)); 3]));
         assert!(allot(&[], &PLAN).levels.is_empty());
     }
@@ -138,7 +138,7 @@ mod tests {
     fn what_is_not_known_gets_a_share_of_the_budget_and_no_more_than_the_slowest_may_take() {
         let share =
             |slowest, budget_ns| allot(&cases(&[100, 100]), &SamplePlan { slowest, budget_ns, ..PLAN }).share_ns;
-        // 65,536 rays of 100 ns and a lead-in.
+        // 65,536 rays of 100 ns and their lead-in take 7.37 ms.
         assert_eq!(share(4.0, u64::MAX), 4 * 7_372_800);
         assert_eq!(share(f64::INFINITY, 1_000_000_000), 100_000_000);
         assert_eq!(share(f64::INFINITY, u64::MAX), u64::MAX / 10);

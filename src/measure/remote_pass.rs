@@ -23,11 +23,11 @@ pub struct RemotePass<'a> {
     query: Query,
     /// One per level.
     batches: Vec<RayBatch<'a>>,
-    /// The last rays of the workload, an eighth of the timed rays.
+    /// The last rays of the workload, an eighth as many as the timed rays.
     lead_in: Option<RayBatch<'a>>,
     results: QueryResults,
     lead_in_results: QueryResults,
-    /// Whether the rays of the lead-in are also rays of the pass.
+    /// Whether the lead-in of this pass was traced and its rays are also rays of the pass.
     has_led_in: bool,
     /// Whether the timed rays have been traced once.
     is_warm: bool,
@@ -46,7 +46,7 @@ impl RayBatch<'_> {
 }
 
 impl<'a> RemotePass<'a> {
-    /// A pass over all rays, and the place of its failure.
+    /// A pass over all rays, and the cell in which it stores its failure.
     ///
     /// # Panics
     /// If there are no rays.
@@ -70,7 +70,7 @@ impl<'a> RemotePass<'a> {
         (pass, failure)
     }
 
-    /// Whether it has failed, now or before.
+    /// Whether the pass has failed. Stores the first failure of the structure.
     fn has_failed(&self) -> bool {
         let failure = &mut *self.failure.borrow_mut();
         *failure = failure.take().or_else(|| self.remote.failure());
@@ -105,8 +105,8 @@ impl Timed for RemotePass<'_> {
     }
 
     fn lead_in(&mut self) {
-        // If only a subset of the rays is timed, its tiles lie far from the rays of the lead-in: trace them once
-        // instead.
+        // Trace the timed rays once before the first sample: the tiles of a subset lie far from the rays of the
+        // lead-in.
         if !self.is_warm && !self.has_failed() {
             self.batches[0].query(&mut self.results);
             self.is_warm = true;

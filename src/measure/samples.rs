@@ -1,9 +1,9 @@
-//! Takes samples of many cases, interleaved.
+//! Takes interleaved samples of many cases. In `measure`, a case is one structure on one workload.
 
 use super::tiles::{last_level, level_of, rays_at};
 use super::{Clock, RandomOrder, Stopwatch};
 
-/// A unit of timing: a workload with subsets that can be timed.
+/// A case that can be timed on all rays of its workload or on subsets.
 pub trait Timed {
     /// Rays of the workload, at least 1.
     fn rays(&self) -> usize;
@@ -18,7 +18,7 @@ pub trait Timed {
     /// Warms caches and branch predictors for this case. Called before a pass whose time is kept. Not timed.
     fn lead_in(&mut self);
 
-    /// One pass: nanoseconds of each level chosen.
+    /// Runs one pass. Returns the nanoseconds of each chosen level.
     fn run(&mut self, watch: &Stopwatch) -> Vec<u64>;
 
     /// A checksum of all results of the pass. Not timed.
@@ -36,14 +36,14 @@ pub struct SamplePlan {
     /// Time for the samples of all cases in an epoch, ns. If it is too short, fewer samples are taken; if it is too
     /// short for one sample of each case, cases are timed on a subset of their rays, the slowest first.
     pub budget_ns: u64,
-    /// A case that takes more than this multiple of the median case is timed on fewer rays, for any budget; infinite
-    /// for no limit.
+    /// A case that takes more than this multiple of the median case is timed on fewer rays, even within the budget;
+    /// infinite for no limit.
     pub slowest: f64,
     /// The maximum number of rays of a sample.
     pub most_rays: usize,
     /// Seed of the order.
     pub seed: u64,
-    /// Counted from 0.
+    /// The number of the epoch, from 0.
     pub epoch: usize,
 }
 
@@ -52,8 +52,7 @@ pub struct SamplePlan {
 pub struct Samples {
     /// Rays of a sample; fewer than the case has if it is slow.
     pub rays: usize,
-    /// The level of the rays over which [`checksum`](Self::checksum) is computed, if these are not the sampled rays;
-    /// they are drawn from the tiles of epoch 0.
+    /// The level whose rays in epoch 0 the [`checksum`](Self::checksum) covers; `None` if it covers the sampled rays.
     pub asked: Option<usize>,
     /// The checksum of the results; it is the same in all epochs.
     pub checksum: u64,
@@ -79,8 +78,9 @@ pub struct SubsetSamples {
 }
 
 impl Samples {
-    /// No samples yet of a case with `all` rays that is timed at `level`. Each epoch draws its own tiles, so their
-    /// results cannot be compared between epochs: a sixteenth of the tiles of epoch 0 is traced for that purpose.
+    /// Empty samples of a case with `all` rays that is timed at `level`. Each epoch draws its own tiles, so their
+    /// results cannot be compared between epochs: for comparison, each epoch also traces a sixteenth of the rays that
+    /// epoch 0 times.
     pub fn none(all: usize, level: usize) -> Self {
         let asked = (level > 0).then(|| (level + 2).min(last_level(all)));
         Self { rays: rays_at(all, level), asked, is_steady: true, ..Self::default() }
@@ -91,10 +91,10 @@ impl Samples {
 ///
 /// Cases with the same number in `compared` are compared with each other and follow one another within a round: a long
 /// disturbance then affects all of them. `samples` contains the number of rays of each case. A case that is not steady
-/// is not run again. `progress` receives the number of samples so far, including those left out.
+/// is not run again. `progress` receives the number of samples so far, including skipped samples.
 ///
 /// # Panics
-/// If `samples` or `compared` differ in length from `cases`, or no level has the number of rays.
+/// If `samples` or `compared` differ in length from `cases`, or no level of a case has the number of rays in `samples`.
 pub fn take(
     clock: &dyn Clock,
     cases: &mut [Box<dyn Timed + '_>],

@@ -45,8 +45,8 @@ impl Variance {
     }
 
     /// The variance of a sum of independent parts, with the best-fitting degrees of freedom (Satterthwaite, "An
-    /// approximate distribution of estimates of variance components", 1946; of two, Welch, "The generalization of
-    /// Student's problem when several different population variances are involved", 1947).
+    /// approximate distribution of estimates of variance components", 1946; for two parts, Welch, "The generalization
+    /// of Student's problem when several different population variances are involved", 1947).
     pub fn sum(parts: &[Self]) -> Self {
         let square: f64 = parts.iter().map(|part| part.square).sum();
         let spread: f64 = parts.iter().map(|part| part.square * part.square / part.freedom).sum();
@@ -70,7 +70,7 @@ mod tests {
     #[test]
     fn parts_add_up_and_the_less_known_one_weighs() {
         let part = |square, freedom| Variance { square, freedom };
-        // Equal parts: the degrees of freedom add up. A single part keeps its own.
+        // Equal parts: the degrees of freedom add up. A single varying part keeps its degrees of freedom.
         assert_eq!(Variance::sum(&[part(1.0, 4.0), part(1.0, 4.0)]), part(2.0, 8.0));
         assert_eq!(Variance::sum(&[part(1.0, 4.0), Variance::NONE]), part(1.0, 4.0));
         assert_eq!(Variance::sum(&[part(0.0, 4.0), part(0.0, 8.0)]), part(0.0, 4.0));

@@ -13,7 +13,7 @@ use super::machine;
 /// The threads that build and trace; clones share them.
 #[derive(Clone)]
 pub struct Threads {
-    /// Empty until they start.
+    /// Empty until the threads start.
     pool: Arc<OnceLock<rayon::ThreadPool>>,
     count: usize,
     /// The core of each thread, if they are bound.
@@ -31,8 +31,8 @@ impl Threads {
         Ok(Self { pool: Arc::new(OnceLock::from(pool)), ..threads })
     }
 
-    /// Like [`Threads::pinned`], but the threads start with their first work: if they have none, starting them would
-    /// only disturb the timed thread.
+    /// Like [`Threads::pinned`], but the threads start with their first work: without work, their start would only
+    /// disturb the timed thread.
     pub fn unstarted(count: usize) -> Self {
         // Read the load before these threads add to it.
         machine::load_at_start();
@@ -66,8 +66,8 @@ impl Threads {
         self.cores.as_deref()
     }
 
-    /// Binds the calling thread until the guard is dropped; with one thread the caller itself traces. `None` if these
-    /// threads are not bound.
+    /// Binds the calling thread until the guard is dropped, if there is one thread: then the caller itself traces.
+    /// `None` for several threads, or if they are not bound.
     pub fn pin(&self) -> Option<Pin> {
         if self.count == 1 { Pin::to(*self.cores.as_ref()?.first()?) } else { None }
     }
@@ -119,8 +119,8 @@ pub fn keep_to(cores: &[usize]) {
 }
 
 /// The cores for `threads` threads: the cores of [`keep_to`], or the cores that were the most idle during a tenth of a
-/// second; among equals the highest, because interrupts use the lowest. `None` if threads cannot be bound, or there are
-/// fewer cores than threads.
+/// second; among equally idle cores the highest, because interrupts use the lowest. `None` if threads cannot be bound,
+/// or there are fewer cores than threads.
 fn choose(threads: usize) -> Option<Vec<usize>> {
     let mut cores = allowed(THIS_THREAD)?;
     if let Some(chosen) = CORES.get().filter(|chosen| chosen.len() == threads) {

@@ -1,12 +1,12 @@
 //! Selects the rays of a workload that are timed if there is no time for all of them.
 //!
 //! A workload lists the rays of its picture block by block ([`crate::scene::WorkloadKind`]): a tile of neighbouring
-//! rays is a block of pixels. A smaller sample consists of whole tiles spread over the workload, not of single rays,
-//! whose caches would be colder than in a picture. Each epoch draws its own tiles: the difference between tiles and
-//! picture is then part of the spread between epochs, and so of every interval.
+//! rays is a block of pixels. A subset consists of whole tiles spread over the workload, because for scattered single
+//! rays caches are colder than for a picture. Each epoch draws its own tiles: the difference between tiles and picture
+//! is then part of the spread between epochs, and therefore of every interval.
 //!
-//! Levels are nested: a level has about a quarter of the rays of the level before it, all from that level. So a
-//! structure that is timed on all rays is also timed on the rays of a structure that is not.
+//! Level 0 has all rays. Each further level has about a quarter of the rays of the level before it. Levels are nested,
+//! so the pass of a fast structure also times the rays of a slower structure.
 
 use std::ops::Range;
 
@@ -15,11 +15,10 @@ use super::RandomOrder;
 /// Rays of a tile at the first levels: a block of 32 by 32 pixels.
 pub const TILE: usize = 1024;
 
-/// The minimum number of tiles of a level if the level before it has as many; smaller levels have smaller tiles
-/// instead.
+/// A level has fewer tiles than the level before it if at least this many remain; otherwise it has smaller tiles.
 const FEWEST: usize = 64;
 
-/// The index ranges of the rays that are timed at `level` in `epoch`, of `rays` rays: in order, none of them empty.
+/// The index ranges of the rays, out of `rays`, that are timed at `level` in `epoch`: in order, none of them empty.
 /// Level 0 contains all rays.
 pub fn tiles(rays: usize, level: usize, epoch: usize) -> Vec<Range<usize>> {
     if level == 0 {
@@ -52,12 +51,12 @@ fn shrunk(tiles: &[Range<usize>], random: &mut RandomOrder) -> Vec<Range<usize>>
     tiles.iter().map(quarter).collect()
 }
 
-/// The number of rays that are timed at `level`, of `rays` rays.
+/// The number of rays, out of `rays`, that are timed at `level`.
 pub fn rays_at(rays: usize, level: usize) -> usize {
     tiles(rays, level, 0).iter().map(Range::len).sum()
 }
 
-/// The first level of `rays` with at most `most` rays; the last one if all have more.
+/// The first level with at most `most` of `rays` rays; the last level if all levels have more.
 pub fn level_within(rays: usize, most: usize) -> usize {
     (0..last_level(rays)).find(|&level| rays_at(rays, level) <= most).unwrap_or(last_level(rays))
 }
@@ -108,7 +107,7 @@ mod tests {
         assert_ne!(tiles(262_144, 1, 0), tiles(262_144, 1, 1));
         let mut drawn = vec![0; 256];
         (0..400).flat_map(|epoch| tiles(262_144, 1, epoch)).for_each(|tile| drawn[tile.start / TILE] += 1);
-        // A quarter of 400 draws each; five standard deviations are 43.
+        // A quarter of 400 epochs draws each tile; five standard deviations are 43.
         assert!(drawn.iter().all(|n| (57..=143).contains(n)), "{drawn:?}");
     }
 

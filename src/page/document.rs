@@ -12,17 +12,17 @@ pub struct Document {
     pub sections: Vec<Section>,
 }
 
-/// The summary for readers of nothing else.
+/// The summary at the top of a page.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Answer {
     /// A warning above the verdict; may be empty.
     pub banner: String,
-    /// One or two words.
+    /// A few words, such as `Yes`.
     pub verdict: String,
     /// The sentences that support the verdict, most important first.
     pub sentences: Vec<String>,
     pub numbers: Vec<Headline>,
-    /// The same as a chart, with intervals; `None` without intervals.
+    /// A chart of the numbers; `None` without numbers.
     #[serde(skip)]
     pub chart: Option<Chart>,
 }
@@ -32,7 +32,7 @@ pub struct Answer {
 pub struct Headline {
     /// Printed in large type: `20.6 ×`.
     pub number: String,
-    /// Its interval; may be empty.
+    /// The interval of the number; may be empty.
     pub interval: String,
     pub label: String,
 }
@@ -43,7 +43,7 @@ pub struct Section {
     /// Letters, digits and hyphens; unique among the sections.
     pub id: &'static str,
     pub title: &'static str,
-    /// The commands that made it, one per line; may be empty.
+    /// The commands that produced the section, one per line; may be empty.
     pub command: String,
     pub blocks: Vec<Block>,
 }

@@ -1,4 +1,4 @@
-//! All files of a report.
+//! The files of a report: the page, Markdown, figures and data.
 
 use super::document::{Document, Section};
 use super::html::page;
@@ -33,7 +33,7 @@ fn of_figure(figure: &Figure) -> Vec<(String, Vec<u8>)> {
     files
 }
 
-/// The report as Markdown, with pictures beside it.
+/// The report as Markdown, which links to the files of the figures.
 pub fn markdown(document: &Document) -> String {
     let mut text = format!("# {}\n\n", escaped(&document.title));
     if !document.answer.banner.is_empty() {

@@ -1,7 +1,7 @@
-//! `report`: the measurements of runs as a page, Markdown and tidy data.
+//! `sahara report`: measurements of runs as an HTML page, Markdown and CSV files.
 //!
-//! Each study makes its [`Report`](crate::report::Report) from its measurements; a [`Document`] frames the reports, and
-//! all formats are written from it. Missing measurements are listed with their commands.
+//! Each study makes a [`Report`](crate::report::Report) from its measurements. A [`Document`] combines the reports; all
+//! formats are written from the document. It lists missing measurements with their commands.
 
 mod document;
 mod files;

@@ -1,4 +1,4 @@
-//! Reads measured cases from journals and exports. The content of a file determines its kind, not the name.
+//! Reads measured cases from journals and exports. The content of a file, not its name, determines its kind.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -40,9 +40,9 @@ pub enum RunError {
 /// The measurements of a page.
 #[derive(Default)]
 pub struct Runs<'a> {
-    /// The measured studies, in the order of the studies.
+    /// The measured studies, in the order of [`Studies`].
     pub studies: Vec<StudyRun<'a>>,
-    /// Missing or omitted measurements, one sentence each.
+    /// One sentence for each missing or omitted measurement and each ignored file.
     pub notes: Vec<String>,
 }
 
@@ -56,8 +56,8 @@ pub struct StudyRun<'a> {
 }
 
 impl<'a> Runs<'a> {
-    /// Reads files and folders: from a folder, all `.json` files in it and in its journals. An export counts as its
-    /// cases; if a case was measured several times, the newest one counts.
+    /// Reads files and folders. In a folder, it reads all `.json` files and the journals. An export is a list of cases.
+    /// If a case was measured several times, the newest measurement counts.
     pub fn read(paths: &[PathBuf], studies: &'a Studies) -> Result<Self, RunError> {
         let mut runs = Self::default();
         let mut cases = vec![];
@@ -126,7 +126,7 @@ pub fn scene_titles(dataset: &Dataset) -> Vec<String> {
     each_once(dataset.measured.iter().map(|measured| measured.case.scene_title()))
 }
 
-/// The measurements that are not shown, in one line.
+/// A line about a dataset that the page does not show.
 pub fn also_measured(dataset: &Dataset) -> String {
     let Provenance { cpu, commit, date, .. } = &dataset.provenance;
     let commands: Vec<String> =
@@ -135,7 +135,7 @@ pub fn also_measured(dataset: &Dataset) -> String {
     format!("Measured but not shown: {scenes} on {cpu}, commit {commit}, {day} ({}).", listed(&commands))
 }
 
-/// The cases in the file `path`; adds the notes on them.
+/// The cases in the file `path`. The notes of an export are added to `notes`.
 fn read(path: &Path, studies: &Studies, notes: &mut Vec<String>) -> Result<Vec<CaseFile>, RunError> {
     let text = fs::read_to_string(path).map_err(|cause| JournalError::Read { path: path.into(), cause })?;
     let value: Value = serde_json::from_str(&text).map_err(|cause| JournalError::damaged(path, &cause))?;
@@ -164,7 +164,7 @@ fn read(path: &Path, studies: &Studies, notes: &mut Vec<String>) -> Result<Vec<C
     Ok(cases.collect())
 }
 
-/// The files of a folder that may be runs, by name: the files in it and in its journals.
+/// The files that may be runs: in the folder `path`, then in each journal in it, sorted by name.
 fn folder(path: &Path, studies: &Studies) -> Result<Vec<PathBuf>, RunError> {
     let journals = studies.iter().map(|study| path.join(study.name)).filter(|journal| journal.is_dir());
     let files = std::iter::once(path.to_path_buf()).chain(journals).map(|folder| journal::files(&folder));

@@ -1,4 +1,4 @@
-//! Checks that a page is true of its runs, and has the right format.
+//! Checks that a page agrees with its runs and has the right format.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -24,7 +24,7 @@ fn forms(document: &Document) -> [String; 2] {
     [page(document), super::files::markdown(document)]
 }
 
-/// A possible name of a scene.
+/// A scene name that contains HTML.
 const EVIL: &str = "<script>alert(\"&'1'\")</script>";
 
 #[test]
@@ -36,10 +36,10 @@ fn what_users_name_is_text_in_every_form() {
     let files = files(&document, &runs);
     let (_, markdown) = files.iter().find(|(path, _)| path == "report.md").unwrap();
     assert!(!String::from_utf8(markdown.clone()).unwrap().replace("\\<", "").contains("<script>"));
-    // The name of a figure in the file system is not a path.
+    // The name of a scene adds no folder to a path.
     assert!(files.iter().all(|(path, _)| !path.contains("..") && !path.contains(['<', '"', '&'])), "{files:?}");
 
-    // The data of an inspector cannot end its element.
+    // The data of an inspector cannot end its script element.
     let json = page.split("<script type=\"application/json\">").nth(1).unwrap().split("</script>").next().unwrap();
     let data: serde_json::Value = serde_json::from_str(json).unwrap();
     assert_eq!(data["command"], format!("sahara validate {EVIL} --ray"));
@@ -70,7 +70,7 @@ fn every_figure_has_a_name_of_its_own_a_caption_and_words_for_those_who_do_not_s
     assert!(pictures > 0 && pictures == page.matches("<img src=\"data:image/png;base64,").count());
     let charts = figures.iter().filter(|figure| matches!(figure.art, Art::Chart(_)));
     assert_eq!(page.matches("aria-label=\"A picture\"").count(), charts.count());
-    // A section has its command once, without the folder of the program; a fold has both forms.
+    // A section prints its command once, without the folder of the program. Page and Markdown contain the fold.
     assert_eq!(page.matches("<code>sahara study compare --dir runs</code>").count(), 1);
     assert!(markdown.contains("```console\nsahara study compare --dir runs\n```"));
     assert!(page.contains("<summary>More</summary>") && markdown.contains("**More**"));
@@ -94,7 +94,7 @@ fn numbers_stand_to_the_right_and_sort_by_their_value() {
 fn the_answer_goes_by_what_is_measured() {
     const HARD: [&str; 3] = ["Dragon", "Lucy", "Sponza"];
     const SAH: &str = "Would a SAH tree have been much faster on the hard scenes?";
-    // Studies with their scenes; question, verdict, numbers, sentences, and parts of the bars.
+    // Studies with their scenes; title, verdict, count of numbers, parts of the sentences, count of parts in a bar.
     type Case<'a> = (&'a [(&'a str, &'a [&'a str])], &'a str, &'a str, usize, &'a [&'a str], usize);
     let tally = "0 of 24 confirmed, 1 refuted, 0 undecided, 23 not measured";
     let own = "Of all structures sah-kd is the fastest.";
@@ -133,7 +133,7 @@ fn the_answer_goes_by_what_is_measured() {
             _ => panic!("the answer has no bars"),
         });
         assert_eq!(found, parts, "{studies:?}");
-        // A question ends with a question mark; missing measurements have a command.
+        // No full stop follows a question mark. Missing measurements have a command.
         let missing: Vec<&str> = document.missing().iter().map(|missing| missing.command.as_str()).collect();
         assert_eq!(missing.len(), 3 - studies.len());
         for form in forms(&document) {
@@ -179,7 +179,7 @@ fn of_two_runs_the_newest_cases_count_and_what_is_not_shown_is_said() {
     let again: Files = journal("compare", &["Cube"], &new);
     let again = again.into_iter().map(|(name, text)| (name, String::from_utf8(text).unwrap().replace("8000", "8001")));
     let again: Files = again.map(|(name, text)| (name, text.into_bytes())).collect();
-    // Other files beside three scenes; the shown and the hidden scenes, and the notes.
+    // Files added to a journal of three scenes; the shown scenes, the hidden scenes, and a part of the only note.
     type Case<'a> = (Files, &'a [&'a str], &'a [&'a str], &'a str);
     let cases: [Case; 6] = [
         (export("compare", &three, &old), &three, &[], ""),
@@ -191,7 +191,7 @@ fn of_two_runs_the_newest_cases_count_and_what_is_not_shown_is_said() {
     ];
     for (beside, shown, others, note) in cases {
         let [one, other] = [&journal("compare", &three, &old), &beside].map(|files| folder(files));
-        // In any order of the arguments.
+        // The order of the arguments does not matter.
         for order in [[&one, &other], [&other, &one]] {
             let runs = Runs::read(&order.map(|folder| folder.path().to_path_buf()), &STUDIES).unwrap();
             let run = runs.of("compare").unwrap();
@@ -275,7 +275,7 @@ fn scenes_are_drawn_as_they_were_measured_and_those_that_are_gone_are_named() {
     assert!(pictures.pictures()[0].note == "12 triangles" && gone.what.contains("gone"));
     let Block::Figure(figure) = &heat.blocks[1] else { panic!("no heat") };
     assert_eq!((figure.id.as_str(), figure.pictures().len()), ("heat-cube", 2));
-    // The script of the page knows these names.
+    // The script of the page reads these fields.
     let Art::Overlay(Overlay { inspector: data, .. }) = &figure.art else { panic!("no overlay") };
     let names = |data: &serde_json::Value| data.as_object().unwrap().keys().cloned().collect::<Vec<_>>().join(" ");
     assert_eq!(names(data), "size which command pixels rays truths answers structures");

@@ -1,4 +1,4 @@
-//! The structures of this crate, of obvhs and of other projects.
+//! The built-in structures: ours, obvhs, and the peers.
 
 use super::Registry;
 use crate::brute_force::{BruteForce, BruteForceConfig};
@@ -11,9 +11,9 @@ use crate::triangle::{BaldwinWeber, EdgeF64, Exact, MollerTrumbore, MollerTrumbo
 use crate::validate::HasReference;
 
 impl Registry {
-    /// The structures of this crate.
+    /// Our structures, obvhs, the peers whose features are enabled, and the generator `icosphere`.
     pub fn builtin() -> Self {
-        // The default comes first: the exact test.
+        // `Exact` comes first: the first triangle test of a name is its default.
         let ours = Self::empty()
             .over::<Exact>()
             .over::<MollerTrumbore>()
@@ -35,7 +35,7 @@ impl Registry {
         all
     }
 
-    /// Brute force over the triangle test `T`, the reference for structures over it.
+    /// Adds brute force over the triangle test `T`, the reference for all structures over `T`.
     fn brute_force<T: HasReference>(self) -> Self
     where
         BruteForce<T>: Offered<Config = BruteForceConfig>,
@@ -43,7 +43,7 @@ impl Registry {
         self.offering::<BruteForce<T>>("brute-force", BruteForceConfig::default())
     }
 
-    /// The structures of this crate over the triangle test `T`.
+    /// Adds our structures over the triangle test `T`.
     fn over<T: HasReference>(self) -> Self
     where
         BruteForce<T>: Offered<Config = BruteForceConfig>,
@@ -59,9 +59,9 @@ impl Registry {
             .offering::<Bvh8<T>>("sah-bvh", Bvh8Config::new(Partition::Objects))
     }
 
-    /// The structures of other projects whose features are enabled, each over its own triangle test first, then over the
-    /// tests of this crate that it supports.
-    // Without any feature nothing is added.
+    /// Adds the peers whose features are enabled, each over its own triangle test first, then over the tests of this
+    /// crate that it supports.
+    // Without features, this function only returns `this`.
     #[allow(clippy::let_and_return)]
     fn with_peers(self) -> Self {
         let this = self;

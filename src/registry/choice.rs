@@ -38,29 +38,28 @@ pub enum ChoiceError {
     Config { name: String, reason: String },
 }
 
-/// Values of keys in earlier versions, and their replacements.
+/// Removed values: key, value and replacement.
 const REMOVED: [(&str, &str, &str); 1] =
     [("batch", "interleaved", "batch=packets, which interleaves the rays outside packets")];
 
-/// The name of all runners; each has its command as configuration.
+/// The entry name of all runners; the configuration of each contains its command.
 pub const RUNNER: &str = "runner";
 
 const OWN_CLOCK: &str = " (own clock)";
 
-/// The name of a structure; for a runner, without the words about its clock.
+/// A label without ` (own clock)`, the suffix of the labels of runners.
 pub fn plain_name(label: &str) -> &str {
     label.strip_suffix(OWN_CLOCK).unwrap_or(label)
 }
 
-/// Whether `name`, as a user types it, names the structure of this label; a runner's label also has words about its
-/// clock.
+/// Whether `name` equals `label`. Letter case and the suffix ` (own clock)` are ignored.
 pub fn is_named(label: &str, name: &str) -> bool {
     plain_name(label).eq_ignore_ascii_case(plain_name(name))
 }
 
 impl Choice {
-    /// `entry` with values of some keys. `name_test`: the label includes the triangle test, because the name alone
-    /// belongs to another entry.
+    /// `entry` with the values `overrides` of some keys. If `name_test`, the label includes the triangle test, because
+    /// the name alone selects another entry.
     pub(super) fn of(entry: &Entry, overrides: &[(&str, &str)], name_test: bool) -> Result<Self, ChoiceError> {
         let mut config = entry.config.clone();
         let keys = config.as_object_mut().expect("checked when it was registered");
@@ -92,19 +91,20 @@ impl Choice {
         let choice = Self { entry: entry.clone(), config, label };
         match choice.build(&Arc::new(empty())) {
             Err(BuildError::Config(reason)) => Err(ChoiceError::Config { name: entry.name.clone(), reason }),
-            // A structure that is absent, or rejects the empty mesh, is rejected when it is built over a mesh: it must
-            // not end a run over many structures.
+            // A structure that is unavailable or rejects the empty mesh must not end a run here; its build fails later.
             _ => Ok(choice),
         }
     }
 
+    /// Builds the structure over `mesh`.
+    ///
     /// # Errors
-    /// If the structure rejects the mesh.
+    /// See [`BuildError`].
     pub fn build(&self, mesh: &Arc<Mesh>) -> Result<Box<dyn DynAccel>, BuildError> {
         (self.entry.build)(mesh, &self.config)
     }
 
-    /// The structure for the functions of [`crate::validate::conformance`].
+    /// The structure as an argument for the functions of [`crate::validate::conformance`].
     pub fn subject(&self) -> Subject {
         let own = self.clone();
         Subject::new(&self.label, self.triangle_test(), move |mesh| own.build(mesh))
@@ -115,7 +115,7 @@ impl Choice {
         self.entry.triangle_test
     }
 
-    /// The structure that `program` implements. Its label names the clock of its times.
+    /// The structure that `program` implements. The label states that the program measures its own times.
     pub fn of_program(program: Program) -> Self {
         let label = program.name() + OWN_CLOCK;
         let config = json!({ "command": program.command(), "build": program.build_id(), "clock": "own" });
@@ -136,7 +136,7 @@ impl Choice {
         Self { entry, config, label }
     }
 
-    /// The command line of a program.
+    /// The command line of a runner; `None` for other structures.
     pub fn command(&self) -> Option<&str> {
         (self.entry.name == RUNNER).then(|| self.config["command"].as_str())?
     }

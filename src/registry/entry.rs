@@ -8,7 +8,7 @@ use crate::geometry::Mesh;
 /// One structure over one triangle test, with its default configuration.
 #[derive(Clone)]
 pub struct Entry {
-    /// The name on the command line; entries of one structure over several tests share it.
+    /// The name on the command line; entries that differ only in the triangle test share it.
     pub name: String,
     /// [`Accel::TRIANGLE_TEST`](crate::accel::Accel::TRIANGLE_TEST).
     pub triangle_test: &'static str,
@@ -18,8 +18,7 @@ pub struct Entry {
     pub conventions: &'static [&'static str],
     /// [`Accel::CAPABILITIES`](crate::accel::Accel::CAPABILITIES).
     pub capabilities: Capabilities,
-    /// Whether it comes with this crate, such as obvhs and the peers; false for structures that another crate
-    /// registers.
+    /// Whether this crate registers the structure (obvhs and the peers included); false if another crate does.
     pub is_builtin: bool,
     /// The default configuration, by key.
     pub config: Value,
@@ -29,7 +28,7 @@ pub struct Entry {
 }
 
 pub(super) type BuildResult = Result<Box<dyn DynAccel>, BuildError>;
-/// Builds over a mesh with a configuration by key.
+/// Builds a structure over a mesh, with a configuration by key.
 pub(super) type Build = Arc<dyn Fn(&Arc<Mesh>, &Value) -> BuildResult + Send + Sync>;
 
 impl Entry {
@@ -41,7 +40,7 @@ impl Entry {
         }
     }
 
-    /// Whether a key accepts a value, for any other values; the error is the parser's.
+    /// Checks that the parser accepts `value` for `key`, with defaults for all other keys.
     pub(super) fn takes(&self, key: &str, value: &Value) -> Result<(), String> {
         let mut config = self.config.clone();
         config[key] = value.clone();
@@ -49,7 +48,7 @@ impl Entry {
     }
 }
 
-/// The mesh for trying a configuration.
+/// The empty mesh, for builds that only check the configuration or the system.
 pub(super) fn empty() -> Mesh {
     Mesh::new(vec![], vec![]).expect("the empty mesh is valid")
 }

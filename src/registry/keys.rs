@@ -1,21 +1,21 @@
-//! The meanings of the keys of structures.
+//! The keys of structures: their meanings, accepted values and defaults.
 
 use serde_json::Value;
 
 use super::Entry;
 
-/// A key of a structure.
+/// A key of the configuration of a structure.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Key {
     pub name: String,
-    /// Empty for structures of other crates.
+    /// Empty for structures that another crate registers.
     pub meaning: &'static str,
     /// The values that it accepts.
     pub values: String,
     pub default: String,
 }
 
-/// The keys of the structures of this crate and of obvhs; a key means the same in all of them.
+/// Keys of the built-in structures and their meanings. A key has the same meaning in all built-in structures.
 const MEANINGS: [(&str, &str); 24] = [
     ("plane", "split plane of a node"),
     ("axis", "split axis of a median"),
@@ -82,7 +82,7 @@ impl Entry {
         self.config.as_object().into_iter().flatten().map(key).collect()
     }
 
-    /// The values that a key accepts; words come from the parser's error message for a wrong one.
+    /// The values that a key accepts; words come from the parser's error message for the unknown word `?`.
     pub(super) fn values(&self, key: &str) -> String {
         match &self.config[key] {
             Value::Bool(_) => "true, false".into(),
@@ -98,7 +98,7 @@ impl Entry {
     }
 }
 
-/// A value as typed: `f32` numbers without the digits of their `f64` form.
+/// A value as a user types it: an `f32` number has no more digits than `f32` needs.
 fn shown(value: &Value) -> String {
     match value {
         Value::String(text) => text.clone(),

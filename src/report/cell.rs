@@ -29,13 +29,13 @@ pub enum Format {
     Figures,
     /// This number of decimals.
     Decimals(u8),
-    /// For a share: times 100, three significant digits, and ` %`.
+    /// For a share: times 100, three significant digits, and ` %`; zero is `0`.
     Percent,
-    /// For a change: times 100, one decimal, with its sign: `+1.5%`.
+    /// For a change: times 100, one decimal, with a sign: `+1.5%`.
     Change,
     /// Nanoseconds as `ns`, `us`, `ms` or `s`.
     Duration,
-    /// As `B`, `KiB`, `MiB` or `GiB`.
+    /// Bytes as `B`, `KiB`, `MiB` or `GiB`.
     Bytes,
 }
 

@@ -3,7 +3,7 @@
 use super::words::ended;
 use super::{Art, Block, Figure, Report, Table, Tone, wrapped};
 
-/// A report, then the lines below it: the output of `--export-markdown`.
+/// A report and the lines of `foot` below it: the output of `--export-markdown`.
 pub fn report(report: &Report, foot: &[String]) -> String {
     let mut text = String::new();
     blocks(&report.blocks, &mut text);

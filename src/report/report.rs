@@ -30,9 +30,9 @@ pub struct Finding {
     pub key: String,
     /// Ends with a full stop; empty if the finding is only a number that a claim refers to.
     pub sentence: String,
-    /// The number in the sentence; `None` if it has none.
+    /// The number in the sentence; `None` if the sentence has no number.
     pub value: Option<Estimate>,
-    /// A name that the page shows as its answer: the label of the fastest structure.
+    /// A name that the page shows as the answer to its question, such as the label of the fastest structure.
     pub name: Option<String>,
     /// Whether the terminal shows the sentence only with `--verbose`.
     pub is_detail: bool,
@@ -157,7 +157,7 @@ impl Finding {
         Self { key: key.into(), sentence: sentence.into(), value: None, name: None, is_detail: false }
     }
 
-    /// A finding without a sentence: a name that the page shows as its answer.
+    /// A finding without a sentence: a name that the page shows as the answer to its question.
     pub fn named(key: impl Into<String>, name: impl Into<String>) -> Self {
         Self { name: Some(name.into()), ..Self::new(key, "") }
     }

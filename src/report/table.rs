@@ -10,7 +10,7 @@ pub struct Table {
     /// One line.
     pub title: String,
     pub columns: Vec<String>,
-    /// As many cells as there are columns.
+    /// Each row has one cell per column.
     pub rows: Vec<Vec<Cell>>,
     /// One sentence each.
     pub notes: Vec<String>,
@@ -79,7 +79,7 @@ impl Table {
         Self { of_scene: true, ..self }
     }
 
-    /// The same table without empty columns; the first one stays, and all of a table without rows.
+    /// The same table without empty columns. The first column stays; a table without rows keeps all columns.
     pub fn without_empty_columns(self) -> Self {
         let says = |i: usize| self.rows.is_empty() || self.rows.iter().any(|row| !row[i].is_empty());
         let kept = (0..self.columns.len()).map(says).collect();
@@ -100,7 +100,7 @@ impl Table {
         Self { columns, rows, ..self }
     }
 
-    /// Whether the column is aligned to the left: the first column, and columns of text alone.
+    /// Whether the column is aligned to the left: the first column, and columns with only text.
     pub fn is_words(&self, column: usize) -> bool {
         let mut cells = self.rows.iter().map(|row| &row[column]).filter(|cell| !cell.is_empty()).peekable();
         column == 0 || cells.peek().is_some() && cells.all(Cell::is_text)

@@ -5,10 +5,10 @@ use comfy_table::{Attribute, Cell as GridCell, CellAlignment, Color, ContentArra
 use super::{Block, Cell, Report, Table, Tone, wrapped};
 use crate::escaped::Escaped as _;
 
-/// The width of the output.
+/// The properties of the output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Screen {
-    /// Columns; `None` for no limit, if the output is not a terminal.
+    /// Characters per line; `None` for no limit, if the output is not a terminal.
     pub width: Option<u16>,
     pub colour: bool,
 }
@@ -17,13 +17,13 @@ pub struct Screen {
 const INDENT: usize = 2;
 const PADDING: usize = 2;
 
-/// The tables except those that belong to one scene, then the claims.
+/// The tables except tables of a single scene, then the table of claims.
 pub fn summary_tables(report: &Report) -> Vec<Table> {
     let shared = report.tables().filter(|table| !table.of_scene).cloned();
     shared.chain(report.verdict_table()).collect()
 }
 
-/// The note of a block: the meaning of columns, printed below the tables.
+/// The text of a note, printed below the tables; `None` for other blocks.
 pub fn note(block: &Block) -> Option<String> {
     if let Block::Note(words) = block { Some(words.clone()) } else { None }
 }
@@ -44,11 +44,11 @@ pub fn table(table: &Table, screen: Screen) -> String {
     text
 }
 
-/// Replaces the name in the row above.
+/// Replaces a name that the row above shows.
 const ABOVE: char = '…';
 
-/// A structure with more keys than the one above is named only by these keys: its whole label leaves no space for
-/// numbers.
+/// If a label consists of the label in the row above and keys, only the keys are printed: the whole label would leave
+/// no space for numbers.
 pub fn with_short_names(mut table: Table) -> Table {
     let names: Vec<String> = table.rows.iter().map(|row| row.first().map_or(String::new(), Cell::text)).collect();
     let mut has_short = false;
@@ -64,7 +64,7 @@ pub fn with_short_names(mut table: Table) -> Table {
     table
 }
 
-/// The text of a cell: it may contain names of files.
+/// The text of a cell, escaped because it may contain file names.
 fn printed(cell: &Cell) -> String {
     cell.text().escaped().to_string()
 }

@@ -29,14 +29,14 @@ pub fn ends(x: Estimate, number: impl Fn(f64) -> String) -> String {
     }
 }
 
-/// Adds a full stop, unless the text ends with a full stop or a question mark.
+/// Adds a full stop, unless the text ends with a full stop, question mark or exclamation mark.
 pub fn ended(words: &str) -> String {
     if words.ends_with(['.', '?', '!']) { words.into() } else { format!("{words}.") }
 }
 
 pub const ONE_EPOCH: &str = "(one epoch)";
 
-/// The words of `text` in lines of at most `width` characters, or one word.
+/// The words of `text` in lines of at most `width` characters; a longer word has its own line.
 pub fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = vec![];
     for word in text.split_whitespace() {
@@ -61,7 +61,7 @@ pub fn listed<S: AsRef<str>>(words: &[S]) -> String {
     }
 }
 
-/// Letters, digits and hyphens, from any text; different texts may give the same result.
+/// Lower-case letters, digits and hyphens, from any text; different texts may give the same result.
 pub fn slug(text: &str) -> String {
     let words = text.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
     let slug = words.collect::<Vec<_>>().join("-").to_ascii_lowercase();

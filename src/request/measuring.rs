@@ -1,4 +1,4 @@
-//! The options of the timing, and times as values of options.
+//! The timing options, and durations as values of options.
 
 use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
@@ -6,8 +6,8 @@ use std::time::Duration;
 
 use super::MEASURING;
 
-/// The extent of the timing. The parameters are the defaults of a study, rendered as texts: for other types clap keeps
-/// one default for all instances.
+/// The extent of the timing. The parameters are the defaults of a study. Clap gets them as text, because it keeps a
+/// typed default once for all instances of a generic type.
 #[derive(Clone, Debug, clap::Args)]
 #[command(next_help_heading = MEASURING)]
 pub struct Measuring<const EPOCHS: u16 = 5, const RUNS: u16 = 3, const BUDGET: u32 = 8> {

@@ -9,7 +9,7 @@ use crate::scene::{Scene, View};
 use crate::validate::Stratum;
 
 named_enum! {
-    /// A workload whose errors are counted separately: errors on different workloads have different causes.
+    /// A workload of `study accuracy`. Errors are counted per workload, because their causes differ.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
     #[serde(rename_all = "kebab-case")]
     pub enum RayKind {
@@ -33,17 +33,17 @@ impl RayKind {
     /// The stratum that generates the rays, and their description.
     fn meaning(self) -> (Stratum, &'static str) {
         match self {
-            // The rays of pictures.
+            // The method `rays` adds the camera rays.
             Self::Uniform => (Stratum::Random, "camera rays and random lines, half of each"),
             Self::Edge => (Stratum::Edges, "rays through points on edges"),
             Self::Vertex => (Stratum::Vertices, "rays through vertices"),
             Self::Axis => (Stratum::AxisParallel, "axis-parallel rays through vertex coordinates"),
             Self::Grazing => (Stratum::Grazing, "rays almost in the plane of a triangle"),
             Self::Scale => (Stratum::Lengths, "rays with directions 1e-30 to 1e30 long"),
-            // Farther away, one step of an `f32` is as large as the mesh, and a traversal that loses no hit visits
-            // nearly everything.
+            // From farther away, one step of an `f32` is as large as the mesh, and a traversal that loses no hit visits
+            // nearly all nodes.
             Self::Offset => (Stratum::FarOrigins, "rays from 1e3 to 1e6 scene sizes away"),
-            // A test must distinguish the surface of the origin from other triangles in its plane.
+            // A triangle test must distinguish the triangle of the origin from other triangles in its plane.
             Self::Surface => (Stratum::FromSurface, "rays from points on triangles"),
         }
     }

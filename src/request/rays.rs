@@ -15,18 +15,18 @@ use crate::report::words::each_once;
 use crate::scene::files::RayFile;
 use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
 
-/// The default workloads of studies.
+/// The default workloads of `compare`.
 pub const WORKLOADS: [WorkloadKind; 4] =
     [WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse, WorkloadKind::Random];
 
-/// Width and height of the report's pictures.
+/// Width and height of the pictures of the source report.
 const PICTURE: [u32; 2] = [512, 512];
 
 /// The workloads of a case. `rays` is the maximum number of timed rays per workload; `None` for no maximum.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "from", rename_all = "kebab-case")]
 pub enum WorkloadRequest {
-    /// The camera, lights and surfaces of the scene.
+    /// Workloads that are generated for the scene.
     Scene {
         kinds: Vec<WorkloadKind>,
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -34,7 +34,7 @@ pub enum WorkloadRequest {
     },
     /// All rays of the picture that the source report draws, 512 x 512 pixels.
     Picture,
-    /// The primary rays of that picture.
+    /// The primary rays of the same picture.
     PrimaryPicture,
     /// A file of rays.
     File {
@@ -45,12 +45,12 @@ pub enum WorkloadRequest {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         rays: Option<usize>,
     },
-    /// `count` rays of each kind that is known to be hard.
+    /// `count` rays of each workload in `kinds`.
     Hard { kinds: Vec<RayKind>, count: usize },
 }
 
 impl WorkloadRequest {
-    /// At most `rays` rays of each workload; all of them for the largest number.
+    /// At most `rays` rays of each workload; all rays for `usize::MAX`.
     pub fn of_scene(kinds: Vec<WorkloadKind>, rays: usize) -> Self {
         Self::Scene { kinds, rays: Some(rays).filter(|&rays| rays < usize::MAX) }
     }
@@ -112,7 +112,7 @@ impl WorkloadRequest {
     }
 }
 
-/// The distinct workloads of `named`; `own` if it is empty. A repeated workload would count twice in every mean.
+/// The distinct workloads of `named`, or of `own` if `named` is empty. Repeated workloads would count twice in means.
 pub fn each_kind<K: Copy + PartialEq>(named: &[K], own: &[K]) -> Vec<K> {
     each_once(if named.is_empty() { own } else { named }.iter().copied())
 }
@@ -130,7 +130,7 @@ pub struct Rays {
 }
 
 impl Rays {
-    /// The named workloads; without any, `own`.
+    /// The named workloads; without names, `own`.
     pub fn request(&self, own: &[WorkloadKind]) -> WorkloadRequest {
         WorkloadRequest::of_scene(each_kind(&self.workload, own), self.rays)
     }
@@ -140,15 +140,15 @@ impl Rays {
 /// `./NAME`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RaySource {
-    /// A maximum; all rays for the largest number.
+    /// The maximum number of rays; `usize::MAX` for all rays.
     Count(usize),
     File(PathBuf),
 }
 
-/// More rays than fit into memory.
+/// The maximum number of rays on the command line.
 const MOST: usize = 1 << 26;
 
-/// Reads a number of rays, or `all`: the largest number.
+/// Reads a number of rays, or `all`, which becomes `usize::MAX`.
 pub fn rays_or_all(text: &str) -> Result<usize, String> {
     match text.parse() {
         _ if text == "all" => Ok(usize::MAX),
@@ -184,12 +184,12 @@ impl RaySource {
         if let Self::File(path) = self { Some(path) } else { None }
     }
 
-    /// The maximum number of rays; all rays of a file.
+    /// The maximum number of rays; `usize::MAX` for a file.
     pub fn count(&self) -> usize {
         if let Self::Count(count) = self { *count } else { usize::MAX }
     }
 
-    /// Like [`count`](Self::count), for rays that can be generated in any number: an error for all rays.
+    /// The number of rays to generate, 0 for a file. An error for `all`, because there is no limit to generated rays.
     pub fn number(&self) -> anyhow::Result<usize> {
         match self {
             Self::Count(usize::MAX) => {
@@ -201,8 +201,8 @@ impl RaySource {
     }
 }
 
-/// The scene and the rays of the file that `source` names; `None` if the rays are to be generated. The scene is the
-/// named one, which must be the file's, or by default the file's scene; with its word.
+/// The scene with its word, and the file that `source` names; `None` if the rays are to be generated. The scene is the
+/// named scene, by default the scene of the file; the rays must have been recorded for it.
 pub fn recorded(
     registry: &Registry,
     source: &RaySource,
@@ -230,7 +230,7 @@ pub fn recorded(
 }
 
 /// Like [`recorded`], as the inputs of a study: at most `rays` of the rays are timed. `workloads` are the workloads on
-/// the command line: there must be none.
+/// the command line, which must be empty.
 pub fn replayed<K>(
     registry: &Registry,
     source: &RaySource,

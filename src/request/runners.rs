@@ -17,11 +17,11 @@ pub struct RunnerRequest {
     pub command: String,
     /// Timeout of a reply, seconds.
     pub limit_s: f64,
-    /// Its configuration, including the digest of its file: another program is another structure.
+    /// The configuration, including the digest of the program: a changed program is another structure.
     pub config: serde_json::Value,
 }
 
-/// The structure of a runner, `[NAME=]COMMAND`, with the timeout `limit_s` of a reply. It must follow the protocol.
+/// The structure of a runner, `[NAME=]COMMAND`, with the timeout `limit_s`. An error if it breaks the protocol.
 pub fn runner(command: &str, limit_s: f64) -> anyhow::Result<Choice> {
     let program = Program::new(command, Duration::from_secs_f64(limit_s));
     let program = program.map_err(|problem| anyhow::anyhow!("--runner {command:?}: {problem}"))?;

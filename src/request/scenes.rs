@@ -93,7 +93,7 @@ fn loaded(registry: &Registry, words: &[OsString]) -> anyhow::Result<Vec<(OsStri
 }
 
 /// A built-in scene by its name in upper or lower case, a generated scene, a scene file, or a scene around a mesh file.
-/// A word that is not a known name and does not look like a path counts as a name.
+/// A word without an extension or a folder that names no file counts as an unknown name.
 pub fn scene(registry: &Registry, word: impl AsRef<OsStr>) -> anyhow::Result<Scene> {
     let (path, real_meshes) = (Path::new(word.as_ref()), real_mesh_folder());
     let is_scene_file = || path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
@@ -152,7 +152,7 @@ pub struct Scenes {
 }
 
 impl Scenes {
-    /// The named scenes, each with its word; without names, `own`; if that is empty, all built-in ones.
+    /// The named scenes, each with its word; without names, `own`; if `own` is empty, all built-in scenes.
     pub fn read(&self, registry: &Registry, own: &[&str]) -> anyhow::Result<Vec<(OsString, Scene)>> {
         let own: Vec<OsString> = own.iter().map(|&name| name.into()).collect();
         loaded(registry, &words(if self.scenes.is_empty() { &own } else { &self.scenes }))

@@ -12,10 +12,10 @@ use crate::scene::Scene;
 /// Tests every ray against every triangle.
 pub const BRUTE_FORCE: &str = "brute-force";
 
-/// The report's tree.
+/// The tree of the source report.
 pub const REPORT_TREE: &str = "median-kd";
 
-/// The tree that is faster according to the report's claim.
+/// The tree that the source report claims to be faster.
 pub const SAH_TREE: &str = "sah-kd";
 
 /// Selects one structure of every name.
@@ -32,7 +32,7 @@ pub const QUALITIES: [&str; 3] = ["fast", "balanced", "high"];
 pub struct StructureRequest {
     /// `NAME` or `NAME:key=value,..`; the label of a runner.
     pub spec: String,
-    /// The role of the structure in a study: [`TWIN`], or a cell of a design; may be empty.
+    /// The role of the structure in a study: [`TWIN`], or a cell of a factorial design; may be empty.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub role: String,
     /// A program that replaces the structure.
@@ -89,12 +89,12 @@ pub fn specs(registry: &Registry, named: &[String]) -> Vec<String> {
     each.map(String::from).collect()
 }
 
-/// The distinct named structures; without names, the first of every name.
+/// The distinct named structures; without names, the first structure of every name.
 pub fn structures(registry: &Registry, named: &[String]) -> anyhow::Result<Vec<Choice>> {
     structures_at(registry, named, None)
 }
 
-/// Like [`structures`]. Structures with a key `quality` that are named without one get this quality.
+/// Like [`structures`]. A structure that has a key `quality` and is named without it gets this quality.
 pub fn structures_at(registry: &Registry, named: &[String], quality: Option<&str>) -> anyhow::Result<Vec<Choice>> {
     let at = |spec: String| {
         let Some(quality) = quality else { return spec };
@@ -145,15 +145,14 @@ pub struct Structures {
 }
 
 impl Structures {
-    /// The named structures; without names, `own`; if that is empty, one of each name.
+    /// The named structures; without names, `own`; if `own` is empty, one structure of each name.
     pub fn chosen(&self, registry: &Registry, own: &[&str]) -> anyhow::Result<Vec<StructureRequest>> {
         let own: Vec<String> = own.iter().map(|&name| name.into()).collect();
         let named = if self.structure.is_empty() { &own } else { &self.structure };
         Ok(structures_at(registry, named, self.quality.as_deref())?.iter().map(Into::into).collect())
     }
 
-    /// Whether the structure of this name is left out for this number of triangles: it would take minutes, and was not
-    /// named.
+    /// Whether to skip the structure `name` on this many triangles: brute force would take minutes and was not named.
     pub fn leaves_out(&self, name: &str, triangles: usize) -> bool {
         name == BRUTE_FORCE && is_large(triangles) && !self.names_brute_force()
     }
@@ -164,8 +163,8 @@ impl Structures {
     }
 }
 
-/// The structures and, for the A/A check, the twin of one of them: of the SAH tree; without it, of the first that is
-/// neither brute force nor the report's tree, which are slow; without such a one, of the first.
+/// Adds a twin of one structure, for the A/A check: of the SAH tree, else of the first structure that is not slow
+/// (brute force and the tree of the source report are), else of the first structure.
 pub fn with_twin(mut structures: Vec<StructureRequest>) -> Vec<StructureRequest> {
     let slow = |structure: &&StructureRequest| [BRUTE_FORCE, REPORT_TREE].contains(&structure.name());
     let sah = structures.iter().find(|structure| structure.name() == SAH_TREE);
@@ -174,13 +173,13 @@ pub fn with_twin(mut structures: Vec<StructureRequest>) -> Vec<StructureRequest>
     structures
 }
 
-/// Whether there are so many triangles that work proportional to their number is sampled or left out: brute force takes
-/// at least ten milliseconds per ray.
+/// Whether work proportional to the number of triangles is sampled or skipped, because there are so many: brute force
+/// takes at least ten milliseconds per ray.
 pub fn is_large(triangles: usize) -> bool {
     triangles > 1 << 22
 }
 
-/// The note for a scene with so many triangles.
+/// The note that brute force is skipped because the scene is [large](is_large).
 pub fn left_out(scene: &Scene) -> String {
     format!(
         "{}: {BRUTE_FORCE} is skipped (minutes on so many triangles); pass --structure {BRUTE_FORCE} to run it",
@@ -188,7 +187,7 @@ pub fn left_out(scene: &Scene) -> String {
     )
 }
 
-/// The known defect of a baseline: it explains its wrong hits, which are shown but do not affect the exit status.
+/// The known defect of a baseline or peer. It explains wrong hits, which are shown but do not affect the exit status.
 /// `None` for all other structures.
 pub fn known_defect(structure: &str) -> Option<&'static str> {
     match structure {

@@ -78,7 +78,7 @@ impl Look {
 }
 
 impl ViewArgs {
-    /// The scene with this view; an error if it has no such view.
+    /// The scene with this camera and size; an error if it cannot have this camera.
     pub fn seen(&self, scene: Scene) -> anyhow::Result<Scene> {
         let mut scene = if self.inside { scene.from_inside().context("--inside")? } else { scene };
         if let Some(Look { eye, target, vertical_fov }) = self.camera {
@@ -89,7 +89,7 @@ impl ViewArgs {
         Ok(scene)
     }
 
-    /// Like [`seen`](Self::seen), with a note on a bare mesh that is seen from outside.
+    /// Like [`seen`](Self::seen), with a note if a bare mesh is seen from outside.
     pub fn of(&self, scene: Scene) -> anyhow::Result<Scene> {
         let mut scene = self.seen(scene)?;
         if scene.is_framed && self.looks_from().is_none() {
@@ -113,7 +113,7 @@ impl ViewArgs {
         }
     }
 
-    /// The options as arguments for a shell; empty without one.
+    /// The options as arguments for a shell; empty without options.
     pub fn words(&self) -> String {
         let camera = self.camera.filter(|_| !self.inside).map(|look| format!("--camera '{}'", String::from(look)));
         let inside = self.inside.then(|| "--inside".to_owned());
@@ -121,7 +121,7 @@ impl ViewArgs {
         [camera, inside, size].into_iter().flatten().collect::<Vec<String>>().join(" ")
     }
 
-    /// Rejects camera options together with rays of a file, which ignore them.
+    /// Rejects camera options, because rays of a file ignore them.
     pub fn is_unasked(&self) -> anyhow::Result<()> {
         anyhow::ensure!(self.is_default(), "the file defines the rays: omit --camera, --inside and --size");
         Ok(())
@@ -178,7 +178,7 @@ mod tests {
         let extent = bounds.max - bounds.min;
         let along = if extent.x >= extent.z { view.x } else { view.z };
         assert!(along.abs() == view.length() && inside.size == [8, 6]);
-        // A scene has its own lights.
+        // The lights of the scene do not change.
         assert_eq!(inside.lights.len(), lights.len());
         assert_eq!(inside.lights[0].position, lights[0].position);
     }

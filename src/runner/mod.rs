@@ -1,5 +1,5 @@
-//! Structures in other languages: programs that build, trace and time themselves. [`crate::scene::files`] documents the
-//! protocol.
+//! Runners: programs in any language that build a structure, trace rays and measure their own times.
+//! [`crate::scene::files`] documents the protocol.
 
 mod program;
 mod ray_set;
@@ -24,7 +24,7 @@ pub use program::Program;
 /// A structure that a [`Program`] has built.
 pub struct Runner {
     state: Mutex<State>,
-    /// The folder of the exchanged files.
+    /// The folder of the files that are exchanged with the program.
     folder: TempDir,
     capabilities: Capabilities,
     build_ns: u64,
@@ -33,7 +33,7 @@ pub struct Runner {
 }
 
 impl Runner {
-    /// Starts the program, which builds over `mesh`.
+    /// Starts the program and requests a build over `mesh`.
     pub fn build(program: &Program, mesh: &Mesh) -> Result<Self, BuildError> {
         Self::begin(program, mesh).map_err(BuildError::Remote)
     }
@@ -104,7 +104,7 @@ impl DynAccel for Runner {
         Footprint { other: self.bytes, ..Footprint::default() }
     }
 
-    /// The shape is unknown and reported as one leaf.
+    /// The shape is unknown: one leaf with all triangles represents it.
     fn shape(&self) -> TreeShape {
         TreeShape { leaves: 1, references: self.triangles, largest_leaf: self.triangles, ..TreeShape::default() }
     }

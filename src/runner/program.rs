@@ -10,16 +10,16 @@ use crate::measure::program::file_id;
 /// A program that implements the protocol, with the time limit for its replies.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Program {
-    /// The name before the first `=`, of letters, digits, `-` and `_`.
+    /// `NAME` of `NAME=COMMAND`; `None` without a valid name (letters, digits, `-` and `_`).
     name: Option<String>,
     command: String,
-    /// The command, split as a shell does.
+    /// The command without the name, split as by a shell.
     words: Vec<String>,
     limit: Duration,
 }
 
 impl Program {
-    /// Checks the program by starting it once. The error is a sentence.
+    /// Reads `COMMAND` or `NAME=COMMAND`, and starts the program once to check it.
     pub fn new(command: &str, limit: Duration) -> Result<Self, String> {
         let named = command.split_once('=').filter(|(name, _)| is_name(name));
         let (name, line) = named.map_or((None, command), |(name, line)| (Some(name.to_owned()), line));
@@ -29,12 +29,12 @@ impl Program {
         program.start(1).map(|_| program)
     }
 
-    /// The command as typed.
+    /// The command as typed, with the name.
     pub fn command(&self) -> &str {
         &self.command
     }
 
-    /// The given name; by default the name of the program without its folder, and the arguments.
+    /// The given name; by default the file name of the program and its arguments.
     pub fn name(&self) -> String {
         self.name.clone().unwrap_or_else(|| {
             let file = Path::new(&self.words[0]).file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -42,14 +42,14 @@ impl Program {
         })
     }
 
-    /// Identifies the build: the first digits of the SHA-256 of its file and of each file among its arguments, such as
-    /// the script of an interpreter. `None` if it is found on the search path and has no such argument.
+    /// Identifies the build: the first digits of the SHA-256 of the program and of each file among its arguments, such
+    /// as the script of an interpreter. A program found on the search path is omitted. `None` if no file remains.
     pub fn build_id(&self) -> Option<String> {
         let ids: Vec<String> = self.words.iter().filter_map(|word| file_id(Path::new(word)).ok()).collect();
         (!ids.is_empty()).then(|| ids.join(" "))
     }
 
-    /// For a program that cannot be started: the command may begin with a text that was meant as its name.
+    /// Advice for a program that cannot be started, if the text before the first `=` is not a valid name; else empty.
     fn advice_on_name(&self) -> String {
         match self.command.split_once('=') {
             Some((text, _)) if !is_name(text) => format!(
@@ -59,7 +59,7 @@ impl Program {
         }
     }
 
-    /// Starts the program and learns which queries it supports.
+    /// Starts the program; its first reply states which queries it supports.
     pub(super) fn start(&self, threads: usize) -> Result<(Session, Capabilities), String> {
         let session = Session::start(&self.words, threads, self.limit);
         let mut session = session.map_err(|problem| problem + &self.advice_on_name())?;
@@ -79,7 +79,7 @@ fn is_name(text: &str) -> bool {
     !text.is_empty() && text.chars().all(is_plain)
 }
 
-/// Version of the protocol.
+/// The version of the protocol.
 const VERSION: u32 = 1;
 
 #[cfg(test)]

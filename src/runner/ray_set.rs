@@ -1,4 +1,4 @@
-//! A set of rays in a runner.
+//! The rays of a runner: loading, passes and hits.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -12,18 +12,18 @@ use crate::output::OutputFile;
 use crate::scene::Workload;
 use crate::scene::files::{HitFile, RayFile, RaysId};
 
-/// The running program and its reports so far.
+/// The running program, and what all its ray sets share.
 pub(super) struct State {
     pub session: Session,
-    /// The reason why the runner has failed, once it has; it then receives no more requests.
+    /// The reason why the runner failed. A runner that has failed receives no more requests.
     pub failure: Option<String>,
-    /// The numbers of sets in use.
+    /// For each number, whether a ray set uses it.
     pub taken: Vec<bool>,
-    /// For each pass, the elapsed time as a multiple of the time that the runner reported.
+    /// The elapsed time divided by the time that the runner reported, for each pass longer than [`LONG_NS`].
     pub outside: Vec<f64>,
 }
 
-/// In a shorter pass the request and the reply take a notable part of the elapsed time: clocks cannot be compared.
+/// In shorter passes, request and reply take a notable share of the elapsed time: the clocks cannot be compared.
 const LONG_NS: u64 = 1_000_000;
 
 pub(super) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -51,7 +51,7 @@ impl<'a> RaySet<'a> {
         Self { state, folder, number, rays, loaded: Mutex::new(None), own_ns: AtomicU64::new(0) }
     }
 
-    /// The hits of all rays; `None` once the runner has failed.
+    /// The hits of all rays; `None` if the runner has failed or there are no rays.
     fn hits(&self, query: Query) -> Option<Vec<Option<Hit>>> {
         let state = &mut *locked(self.state);
         if state.failure.is_some() || self.rays.is_empty() {

@@ -11,26 +11,26 @@ use crate::measure::{on_all_cores, process_group};
 /// A running program, with a time limit for each reply.
 pub(super) struct Session {
     child: Child,
-    /// `None` once it has been closed.
+    /// `None` after it was closed.
     input: Option<ChildStdin>,
     lines: Receiver<Vec<u8>>,
     limit: Duration,
 }
 
-/// A line, and the elapsed time until it arrived.
+/// A line of output, and the time from the request to its arrival.
 pub(super) struct Reply {
     pub text: String,
     pub ns: u64,
 }
 
-/// The maximum length of a reply in bytes; a longer one is cut.
+/// The maximum length of a reply in bytes; a longer line is split, and its second part counts as unrequested output.
 const LONGEST: u64 = 4096;
 
-/// Time limit for the end of a program.
+/// How long a program may take to end after its input was closed.
 const GRACE_PERIOD: Duration = Duration::from_millis(500);
 
 impl Session {
-    /// Starts the program `words[0]` with its arguments. With several threads it may use all cores of this process.
+    /// Starts the program `words[0]` with its arguments. If `threads > 1`, it may use all cores of this process.
     pub fn start(words: &[String], threads: usize, limit: Duration) -> Result<Self, String> {
         let mut command = Command::new(&words[0]);
         command.args(&words[1..]).stdin(Stdio::piped()).stdout(Stdio::piped());
@@ -38,7 +38,7 @@ impl Session {
         let child = if threads > 1 { on_all_cores(|| command.spawn()) } else { command.spawn() };
         let mut child = child.map_err(|cause| format!("the program {:?} cannot be started: {cause}", words[0]))?;
         let (input, output) = (child.stdin.take(), child.stdout.take().expect("its output is a pipe"));
-        // Unrequested output fills the pipe and blocks the program: it takes no memory here.
+        // The channel holds one line. More unrequested output fills the pipe and blocks the program.
         let (sender, lines) = sync_channel(1);
         thread::spawn(move || {
             let mut output = BufReader::new(output);
@@ -53,8 +53,8 @@ impl Session {
         Ok(Self { child, input, lines, limit })
     }
 
-    /// The reply to a line. If the program has ended, does not reply in time, writes a line before the request or
-    /// reports an error, it is killed, and the error is a clause.
+    /// Sends a line and returns the reply. If the program has ended, does not reply in time, writes a line before the
+    /// request or reports an error, it is killed, and a clause describes the error.
     pub fn request(&mut self, request: &str) -> Result<Reply, String> {
         let reply = self.exchange(request);
         if reply.is_err() {
@@ -92,8 +92,8 @@ impl Session {
         }
     }
 
-    /// Closes its input, waits up to `patience`, and kills it with all programs that it has started. Returns its exit
-    /// status if it ended by itself.
+    /// Closes the input, waits up to `patience`, then kills the program and all programs that it has started. Returns
+    /// the exit status if the program ended by itself.
     fn end(&mut self, patience: Duration) -> Option<ExitStatus> {
         self.input = None;
         let has_ended = process_group::ends_within(&mut self.child, patience);
@@ -114,14 +114,14 @@ fn text(line: &[u8]) -> String {
     text.trim_end_matches(['\r', '\n']).chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }
 
-/// The error for a reply that is not of the form `form`. One that begins with another word may be a message.
+/// The error for a reply that is not of the form `form`. A reply with another first word may be a message to the user.
 pub(super) fn unexpected(request: &str, reply: &str, form: &str) -> String {
     let word = |line: &str| line.split(' ').next().map(String::from);
     let advice = if word(reply) == word(form) { "" } else { ": write messages to standard error" };
     format!("it replies {reply:?} to {request:?}, not {form:?}{advice}")
 }
 
-/// Nanoseconds from the seconds that a runner reports, which must be finite and not negative.
+/// Nanoseconds from the seconds that a runner reports; `None` outside [0, 1e9) seconds.
 pub(super) fn nanoseconds(seconds: &str) -> Option<u64> {
     let seconds: f64 = seconds.parse().ok()?;
     (0.0..1e9).contains(&seconds).then_some((seconds * 1e9) as u64)
@@ -150,7 +150,7 @@ mod tests {
             assert_eq!(session.request("start").unwrap().text, "started");
             let patience = if ends_of_itself { Duration::from_secs(10) } else { GRACE_PERIOD };
             assert_eq!(session.end(patience).is_some(), ends_of_itself, "{script}");
-            // The output is closed once no process has it open.
+            // The output ends when no process has it open.
             let next = session.lines.recv_timeout(Duration::from_secs(10));
             assert_eq!(next, Err(RecvTimeoutError::Disconnected), "{script}");
         }

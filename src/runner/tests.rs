@@ -34,7 +34,7 @@ fn a_mesh_is_written_as_it_is_read() {
     let bytes = std::fs::read(&path).unwrap();
     let (header, body) = bytes.split_at(bytes.len() - 4 * 12 - 3 * 13);
     let header = String::from_utf8(header.into()).unwrap();
-    // One line each, as in the document.
+    // The document shows each line of the header in backquotes.
     let document = include_str!("../images/scene/files/FORMAT.md");
     for line in header.lines() {
         let line = line.replace("vertex 4", "vertex N").replace("face 3", "face M");

@@ -1,5 +1,5 @@
-//! The unit that one process measures: one epoch of one scene. Plain data, which any process can read: no process needs
-//! to know its study.
+//! A case: one epoch of one scene, the unit that one process measures. A case is plain data: the process that measures
+//! it does not need the study that planned it.
 
 use std::collections::BTreeMap;
 
@@ -37,9 +37,9 @@ pub struct Case {
 pub struct Settings {
     /// Samples per structure and workload, at least 1; fewer if the budget runs out.
     pub runs: usize,
-    /// Time for all samples of an epoch, ns: slow pairs are timed on fewer rays. `None`: all rays are timed.
+    /// Time for all samples of an epoch, ns; to stay within it, fewer rays are timed. `None`: no limit.
     pub budget_ns: Option<u64>,
-    /// A structure slower than the median by more than this factor is timed on fewer rays. `None`: no limit.
+    /// A structure that takes more than this multiple of the median time is timed on fewer rays. `None`: no limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slowest: Option<f64>,
     pub check: Check,
@@ -49,7 +49,7 @@ pub struct Settings {
     /// Specs of structures whose triangle tests are counted over all rays, not over a sample.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub whole_counts: Vec<String>,
-    /// Whether the scene counts only if each structure has a time.
+    /// Whether to drop the scene unless every structure has a time.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub whole: bool,
     /// Spec of the structure whose hits are the origins of secondary rays.
@@ -67,15 +67,15 @@ pub enum Check {
     /// Brute force over the same triangle test, with about `tests` triangle tests per workload. Wrong hits get no time.
     BruteForce {
         tests: usize,
-        /// Time limit of all checks of a scene, ns; `None` if no clock limits them.
+        /// Time limit of all checks of a scene, ns. `None`: no limit.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         limit_ns: Option<u64>,
     },
-    /// The exact oracle: error counts are measured beside times.
+    /// The exact oracle: errors are counted, and structures with errors keep their times.
     Oracle,
 }
 
-/// Triangle tests of brute force per workload: about two tenths of a second.
+/// The default of `tests` in [`Check::BruteForce`]: about 0.2 s per workload.
 pub const TESTS: usize = 1 << 27;
 
 impl Default for Check {
@@ -84,11 +84,11 @@ impl Default for Check {
     }
 }
 
-/// The usual [`Settings::slowest`]: more rays hardly improve the ratios of a slow structure, but take most of a run.
+/// The usual [`Settings::slowest`]: more rays hardly improve the ratios of a slow structure, but take much of a run.
 pub const SLOWEST: f64 = 4.0;
 
 impl Settings {
-    /// Whether a clock limits the checks, and so everything else that could take long.
+    /// Whether this is a quick run: its checks have a time limit, and other long steps are shortened.
     pub fn is_quick(&self) -> bool {
         matches!(self.check, Check::BruteForce { limit_ns: Some(_), .. })
     }
@@ -109,7 +109,7 @@ impl Settings {
         }
     }
 
-    /// The settings of the options, with hits checked against brute force; an error if the registry is empty.
+    /// The settings in `measuring`, with hits checked against brute force; an error if the registry is empty.
     pub fn new<const EPOCHS: u16, const RUNS: u16, const BUDGET: u32>(
         measuring: &Measuring<EPOCHS, RUNS, BUDGET>,
         registry: &Registry,
@@ -124,7 +124,7 @@ impl Settings {
     }
 }
 
-/// An epoch spends about a quarter of its other time on building this many triangles.
+/// Building this many triangles takes about a quarter of the fixed time of an epoch.
 const TRIANGLES: u64 = 12_000;
 
 impl Case {
@@ -144,7 +144,7 @@ impl Case {
         format!("{} {labels}epoch {}", self.scene_title(), self.epoch)
     }
 
-    /// Approximate duration, as a multiple of any unit.
+    /// Approximate duration in an arbitrary unit.
     pub fn work(&self) -> u64 {
         // Epoch 0 also checks and counts.
         (4 + self.scene.triangles as u64 / TRIANGLES) * if self.epoch == 0 { 2 } else { 1 }
@@ -160,7 +160,7 @@ impl Case {
         self.epoch == other.epoch && self.is_beside(other)
     }
 
-    /// Whether both are of one scene, with the same labels.
+    /// Whether both have the same scene and labels.
     pub fn is_of_scene(&self, other: &Self) -> bool {
         (&self.scene.hash, self.scene_title(), &self.labels) == (&other.scene.hash, other.scene_title(), &other.labels)
     }
@@ -185,17 +185,17 @@ impl Case {
         let settings = serde_json::to_value(&self.settings).expect("settings have text keys");
         let Value::Object(mut map) = settings else { unreachable!("settings are a struct") };
         map.remove("whole_counts");
-        // Larger meshes have more time, unless the user sets the limit.
+        // The default limit grows with the mesh.
         map.remove("build_limit_s");
         let workloads = serde_json::to_value(&self.workloads).expect("a request has text keys");
-        // Scenes of one study may have different pictures.
+        // The scenes of `replicate` form one group, although some have all rays and others only primary rays.
         if !matches!(self.workloads, WorkloadRequest::Picture | WorkloadRequest::PrimaryPicture) {
             map.insert("workloads".into(), workloads);
         }
         map
     }
 
-    /// A hash that differs between settings and machines; together with the key it names the file.
+    /// A hash of the identity and the machine. The file name consists of the key and this hash.
     pub fn digest(&self, machine: &impl Serialize) -> String {
         let text = serde_json::to_string(&(self.identity(), machine)).expect("a case has text keys");
         format!("{:08x}", checksum(text.bytes().map(u64::from)) as u32)

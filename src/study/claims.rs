@@ -10,18 +10,18 @@ struct Claim {
     /// The key of the finding.
     key: &'static str,
     what: &'static str,
-    /// The smallest and the largest expected number; an infinite one is no bound.
+    /// The smallest and the largest expected value; infinity means no bound.
     range: [f64; 2],
     scale: Scale,
 }
 
-/// How the interval of a number is widened, because all claims are judged together.
+/// How to widen the interval of a number: all claims are judged together, so each interval is corrected for all.
 #[derive(Clone, Copy)]
 enum Scale {
-    /// A ratio: widens the interval of its logarithm.
+    /// The number is a ratio: widen the interval of its logarithm.
     Ratio,
     Number,
-    /// Its interval is already corrected for all claims.
+    /// The interval of the finding is already corrected for all claims.
     Judged,
 }
 use Scale::{Judged, Number, Ratio};
@@ -33,13 +33,13 @@ const NONE: f64 = f64::INFINITY;
 const RAYS: [f64; 2] = [-2.0, 2.0];
 const WHOLE: [f64; 2] = [20.0, NONE];
 const PLANE: [f64; 2] = [1.2, 5.0];
-// A number of tests equal to brute force is not "more".
+// As many tests as brute force are not "more" tests.
 const MORE: [f64; 2] = [1.0_f64.next_up(), NONE];
 // The predictions say "well" and "badly" without numbers; this project chose these values of tau.
 const WELL: [f64; 2] = [0.7, NONE];
 const BADLY: [f64; 2] = [-NONE, 0.5];
 
-/// Shortens the table.
+/// Shortens the rows of the tables below.
 const fn claim(prediction: u8, key: &'static str, what: &'static str, range: [f64; 2], scale: Scale) -> Claim {
     Claim { prediction, key, what, range, scale }
 }
@@ -123,14 +123,14 @@ impl Claim {
     }
 }
 
-/// The verdicts on the claims that `study` measures, from its findings. Empty if none of them is measured.
+/// The verdicts on the claims of `study`, from its findings. Empty if no claim has a measured number.
 pub fn judge(study: &str, findings: &[Finding]) -> Vec<ClaimVerdict> {
     let verdicts: Vec<ClaimVerdict> = of_study(study).iter().map(|claim| claim.judge(findings)).collect();
     let is_measured = verdicts.iter().any(|verdict| verdict.outcome != Outcome::NotMeasured);
     if is_measured { verdicts } else { vec![] }
 }
 
-/// The number of claims by outcome: `10 of 24 confirmed, 10 refuted, 4 undecided`.
+/// The number of claims by outcome: `10 of 24 confirmed, 9 refuted, 4 undecided, 1 not measured`.
 pub fn tally<'a>(verdicts: impl IntoIterator<Item = &'a ClaimVerdict>) -> String {
     let outcomes: Vec<Outcome> = verdicts.into_iter().map(|verdict| verdict.outcome).collect();
     let count = |outcome: Outcome| outcomes.iter().filter(|own| **own == outcome).count();

@@ -1,4 +1,4 @@
-//! The input of one report: the epochs of cases of one group, measured by one build on one machine.
+//! The input of a report: cases with the same study and [group](Case::group), measured by one build on one machine.
 #![doc = include_str!("SCHEMA.md")]
 
 use serde::{Deserialize, Serialize};
@@ -19,7 +19,7 @@ pub struct Measured {
     pub epoch: Epoch,
 }
 
-/// Cases and epochs of one group, with provenance. `--export-json` writes it.
+/// The measured cases of one group, with their provenance. `--export-json` writes a dataset.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Dataset {
     /// Version of this format.
@@ -36,7 +36,7 @@ pub struct Dataset {
 pub struct SceneEpochs<'a> {
     /// The case of the first epoch.
     pub case: &'a Case,
-    /// In order of their numbers; at least one.
+    /// At least one, ordered by number.
     pub epochs: Vec<&'a Epoch>,
 }
 
@@ -48,7 +48,7 @@ impl Dataset {
         Self { schema: Self::SCHEMA, provenance, measured, notes: vec![] }
     }
 
-    /// The name of the study that planned it; `None` for an empty dataset.
+    /// The name of the study that planned the cases; `None` for an empty dataset.
     pub fn study(&self) -> Option<&str> {
         Some(self.measured.first()?.case.study.as_str())
     }
@@ -83,7 +83,7 @@ impl Dataset {
         distinct(all().map(|own| &own.label)).into_iter().map(sentence).collect()
     }
 
-    /// The commands that measured it.
+    /// The commands that planned the cases; no duplicates.
     pub fn commands(&self) -> Vec<&str> {
         each_once(self.measured.iter().map(|measured| measured.case.command.as_str()))
     }
@@ -100,13 +100,13 @@ impl Dataset {
         ["schema", "provenance", "measured"].iter().all(|field| value.get(field).is_some())
     }
 
-    /// Reads what [`to_json`](Self::to_json) has written; an error if it is not a dataset, or has another version.
+    /// Converts the JSON `value` of the file `path`; an error if it is not a dataset of this version.
     pub fn read(path: &std::path::Path, value: serde_json::Value) -> Result<Self, JournalError> {
         Self::check_schema(path, &value)?;
         serde_json::from_value(value).map_err(|cause| JournalError::damaged(path, &cause))
     }
 
-    /// Whether a dataset or a case file has this version.
+    /// Rejects a dataset or case file of another version than [`SCHEMA`](Self::SCHEMA).
     pub(super) fn check_schema(path: &std::path::Path, value: &serde_json::Value) -> Result<(), JournalError> {
         let (there, here) = (value.get("schema").and_then(serde_json::Value::as_u64).unwrap_or(0) as u32, Self::SCHEMA);
         if there == here { Ok(()) } else { Err(JournalError::Schema { path: path.into(), there, here }) }

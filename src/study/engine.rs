@@ -19,25 +19,25 @@ pub struct Run<'a> {
     pub registry: &'a Registry,
     /// The folder of all journals.
     pub folder: &'a Path,
-    /// Whether the journal stays after a complete run; `None`: the plan decides.
+    /// Whether to keep the journal in `folder`; otherwise it is temporary. `None`: the plan decides.
     pub keep_journal: Option<bool>,
-    /// Whether the cases are measured again.
+    /// Whether to measure all cases again, even if the journal has them.
     pub fresh: bool,
-    /// The options of the processes that measure one case each; if `None`, this process measures all.
+    /// The options for the process of each case. `None`: this process measures all cases.
     pub processes: Option<&'a [OsString]>,
     pub screen: &'a mut dyn Screen,
 }
 
 /// The result of a run.
 pub struct RunOutcome {
-    /// `None` if the run was interrupted, or no scene could be measured: then no file is written.
+    /// `None` if the run was interrupted, or no scene could be measured: then no export is written.
     pub dataset: Option<Dataset>,
     pub report: Report,
     /// Tables that were not printed during the run.
     pub tables: Vec<Table>,
     /// Notes that explain the tables.
     pub notes: Vec<String>,
-    /// The findings below the tables.
+    /// Lines below the tables: failures, findings, provenance and verdicts.
     pub foot: Vec<String>,
     pub status: Status,
     /// The errors that ended scenes; all other scenes are measured.
@@ -89,11 +89,11 @@ struct Engine<'a> {
     journal: Journal,
     provenance: Provenance,
     threads: Threads,
-    /// The last scene that this process measured, with its word: loading a large scene takes seconds.
+    /// The last scene that this process measured, with its word. It is kept, because loading a scene may take seconds.
     loaded: Option<(OsString, Scene)>,
     /// The errors that ended scenes.
     failures: Vec<StudyError>,
-    /// Scenes without further epochs: they failed, or their time is up.
+    /// Cases whose scene gets no further epoch, because it failed or its time is up.
     ended: Vec<Case>,
 }
 
@@ -103,7 +103,7 @@ impl Engine<'_> {
         self.ended.iter().any(|ended| ended.is_of_scene(case))
     }
 
-    /// Measures all missing cases. Returns whether the user stopped it.
+    /// Measures all missing cases. Returns whether the user interrupted the run.
     fn measure(&mut self, run: &mut Run) -> anyhow::Result<bool> {
         let clock = SystemClock::start();
         let mut began = 0;
@@ -132,7 +132,7 @@ impl Engine<'_> {
                 }
                 run.screen.done();
             }
-            // The next epoch takes about as long as this one.
+            // Assume that the next epoch takes as long as this one.
             let now = clock.now_ns();
             let limit = self.plan.limit.map_or(u64::MAX, |limit| limit.as_nanos() as u64);
             let is_late = (now - began) + (now - start) > limit;
@@ -152,14 +152,14 @@ impl Engine<'_> {
         Ok(false)
     }
 
-    /// The case; structures that epoch 0 could not build in time are marked as skipped.
+    /// Returns `case`; structures that epoch 0 could not build in time are marked as skipped.
     fn with_skipped(&self, case: &Case) -> Case {
         let first = self.journal.get(&Case { epoch: 0, ..case.clone() }).filter(|_| case.epoch > 0);
         let structures = first.map_or(&case.structures, |file| &file.case.structures).clone();
         Case { structures, ..case.clone() }
     }
 
-    /// Measures a case, in its own process if `processes` allows, and writes the file `out`.
+    /// Measures a case and writes the file `out`. If `run.processes` is `Some`, another process does so.
     fn measure_case(&mut self, case: &Case, out: &Path, run: &mut Run, clock: &dyn Clock) -> Result<(), StudyError> {
         let mut progress = |stage: Stage| run.screen.stage(&stage);
         if let Some(options) = run.processes {
@@ -177,7 +177,7 @@ impl Engine<'_> {
         Ok(())
     }
 
-    /// The measured cases of the plan for which `is` returns true.
+    /// Joins the measured cases of the plan for which `is` returns true.
     fn joined(&self, is: impl Fn(&Case) -> bool) -> JoinedEpochs {
         let files = self.plan.cases.iter().filter(|case| is(case)).filter_map(|case| self.journal.get(case));
         join(files.map(|file| Measured { case: file.case.clone(), epoch: file.epoch.clone() }).collect())
@@ -218,7 +218,7 @@ impl Engine<'_> {
         screen.warn(&report.warnings);
         let (mut tables, mut notes, mut foot) = (vec![], vec![], vec![]);
         if is_reported || !dataset.measured.is_empty() {
-            // Exclude interrupted and failed scenes: they would limit means over scenes to the epochs that they have.
+            // Exclude interrupted and failed scenes: means over scenes use only the epochs that all scenes have.
             let lacks = |case: &Case| {
                 self.plan.cases.iter().any(|other| other.is_of_scene(case) && self.journal.get(other).is_none())
             };

@@ -53,7 +53,7 @@ pub struct Structure {
     /// Whether wrong hits are the reason for `refused`.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub wrong: bool,
-    /// Build time, ns; for a runner, the time that it reports. A short build is repeated: the median of three.
+    /// Build time, ns; for a runner, the time that it reports. A short build is repeated: the median of up to three.
     pub build_ns: u64,
     /// Peak memory of the build beyond the memory in use before it, bytes; only in epoch 0. `None` if not counted.
     pub build_peak_bytes: Option<usize>,
@@ -73,7 +73,7 @@ pub struct Shape {
     /// Leaves, empty ones included.
     pub leaves: usize,
     pub empty_leaves: usize,
-    /// References in leaves.
+    /// Triangle references in all leaves.
     pub references: usize,
     pub largest_leaf: usize,
     /// Edges from the root to the deepest leaf.
@@ -91,7 +91,7 @@ pub struct Rays {
     pub query: Query,
     /// Rays of the workload.
     pub all: usize,
-    /// Rays of a sample; fewer if the structure is slow.
+    /// Rays of a sample; fewer than `all` if the structure is slow or the budget is short.
     pub rays: usize,
     /// Checksum of the hits on rays that all epochs trace: the whole workload, or some tiles of epoch 0.
     pub checksum: u64,
@@ -104,7 +104,7 @@ pub struct Rays {
     /// Whether wrong hits are the reason for `untimed`.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub wrong: bool,
-    /// The unsupported feature of these rays: `any hit`, `t_min` or `t_max`.
+    /// The feature of these rays that the structure does not support: `any hit`, `t_min` or `t_max`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub declined: Option<String>,
     /// The check of the hits; only in epoch 0, because hits do not change between epochs.
@@ -116,13 +116,13 @@ pub struct Rays {
     /// Error counts against the exact oracle; only in epoch 0 and with [`Check::Oracle`](super::Check::Oracle).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub errors: Option<ErrorCounts>,
-    /// The longest time of a single ray that is traced on its own, ns; where `errors` are counted.
+    /// Only together with `errors`: the longest time of a ray that is traced on its own, ns.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slowest_ns: Option<u64>,
 }
 
-/// The result of the last check. Before the timing, brute force checks a sample of the rays. After it, another tree
-/// checks all timed rays; brute force and exact arithmetic judge the rays on which structure and tree differ.
+/// The result of the last check. Before the timing, brute force checks a sample of the rays. After the timing, another
+/// tree checks all timed rays; brute force and exact arithmetic judge the rays on which structure and tree differ.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Checked {
     pub rays: usize,
@@ -190,7 +190,7 @@ impl From<&dyn DynAccel> for Shape {
 }
 
 impl Structure {
-    /// Whether hits that change after a rebuild cost only this structure its times, not the whole scene.
+    /// Whether hits that change between epochs refuse only this structure; otherwise they end the whole scene.
     pub fn may_err(&self) -> bool {
         self.name == RUNNER || known_defect(&self.name).is_some()
     }
@@ -202,7 +202,7 @@ impl Structure {
 }
 
 impl Rays {
-    /// Drops the times, for a reason.
+    /// Drops the times. `reason` is a clause.
     pub fn drop_times(&mut self, reason: String) {
         *self = Self { untimed: Some(reason), ns: vec![], parts: vec![], rays: 0, checksum: 0, ..self.clone() };
     }
@@ -250,13 +250,13 @@ impl Epoch {
         timed.map(|rays| rays.rays).min().unwrap_or(0)
     }
 
-    /// Whether no structure has rays although none is refused.
+    /// Whether no structure is refused and none has rays: then the scene has no rays of these workloads.
     pub fn has_no_rays(&self) -> bool {
         let is_idle = |structure: &Structure| structure.refused.is_none() && structure.rays.is_empty();
         self.structures.iter().all(is_idle)
     }
 
-    /// One failure per structure, or structure and workload, without a time; no duplicates.
+    /// One failure for each refused structure, and for each structure and workload without a time; no duplicates.
     pub fn failures(&self) -> Vec<Failure> {
         let scene = self.title();
         let mut failures: Vec<Failure> = vec![];
@@ -275,7 +275,7 @@ impl Epoch {
     }
 
     /// Checks that every structure has a time on every workload, and that all structures return the same `t`, bit for
-    /// bit. That requires one common triangle test. The error names the first structure without a time, or the first two
+    /// bit, which requires a common triangle test. The error names the first structure without a time, or the first two
     /// that differ.
     pub fn check_complete(&self) -> Result<(), StudyError> {
         if let Some(failure) = self.failures().into_iter().next() {
@@ -287,10 +287,10 @@ impl Epoch {
         self.agree(|_| Some(""))
     }
 
-    /// Checks that all structures over the exact triangle test return the same `t`, bit for bit, on the counted rays,
-    /// which are far more than the rays that brute force checks. Other tests are not compared: a test that rounds may
-    /// place a hit outside the box of its triangle, where one tree finds it and another culls it. Structures with known
-    /// defects or without a time are skipped. The error names the first two structures that differ.
+    /// Checks that all structures over the exact triangle test return the same `t`, bit for bit, on the counted rays.
+    /// Other tests are not compared: a test that rounds may place a hit outside the box of its triangle; one tree then
+    /// finds the hit and another culls it. Runners, and structures with known defects or without a time, are skipped.
+    /// The error names the first two structures that differ.
     pub fn check_agreement(&self) -> Result<(), StudyError> {
         self.agree(|structure| {
             Some(structure.triangle_test.as_str()).filter(|test| *test == Exact::NAME && !structure.may_err())
@@ -304,7 +304,7 @@ impl Epoch {
         for (structure, own) in all.filter_map(|structure| Some((structure, group(structure)?))) {
             for rays in structure.rays.iter().filter(|rays| rays.untimed.is_none()) {
                 let Some(counts) = rays.counts else { continue };
-                // Compare only equal numbers of counted rays: trees that test many triangles are counted on fewer.
+                // Compare only equal numbers of counted rays: slow trees are counted on fewer rays.
                 let known = seen.entry((own, &rays.workload, counts.rays)).or_insert((structure, counts.distances));
                 if known.1 != counts.distances {
                     let (one, other) = (known.0.label.clone(), structure.label.clone());

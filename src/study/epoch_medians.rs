@@ -1,12 +1,12 @@
-//! Turns the samples of several structures into values that are independent of each other.
+//! Reduces the samples of several structures to one value per structure and epoch.
 
 use crate::measure::{Estimate, Rerun, Variance, median};
 
-/// One logarithm per epoch and structure. The input is the logarithms of all samples, by epoch and structure.
+/// One logarithm per epoch and structure, from the logarithms of all samples by epoch, structure and round.
 ///
-/// Within an epoch, a disturbance that slows a whole round is removed first: the median, over the structures, of the
-/// distance from their own medians. Then each structure has the median of its rounds. Sums over these values add up
-/// exactly in every epoch.
+/// A disturbance that slows a whole round is removed first: the median, over the structures, of the difference between
+/// the sample and the median of the structure. Then each structure has the median of its rounds. In every epoch,
+/// differences of these values add up exactly.
 pub(super) fn epoch_medians(mut epochs: Vec<Vec<Vec<f64>>>) -> Vec<Vec<f64>> {
     let middle = |values: &[f64]| median(values).expect("a structure has samples");
     let rounds = |trees: &[Vec<f64>]| trees.iter().map(Vec::len).min().unwrap_or(0);
@@ -21,7 +21,7 @@ pub(super) fn epoch_medians(mut epochs: Vec<Vec<Vec<f64>>>) -> Vec<Vec<f64>> {
     epochs.iter().map(|trees| trees.iter().map(|tree| middle(tree)).collect()).collect()
 }
 
-/// exp(`of`(epoch)), with its interval; `noise` is the variance that the A/A noise adds.
+/// exp(mean of `of` over the epochs), with its interval; `noise` is the variance that the A/A noise adds.
 pub(super) fn ratio(epoch_medians: &[Vec<f64>], of: impl Fn(&[f64]) -> f64, noise: Variance) -> Estimate {
     Rerun::of(&values(epoch_medians, of), noise).expect("there is an epoch").ratio()
 }

@@ -2,7 +2,7 @@ use super::journal::JournalError;
 use crate::accel::BuildError;
 use crate::report::number::plural;
 
-/// The reason why a study cannot continue.
+/// The reason why a study, or one of its scenes, cannot continue.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
     #[error("{structure} cannot be built over {scene}: {cause}")]
@@ -43,21 +43,21 @@ pub enum StudyError {
     Journal(#[from] JournalError),
 }
 
-/// The difference between two epochs, if one of them has wrong [hits](StudyError::Apart).
+/// The value of `what` in [`StudyError::Apart`] if two epochs differ in their hits.
 pub const ANSWERS: &str = "the hits";
 
-/// The workload on which epochs differ; empty if they differ in their structures.
+/// Names the workload on which two epochs differ; empty if they differ in their structures.
 fn workload(rays: &str) -> String {
     if rays.is_empty() { String::new() } else { format!(", {rays} rays") }
 }
 
-/// Advice to name at most `most` structures, which fit into memory.
+/// Advice to name at most `most` structures, as many as fit into memory; empty if none fits.
 fn fewer(most: usize) -> String {
     if most == 0 { String::new() } else { format!("at most {}, or ", plural(most, "structure")) }
 }
 
 impl StudyError {
-    /// The error for the reason why `structure` cannot be built over `scene`.
+    /// Converts a build error of `structure` over `scene`.
     pub fn of_build(structure: &str, scene: &str) -> impl FnOnce(BuildError) -> Self {
         move |cause| Self::Build { structure: structure.into(), scene: scene.into(), cause }
     }
@@ -71,7 +71,7 @@ impl StudyError {
         }
     }
 
-    /// Whether a structure returned wrong hits, so only the structure is to blame.
+    /// Whether wrong hits of a structure are the cause.
     pub fn is_wrong_answer(&self) -> bool {
         matches!(
             self,

@@ -1,7 +1,7 @@
 //! Joins the separately measured epochs of a scene into one measurement. A pure function of the measurements.
 //!
-//! Only epoch 0 checks and counts: its results hold for all epochs, and without it the scene is left out. Epochs belong
-//! to one measurement if they have the same rays, number of timed rays, number of samples and hits.
+//! Only epoch 0 checks and counts: its results hold for all epochs, and a scene without epoch 0 is left out. Epochs
+//! belong to one measurement if they agree in structures, rays, hits, number of timed rays and number of samples.
 
 use super::epoch::Rays;
 use super::error::ANSWERS;
@@ -16,13 +16,13 @@ pub struct JoinedEpochs {
     pub measured: Vec<Measured>,
     /// The errors that end scenes: their cases are left out.
     pub failures: Vec<StudyError>,
-    /// Scenes without a check, one sentence each: their cases are left out.
+    /// Scenes without epoch 0, one sentence each: their cases are left out.
     pub unchecked: Vec<String>,
     /// Planned epochs that are missing, one sentence each.
     pub missing: Vec<String>,
 }
 
-/// Joins the epochs of each scene. If only the [whole](super::case::Settings::whole) counts, all structures need times.
+/// Joins the epochs of each scene. With [`whole`](super::case::Settings::whole), all its structures must have times.
 pub fn join(measured: Vec<Measured>) -> JoinedEpochs {
     let mut scenes: Vec<Vec<(usize, Measured)>> = vec![];
     for own in measured.into_iter().enumerate() {
@@ -68,7 +68,7 @@ fn lacks(title: &str, missing: &[usize]) -> String {
     format!("{title}: {epochs} {} {are} not measured", listed(&numbers))
 }
 
-/// Turns the epochs of a scene, epoch 0 first, into one measurement.
+/// Makes the epochs of a scene consistent; an error if they are not of one measurement. Epoch 0 comes first.
 fn one(epochs: &mut [&mut Epoch]) -> Result<(), StudyError> {
     let title = epochs[0].title();
     for place in 0..epochs[0].structures.len() {
@@ -116,7 +116,7 @@ fn one(epochs: &mut [&mut Epoch]) -> Result<(), StudyError> {
             if let Some(other) = differing(|a, b| a.rays == b.rays).filter(|_| structure.name != RUNNER) {
                 return apart(other, &first.workload, "the number of timed rays");
             }
-            // Reduce the samples to the largest subset that all epochs have: the clock of a runner decides its rays.
+            // Keep the largest subset that all epochs timed: a runner's clock chooses the number of rays per epoch.
             let common = common_sizes(epochs, place, kind);
             let Some(&largest) = common.first() else {
                 refuse(epochs, place, UNSTEADY);
@@ -133,14 +133,14 @@ fn one(epochs: &mut [&mut Epoch]) -> Result<(), StudyError> {
     Ok(())
 }
 
-/// Reason for a structure of another crate. Packets do so after a rebuild: other rays travel together.
+/// Reason to refuse a runner or a structure with known defects. Hits of its packets may depend on the other rays.
 const CHANGED: &str = "after a rebuild it returns other hits than before: its times are not comparable";
 
-/// Reason for a runner whose epochs have no rays in common.
+/// Reason to refuse a runner if no number of rays is timed in all of its epochs.
 const UNSTEADY: &str = "its speed differs by more than a factor of sixteen between epochs (by its own clock), so no \
                         rays are timed in all of them";
 
-/// Refuses a structure in all epochs; for wrong hits if one of them has wrong hits.
+/// Refuses a structure in all epochs. If it is wrong in one epoch, it is wrong in all.
 fn refuse(epochs: &mut [&mut Epoch], place: usize, reason: &str) {
     let wrong = epochs.iter().any(|epoch| epoch.structures[place].wrong);
     for structure in epochs.iter_mut().map(|epoch| &mut epoch.structures[place]) {

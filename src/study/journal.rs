@@ -1,10 +1,10 @@
-//! The journal of a study: a folder with one file per scene and epoch. A killed run resumes where it
-//! stopped, and several machines can write to one folder without communicating.
+//! The journal of a study: a folder with one file per scene and epoch. A killed run resumes where it stopped, and
+//! several machines can write to one folder without communicating.
 //!
-//! Each file contains the case, its provenance and its results. One writer writes it whole, and it never changes. A
-//! file name that begins with a dot marks an unfinished write and is ignored. The name of a case file has the case's
-//! key and a digest of settings, build and machine, so cases of any settings fit into one folder. Any process may read
-//! at any time, and any number of planned jobs may write; only one run at a time may measure the missing cases.
+//! Each file contains the case, its provenance and its results. It is written atomically and never changed. A file name
+//! that begins with a dot marks an unfinished write and is ignored. The name of a case file contains the case's key and
+//! a digest of settings, build and machine, so cases of any settings fit into one folder. Any process may read at any
+//! time, and any number of planned jobs may write; only one run at a time may measure the missing cases.
 
 mod case_file;
 mod error;
@@ -35,14 +35,14 @@ pub struct Journal {
 
 impl Journal {
     /// Opens the journal in `folder` to measure the missing cases of `cases`, and creates the folder if it is missing.
-    /// With `fresh` the existing cases are measured again: their files stay, and the newest file counts. Only one run at
-    /// a time may measure: two would measure the same cases and disturb each other's times. The second one is an error
-    /// if it lacks cases.
+    /// With `fresh`, existing cases are measured again: their files stay, and the newest file counts. Only one run at a
+    /// time may measure, because two would measure the same cases and disturb each other's times: an error if cases are
+    /// missing and another run is measuring.
     pub fn open(folder: &Path, provenance: Provenance, fresh: bool, cases: &[Case]) -> Result<Self, JournalError> {
         fs::create_dir_all(folder).map_err(|cause| JournalError::Write { path: folder.into(), cause })?;
-        // Take the lock before reading the cases: they then include everything an earlier run wrote.
+        // Take the lock before reading the cases: they then include everything that an earlier run wrote.
         let lock = File::open(folder).ok();
-        // Some systems cannot lock folders, such as Windows and many network file systems: there the run continues.
+        // Windows and many network file systems cannot lock folders: there, run without a lock.
         let is_taken = lock.as_ref().is_some_and(|own| matches!(own.try_lock(), Err(TryLockError::WouldBlock)));
         let files = files(folder)?.iter().map(|path| CaseFile::read(path)).collect::<Result<Vec<_>, _>>()?;
         let ignored = if fresh { files.len() } else { 0 };
@@ -70,7 +70,7 @@ impl Journal {
         names.find(|path| !path.exists()).expect("there are more numbers than files")
     }
 
-    /// Adds the file at `path`, which was written meanwhile.
+    /// Adds the file at `path`, which was written after the journal was opened.
     pub fn add(&mut self, path: &Path) -> Result<(), JournalError> {
         self.files.push(CaseFile::read(path)?);
         Ok(())
@@ -89,7 +89,7 @@ pub fn file_name(case: &Case, provenance: &Provenance) -> String {
 /// The maximum number of characters before the digest.
 const LONGEST: usize = 100;
 
-/// The files of a folder that may be cases, by name.
+/// The files of a folder that may be cases, sorted by name.
 pub fn files(folder: &Path) -> Result<Vec<PathBuf>, JournalError> {
     let paths = fs::read_dir(folder).and_then(|all| all.map(|entry| Ok(entry?.path())).collect::<io::Result<Vec<_>>>());
     let mut paths = paths.map_err(|cause| JournalError::Read { path: folder.into(), cause })?;

@@ -1,4 +1,4 @@
-//! Whether two measures have the same order: Kendall's tau.
+//! Kendall's tau: whether two measures have the same order.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use super::claims::CLAIMS;
 use crate::measure::{Estimate, Rerun, Variance};
 
 /// Kendall's tau-b of pairs `(x, y)` (Kendall, "The treatment of ties in ranking problems", 1945): 1 for the same
-/// order, -1 for the opposite one. Only couples with `compared(i, j)` count. `None` if no couple differs in both.
+/// order, -1 for the opposite one. Only couples with `compared(i, j)` count. `None` if none differs in x, or none in y.
 pub fn kendall(pairs: &[(f64, f64)], compared: impl Fn(usize, usize) -> bool) -> Option<f64> {
     let (mut same, mut x_differ, mut y_differ) = (0.0, 0.0, 0.0);
     for i in 0..pairs.len() {
@@ -23,15 +23,15 @@ pub fn kendall(pairs: &[(f64, f64)], compared: impl Fn(usize, usize) -> bool) ->
 
 /// How well estimates have the expected order.
 pub struct Order {
-    /// Kendall's tau. The ends of its interval count all couples with an uncertain order for and against the order.
+    /// Kendall's tau. Uncertain couples count as reversed at the low end of its interval, as ordered at the high end.
     pub tau: Estimate,
-    /// The couples that significantly have the other order: the indices of the expected larger and smaller one.
+    /// The significantly reversed couples: the indices of the estimates expected to be larger and smaller.
     pub reversed: Vec<[usize; 2]>,
 }
 
 impl Order {
-    /// The order of positive estimates with their ranks, the largest expected first; estimates of one rank are not
-    /// compared. Each comparison is corrected for all couples and for `looks` as many.
+    /// Tests the order of positive estimates with their expected ranks; rank 0 is the largest. Estimates of equal rank
+    /// are not compared. The interval of each comparison is corrected for `looks` times the number of couples.
     pub fn of(ranked: &[(Estimate, usize)], looks: usize) -> Self {
         let all = || 0..ranked.len();
         let couples = all().flat_map(|i| all().map(move |j| [i, j])).filter(|&[i, j]| ranked[i].1 < ranked[j].1);
@@ -52,9 +52,9 @@ impl Order {
     }
 }
 
-/// The mean over scenes. Its interval is the prediction for another set of as many scenes, corrected for all claims and
-/// cut to the range of tau. Taus of one scene are not independent: the trees are the same for all workloads, and a
-/// stand-in imitates the real mesh. They count as their mean.
+/// The mean over scenes. Its interval predicts the mean of as many other scenes; it is corrected for all claims and cut
+/// to the range of tau. The taus of one scene count as their mean, because they are not independent: the trees are the
+/// same for all workloads, and a stand-in imitates the real mesh.
 pub fn mean_of_scenes<'a>(taus: impl IntoIterator<Item = (&'a str, f64)>) -> Option<Estimate> {
     let mut scenes: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
     for (scene, tau) in taus {

@@ -56,7 +56,7 @@ pub struct Measurement {
     pub mrays_per_s: Option<f64>,
     pub shape: Shape,
     pub declined: Option<String>,
-    /// Rays of the check in epoch 0, see [`Checked`](super::epoch::Checked).
+    /// Rays checked in epoch 0; see [`Checked`](super::epoch::Checked).
     pub checked_rays: usize,
     /// Rays with a wrong hit, which no rounding explains.
     pub wrong_hits: usize,

@@ -1,7 +1,7 @@
 //! Studies: each asks a question, plans cases and reports on the measurements.
 //!
-//! A [`Study`] is a value: two functions and their options. It does not measure: `engine` measures the cases of a plan
-//! that the journal lacks, one [`Case`] per process, and passes the [`Dataset`] to the study's report.
+//! A [`Study`] is a value: the functions `plan` and `report`, and their options. A study does not measure. `engine`
+//! measures the planned cases that the journal lacks, one [`Case`] per process, and passes the [`Dataset`] to `report`.
 
 pub mod accuracy;
 pub mod attribution;
@@ -49,25 +49,25 @@ pub use verdict::Verdict;
 
 /// A question, its plan and its report.
 pub struct Study {
-    /// The subcommand; also the name of its journal.
+    /// The name of the subcommand and of the journal folder.
     pub name: &'static str,
-    /// One line.
+    /// The help text and the title in reports: one line.
     pub question: &'static str,
     /// Arguments of `study all`.
     pub presets: Presets,
-    /// Its options. The only positional arguments are scenes.
+    /// The options of the study. The only positional arguments are scenes.
     pub options: fn() -> Command,
-    /// The cases to measure. It does no measuring, and rejects everything that cannot be measured.
+    /// Plans the cases without measuring them; an error if the options name something that cannot be measured.
     pub plan: fn(&ArgMatches, &Registry) -> anyhow::Result<Plan>,
-    /// A pure function of the measurements and the options of the run; the defaults for a journal or an export.
+    /// A pure function of the measurements and the options; `sahara report` passes the default options.
     pub report: fn(&Dataset, &ArgMatches) -> Report,
 }
 
-/// The arguments with which `study all` runs a study: scenes, which other scenes may replace, then options.
+/// The arguments with which `study all` runs a study: scenes, then options. `study all SCENE..` replaces the scenes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Presets {
     pub full: &'static str,
-    /// A few minutes, for trying out.
+    /// The arguments of `study all --quick`: a run takes a few minutes.
     pub quick: &'static str,
 }
 
@@ -77,25 +77,25 @@ impl Study {
         (self.options)().no_binary_name(true).try_get_matches_from(words.iter().map(OsString::from))
     }
 
-    /// Its default options. Panics if an option has no default.
+    /// The default options. Panics if an argument is required.
     pub fn defaults(&self) -> ArgMatches {
         self.matches::<OsString>(&[]).unwrap_or_else(|error| panic!("study {}: {error}", self.name))
     }
 
-    /// Whether it accepts scenes.
+    /// Whether the study accepts scenes.
     pub fn names_scenes(&self) -> bool {
         (self.options)().get_positionals().next().is_some()
     }
 
-    /// The arguments `preset`, one of its [presets](Self::presets). If `scenes` is not empty, it replaces the scenes of
-    /// the preset.
+    /// The arguments in `preset`, one of the [presets](Self::presets). `scenes`, unless empty, replace its scenes.
+    /// A study that accepts no scenes ignores `scenes`.
     pub fn preset(&self, preset: &str, scenes: &[OsString]) -> Vec<OsString> {
         let scenes = if self.names_scenes() { scenes } else { &[] };
         let options = preset.split_whitespace().skip_while(|word| !scenes.is_empty() && !word.starts_with('-'));
         scenes.iter().cloned().chain(options.map(OsString::from)).collect()
     }
 
-    /// The command that measures it into the folder `runs`, which `sahara report` reads.
+    /// The command that runs the study with its journal in `runs`; `sahara report` reads this folder.
     pub fn command_line(&self) -> String {
         format!("sahara study {} --dir runs", self.name)
     }
@@ -111,7 +111,7 @@ impl Studies {
         Self { list: vec![] }
     }
 
-    /// The studies of this crate. A new study is one more line.
+    /// The studies of this crate. To add a study, add a line.
     pub fn builtin() -> Self {
         Self::empty()
             .with(attribution::STUDY)
@@ -121,8 +121,8 @@ impl Studies {
             .with(replicate::STUDY)
     }
 
-    /// Adds a study. Panics if its name is taken, is `all` or `plan`, or contains anything except lower-case letters, digits
-    /// and hyphens.
+    /// Adds a study. Panics if its name is empty, is taken, is `all` or `plan`, or contains other characters than
+    /// lower-case letters, digits and hyphens.
     pub fn with(mut self, study: Study) -> Self {
         let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
         let name = study.name;

@@ -21,7 +21,7 @@ pub struct Plan {
     pub warnings: Vec<String>,
     /// Files that the study reads: no output may replace them.
     pub inputs: Vec<PathBuf>,
-    /// Time limit of a scene: no further epoch starts that would exceed it.
+    /// Time limit of a scene: an epoch that would probably exceed it is not started.
     pub limit: Option<Duration>,
     /// Whether the journal is kept in the folder `runs` by default.
     pub keep_journal: bool,
@@ -29,12 +29,12 @@ pub struct Plan {
 
 /// One scene of a plan.
 pub struct PlannedScene {
-    /// Its epoch 0, without a study.
+    /// Epoch 0 of the scene. The plan sets the study.
     pub case: Case,
 }
 
 impl PlannedScene {
-    /// A scene with its own camera, without labels.
+    /// A scene with its default view and without labels.
     pub fn new(
         (word, scene): &(impl AsRef<OsStr>, Scene),
         structures: &[StructureRequest],
@@ -64,7 +64,7 @@ impl PlannedScene {
 }
 
 impl Plan {
-    /// All epochs of `scenes`, epoch 0 of all scenes first, with a journal that is kept.
+    /// All epochs of `scenes`, epoch 0 of all scenes first. The journal is kept.
     pub fn by_epoch(study: &str, scenes: &[PlannedScene]) -> Self {
         let most = scenes.iter().map(|planned| planned.case.epochs).max().unwrap_or(0);
         let of_epoch = |epoch| {

@@ -1,12 +1,12 @@
-//! A case in its own process.
+//! Measures a case in a separate process.
 //!
-//! Only samples from several processes show how much the placement of memory changes times
+//! Only samples from several processes show how much the memory layout changes times
 //! ([`interval`](mod@crate::measure::interval)).
 //!
-//! The process is this program with a case and a file, `--case JSON --out FILE`. It measures the case and writes the
-//! file; a run or the scheduler of a cluster may start it. A run that listens (`--listen`) reads the progress from the
-//! standard output of the process, one marked line of JSON per message. After each line the process waits for a reply:
-//! so the run is idle while the process times. Other lines come from structures and are copied to standard error.
+//! A run or the scheduler of a cluster starts this program with `--case JSON --out FILE`. The process measures the case
+//! and writes the file. With `--listen` it reports its progress to a run: one marked line of JSON per message on
+//! standard output. After each stage it waits for a reply, so the run is idle while the process takes times. All other
+//! lines come from structures; the run copies them to standard error.
 
 use std::ffi::OsString;
 use std::io::{self, BufRead, BufReader, Write};
@@ -25,7 +25,7 @@ use super::{Case, Screen, Stage, StudyError};
 use crate::measure::{Provenance, SystemClock, process_group, program};
 use crate::registry::Registry;
 
-/// The option with which a process measures a case.
+/// Names of the options with which a process measures a case.
 pub const CASE: &str = "case";
 pub const OUT: &str = "out";
 pub const LISTEN: &str = "listen";
@@ -58,7 +58,7 @@ pub fn measure_apart(
     let cores = cores.map(|cores| cores.iter().map(ToString::to_string).collect::<Vec<_>>().join(","));
     command.args(cores.map(|cores| format!("--{CORES}={cores}")));
     process_group::set_apart(&mut command);
-    // Runners have temporary files there: the folder is removed with everything that a killed process leaves.
+    // Runners put temporary files into a folder that is removed with everything that a killed process leaves there.
     let has_programs = case.structures.iter().any(|own| own.runner.is_some());
     let scratch = if has_programs { tempfile::Builder::new().prefix("sahara-").tempdir().ok() } else { None };
     command.envs(scratch.iter().flat_map(|folder| ["TMPDIR", "TMP", "TEMP"].map(|name| (name, folder.path()))));
@@ -84,7 +84,7 @@ pub fn measure_apart(
         // If the process has already ended, its last message or exit status is the error.
         let _ = writeln!(input);
     }
-    // Another thread may end it meanwhile.
+    // Poll, and lock only briefly: another thread needs the lock to end the process.
     let status = loop {
         if let Some(status) = locked(&child.0).try_wait().map_err(|cause| failure(cause.to_string()))? {
             break status;
@@ -97,13 +97,13 @@ pub fn measure_apart(
     Err(failure(format!("it ended without a reply ({status})")))
 }
 
-/// A process that is killed when it goes out of use.
+/// A child process that is killed when the guard is dropped.
 struct Guard(Arc<Mutex<Child>>);
 
 /// The process that was started last.
 static LAST: Mutex<Weak<Mutex<Child>>> = Mutex::new(Weak::new());
 
-/// Whether the measuring process was told to end.
+/// Whether [`end`] was called.
 static ENDED: AtomicBool = AtomicBool::new(false);
 
 fn locked<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
@@ -123,14 +123,14 @@ impl Guard {
 
 impl Drop for Guard {
     fn drop(&mut self) {
-        // It has ended, or no run listens any more.
+        // The process has ended, or the run no longer listens to it.
         let mut child = locked(&self.0);
         process_group::end(&mut child);
         let _ = child.wait();
     }
 }
 
-/// Ends the measuring process, if there is one: the run then sees a process that ended without a result.
+/// Ends the measuring process, if any, and every later one: the run then sees a process that ended without a result.
 pub fn end() {
     ENDED.store(true, Ordering::SeqCst);
     if let Some(child) = locked(&LAST).upgrade() {
@@ -138,9 +138,9 @@ pub fn end() {
     }
 }
 
-/// Measures a case and writes the file `out`, unless it exists. After an error the file is unchanged: if it cannot be
-/// written or contains anything else, there are fewer cores than threads, or the measuring fails. Returns the reason why
-/// a file of another process is kept, as a clause; `None` if this one was written.
+/// Measures a case and writes the file `out`. If the file already has this case, keeps the file and returns the reason
+/// as a clause; otherwise returns `None`. An error if the file cannot be written or has other content, if there are
+/// fewer cores than threads and no user sees warnings, or if the measurement fails; the file is then unchanged.
 pub fn measure_into(
     case: &Case,
     out: &Path,
@@ -159,7 +159,7 @@ pub fn measure_into(
     let prepared = Prepared::new(case, registry, None)?;
     let command = case.command.clone();
     let provenance = Provenance { process_per_epoch: true, command, ..Provenance::of(&prepared.threads) };
-    // A run only warns. But nobody reads the logs of all jobs, and an existing file is not measured again.
+    // An error, not a warning: nobody reads the logs of all jobs, and an existing file is not measured again.
     if let Some(cause) = provenance.too_many_threads().filter(|_| !screen.is_watched()) {
         return Err(StudyError::Case { key: case.key(), cause }.into());
     }
@@ -173,8 +173,8 @@ pub fn measure_into(
     check_same().map(|()| Some("was written by another process in the meantime: its case is kept."))
 }
 
-/// Measures a case like [`measure_into`], and reports the progress and a failure to the listening run. From now on this
-/// process ends with the run: a killed run leaves no process that disturbs the next run. An error if no run listens.
+/// Measures a case like [`measure_into`], and reports the progress and a failure to the listening run. This process
+/// ends when the run ends: a killed run leaves no process that disturbs the next run. An error if no run listens.
 pub fn measure_for_run(case: &Case, out: &Path, registry: &Registry, watch: &BuildWatch) -> io::Result<()> {
     process_group::end_with_parent();
     let Err(error) = measure_into(case, out, registry, watch, &mut ListeningRun) else { return Ok(()) };
@@ -228,7 +228,7 @@ pub fn build_watch(case: &Case, args: Vec<OsString>) -> BuildWatch {
     BuildWatch::new(Duration::from_secs_f64(limit), again)
 }
 
-/// Becomes the program that `command` starts.
+/// Replaces this process by `command`.
 #[cfg(unix)]
 fn replace(mut command: Command) {
     use std::os::unix::process::CommandExt;

@@ -11,9 +11,9 @@ pub enum Stage<'a> {
     Build(#[serde(borrow)] Cow<'a, str>),
     /// Rays are being made.
     Rays(#[serde(borrow)] Cow<'a, str>),
-    /// A structure is being compared with brute force.
+    /// The hits of a structure are being checked.
     Check(#[serde(borrow)] Cow<'a, str>),
-    /// The number of samples taken, and of all samples.
+    /// Samples are being taken: the number taken so far, and the number of all samples.
     Trace(usize, usize),
     /// All samples of epoch 0 are taken. The work per ray is being counted: no more timing follows.
     Count,
@@ -21,9 +21,9 @@ pub enum Stage<'a> {
 
 /// Shows the progress of a run. It is never called inside a timed region. By default it shows nothing.
 pub trait Screen {
-    /// The run starts; its total work, as a multiple of any unit.
+    /// The run starts; its total work in an arbitrary unit.
     fn begin(&mut self, _: u64) {}
-    /// The next case starts; its work.
+    /// The next case starts; its title and its work.
     fn case(&mut self, _title: &str, _work: u64) {}
     /// The case enters a stage.
     fn stage(&mut self, _: &Stage) {}
@@ -39,7 +39,7 @@ pub trait Screen {
     }
     /// Shows conditions that disturb the run, or options that may be unintended.
     fn warn(&mut self, _: &[String]) {}
-    /// A table of the result.
+    /// Shows a table of the result.
     fn table(&mut self, _: &Table) {}
     /// The run has ended.
     fn end(&mut self) {}

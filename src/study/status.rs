@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::report::Failure;
 use crate::request::known_defect;
 
-/// The result of a command, which is its exit status.
+/// The result of a command; it determines the exit status.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
@@ -20,7 +20,7 @@ pub enum Status {
     Regression,
     /// The samples are inconclusive: a structure may have become slower.
     Undecided,
-    /// The user interrupted it before all cases were measured.
+    /// The user interrupted the run before all cases were measured.
     Interrupted,
 }
 

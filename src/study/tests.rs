@@ -8,7 +8,7 @@ use super::*;
 use crate::measure::Provenance;
 use crate::report::{Block, Report, Table};
 
-/// Three scenes of two epochs. Each scene has a table, and all of them together have one.
+/// Three scenes of two epochs. The report has one table per scene, and one for all scenes together.
 const TINY: Study = Study {
     name: "tiny",
     question: "What becomes of a run in which scenes fail?",
@@ -30,7 +30,7 @@ fn plan() -> Plan {
     Plan { cases: cases.map(|(scene, epoch)| case(scene, epoch, &["x"])).collect(), ..Plan::default() }
 }
 
-/// Writes what a process would measure into the journal of the study, except `without`.
+/// Writes all cases except `without` into the journal, as if they were measured. `change` edits their epochs.
 fn measured(folder: &std::path::Path, without: &[(&str, usize)], change: fn(&Case, &mut Epoch)) {
     let provenance = Provenance { process_per_epoch: false, ..Provenance::of(&crate::measure::Threads::unstarted(1)) };
     let journal = journal::Journal::open(&folder.join("tiny"), provenance.clone(), false, &[]).unwrap();
@@ -66,7 +66,7 @@ fn outcome(folder: &std::path::Path, screen: &mut RecordingScreen) -> RunOutcome
 #[test]
 fn scenes_that_fail_are_told_and_cut_no_mean() {
     let folder = tempfile::tempdir().unwrap();
-    // The second epoch of c has other hits, and epoch 1 of b fails because the scene does not exist.
+    // Epoch 1 of c has other hits. Epoch 1 of b fails, because the scene does not exist.
     let other = |case: &Case, epoch: &mut Epoch| {
         if (case.scene.name.as_str(), case.epoch) == ("c", 1) {
             epoch.structures[0].rays[0].checksum = 2;
@@ -81,7 +81,7 @@ fn scenes_that_fail_are_told_and_cut_no_mean() {
         "{told:?}"
     );
     assert_eq!(outcome.status, Status::Wrong, "wrong answers weigh more than what cannot be measured");
-    // The measured part of b is shown, and is in no mean.
+    // The measured part of b is shown, but no mean includes b.
     assert_eq!(screen.titles, ["a", "b (1 of 2 epochs)"]);
     let titles: Vec<&str> = outcome.tables.iter().map(|table| table.title.as_str()).collect();
     assert!(titles == ["mean of a"] && outcome.dataset.is_some(), "{titles:?}");

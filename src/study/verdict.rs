@@ -64,7 +64,7 @@ impl Verdict {
     }
 }
 
-/// The effect of a structure with such hits, and the consequence.
+/// A description of this kind of wrong hits, and its cause.
 fn fault(kind: Kind) -> (&'static str, &'static str) {
     const TREE: &str = "the tree is wrong";
     const EITHER: &str = "the tree or its triangle test is wrong";

@@ -1,4 +1,4 @@
-//! Chromium without a window, controlled through its debugging pipe.
+//! Headless Chromium, controlled through its debugging pipe.
 
 use std::env;
 use std::io::{BufRead, BufReader, Write};
@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-/// The time limit of a reply: far longer than on a busy machine.
+/// The time limit of a reply; a reply is much faster, even on a busy machine.
 const HANGS: Duration = Duration::from_secs(300);
 
 pub struct Chromium {
@@ -24,7 +24,7 @@ pub struct Chromium {
     _profile: TempDir,
 }
 
-/// Keys by name: code of the key, and the text that it types.
+/// Keys: name, code, and the text that the key types.
 const KEYS: [(&str, u32, &str); 12] = [
     ("Tab", 9, ""),
     ("Enter", 13, "\r"),
@@ -41,7 +41,7 @@ const KEYS: [(&str, u32, &str); 12] = [
 ];
 
 impl Chromium {
-    /// `None` without Chromium, with a message.
+    /// Starts Chromium. If it is not installed, prints a message and returns `None`.
     pub fn launch() -> Option<Self> {
         // Names of the program on various systems.
         let program = ["chromium", "chromium-browser", "google-chrome"].iter().find_map(|name| on_path(name));
@@ -49,7 +49,7 @@ impl Chromium {
             eprintln!("skipped: no chromium on the path");
         }
         let profile = TempDir::new().unwrap();
-        // The pipe is descriptors 3 and 4: its own standard ones.
+        // Chromium reads requests from descriptor 3 and writes to 4; the shell connects both to our pipes.
         let mut process = Command::new("sh")
             .args(["-c", "exec \"$0\" \"$@\" 3<&0 4>&1 </dev/null >/dev/null 2>/dev/null"])
             .arg(program?)
@@ -149,7 +149,7 @@ impl Chromium {
         }
     }
 
-    /// Clicks within the first element of this selector, at shares of its width and height from its top left corner.
+    /// Clicks within the first element of this selector, at fractions of its width and height from the top left corner.
     pub fn click(&mut self, selector: &str, [across, down]: [f64; 2]) {
         let place = self.evaluate(&format!(
             "(() => {{ const e = document.querySelector('{selector}'); e.scrollIntoView({{ block: 'center' }}); \
@@ -161,7 +161,7 @@ impl Chromium {
         }
     }
 
-    /// The console messages of the page, its errors, and its requests for other files.
+    /// The console messages of the page, its errors, and its requests to the network.
     fn complaints(&self) -> Vec<String> {
         let asked = |event: &Value| {
             let url = event["params"]["request"]["url"].as_str().unwrap_or_default();
@@ -173,7 +173,7 @@ impl Chromium {
     }
 }
 
-/// The test fails if the page complained.
+/// Ends the browser, and fails the test if the page had complaints.
 impl Drop for Chromium {
     fn drop(&mut self) {
         let _ = self.process.kill();

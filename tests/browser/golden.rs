@@ -11,7 +11,7 @@ use super::{is_read_everywhere, tab_to};
 use crate::cli::command::{Folder, WRONG};
 use crate::controls::{SIZE, pictures};
 
-/// A page of pictures with planted faults: the names of the comparisons on it.
+/// The pictures on the page in order, most of them with a planted fault, before the section "Identical".
 const NAMES: [&str; 7] = ["0.png", "1.png", "2.png", "3.png", "gone.png", "4.png", "5.png"];
 
 fn page() -> PathBuf {
@@ -31,13 +31,13 @@ fn page() -> PathBuf {
     PAGE.path("page/index.html")
 }
 
-/// The text for the pixel in a comparison, once its values are loaded.
+/// The text about the selected pixel of a comparison, once its values are loaded.
 fn pixel(browser: &mut Chromium, number: usize) -> String {
     let text = format!("document.querySelector('#comparison-{number} .pixel').textContent");
     browser.text_once(&text, |said| said.contains("expected"))
 }
 
-/// A style property of the first comparison.
+/// The expression for a style property of the first comparison.
 fn property(name: &str) -> String {
     format!("document.querySelector('#comparison-0 .stage').style.getPropertyValue('--{name}')")
 }
@@ -50,7 +50,7 @@ fn failing_comparisons_are_first_and_all_is_reached_by_keyboard_alone() {
     assert_eq!(browser.evaluate(names), json!([&NAMES[..], &["Identical"]].concat()));
     assert_eq!(browser.text("document.querySelector('.summary strong').textContent"), "5 of 8 failing");
 
-    // The values of the worst pixel and of its neighbour are loaded from another file than the picture.
+    // The page shows the worst pixel first; it loads pixel values from a separate file.
     let (right, others) = pictures();
     let said = |[x, y]: [u32; 2]| {
         let [expected, actual] = [&right, &others[0].1]
@@ -63,7 +63,7 @@ fn failing_comparisons_are_first_and_all_is_reached_by_keyboard_alone() {
     browser.press("ArrowUp");
     assert_eq!(pixel(&mut browser, 0), said([101, 79]));
 
-    // Zoom, the worst pixel, and blinking: one picture whole, and then the other.
+    // Zoom, the worst pixel, and blinking, which alternates between the two whole pictures.
     assert!(browser.text(&property("zoom")).ends_with("scale(1)"));
     browser.press("w");
     assert_eq!(pixel(&mut browser, 0), said([100, 80]));
@@ -82,7 +82,7 @@ fn failing_comparisons_are_first_and_all_is_reached_by_keyboard_alone() {
     browser.press("ArrowLeft");
     assert_eq!(browser.text(&property("cut")), "49%");
 
-    // The next comparison, with its maps selected.
+    // The next comparison, and the selection of a picture in the comparison after it.
     browser.press("n");
     let own = "document.activeElement.closest('section').id";
     assert_eq!(browser.text(own), "comparison-1");

@@ -79,7 +79,7 @@ fn the_ray_inspector_works_by_keyboard_alone_and_shows_what_the_command_prints()
     }
     assert_eq!(pixel(&mut browser, HEAT), start);
 
-    // Up to a ray with a hit.
+    // Move down to a pixel with a hit.
     for _ in 0..30 {
         if rows(&mut browser, HEAT)[0][4] != "no hit" {
             break;
@@ -93,14 +93,14 @@ fn the_ray_inspector_works_by_keyboard_alone_and_shows_what_the_command_prints()
     for row in &shown[1..] {
         assert!(row[1..4].iter().all(|count| count.parse::<u64>().is_ok()), "{row:?}");
         let [t, triangle, u, v] = [&row[4], &row[5], &row[6], &row[7]];
-        // Below its structure, the same structure with other keys is named only by these.
+        // In the output, a row below the row of the same structure is named only by its options.
         let name = row[0].split_once(':').map_or(row[0].as_str(), |(_, keys)| keys);
         let is_line = |line: &&str| [name, t, triangle, u, v].iter().all(|cell| line.contains(cell));
         assert!(u.len() > 5 && printed.lines().any(|line| is_line(&line)), "{row:?} is not in {printed}");
     }
 
     browser.press("Enter");
-    // The clipboard replies late.
+    // The clipboard is asynchronous.
     let text = format!("document.querySelector('{HEAT} .pixel').textContent");
     let said = browser.text_once(&text, |said| said.starts_with("Command "));
     assert!(said.contains("copied") || said.contains("selected"), "{said}");
@@ -133,13 +133,13 @@ fn a_click_asks_the_nearest_pixel_of_any_picture() {
     }
 }
 
-/// The texts whose contrast with their background is below WCAG's limit, with that contrast.
+/// A script that returns the texts whose contrast with their background is below WCAG's limit, with their contrast.
 const PALE: &str = include_str!("pale.js");
 
-/// Elements that are wider than the window, and columns of ratios that are visible only after scrolling.
+/// A script that reports a page wider than the window, and columns of ratios that are visible only after scrolling.
 const WIDE: &str = include_str!("wide.js");
 
-/// Opens a page on a desk and on a telephone, in light and dark mode: it must be readable and correct.
+/// Opens a page at desktop and phone width, in light and dark mode: `look` and both scripts must find no fault.
 fn is_read_everywhere(page: impl Fn() -> PathBuf, look: impl Fn(&mut Chromium)) {
     let Some(mut browser) = Chromium::launch() else { return };
     for (width, dark) in [(1400, false), (1400, true), (400, false), (400, true)] {

@@ -1,4 +1,4 @@
-// The texts whose contrast to what is behind them is less than WCAG asks for, with that contrast.
+// Returns the texts whose contrast with their background is below WCAG's limit, with their contrast.
 (() => {
   const channels = (text) => {
     const numbers = text.match(/[\d.e-]+/g).map(Number), scale = text.startsWith("color(") ? 1 : 255;
@@ -16,7 +16,7 @@
   const seen = [...document.querySelectorAll("body *")].filter((e) => own(e) && e.checkVisibility() && !e.closest("script, option"));
   return seen.flatMap((element) => {
     const svg = element.closest("svg");
-    // Text within bars has a colour of its own beside it.
+    // Of the figures, check only scatter plots: the background of a text on a bar is the bar.
     if (svg && !element.closest(".scatter")) return [];
     const style = getComputedStyle(element);
     const [a, b] = [channels(svg ? style.fill : style.color), behind(svg ? svg.parentElement : element)].map(luminance);

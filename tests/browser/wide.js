@@ -1,4 +1,4 @@
-// What is wider than the window, and columns of ratios that are not seen without scrolling.
+// Reports a page wider than the window, and columns of ratios that are visible only after scrolling.
 (() => {
   const page = document.scrollingElement;
   const found = page.scrollWidth > innerWidth ? [`the page is ${page.scrollWidth} wide`] : [];

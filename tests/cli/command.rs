@@ -16,7 +16,7 @@ pub const NOT_BUILT: i32 = 5;
 /// A mesh of one square.
 pub const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
 
-/// The command with these words, quoted as for a shell, in a fixed environment: without real meshes.
+/// The command with the arguments in `line`, quoted as for a shell, without real meshes or terminal settings.
 pub fn command(line: &str) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_sahara"));
     command.args(shlex::split(line).unwrap_or_else(|| panic!("{line}"))).stdin(Stdio::null());
@@ -24,12 +24,12 @@ pub fn command(line: &str) -> Command {
     command
 }
 
-/// Its output and its messages.
+/// Standard output and standard error, as texts.
 pub fn said(output: &Output) -> [String; 2] {
     [&output.stdout, &output.stderr].map(|text| String::from_utf8(text.clone()).expect("output is UTF-8"))
 }
 
-/// The output and the messages of a command, which must end with this status.
+/// Runs a command, which must exit with `status`. Returns its standard output and standard error.
 #[track_caller]
 pub fn ends(status: i32, command: &mut Command) -> [String; 2] {
     let output = command.output().expect("the command runs");
@@ -45,8 +45,8 @@ pub fn assert_contains(text: &str, parts: &[&str]) {
     }
 }
 
-/// Checks that a command fails with one message that contains all of `parts`, which is returned, and that it prints no
-/// result.
+/// Checks that a command fails, prints no result, and reports an error message that contains all of `parts`. Returns
+/// the message.
 #[track_caller]
 pub fn refused(command: &mut Command, parts: &[&str]) -> String {
     let [text, message] = ends(USAGE, command);
@@ -57,14 +57,14 @@ pub fn refused(command: &mut Command, parts: &[&str]) -> String {
     message
 }
 
-/// Like [`refused`], in one line.
+/// Like [`refused`]; the message must be a single line.
 #[track_caller]
 pub fn refused_in_a_line(command: &mut Command, parts: &[&str]) {
     let message = refused(command, parts);
     assert_eq!(message.lines().count(), 1, "{message}");
 }
 
-/// A text in one line: the terminal breaks lines anywhere.
+/// The text as a single line: the command may break lines between any words.
 pub fn unwrapped(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
@@ -75,7 +75,7 @@ pub fn json(path: impl AsRef<Path>) -> Value {
     serde_json::from_slice(&fs::read(path).unwrap()).unwrap()
 }
 
-/// A new folder, and commands in it.
+/// A new temporary folder, in which commands run.
 pub struct Folder(TempDir);
 
 impl Folder {

@@ -1,4 +1,4 @@
-//! Common properties of all commands: refusals, names, standard output; lists.
+//! Common properties of all commands: error messages, names, standard output; also `list` and `--help`.
 
 use super::command::{Folder, RIGHT, SQUARE, assert_contains, command, ends, said, unwrapped};
 
@@ -117,7 +117,7 @@ fn the_first_help_fits_a_screen_and_compare_has_a_short_help_and_a_whole_one_in_
         text.lines().map(String::from).collect::<Vec<_>>()
     };
     for line in ["--help", "-h", "help"] {
-        // Its prompt needs a line as well.
+        // One of the 24 lines is for the prompt.
         let lines = help(line);
         assert!(lines.len() < 24 && lines.iter().all(|line| line.chars().count() <= 80), "{line}: {lines:#?}");
         let examples = lines.iter().skip_while(|line| *line != "Examples:").skip(1);
@@ -155,7 +155,7 @@ fn old_names_are_answered_with_the_new_ones() {
 
 #[test]
 fn a_minus_stands_for_standard_output_and_case_does_not_matter() {
-    // Standard output has only the result; messages for people have another place.
+    // Standard output has only the result; messages go to standard error.
     let folder = Folder::new();
     for (line, magic, message) in [
         ("render CUBE -o - --view DEPTH -s Sah-KD:test=Exact --size 4x4", &b"\x89PNG"[..], "depth view of Cube"),

@@ -9,7 +9,7 @@ use sahara::request::{is_obvhs, known_defect};
 use super::command::{Folder, NOT_BUILT, RIGHT, SQUARE, assert_contains, command, ends, json, unwrapped};
 use super::journal::rows;
 
-/// Options of a comparison that takes no time.
+/// Options of a short comparison.
 const SMALL: &str = "--rays 400 --runs 2 --budget 1 -w primary -w shadow";
 
 /// The structures that are compared by default, without the peers that features add.
@@ -67,7 +67,7 @@ fn results_go_to_files_that_read_back() {
 fn a_file_without_camera_is_compared_and_rendered() {
     let folder = Folder::new();
     folder.write("square.obj", SQUARE);
-    // An empty mesh is no reason to fail.
+    // A mesh with only degenerate triangles is no reason to fail.
     folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
     for (mesh, title) in [("square", "square: 2 triangles"), ("flat", "flat: 1 triangle (1 degenerate)")] {
         let text = folder.prints(&with_field(&format!("compare {mesh}.obj {SMALL}")));

@@ -9,7 +9,7 @@ use sahara::scene::files::RayFile;
 
 use super::command::{Folder, RIGHT, SQUARE, ends, said};
 
-/// All files of a folder.
+/// The contents of all files of a folder, by name.
 pub fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap());
     entries.map(|entry| (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap())).collect()
@@ -32,7 +32,7 @@ fn a_corpus_is_the_same_again_and_what_it_says() {
     let printed = folder.shows("rays corpus cube -o d --rays 40", &["Cube", "320"]);
     assert!(!printed.contains("published"), "{printed}");
     let first = corpus();
-    // A mesh, eight kinds of rays with their exact hits, the hashes and the list of stand-ins.
+    // A mesh, eight files of rays, eight files of their exact hits, the hashes and the list of stand-ins.
     assert_eq!(first.len(), 1 + 2 * 8 + 2, "{:?}", first.keys());
     if let Some(text) = checked(&folder.path("d")) {
         let names: Vec<&str> = text.lines().map(|line| line.strip_suffix(": OK").unwrap()).collect();
@@ -42,7 +42,7 @@ fn a_corpus_is_the_same_again_and_what_it_says() {
         println!("not checked: there is no sha256sum here");
     }
 
-    // Replaces the old one, with another number of threads and other instructions; a repeated scene counts once.
+    // Another number of threads and another SIMD level give the same corpus; a repeated scene counts once.
     let mut again = folder.command("rays corpus CUBE cube -o d --rays 40 --level portable");
     let [again, _] = ends(RIGHT, again.env("RAYON_NUM_THREADS", "1"));
     assert!(again == printed && corpus() == first, "it is another one: {again}");
@@ -56,7 +56,7 @@ fn a_corpus_is_the_same_again_and_what_it_says() {
     let hash: String = truth[24..32].iter().map(|byte| format!("{byte:02x}")).collect();
     assert_eq!(hash, rays.workload.hash());
 
-    // From the mesh of a corpus: the same rays, whose hash is in the exact hits, except those from the camera.
+    // The mesh of a corpus gives the same corpus, except camera rays. The exact hits contain the hash of the rays.
     folder.prints("rays corpus d/cube.ply -o e --rays 40 --seed 2");
     for name in ["cube.ply", "cube-vertex.truth", "cube-offset.truth"] {
         assert!(corpus()[name] == files(&folder.path("e"))[name], "{name}");

@@ -1,4 +1,4 @@
-//! Studies of several epochs from outside: the files that they keep, add and reject; each epoch of a scene is measured
+//! Studies of several epochs from outside: which files they keep and add, and that they measure each epoch of a scene
 //! in a separate process.
 
 use std::collections::BTreeSet;
@@ -30,13 +30,13 @@ fn a_study_goes_on_where_it_stopped_and_repeats_what_it_said() {
         // A removed case is measured again.
         fs::remove_file(&cases()[0]).unwrap();
         assert_eq!(run("2").1, 2 * measured, "{study}");
-        // Files of other settings lie beside, and a repeated measurement keeps the old file.
+        // Other settings and repeated measurements add files and keep the existing files.
         assert_eq!(run("1 --seed 2").1, 3 * measured, "{study}");
         assert_eq!(run("1 --fresh").1, 4 * measured, "{study}");
     }
 }
 
-/// A study of seconds, of six epochs, into the folder `dir`.
+/// A study of six epochs that takes some seconds, with its journal in `dir`.
 fn study(folder: &Folder, dir: &str) -> Command {
     let small = "study attribution cube --rays 64 --runs 1 --budget 1 --epochs 6 --quiet --dir";
     let mut command = folder.command(&format!("{small} {dir}"));
@@ -44,7 +44,7 @@ fn study(folder: &Folder, dir: &str) -> Command {
     command
 }
 
-/// Kills it as `kill -9` does, as soon as the journal has `wanted` cases.
+/// Kills the process with SIGKILL as soon as its journal has `wanted` cases.
 fn kill_at(mut child: Child, dir: &Path, wanted: usize) {
     let start = Instant::now();
     while cases(dir, "attribution").len() < wanted {
@@ -62,11 +62,11 @@ fn a_killed_study_ends_as_one_that_was_left_alone() {
     ends(RIGHT, &mut study(&folder, "alone"));
     let [alone, killed] = ["alone", "killed"].map(|name| folder.path(name));
 
-    // Once with one case, and once with another.
+    // Kill the study after one case, and the resumed study after a second one.
     for wanted in [1, 2] {
         kill_at(study(&folder, "killed").spawn().unwrap(), &killed, wanted);
     }
-    // As after a power failure while a case was written.
+    // Simulate a power failure while a case is written.
     folder.write("killed/attribution/.sahara-1234.part", "{\"schema\":4,\"pr");
     let before = cases(&killed, "attribution").len();
 
@@ -90,7 +90,7 @@ fn each_epoch_of_a_scene_has_a_process_and_one_process_answers_the_same() {
     folder.prints(&format!("{TWO_SCENES} one --in-process"));
     assert_eq!((processes(&apart).len(), processes(&one).len()), (4, 1), "two epochs of two scenes");
     assert_eq!(answers(&apart, "compare"), answers(&one, "compare"));
-    // Both kinds lie side by side.
+    // The journal keeps the cases of both modes.
     folder.prints(&format!("{TWO_SCENES} apart --in-process"));
     assert_eq!(cases(&apart, "compare").len(), 8);
 }

@@ -15,7 +15,7 @@ impl Folder {
         write_picture(&self.path(name), &picture.into()).unwrap();
     }
 
-    /// Compares the folders `expected` and `actual`, with this status.
+    /// Compares the folders `expected` and `actual`; the command must exit with `status`. Returns its output.
     #[track_caller]
     fn compare(&self, options: &str, status: i32) -> String {
         let [text, _] = self.ends(status, &format!("golden compare expected actual {options}"));
@@ -76,7 +76,7 @@ fn folders_of_pictures_are_compared_by_name() {
         assert!(limit.as_object().unwrap().iter().all(|(name, value)| own["limit"][name] == *value), "{own}");
     }
 
-    // A picture that is missing in one folder is a failure, and less severe than a difference.
+    // A picture that is missing in one folder is a failure, but less severe than a difference.
     folder.add("expected/gone.png", picture());
     folder.add("actual/new.png", picture());
     let text = folder.compare("--max-difference 2 --export-json run.json", USAGE);
@@ -90,10 +90,10 @@ fn folders_of_pictures_are_compared_by_name() {
     assert_eq!([&measures["pixels"], &measures["pixels_over"], &measures["compared"]], [9, 0, 1200]);
     assert!(measures["flip"]["mean"].as_f64() > Some(0.0) && measures["ssim"].as_f64() < Some(1.0), "{measures}");
 
-    // A damaged picture fails, and all others are compared.
+    // A damaged picture fails; all other pictures are compared.
     folder.write("actual/same.png", "no picture");
     assert_contains(&folder.compare("--max-difference 2", USAGE), &["same.png: cannot read", "1 failed"]);
-    // A difference is more severe.
+    // A difference determines the exit status.
     folder.compare("", WRONG);
 }
 
@@ -112,7 +112,7 @@ fn pictures_of_another_layout_and_what_cannot_be_compared_are_told() {
         let [text, _] = folder.ends(WRONG, &format!("golden compare a.png {other}.png --max-difference 255"));
         assert_contains(&text, &["40 x 30 pixels of RGB with 8 bits", words, advice]);
     }
-    // The same picture in other bytes is identical.
+    // The same pixels in another encoding are identical.
     let file = fs::File::create(folder.path("again.png")).unwrap();
     let theirs = PngEncoder::new_with_quality(file, CompressionType::Uncompressed, FilterType::NoFilter);
     picture().write_with_encoder(theirs).unwrap();
@@ -223,7 +223,7 @@ fn scene_files_and_meshes_have_golden_images_beside_them() {
     update("--force");
     folder.prints(&check(""));
 
-    // In a folder.
+    // Golden images in the folder of `--goldens`.
     for action in ["update", "check"] {
         folder.prints(&format!("golden {action} cube --size 16x16 --view normal --goldens goldens -s sah-hybrid"));
         assert!(folder.path("goldens/cube.normal.golden.png").exists());

@@ -1,5 +1,5 @@
-//! Mesh files from users: messages for their faults and for omitted parts. Many triangles: memory of builds, and a
-//! scene without a file.
+//! Mesh files from users: messages about faults and omitted parts. Generated terrain: memory of builds, and scenes that
+//! need no mesh file.
 
 use std::fs;
 
@@ -40,7 +40,7 @@ fn what_cannot_be_shown_is_refused_by_its_reason() {
     }
 }
 
-/// A folder with the file of a scene, a terrain of this many triangles, in `ground.toml`.
+/// A folder with `ground.toml`, a scene file whose terrain has this many triangles.
 fn terrain(triangles: &str) -> Folder {
     let folder = Folder::new();
     let text = format!(
@@ -52,7 +52,7 @@ fn terrain(triangles: &str) -> Folder {
     folder
 }
 
-/// Maximum of bytes per triangle that a build of this crate may allocate beyond the mesh.
+/// The limit of bytes per triangle that a build of this crate may allocate in addition to the mesh.
 const BOUND: f64 = 200.0;
 
 #[test]

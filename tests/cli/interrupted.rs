@@ -60,7 +60,7 @@ fn interrupted(folder: &Folder, more: &str) -> String {
     text
 }
 
-/// The number of cases that an interrupted run reports as measured: the first scene, and not all of the second.
+/// The number of cases that an interrupted run reports as measured: all 8 of the first scene, fewer of the second.
 fn measured(text: &str) -> usize {
     let said = text.split("Interrupted: ").nth(1).unwrap_or_else(|| panic!("it does not say so: {text}"));
     let number = said.split(' ').next().unwrap().parse().unwrap();
@@ -75,7 +75,7 @@ fn processes(folder: &Folder) -> usize {
     entries.filter(|entry| fs::read_link(entry.path().join("cwd")).is_ok_and(|cwd| cwd == folder)).count()
 }
 
-/// Checks that no process works in a folder. The system takes a moment to remove a killed one.
+/// Checks that no process works in a folder. The system takes a moment to remove a killed process.
 #[track_caller]
 fn is_left(folder: &Folder) {
     let is_left = (0..500).any(|_| {
@@ -107,8 +107,8 @@ fn a_journal_that_was_interrupted_is_only_added_to() {
     assert!(whole.len() == CASES && kept.iter().all(|(name, bytes)| whole.get(name) == Some(bytes)));
 }
 
-/// A process prints this and is ended by a signal at once, as if the signal had not been caught: a shell then ends its
-/// script.
+/// Checks that a process prints `message`, and that `signal` then ends it at once. The exit status must name the
+/// signal, as if the process had not caught it: only then does a shell end its script.
 #[track_caller]
 fn ends_by(signal: Signal, command: Command, message: &str) {
     let mut child = spawn(command, SigHandler::SigDfl);

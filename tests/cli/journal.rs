@@ -13,7 +13,7 @@ pub fn cases(runs: &Path, study: &str) -> Vec<PathBuf> {
     files(&runs.join(study)).unwrap_or_default()
 }
 
-/// The fields of every case that do not depend on a clock, by scene and epoch. A repeated case is an error.
+/// The fields of every case that do not depend on a clock, by scene and epoch. Panics on a repeated case.
 pub fn answers(runs: &Path, study: &str) -> BTreeMap<String, Value> {
     let mut answers = BTreeMap::new();
     for path in cases(runs, study) {
@@ -34,7 +34,7 @@ pub fn answers(runs: &Path, study: &str) -> BTreeMap<String, Value> {
     answers
 }
 
-/// Epoch 0 of an export: a value for each workload of each structure except twins, with the fields of both.
+/// Epoch 0 of an export: one value per structure (except twins) and workload, with the fields of both.
 pub fn rows(export: impl AsRef<Path>) -> Vec<Value> {
     let mut rows = vec![];
     let export = json(export);

@@ -15,8 +15,8 @@ fn files_of_any_name_are_taken_and_shown_escaped() {
         let folder = Folder::new();
         let with_ending = |ending: &str| [OsStr::from_bytes(name), ending.as_ref()].into_iter().collect::<OsString>();
         let path = |ending: &str| folder.path("").join(with_ending(ending));
-        // The output and messages of a line of words, which contain no terminal controls from the name; `@.obj` is the
-        // file with that name and extension.
+        // Runs a command and returns its output and messages, which must not contain control characters of the name.
+        // In `line`, `@.obj` is the file with this name and extension.
         let run = |line: &str, status: i32| {
             let words = line.split(' ').map(|word| word.strip_prefix('@').map_or(word.into(), with_ending));
             let text = ends(status, folder.command("--quiet").args(words)).concat();
@@ -69,7 +69,7 @@ fn files_of_any_name_are_taken_and_shown_escaped() {
             assert!(text.lines().count() == 1 && text.contains(shown), "{line}: {text}");
         }
 
-        // A plan names files for a shell; the second time the case exists.
+        // A plan quotes file names for a shell. After its job, the study finds the case in the journal.
         let line = run("study plan compare --dir @.jobs --scenes @.obj --rays 16 --epochs 1 -s sah-kd", RIGHT);
         assert_eq!(line.lines().count(), 1, "{line}");
         let program = env!("CARGO_BIN_EXE_sahara");

@@ -1,11 +1,11 @@
-//! The verdict if its output cannot be written, and output that is never printed.
+//! The exit status if the output cannot be written, and builder panics, which print no backtrace.
 
 use std::fs::File;
 use std::process::Command;
 
 use super::command::{Folder, NOT_BUILT, RIGHT, USAGE, WRONG, ends, said};
 
-/// The status of a command that must not panic.
+/// The exit status of a command, which must not panic.
 fn status(command: &mut Command) -> i32 {
     let output = command.output().unwrap();
     let [_, messages] = said(&output);
@@ -13,7 +13,7 @@ fn status(command: &mut Command) -> i32 {
     output.status.code().unwrap_or_else(|| panic!("{command:?} is ended by a signal: {messages}"))
 }
 
-/// A folder with triangles at 2^100, along two axes, in `huge.obj`: a builder of another crate panics on them.
+/// A folder with triangles at 2^100 along two axes, in `huge.obj`; the builder of obvhs-cwbvh panics on them.
 fn huge() -> Folder {
     let (folder, mut text) = (Folder::new(), String::new());
     for corners in [
@@ -51,7 +51,7 @@ fn a_verdict_outlives_the_reader_of_its_output() {
         ("validate huge.obj -s obvhs-cwbvh --rays 10", NOT_BUILT),
         ("compare sponsa", USAGE),
     ] {
-        // No process can have read anything.
+        // The reader closes before the command starts.
         let (reader, writer) = std::io::pipe().unwrap();
         drop(reader);
         assert_eq!(status(folder.command(line).stdout(writer)), expected, "{line} without a reader");

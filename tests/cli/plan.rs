@@ -1,4 +1,4 @@
-//! `study plan`: independent jobs, one file each; their measurements and their results.
+//! `study plan`: independent jobs that write one file each, and the study that these files form.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -10,7 +10,7 @@ use sahara::study::{Studies, Study};
 use super::command::{Folder, RIGHT, SQUARE, command, ends, json, refused_in_a_line, said};
 use super::journal::answers;
 
-/// A study of seconds.
+/// A study that takes some seconds.
 const SMALL: &str = "attribution --rays 64 --runs 1 --budget 1 --epochs 2";
 
 /// The lines of a plan.
@@ -18,14 +18,14 @@ pub fn plan(folder: &Path, args: &str) -> Vec<String> {
     Folder::new().prints(&format!("study plan {args} --dir '{}'", folder.display())).lines().map(String::from).collect()
 }
 
-/// A job, as a shell on some machine would start it.
+/// The process of a job, with the arguments that a shell would pass.
 pub fn job(line: &str) -> Command {
     let mut command = command(line.strip_prefix("sahara ").unwrap_or_else(|| panic!("{line}")));
     command.stdout(Stdio::piped()).stderr(Stdio::piped());
     command
 }
 
-/// The file of a job: its last word.
+/// The file that a job writes: the last word of its line.
 pub fn file(line: &str) -> PathBuf {
     let job = job(line);
     let words: Vec<_> = job.get_args().collect();
@@ -67,7 +67,7 @@ fn a_plan_is_one_command_a_case_with_a_file_of_its_own() {
     assert_eq!(plan(&dir, "compare compare --scenes cube"), plan(&dir, "compare --scenes cube"));
     assert_eq!(plan(&dir, "compare --scenes torus --scenes cube"), plan(&dir, "compare --scenes torus cube"));
 
-    // All studies, in the quick version.
+    // Without names, all studies are planned; here in their quick form.
     let lines = plan(Path::new("r"), "--quick --scenes cube");
     let files: BTreeSet<PathBuf> = lines.iter().map(|line| file(line)).collect();
     for Study { name, .. } in Studies::builtin().iter() {
@@ -78,7 +78,7 @@ fn a_plan_is_one_command_a_case_with_a_file_of_its_own() {
 
 #[test]
 fn what_cannot_be_planned_is_one_sentence() {
-    // A repeated option, at any place; one of them may come from the preset.
+    // Repeated options, at any position; one of the two may come from the preset.
     let twice = "cannot be used multiple times";
     for (line, parts) in [
         ("attributoin", &["attributoin"][..]),
@@ -93,7 +93,7 @@ fn what_cannot_be_planned_is_one_sentence() {
         ("attribution --rays 64 --export-csv=x.csv", &["--", "when all jobs are done"]),
         ("attribution --rays 64 --plot x.svg", &["--", "when all jobs are done"]),
         ("attribution --scenes cube --plot x.svg", &["--plot", "when all jobs are done"]),
-        // A job that finds its case measures nothing, with any options.
+        // `--fresh` has no effect on jobs: a job that finds its case measures nothing.
         ("attribution --rays 64 --fresh", &["--fresh", "--dir"]),
     ] {
         Folder::new().refuses_in_a_line(&format!("study plan {line}"), parts);
@@ -113,7 +113,7 @@ fn jobs_in_any_order_are_the_study() {
     let folder = Folder::new();
     let [apart, one] = ["apart", "one"].map(|name| folder.path(name));
     let lines = plan(&apart, &format!("{SMALL} --scenes cube sphere"));
-    // The last one first.
+    // Run the jobs in reverse order.
     for line in lines.iter().rev() {
         let log = done(line);
         assert!(log.starts_with("measuring "), "its log says what it was: {log}");
@@ -128,7 +128,7 @@ fn jobs_in_any_order_are_the_study() {
     assert_eq!(lines.iter().map(|line| fs::read(file(line)).unwrap()).collect::<Vec<_>>(), before);
     assert_eq!(fs::read_dir(apart.join("attribution")).unwrap().count(), 4);
 
-    // Each contains its provenance, with the command of the run and not of the job.
+    // Each file contains its provenance, with the command of the study, not of the job.
     let provenance = &json(file(&lines[0]))["provenance"];
     for field in ["host", "cpu", "commit", "target_features", "date", "command"] {
         assert!(!provenance[field].as_str().unwrap().is_empty(), "{field}");
@@ -163,7 +163,7 @@ fn a_job_measures_once_and_refuses_what_is_not_its_own() {
     refused(&lines[1], &[&mesh]);
     fs::rename(&away, &mesh).unwrap();
 
-    // Its scene must be unchanged since the plan, and each thread needs a core.
+    // The scene of a job must be unchanged since the plan, and each of its threads needs a core.
     let hash = &lines[1].split("\"hash\":\"").nth(1).unwrap()[..16];
     for (from, to, part) in [
         (file(&lines[1]).to_str().unwrap(), path.to_str().unwrap(), "holds another case"),
@@ -184,12 +184,12 @@ fn a_job_measures_once_and_refuses_what_is_not_its_own() {
 fn what_cannot_be_written_is_one_sentence_and_no_file() {
     let folder = Folder::new();
     let lines = plan(&folder.path("runs"), &format!("{SMALL} --scenes cube"));
-    // A file has the place of the folder.
+    // A file has the name of the folder.
     folder.write("runs", "x");
     refused(&lines[0], &["cannot write", "runs/attribution"]);
     fs::remove_file(folder.path("runs")).unwrap();
 
-    // As on a full disk: the system accepts at most a thousand bytes per file.
+    // Simulate a full disk: the system accepts at most one block per file.
     #[cfg(target_os = "linux")]
     {
         let job = lines[0].strip_prefix("sahara ").unwrap();

@@ -1,4 +1,4 @@
-//! `sahara compare --runner`: other programs, good and bad ones.
+//! `--runner`: correct and faulty programs.
 
 use std::fs;
 use std::process::Command;
@@ -10,7 +10,7 @@ use super::journal::{cases, rows};
 
 const EXAMPLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/runner/brute_force.cpp");
 
-/// A folder with the compiled example, after changes to its text; `None` without a compiler.
+/// A folder with the example, compiled after `change` of its source; `None` without a compiler.
 fn compiled(name: &str, change: impl Fn(String) -> String) -> Option<Folder> {
     if Command::new("c++").arg("--version").output().is_err() {
         println!("skipped: there is no C++ compiler, `c++`, here");
@@ -26,7 +26,7 @@ fn compiled(name: &str, change: impl Fn(String) -> String) -> Option<Folder> {
 
 const SMALL: &str = "compare cube -s sah-kd -w primary -w shadow --rays 400 --epochs 2 --runner";
 
-/// The outputs in one line, and the rows of a run, which must end with this status.
+/// The output and messages as a single line, and the rows of a run, which must exit with this status.
 #[track_caller]
 fn records(folder: &Folder, line: &str, status: i32) -> (String, Vec<Value>) {
     let text = folder.ends(status, &format!("{line} --export-json r.json")).concat();
@@ -51,12 +51,12 @@ fn the_example_of_the_document_is_timed_beside_ours() {
         for same in ["hash", "all", "query"] {
             assert_eq!(ours[same], theirs[same]);
         }
-        // Their samples are from the same rounds, and hardly any ray hits by one test and not by the other.
+        // Both have samples of the same rounds, and their triangle tests disagree on few rays.
         assert!(theirs["ns"].as_array().unwrap().len() == ours["ns"].as_array().unwrap().len(), "{theirs}");
         let hits = |record: &Value| record["counts"]["hits"].as_f64().unwrap();
         assert!((hits(ours) - hits(theirs)).abs() <= 0.001 * hits(ours), "{ours} {theirs}");
     }
-    // It misses the rays that are not valid, as the document demands.
+    // The example misses invalid rays, as the document demands.
     folder.shows(
         "validate --hard rays_nan_dir rays_inf_dir --rays 50 --runner ./brute_force",
         &["brute_force is right on 100 rays"],
@@ -68,13 +68,13 @@ fn wrong_hits_of_a_program_cost_it_all_its_times_and_nobody_else() {
     let Some(folder) = compiled("loses", |text| text.replace("u >= 0 &&", "u >= 0.5 &&")) else { return };
     let (text, records) = records(&folder, &format!("{SMALL} ./loses"), WRONG);
     assert!(text.contains("loses (own clock)") && text.contains(" wrong"), "{text}");
-    // A single cube throws no shadow on itself: those rays are right, but a wrong tree has no time.
+    // A cube casts no shadow on itself, so shadow rays are right; but a wrong hit costs a structure all its times.
     let timed: Vec<bool> = records.iter().map(|record| !record["ns"].as_array().unwrap().is_empty()).collect();
     assert_eq!(timed, [true, true, false, false], "{text}");
     assert!(records[2]["checked"]["errors"].as_u64() > Some(0), "{text}");
 }
 
-/// Returns a miss for every ray, and misbehaves in the way of its argument.
+/// A runner that returns a miss for every ray; its argument selects a fault.
 pub const NOTHING: &str = include_str!("../runner/nothing.sh");
 
 fn nothing() -> Folder {
@@ -187,7 +187,7 @@ fn what_is_no_runner_is_refused_before_anything_is_measured() {
 fn another_build_of_a_program_is_another_structure() {
     let folder = nothing();
     let own = "compare cube -s sah-kd -w primary --rays 256 --epochs 1 --budget 1 --runner ./nothing.sh --dir runs";
-    // A program that finds nothing is wrong.
+    // The program misses every ray, so its hits are wrong.
     let measured = || {
         folder.ends(WRONG, own);
         cases(&folder.path("runs"), "compare").len()

@@ -11,7 +11,7 @@ fn validation_tells_right_from_wrong() {
         |structures: &str| Folder::new().prints(&format!("validate cube --ray '0.5,0.25,5 -0,0,-1' -s {structures}"));
     // A known defect of a baseline is printed with its name, and does not change the status of any command.
     let defects = "obvhs-cwbvh: known defects (they do not change the exit status)";
-    // The ray can be asked again.
+    // The output contains the ray in the format of `--ray`.
     assert_contains(&validate("obvhs-cwbvh --verbose"), &[defects, "0.5,0.25,5.0 -0.0,0.0,-1.0"]);
     // The hit of each structure is printed, right or wrong: the cube's front face is at z = 1.
     let both = validate("sah-kd -s obvhs-cwbvh");
@@ -26,7 +26,7 @@ fn validation_tells_right_from_wrong() {
     validate("sah-kd --against obvhs-bvh2");
 }
 
-/// A ray grazes along a needle: the depth in `f64` is wrong by 115 ulps, which is not an error of 1 %.
+/// On a ray along a needle, the depth computed in `f64` is 115 ulps off: far less than 1 %, but an error.
 #[test]
 fn validation_against_exact_answers_judges_depths_strictly() {
     let folder = Folder::new();
@@ -68,7 +68,7 @@ fn hard_cases_are_named_and_tell_what_each_structure_gets_wrong() {
     assert_eq!(of("limits", "sah-kd")["property"]["broken"], 0);
     assert!(of("limits", "sah-kd")["rays"].is_null());
 
-    // They run over the requested tests.
+    // Hard cases run over the requested triangle tests.
     Folder::new().shows(
         "validate --hard one_triangle --rays 20 --test exact --test edge-f64 -s median-kd --verbose",
         &["median-kd  median-kd:test=edge-f64"],

@@ -6,7 +6,7 @@ use serde_json::Value;
 use super::command::Folder;
 use super::journal::rows;
 
-/// A folder with `room.obj`, a closed box that is longer than it is wide, with its fronts inside.
+/// A folder with `room.obj`, a closed box that is longer than wide; the front sides of its triangles face inward.
 fn room() -> Folder {
     let corner = |i: usize| format!("v {} {} {}\n", [-1, 1][i & 1], [0, 2][i >> 1 & 1], [-3, 3][i >> 2]);
     let corners: String = (0..8).map(corner).collect();

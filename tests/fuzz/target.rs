@@ -1,6 +1,6 @@
-//! One case of the fuzzer: a mesh and rays of arbitrary floats, and all properties that they must have.
+//! One case of the fuzzer: a mesh and rays of arbitrary floats, and all properties that must hold for them.
 //!
-//! Shared by `tests/properties.rs` and by the fuzz target of this folder, which both draw bytes.
+//! `tests/properties.rs` and the fuzz target of this folder share this file; both draw bytes.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
@@ -18,7 +18,7 @@ use sahara::validate::adversarial::{near_the_largest_t, rounded_ends};
 use sahara::validate::{Reference, validate};
 
 /// The structures of this crate and their variants, over every triangle test that they offer; the eight-wide trees with
-/// every batch strategy. Small leaves make deep trees of small meshes.
+/// every batch strategy. Small leaves give deep trees even on small meshes.
 pub const VARIANTS: [(&str, &str); 17] = [
     ("brute-force", ""),
     ("median-kd", ""),
@@ -39,10 +39,10 @@ pub const VARIANTS: [(&str, &str); 17] = [
     ("sah-bvh", "block_cost=50,batch=packets"),
 ];
 
-/// The tests over which several rays of a slice may be traced at once.
+/// The triangle tests that support `batch=packets`.
 const BATCHED: [&str; 3] = ["moller-trumbore", "watertight", "exact"];
 
-/// The SIMD level belongs to the process: one case at a time changes it.
+/// Guards the SIMD level, a setting of the whole process: one case at a time changes it.
 static LEVEL: Mutex<()> = Mutex::new(());
 
 /// The drawn values. Numbers are arbitrary, indices may be out of range.
@@ -54,10 +54,10 @@ pub struct Case {
 }
 
 impl Case {
-    /// Checks all properties. A mesh is rejected with a sentence, or every structure is built over it. No structure
-    /// over any triangle test loses or invents a hit compared with brute force over the same test, or returns a higher
-    /// number than the lowest, even if an interval ends at the float to which an exact `t` rounds. All SIMD levels
-    /// return the same bits. `exact` returns the mathematical result, by two judges. Nothing panics.
+    /// Checks all properties. A mesh is rejected with a sentence, or every structure is built over it. Over each
+    /// triangle test, every structure returns the hits of brute force and the lowest number of a tie, even if an
+    /// interval ends at the float to which an exact `t` rounds. All SIMD levels return the same bits. `exact` returns
+    /// the mathematical result, by two judges. Nothing panics.
     ///
     /// # Errors
     /// The violated property, with the case.
@@ -107,8 +107,8 @@ impl Case {
         Ok(())
     }
 
-    /// The rays, and some of the rays with a hit once more: with intervals that end and begin at the float to which the
-    /// exact `t` rounds, unchanged and near the largest float.
+    /// The rays, and copies of the first rays with a hit. Intervals of the copies end or begin at the float to which
+    /// the exact `t` rounds. Further copies have short directions, which move `t` close to the largest float.
     fn with_rounded_ends(&self, mesh: &Mesh) -> Vec<Ray> {
         let nearest = |ray: &Ray| oracle::nearest(ray, mesh).map(|truth| truth.t);
         let mut rays = self.rays.clone();
@@ -120,8 +120,8 @@ impl Case {
         rays
     }
 
-    /// Reads a case from any bytes: missing bytes count as 0. Each case has its own mixture of floats: numbers of one
-    /// size then meet each other.
+    /// Reads a case from any bytes; missing bytes are 0. Each case draws its floats from some of the kinds, which makes
+    /// numbers of similar size more likely.
     pub fn read(bytes: &[u8]) -> Self {
         let mut bytes = Bytes { left: bytes, kinds: (0..KINDS).collect() };
         let points = 3 + bytes.byte() as usize % 29;
@@ -155,7 +155,7 @@ impl Case {
     }
 }
 
-/// Hits of a case whose rays are traced once more.
+/// The number of rays with a hit that are copied per case.
 const SEVERAL: usize = 6;
 
 /// The rays, and then the rays of the two commonest octants in groups of sixteen, which form packets.
@@ -205,7 +205,7 @@ fn same_on_all_levels(accel: &dyn DynAccel, rays: &[Ray]) -> Result<(), String> 
     Ok(())
 }
 
-/// Kinds of floats that break traversals; the number of [`float_of`].
+/// The number of kinds of floats that [`float_of`] makes.
 const KINDS: u8 = 7;
 
 /// A float of the kind `kind` below [`KINDS`]: k/8, a zero, a denormal, a power of two, a number of moderate size,

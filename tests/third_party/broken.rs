@@ -48,7 +48,7 @@ pub struct BrokenConfig {
     pub fault: Fault,
 }
 
-/// Whether a ray is one of about one in `n`, always the same.
+/// Whether a hash of the ray selects it; the hash selects about one ray in `n`.
 pub fn picks(ray: &Ray, n: u32) -> bool {
     let bits = ray.origin.to_array().into_iter().chain(ray.direction.to_array()).map(f32::to_bits);
     let mixed = bits.fold(0x811c_9dc5_u32, |h, b| (h ^ b).wrapping_mul(0x9e37_79b1).rotate_left(13));
@@ -101,8 +101,7 @@ impl Accel for Broken {
     }
 }
 
-/// A structure with few features, and it declares so: no any hit, no ends of intervals, no counts, its own triangle
-/// test.
+/// A structure that declares few capabilities: no any hit, no intervals, no counts, and a private triangle test.
 pub struct Modest(Grid<MollerTrumbore>);
 
 impl Accel for Modest {

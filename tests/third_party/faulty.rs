@@ -1,4 +1,4 @@
-//! A binary BVH with its own triangle test, as written in an afternoon, with one of the usual faults.
+//! A simple binary BVH with its own triangle test and one of the usual faults.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use sahara::serde::{Deserialize, Serialize};
 pub enum Fault {
     #[default]
     None,
-    /// Leaves below a depth are missing.
+    /// Some deep leaves are empty.
     LeafDropped,
     /// The far child is skipped after a hit in the near one.
     ChildOrder,
@@ -20,7 +20,7 @@ pub enum Fault {
     StaleTMax,
     /// A slab of 0 x infinity is NaN, and the box is missed.
     ZeroTimesInfinity,
-    /// A leaf is traversed up to its last triangle, exclusively.
+    /// The last triangle of a leaf is skipped.
     LastTriangle,
     /// Two hits at one depth cancel each other.
     Ties,
@@ -28,7 +28,7 @@ pub enum Fault {
     AnyHit,
     /// Hits nearer than a thousandth do not count.
     Epsilon,
-    /// The place in the tree's order is returned instead of the number of the triangle.
+    /// The number of the leaf is returned instead of the number of the triangle.
     WrongId,
     /// Boxes without thickness are missed.
     DegenerateBox,
@@ -51,7 +51,7 @@ type Bounds = [Vec3; 2];
 
 enum Node {
     Inner(Box<[(Bounds, Node); 2]>),
-    /// Its place in the order of the tree, and triangles.
+    /// The number of the node in depth-first order, and the triangles.
     Leaf(u32, Vec<u32>),
 }
 
@@ -71,7 +71,7 @@ fn bounds(mesh: &Mesh, triangles: &[u32]) -> Bounds {
 }
 
 impl Node {
-    /// Splits triangles in the middle; `count` nodes are before it.
+    /// Splits triangles at the median. `count` is the number of nodes built so far.
     fn new(mesh: &Mesh, fault: Fault, mut triangles: Vec<u32>, depth: usize, count: &mut u32) -> Self {
         let place = *count;
         *count += 1;
@@ -102,7 +102,7 @@ impl Faulty {
                 }
                 continue;
             }
-            // Rounded outwards: no triangle may be lost at the border of its box.
+            // Round outward to keep hits at the border of the box.
             near = near.max(a.min(b) * (1.0 - 1e-6 * a.min(b).signum()));
             far = far.min(a.max(b) * (1.0 + 1e-6 * a.max(b).signum()));
         }

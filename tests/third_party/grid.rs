@@ -16,7 +16,7 @@ pub struct Grid<T: TriangleTest> {
     triangles: Vec<T::Block<1>>,
 }
 
-/// Its keys on the command line: `--structure grid:resolution=32`.
+/// The options of the grid, as in `--structure grid:resolution=32`.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(crate = "sahara::serde", deny_unknown_fields)]
 pub struct GridConfig {
@@ -40,15 +40,15 @@ impl<T: TriangleTest> Grid<T> {
         (last >= 0.0 && first <= end).then(|| [first, last].map(|x| x.clamp(0.0, end - 1.0) as usize))
     }
 
-    /// The cells of a block of them.
+    /// The indices of the cells in these ranges along x, y and z.
     fn block(&self, [xs, ys, zs]: [[usize; 2]; 3]) -> impl Iterator<Item = usize> + use<T> {
         let n = self.resolution;
         let rows = (zs[0]..=zs[1]).flat_map(move |z| (ys[0]..=ys[1]).map(move |y| (z * n + y) * n));
         rows.flat_map(move |row| (xs[0]..=xs[1]).map(move |x| row + x))
     }
 
-    /// Visits the layers of cells across the main axis of the ray, nearest first, and in each the cells that it may
-    /// touch.
+    /// Visits the layers of cells perpendicular to the main axis of the ray, nearest first. In each layer, tests the
+    /// cells that the ray may touch.
     fn walk<const ANY: bool, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
         if !ray.is_valid() {
             return None;
@@ -87,7 +87,7 @@ impl<T: TriangleTest> Grid<T> {
                 for &id in cell {
                     let hit = T::hit(&prepared, &self.triangles[id as usize], t_min, T::last(t_max));
                     let Some(depth) = hit else { continue };
-                    // The nearest wins, and among equals the lowest number.
+                    // The nearest hit wins; at equal depth, the lowest number.
                     if nearest.is_none_or(|(n, i)| T::order(&prepared, &depth, &n).then(id.cmp(&i)).is_lt()) {
                         nearest = Some((depth, id));
                     }
@@ -113,7 +113,7 @@ impl<T: TriangleTest> Accel for Grid<T> {
         }
         let bounds = if mesh.is_empty() { Aabb::of_points([Vec3::ZERO]) } else { mesh.bounds() };
         let (origin, size) = (bounds.min.as_dvec3(), bounds.max.as_dvec3() - bounds.min.as_dvec3());
-        // A flat box still has cells.
+        // Cells of a flat box have a positive size.
         let cell = (size / resolution as f64).max(DVec3::splat(size.max_element().max(1e-300) * 1e-6));
         let triangles = (0..mesh.len() as u32).map(|id| T::block(&[mesh.corners(id)])).collect();
         let cells = vec![vec![]; resolution.pow(3)];

@@ -1,4 +1,4 @@
-//! Structures, a generator of scenes and a study, as another crate would have them.
+//! Structures, a scene generator and a study, as a crate of a user would define them.
 
 pub mod broken;
 pub mod faulty;

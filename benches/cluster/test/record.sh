@@ -1,6 +1,6 @@
 #!/bin/sh
-# Stands where sahara stands, and notes which jobs begin: process, whether the file was there, job of Slurm, file.
-# MEASURES names the real sahara; RECORD the folder of the notes. The process keeps its number, so that it can be killed.
+# Runs sahara, and records each job that begins: process number, whether its file existed, Slurm job, file. MEASURES is
+# the path of sahara, RECORD the folder of the records. `exec` keeps the process number, which the test needs for kill.
 for file; do :; done
 case "$*" in
 *' --out '*)

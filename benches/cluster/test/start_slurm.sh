@@ -1,8 +1,8 @@
 #!/bin/sh
-# A cluster of one node, this machine, in a folder of its own: munge, controller and worker. Nothing of the system is changed.
+# A Slurm cluster of one node, this machine: munge, controller and worker. All its files are in FOLDER.
 #
-#   start_slurm.sh FOLDER        starts it; sbatch, squeue and others find it by SLURM_CONF=FOLDER/slurm.conf and PATH=FOLDER/bin:$PATH
-#   start_slurm.sh FOLDER stop   ends it
+#   start_slurm.sh FOLDER        starts it; Slurm commands need SLURM_CONF=FOLDER/slurm.conf and PATH=FOLDER/bin:$PATH
+#   start_slurm.sh FOLDER stop   stops it
 set -eu
 
 folder=${1:?name a folder}
@@ -10,7 +10,7 @@ mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
 export SLURM_CONF="$folder/slurm.conf"
 
-# Ends the processes of this folder, the worker with the jobs first.
+# Ends the processes of the cluster, the worker and its jobs first.
 stop() {
   for name in slurmd slurmctld munged; do
     pid=$(cat "$folder/$name.pid" 2> /dev/null) || continue
@@ -23,7 +23,7 @@ if [ "${2:-}" = stop ]; then
   exit 0
 fi
 
-# As Debian installs them, which a path of a user may lack.
+# Debian installs the daemons in folders that the PATH of a user may lack.
 PATH=$PATH:/usr/sbin:/sbin
 for program in munged slurmctld slurmd sbatch; do
   command -v "$program" > /dev/null || {
@@ -32,19 +32,19 @@ for program in munged slurmctld slurmd sbatch; do
   }
 done
 
-# Munge: the key is made here and known to nobody else. --force: the folder is below /tmp, which everybody may write.
+# Munge needs a secret key. --force: munged otherwise rejects a folder below /tmp, which everybody may write.
 chmod 711 "$folder"
 (umask 077 && head -c 1024 /dev/urandom > "$folder/munge.key")
 munged --force --socket="$folder/munge.socket" --key-file="$folder/munge.key" --pid-file="$folder/munged.pid" \
   --log-file="$folder/munged.log" --seed-file="$folder/munge.seed"
 
-# Ports that are free now.
+# Find free ports.
 ports=$(python3 -c 'import socket
 sockets = [socket.socket() for _ in range(2)]
 [s.bind(("", 0)) for s in sockets]
 print(*[s.getsockname()[1] for s in sockets])')
 
-# No accounting and no control groups: neither is there in a container. A job is bound to nothing, so it is no cluster to measure on.
+# A container has neither accounting nor control groups. Jobs are not bound to cores, so do not measure on this cluster.
 host=$(hostname -s)
 megabytes=$(awk '/^MemTotal:/ { print int($2 / 1024) }' /proc/meminfo)
 mkdir -p "$folder/state" "$folder/spool"
@@ -75,12 +75,12 @@ CONF
 slurmctld -c
 slurmd -c
 
-# The executor of Snakemake drops SLURM_CONF where it starts a step of a job.
+# The Snakemake executor drops SLURM_CONF when it starts a job step: a wrapper of srun sets it again.
 mkdir -p "$folder/bin"
 printf '#!/bin/sh\nSLURM_CONF="%s" exec "%s" "$@"\n' "$SLURM_CONF" "$(command -v srun)" > "$folder/bin/srun"
 chmod +x "$folder/bin/srun"
 
-# It is there when the node is idle.
+# Wait until the node is idle.
 for _ in $(seq 100); do
   if [ "$(sinfo --noheader --format=%T 2> /dev/null)" = idle ]; then
     exit 0

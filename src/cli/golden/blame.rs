@@ -29,8 +29,8 @@ impl<'a> Judge<'a> {
         Ok(Self { scene, golden, exact, oracle: Oracle::new(&scene.mesh), word })
     }
 
-    /// Two texts: a sentence with the values of a pixel in both pictures and the picture that exact arithmetic
-    /// confirms, and a command that traces the pixel's primary ray.
+    /// A sentence with the values of a pixel in the two pictures, which says which picture exact arithmetic confirms;
+    /// and a command that traces the pixel's primary ray.
     pub fn blame(
         &self,
         structure: &str,
@@ -66,7 +66,7 @@ impl<'a> Judge<'a> {
         (sentence, format!("sahara validate {} -s {} --ray \"{ray}\"", self.word, quoted(structure)))
     }
 
-    /// The values of a picture of one pixel, as text.
+    /// The values of `pixel`, a picture of one pixel, as text.
     fn values(&self, pixel: &DynamicImage) -> String {
         let numbers = self.golden.pixel_values(pixel);
         let is_hit = !numbers.contains(&f64::INFINITY);

@@ -21,7 +21,7 @@ use crate::study::Status;
 /// The group of options for accepting pictures.
 const TOLERANCE: &str = "Tolerance";
 
-/// The meaning of the common exit statuses here.
+/// The exit statuses of this command.
 const STATUSES: &str = "Exit status: 0 if all pictures are accepted; 2 if a picture differs; 1 if a picture exists in \
                         only one of the folders or is unreadable.";
 
@@ -54,7 +54,7 @@ pub struct Args {
     outputs: Outputs,
 }
 
-/// A parser of the numbers in a range; all other texts get `advice`.
+/// A parser of numbers in `range`; for all other texts, the error is `advice`.
 fn within(range: RangeInclusive<f64>, advice: &'static str) -> impl Fn(&str) -> Result<f64, &'static str> + Clone {
     move |text: &str| text.parse().ok().filter(|number| range.contains(number)).ok_or(advice)
 }
@@ -80,7 +80,7 @@ impl Args {
         }
     }
 
-    /// The pictures; two folders without any picture are an error.
+    /// The pictures to compare. Rejects missing paths, a file with a folder, and two folders without any picture.
     fn pairs(&self) -> anyhow::Result<Vec<Pair>> {
         let [expected, actual] = [&self.expected, &self.actual];
         if let Some(missing) = [expected, actual].into_iter().find(|path| !path.exists()) {
@@ -179,7 +179,7 @@ fn compare(
     Ok(comparison)
 }
 
-/// The comparisons that are not identical.
+/// A table of the pictures that are not identical.
 fn table(comparisons: &[Comparison]) -> Table {
     let rows = comparisons.iter().filter(|own| own.verdict != Verdict::Identical);
     let known = |own: &Comparison, of: fn(&golden::measures::Measures) -> Cell| {

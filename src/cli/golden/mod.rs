@@ -66,7 +66,7 @@ impl Outputs {
 }
 
 impl CheckedOutputs {
-    /// The result of `run`, which may add to the page.
+    /// Calls `run` with the page, if there is one, and returns the result.
     fn with_page<T>(&self, title: &str, run: impl FnOnce(Option<&Page>) -> io::Result<T>) -> Result<T, OutputError> {
         match &self.page {
             Some(folder) => page::write(folder, title, |page| run(Some(page))),
@@ -74,7 +74,7 @@ impl CheckedOutputs {
         }
     }
 
-    /// Writes the JSON, and prints the place of the page.
+    /// Writes the JSON, and prints the path of the page.
     fn export(&self, comparisons: &[Comparison], terminal: &Terminal) -> anyhow::Result<()> {
         if let Some(json) = &self.json {
             let run = json!({ "schema": "sahara-golden-1", "comparisons": comparisons });
@@ -87,7 +87,7 @@ impl CheckedOutputs {
     }
 }
 
-/// Verdicts in tables and in tallies, the worst first.
+/// Verdicts with their names in tables and in tallies, worst first.
 const VERDICTS: [(Verdict, &str, &str); 6] = [
     (Verdict::Differs, "differs", "different"),
     (Verdict::Failed, "failed", "failed"),

@@ -20,8 +20,8 @@ use crate::request::{self, BRUTE_FORCE, OUTPUT, SAH_TREE, SCENES, STRUCTURES, Vi
 use crate::scene::Scene;
 use crate::study::Status;
 
-/// Above this number of triangles times pixels, brute force would take minutes: on scenes without a built-in golden
-/// image the default is then [`SAH_TREE`].
+/// The maximum of triangles times pixels for which brute force is the default; more would take minutes. Above it,
+/// the default is [`SAH_TREE`], unless the golden image is built in.
 const WORK: u64 = 1 << 32;
 
 #[derive(Debug, clap::Args)]
@@ -104,7 +104,7 @@ impl Targets {
             let golden = SceneGolden::file(&folder, &name, self.view, &scene);
             return Ok(Target::new(scene, golden, word));
         };
-        // The stand-in, always: a real mesh on this machine must not change the picture.
+        // Always use stand-ins: a real mesh on this machine must not change the picture.
         let mut scene = builtin.scene(None)?;
         scene.size = SIZE;
         let scene = self.from.seen(scene)?;

@@ -1,4 +1,4 @@
-//! `rays corpus`: meshes, rays of all kinds and their exact hits, for counting wrong hits without this program.
+//! `rays corpus`: meshes, rays of all kinds and their exact hits, with which other programs can count wrong hits.
 
 #[cfg(test)]
 mod tests;
@@ -69,7 +69,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let named = if args.scenes.is_empty() { all() } else { args.scenes.clone() };
 
     let waiting = spinner("loading scenes", terminal);
-    // Generated meshes are the same on every machine.
+    // Use stand-ins: generated meshes are the same on every machine.
     let own = |name: &OsString| if Builtin::find(name).is_ok() { stand_in(name) } else { name.clone() };
     let scenes = request::scenes(registry, &named.iter().map(own).collect::<Vec<OsString>>())?;
 
@@ -105,7 +105,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     Ok(verdict(args, &digest_of_sums, terminal))
 }
 
-/// Prints the hash, and whether it is the expected one.
+/// Prints the hash and, with default options, whether it is the published hash.
 fn verdict(args: &Args, digest: &str, terminal: &Terminal) -> Status {
     let is_published = digest == CORPUS_SHA256;
     let is_wrong = args.is_default() && !is_published;
@@ -141,7 +141,7 @@ fn part(scene: &Scene, args: &Args, waiting: &ProgressBar) -> anyhow::Result<(Fi
     Ok((files, counts))
 }
 
-/// The rays of one kind and their exact hits. They name no scene, so they fit the mesh in the folder.
+/// The rays of one kind and their exact hits. The file has no scene hash, because the mesh file has another hash.
 fn answered(
     scene: &Scene,
     kind: RayKind,
@@ -155,7 +155,7 @@ fn answered(
     // The distance of the nearest hit, with a relative error below 2^-50, and all triangles that are hit there.
     let exact_answer = |ray: &Ray| {
         let ids = oracle.nearest(ray)?.ids;
-        // Take the last bits from the triangle with the lowest number, whichever the oracle has found first.
+        // Compute `t` with the triangle of the lowest number: the last bits may differ between the triangles.
         let t = exact::hit(ray, scene.mesh.corners(ids[0])).expect("the oracle has found it");
         Some((t.approximate(), ids))
     };

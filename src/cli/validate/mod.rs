@@ -182,7 +182,7 @@ impl Args {
         Ok(structures)
     }
 
-    /// Time limit of a query. A program has a limit for each of its replies instead.
+    /// The time limit of a query; none for a runner, whose replies have a limit.
     fn query_limit(&self, accel: &dyn DynAccel) -> Duration {
         if accel.remote().is_some() { Duration::MAX } else { self.limit.duration() }
     }
@@ -190,12 +190,12 @@ impl Args {
     fn build(&self, choice: &Choice, scene: &Scene, waiting: &ProgressBar) -> Result<Arc<dyn DynAccel>, BuildFailure> {
         waiting.set_message(format!("{}: building {}", scene.name, choice.label));
         if choice.command().is_some() {
-            // Its replies have a time limit.
+            // The replies of a runner have a time limit.
             return Ok(Arc::from(choice.build(&scene.mesh)?));
         }
         let (own, mesh) = (choice.clone(), Arc::clone(&scene.mesh));
         let limit = self.limit.duration() * u32::try_from(1 + mesh.len() / 1_000_000).unwrap_or(u32::MAX);
-        // The registry catches a panic of the builder: without a result it hangs.
+        // The registry turns a panic of the builder into an error, so a build without a result hangs.
         let built = watched(limit, move || own.build(&mesh)).map_err(|_| BuildFailure::Hangs(limit.as_secs_f64()))?;
         Ok(Arc::from(built?))
     }

@@ -1,4 +1,4 @@
-//! The result of a structure in a scene.
+//! The result of a structure in a scene, and the verdict over all scenes.
 
 use serde_json::{Value, json};
 
@@ -26,7 +26,7 @@ pub struct Outcome {
     pub scene: String,
     pub label: String,
     pub triangle_test: String,
-    /// Whether a user brings it: a structure of another crate, a program or a file of hits.
+    /// Whether the user provides it: a structure of another crate, a runner or a file of hits.
     pub is_brought: bool,
     /// Whether it has a known defect, which does not change the exit status.
     pub has_known_defect: bool,
@@ -45,7 +45,7 @@ impl Outcome {
         }
     }
 
-    /// The exit status; with `strict`, rounding counts as well.
+    /// The exit status; with `strict`, rounding of the triangle test counts as wrong.
     pub fn status(&self, strict: bool) -> Status {
         match &self.found {
             Err(BuildFailure::Hangs(_)) => Status::Wrong,
@@ -71,7 +71,7 @@ impl Outcome {
         }
     }
 
-    /// As JSON.
+    /// The outcome as JSON.
     pub fn record(&self) -> Value {
         let mut record = json!({
             "scene": self.scene,
@@ -109,17 +109,17 @@ impl Outcome {
     }
 }
 
-/// A structure in all scenes.
+/// The verdict on a structure over all scenes or hard cases.
 pub struct Verdicts {
     pub label: String,
     pub is_brought: bool,
     pub verdict: Verdict,
-    /// The first scene in which it was not checked, and the reason.
+    /// The first scene or case in which it was not checked, and the reason.
     pub unchecked: Option<(String, String)>,
 }
 
 impl Verdicts {
-    /// One sentence, and another about the scene in which it was not checked.
+    /// The verdict as a sentence; a second sentence names the scene in which the structure was not checked.
     pub fn sentence(&self) -> String {
         let Self { label, verdict, .. } = self;
         match &self.unchecked {
@@ -150,8 +150,8 @@ pub fn verdicts(outcomes: &[Outcome]) -> Vec<Verdicts> {
     all
 }
 
-/// Prints a sentence about each structure that a user brings, and writes the run as JSON, with `results` by scene or
-/// case, then by structure; `study/SCHEMA.md` describes it.
+/// Prints a sentence about each structure that the user provides, and writes the run as JSON, which `study/SCHEMA.md`
+/// describes. `results` are ordered by scene or case, then by structure.
 pub fn finish(
     verdicts: &[Verdicts],
     results: &[Value],
@@ -162,7 +162,7 @@ pub fn finish(
     let Some(file) = json else { return Ok(()) };
     let verdict = |own: &Verdicts| json!({ "label": own.label, "verdict": own.verdict, "sentence": own.sentence() });
     let run = json!({
-        // 3: verdicts, and every mode of `validate`.
+        // Version 3 has verdicts, and is the same for every mode of `validate`.
         "schema": 3,
         // Every structure traces on one thread.
         "provenance": Provenance::capture(1),

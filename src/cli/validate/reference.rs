@@ -18,10 +18,10 @@ use crate::validate::Reference;
 
 /// Default number of rays per scene.
 pub const DEFAULT_RAYS: usize = 10_000;
-/// Maximum number of triangle tests of one brute-force reference for these rays.
+/// Maximum number of triangle tests of one brute-force reference, which lowers the default number of rays.
 const TESTS: usize = 1 << 33;
 
-/// The same limit for the rays of a file, which the user chose, as a power of two: about two minutes.
+/// The limit for the rays of a file, which the user chose: 2^36 triangle tests, about two minutes.
 const FILE_TESTS: u32 = 36;
 
 /// Rays times triangles between two messages about progress: about a second of brute force.
@@ -94,13 +94,13 @@ pub struct References<'a> {
     pub scene: &'a Scene,
     pub rays: &'a [Ray],
     pub choice: &'a ReferenceChoice,
-    /// By triangle test; `None`: a structure chosen with `--against`, for all tests except `exact`.
+    /// By triangle test. The key `None` is a structure of `--against`, for all tests except `exact`.
     pub known: BTreeMap<Option<&'static str>, ReferenceHits>,
 }
 
 impl References<'_> {
     pub fn get(&mut self, test: &'static str, waiting: &ProgressBar) -> anyhow::Result<&ReferenceHits> {
-        // A chosen structure is one reference for all tests except `exact`, the only one that does not round.
+        // A chosen structure is one reference for all tests except `exact`, the only test that does not round.
         let key = (self.choice.0.is_none() || test == Exact::NAME).then_some(test);
         if !self.known.contains_key(&key) {
             let reference = self.choice.build(self.scene, test)?;

@@ -62,7 +62,7 @@ impl Run<'_> {
         Ok(outcomes)
     }
 
-    /// Recorded or given rays; otherwise the same number of rays of every workload or stratum.
+    /// The recorded rays or the rays of `--ray`; otherwise the same number of rays of every workload or stratum.
     fn rays(&self, scene: &Scene, recorded: Option<&[Ray]>, notes: &mut Vec<String>) -> anyhow::Result<Vec<Ray>> {
         let Self { registry, args, reference, terminal, .. } = self;
         if let Some(recorded) = recorded {
@@ -95,7 +95,7 @@ impl Run<'_> {
     }
 }
 
-/// The reason why a structure has no row of numbers, or the ray with its wrong hit; known defects need no ray.
+/// The reason why a structure was not built, or its worst ray, if any; no ray for a structure with a known defect.
 fn fault(choice: &Choice, outcome: &Outcome) -> Option<String> {
     let fault = match &outcome.found {
         Ok(_) if outcome.has_known_defect => None,

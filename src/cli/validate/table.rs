@@ -63,7 +63,7 @@ fn errors(own: &Outcome, of: fn(&Validation) -> u64) -> Cell {
     number(own, of).with(if is_wrong { Tone::Wrong } else { Tone::Plain })
 }
 
-/// If the reference has another triangle test, exact arithmetic may find either side wrong.
+/// A note if the reference is wrong by exact arithmetic, which can happen if it has another triangle test.
 pub fn note_on_reference(name: &str, found: &Validation) -> Option<String> {
     let rays = plural(found.reference_errors as usize, "ray");
     (found.reference_errors > 0).then(|| format!("On {rays} the reference is wrong, not {name}."))
@@ -85,7 +85,7 @@ pub const LEGEND: [&str; 3] = [
      errors.",
 ];
 
-/// One row per ray: number of the ray, t, triangle, and the position on it.
+/// One row per ray: structure, number of the ray, t, triangle, and barycentric weights.
 pub fn answers(label: &str, accel: &Arc<dyn DynAccel>, rays: &[Ray], mesh: &Mesh, limit: Duration) -> Vec<Vec<Cell>> {
     let row = |(i, ray): (usize, &Ray)| {
         let mut row: Vec<Cell> = vec![label.into(), format!("{} ({ray})", i + 1).into()];

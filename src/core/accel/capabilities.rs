@@ -2,18 +2,18 @@
 
 use crate::geometry::{Hit, Ray};
 
-/// The features that a structure supports. The structure receives no rays that need another feature; tables list such
-/// rays as declined, which is neither right nor wrong.
+/// The features that a structure supports. The structure receives no rays that need another feature; tables list these
+/// rays as declined: neither right nor wrong.
 ///
-/// Missing counts are declared in [`Accel::OBSERVED`](super::Accel::OBSERVED), a private triangle test in
-/// [`Accel::TRIANGLE_TEST`](super::Accel::TRIANGLE_TEST).
+/// [`Accel::OBSERVED`](super::Accel::OBSERVED) declares the counts that a structure reports, and
+/// [`Accel::TRIANGLE_TEST`](super::Accel::TRIANGLE_TEST) a private triangle test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Capabilities {
-    /// Whether it has its own any-hit query. If not, the closest-hit query replaces it, neither checked nor timed.
+    /// Whether it has a separate any-hit query. If not, the suite neither checks nor times its any-hit results.
     pub any_hit: bool,
     /// Whether it ignores hits before a `t_min` above 0.
     pub t_min: bool,
-    /// Whether its intervals include their start. If not, rays whose nearest hit lies at `t_min` are declined.
+    /// Whether it finds hits at `t_min`. If not, the suite counts rays whose nearest hit lies at `t_min` as declined.
     pub closed_start: bool,
     /// Whether it ignores hits at or beyond a finite `t_max`.
     pub t_max: bool,
@@ -23,20 +23,20 @@ impl Capabilities {
     /// All features of the contract of [`Accel`](super::Accel).
     pub const ALL: Self = Self { any_hit: true, t_min: true, closed_start: true, t_max: true };
 
-    /// Whether any result on `ray` is excused: the structure excludes `t_min`, where `nearest`, the true hit, lies.
+    /// Whether every result for `ray` is excused: the true hit `nearest` lies at `t_min`, which the structure excludes.
     pub fn excuses(self, ray: &Ray, nearest: Option<Hit>) -> bool {
         !self.closed_start && nearest.is_some_and(|hit| hit.t == ray.interval().0)
     }
 
     /// The feature of `ray` that the structure declines, if any.
     pub fn declines(self, ray: &Ray) -> Option<&'static str> {
-        // A NaN end is not an omitted one.
+        // A ray with a NaN `t_max` is bounded: a structure that ignores `t_max` may return a hit.
         let (from_start, endless) = (ray.t_min <= 0.0, ray.t_max == f32::INFINITY);
         let t_max = (!self.t_max && !endless).then_some("t_max");
         if self.t_min || from_start { t_max } else { Some("t_min") }
     }
 
-    /// The declined features, as printed.
+    /// The names of the declined features, as `sahara list` prints them.
     pub fn declined(self) -> Vec<&'static str> {
         let all = [
             (self.any_hit, "any hit"),

@@ -2,7 +2,7 @@ use crate::geometry::Hit;
 
 /// A batch of rays that a structure has loaded ([`Accel::load`](super::Accel::load)).
 ///
-/// The results always equal those from the structure's queries for the same rays, bit for bit.
+/// Its results equal the results of the structure's queries for the same rays, bit for bit.
 pub trait Loaded: Send + Sync {
     /// The nearest hits of the rays.
     ///
@@ -22,17 +22,17 @@ pub trait Loaded: Send + Sync {
     }
 }
 
-/// A structure in another process, which may end at any time. It times itself: the time of a query is
-/// [`Loaded::own_ns`] of the batch.
+/// A structure in another process, which may exit at any time. That process measures the times: [`Loaded::own_ns`] is
+/// the time of a batch's last query.
 ///
-/// After a failure its queries return misses, which have no meaning.
+/// After a failure, every query returns misses without meaning.
 pub trait Remote {
-    /// Nanoseconds of the build, by its own clock.
+    /// Nanoseconds of the build, measured by the other process.
     fn build_ns(&self) -> u64;
 
-    /// The reason why it failed, as a clause; `None` if it has not failed.
+    /// The reason for the failure, as a clause; `None` if there was none.
     fn failure(&self) -> Option<String>;
 
-    /// The median ratio of elapsed to reported time of its queries. `None` if all were too short to compare.
+    /// The median of elapsed time divided by reported time, over the queries; `None` if all were too short to compare.
     fn outside(&self) -> Option<f64>;
 }

@@ -1,4 +1,4 @@
-//! The interface of acceleration structures, and the numbers that they report: hits, counts per ray, bytes, tree shape.
+//! The interface of acceleration structures, and the data that they report: hits, counts, footprint, tree shape.
 
 mod capabilities;
 mod footprint;

@@ -7,7 +7,7 @@
     note = "pass `&mut ()` to watch nothing, or `&mut Counts::default()` to count steps and tests"
 )]
 pub trait Observer {
-    /// Whether the observer uses the events. If not, a structure may take a faster path that reports none.
+    /// Whether the observer uses the events. If not, a structure may take a faster path that reports no events.
     const ACTIVE: bool = true;
 
     /// The traversal enters an inner node.

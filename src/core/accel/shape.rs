@@ -18,8 +18,8 @@ pub struct TreeShape {
     /// References in the largest leaf.
     pub largest_leaf: usize,
     /// Expected cost of a random line through the root box, in triangle tests (MacDonald, Booth 1990), with the same
-    /// constants for every structure: [`TreeShape::INNER_COST`], and 1 per triangle of a leaf. `None` if
-    /// the tree is unknown, or the area of its root box is zero or not finite.
+    /// constants for every structure: [`TreeShape::INNER_COST`], and 1 per triangle of a leaf. `None` if the tree is
+    /// unknown, or if the area of its root box is zero or not finite.
     pub sah_cost: Option<f64>,
 }
 
@@ -35,13 +35,13 @@ impl TreeShape {
     /// Cost of an inner node in triangle tests (Aila, Karras, Laine 2013).
     pub const INNER_COST: f64 = 1.2;
 
-    /// The shape of a structure without a known tree: one leaf, of unknown cost.
+    /// The shape of a structure whose tree is unknown or missing: one leaf of unknown cost.
     pub fn one_leaf(references: usize) -> Self {
         let empty = usize::from(references == 0);
         Self { leaves: 1, empty, references, largest_leaf: references, ..Self::default() }
     }
 
-    /// Counts the nodes of the tree with this root, if any, depth first. `open` tells whether a node is a leaf.
+    /// Counts the nodes of a tree, depth first; without a root it has no nodes. `open` returns the content of a node.
     pub fn of<N>(root: Option<(N, Aabb)>, mut open: impl FnMut(N, &Aabb) -> Part<N>) -> Self {
         let root_area = root.as_ref().map_or(0.0, |(_, bounds)| bounds.half_area());
         let mut shape = Self::default();

@@ -40,15 +40,15 @@ pub enum BuildError {
 ///
 /// 1. `closest_hit` returns the smallest `t` in [`t_min`, `t_max`) by the structure's triangle test, over all triangles
 ///    of the mesh that are not degenerate. A hit whose `t` rounds to infinity does not count, even if `t_max` is
-///    infinite. The returned `t` may be the exact `t` rounded up to `t_max`.
+///    infinite. The returned `t` may equal `t_max`, because an exact `t` below `t_max` may round up to it.
 /// 2. If several primitives are hit at the smallest `t`, `closest_hit` may return any of them (the structures of this
 ///    crate return the one with the lowest index).
 /// 3. `any_hit(ray) == closest_hit(ray).is_some()`.
 /// 4. Results depend only on the mesh, the configuration and the ray.
 /// 5. Every [`Mesh`] builds, including the empty mesh.
 ///
-/// A ray hits nothing if [`Ray::is_valid`] is false. A structure declares unsupported features with
-/// [`CAPABILITIES`](Accel::CAPABILITIES) and unreported events with [`OBSERVED`](Accel::OBSERVED).
+/// A ray hits nothing if [`Ray::is_valid`] is false. A structure declares the features that it supports in
+/// [`CAPABILITIES`](Accel::CAPABILITIES) and the events that it reports in [`OBSERVED`](Accel::OBSERVED).
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not an acceleration structure",
     label = "does not implement `Accel` (`sahara_core::accel::Accel`)",
@@ -58,17 +58,17 @@ pub trait Accel: Sized + Send + Sync + 'static {
     /// Build parameters. The names of their serialised fields are the keys on the command line and in exports.
     type Config: Clone + Debug + Default + Serialize + DeserializeOwned + Send + Sync + 'static;
 
-    /// Name of the triangle test: with the same test, structures return the same bits of `t`; `"own"` is private.
+    /// Name of the triangle test; `"own"` is a private one. Structures with the same test return the same bits of `t`.
     const TRIANGLE_TEST: &'static str = "own";
 
-    /// Deliberate deviations from the contract, one clause each; `sahara list` prints them. If a deviation changes
-    /// hits, also declare it in [`CAPABILITIES`](Accel::CAPABILITIES); then it is no error. Not for defects.
+    /// Deliberate deviations from the contract, one clause each; `sahara list` prints them. Also declare a deviation
+    /// that changes hits in [`CAPABILITIES`](Accel::CAPABILITIES), or it counts as an error. Do not list defects.
     const CONVENTIONS: &'static [&'static str] = &[];
 
     /// The events that the structure reports to the observer.
     const OBSERVED: Observed = Observed::ALL;
 
-    /// The supported queries; by default all.
+    /// The features that the structure supports; by default all.
     const CAPABILITIES: Capabilities = Capabilities::ALL;
 
     /// Builds the structure over a mesh.
@@ -82,9 +82,9 @@ pub trait Accel: Sized + Send + Sync + 'static {
 
     /// Whether `ray` hits anything.
     ///
-    /// The default uses the closest hit. If the structure declines [`Capabilities::t_max`], the default also checks
-    /// that the rounded `t` of this hit lies before `t_max`. A structure that keeps the default should decline
-    /// [`Capabilities::any_hit`]: otherwise its time would be reported as the time of an any-hit query.
+    /// The default runs the closest-hit query and, if the structure declines [`Capabilities::t_max`], checks that the
+    /// rounded `t` lies before `t_max`. A structure that keeps the default should decline [`Capabilities::any_hit`]:
+    /// otherwise the time of a closest-hit query is reported as an any-hit time.
     #[inline]
     fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
         let may_be_beyond = !Self::CAPABILITIES.t_max;
@@ -131,7 +131,7 @@ pub trait Accel: Sized + Send + Sync + 'static {
     fn shape(&self) -> TreeShape;
 }
 
-/// [`Accel`] with its type erased: one virtual call per batch; the code inside is monomorphised.
+/// Type-erased [`Accel`]: one virtual call per batch, which runs monomorphised code.
 pub trait DynAccel: Send + Sync {
     /// See [`Accel::closest_hits`]; without an observer.
     fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]);
@@ -173,7 +173,7 @@ pub trait DynAccel: Send + Sync {
     }
 }
 
-// Compiled once, not separately for each structure and triangle test.
+// An inherent method is compiled once, a trait method once for each structure and triangle test.
 impl dyn DynAccel + '_ {
     /// The closest hit of each ray. All threads of the pool trace chunks of `chunk` rays.
     pub fn closest_by_chunks(&self, rays: &[Ray], chunk: usize) -> Vec<Option<Hit>> {
@@ -244,7 +244,7 @@ mod tests {
 
     use super::*;
 
-    /// Has a hit at `t` = 1, by the exact `t` before every end; declines `t_max` if `ENDS` is false.
+    /// Returns a hit at `t` = 1 for every ray; declines `t_max` if `ENDS` is false.
     struct AtOne<const ENDS: bool>;
 
     impl<const ENDS: bool> Accel for AtOne<ENDS> {
@@ -272,7 +272,7 @@ mod tests {
     #[test]
     fn any_hit_is_by_default_whether_there_is_a_closest_hit() {
         let until = |t_max| Ray::new(Vec3::ZERO, Vec3::X).until(t_max);
-        // A hit just before the end may round to it.
+        // A `t` before `t_max` may round to it: the default trusts a structure that supports `t_max`.
         assert!(AtOne::<true>.any_hit(&until(1.0), &mut ()));
         assert!(!AtOne::<false>.any_hit(&until(1.0), &mut ()) && AtOne::<false>.any_hit(&until(1.5), &mut ()));
     }

@@ -1,9 +1,9 @@
-//! The binary tree with the bounds of each node that every partition builds; collapsing it gives the eight-wide tree.
+//! The binary tree that every partitioning strategy builds. An eight-wide tree is collapsed from it.
 
 use crate::geometry::Aabb;
 
-/// The nodes in depth-first order: a node, then the subtree of its first child, then the subtree of its second child.
-/// So the subtree of a node is a range of nodes and a range of references. A tree without triangles has no nodes.
+/// The nodes in depth-first order: a node, then the subtree of its first child, then the subtree of its second child. A
+/// subtree is therefore a range of nodes and a range of references. A tree without triangles has no nodes.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BinaryTree {
     pub nodes: Vec<BinaryNode>,
@@ -13,8 +13,8 @@ pub(crate) struct BinaryTree {
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BinaryNode {
-    /// The bounds of the node's references, rounded outward: of a triangle that a split plane has cut, only the clipped
-    /// part. Never empty in a finished tree.
+    /// The bounds of the node's references, rounded outward. A triangle that was cut counts only with its clipped part.
+    /// Never empty in a finished tree.
     pub bounds: Aabb,
     pub content: Content,
 }

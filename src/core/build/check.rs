@@ -1,4 +1,4 @@
-//! Helpers for the tests of all partitions: meshes, and the invariants of every binary tree.
+//! Helpers for the tests of all partitioning strategies: meshes, and the invariants of every binary tree.
 
 use std::fmt::Debug;
 
@@ -33,12 +33,12 @@ pub fn soup(count: usize, seed: u64) -> Mesh {
     mixed(count, seed, 50, 0.1)
 }
 
-/// The same with more large triangles: many straddle a plane.
+/// Like [`soup`], with more large triangles: many straddle a plane.
 pub fn straddling_soup(count: usize, seed: u64) -> Mesh {
     mixed(count, seed, 10, 0.2)
 }
 
-/// Small triangles, and one large one among `every`.
+/// Small triangles; one in `every` is large.
 fn mixed(count: usize, seed: u64, every: usize, small: f32) -> Mesh {
     let mut rng = Pcg32::seed_from_u64(seed);
     mesh(count, |i| {
@@ -47,7 +47,7 @@ fn mixed(count: usize, seed: u64, every: usize, small: f32) -> Mesh {
     })
 }
 
-/// Needles that all cross near one point and straddle every plane.
+/// Needles that all pass near the origin, so a plane near the origin cuts almost all of them.
 pub fn needles(count: usize, seed: u64) -> Mesh {
     let mut rng = Pcg32::seed_from_u64(seed);
     mesh(count, |_| {
@@ -56,7 +56,7 @@ pub fn needles(count: usize, seed: u64) -> Mesh {
     })
 }
 
-/// A room: walls, floor and tables of right-angled triangles in planes of the axes, as in buildings.
+/// A room: axis-aligned planes of right triangles, like the walls, floors and tables of buildings.
 pub fn room(cells: usize) -> Mesh {
     let mut corners = vec![];
     for axis in 0..3 {
@@ -89,7 +89,7 @@ pub fn holds(bounds: &Aabb, point: DVec3) -> bool {
     bounds.min.as_dvec3().cmple(point).all() && bounds.max.as_dvec3().cmpge(point).all()
 }
 
-/// The boxes and references of all leaves. Checks the invariants of every tree; leaves have at most `most` references.
+/// The boxes and references of all leaves. Checks the invariants of every tree, and at most `most` references per leaf.
 pub fn leaves(tree: &BinaryTree, most: u32) -> Vec<(Aabb, &[u32])> {
     let mut found = vec![];
     let mut next = 0;
@@ -118,7 +118,7 @@ pub fn leaves(tree: &BinaryTree, most: u32) -> Vec<(Aabb, &[u32])> {
     found
 }
 
-/// Checks with random points that every point of every triangle lies in a leaf that has the triangle.
+/// Checks at random points of every triangle that the point lies in a leaf with this triangle.
 pub fn covers(tree: &BinaryTree, mesh: &Mesh, seed: u64) {
     let mut of = vec![vec![]; mesh.len()];
     for (bounds, ids) in leaves(tree, u32::MAX) {

@@ -1,4 +1,4 @@
-//! The box of the part of a triangle in a cell, which makes a split "perfect".
+//! The box of the part of a triangle in a cell, for "perfect" splits (Wald, Havran 2006).
 
 use glam::{DVec3, Vec3};
 
@@ -7,24 +7,24 @@ use crate::geometry::{Aabb, round_down, round_up};
 /// Maximum number of corners after six planes have cut a triangle.
 const CORNERS: usize = 9;
 
-/// Maximum error of a computed corner on an axis, as a share of the triangle's largest coordinate on it. One
-/// interpolation a + (b - a) w with w = (s - a) / (b - a) has five roundings of up to twice that coordinate and one of
-/// it, and at most seven interpolations follow each other: 77 units of 2^-53.
+/// Bound on the error of a computed corner on an axis, relative to M, the triangle's largest absolute coordinate on
+/// this axis. The interpolation a + (b - a) w, w = (s - a) / (b - a), rounds five numbers up to 2 M and one up to M: 11
+/// units of 2^-53 M. At most seven interpolations follow each other: 77 units.
 ///
-/// Planes are moved outward by this error. So a point that is exactly inside stays inside, with the error of the
-/// corners around it, at any angle between the plane and an edge with computed ends.
+/// Planes are moved outward by this bound. A point that is exactly inside therefore stays inside, within the error of
+/// the corners, even if an edge with computed ends is almost parallel to a plane.
 const ERROR: f64 = 128.0 / (1u64 << 53) as f64;
 
-/// A box of the part of a triangle in `cell`, inside `cell` and `known`, a box of the part in some larger cell.
+/// A box of the part of a triangle in `cell`. It lies in `cell` and in `known`, a box of the part in a larger cell.
 ///
 /// Clips in f64 (Sutherland, Hodgman 1974) and rounds outward: the box contains the whole part. If rounding leaves no
-/// polygon at all, the result is `known` cut by the cell: a triangle that reaches into the cell is never dropped.
+/// polygon, the result is the intersection of `known` and `cell`: no triangle that reaches into the cell is dropped.
 pub(crate) fn clipped_bounds(corners: [Vec3; 3], cell: &Aabb, known: &Aabb) -> Aabb {
     Polygon::clipped(corners, cell).corner_box().in_cut(known.intersection(*cell))
 }
 
-/// The boxes of both sides of a plane: [`clipped_bounds`] of the parts of `bounds` below and above. `bounds` is a box
-/// of the part of the triangle in some cell, and the plane meets its inside.
+/// [`clipped_bounds`] of the parts of `bounds` below and above a plane. `bounds` is a box of the part of the triangle
+/// in some cell; the plane meets the inside of `bounds`.
 pub(crate) fn cut_bounds(corners: [Vec3; 3], bounds: &Aabb, axis: usize, plane: f32) -> (Aabb, Aabb) {
     let polygon = Polygon::clipped(corners, bounds);
     let (below, above) = bounds.cut(axis, plane);
@@ -36,7 +36,7 @@ pub(crate) fn cut_bounds(corners: [Vec3; 3], bounds: &Aabb, axis: usize, plane: 
     (half(below, -1.0), half(above, 1.0))
 }
 
-/// Corners, and for each whether it was computed (and hence rounded) or given.
+/// Corners with flags: `true` if the corner is computed, and hence rounded; `false` for a corner of the triangle.
 struct Polygon {
     corners: [(DVec3, bool); CORNERS],
     len: usize,
@@ -90,7 +90,7 @@ impl Polygon {
         (self.corners, self.len) = (after, len);
     }
 
-    /// Visits the corners of the part with `side * (p[axis] - plane) >= 0`, with some slack.
+    /// Visits the corners of the part with `side * (p[axis] - plane) >= -slack[axis]`.
     #[inline(always)]
     fn kept(&self, axis: usize, plane: f64, side: f64, mut visit: impl FnMut(DVec3, bool)) {
         let plane = plane - side * self.slack[axis];
@@ -101,7 +101,7 @@ impl Polygon {
                 visit(p, computed);
             }
             if inside(p) != inside(q) {
-                // Both directions of an edge must give the same point.
+                // Both directions of an edge must give the same point: interpolate from the inner end.
                 let (a, b) = if inside(p) { (p, q) } else { (q, p) };
                 let mut crossing = a + (b - a) * ((plane - a[axis]) / (b[axis] - a[axis]));
                 crossing[axis] = plane;
@@ -203,7 +203,7 @@ mod tests {
         assert!(touched.contains(&Aabb::of_points([Vec3::ZERO])), "{touched:?}");
     }
 
-    /// Planes close to 0 cut triangles with large coordinates: the error of corners is larger than their distance.
+    /// Planes close to 0 cut triangles with large coordinates: the corner error exceeds the distances of the planes.
     #[test]
     fn nothing_is_lost_where_edges_almost_lie_in_planes() {
         use std::cmp::Ordering::{Equal, Greater, Less};
@@ -211,7 +211,7 @@ mod tests {
         let mut rng = rand_pcg::Pcg32::seed_from_u64(12);
         let mut cuts = 0;
         for _ in 0..100_000 {
-            // A triangle through the neighbourhood of the origin; two coordinates are often equal.
+            // A triangle that passes near the origin; edges often have two equal components.
             let middle = point(&mut rng) * SMALL;
             let mut reach: [Vec3; 2] = std::array::from_fn(|_| point(&mut rng) * 1e4);
             let [a, b, flat] = std::array::from_fn(|_| (rng.next_u32() % 3) as usize);
@@ -221,7 +221,7 @@ mod tests {
             }
             let corners = [middle - reach[0], middle + reach[0] - reach[1] * 0.5, middle + reach[1]];
 
-            // The intersection of a line along an axis is known exactly.
+            // The hit of a ray along an axis is known exactly: only one coordinate depends on `t`.
             let along = (rng.next_u32() % 3) as usize;
             let (mut origin, mut direction) = (point(&mut rng) * SMALL, Vec3::ZERO);
             (origin[along], direction[along]) = (0.0, 1.0);
@@ -231,7 +231,7 @@ mod tests {
             };
             let inside = |b: &Aabb| (0..3).all(|i| order(i, b.min[i]) != Less && order(i, b.max[i]) != Greater);
 
-            // Follow the point through cuts close to it.
+            // Cut close to the hit, and keep the side that contains it.
             let mut bounds = Aabb::of_points(corners);
             for _ in 0..8 {
                 let axis = (rng.next_u32() % 3) as usize;

@@ -5,13 +5,13 @@ use super::reference::Reference;
 /// A rule that sorts references into two groups, by the centres of their boxes on an axis.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Group {
-    /// The first group has the bins up to `last`.
+    /// The first group has the references in the bins `0..=last`.
     Bins { bins: Bins, last: usize },
     /// The first group has the first `count` references in ascending order of centres.
     First { axis: usize, count: usize },
 }
 
-/// An even grid over the centres.
+/// Bins of equal width over the range of the centres.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bins {
     axis: usize,
@@ -20,7 +20,7 @@ pub(crate) struct Bins {
     pub count: usize,
 }
 
-/// At most this many bins.
+/// Maximum number of bins.
 pub(crate) const BINS: usize = 64;
 
 impl Bins {
@@ -35,7 +35,7 @@ impl Bins {
     }
 }
 
-/// The lower half by centres, on the axis with their largest extent, in whole blocks; and both counts.
+/// The lower half by centres, in whole blocks, on the axis of their largest range; and the sizes of both groups.
 pub(crate) fn median(references: &[Reference], block: usize) -> (Group, [usize; 2]) {
     let width = |axis| {
         let (min, max) = centres(references.iter(), axis);
@@ -46,13 +46,13 @@ pub(crate) fn median(references: &[Reference], block: usize) -> (Group, [usize; 
     (Group::First { axis, count }, [count, references.len() - count])
 }
 
-/// The least and the greatest centre.
+/// The least and the greatest centre on `axis`.
 pub(crate) fn centres<'a>(references: impl Iterator<Item = &'a Reference>, axis: usize) -> (f32, f32) {
     let with = |(min, max): (f32, f32), r: &Reference| (min.min(r.centre(axis)), max.max(r.centre(axis)));
     references.fold((f32::INFINITY, f32::NEG_INFINITY), with)
 }
 
-/// The indices of the references in ascending order of centres, equal ones in their order.
+/// The indices of the references in ascending order of centres; ties keep the order of the references.
 pub(crate) fn order(references: &[Reference], axis: usize) -> Vec<u32> {
     let key = |(i, r): (u32, &Reference)| u64::from(ordered_bits(r.centre(axis))) << 32 | u64::from(i);
     let mut keys: Vec<u64> = (0..).zip(references).map(key).collect();
@@ -60,10 +60,10 @@ pub(crate) fn order(references: &[Reference], axis: usize) -> Vec<u32> {
     keys.into_iter().map(|key| key as u32).collect()
 }
 
-/// Bits in the order of the floats, the same for both zeros.
+/// Maps floats to integers of the same order; both zeros become one integer.
 #[inline(always)]
 pub(crate) fn ordered_bits(x: f32) -> u32 {
-    // Negative floats are ordered backwards: flip all their bits, of others only the sign. -0.0 becomes 0.0.
+    // Adding 0.0 turns -0.0 into 0.0. Negative floats have descending bits: flip all. Otherwise flip only the sign.
     let bits = (x + 0.0).to_bits();
     if bits >> 31 == 1 { !bits } else { bits | 1 << 31 }
 }

@@ -20,7 +20,7 @@ impl Part {
         Self { references, extent }
     }
 
-    /// The whole triangles of `mesh` with an area.
+    /// All triangles of `mesh` with an area, not clipped.
     pub fn whole(mesh: &Mesh) -> Self {
         let ids: Vec<u32> = mesh.solid().collect();
         let references: Vec<Reference> =
@@ -39,7 +39,7 @@ impl Part {
     }
 }
 
-/// Divides references into two parts of the given sizes; `place` puts each where it belongs.
+/// Divides references into two parts of the given sizes; `place` puts a reference into one part or both.
 fn deal(
     references: Vec<Reference>,
     counts: [usize; 2],
@@ -70,7 +70,7 @@ fn deal(
     [below, above]
 }
 
-/// Cuts at a plane. References on both sides are clipped to each side; none is dropped.
+/// Cuts at a plane. A reference on both sides is clipped to each side; no reference is dropped.
 pub(crate) fn at_plane(mesh: &Mesh, references: Vec<Reference>, cut: Cut, counts: [usize; 2]) -> [Part; 2] {
     deal(references, counts, |r, [below, above]| match cut.sides(r) {
         [true, true] => {

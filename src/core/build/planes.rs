@@ -5,9 +5,9 @@ use super::sample::Sample;
 /// Maximum number of planes, including both ends of the range; a power of two, so a mask bounds an index.
 pub(crate) const PLANES: usize = 64;
 
-/// Ascending planes: both ends of a range and, in every cell of an even grid, its highest edge or middle.
-///
-/// Planes at edges keep walls whole: a plane beside a wall would cut all triangles that end at it.
+/// Ascending planes: both ends of a range, and in each inner cell of an even grid the highest edge of a box, or the
+/// middle of the cell if it has no edge. A plane at an edge keeps a wall whole; a plane beside the wall would cut all
+/// triangles that end at the wall.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Planes {
     pub axis: usize,
@@ -18,7 +18,7 @@ pub(crate) struct Planes {
 }
 
 impl Planes {
-    /// The planes at `min` and `max` and `count` between them; `None` if there is no space.
+    /// The planes at `min` and `max` and `count` planes between them; `None` if the range is empty or no grid fits it.
     pub fn new(axis: usize, (min, max): (f32, f32), count: usize, sample: &Sample) -> Option<Self> {
         let last = count + 1;
         assert!(last < PLANES, "{count} planes between both ends are too many");
@@ -38,7 +38,7 @@ impl Planes {
         (planes.values[0], planes.values[last]) = (min, max);
         for cell in 1..last {
             if planes.values[cell] == f32::NEG_INFINITY {
-                // If rounding moves the middle to another cell, repeat the last plane: all of the cell lies above it.
+                // If rounding moves the middle to another cell, repeat the previous plane: the cell lies above it.
                 let middle = min + cell as f32 / planes.scale;
                 planes.values[cell] = if planes.cell(middle) == cell { middle } else { planes.values[cell - 1] };
             }
@@ -46,7 +46,7 @@ impl Planes {
         Some(planes)
     }
 
-    /// The cell of a coordinate: it is monotonic in the coordinate.
+    /// The cell of a coordinate: a non-decreasing function of `x`.
     #[inline(always)]
     fn cell(&self, x: f32) -> usize {
         let at = ((x - self.min) * self.scale + 0.5).max(0.0).min(self.last as f32);
@@ -54,7 +54,7 @@ impl Planes {
         unsafe { at.to_int_unchecked::<i32>() as usize }
     }
 
-    /// The number of bins: one below, between and above the planes.
+    /// The number of bins: one below all planes, one between any two neighbours, one above all.
     pub fn bins(&self) -> usize {
         self.last + 2
     }

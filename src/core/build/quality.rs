@@ -8,15 +8,15 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Quality {
-    /// Few candidate planes, selected from few references in larger nodes; `Cells` and `Tight` also make fewer
+    /// Few candidate planes, and a small sample of the references in larger nodes; `Cells` and `Tight` also make fewer
     /// references and larger leaves. A build takes 0.4 (`Cells`, `Tight`), 0.6 (`Hybrid`) or 0.8 x (`Objects`) as long
-    /// as with `Balanced`, and 1.0 to 2.4 x as long as obvhs `medium`. Rays have 0.79 to 1.05 of the speed.
+    /// as with `Balanced`, and 1.0 to 2.4 x as long as obvhs `medium`. Rays are traced 0.79 to 1.05 x as fast.
     Fast,
-    /// A finer search for planes, and reinsertion. A build takes 0.15 to 0.92 x as long as obvhs `very-slow`.
+    /// A finer search, and reinsertion with every strategy. A build takes 0.15 to 0.92 x as long as obvhs `very-slow`.
     #[default]
     Balanced,
     /// Spatial splits of smaller nodes clip triangles to slabs instead of cutting their boxes (`Cells`: more candidate
     /// planes), and reinsertion has more passes. The SAH cost is 0.94 to 1.01 of the cost of `Balanced`. Builds take
-    /// 1.0 to 2.4 x as long; rays have 0.97 to 1.05 of the speed.
+    /// 1.0 to 2.4 x as long; rays are traced 0.97 to 1.05 x as fast.
     High,
 }

@@ -10,7 +10,7 @@ pub(crate) const PARALLEL: usize = 4096;
 /// References per task of a thread.
 pub(crate) const CHUNK: usize = 2048;
 
-/// A triangle and the box of its part in a node: each corner of the box is one load, the lower one with its number.
+/// A triangle number and the box of the triangle's part in a node. A corner is one load; the lower one has the number.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
 pub(crate) struct Reference {
@@ -20,7 +20,7 @@ pub(crate) struct Reference {
 
 impl Reference {
     pub fn new(id: u32, Aabb { min, max }: Aabb) -> Self {
-        // Meshes have fewer than 2^30 triangles: no number has the bits of a NaN, which a copy might change.
+        // Triangle numbers are below 2^30: none has the bits of a NaN, which a copy might change.
         Self { low: min.extend(f32::from_bits(id)).to_array(), high: max.extend(0.0).to_array() }
     }
 

@@ -11,7 +11,7 @@ pub(crate) struct CostModel {
     step: f64,
     /// Cost of testing a block.
     block: f64,
-    /// Share of the cost of a split that is saved if it cuts off empty space.
+    /// Share of the cost that a split saves if it cuts off empty space.
     empty_bonus: f64,
 }
 
@@ -35,19 +35,19 @@ impl CostModel {
         if below == 0 || above == 0 { cost * (1.0 - self.empty_bonus) } else { cost }
     }
 
-    /// Cost of a box of half area `area` with `count` triangles, times its area.
+    /// Cost of a leaf with `count` triangles, times `area`, the half area of its box.
     #[inline(always)]
     pub fn box_leaf(&self, area: f64, count: usize) -> f64 {
         area * self.block * count.div_ceil(BLOCK) as f64
     }
 
-    /// Cost of a box, times its area; `children` is the cost of its children, times their areas.
+    /// Cost of an inner node, times its area; `children` is the sum of the children's costs, each times its area.
     #[inline(always)]
     pub fn box_node(&self, area: f64, children: f64) -> f64 {
         self.step * area + children
     }
 
-    /// Cost of a box that is split into two leaves with these areas and counts, times its area.
+    /// Cost of a node that is split into two leaves with these areas and counts, times the area of the node.
     #[inline(always)]
     pub fn box_split(&self, area: f64, areas: [f64; 2], counts: [usize; 2]) -> f64 {
         self.box_node(area, self.box_leaf(areas[0], counts[0]) + self.box_leaf(areas[1], counts[1]))

@@ -1,6 +1,6 @@
 use super::reference::Reference;
 
-/// Some evenly spread references of a node: among thousands, a sample finds a split as good as all do.
+/// Evenly spread references of a node. With thousands of references, a sample suffices to find a good split.
 #[derive(Clone, Copy)]
 pub(crate) struct Sample<'a> {
     references: &'a [Reference],

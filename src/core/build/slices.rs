@@ -1,4 +1,4 @@
-//! Boxes of the slices of a triangle between parallel planes: for the cost of a split, not for the tree.
+//! Boxes of the slices of a triangle between parallel planes. Only costs use them: they are not rounded outward.
 
 use glam::Vec3A;
 
@@ -35,7 +35,7 @@ impl<const AXIS: usize> Slicer<AXIS> {
         Self { corners: [a, b, c], inverse: [inverse(a, b), inverse(b, c), inverse(a, c)] }
     }
 
-    /// The section at `x`, which must lie between the outer corners: its ends.
+    /// The box of the section at `x`, which must lie between the outer corners.
     #[inline(always)]
     fn section(&self, x: f32) -> Extent {
         let [a, b, c] = self.corners;
@@ -47,7 +47,7 @@ impl<const AXIS: usize> Slicer<AXIS> {
     }
 }
 
-/// Grows the bins by the slices of the part of a triangle in `part`, which begins in `first` and ends in `last`.
+/// Slices the part of a triangle in the box `part`; calls `grow` for each bin `first..=last` with the box of its slice.
 #[inline(always)]
 pub(super) fn slice<const AXIS: usize>(
     corners: [Vec3A; 3],

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-/// The closed box of the points between `min` and `max`; empty if a component of `min` exceeds the component of `max`.
+/// The closed box of the points between `min` and `max`; empty if `min` exceeds `max` on any axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {
     /// The least coordinates.
@@ -38,7 +38,7 @@ impl Aabb {
         !self.min.cmple(self.max).all()
     }
 
-    /// The lengths of the edges; negative components if the box is empty.
+    /// The lengths of the edges; at least one is negative if the box is empty.
     #[inline]
     pub fn extent(&self) -> Vec3 {
         self.max - self.min
@@ -49,19 +49,19 @@ impl Aabb {
         self.min * 0.5 + self.max * 0.5
     }
 
-    /// Half of the surface area, in `f64`, which no finite box overflows; 0 if empty (Goldsmith, Salmon 1987).
+    /// Half of the surface area (Goldsmith, Salmon 1987), in `f64` to avoid overflow; a negative edge counts as 0.
     #[inline]
     pub fn half_area(&self) -> f64 {
         half_area(self.min.as_dvec3(), self.max.as_dvec3())
     }
 
-    /// The axis of the longest edge; the first one of equal edges.
+    /// The axis of the longest edge; the first one if several are equally long.
     #[inline]
     pub fn longest_axis(&self) -> usize {
         self.extent().max_position()
     }
 
-    /// The parts of the box below and above the plane `axis = split`; one is empty if it misses the box.
+    /// The parts of the box below and above the plane `axis = split`; one part is empty if the plane misses the box.
     #[inline]
     pub fn cut(&self, axis: usize, split: f32) -> (Self, Self) {
         let (mut below, mut above) = (*self, *self);
@@ -76,7 +76,7 @@ impl Aabb {
     }
 }
 
-/// Half of the surface area of the box between two corners; 0 if empty.
+/// Half of the surface area of the box between two corners; a negative edge counts as 0.
 #[inline(always)]
 pub(crate) fn half_area(min: DVec3, max: DVec3) -> f64 {
     let e = (max - min).max(DVec3::ZERO);

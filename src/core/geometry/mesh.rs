@@ -4,9 +4,9 @@ use glam::Vec3;
 
 use super::Aabb;
 
-/// A validated set of triangles: every coordinate is finite, every index exists.
+/// A validated set of triangles: every coordinate is finite, and every index refers to a vertex.
 ///
-/// Degenerate triangles (see [`Mesh::is_degenerate`]) remain, so triangle numbers do not shift, but no ray hits them.
+/// Degenerate triangles (see [`Mesh::is_degenerate`]) keep their numbers, but no ray hits them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     positions: Vec<Vec3>,
@@ -25,16 +25,16 @@ pub enum MeshError {
     /// A triangle refers to a vertex that does not exist.
     #[error("triangle {triangle} refers to vertex {index}, but there are only {vertices} vertices")]
     OutOfRange { triangle: usize, index: u32, vertices: usize },
-    /// There are more vertices or triangles than a mesh can index: more than 2^30.
+    /// There are more than 2^30 vertices or triangles.
     #[error("{count} {what} exceed the limit of {limit} per mesh: split the scene")]
     TooMany { what: &'static str, count: usize, limit: usize },
 }
 
-/// At most this many triangles or vertices: a triangle number and two flag bits then fit a `u32`.
+/// Maximum number of triangles or of vertices: a triangle number and two flag bits then fit a `u32`.
 const LIMIT: usize = 1 << 30;
 
 impl Mesh {
-    /// Validates the arrays; a mesh needs no further checks.
+    /// Validates the arrays. A structure may then use the mesh without checks.
     ///
     /// # Errors
     /// See [`Mesh::check`].
@@ -132,13 +132,13 @@ impl Mesh {
     }
 }
 
-/// Whether three points lie on one line, exactly: they do if they do in all three coordinate planes.
+/// Whether three points lie on one line, exactly: their projections onto all three coordinate planes are collinear.
 fn collinear([a, b, c]: [Vec3; 3]) -> bool {
     if a == b || b == c || c == a {
         return true;
     }
     [(0, 1), (1, 2), (2, 0)].into_iter().all(|(i, j)| {
-        // Twice the area of the projected triangle. Each product is exact: two floats have 48 digits together.
+        // Twice the projected area. Each product is exact: two `f32` have 48 bits together, an `f64` has 53.
         let [(ax, ay), (bx, by), (cx, cy)] = [a, b, c].map(|p| (f64::from(p[i]), f64::from(p[j])));
         sum_is_zero([ax * by, -(ay * bx), bx * cy, -(by * cx), cx * ay, -(cy * ax)])
     })
@@ -149,13 +149,13 @@ fn collinear([a, b, c]: [Vec3; 3]) -> bool {
 /// # References
 /// Shewchuk: Adaptive precision floating-point arithmetic and fast robust geometric predicates, 1997 (Grow-Expansion).
 fn sum_is_zero(terms: [f64; 6]) -> bool {
-    // The error of five roundings is below this.
+    // A rounded sum above this bound on the error of its five roundings is not 0.
     let size: f64 = terms.iter().map(|term| term.abs()).sum();
     if terms.iter().sum::<f64>().abs() > 8.0 * f64::EPSILON * size {
         return false;
     }
 
-    // The sum as numbers without common digits: it is 0 only if all of them are.
+    // Expand the sum into parts that do not overlap: it is 0 only if every part is 0.
     let mut parts = [0.0; 6];
     for (count, term) in terms.into_iter().enumerate() {
         let mut rest = term;
@@ -186,7 +186,7 @@ mod tests {
 
     #[test]
     fn degenerate_triangles_are_counted_exactly() {
-        // The corners p, p + d, p + 2d are collinear although the f32 cross product of their edges is not zero.
+        // Triangles 0 and 2 repeat a vertex. Triangle 3 is a needle with an area.
         let p = Vec3::new(0.1, 0.2, 0.3);
         let d = Vec3::new(0.5, 0.25, 0.125);
         let points = vec![p, p + d, p + d + d, Vec3::Y, Vec3::new(0.1, 0.2, 0.300_000_04)];
@@ -202,7 +202,7 @@ mod tests {
         let mut rng = rand_pcg::Pcg32::seed_from_u64(3);
         let mut found = [0; 2];
         for round in 0..30_000 {
-            // Points near a line, with as few digits as it takes for some of them to lie on it.
+            // Points near a line, with so few binary digits that some of them lie exactly on it.
             let digits = 1 << (round % 12);
             let mut whole = || (rng.next_u32() % (2 * digits + 1)) as f32 - digits as f32;
             let (p, d) = (Vec3::new(whole(), whole(), whole()), Vec3::new(whole(), whole(), whole()));

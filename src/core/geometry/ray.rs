@@ -8,7 +8,7 @@ use glam::{Vec3, Vec3A, Vec4};
 ///
 /// `direction` may have any length; `t` is measured in lengths of `direction`. A negative `t_min` counts as 0. A ray
 /// hits nothing if its origin or direction is not finite, its direction is zero, or its interval is empty or NaN. A `t`
-/// that rounds to no finite number lies beyond the end of every ray.
+/// that rounds to infinity lies beyond the end of every ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(16))]
 pub struct Ray {
@@ -24,7 +24,7 @@ pub struct Ray {
 
 const _: () = assert!(size_of::<Ray>() == 32);
 
-/// 2^128 - 2^103: this and larger numbers round to infinity.
+/// 2^128 - 2^103, the smallest number that rounds to an infinite `f32`.
 const UNREPRESENTABLE: f64 = f32::MAX as f64 + (1_u128 << 103) as f64;
 
 impl Ray {
@@ -44,8 +44,8 @@ impl Ray {
         (if self.t_min > 0.0 { self.t_min } else { 0.0 }, self.t_max)
     }
 
-    /// The smallest exact `t` beyond the interval: `t_max`; for an unbounded ray, the largest finite `f32` plus half an
-    /// ulp, from which on numbers round to infinity.
+    /// The smallest exact `t` beyond the interval: `t_max`, or for an unbounded ray 2^128 - 2^103, the smallest number
+    /// that rounds to infinity.
     #[inline(always)]
     pub fn end(&self) -> f64 {
         f64::from(self.t_max).min(UNREPRESENTABLE)
@@ -56,12 +56,12 @@ impl Ray {
     pub fn is_valid(&self) -> bool {
         let (origin, direction) = self.vectors();
         let finite = (origin.is_finite_mask() & direction.is_finite_mask()).all();
-        // False if one is NaN.
+        // False if `t_min` or `t_max` is NaN.
         let lasts = (0.0 < self.t_max) & (self.t_min < self.t_max);
         finite & direction.cmpne(Vec3A::ZERO).any() & lasts
     }
 
-    /// The origin and the direction; each is one load from memory, unlike a conversion of the three components.
+    /// The origin and the direction. Each is one load; converting a `Vec3` would load its three components separately.
     #[inline(always)]
     pub(crate) fn vectors(&self) -> (Vec3A, Vec3A) {
         let Self { origin: o, t_min, direction: d, t_max } = *self;
@@ -75,7 +75,7 @@ impl Ray {
     }
 }
 
-/// The index of a triangle in its mesh. Stored inverted: `Option<Hit>` then takes 8 bytes.
+/// The index of a triangle in its mesh. Stored inverted, so it is never 0 and `Option<Hit>` takes 8 bytes.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct PrimId(NonZeroU32);
 
@@ -131,7 +131,7 @@ impl Hit {
 mod tests {
     use super::*;
 
-    /// The naive twin: each number separately.
+    /// Compares with a naive check of each number separately.
     #[test]
     fn a_ray_is_valid_when_all_its_numbers_are() {
         let numbers = [0.0, -0.0, 1e-45, -1.0, 2.0, f32::MAX, f32::INFINITY, f32::NEG_INFINITY, f32::NAN];

@@ -1,4 +1,4 @@
-//! Rays as text: a ray from a report can be traced again.
+//! Rays as text, to trace a ray from a report again.
 
 use std::fmt::{Display, Formatter};
 use std::str::FromStr;
@@ -9,7 +9,7 @@ use super::Ray;
 
 /// `ox,oy,oz dx,dy,dz`, followed by ` [t_min,t_max]` unless the ray is the whole half-line.
 ///
-/// Every number is the shortest decimal that reads back to the same float; only a NaN loses its payload.
+/// Every number is the shortest decimal that reads back to the same float; the payload of a NaN is dropped.
 impl Display for Ray {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
         let [o, d] = [self.origin, self.direction];
@@ -21,13 +21,13 @@ impl Display for Ray {
     }
 }
 
-/// The reason why a text is not a ray, or not one that can hit something.
+/// The reason why a text is not a ray, or why its ray can hit nothing.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct RayTextError(String);
 
 /// Reads the format that [`Display`] writes. Blanks, commas or both separate the numbers. The interval ends with `]` or
-/// `)`; with both, `t_max` is excluded.
+/// `)`; either way, `t_max` is excluded.
 impl FromStr for Ray {
     type Err = RayTextError;
 
@@ -83,7 +83,7 @@ impl Ray {
 /// The numbers of a text, separated by blanks, a comma or both.
 ///
 /// # Errors
-/// The first part that is not a number; it is empty between two commas.
+/// The first field that is not a number; an empty string if a number is missing beside a comma.
 pub fn numbers(text: &str) -> Result<Vec<f32>, &str> {
     if text.trim().is_empty() {
         return Ok(vec![]);
@@ -95,7 +95,7 @@ pub fn numbers(text: &str) -> Result<Vec<f32>, &str> {
     fields.map(|number| number.parse().map_err(|_| number)).collect()
 }
 
-/// Shortens a text for a message, because it may be a whole file in one line: cut after 120 characters.
+/// Cuts a text after 120 characters for a message, because it may be a whole file in one line.
 fn short(text: &str) -> String {
     const LONGEST: usize = 120;
     match text.char_indices().nth(LONGEST) {

@@ -2,13 +2,13 @@
 
 use glam::{DMat3, DVec3, Vec3};
 
-/// `world = R * S * p + t`, the placement rule of the course of the student report that sahara reproduces.
+/// The placement rule of the course for which the source report was written: `world = R * S * p + t`.
 ///
 /// `R = Rz * Ry * Rx` with `Rx = [1 0 0; 0 c s; 0 -s c]`, `Ry = [c 0 -s; 0 1 0; s 0 c]` and
 /// `Rz = [c s 0; -s c 0; 0 0 1]` (rows). Each matrix rotates in the opposite sense to the usual right-handed rotation.
-/// Sines come from `libm`; everything is in `f64` and rounded once: the same bits on every machine.
+/// Sines come from `libm`, and `f64` results are rounded to `f32` once, so every machine computes the same bits.
 ///
-/// A placement that [mirrors](Self::is_mirror) reverses the order of corners; the caller must reverse it back.
+/// A transform that [mirrors](Self::is_mirror) reverses the orientation of triangles; the caller must restore it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transform {
     linear: DMat3,
@@ -29,7 +29,7 @@ impl Transform {
         Self { linear, translation: translation.as_dvec3() }
     }
 
-    /// Whether the transform changes handedness, as a scale that is negative along one axis or all three axes does.
+    /// Whether the transform changes handedness: the scale is negative along one axis or along all three.
     pub fn is_mirror(&self) -> bool {
         self.linear.determinant() < 0.0
     }
@@ -39,10 +39,10 @@ impl Transform {
         (self.linear * point.as_dvec3() + self.translation).as_vec3()
     }
 
-    /// `R * S * normal` at unit length, or zero if it has no length.
+    /// `R * S * normal` at unit length, or zero if this product is zero.
     ///
     /// The course transforms normals with the matrix of the points, not with its inverse transpose, so normals tilt the
-    /// wrong way under a non-uniform scale. Its scenes scale only flat squares so, whose normals remain right.
+    /// wrong way under a non-uniform scale. Its scenes do this only to flat squares; their normals stay correct.
     pub fn normal(&self, normal: Vec3) -> Vec3 {
         (self.linear * normal.as_dvec3()).normalize_or_zero().as_vec3()
     }
@@ -52,7 +52,7 @@ fn rows(rows: [[f64; 3]; 3]) -> DMat3 {
     DMat3::from_cols_array_2d(&rows).transpose()
 }
 
-/// Exact at the multiples of 90 degrees, although the sine of a rounded angle is not.
+/// Sine and cosine, exact at multiples of 90 degrees; `libm` is not, because the angle in radians is rounded.
 fn sin_cos_degrees(degrees: f32) -> (f64, f64) {
     let degrees = f64::from(degrees) % 360.0;
     match degrees / 90.0 {
@@ -80,7 +80,7 @@ mod tests {
         assert_eq!(turned([-90.0, 0.0, 0.0], Vec3::Y), Vec3::Z);
         assert_eq!(turned([0.0, 180.0, 0.0], Vec3::new(1.0, 2.0, 3.0)), Vec3::new(-1.0, 2.0, -3.0));
         assert_eq!(turned([0.0, 450.0, 0.0], Vec3::X), Vec3::Z);
-        // x turns first: z goes to y about x, stays there about y, goes to x about z.
+        // The rotation about x moves z to y, the rotation about y keeps it, and the rotation about z moves it to x.
         assert_eq!(turned([90.0, 90.0, 90.0], Vec3::Z), Vec3::X);
     }
 

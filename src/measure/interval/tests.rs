@@ -13,7 +13,7 @@ struct Machine {
     placement: f64,
     /// The effect of a run on a structure in one cell, the same in all epochs.
     run: f64,
-    /// The maximum that an interruption adds; by default five standard deviations of other samples.
+    /// The maximum that an interruption adds; by default five standard deviations of an uninterrupted sample.
     tail: f64,
     epochs: usize,
     rounds: usize,
@@ -25,14 +25,14 @@ impl Default for Machine {
     }
 }
 
-/// Noise of one sample: one in eight is interrupted, and then takes longer by up to `tail`.
+/// Noise of one sample. One sample in eight is interrupted and takes longer by up to `tail`.
 fn noise(random: &mut RandomOrder, tail: f64) -> f64 {
     let interrupted = random.uniform() < 0.125;
     0.01 * random.normal() + if interrupted { tail * random.uniform() } else { 0.0 }
 }
 
 impl Machine {
-    /// ln times of the structures, by epoch and round; the machine becomes slower by a fifth during the run.
+    /// ln times by structure, epoch and round; the machine becomes slower by a fifth during the run.
     fn cell(&self, times: &[f64], random: &mut RandomOrder) -> Vec<Vec<Vec<f64>>> {
         let mut samples = vec![vec![]; times.len()];
         let run: Vec<f64> = times.iter().map(|_| self.run * random.normal()).collect();
@@ -62,7 +62,7 @@ impl Machine {
     }
 }
 
-/// By epoch and round.
+/// The differences of the ln times of two structures, by epoch and round.
 fn log_differences(one: &[Vec<f64>], other: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let of_epoch = |(one, other): (&Vec<f64>, &Vec<f64>)| one.iter().zip(other).map(|(a, b)| a - b).collect();
     one.iter().zip(other).map(of_epoch).collect()
@@ -76,7 +76,7 @@ fn machines() -> impl Iterator<Item = Machine> {
 
 const PAIRS: u64 = 2500;
 
-/// The percentage of pairs in which the interval contains the number; `pair` makes both.
+/// The percentage of pairs in which the interval contains the number; `pair` makes an interval and a number.
 fn share_held(pairs: u64, pair: impl Fn(&mut RandomOrder) -> (Estimate, f64)) -> f64 {
     let holds = |seed: &u64| {
         let (first, second) = pair(&mut RandomOrder::new(*seed));
@@ -101,7 +101,7 @@ fn mean_of(cells: &[Vec<Vec<f64>>], noise: Variance) -> Rerun {
 
 #[test]
 fn the_estimate_of_a_second_run_lies_within_the_interval_of_the_first() {
-    // As few epochs as the default of studies, and more.
+    // The default number of epochs of `compare`, 4, and its neighbours.
     for machine in [3, 4, EPOCHS].into_iter().flat_map(|epochs| machines().map(move |m| Machine { epochs, ..m })) {
         let run = |random: &mut RandomOrder| mean_of(&[machine.ratio([3.0, 1.0], random)], Variance::NONE);
         as_promised(held(PAIRS, run), &format!("{machine:?}"));
@@ -115,7 +115,7 @@ fn several_rounds_filter_interruptions_and_one_does_not() {
         held(PAIRS, |random| mean_of(&[machine.ratio([3.0, 1.0], random)], Variance::NONE))
     };
     as_promised(of(3, 0.1), "three rounds, interruptions of ten standard deviations");
-    // One sample in eight takes up to a third longer: rare in five samples, but large.
+    // One sample in eight takes up to a third longer: the median of five samples ignores most interruptions.
     let (one, five) = (of(1, 0.3), of(5, 0.3));
     assert!(one < 90.0 && five > one + 4.0, "{one:.1} % of one round, {five:.1} % of five");
 }
@@ -128,7 +128,7 @@ fn changes_lie_within_their_intervals() {
         (Rerun::change(&old, &new, [Variance::NONE; 2]).unwrap().plain(), libm::log(1.1))
     });
     as_promised(changes, "changes");
-    // The interval of the mean over the epochs is an interval for that mean and not for another run.
+    // A confidence interval of the mean over the epochs is too narrow for the mean of another run.
     let confidence = held(PAIRS, |random| {
         let of = mean_of(&[Machine::default().ratio([3.0, 1.0], random)], Variance::NONE);
         Rerun { variance: of.variance.map(|variance| variance.times(std::f64::consts::FRAC_1_SQRT_2)), ..of }
@@ -149,8 +149,8 @@ fn with_twins(machine: Machine, cells: usize, random: &mut RandomOrder) -> (Vec<
 
 #[test]
 fn effects_of_whole_runs_are_covered_with_the_aa_noise_and_not_without() {
-    // The standard error of a ratio is about 0.01 here: run effects add nothing, the same amount, and three times as
-    // much.
+    // The standard error of a ratio is about 0.01 here. The run effects 0, 0.007 and 0.02 add nothing to a ratio, 0.01,
+    // and three times as much.
     for (run, cells) in [(0.0, 1), (0.007, 1), (0.0, 4), (0.0, 8), (0.007, 8), (0.02, 12)] {
         let machine = Machine { run, ..Machine::default() };
         let share = |noise: &dyn Fn(&AaNoise) -> Variance, all: bool| {
@@ -179,7 +179,7 @@ fn effects_of_whole_runs_are_covered_with_the_aa_noise_and_not_without() {
 
 #[test]
 fn half_widths_are_those_of_students_t() {
-    // Five values with a deviation of 0.01 times the root of 2.5, or with none.
+    // Five values with the standard deviation 0.01 sqrt(2.5), and five equal values.
     let (spread, none) = ([-0.02, -0.01, 0.0, 0.01, 0.02], [0.0; 5]);
     let deviation = 0.01 * libm::sqrt(2.5);
     let half = |rerun: Option<Rerun>| {
@@ -201,7 +201,7 @@ fn half_widths_are_those_of_students_t() {
 
 #[test]
 fn cells_of_one_epoch_share_its_placement() {
-    // The same epochs move both cells: their mean is as uncertain as each of them.
+    // Both cells vary in the same way from epoch to epoch: their mean is as uncertain as each cell.
     let cell = |by: f64| -> Vec<Vec<f64>> { (0..EPOCHS).map(|e| vec![by + 0.01 * e as f64; 3]).collect() };
     let one = mean_of(&[cell(0.0)], Variance::NONE).ratio();
     let two = mean_of(&[cell(0.0), cell(1.0)], Variance::NONE).ratio();

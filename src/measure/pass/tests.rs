@@ -60,7 +60,7 @@ fn a_pass_that_answers_nothing_is_unsteady() {
     }
 }
 
-/// A structure with its own clock. The origin of a ray is its time in nanoseconds.
+/// A structure that advances a mock clock. The origin of a ray is its tracing time in nanoseconds.
 struct Slow<'a>(&'a AtomicU64, Box<dyn DynAccel>);
 
 /// The clock, the number of rays, and the time that they take.

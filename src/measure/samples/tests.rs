@@ -111,8 +111,8 @@ fn only_the_pass_is_timed_in_rounds_of_changing_order() {
 
 #[test]
 fn a_case_with_changing_results_is_not_steady_and_the_others_go_on() {
-    // The second of five samples, or its lead-in; if only a subset of the rays is timed, the second pass over some of
-    // them.
+    // The checksum changes in the second of five samples; in the second sample of a subset, after two passes for its
+    // checksum; and in the second of these two passes.
     for (runs, most_rays, fickle_at) in [(5, usize::MAX, 2), (5, 16, 4), (1, 16, 2)] {
         let bench = Bench::default();
         let fickle = Mock { fickle_at, ..bench.mock('a', 10, 64) };

@@ -10,10 +10,10 @@ use crate::report::plot::{Chart, WIDTH};
 use crate::report::words::ended;
 use crate::report::{Art, Block, Cell, Colours, Figure, Overlay, Picture, Table, Tone};
 
-/// Width of a drawing on a narrow screen.
+/// The width of a chart on a narrow screen.
 const NARROW: f64 = 360.0;
 
-/// The page. All text is escaped; drawings, style and script are from this program.
+/// The page as HTML. All text is escaped, except charts, style sheet and scripts, which sahara makes itself.
 pub fn page(document: &Document) -> String {
     let mut environment = Environment::new();
     environment.set_auto_escape_callback(|_| AutoEscape::Html);
@@ -34,7 +34,7 @@ pub fn page(document: &Document) -> String {
     page.expect("a test renders the template with all kinds of blocks")
 }
 
-/// JSON for a script element: no text in it can end the element.
+/// JSON for a script element. `<` is escaped: no text can end the element.
 fn in_script(data: &impl Serialize) -> String {
     serde_json::to_string(data).expect("data have text keys").replace('<', "\\u003c")
 }
@@ -49,7 +49,7 @@ fn sheet() -> String {
          :root[data-theme=\"dark\"] {{ color-scheme: dark; {dark} }}\n"
     );
     sheet += include_str!("page.css");
-    // Drawings contain the colours on white paper.
+    // Charts contain the light colours: replace them by the colours of the current mode.
     for role in roles() {
         let (name, light) = (role.name, hex(role.light));
         sheet += &format!(".chart [fill=\"{light}\"] {{ fill: var(--{name}); }}\n");
@@ -107,7 +107,7 @@ fn table(table: &Table) -> Value {
 
 fn figure(figure: &Figure) -> Value {
     let chart = figure.chart();
-    // Scatter plots have labels everywhere: they keep their width, and scroll.
+    // Labels fill a scatter plot: it keeps its width and scrolls on narrow screens.
     let shrinks = |chart: &&Chart| !matches!(chart, Chart::Scatter(_));
     context! {
         id => &figure.id,
@@ -121,7 +121,7 @@ fn figure(figure: &Figure) -> Value {
     }
 }
 
-/// Colours with a scale and its title; or with their meanings.
+/// Heading and inspector data, with either a colour scale or a key of colours.
 fn overlay(overlay: &Overlay) -> Value {
     let colours = match &overlay.colours {
         Colours::Ramp { title, colours, ticks } => {
@@ -143,7 +143,7 @@ fn picture(picture: &Picture) -> Value {
     }
 }
 
-/// An inline drawing: it adapts to the available width, and screen readers skip it.
+/// A chart as inline SVG. It adapts to the available width, and screen readers skip it.
 fn inline(svg: &str) -> String {
     let svg = svg.trim_start();
     let end = svg.find('>').map_or(0, |end| end + 1);

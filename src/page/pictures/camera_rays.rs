@@ -1,4 +1,4 @@
-//! The work of all structures on the camera rays of one scene.
+//! The hits and the work of all structures on the camera rays of one scene.
 
 use image::RgbImage;
 
@@ -12,8 +12,8 @@ use crate::report::words::{each_once, scene_name};
 use crate::request::{BRUTE_FORCE, REPORT_TREE, SAH_TREE};
 use crate::study::measure::guarded;
 
-/// A picture of a scene, traced by exact arithmetic and by every structure of the comparison, except brute force, whose
-/// work would darken all other pictures.
+/// The camera rays of a scene, traced with exact arithmetic and with every structure that `compare` measured. Brute
+/// force is left out: its cost would darken all other maps.
 pub struct CameraRays<'a> {
     pub loaded: &'a LoadedScene,
     /// The name of the scene in figures.
@@ -30,7 +30,7 @@ pub struct StructureWork {
 }
 
 impl<'a> CameraRays<'a> {
-    /// Structures that cannot be built, panic or decline these rays are left out.
+    /// Traces the rays. Structures that cannot be built, panic or decline one of the rays are left out.
     pub fn new(loaded: &'a LoadedScene, runs: &Runs, registry: &Registry) -> Self {
         let scene = &loaded.scene;
         let exact = ExactPicture::new(scene, coarse_size(scene));

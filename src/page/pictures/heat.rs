@@ -1,4 +1,4 @@
-//! Heat maps: the work of every structure, pixel by pixel.
+//! Heat maps: the cost of every structure per pixel.
 
 use super::camera_rays::{CameraRays, StructureWork};
 use super::inspect::most_rays;
@@ -15,7 +15,7 @@ pub fn maps(camera: &CameraRays) -> Option<Maps> {
     let costs = |own: &StructureWork| own.work.iter().map(Work::cost).collect();
     let costs: Vec<(&str, Vec<u64>)> = told.map(|own| (own.label.as_str(), costs(own))).collect();
     let mean = |costs: &[u64]| costs.iter().sum::<u64>() as f64 / costs.len() as f64;
-    // Use one scale for all: equal work has equal brightness.
+    // All structures share one scale: equal cost has equal brightness.
     let scale = costs.iter().map(|(_, costs)| hottest(costs)).max()?;
     let (name, size) = (&camera.name, camera.exact.size);
     let picture = |(label, costs): &(&str, Vec<u64>)| {
@@ -45,7 +45,7 @@ pub fn maps(camera: &CameraRays) -> Option<Maps> {
     })
 }
 
-/// The pixels of a coarse grid, and what they are.
+/// The pixels of a coarse grid, and a sentence on the selection.
 fn grid(camera: &CameraRays) -> (Vec<usize>, String) {
     let [width, height] = camera.exact.size.map(|side| side as usize);
     let of = |stride: usize| {
@@ -74,7 +74,7 @@ fn ramp(scale: u64) -> Colours {
     }
 }
 
-/// A cost rounded to one of a few steps: finer ones are invisible, and the file is a third as large.
+/// A cost rounded to a step of the logarithmic scale. The rounding is invisible and shrinks the file to a third.
 fn stepped(cost: u64, scale: u64) -> u64 {
     const STEPS: f64 = 48.0;
     let unit = libm::log1p(scale as f64) / STEPS;

@@ -8,19 +8,19 @@ use crate::render::{Work, error_name};
 use crate::report::words::each_once;
 use crate::scene::offset::barycentrics;
 
-/// The maximum of numbers in a picture: each takes some ten bytes on the page.
+/// The maximum number of values in the data of one figure; each takes about ten bytes on the page.
 const NUMBERS: usize = 75_000;
 
-/// Numbers per ray, without the numbers of each structure.
+/// Values per ray, without the values of each structure.
 const OF_RAY: usize = 8;
 
-/// The maximum of rays in a picture with these structures.
+/// The maximum number of rays in the data of a figure with this number of structures.
 pub fn most_rays(structures: usize) -> usize {
     NUMBERS / (structures + OF_RAY)
 }
 
-/// The data of `pixels`, which are indices of pixels in ascending order, row by row from the top left. The sentence
-/// `which` describes the selection. Rays are stored by columns, so a few thousand stay small on a page.
+/// The data of `pixels`: ascending indices, counted row by row from the top left. The sentence `which` describes the
+/// selection. Each quantity is one array over all pixels, which keeps the data small.
 pub fn inspector(camera: &CameraRays, pixels: &[usize], which: &str) -> Value {
     let options: Vec<String> = camera.structures.iter().map(|s| format!("-s {}", s.label)).collect();
     let answer = |structure: &StructureWork, pixel: usize| {
@@ -34,7 +34,7 @@ pub fn inspector(camera: &CameraRays, pixels: &[usize], which: &str) -> Value {
         self::answer(camera, pixel, truth, "")
     };
     let of_structure = |structure: &StructureWork| {
-        // Columns that it does not report are empty.
+        // An array that the structure does not report is empty.
         let numbers = |known: bool, number: fn(&Work) -> u64| -> Vec<u64> {
             pixels.iter().filter(|_| known).map(|&pixel| number(&structure.work[pixel])).collect()
         };
@@ -53,7 +53,7 @@ pub fn inspector(camera: &CameraRays, pixels: &[usize], which: &str) -> Value {
     json!({
         "size": camera.exact.size,
         "which": which,
-        // Up to the text of the ray, which it traces again with all structures.
+        // With the text of a ray appended, this command traces the ray again with all structures.
         "command": format!("sahara validate {} {} --ray", camera.loaded.words(), options.join(" ")),
         "pixels": pixels,
         "rays": pixels.iter().map(|&pixel| camera.exact.rays[pixel].to_string()).collect::<Vec<_>>(),
@@ -63,8 +63,8 @@ pub fn inspector(camera: &CameraRays, pixels: &[usize], which: &str) -> Value {
     })
 }
 
-/// Whether leaves are observed: in some trees they are not separate nodes. If leaves are counted, every structure that
-/// tests triangles has entered one.
+/// Whether the structure counts leaves. Some trees have no separate leaf nodes: they test triangles without entering a
+/// leaf.
 fn sees_leaves(structure: &StructureWork) -> bool {
     let any = |number: fn(&Work) -> u64| structure.work.iter().any(|work| number(work) > 0);
     structure.observed.steps && (any(|work| work.counts.leaves) || !any(|work| work.counts.tests))
@@ -79,11 +79,11 @@ fn answer(camera: &CameraRays, pixel: usize, hit: Option<Hit>, wrong: &str) -> V
     answer_of(hit, wrong)
 }
 
-/// `[t, triangle, u, v]`, or `[]` for a miss; the fault follows in a few words, unless the hit is right. `u` and `v` are
-/// the weights of the second and third corner at the point in which the ray meets the plane of the triangle.
+/// `[t, triangle, u, v]`, or `[]` for a miss; if the result is wrong, the words `wrong` follow. `u` and `v` are the
+/// weights of the second and third corner at the point where the ray meets the plane of the triangle.
 fn answer_of(hit: Option<(f32, u32, [f64; 2])>, wrong: &str) -> Value {
     let mut fields = hit.map_or(vec![], |(t, triangle, weights)| {
-        // Keep only the printed digits: `t` as short as it reads back.
+        // Keep only the shortest digits that parse to the same `t`.
         let t: f64 = t.to_string().parse().expect("a number");
         let [u, v] = weights.map(|weight| libm::round(weight * 1e9) / 1e9);
         vec![json!(t), json!(triangle), json!(u), json!(v)]

@@ -1,13 +1,13 @@
-//! The figure of one picture per structure, whose pixels can be inspected.
+//! A figure with one picture per structure; readers can inspect pixels.
 
 use super::camera_rays::CameraRays;
 use super::inspect::inspector;
 use crate::report::words::slug;
 use crate::report::{Art, Block, Colours, Figure, Overlay, Picture, Table};
 
-/// Pictures of all structures on the camera rays of one scene, in one scale of colours.
+/// One picture per structure of the camera rays of one scene, in the same colours.
 pub struct Maps {
-    /// The view of `sahara render` that draws one of them, with its options.
+    /// The value of `--view` with which `sahara render` draws such a picture, followed by other options.
     pub view: String,
     pub caption: String,
     pub pictures: Vec<Picture>,
@@ -15,7 +15,7 @@ pub struct Maps {
     pub data: Table,
     /// The pixels that can be inspected, in ascending order.
     pub pixels: Vec<usize>,
-    /// Describes these pixels in a sentence.
+    /// A sentence that describes `pixels`.
     pub which: String,
 }
 
@@ -31,7 +31,7 @@ impl Maps {
     }
 }
 
-/// A colour as in style sheets.
+/// A colour in CSS notation.
 pub fn hex([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }

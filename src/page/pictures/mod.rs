@@ -1,4 +1,4 @@
-//! Pictures of the scenes, of the work of structures and of their wrong hits. They are drawn for each report.
+//! Pictures of the scenes, heat maps and error maps, which are rendered for each report.
 
 mod camera_rays;
 mod errors;
@@ -18,17 +18,17 @@ use crate::request::is_large;
 use camera_rays::CameraRays;
 use scenes::LoadedScene;
 
-/// The number of scenes with heat maps and pictures of errors: the largest of those whose structures can be rebuilt in
-/// seconds.
+/// The maximum number of scenes with heat maps and error maps: the largest scenes that are not `is_large`, because
+/// their structures are rebuilt.
 const LARGEST: usize = 3;
 
 /// A section of pictures.
 struct Part {
     id: &'static str,
     title: &'static str,
-    /// The name of the pictures, for a note that they are missing.
+    /// The name of the pictures, for the note that they are missing.
     pictures: &'static str,
-    /// Stands before the pictures of structures.
+    /// The text before the pictures; unused for the scenes.
     introduction: &'static str,
 }
 
@@ -51,7 +51,7 @@ impl Part {
         Section { id: self.id, title: self.title, blocks, ..Section::default() }
     }
 
-    /// The blocks of `found` after an introduction, with their commands; without blocks, a note that they are missing.
+    /// The introduction and the blocks of `found`, with their commands. If `found` is empty: a note instead.
     fn introduced(&self, found: Vec<(Block, String)>) -> Section {
         let note = "Scenes of more than four million triangles are left out; `sahara render` draws them.";
         let first = match found.is_empty() {
@@ -68,7 +68,7 @@ impl Part {
 /// The sections of scenes, heat maps and errors. `progress` receives each step.
 pub fn draw(runs: &Runs, registry: &Registry, progress: &mut dyn FnMut(String)) -> Vec<Section> {
     let (mut loaded, mut lost): (Vec<LoadedScene>, Vec<String>) = (vec![], vec![]);
-    // A generator has many scenes, which look the same.
+    // Skip generated scenes: all scenes of a generator look the same.
     let is_generated = |word: &OsStr| {
         let parts = word.to_str().and_then(|word| word.split_once(':'));
         parts.is_some_and(|(name, _)| registry.has_generator(name))
@@ -104,7 +104,7 @@ pub fn draw(runs: &Runs, registry: &Registry, progress: &mut dyn FnMut(String)) 
     vec![Section { command, ..SCENES.section(blocks) }, HEAT.introduced(heat), ERRORS.introduced(errors)]
 }
 
-/// The sections of a report without pictures, with a note.
+/// The sections of a report without pictures: each has a note instead.
 pub fn left_out() -> Vec<Section> {
     let section =
         |part: &Part| part.section(vec![Block::missing(part.pictures, "sahara report, without --no-pictures")]);

@@ -1,4 +1,4 @@
-//! The scenes with the shading of the source report's course.
+//! Pictures of the scenes, shaded as in the course of the source report.
 
 use image::{Rgb, RgbImage};
 
@@ -36,7 +36,7 @@ impl LoadedScene {
     }
 }
 
-/// The scene with the shading of the course, four rays per pixel.
+/// The picture of a scene, with four rays per pixel; `None` if the structure or the drawing fails.
 pub fn picture(loaded: &LoadedScene, registry: &Registry) -> Option<Picture> {
     let scene = &loaded.scene;
     let accel = guide(registry).ok()?.build(&scene.mesh).ok()?;
@@ -70,7 +70,7 @@ fn caption(loaded: &[LoadedScene]) -> String {
     )
 }
 
-/// The figure of the pictures, with the command that draws one. `lost` are the scenes without a picture.
+/// The figure of the pictures, notes on the scenes `lost`, which have no picture, and a command that draws a picture.
 pub fn blocks(pictures: Vec<Picture>, loaded: &[LoadedScene], lost: &[String]) -> (Vec<Block>, String) {
     let (mut blocks, mut command) = (vec![], String::new());
     if !pictures.is_empty() {

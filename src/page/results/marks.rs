@@ -1,4 +1,4 @@
-//! The marked places of a Markdown file, which a run fills in: text between `<!-- sahara: KEY -->` and `<!-- / -->`.
+//! The marked places of a Markdown file: a run replaces the text between `<!-- sahara: KEY -->` and `<!-- / -->`.
 
 use std::ops::Range;
 
@@ -6,10 +6,10 @@ pub const OPEN: &str = "<!-- sahara: ";
 const END: &str = " -->";
 const CLOSE: &str = "<!-- / -->";
 
-/// Columns of a line.
+/// The maximum number of columns of a wrapped line.
 const WIDTH: usize = 120;
 
-/// The keys of the marked places, and the text between the marks. Rejects a mark that is not closed.
+/// The keys of the marked places, and the range of the text between the marks. Rejects a mark that is not closed.
 fn places(text: &str) -> anyhow::Result<Vec<(&str, Range<usize>)>> {
     let (mut places, mut at) = (vec![], 0);
     while let Some(open) = text[at..].find(OPEN) {
@@ -36,8 +36,8 @@ pub fn marked(text: &str) -> anyhow::Result<Vec<(String, String)>> {
     Ok(places(text)?.into_iter().map(|(key, place)| (key.to_owned(), plain(place))).collect())
 }
 
-/// The file with the result of `of` in the marked places; for an unknown key the text stays. Paragraphs with marks are
-/// wrapped again, tables start on a new line.
+/// The file with `of(key)` in each marked place; if it is `None`, the text stays. Paragraphs with marks are wrapped
+/// again; a text of several lines, such as a table, gets blank lines around it.
 pub fn fill(text: &str, of: impl Fn(&str) -> Option<String>) -> anyhow::Result<String> {
     let (mut filled, mut at) = (String::new(), 0);
     for (key, place) in places(text)? {
@@ -69,7 +69,7 @@ pub fn fill(text: &str, of: impl Fn(&str) -> Option<String>) -> anyhow::Result<S
     Ok(out)
 }
 
-/// Writes the lines of a paragraph; wraps them again if the paragraph has a mark with text beside it.
+/// Writes the lines of a paragraph; wraps them again if a line has a mark, but does not begin with one.
 fn flush(paragraph: &mut Vec<&str>, out: &mut String) {
     let lines = std::mem::take(paragraph);
     if !lines.iter().any(|line| line.contains(OPEN) && !line.starts_with(OPEN)) {
@@ -89,8 +89,8 @@ fn flush(paragraph: &mut Vec<&str>, out: &mut String) {
     *out += &format!("{line}\n");
 }
 
-/// The parts that may end a line. A comment and the word before it are one part, because a line that begins with a
-/// comment is not Markdown; a piece of code is one part as well.
+/// The parts of a text between which a line may break. A comment and the word before it are one part, because a line
+/// that begins with a comment is not formatted as Markdown. A code span is one part.
 fn words(text: &str) -> Vec<String> {
     let (mut words, mut word, mut is_code): (Vec<String>, String, bool) = (vec![], String::new(), false);
     for piece in text.split_whitespace() {

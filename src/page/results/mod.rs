@@ -1,7 +1,7 @@
-//! `report --results`: the findings as a short paper, the numbers in README, and the file with all of them.
+//! `report --results`: a short paper with the findings, a data file, and the generated texts in README.
 //!
-//! All three are made from one run. The data file contains every sentence with a number, by key, and the digests of the
-//! other files: a test fails after a manual change of a number, or if a file is forgotten.
+//! All three come from one run. The data file contains every finding by key, and digests of the paper, its figures and
+//! tables: a test fails if one of these files or a text in README does not match the data file.
 
 mod marks;
 mod paper;
@@ -27,7 +27,7 @@ use crate::study::Studies;
 /// The command that makes all files.
 pub const COMMAND: &str = "sahara report RUN.. --results";
 
-/// The paper, the data file and the folders of figures and of long tables, in the folder of results.
+/// Names in the folder of results: the paper, the data file, and the folders of figures and of long tables.
 pub const PAPER: &str = "RESULTS.md";
 pub const DATA: &str = "results.json";
 pub const FIGURES: &str = "figures";
@@ -50,7 +50,7 @@ pub struct ResultsData {
     pub schema: u32,
     pub made_by: String,
     pub run: RunFacts,
-    /// By key: the name of the study or part, a full stop, and the key of the finding.
+    /// By key: the name of the study or part, a full stop, and the key of the finding, as in `run.machine`.
     pub statements: BTreeMap<String, Statement>,
     /// Digests (SHA-256) of the other files, by their paths relative to this one.
     pub files: BTreeMap<String, String>,
@@ -132,7 +132,7 @@ fn statements(document: &Document, runs: &Runs, run: &RunFacts) -> BTreeMap<Stri
     all
 }
 
-/// The one build and machine of a run.
+/// The build and the machine of a run, its days and its commands.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RunFacts {
     pub version: String,
@@ -194,7 +194,7 @@ impl RunFacts {
     }
 }
 
-/// A command without the folders of its machine and the file name of its program.
+/// A command without absolute folders, with `sahara` as the name of the program.
 fn portable(command: &str) -> String {
     let name = |(i, word): (usize, &str)| match word.rsplit('/').next() {
         _ if i == 0 => "sahara".to_owned(),

@@ -1,4 +1,4 @@
-//! The paper: one fixed text around the answer and the Markdown of the reports.
+//! The paper: a fixed text with places for the answer and for the Markdown of the reports.
 
 use super::{COMMAND, FIGURES, Files, RunFacts, TABLES};
 use crate::page::document::Document;
@@ -7,19 +7,19 @@ use crate::report::markdown::{blocks, escaped, prose};
 use crate::report::words::listed;
 use crate::report::{Art, Block, Table, csv, wrapped};
 
-/// The text around; a name in double braces is replaced.
+/// The fixed text; names in double braces are replaced.
 const FRAME: &str = include_str!("paper.md");
 
 pub const ANSWER: &str = "answer.svg";
 
-/// Figures of a study in the paper; the page has all of them.
+/// The maximum number of figures per study in the paper; the page has all figures.
 const FIGURES_SHOWN: usize = 2;
 
-/// Tables with more rows are files beside the paper, except tables whose titles begin with these words.
+/// Tables with more than `LONG` rows are separate files, unless their titles begin with words of `WHOLE`.
 const LONG: usize = 8;
 const WHOLE: [&str; 2] = [CLAIMS, "Speed relative"];
 
-/// The beginning of the title of verdicts on claims, whose columns say what they are.
+/// The beginning of the title of the table of claims. The paper omits this title: the columns explain the table.
 const CLAIMS: &str = "Claims";
 
 /// The path of a figure in the paper.
@@ -27,7 +27,7 @@ pub fn path(id: &str) -> String {
     format!("{FIGURES}/{id}.svg")
 }
 
-/// The text, and the files in the folder of tables.
+/// The text of the paper, and the files in the folder of tables.
 pub fn text(document: &Document, runs: &Runs, run: &RunFacts) -> (String, Files) {
     let (results, tables) = results(document, runs);
     let compiler = format!(
@@ -74,8 +74,8 @@ fn answer(document: &Document) -> String {
     text
 }
 
-/// The sections of the studies, findings first, without folded blocks, tables of single scenes, interactive blocks, and
-/// sentences of the answer; and the long tables as files.
+/// The sections of the studies, and the long tables as files. A section begins with its findings, except sentences of
+/// the answer. Of the blocks, it has texts, charts, and tables that are short and not about a single scene.
 fn results(document: &Document, runs: &Runs) -> (String, Files) {
     let (mut text, mut tables) = (String::new(), vec![]);
     for (own, run) in document.sections.iter().filter_map(|own| runs.of(own.id).map(|run| (own, run))) {

@@ -55,7 +55,7 @@ fn marked_places_are_filled_in_and_wrapped() {
     assert!(filled.lines().all(|line| line.chars().count() <= 120), "{filled}");
     assert!(filled.contains("\n  word word"), "the paragraph is indented as before: {filled}");
     assert!(filled.contains("<!-- sahara: t -->\n\n| a |\n| - |\n\n<!-- / -->\n"), "{filled}");
-    // Filling it in again changes nothing.
+    // Filling in the places again changes nothing.
     let again = fill(&filled, |key| Some(if key == "t" { "| a |\n| - |".into() } else { long.trim().into() })).unwrap();
     assert_eq!(again, filled);
     assert_eq!(fill(&filled, |_| None).unwrap(), filled);
@@ -68,7 +68,7 @@ fn results(runs: &Runs) -> anyhow::Result<Results> {
     Results::new(&document(runs, &STUDIES, vec![]), runs)
 }
 
-/// The paper names each file of a table once, shows each figure and no others, and no two figures are equal.
+/// Checks that the paper names each table file once and shows exactly the written figures, which all differ.
 fn assert_files_match_paper(results: &Results) {
     let paper = results.paper.replace('\n', " ");
     for (name, _) in &results.tables {

@@ -1,4 +1,4 @@
-//! The open question of the source report, and its answer by the runs: from the findings of studies, by key.
+//! The open question of the source report, and the answer, which is made from the findings of studies.
 
 use crate::measure::Estimate;
 use crate::page::document::{Answer, Headline};
@@ -12,24 +12,24 @@ use crate::study::compare::FASTEST;
 
 const QUESTION: &str = "Would a SAH tree have been much faster on the hard scenes?";
 
-/// The names of the hard scenes in keys.
+/// The hard scenes, as keys of findings name them.
 const SCENES: [&str; 3] = ["dragon", "lucy", "sponza"];
 
-/// From this ratio on a tree is called much faster: half of the time.
+/// A tree is called much faster if the interval of its speedup lies above this ratio.
 const MUCH: f64 = 2.0;
 
 /// The study of the SAH tree's speedup on the hard scenes, and the study of its factors.
 const REPLICATE: &str = "replicate";
 const ATTRIBUTION: &str = "attribution";
 
-/// The name of a hard scene in tables, and the speedup by the SAH tree.
+/// A hard scene: its name in keys and in tables, and the speedup of the SAH tree.
 struct Hard {
     key: &'static str,
     title: String,
     ratio: Estimate,
 }
 
-/// The hard scenes of `replicate`, their mean and a sentence on them; `None` if it was run on none of them.
+/// The hard scenes that `replicate` measured, their mean speedup and a sentence on it; `None` without such scenes.
 fn hard(runs: &Runs) -> Option<(Vec<Hard>, Option<Estimate>, String)> {
     let run = runs.of(REPLICATE)?;
     let hard = |key: &'static str| {
@@ -43,7 +43,7 @@ fn hard(runs: &Runs) -> Option<(Vec<Hard>, Option<Estimate>, String)> {
     (!hard.is_empty()).then_some((hard, mean.and_then(|finding| finding.value), sentence))
 }
 
-/// A warning if one of the runs was a quick one.
+/// A warning if a run used `--quick`; otherwise empty.
 fn banner(runs: &Runs) -> String {
     if !runs.commands().iter().any(|command| command.split(' ').any(|word| word == "--quick")) {
         return String::new();
@@ -53,7 +53,7 @@ fn banner(runs: &Runs) -> String {
         .into()
 }
 
-/// The question of the page, and the answer, or a note that there is none yet.
+/// The question of the page and its answer: from `replicate` or, without its hard scenes, from `compare`.
 pub fn answer(runs: &Runs) -> (String, Answer) {
     let Some((hard, mean, sentence)) = hard(runs) else { return otherwise(runs) };
     let numbers = hard.iter().map(|own| headline(&own.title, own.ratio));
@@ -76,7 +76,7 @@ pub fn answer(runs: &Runs) -> (String, Answer) {
     (QUESTION.into(), answer)
 }
 
-/// The outcomes of the claims, which were written before the measurement.
+/// A sentence with the numbers of confirmed, refuted, undecided and unmeasured claims.
 pub fn tally(runs: &Runs) -> String {
     let verdicts = runs.studies.iter().flat_map(|run| &run.report.verdicts);
     format!("Claims written before the measurement: {}.", claims::tally(verdicts))
@@ -87,7 +87,7 @@ fn headline(label: &str, ratio: Estimate) -> Headline {
 }
 
 fn verdict(hard: &[Hard], mean: Option<Estimate>) -> String {
-    // The scenes are judged together; the mean is one figure.
+    // Scenes are judged together, with intervals corrected for their number. The mean is a single number.
     let all = |is: &dyn Fn(Estimate) -> bool| hard.iter().all(|own| is(own.ratio.ratio_among(hard.len())));
     let either = |is: &dyn Fn(Estimate) -> bool| all(is) || mean.is_some_and(is);
     let verdict = match () {
@@ -105,7 +105,7 @@ fn verdict(hard: &[Hard], mean: Option<Estimate>) -> String {
     format!("{verdict}, on {}", listed(&titles))
 }
 
-/// The speedup, scene by scene: by factor if `attribution` measured them, otherwise as a whole.
+/// The speedup of each scene: by factor if `attribution` measured all these scenes, otherwise as a whole.
 fn chart(runs: &Runs, hard: &[Hard]) -> Bars {
     let mut figures = runs.of(ATTRIBUTION).into_iter().flat_map(|run| run.report.figures());
     if let Some(Chart::Bars(bars)) = figures.find(|figure| figure.id == ATTRIBUTION).and_then(Figure::chart)
@@ -117,7 +117,7 @@ fn chart(runs: &Runs, hard: &[Hard]) -> Bars {
     Bars::of_products("speedup over the report's tree", vec!["SAH tree".into()], hard.iter().map(bar))
 }
 
-/// The answer from runs without the hard scenes: the fastest structure, if several were compared.
+/// Question and answer without the hard scenes: the fastest structure, if `compare` measured several.
 fn otherwise(runs: &Runs) -> (String, Answer) {
     let mut answer = Answer { banner: banner(runs), verdict: "Not measured".into(), ..Answer::default() };
     let mut title = QUESTION.to_owned();

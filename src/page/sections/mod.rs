@@ -1,4 +1,4 @@
-//! The whole page: a section for each study, in the order of the list, and the frame around them.
+//! The whole page: the answer, the pictures, a section for each study, and the provenance.
 
 mod answer;
 
@@ -11,8 +11,8 @@ use crate::study::{Dataset, Studies};
 
 pub use answer::tally;
 
-/// The whole report. `pictures` are the sections that are drawn and not measured. Studies without a measurement are
-/// listed at the end, with their commands.
+/// The whole report. The sections `pictures` come first. The last section lists studies without a measurement, with
+/// their commands.
 pub fn document(runs: &Runs, studies: &Studies, pictures: Vec<Section>) -> Document {
     let (title, answer) = answer::answer(runs);
     let sections = pictures.into_iter().chain(runs.studies.iter().map(section)).collect();
@@ -25,10 +25,10 @@ pub fn document(runs: &Runs, studies: &Studies, pictures: Vec<Section>) -> Docum
     document
 }
 
-/// The findings of a study, its verdicts on claims, and its blocks.
+/// The findings of a study, its verdicts on claims, its blocks, failures and warnings.
 fn section(run: &StudyRun) -> Section {
     let StudyRun { study, others, report, .. } = run;
-    // The name of the fastest structure is the verdict of the page, not a sentence.
+    // A finding without a sentence, such as the name of the fastest structure, is for other parts of the page.
     let found = report.findings.iter().filter(|own| !own.sentence.is_empty());
     let mut blocks: Vec<Block> = found.map(|finding| Block::Text(finding.sentence.clone())).collect();
     blocks.extend(report.verdict_table().map(Block::Table));
@@ -39,7 +39,7 @@ fn section(run: &StudyRun) -> Section {
     Section { id: study.name, title: study.question, command: run.commands().join("\n"), blocks }
 }
 
-/// Renames figures of equal name, which scenes with similar names have.
+/// Makes the ids of figures unique: scenes with similar names have figures with equal ids.
 fn name_apart(blocks: &mut [Block], known: &mut Vec<String>) {
     for block in blocks {
         match block {
@@ -55,7 +55,7 @@ fn name_apart(blocks: &mut [Block], known: &mut Vec<String>) {
     }
 }
 
-/// Every machine; `missing` lists the missing measurements.
+/// The machines and builds, all notes, and the missing measurements `missing`.
 fn provenance(runs: &Runs, missing: Vec<Block>) -> Section {
     let note = "For each study and scene, the page uses the newest cases that share settings, build and machine. The \
                 page shows the settings, build and machine with the most cases of a study.";

@@ -18,7 +18,7 @@ use crate::study::epoch::tests as epoch;
 use crate::study::measurement::measurements;
 use crate::study::{Case, Dataset, Measured, Plan, Presets, Studies, Study};
 
-/// Studies of these names, which report on any dataset.
+/// Three studies with invented results, which can report on any dataset.
 pub static STUDIES: LazyLock<Studies> = LazyLock::new(|| {
     Studies::empty()
         .with(study("attribution", "What is it due to?", attribution))
@@ -31,7 +31,7 @@ fn study(name: &'static str, question: &'static str, report: fn(&Dataset, &ArgMa
     Study { name, question, presets, options, plan: |_, _| Ok(Plan::default()), report }
 }
 
-/// The speedup by the SAH tree on every scene.
+/// The speedup of the SAH tree on every scene.
 fn ratio() -> Estimate {
     Estimate::between(8.0, 7.0, 9.0)
 }
@@ -128,7 +128,7 @@ pub fn measured(study: &str, scene: &str) -> Measured {
 
 pub type Files = Vec<(String, Vec<u8>)>;
 
-/// A journal with one epoch of each of these scenes.
+/// A journal with one epoch of each scene of `scenes`.
 pub fn journal(study: &str, scenes: &[&str], provenance: &Provenance) -> Files {
     let file = |scene: &&str| {
         let Measured { case, epoch } = measured(study, scene);
@@ -159,7 +159,7 @@ pub fn read(folder: &Path) -> Runs<'static> {
     Runs::read(&[folder.to_path_buf()], &STUDIES).unwrap()
 }
 
-/// The runs of these studies, each on these scenes.
+/// The runs of each study on its scenes.
 pub fn runs(studies: &[(&str, &[&str])]) -> Runs<'static> {
     let provenance = provenance("2026-01-02T03:04:05Z");
     let files: Vec<Files> = studies.iter().map(|(study, scenes)| journal(study, scenes, &provenance)).collect();

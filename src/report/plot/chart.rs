@@ -3,19 +3,19 @@
 use crate::measure::Estimate;
 use crate::report::words::distinct;
 
-/// Default width of a drawing, in its units.
+/// Default width of a drawing, in units of two pixels.
 pub const WIDTH: f64 = 900.0;
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Chart {
     Bars(Bars),
     Curves(Curves),
-    /// Always 800 units wide, because labels stand everywhere.
+    /// Always 800 units wide, because labels stand between the points.
     Scatter(Scatter),
 }
 
-/// Groups of bars with intervals that share labels, order and one logarithmic axis that starts at 1: speedups. A bar may
-/// consist of the factors of a product, whose lengths add up to the whole.
+/// Speedups: groups of bars with intervals, which start at 1 on a logarithmic axis. All groups have the same axis,
+/// labels and order. A bar may consist of the factors of a product, whose lengths add up to the bar.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bars {
     pub x_title: String,
@@ -37,7 +37,7 @@ pub struct BarGroup {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Bar {
     Of(Estimate),
-    /// One factor per part, and the whole.
+    /// One factor per part, and the product.
     Product(Vec<f64>, Estimate),
     /// The reason why there is no bar, in a word or two; may be empty.
     Missing(String),
@@ -53,7 +53,7 @@ impl Bar {
 }
 
 impl Bars {
-    /// Bars of products with factors of these names, without a heading.
+    /// One group of products without a heading; `parts` names the factors.
     pub fn of_products(x_title: &str, parts: Vec<String>, rows: impl IntoIterator<Item = (String, Bar)>) -> Self {
         let (labels, bars) = rows.into_iter().unzip();
         let group = BarGroup { title: String::new(), bars };
@@ -61,7 +61,7 @@ impl Bars {
     }
 }
 
-/// Lines through points over two logarithmic axes: a power is a straight line.
+/// Lines through points on two logarithmic axes: a power law is a straight line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curves {
     pub x_title: String,
@@ -74,7 +74,7 @@ pub struct Curves {
 pub struct Line {
     /// Structures have fixed colours.
     pub label: String,
-    /// The text behind it.
+    /// The text after the label in the legend.
     pub note: String,
     /// Both coordinates are positive.
     pub points: Vec<(f64, f64)>,
@@ -93,13 +93,13 @@ pub struct Scatter {
 pub struct Point {
     pub x: f64,
     pub y: f64,
-    /// Whether only an upper bound of `y` is known: then an arrow points down from it.
+    /// Whether only an upper bound of `y` is known: then an arrow points down from the point.
     pub is_bound: bool,
-    /// Whether no other point is better in both: such points are filled, and a line joins them.
+    /// Whether no other point is better in both coordinates: such points are filled, and a line joins them.
     pub is_front: bool,
     /// The text beside the point.
     pub label: String,
-    /// The meaning of its colour; structures have fixed colours.
+    /// The meaning of the colour; structures have fixed colours.
     pub group: String,
 }
 

@@ -1,4 +1,4 @@
-//! Error against time.
+//! The chart of error against time.
 
 use super::judged::{Judged, JudgedRays};
 use super::table::table;

@@ -1,4 +1,4 @@
-//! The triangle tests with which the structures of this crate are right, and those with which they are wrong.
+//! Findings: with which triangle tests the structures of this crate return wrong results, and how often.
 
 use super::judged::{Judged, JudgedRays};
 use crate::report::Finding;

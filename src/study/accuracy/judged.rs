@@ -1,4 +1,4 @@
-//! The measurements, by workload.
+//! Groups the measurements by scene and workload.
 
 use crate::measure::median;
 use crate::report::words::each_once;
@@ -23,15 +23,15 @@ pub struct Judged<'a> {
     pub errors: &'a ErrorCounts,
     /// Median of the samples, ns.
     pub ns_per_ray: f64,
-    /// Share of the rays with a wrong hit: missed, false hit or wrong depth.
+    /// Share of the rays with a wrong result: missed hit, false hit or wrong depth.
     pub error: f64,
     /// Upper bound of the true share, with 95 % confidence.
     pub error_bound: f64,
-    /// The label of a structure on the front that is at most as slow and at most as wrong; `None` on the front.
+    /// The label of a structure on the Pareto front that is no slower and no less accurate; `None` on the front.
     pub dominated_by: Option<&'a str>,
 }
 
-/// By scene and workload.
+/// All structures with a time, by scene and workload.
 pub fn judged(dataset: &Dataset) -> Vec<JudgedRays<'_>> {
     let mut all = vec![];
     for scene in dataset.scenes() {
@@ -39,7 +39,7 @@ pub fn judged(dataset: &Dataset) -> Vec<JudgedRays<'_>> {
         let kinds = each_once(epoch.structures.iter().flat_map(|own| &own.rays).map(|rays| rays.workload.as_str()));
         for kind in kinds {
             let mut structures: Vec<Judged> = epoch.structures.iter().filter_map(|own| Judged::of(own, kind)).collect();
-            // Only proven accuracy counts: an error seen once in many rays may be rarer than one not seen in few rays.
+            // Compare upper bounds: one error in many rays may be a lower rate than no error in few rays.
             let points: Vec<(f64, f64)> = structures.iter().map(|own| (own.ns_per_ray, own.error_bound)).collect();
             let labels: Vec<&str> = structures.iter().map(|own| own.structure.label.as_str()).collect();
             for (own, dominator) in structures.iter_mut().zip(dominators(&points)) {

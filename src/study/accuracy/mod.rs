@@ -69,13 +69,13 @@ struct AccuracyArgs {
 /// Time limit of all samples of a scene.
 const BUDGET: Seconds = Seconds::whole(40);
 
-/// Brute force participates in meshes up to this size, unless structures are named.
+/// The maximum number of triangles for brute force, unless structures are named.
 const SMALL: usize = 5000;
 
-/// With more tables than this, the terminal shows no finding per table.
+/// If there are more tables, the terminal omits the finding of each table.
 const HEADLINES: usize = 3;
 
-/// A structure that is slower than the median one by more than this factor is timed on fewer rays.
+/// A structure that takes more than this multiple of the median time is timed on fewer rays.
 const SLOWEST: f64 = 30.0;
 
 fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
@@ -170,7 +170,7 @@ fn failures(dataset: &Dataset, all: &[JudgedRays]) -> Vec<Failure> {
         let own = judged.structure;
         let owes = own.triangle_test == Exact::NAME && known_defect(&own.name).is_none();
         if owes && judged.errors.errors() + judged.errors.wrong_primitive > 0 {
-            // The tables show this failure.
+            // No sentence: the tables already show this failure.
             failures.push(Failure { structure: own.name.clone(), wrong: true, ..Failure::default() });
         }
     }

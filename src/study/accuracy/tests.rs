@@ -23,7 +23,7 @@ fn measured(words: &str) -> Dataset {
     dataset(measured.collect())
 }
 
-/// Rays, hits, missed, false hits, wrong depths and wrong primitives over the exact test and over one that rounds.
+/// Rays, hits, missed, false hits, wrong depths and wrong primitives over the exact test and over `moller-trumbore`.
 const KNOWN: [(&str, [[u64; 6]; 2]); 2] = [
     ("edge", [[400, 396, 0, 0, 0, 0], [400, 396, 1, 3, 18, 57]]),
     ("grazing", [[400, 351, 0, 0, 0, 0], [400, 351, 7, 4, 129, 8]]),
@@ -51,7 +51,7 @@ fn exact_is_right_and_single_precision_is_not() {
         assert!(exact.errors.ulps.unwrap().max <= 0.5 && rounds.error < rounds.error_bound);
         // 400 rays without an error: 1 - 0.05^(1 / 400).
         assert!((exact.error_bound - 0.007461).abs() < 1e-6, "{}", exact.error_bound);
-        // At any speed: nothing else is as right.
+        // At any speed: the other structure has a higher bound.
         assert!(exact.dominated_by.is_none());
     }
     assert_eq!(all.len(), KNOWN.len());

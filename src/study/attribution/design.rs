@@ -11,12 +11,12 @@ named_enum! {
         Plane = "plane",
         /// The condition for a leaf.
         Stop = "stop rule",
-        /// The way in which rays traverse the tree.
+        /// The method of traversal.
         Traversal = "traversal",
     }
 }
 
-/// The name of a value of a factor, and the keys of the structure.
+/// A value of a factor: its name, and the keys of the structure that select it.
 pub type Level = (&'static str, &'static str);
 
 /// Split planes: the report's rule first, the surface area heuristic over all planes last.
@@ -40,7 +40,7 @@ const STOPS: [Level; 3] = [
 const TRAVERSALS: [Level; 2] =
     [("child boxes", "traversal=child-boxes"), ("plane intervals", "traversal=plane-intervals")];
 
-/// The keys of all cells. The report's rules ignore the costs; the limit of duplication is the default of `sah-kd`.
+/// The keys that all cells share. The report's rules ignore the costs; `duplication` is the default of `sah-kd`.
 const COMMON: &str = "traversal_cost=1.0,intersection_cost=0.7,empty_bonus=0.2,duplication=8.0";
 
 /// Trees that are built twice, for the A/A check.
@@ -51,7 +51,7 @@ pub fn trees() -> impl Iterator<Item = (Treatment, String)> {
     Treatment::all().map(|cell| (cell, cell.role())).chain(TWINS.map(|cell| (cell, TWIN.into())))
 }
 
-/// Cells of the design.
+/// The number of cells of the design.
 pub const CELLS: usize = PLANES.len() * STOPS.len() * TRAVERSALS.len();
 
 /// One cell of the design: the index of the level of each factor.
@@ -70,7 +70,7 @@ impl Treatment {
         (0..CELLS).map(move |i| Self([i / traversals / stops, i / traversals % stops, i % traversals]))
     }
 
-    /// Its index among all cells.
+    /// The index of the cell among all cells.
     pub fn number(self) -> usize {
         let [plane, stop, traversal] = self.0;
         (plane * STOPS.len() + stop) * TRAVERSALS.len() + traversal
@@ -82,7 +82,7 @@ impl Treatment {
         [PLANES[plane], STOPS[stop], TRAVERSALS[traversal]]
     }
 
-    /// The role of its tree in the study: `SAH exact / SAH / plane intervals`.
+    /// The role of the cell's tree in the study: `SAH exact / SAH / plane intervals`.
     pub fn role(self) -> String {
         self.levels().map(|(name, _)| name).join(" / ")
     }
@@ -112,7 +112,7 @@ mod tests {
             let keys = ours.as_object().unwrap().keys().filter(|key| ours[*key] != theirs[*key]);
             keys.cloned().collect::<Vec<_>>()
         };
-        // The keys that the report's rules ignore, and the limit.
+        // Two keys that the report's rules ignore, and the limit of duplication.
         assert_eq!(different(Treatment::REPORT, "median-kd"), ["intersection_cost", "empty_bonus", "duplication"]);
         assert_eq!(different(Treatment::SAH, "sah-kd"), [""; 0]);
     }

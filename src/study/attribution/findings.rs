@@ -9,7 +9,7 @@ use crate::report::words::{each_once, interval, listed, slug};
 use crate::scene::WorkloadKind;
 use crate::study::kendall::{kendall, mean_of_scenes};
 
-/// The scenes of the claims.
+/// The scenes that the claims are about.
 pub const HARD: [&str; 3] = ["Dragon", "Lucy", "Sponza"];
 
 pub fn findings(results: &[Attribution]) -> Vec<Finding> {
@@ -46,7 +46,7 @@ fn parts(hard: &[&Attribution]) -> Option<Finding> {
         let parts: Vec<String> = hard.iter().map(|r| interval(r.part(*factor))).collect();
         format!("{} {}", words(*factor), listed(&parts))
     };
-    // The first on all scenes: its interval lies above the intervals of the other factors.
+    // The largest factor on all scenes: its interval lies above the intervals of the other factors.
     let first = Factor::ALL.into_iter().find(|&factor| {
         let above = |r: &Attribution, other: Factor| r.part(factor).low() > r.part(other).high();
         hard.iter().all(|r| Factor::ALL.into_iter().all(|other| other == factor || above(r, other)))
@@ -65,7 +65,7 @@ fn words(factor: Factor) -> &'static str {
     if factor == Factor::Plane { "split plane" } else { factor.name() }
 }
 
-/// The speedup of a scene as a product of its factors, and their ranges over the orders in which they are exchanged.
+/// The speedup of a scene as a product of factors, and the range of each factor over the six orders of exchange.
 pub fn split(r: &Attribution) -> Finding {
     let whole = r.whole();
     let parts = Factor::ALL.map(|factor| format!("{} {}", words(factor), figures(r.part(factor).estimate)));
@@ -81,8 +81,8 @@ pub fn split(r: &Attribution) -> Finding {
     Finding::new(format!("split-{}", slug(&r.first().scene)), sentence).with_value(whole)
 }
 
-/// How much more the SAH tree gains on Sponza than on the scans. Real meshes are compared with real ones, stand-ins
-/// with stand-ins, and stand-ins only if the real meshes are missing.
+/// How much more the SAH tree gains on Sponza than on Dragon and Lucy. Compares real meshes with each other; only if
+/// this is impossible, stand-ins with each other.
 fn gains(results: &[Attribution]) -> Vec<Finding> {
     let of = |stand_in: bool| -> Vec<Finding> {
         let whole = |name: &str| Some(form(results, name, stand_in)?.whole());
@@ -100,6 +100,6 @@ fn tau(results: &[Attribution]) -> Option<Estimate> {
         let cost = |cell: Treatment| Some((r.trees[cell.number()].shape.sah_cost?, r.ns_per_ray(cell)));
         Some((r.first().scene.as_str(), kendall(&trees.filter_map(cost).collect::<Vec<_>>(), |_, _| true)?))
     });
-    // One scene is not a mean.
+    // A mean needs at least two scenes.
     mean_of_scenes(taus).filter(|tau| tau.interval.is_some())
 }

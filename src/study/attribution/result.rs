@@ -42,24 +42,24 @@ impl<'a> Attribution<'a> {
         Self { trees: of_scene(&scene), epochs: scene.epochs, medians, noise: AaNoise::default() }
     }
 
-    /// Cells of the A/A noise.
+    /// The cells of the A/A noise: for each twin, the logarithm of its A/A ratio by epoch.
     fn twins(&self) -> [Vec<Vec<f64>>; 2] {
         let log = |i: usize| values(&self.medians, |logs| logs[TWINS[i].number()] - logs[CELLS + i]);
         [0, 1].map(|i| log(i).into_iter().map(|log| vec![log]).collect())
     }
 
-    /// The measurement of the report's tree, with the fields that all trees of the scene share.
+    /// The measurement of the report's tree; all trees of the scene share its fields about scene and workload.
     pub fn first(&self) -> &Measurement {
         &self.trees[0]
     }
 
-    /// The median over all samples.
+    /// Median time per ray over all samples, ns.
     pub fn ns_per_ray(&self, cell: Treatment) -> f64 {
         let paces = self.epochs.iter().flat_map(|epoch| paces(epoch, cell.number()));
         median(&paces.collect::<Vec<_>>()).expect("every tree is timed")
     }
 
-    /// Old time / new time, for a weighted sum of logarithms.
+    /// A ratio of times as a weighted product: exp(sum of weight x ln(time)), with its interval.
     pub fn speedup(&self, weights: &Weights) -> Estimate {
         let sum = |logs: &[f64]| weights.iter().zip(logs).map(|(weight, log)| weight * log).sum();
         ratio(&self.medians, sum, self.noise.weighted(weights))
@@ -75,7 +75,7 @@ impl<'a> Attribution<'a> {
         self.speedup(&part(factor))
     }
 
-    /// The smallest and the largest gain of `factor` over the orders of exchanging; they differ by the interactions.
+    /// The smallest and the largest gain of `factor` over the orders of exchange; they differ if factors interact.
     pub fn range(&self, factor: Factor) -> [f64; 2] {
         let orders = parts_by_order(factor).map(|order| self.speedup(&order).estimate);
         [orders.iter().copied().fold(f64::INFINITY, f64::min), orders.iter().copied().fold(0.0, f64::max)]
@@ -90,7 +90,7 @@ impl<'a> Attribution<'a> {
 /// One weight per cell.
 type Weights = [f64; CELLS];
 
-/// ln(time of `from` / time of `to`).
+/// The weights of ln(time of `from` / time of `to`).
 pub fn gain(from: Treatment, to: Treatment) -> Weights {
     let mut weights = [0.0; CELLS];
     weights[from.number()] += 1.0;
@@ -98,14 +98,14 @@ pub fn gain(from: Treatment, to: Treatment) -> Weights {
     weights
 }
 
-/// The share of `factor` in the step from the report's tree to the SAH tree: its gain, averaged over all orders in
-/// which the three factors can be exchanged (Shapley, "A value for n-person games", 1953). The shares add up.
+/// The weights of the share of `factor` in the step from the report's tree to the SAH tree: its gain, averaged over all
+/// orders in which the three factors can be exchanged (Shapley, "A value for n-person games", 1953). The shares add up.
 fn part(factor: Factor) -> Weights {
     let gains = parts_by_order(factor);
     std::array::from_fn(|cell| gains.iter().map(|gain| gain[cell] / ORDERS.len() as f64).sum())
 }
 
-/// The gain of `factor` in every order of exchanging.
+/// The weights of the gain of `factor`, for each order of exchange.
 fn parts_by_order(factor: Factor) -> [Weights; 6] {
     ORDERS.map(|order| {
         let before = order.into_iter().take_while(|&other| other != factor as usize);

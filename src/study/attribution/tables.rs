@@ -47,7 +47,7 @@ fn figure(results: &[&Attribution]) -> Figure {
     }
 }
 
-/// One row per scene: the answer to the question.
+/// One row per scene: the speedup and its factors.
 fn headlines(results: &[&Attribution]) -> Table {
     let table = Table::of(
         "Speedup of the SAH tree and its factors",

@@ -24,7 +24,7 @@ fn factor(cell: Treatment) -> f64 {
     gains.into_iter().filter(|(has, _)| *has).map(|(_, gain)| gain).product()
 }
 
-/// `epochs` epochs of the stand-in of a scene. Times vary by up to `noise` with the epoch, and whole rounds by a third.
+/// `epochs` epochs of the stand-in of a scene. Each tree's time varies by up to `noise`, each round's by up to a third.
 fn measured(scene: &str, epochs: usize, noise: f64) -> Vec<Measured> {
     let mut random = RandomOrder::new(3);
     let cells: Vec<Treatment> = Treatment::all().chain(TWINS).collect();

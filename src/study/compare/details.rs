@@ -9,7 +9,7 @@ use crate::study::measurement::{COLUMNS, Measurement, MeasurementColumn, push_co
 /// `structures`.
 pub fn add_columns(table: &mut Table, all: &[Measurement], structures: &[String]) {
     let own: [MeasurementColumn; 12] = [
-        // A runner may not report its build, and a structure of unknown size reports 0 bytes.
+        // 0 means unknown: a runner may report no build time, and some structures report no size.
         ("build", |r| known(r.build_ns as usize).map(|ns| Cell::duration(ns as f64)).into()),
         ("peak", |r| r.build_peak_bytes.map(Cell::bytes).into()),
         ("memory", |r| known(r.shape.bytes).map(Cell::bytes).into()),
@@ -37,8 +37,8 @@ fn known(n: usize) -> Option<usize> {
     Some(n).filter(|&n| n > 0)
 }
 
-/// The number of rays of its workload after which build and tracing together take as long as with the structure that
-/// builds fastest. `None` if that never happens, if one of the times is unknown, and for that structure itself.
+/// The number of rays after which build and tracing together take as long as with the structure that builds fastest,
+/// except brute force. `None` if that never happens, if a time is unknown, and for the fastest builder itself.
 pub fn pays_off_after(all: &[Measurement], own: &Measurement) -> Option<f64> {
     let is_rival = |r: &&Measurement| {
         let same = r.scene == own.scene && r.workload == own.workload;
@@ -82,7 +82,7 @@ mod tests {
     fn a_dearer_build_pays_off_where_its_rays_are_cheaper() {
         let of = |label: &str, build_ns: u64, ns: f64| Measurement { build_ns, ..example(label, "primary", &[ns], 1) };
         let all = [of("a", 1000, 5000.0), of("b", 2000, 4500.0), of("c", 9000, 6000.0), of("brute-force", 1, 9e9)];
-        // One nanosecond per ray is saved.
+        // Structure b saves one nanosecond per ray.
         let found: Vec<Option<f64>> = all.iter().map(|own| pays_off_after(&all, own)).collect();
         assert_eq!(found, [None, Some(1000.0), None, None]);
         let unknown = [of("a", 1000, 5000.0), of("runner", 0, 10.0)];

@@ -8,20 +8,20 @@ use crate::report::words::{distinct, each_once, listed};
 use crate::report::{Cell, Table, Tone};
 use crate::study::measurement::{Measurement, trace_noise};
 
-/// Speeds over all scenes, one row per structure: a column for each workload and one for all of them, relative to the
-/// first of the `references`, and one for all workloads relative to each other reference.
+/// Mean speeds over all scenes, one row per structure. The first columns are relative to the first of the `references`,
+/// one column per workload. Then each reference has one column for all workloads.
 ///
-/// A mean is over the cells in which the reference has a time. A row without some of them shows their number, and is
-/// not compared with the best of a column: means over different cells cannot be ranked.
+/// A mean is over the cells in which structure and reference have a time. If a structure lacks cells that the reference
+/// has, its mean has a note and cannot be the best: means over different cells cannot be ranked.
 pub fn mean_table(all: &[Measurement], references: &[Reference]) -> Table {
     let workloads = distinct(all.iter().map(|r| &r.workload));
     let structures = distinct(all.iter().map(|r| &r.label));
     let noise = trace_noise(all);
 
-    // The cells of one column: one per structure, and whether it covers all scenes and workloads.
+    // Makes one column of the table, with one entry per structure.
     let column = |reference: &Reference, workload: Option<&str>| -> Vec<Cell> {
         let asked = |r: &&Measurement| workload.is_none_or(|w| r.workload == w);
-        // A scene and workload counts if the reference has a time, even in the row of the reference.
+        // A scene and workload counts if the reference has a time, also in the row of the reference.
         let has_rival = |r: &&Measurement| reference.rival(all, r).is_some();
         let related = all.iter().filter(asked).filter(has_rival);
         let cases = each_once(related.map(|r| (&r.scene, &r.workload))).len();

@@ -1,4 +1,4 @@
-//! `compare`: every structure is built, checked, counted and timed on every workload of a scene.
+//! `compare`: builds, checks, counts and times every structure on every workload of a scene.
 
 mod details;
 mod means;
@@ -26,7 +26,7 @@ use rank::Ranking;
 pub use reference::Reference;
 use table::refusals;
 
-/// The structures of `study all`: all names, and some again over a triangle test of the other precision.
+/// The arguments of `study all`: every structure, and some of them also with packets or with another triangle test.
 const FULL: &str = "-s all -s sah-hybrid:batch=packets -s median-kd:test=moller-trumbore -s sah-kd:test=moller-trumbore \
     -s sah-kd-wide:test=moller-trumbore -s sah-kd-tight:test=moller-trumbore -s sah-hybrid:test=moller-trumbore \
     -s sah-bvh:test=moller-trumbore -s obvhs-bvh2:test=exact -s obvhs-cwbvh:test=exact --epochs 4 --runs 1 --budget 4";
@@ -59,8 +59,8 @@ fn report(dataset: &Dataset, matches: &ArgMatches) -> Report {
     }
 }
 
-/// The failures. The tables show them, except the ray with the wrong hit and the reason of a refusal: each is printed
-/// once.
+/// The failures. The tables show them, so most have no sentence. A sentence gives the reason of a refusal or a ray with
+/// a wrong hit, each once.
 fn failures(dataset: &Dataset) -> Vec<Failure> {
     let (mut failures, mut told) = (dataset.failures(), vec![]);
     let scenes = dataset.scenes();
@@ -79,7 +79,7 @@ fn failures(dataset: &Dataset) -> Vec<Failure> {
     failures
 }
 
-/// Conditions that disturbed the run. Of warnings that differ only in their numbers, the first.
+/// Conditions that disturbed the run. If warnings differ only in their numbers, only the first is kept.
 fn warnings(dataset: &Dataset) -> Vec<String> {
     let all = dataset.scenes().into_iter().flat_map(|scene| scene_warnings(&scene, &dataset.provenance));
     let words = |warning: &str| warning.replace(|c: char| c.is_ascii_digit() || c == '.', "");

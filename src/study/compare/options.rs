@@ -68,8 +68,8 @@ pub struct CompareArgs {
     pub wide: bool,
 }
 
-/// Limits of a quick run: epochs, rays, the time of all epochs of a scene, the time of the samples of one epoch, and
-/// the triangle tests and time of all checks together. They are totals for any number of structures.
+/// Limits of a quick run: epochs, rays per workload, time of all epochs of a scene, time of the samples of one epoch,
+/// and triangle tests and time of all checks. Times and tests are totals over all structures.
 const QUICK_EPOCHS: u16 = 3;
 const QUICK_RAYS: usize = 1 << 14;
 const QUICK: Duration = Duration::from_secs(4);
@@ -77,13 +77,13 @@ const QUICK_SAMPLES_NS: u64 = 250_000_000;
 const QUICK_CHECKS: usize = 1 << 28;
 const QUICK_CHECKS_NS: u64 = 1_000_000_000;
 
-/// A structure that is compared by default in addition to one of each name: for users with slices of rays.
+/// A structure that is measured by default in addition to one per name: it traces slices of rays in packets.
 const PACKETS: &str = "sah-hybrid:batch=packets";
 
-/// The reference structure of a gate: no change by a user affects its code.
+/// The reference structure of a gate: changes to this crate or to a user's crate do not touch its code.
 const YARDSTICK: &str = "obvhs-bvh2";
 
-/// Names no structure of the suite: only runners are compared.
+/// The value of `-s` that omits all structures of the suite, so only runners are measured.
 const NONE: &str = "none";
 
 impl CompareArgs {
@@ -121,7 +121,7 @@ impl CompareArgs {
                 anyhow::bail!("--only {name} measures nothing else: omit the runner {}", other.spec);
             }
         }
-        // A gate times both runs on all rays.
+        // A run without a budget may be one side of a gate.
         let is_gate = self.reference.is_none() && (self.only.is_some() || self.measuring.budget == Limit(None));
         if is_gate && structures.iter().all(|own| !is_obvhs(own.name()) || own.spec.contains("test=")) {
             structures.extend(registry.choose(YARDSTICK).ok().map(|choice| (&choice).into()));
@@ -129,7 +129,7 @@ impl CompareArgs {
         Ok(each_once_by(structures, |one, other| one.spec == other.spec))
     }
 
-    /// The named structures, including the reference.
+    /// The structures that the options name, including the reference.
     fn named(&self) -> Structures {
         let mut named = self.structures.clone();
         named.structure.extend(self.reference.iter().chain(&self.only).cloned());
@@ -172,7 +172,7 @@ impl CompareArgs {
         Ok(settings)
     }
 
-    /// Scene by scene, small ones first.
+    /// Plans the cases scene by scene, small scenes first.
     pub fn plan(&self, registry: &Registry) -> anyhow::Result<Plan> {
         let mut structures = self.chosen(registry)?;
         let named = self.named();
@@ -271,7 +271,7 @@ mod tests {
 
     #[test]
     fn a_gate_measures_its_structure_and_the_yardstick() {
-        // One less for the twin.
+        // Without the twin, which has the label of its structure.
         let distinct = |words: &[&str]| each_once_by(specs(&[&["cube"], words].concat()), String::eq);
         assert_eq!(distinct(&["--only", "sah-bvh"]), ["sah-bvh", "obvhs-bvh2"]);
         assert_eq!(distinct(&["-s", "sah-kd", "--budget", "none"]), ["sah-kd", "obvhs-bvh2"]);

@@ -1,4 +1,4 @@
-//! Which structure is the fastest over all scenes and workloads.
+//! Ranks the structures by their speed over all scenes and workloads.
 
 use super::reference::{Reference, speed};
 use crate::measure::{AaNoise, Estimate};
@@ -18,8 +18,8 @@ const PRECISE: [&str; 3] = [Exact::NAME, MollerTrumboreF64::NAME, EdgeF64::NAME]
 /// A scene and a workload.
 type Cell<'a> = (&'a str, &'a str);
 
-/// The structures, fastest first, by their mean speed over the cells in which all of them have a time. A structure
-/// without a time in at least half of the cells is left out first.
+/// The structures, fastest first, by their mean speed over the cells in which all of them have a time. A structure that
+/// has a time in at most half of the cells is left out first.
 pub struct Ranking<'a> {
     all: &'a [Measurement],
     noise: AaNoise,
@@ -31,7 +31,7 @@ pub struct Ranking<'a> {
 /// A structure and its speed relative to the reference.
 struct Ranked<'a> {
     label: &'a str,
-    /// Some measurement of the structure.
+    /// Any measurement of the structure.
     example: &'a Measurement,
     speed: Option<Estimate>,
 }
@@ -100,7 +100,7 @@ impl<'a> Ranking<'a> {
         Some(Finding::new(format!("speed-{}", slug(label)), sentence).with_value(value))
     }
 
-    /// Speed of `one` divided by the speed of `other`, the mean over the cells.
+    /// Speed of `one` / speed of `other`: the geometric mean over the cells.
     fn ratio(&self, one: &str, other: &str) -> Option<Estimate> {
         let pair = |cell: &Cell| find(self.all, one, *cell).zip(find(self.all, other, *cell));
         speed(self.cells.iter().map(pair).collect::<Option<Vec<_>>>()?, &self.noise)
@@ -144,8 +144,8 @@ impl<'a> Ranking<'a> {
         Some((Finding::new(key, sentence).with_value(value), Finding::named(FASTEST, names)))
     }
 
-    /// Time with a precise triangle test divided by the time with a test in single precision, for each structure and
-    /// with the same configuration: the smallest and the largest ratio.
+    /// Time with a precise triangle test / time in single precision, for each structure with equal configuration: the
+    /// smallest and the largest ratio.
     fn cost(&self, precise: &[&Ranked<'a>], single: &[&Ranked<'a>]) -> Option<Finding> {
         let kind = |row: &Ranked<'a>| (&row.example.structure, &row.example.config);
         let cost = |right: &&Ranked<'a>| {
@@ -211,10 +211,10 @@ mod tests {
         assert!(told[0].starts_with(first), "{told:?}");
         assert!(told[0].contains("traces 2.00") && !told[0].contains("distinguishable"), "{told:?}");
         assert!(told[1].starts_with(&format!("Of 3 structures in single precision, {} has", single[0])), "{told:?}");
-        // Both have the same keys: packets are not compared with single rays.
+        // The two structures of this ratio have the same keys: packets are not compared with single rays.
         assert!(told[2].contains("exact") && told[2].contains("1.25"), "{told:?}");
         assert_eq!(findings.last().and_then(|finding| finding.name.as_deref()), Some("fast"));
-        // A structure with a wrong hit in any cell is not ranked among those without wrong hits.
+        // A structure with a wrong hit in any cell is not the fastest without wrong hits.
         let mut erring = all.clone();
         erring.iter_mut().filter(|r| r.label == "fast" && r.scene == "c").for_each(|r| {
             (r.mrays_per_s, r.wrong_hits, r.checked_rays) = (None, 2, 9);

@@ -5,8 +5,8 @@ use crate::registry::is_named;
 use crate::request::REPORT_TREE;
 use crate::study::measurement::{Measurement, is_native_obvhs};
 
-/// The geometric mean of the speed of the first of each pair relative to the second, with its
-/// [interval](mod@crate::measure::interval): the mean of the ratios in the tables, with a spread over the epochs that
+/// The speed of the first of each pair relative to the second: the geometric mean over the pairs, with its
+/// [interval](mod@crate::measure::interval). The mean uses all epochs of each pair, the interval only the epochs that
 /// all pairs have. `None` if one of them has no time, or their samples are not from the same rounds.
 pub fn speed<'a>(
     pairs: impl IntoIterator<Item = (&'a Measurement, &'a Measurement)>,
@@ -31,7 +31,7 @@ pub enum Reference {
 }
 
 impl Reference {
-    /// The structure `named`; without it the report's tree and obvhs, as far as they are measured; without these the
+    /// The structure `named`. Without a name, the report's tree and obvhs if they are measured; if neither is, the
     /// first structure.
     pub fn of(all: &[Measurement], named: Option<&str>) -> Vec<Self> {
         if let Some(spec) = named {
@@ -65,7 +65,7 @@ impl Reference {
         }
     }
 
-    /// The reference of `of` on the same scene and rays. `None` if it has no time.
+    /// The measurement of the reference in the cell of `of`. `None` if it has no time.
     pub fn rival<'a>(&self, all: &'a [Measurement], of: &Measurement) -> Option<&'a Measurement> {
         let is = |own: &&Measurement| match self {
             Self::Structure(label) => own.label == *label,
@@ -76,7 +76,7 @@ impl Reference {
         timed.max_by(|a, b| a.mrays_per_s.partial_cmp(&b.mrays_per_s).expect("numbers"))
     }
 
-    /// Each of these with its reference, if both have a time.
+    /// Each measurement in `of` with its reference, if both have a time.
     pub fn pairs<'a>(
         &self,
         all: &'a [Measurement],

@@ -38,8 +38,8 @@ pub fn checked(all: &[Measurement]) -> Option<Finding> {
     (sums[1] > 0).then(|| Finding::new("checked", sentence))
 }
 
-/// Kendall's tau of SAH cost and time over couples of different families, the mean of the built-in scenes, which the
-/// claim is about. `None` if one of them is missing.
+/// Kendall's tau of SAH cost and time over couples of different families: the mean over the built-in scenes, which the
+/// claim is about. `None` if a built-in scene is missing.
 pub fn tau(all: &[Measurement]) -> Option<Finding> {
     if !BUILTIN.iter().all(|builtin| all.iter().any(|r| r.scene == builtin.name)) {
         return None;
@@ -56,7 +56,7 @@ pub fn tau(all: &[Measurement]) -> Option<Finding> {
     Some(Finding::number("tau", mean_of_scenes(taus)?))
 }
 
-/// The name shared by all structures with the same kind of cells and nodes.
+/// The family of a structure: structures with the same type of cells and nodes.
 fn family(structure: &str) -> &str {
     match structure {
         REPORT_TREE | SAH_TREE => "binary kd-tree",
@@ -65,7 +65,7 @@ fn family(structure: &str) -> &str {
     }
 }
 
-/// The structures that could not be built, without twins.
+/// The refused structures, without twins.
 pub fn refused<'a>(scene: &SceneEpochs<'a>) -> Vec<&'a Structure> {
     scene.epochs[0].structures.iter().filter(|own| own.refused.is_some() && !own.is_twin()).collect()
 }
@@ -97,7 +97,7 @@ pub fn blocks(dataset: &Dataset, references: &[Reference], wide: bool) -> Vec<Bl
     }
     blocks.extend(notes.into_iter().map(Block::Note));
 
-    // The question is about the largest scenes: they come first.
+    // The figures of the largest scenes come first.
     scenes.sort_by_key(|scene| std::cmp::Reverse(scene[0].triangles));
     blocks.extend(tradeoff::figure(&scenes).map(Block::figure));
     let mut figures: Vec<Block> = scenes.iter().map(|scene| Block::figure(bars(scene))).collect();
@@ -120,7 +120,7 @@ fn bars(all: &[Measurement]) -> Figure {
     let mut labels = distinct(all.iter().map(|r| &r.label));
     let units = [REPORT_TREE, BRUTE_FORCE].map(String::from);
     let unit = units.into_iter().find(|unit| labels.contains(unit)).unwrap_or_else(|| labels[0].clone());
-    // Brute force is so far away that it hides the differences between all others.
+    // Brute force is so slow that its bar would hide the differences between all other structures.
     labels.retain(|label| unit == BRUTE_FORCE || label != BRUTE_FORCE);
     let workloads = distinct(all.iter().map(|r| &r.workload));
     let reference = Reference::Structure(unit.clone());

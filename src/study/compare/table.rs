@@ -14,7 +14,7 @@ use crate::triangle::{Exact, TriangleTest};
 /// The key of structures that trace many rays per call.
 const PACKETS: &str = "batch=packets";
 
-/// The meaning of the other columns, once for all tables.
+/// The meaning of columns and marks, once for all tables.
 pub fn legend(all: &[Measurement], references: &[Reference]) -> Vec<String> {
     let column = |own: &Reference| format!("x {}: speed against {}", own.name(), own.words());
     let mut ratios = references.iter().map(column).collect::<Vec<_>>().join("; ");
@@ -80,7 +80,7 @@ pub fn scene_table(all: &[Measurement], references: &[Reference], refused: &[&St
     let noise = trace_noise(all);
     for reference in references {
         let mean = |label: &String| {
-            // A row that lacks a time has no mean, unless it declines these rays.
+            // Without a time on some workload there is no mean, unless the structure declines these rays.
             let own: Vec<&Measurement> = all.iter().filter(|r| r.label == *label).collect();
             let timed: Vec<&Measurement> = own.iter().copied().filter(|r| r.declined.is_none()).collect();
             let pairs = reference.pairs(all, timed.iter().copied());
@@ -139,8 +139,8 @@ fn defects(all: &[Measurement]) -> Vec<String> {
     distinct(all.iter().map(|r| &r.label)).iter().filter_map(note).collect()
 }
 
-/// A footnote for each triangle test whose number of hits differs from the exact one by more than 1 %: no check of a
-/// structure with its own test shows that.
+/// A footnote for each triangle test whose number of hits differs from the exact one by more than 1 %. The checks do
+/// not show this: they compare a structure with its own triangle test.
 fn unfit_tests(all: &[Measurement]) -> Vec<String> {
     let exact = |of: &Measurement| {
         let same = |r: &&Measurement| r.workload_hash == of.workload_hash && r.counts.rays == of.counts.rays;
@@ -166,7 +166,7 @@ fn speed(own: &Measurement, best: f64) -> Cell {
     match own.declined {
         _ if wrong > 0 => Cell::from(Value::Errors { wrong, of }).with(Tone::Wrong),
         Some(_) => "declined".into(),
-        // It has wrong hits on another workload.
+        // The structure has wrong hits on another workload.
         None => Cell::from("wrong").with(Tone::Wrong),
     }
 }

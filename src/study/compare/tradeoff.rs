@@ -9,8 +9,8 @@ use crate::study::measurement::Measurement;
 /// At least two structures on one workload of one scene, each with its nanoseconds per ray on the same rays.
 type Case<'a> = Vec<(&'a Measurement, f64)>;
 
-/// The first workload of the first scene as a chart, with the numbers of all; `None` if no two structures have a time
-/// on the same rays. Brute force, far away from all others, is left out.
+/// A chart of the first workload of the first scene; its table has all scenes and workloads. Brute force is left out,
+/// because it is far away from all other structures. `None` if no two structures have a time on the same rays.
 pub fn figure(scenes: &[Vec<Measurement>]) -> Option<Figure> {
     let cases: Vec<Case> = scenes.iter().flat_map(|all| cases(all)).collect();
     let first = cases.first()?;
@@ -45,7 +45,7 @@ fn cases(all: &[Measurement]) -> Vec<Case<'_>> {
         let is_drawn =
             |r: &&Measurement| r.workload == *workload && r.structure != BRUTE_FORCE && r.mrays_per_s.is_some();
         let drawn = || all.iter().filter(is_drawn);
-        // Compare all on the same rays: the sample of the slowest.
+        // Compare all structures on the same rays: the rays of the smallest sample.
         let common = drawn().map(|own| own.rays).min().unwrap_or(0);
         drawn().filter_map(|own| Some((own, own.ns_per_ray_of(common)?))).collect()
     };
@@ -119,7 +119,7 @@ mod tests {
         assert!(drawn.alt.contains("fastest sah-bvh") && drawn.data.rows.len() == 2, "{}", drawn.alt);
         assert!(figure(&[all[..2].to_vec()]).is_none());
 
-        // A structure that is timed on a subset of the rays, which take less time, is compared on that subset.
+        // If a structure is timed on a subset of the rays, all structures are compared on this subset.
         all[1].parts = vec![SubsetSamples { rays: 25, ns: vec![10_000] }];
         all[2] = Measurement { rays: 25, samples_ns: vec![5_000.0], ..all[2].clone() };
         assert_eq!(times(&all), [("sah-kd".into(), 400.0), ("sah-bvh".into(), 200.0)]);

@@ -13,7 +13,7 @@ use crate::study::epoch::{RayCounts, Rays};
 use crate::study::{Check, Settings, Studies};
 use crate::validate::{ErrorCounts, Kind, Ulps};
 
-/// A dataset of this process.
+/// A dataset with the provenance of this process.
 pub fn dataset(measured: Vec<Measured>) -> Dataset {
     Dataset::new(Provenance::capture(1), measured)
 }
@@ -67,7 +67,7 @@ fn with_all_fields() -> Dataset {
     Dataset { notes: vec!["a note".into()], ..dataset(measured.into()) }
 }
 
-/// All names of fields, except those inside `labels` and `config`, which have other names.
+/// The names of all fields, except inside `labels` and `config`, whose keys vary.
 fn fields(value: &Value, names: &mut BTreeSet<String>) {
     match value {
         Value::Object(object) => {
@@ -83,7 +83,7 @@ fn fields(value: &Value, names: &mut BTreeSet<String>) {
     }
 }
 
-/// The names in the first column of the tables of `text` under this heading.
+/// The names in the first column of all tables in `text` whose first heading is `head`.
 fn documented(text: &str, head: &str) -> BTreeSet<String> {
     let tables = text.split("\n\n").filter(|part| part.starts_with(&format!("| {head} |")));
     let cells = tables.flat_map(|table| table.lines().skip(2)).filter_map(|row| row.split('|').nth(1));

@@ -1,5 +1,5 @@
-//! Changes of time, each with the outcome of its interval. Times are relative to the times of obvhs in the same rounds:
-//! comparable between days and machines.
+//! Changes of time, each with the finding of its interval. Times are relative to the times of the references in the
+//! same rounds, so they are comparable between days and machines.
 
 use std::slice::from_ref;
 
@@ -8,7 +8,7 @@ use crate::measure::{AaNoise, Estimate, Rerun, Variance, cut_to_shared_epochs, e
 use crate::report::words::{distinct, each_once};
 use crate::study::measurement::{Measurement, trace_noise};
 
-/// The changes of the structures, each looked at `looks` times, and of their cells.
+/// The changes of the structures and of their cells. `looks` is the number of times that a gate may compare the runs.
 pub(super) fn all(
     old: &[Measurement],
     new: &[Measurement],
@@ -41,13 +41,13 @@ pub(super) fn all(
             let time = times.as_ref().and_then(|(old, new)| change(from_ref(old), from_ref(new)));
             cells.push(of(Some(before), usize::from(time.is_some()), after.checked_rays, time));
             checked_rays += after.checked_rays;
-            // Without an old time, of itself or of a reference, it is not missing.
+            // A time is missing only if the old run has one.
             missing |= !before.samples_ns.is_empty() && after.samples_ns.is_empty();
             let (old, new) = times.unzip();
             old_times.extend(old);
             new_times.extend(new);
         }
-        // Without any time, as for wrong hits, there is nothing to change.
+        // Leave out a structure without comparable times, for example because it had wrong hits.
         if old_times.is_empty() && !missing {
             continue;
         }
@@ -65,7 +65,7 @@ fn change(old: &[Vec<Vec<f64>>], new: &[Vec<Vec<f64>>], noises: &[AaNoise; 2], r
     Some(Rerun::change(&epoch_values(old)?, &epoch_values(new)?, noises)?.ratio())
 }
 
-/// With a threshold: a regression is at or above it and significantly slower; a pass is significantly below it.
+/// With a threshold, a regression is at or above it and significantly slower; a pass is significantly below it.
 pub(super) fn finding(time: Option<Estimate>, threshold: Option<f64>) -> Finding {
     let Some(time) = time.filter(|time| time.interval.is_some()) else { return Finding::Unknown };
     let limit = threshold.map_or(f64::INFINITY, libm::exp);
@@ -78,8 +78,8 @@ pub(super) fn finding(time: Option<Estimate>, threshold: Option<f64>) -> Finding
     }
 }
 
-/// The variance that the A/A noise of a run adds to a mean over `cells` cells of times relative to `references`
-/// references: the noise of each cell is independent.
+/// The variance that the A/A noise of a run adds to a mean, over `cells` cells, of times relative to `references`
+/// references. The noise of the cells is independent.
 fn weighted(noise: &AaNoise, references: usize, cells: usize) -> Variance {
     let mut weights = vec![-1.0 / references.max(1) as f64; references];
     weights.push(1.0);

@@ -4,7 +4,7 @@ use serde_json::{Map, Value};
 
 /// Keys that differ: name, old and new value.
 pub fn other_keys(old: &Value, new: &Value) -> Vec<(String, String, String)> {
-    // Leave out the digests of a program: comparing two builds of it is the purpose.
+    // Leave out the command and digests of a runner: comparing two builds of it is the purpose.
     let keys = |value: &Value| {
         let mut map = value.as_object().cloned().unwrap_or_default();
         map.retain(|key, _| key != "build" && key != "command");

@@ -1,9 +1,9 @@
-//! Compares two runs of the same study: changes in speed and in hits. All functions are pure.
+//! Compares two runs of the same study: changes in speed and in hits. All functions except [`read`](fn@read) are pure.
 //!
-//! Times of two runs at different moments on a shared machine are not comparable. They are compared by their ratios to
-//! references: the structures of obvhs, whose code is the same in both runs and which are measured in the same rounds
-//! as all other structures. So `diff` can compare runs of two machines; it then warns that the machine may cause a
-//! change. A gate requires one machine.
+//! Times of two runs at different moments on a shared machine are not comparable. So `diff` compares ratios to
+//! references: by default the structures of obvhs, whose code is the same in both runs and which are measured in the
+//! same rounds as all other structures. It can even compare runs of two machines; it then warns that the machine may
+//! cause a change. A gate requires one machine.
 //!
 //! The change of a structure is the geometric mean, over its cells, of new / old, where both are times relative to the
 //! references. Its [interval](fn@crate::measure::Rerun::change) decides the finding. The interval is corrected for the
@@ -44,7 +44,7 @@ pub struct Side {
 const REFERENCE: &str = "reference";
 
 impl Side {
-    /// `reference` names the reference structure; the default are the obvhs structures over their own triangle test.
+    /// `reference` names the reference structure. By default, all obvhs structures with the triangle test of obvhs are.
     pub fn new(dataset: &Dataset, reference: Option<&str>) -> Self {
         Self::of(dataset.provenance.clone(), measurements(dataset), reference)
     }

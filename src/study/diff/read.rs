@@ -8,8 +8,8 @@ use crate::escaped::Escaped as _;
 use crate::study::Dataset;
 use crate::study::journal::{CaseFile, JournalError, files, newest};
 
-/// Reads an export, or from a folder of journals the dataset that was measured last; of `compare` if the folder has
-/// any. An error if it contains no measurement.
+/// Reads an export, or the newest dataset in a folder of journals; only `compare` counts if the folder has cases of it.
+/// An error without measurements.
 pub fn read(path: &Path) -> anyhow::Result<Dataset> {
     let found = if path.is_dir() { of_folder(path)? } else { Some(of_export(path)?) };
     let found = found.filter(|own| !own.measured.is_empty());

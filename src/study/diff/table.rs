@@ -11,7 +11,7 @@ pub fn tables(comparison: &Comparison) -> Vec<Table> {
     [structures(comparison), cells(comparison)].map(Table::explained).into()
 }
 
-/// Conditions that affect the reading of the tables: other hits, machines or settings, and times without a reference.
+/// Facts that affect the reading of the tables: wrong hits, missing references, other machines or settings.
 pub fn cautions(comparison: &Comparison) -> Vec<String> {
     let wrong = comparison.wrong.iter().map(|wrong| format!("Wrong: {}: {}.", wrong.case, wrong.what));
     let mut cautions: Vec<String> = wrong.collect();

@@ -54,7 +54,7 @@ fn times_are_relative_to_the_references() {
         // An obvhs structure with our triangle test is not a reference.
         (with_our_test(1.0), with_our_test(1.2), None, obvhs, [("sah-kd", 1.2), ("obvhs-bvh2:test=exact", 1.2)]),
         (run(1.0, 1.0), run(1.0, 0.5), Some("sah-kd"), &["sah-kd"], [("obvhs-bvh2", 2.0), ("median-kd", 2.0)]),
-        // Without references times count as they are.
+        // Without references, times are not normalised.
         (without_obvhs(run(1.0, 1.0)), without_obvhs(run(1.5, 1.0)), None, &[], [("sah-kd", 1.5), ("median-kd", 1.5)]),
     ] {
         let [old, new] = [old, new].map(|run| Side::of(Provenance::capture(1), run, named));
@@ -226,9 +226,8 @@ fn the_aa_noise_of_both_runs_widens_the_interval() {
     for (i, by) in [(0, 0.03), (1, -0.03), (4, 0.03), (5, -0.03)] {
         old[i].twin_samples_ns = Some(old[i].samples_ns.iter().map(|ns| twin(ns, by)).collect());
     }
-    // One A/A ratio of four has a noise of 0.03; a structure relative to the mean of two references has 3 / 4 of its
-    // square; two cells halve it. For two structures judged together, t is 3.495 with four degrees of freedom, and
-    // nothing else varies.
+    // Each A/A ratio has a noise of 0.03. A structure relative to the mean of two references has 3 / 4 of its variance,
+    // and two cells halve the variance. For two structures judged together, t is 3.495 with four degrees of freedom.
     let alone = 2.0 * 3.495 * 0.03 * libm::sqrt(0.75 / 2.0);
     assert!(before < 1e-9 && (width(&old) / alone - 1.0).abs() < 1e-3, "{before} {} {alone}", width(&old));
 }
@@ -255,7 +254,7 @@ fn twelve_structures_and_several_looks_do_not_make_a_false_alarm() {
         };
         (0..400).filter(alarm).count() as f64 / 4.0
     };
-    // Each of twelve structures would be wrong in 5 %: with a shared reference that is about a quarter of all runs.
+    // Uncorrected, each of twelve structures is wrong in 5 % of runs: with a shared reference, about a quarter fail.
     assert!(alarms(1) <= 7.0, "{} %", alarms(1));
     assert!(alarms(10) <= 2.0, "{} %", alarms(10));
     let comparison = compare(&noise(12, 1), &noise(12, 2), Some(5.0), 10);

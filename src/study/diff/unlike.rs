@@ -35,10 +35,10 @@ fn differ(what: &str, old: &str, new: &str, advice: &'static str) -> Result<(), 
     if old == new { Ok(()) } else { Err(Unlike { what: what.into(), old: old.into(), new: new.into(), advice }) }
 }
 
-/// Rejects runs that differ in more than their code and date, their settings, the keys and triangle tests of
-/// structures, and, without `gate` and if both time the same obvhs structure, their machine. The error names the first
-/// difference: in machine, instructions, profile, compiler flags, references, scene or rays; no common cell; or, for a
-/// gate, no obvhs structure.
+/// Rejects runs that are not comparable. They may differ in code, date and settings, and in keys and triangle tests of
+/// structures that are not references; their machines may differ without `gate`, if both time a common reference. The
+/// error names the first other difference, such as another machine, build, scene or selection of rays. A gate also
+/// needs a common reference and equal numbers of timed rays.
 pub fn unlike(old: &Side, new: &Side, gate: bool) -> Result<(), Unlike> {
     let pairs = pairs(&old.all, &new.all);
     let are_timed = |old: &Measurement, new: &Measurement| old.trace_ns.is_some() && new.trace_ns.is_some();
@@ -75,7 +75,7 @@ pub fn unlike(old: &Side, new: &Side, gate: bool) -> Result<(), Unlike> {
         }
     }
     if gate && !has_unit {
-        // The common cells are timed on other scenes or rays.
+        // No reference has a time in both runs in the same cell.
         let [old, new] = [old, new].map(|side| {
             let timed = side.all.iter().filter(|own| has_reference_role(own) && own.trace_ns.is_some());
             let labels = each_once(timed.map(|own| own.label.as_str()));
@@ -93,9 +93,8 @@ fn other_machine(old: &Provenance, new: &Provenance, advice: &'static str) -> Re
     differ("the set of target features", &old.target_features, &new.target_features, SAME_BUILD)
 }
 
-/// Rejects cases that are about to be measured on `here` and that a gate could not compare with the run `old`. The error
-/// names the first difference: in machine, instructions or compiler flags; in a scene, its rays or the number of timed
-/// rays.
+/// Rejects cases, to be measured on `here`, that a gate could not compare with the run `old`. The error names the first
+/// difference: in machine, instructions or compiler flags; in a scene, its rays or the number of timed rays.
 pub fn unlike_plan(old: &Dataset, cases: &[Case], here: &Provenance) -> Result<(), Unlike> {
     other_machine(&old.provenance, here, SAME_MACHINE)?;
     differ("the version of obvhs, the reference,", &old.provenance.obvhs, &here.obvhs, SAME_BUILD)?;

@@ -107,7 +107,7 @@ fn epochs_that_differ_in_what_they_must_not_are_named() {
     let sentence = answers.to_string();
     assert!(sentence.contains("y on a, primary rays") && sentence.contains("epochs 0 and 1"), "{sentence}");
     assert!(sentence.contains("the hits") && answers.is_wrong_answer(), "{sentence}");
-    // Other differences are not wrong hits: for instance, a structure that counts could not be built in one of them.
+    // Other differences are not wrong hits.
     for (other, what) in [
         (failure(|epoch| epoch.structures[1].rays[0].hash = "12".into()), "differ in the rays"),
         (failure(|epoch| epoch.structures[1].rays[0].rays = 250), "the number of timed rays"),

@@ -41,15 +41,15 @@ impl CaseFile {
         ["schema", "provenance", "case"].iter().all(|field| value.get(field).is_some())
     }
 
-    /// Prepares the file `path` before the case is measured; creates its folder.
+    /// Creates the folder of `path` and checks that the file can be written, before the case is measured.
     pub fn place(path: &Path) -> Result<OutputFile, JournalError> {
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
         folder.map_or(Ok(()), fs::create_dir_all).map_err(|cause| JournalError::Write { path: path.into(), cause })?;
         OutputFile::check(path).map_err(|error| unwritable(path, error))
     }
 
-    /// Writes the results as a new file; returns whether the file was new. After an error there is no file. Panics if the
-    /// epoch cannot be read back.
+    /// Writes the results unless the file exists; returns whether it wrote them. After an error there is no new file.
+    /// Panics if the epoch cannot be read back.
     pub fn write(file: &OutputFile, provenance: &Provenance, case: &Case, epoch: &Epoch) -> Result<bool, JournalError> {
         let value = json!({ "schema": Dataset::SCHEMA, "provenance": provenance, "case": case, "epoch": epoch });
         // Infinite numbers and NaN become null, and would make the case unreadable.

@@ -7,8 +7,8 @@ use crate::report::number::plural;
 use crate::report::words::{each_once, listed};
 use crate::study::{Dataset, JoinedEpochs, Measured, join};
 
-/// One dataset per group: the one with the most cases first, the newest first among equals. The newest file of a case
-/// counts; the notes of a dataset report replaced files, missing epochs and epochs that do not join.
+/// One dataset per group, sorted by number of cases, then by date, both descending. The newest file of a case counts.
+/// The notes of a dataset report replaced files, missing epochs and epochs that do not join.
 pub fn datasets(files: Vec<CaseFile>) -> Vec<Dataset> {
     let mut datasets: Vec<Dataset> = groups(files).iter().map(|group| dataset(group)).collect();
     datasets.retain(|dataset| !dataset.measured.is_empty());
@@ -30,7 +30,7 @@ pub fn newest(files: Vec<CaseFile>) -> Option<Dataset> {
     Some(dataset)
 }
 
-/// The cases of each study with the same settings, of one build and one machine.
+/// Groups the files by study, settings, build and machine.
 fn groups(files: Vec<CaseFile>) -> Vec<Vec<CaseFile>> {
     let key = |file: &CaseFile| (file.case.study.clone(), file.case.group(), file.provenance.machine());
     let mut groups: Vec<(_, Vec<CaseFile>)> = vec![];
@@ -44,7 +44,7 @@ fn groups(files: Vec<CaseFile>) -> Vec<Vec<CaseFile>> {
     groups.into_iter().map(|(_, files)| files).collect()
 }
 
-/// The dataset of files of one group, joined.
+/// Joins the files of one group into a dataset.
 fn dataset(files: &[CaseFile]) -> Dataset {
     let mut newest: Vec<&CaseFile> = vec![];
     let mut replaced: Vec<&CaseFile> = vec![];
@@ -55,13 +55,13 @@ fn dataset(files: &[CaseFile]) -> Dataset {
             None => newest.push(file),
         }
     }
-    // All epochs of a scene have one set of structures: the set of the newest file.
+    // Keep only the epochs of a scene that have the structures and settings of its newest file.
     let last = |file: &CaseFile| {
         let own = newest.iter().filter(|other| other.case.is_of_scene(&file.case));
         own.max_by(|a, b| a.provenance.date.cmp(&b.provenance.date)).is_some_and(|last| last.case.is_beside(&file.case))
     };
     let mut kept: Vec<&CaseFile> = newest.iter().copied().filter(|file| last(file)).collect();
-    // The files come from many machines in no order: small scenes first.
+    // The files may come from many machines in any order: sort them, small scenes first.
     kept.sort_by_key(|file| (file.epoch.triangles, file.case.scene_title(), file.case.epoch));
     let measured = kept.iter().map(|file| Measured { case: file.case.clone(), epoch: file.epoch.clone() });
     let JoinedEpochs { measured, failures, unchecked, missing } = join(measured.collect());
@@ -84,11 +84,11 @@ fn dataset(files: &[CaseFile]) -> Dataset {
     dataset
 }
 
-/// The provenance of the oldest file, with the hosts of all files, and the highest load relative to the cores. Without
-/// files, an empty one of this process.
+/// The provenance of the oldest file, with the hosts of all files and with the load and cores of the file that has the
+/// highest load per core. Without files, the provenance of this process.
 pub fn of_all(all: &[&Provenance]) -> Provenance {
     let Some(oldest) = all.iter().min_by_key(|one| &one.date) else { return Provenance::capture(1) };
-    // A job that follows another one meets the load that the other one has caused.
+    // The load before a job includes the load that an earlier job on the same host has caused: subtract it.
     let is_on = |one: &Provenance, host: &str| one.host.split(", ").any(|own| own == host);
     let follows = |one: &Provenance| all.iter().any(|other| is_on(other, &one.host) && other.date < one.date);
     let made = |one: &Provenance| if follows(one) { one.threads as f64 } else { 0.0 };

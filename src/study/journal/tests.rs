@@ -121,7 +121,7 @@ fn cases_of_equal_settings_are_a_dataset_and_what_was_measured_again_counts_once
     let found = datasets(read());
     let all: Vec<Vec<String>> = found.iter().map(scenes).collect();
     assert_eq!(all, [vec!["Cube3", "Cube3", "Sphere3"], vec!["Cube9"]]);
-    // Two runs are compared by the newest group.
+    // `diff` compares the newest groups of two runs.
     let last = newest(read()).unwrap();
     assert_eq!(scenes(&last), ["Cube9"]);
     assert!(last.notes.iter().any(|note| note.starts_with("1 group of cases with other settings")), "{:?}", last.notes);

@@ -1,10 +1,10 @@
-//! Ends a build that takes too long: nothing can interrupt a builder of another crate from within.
+//! Detects a build that takes too long. No code in this process can interrupt a builder of another crate.
 
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::Duration;
 
-/// Watches builds. Between builds, and without a limit, it is idle.
+/// Watches builds in a separate thread. Without a limit there is no thread.
 #[derive(Default)]
 pub struct BuildWatch {
     /// Sends the index of each structure that is being built to the waiting thread, and `None` after a build.
@@ -28,7 +28,7 @@ impl BuildWatch {
 
     /// Runs `build`, the build of structure number `structure`.
     pub fn during<R>(&self, structure: usize, build: impl FnOnce() -> R) -> R {
-        // The thread listens as long as `self` lives.
+        // The thread receives as long as `self` lives, so sending cannot fail.
         let tell = |what| {
             let _ = self.sender.as_ref().map(|sender| sender.send(what));
         };

@@ -9,17 +9,17 @@ use crate::scene::Scene;
 pub struct Built {
     pub choice: Choice,
     pub accel: Box<dyn DynAccel>,
-    /// Build time, ns; for a runner, the time that it reports. The median of several builds.
+    /// Build time, ns; for a runner, the time that it reports. If the build is repeated, the median.
     pub build_ns: u64,
-    /// Peak memory in bytes, of the first build whose peak is known; `None` if there is none.
+    /// Peak memory in bytes, of the first build whose peak is known; `None` if no peak is known.
     pub peak_bytes: Option<usize>,
 }
 
-/// A build that takes at most this long is repeated, for a steadier median.
+/// A build that takes at most this long is repeated, because short times vary more.
 const SHORT_BUILD_NS: u64 = 20_000_000;
 
 impl Built {
-    /// Builds once, or three times if a build is short.
+    /// Builds once, or up to three times if the builds are short.
     pub fn new(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, BuildError> {
         Self::repeated(|_| Self::once(choice, scene, threads, clock))
     }
@@ -31,13 +31,13 @@ impl Built {
             // Count until a peak is known: another thread that frees memory during a build may hide its peak.
             let (built, peak) = if known_peak.is_none() { peak_bytes(once) } else { (once(), None) };
             let built = built?;
-            // The counter misses memory of C++ and of other processes: then the peak is below the structure's size.
+            // The counter misses memory of C++ and of other processes: a peak below the structure's size is wrong.
             let is_seen = |peak: &usize| built.accel.remote().is_none() && *peak >= built.accel.footprint().total();
             Ok(Self { peak_bytes: known_peak.or(peak.filter(is_seen)), ..built })
         })
     }
 
-    /// Repeats `build` if it is short. It receives the peak that an earlier build has counted.
+    /// Repeats a short build. `build` receives the peak that an earlier build has counted.
     fn repeated(build: impl Fn(Option<usize>) -> Result<Self, BuildError>) -> Result<Self, BuildError> {
         let mut last = build(None)?;
         let mut times = vec![last.build_ns as f64];
@@ -51,7 +51,7 @@ impl Built {
 
     fn once(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, BuildError> {
         let mesh = Arc::clone(&scene.mesh);
-        // As for rays: the time of a single thread does not include the time in which other processes use its core.
+        // As for rays, a single thread uses processor time, which excludes the time of other processes on its core.
         let own = CpuClock::Process.on(threads);
         let clock = own.as_ref().map_or(clock, |clock| clock as &dyn Clock);
         let start = clock.now_ns();

@@ -12,7 +12,7 @@ use crate::study::epoch::Checked;
 use crate::study::{Stage, StudyError};
 use crate::validate::{ExpectedHits, Reference, Validation, validate_any_hits, validate_hits, validate_known};
 
-/// The feature of a workload that a structure does not support, if any: then it has no time.
+/// The feature of a workload that a structure does not support, if any: the structure then has no time on it.
 pub fn declined(accel: &dyn DynAccel, workload: &Workload) -> Option<&'static str> {
     let can = accel.capabilities();
     if workload.query == Query::Any && !can.any_hit {
@@ -21,11 +21,11 @@ pub fn declined(accel: &dyn DynAccel, workload: &Workload) -> Option<&'static st
     workload.rays.iter().find_map(|ray| can.declines(ray))
 }
 
-/// The maximum number of checked rays of a batch, and the number that is checked at any cost.
+/// The maximum number of checked rays of a workload, and the number that is checked at any cost.
 const MOST: usize = 1 << 13;
 const FEWEST: usize = 1 << 6;
 
-/// The number of checked rays of a batch. No clock and no other structure decides it: every run checks the same rays.
+/// The number of checked rays. It depends on no clock and no structure, so every run checks the same rays.
 fn affordable(rays: usize, triangles: usize, tests: usize) -> usize {
     if rays <= FEWEST {
         return rays;
@@ -34,7 +34,7 @@ fn affordable(rays: usize, triangles: usize, tests: usize) -> usize {
     rays.min(1 << affordable.ilog2())
 }
 
-/// Brute force with a triangle test, and its hits for the checked rays of each batch.
+/// Brute force with a triangle test, and its hits for the checked rays of each workload.
 struct Known {
     reference: Reference,
     answers: Vec<Vec<Option<Hit>>>,
@@ -46,7 +46,7 @@ pub struct Checks<'a> {
     pub workloads: &'a [Workload],
     /// Approximate limit of brute-force triangle tests per workload.
     pub tests: usize,
-    /// Time limit of all checks, ns; `None` if no clock limits them.
+    /// Time limit of all checks, ns. `None`: no limit.
     pub limit_ns: Option<u64>,
     pub clock: &'a dyn Clock,
 }
@@ -56,7 +56,7 @@ const PILOT: usize = 8;
 
 impl Checks<'_> {
     /// Compares every structure with brute force over its own triangle test, on evenly spread rays of each workload.
-    /// One row per structure, one check per workload; `None` for a structure that panicked.
+    /// Returns one row per structure, with one check per workload; `None` for a structure that panicked.
     pub fn all<'b>(
         &self,
         built: impl IntoIterator<Item = &'b Built>,
@@ -101,7 +101,7 @@ impl Checks<'_> {
     /// Checks one structure on all workloads; `None` if it panicked.
     fn of(&self, built: &Built, known: &Known, batches: &[Vec<Ray>]) -> Option<Vec<Checked>> {
         let Known { reference, answers } = known;
-        // Comparing brute force with itself needs only a few rays: they show whether it repeats itself.
+        // Brute force is compared with itself on a few rays, which show whether its hits are repeatable.
         let most = if built.choice.entry.name == BRUTE_FORCE { FEWEST } else { MOST };
         let of_batch = |((rays, answers), workload): ((&Vec<Ray>, &Vec<Option<Hit>>), &Workload)| {
             let step = rays.len().div_ceil(most).max(1);
@@ -119,7 +119,7 @@ impl Checks<'_> {
     }
 }
 
-/// Like [`validate_known`], for a runner, where each query takes time: only the timed query is sent, once.
+/// Like [`validate_known`], for a runner. Its queries are slow, so only the timed query is sent, and only once.
 fn validate_remote(accel: &dyn DynAccel, expected: &ExpectedHits, query: Query) -> Validation {
     match query {
         Query::Closest => validate_hits(expected, &accel.closest(expected.rays)),

@@ -11,12 +11,12 @@ const RAYS: usize = 16384;
 /// Approximate maximum of triangle tests per count: structures with more tests per ray are counted on fewer rays.
 const TESTS: u64 = 1 << 24;
 
-/// Rays for estimating the cost of a ray, fewer if they are expensive, and the limit of triangle tests for more.
+/// Rays for estimating the cost of a ray: `FEW`, or `FEWEST` if `FEW` rays need more than `FEW_TESTS` triangle tests.
 const FEW: usize = 512;
 const FEWEST: usize = 32;
 const FEW_TESTS: u64 = 1 << 20;
 
-/// Counts over as many evenly spread `rays` as are affordable; the same ones in every run.
+/// Counts over as many evenly spread `rays` as are affordable. Every run counts the same rays.
 pub fn affordable(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> RayCounts {
     let counted = |count: usize| all(accel, &spread(rays, count), query);
     let pilot = counted(64);
@@ -39,7 +39,7 @@ pub fn all(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> RayCounts {
         Query::Closest => {
             let mut hits = vec![None; rays.len()];
             accel.closest_hits_counted(rays, &mut hits, &mut counts);
-            // Give `t` = 0 one sign.
+            // Make -0 and 0 the same bits.
             hits.iter().map(|hit| hit.map(|hit| (hit.t + 0.0).to_bits())).collect()
         }
         Query::Any => {
@@ -54,8 +54,8 @@ pub fn all(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> RayCounts {
     RayCounts { rays: rays.len(), hits, distances, ..counts }
 }
 
-/// The counts that a structure observes. In some trees leaves are not separate nodes: if they are counted, every
-/// structure that tests triangles has entered one.
+/// The counts that a structure observes. Some trees have no separate leaf nodes: if triangles were tested but no leaf
+/// was entered, the numbers of leaves are unknown.
 fn observed(counts: &Counts, Observed { tests, steps }: Observed) -> RayCounts {
     let sees_leaves = steps && (counts.leaves > 0 || counts.tests == 0);
     RayCounts {

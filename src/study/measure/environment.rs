@@ -7,12 +7,12 @@ use crate::measure::{Clock, machine};
 /// Conditions of the measuring thread during the sampling. `None` if the system does not report a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Environment {
-    /// Number of the process.
+    /// The process id.
     pub process: u32,
     pub seconds: f64,
-    /// How often another thread preempted it.
+    /// How often another thread preempted the measuring thread.
     pub interruptions: Option<u64>,
-    /// Clock rate of its core at the beginning and at the end, kHz.
+    /// Clock rate of the thread's core at the beginning and at the end, kHz.
     pub clock_rates: Option<(f64, f64)>,
 }
 
@@ -31,13 +31,13 @@ impl Environment {
         (result, environment)
     }
 
-    /// The conditions of all `epochs`, in order; `process` is 0.
+    /// Combines the conditions of `epochs`, which are in order; `process` is 0.
     pub fn of_all<'a>(epochs: impl IntoIterator<Item = &'a Self>) -> Self {
         let sum = |all: Self, own: &Self| Self {
             process: 0,
             seconds: all.seconds + own.seconds,
             interruptions: own.interruptions.map(|n| all.interruptions.unwrap_or(0) + n).or(all.interruptions),
-            // From the first epoch to the last.
+            // The rate at the beginning of the first epoch, and at the end of the last one.
             clock_rates: own.clock_rates.map(|own| (all.clock_rates.unwrap_or(own).0, own.1)).or(all.clock_rates),
         };
         epochs.into_iter().fold(Self::default(), sum)

@@ -1,11 +1,11 @@
-//! Catches panics of structures of other crates: a panic on a ray must not end a run with many structures.
+//! Catches panics of structures: a panic on a ray must not end a run with many structures.
 
 use std::rc::Rc;
 
 use crate::measure::{Failure, Pass, Stopwatch, Timed};
 use crate::panics::caught;
 
-/// Reason for a structure whose traversal panicked.
+/// Reason to refuse a structure whose traversal panicked.
 pub const PANICKED: &str =
     "its traversal panicked on these rays: omit the structure, or find the ray with `sahara validate`";
 
@@ -22,7 +22,7 @@ pub struct Guarded<'a> {
 }
 
 impl<'a> Guarded<'a> {
-    /// The pass, and a flag that becomes true when it panics.
+    /// The guarded pass, and the failure, which is set when the pass panics.
     pub fn new(pass: Pass<'a>) -> (Self, Failure) {
         let failure = Failure::default();
         (Self { pass, levels: 1, failure: Rc::clone(&failure) }, failure)

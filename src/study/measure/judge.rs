@@ -1,4 +1,4 @@
-//! Measurements of the study `accuracy` alone: errors against the exact oracle, and the slowest ray.
+//! Measurements that only the study `accuracy` needs: errors against the exact oracle, and the slowest ray.
 
 use std::hint::black_box;
 use std::slice;
@@ -24,19 +24,19 @@ const FEWEST: usize = 64;
 /// Rays per task of a thread.
 const CHUNK: usize = 1024;
 
-/// Time that judging a pair may always take.
+/// The minimum time for judging one structure on one workload.
 const SHORT_NS: u64 = 2_000_000_000;
 
 impl<'a> Judge<'a> {
-    /// Queries `oracle` on all threads.
+    /// Computes the exact hits of `rays`, on all threads.
     pub fn new(rays: &'a [Ray], oracle: &Oracle) -> Self {
         let truths = rays.par_iter().map(|ray| oracle.nearest(ray)).collect();
         Self { rays, truths }
     }
 
-    /// Counts the errors of `accel`, on all threads. All rays are judged if that takes no longer than the share of this
-    /// pair, one of `pairs`, in half of `budget_ns`, at `ps` picoseconds per ray; otherwise as many evenly spread rays
-    /// as fit. No clock determines the number, so every run judges the same rays.
+    /// Counts the errors of `accel`, on all threads. Judges as many evenly spread rays, at `ps` picoseconds per ray, as
+    /// fit into the share of one of `pairs` pairs in half of `budget_ns`, or into 2 s if that is longer; at least 64.
+    /// No clock determines the number, so every run judges the same rays.
     pub fn errors(&self, accel: &dyn DynAccel, ps: u64, budget_ns: u64, pairs: usize) -> ErrorCounts {
         let share_ns = (budget_ns / 2 / pairs.max(1) as u64).max(SHORT_NS);
         let all = self.rays.len();
@@ -50,7 +50,7 @@ impl<'a> Judge<'a> {
     }
 }
 
-/// Traces of each ray: a disturbance rarely meets the same ray every time.
+/// How often each ray is traced: a disturbance rarely slows the same ray every time.
 const PASSES: usize = 3;
 
 /// The longest time of any of `rays` traced on its own, ns: the maximum over the rays of the minimum over the passes.
@@ -81,7 +81,7 @@ mod tests {
         assert_eq!(rays, RayKind::Uniform.rays(&scene, 400, 1));
         let judge = Judge::new(&rays, &Oracle::new(&scene.mesh));
         let judged = |ps, budget_ns, pairs| judge.errors(accel.as_ref(), ps, budget_ns, pairs).rays;
-        // Two seconds of rays that take almost no time, ten milliseconds each, or for ever; then a share of a larger
+        // Within two seconds: rays that take almost no time, ten milliseconds each, or forever. Then shares of a larger
         // budget.
         assert_eq!([1, 10_000_000_000, u64::MAX].map(|ps| judged(ps, 0, 1)), [400, 200, 64]);
         assert_eq!([1, 2, 9].map(|pairs| judged(10_000_000_000, 6_000_000_000, pairs)), [300, 200, 200]);

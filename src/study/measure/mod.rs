@@ -39,8 +39,8 @@ pub use prepared::Prepared;
 
 /// Builds all structures, checks and counts them if this is epoch 0, and takes their samples. Epochs are independent of
 /// each other; [`join`](super::join) checks what they must have in common. A structure that cannot be built, panics or
-/// changes its hits is refused; a structure with wrong hits gets no time; all others continue. `watch` observes the
-/// builds. An error if the structures do not fit into memory, or the ray source of secondary rays cannot be built.
+/// changes its hits is refused, a structure with wrong hits gets no time, and all other structures continue. An error
+/// if the structures do not fit into memory, or the ray source of secondary rays cannot be built.
 pub fn measure(
     case: &Case,
     prepared: &Prepared,
@@ -80,13 +80,13 @@ pub fn measure(
     })
 }
 
-/// Everything that an epoch times.
+/// The workloads and structures of an epoch, with the results so far.
 struct Bench<'a> {
     case: &'a Case,
     prepared: &'a Prepared,
     clock: &'a dyn Clock,
     workloads: Vec<Workload>,
-    /// All structures of the case, with their results so far.
+    /// One record per structure of the case.
     structures: Vec<Structure>,
     /// The built structures, in the same order; `None` if a build failed.
     built: Vec<Option<Built>>,
@@ -130,7 +130,7 @@ impl<'a> Bench<'a> {
             built.push(ready.ok());
         }
 
-        // Secondary rays start at the hits of the guide.
+        // The guide is the ray source: secondary rays start at its hits.
         let own;
         let guide = match built.iter().flatten().find(|built| built.choice.label == prepared.guide.label) {
             Some(built) => built,
@@ -152,7 +152,7 @@ impl<'a> Bench<'a> {
         Ok(Self { case, prepared, clock, workloads, structures, built, checksums: vec![], _blocks: blocks })
     }
 
-    /// Checks all structures against brute force; those with wrong hits are not timed.
+    /// Checks all structures against brute force; structures with wrong hits are not timed.
     fn check(
         &mut self,
         tests: usize,
@@ -217,8 +217,8 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// Takes all samples. The number of rays and runs depends on all requested pairs, including failed and wrong ones.
-    /// So an epoch with a failed program, or without checks, uses the same numbers.
+    /// Takes all samples. The numbers of rays and samples depend on all requested pairs, including failed and wrong
+    /// ones, so an epoch with a failed structure, or without checks, uses the same numbers.
     fn sample(&mut self, progress: &mut dyn FnMut(Stage)) -> Environment {
         let (clock, settings) = (self.clock, &self.case.settings);
         let plan = SamplePlan {
@@ -302,7 +302,7 @@ impl<'a> Bench<'a> {
     }
 }
 
-/// The result of a query. If the structure panicked (`None`) or its program failed, it is refused.
+/// Returns the result of a query. Refuses the structure if it panicked (`None`) or its program failed.
 fn refuse_unless<T>(structure: &mut Structure, built: &Built, result: Option<T>) -> Option<T> {
     let panicked = result.is_none().then(|| PANICKED.into());
     let Some(reason) = built.accel.remote().and_then(Remote::failure).or(panicked) else { return result };

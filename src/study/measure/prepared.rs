@@ -27,10 +27,10 @@ impl Prepared {
     }
 }
 
-/// Builds every structure of the case that is not skipped; epoch 0 also counts the peak memory of builds. Returns one
-/// structure per choice, or the reason why it is refused, and blocks of memory that must live as long.
+/// Builds every structure of the case that is not skipped; epoch 0 also counts the peak memory of builds. Returns, for
+/// each choice, the structure or the reason why it is refused, and the blocks of memory, which must live as long.
 ///
-/// Each epoch builds in a random order and between random blocks of memory: its addresses differ from the others'.
+/// Each epoch builds in a random order and between random blocks of memory, so addresses differ between epochs.
 pub fn build_all(
     case: &Case,
     prepared: &Prepared,

@@ -1,4 +1,4 @@
-//! Predicts the cost of a ray from counts: so every epoch times the same rays, on any machine and in any order.
+//! Predicts the cost of a ray from counts, so every epoch times the same number of rays, on any machine.
 
 use rayon::prelude::*;
 
@@ -12,9 +12,9 @@ use crate::measure::median;
 use crate::request::BRUTE_FORCE;
 use crate::scene::Workload;
 
-/// Nanoseconds per ray, per node or leaf entered and per block of triangles tested: a regression over all families of
-/// structures (papers/TUNING.md), rounded. With them the default run of `compare` times nine in ten cases on as many
-/// rays as a clock would select, and takes as long. A prediction is wrong by a factor of about 1.5; the possible
+/// Nanoseconds per ray, per inner node or leaf entered and per block of triangles tested: a regression over all
+/// families of structures (papers/TUNING.md), rounded. With them, the default run of `compare` takes as long as with a
+/// clock, and times nine in ten cells on as many rays. Predictions are wrong by a factor of about 1.5; the possible
 /// numbers of rays differ by factors of four.
 const RAY_NS: f64 = 20.0;
 const STEP_NS: f64 = 15.0;
@@ -23,10 +23,10 @@ const BLOCK_NS: f64 = 8.0;
 /// The slowdown by debug assertions.
 const UNOPTIMISED: f64 = if cfg!(debug_assertions) { 12.0 } else { 1.0 };
 
-/// Steps per ray if they are not counted: about those in a tree over a hundred thousand triangles.
+/// Steps per ray if no structure counts them: about as many as in a tree over a hundred thousand triangles.
 const STEPS: f64 = 12.0;
 
-/// Picoseconds per ray of each case; if unknown, the median of all other structures except brute force.
+/// Picoseconds per ray of each case. If unknown: the median of the workload's other structures except brute force.
 pub fn picoseconds(cases: &[Pair], built: &[Option<&Built>], workloads: &[Workload]) -> Vec<u64> {
     let predicted: Vec<Option<f64>> = cases.par_iter().map(|case| predicted(case, built, workloads)).collect();
     let is_brute = |case: &Pair| built[case.structure].is_some_and(|built| built.choice.entry.name == BRUTE_FORCE);
@@ -42,7 +42,7 @@ pub fn picoseconds(cases: &[Pair], built: &[Option<&Built>], workloads: &[Worklo
     cases.iter().zip(&predicted).map(nanoseconds).collect()
 }
 
-/// `None` if it cannot be queried, does not count, or panics: then its samples determine the cost.
+/// Nanoseconds per ray; `None` if the structure is not built, is a runner, declines the rays, does not count or panics.
 fn predicted(case: &Pair, built: &[Option<&Built>], workloads: &[Workload]) -> Option<f64> {
     let (accel, workload) = (built[case.structure]?.accel.as_ref(), &workloads[case.workload]);
     if accel.remote().is_some() || accel.observed() != Observed::ALL || declined(accel, workload).is_some() {
@@ -75,14 +75,14 @@ mod tests {
         let cases = Pair::all(all.len(), 1);
         let mut built = all.each_ref().map(Some);
         let costs = picoseconds(&cases, &built, &workloads);
-        // 2304 triangles in blocks of eight, and one leaf.
+        // One leaf with 2304 triangles in blocks of eight.
         let brute = UNOPTIMISED * (RAY_NS + STEP_NS + 288.0 * BLOCK_NS) * 1000.0;
         assert_eq!(costs[0], brute as u64);
         assert!(costs[1] < costs[0] / 4 && costs[2..].iter().all(|&cost| cost < costs[1]), "{costs:?}");
         assert_eq!(picoseconds(&cases, &built, &workloads), costs, "no clock takes part");
         assert!(picoseconds(&[], &built, &workloads).is_empty());
 
-        // A failed build has the same cost, and all others keep theirs.
+        // A failed build has the median cost of the two other trees, which keep their costs.
         built[1] = None;
         let without = picoseconds(&cases, &built, &workloads);
         assert!(without[1].abs_diff(costs[2].midpoint(costs[3])) <= 1, "{without:?} {costs:?}");

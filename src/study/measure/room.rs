@@ -9,14 +9,14 @@ use crate::study::StudyError;
 /// Approximate bytes per triangle of a structure: 50 to 110 in finished trees, twice as many during a build.
 const BYTES: u64 = 100;
 
-/// Rejects a case that the system would kill: all structures of an epoch exist at once, as their samples alternate.
+/// Rejects a case that does not fit into memory: all structures of an epoch exist at once, because samples alternate.
 pub fn fits(choices: &[Choice], scene: &Scene) -> Result<(), StudyError> {
-    // A twin is built in addition to the named structures.
+    // A twin has the label of its structure. The user names structures without twins.
     let twins = choices.len() - distinct(choices.iter().map(|choice| &choice.label)).len();
     fits_into(memory(), [choices.len(), twins], scene.mesh.len(), &scene.name)
 }
 
-/// Whether all structures, with twins among them, fit into `memory` bytes.
+/// An error if `structures` structures, which include `twins` twins, do not fit into `memory` bytes.
 fn fits_into(
     memory: Option<u64>,
     [structures, twins]: [usize; 2],

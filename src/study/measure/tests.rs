@@ -98,7 +98,7 @@ pub fn registry() -> Registry {
     Registry::builtin().with::<Flawed>("flawed", FlawedConfig::default())
 }
 
-/// These workloads of a scene; all structures are timed on 1024 rays.
+/// A case with these structures and workloads; all structures are timed on at most 1024 rays per workload.
 fn case(word: &str, specs: &[&str], kinds: &[WorkloadKind]) -> Case {
     let registry = registry();
     let case = example("", 0, specs);
@@ -143,7 +143,7 @@ fn a_right_structure_has_a_time_and_the_hits_of_all_others() {
         assert!(own.trace_ns > Some(0.0) && own.mrays_per_s > Some(0.0));
         assert!(own.checked_rays > 0 && own.rays <= own.workload_rays);
     }
-    // Nothing blocks the light of a single cube.
+    // A single cube casts no shadow on itself.
     for (workload, is_hit) in [("primary", true), ("shadow", false)] {
         let hits: Vec<usize> = all.iter().filter(|r| r.workload == workload).map(|r| r.counts.hits).collect();
         assert!((hits[0] > 0) == is_hit && hits.iter().all(|&n| n == hits[0]), "{workload} {hits:?}");
@@ -164,7 +164,7 @@ fn a_wrong_structure_has_errors_and_no_time() {
     let all = measurements(&run(&["brute-force", "flawed:flaw=lossy"]).unwrap());
     let (wrong, right): (Vec<&Measurement>, Vec<&Measurement>) =
         all.iter().partition(|r| r.label == "flawed:flaw=lossy");
-    // No shadow ray hits a single cube, so its shadow rays are right; but a wrong tree has no time at all.
+    // No shadow ray hits a single cube, so all shadow results are right. But a wrong tree has no time on any workload.
     assert_eq!(wrong.iter().map(|r| r.is_disqualified()).collect::<Vec<_>>(), [true, false]);
     assert!(wrong.iter().all(|r| r.trace_ns.is_none() && r.mrays_per_s.is_none() && r.samples_ns.is_empty()));
     assert!(right.iter().all(|r| r.label == "brute-force" && r.trace_ns.is_some()));
@@ -173,7 +173,7 @@ fn a_wrong_structure_has_errors_and_no_time() {
 #[test]
 fn a_structure_with_other_answers_in_the_next_round_is_refused_and_the_others_go_on() {
     let case = case("cube", &["sah-kd", "flawed:flaw=turning"], &[WorkloadKind::Primary]);
-    // It changes after the first of two rounds.
+    // The hits of `turning` change after the first of two rounds.
     let Measured { epoch, .. } = measured(&case, &mut |stage| {
         HAS_TURNED.fetch_or(stage == Stage::Trace(2, 4), Ordering::Relaxed);
     })
@@ -187,7 +187,7 @@ fn a_structure_with_other_answers_in_the_next_round_is_refused_and_the_others_go
 
 #[test]
 fn what_cannot_be_built_in_one_epoch_costs_nobody_else_a_measurement() {
-    // Brute force is slow beside two other structures, and hardly slow beside one.
+    // Brute force is slow compared with the median of three structures, but not with the median of two.
     let case = case("torus", &["sah-kd", "brute-force", "flawed"], &[WorkloadKind::Primary]);
     let epochs = [0, 1].map(|epoch| {
         let mut case = Case { epoch, ..case.clone() };

@@ -25,7 +25,7 @@ const FEWEST: usize = 64;
 pub struct TimedCheck<'a> {
     pub scene: &'a Scene,
     pub workloads: &'a [Workload],
-    /// Planned epochs: each times other rays.
+    /// The number of planned epochs. Each epoch times other rays.
     pub epochs: usize,
     /// Approximate limit of brute-force triangle tests per workload.
     pub tests: usize,
@@ -36,9 +36,9 @@ pub struct TimedCheck<'a> {
 struct TreeHits {
     name: &'static str,
     triangle_test: &'static str,
-    /// A structure over its triangle test must return its bits, any other one must agree within rounding.
+    /// A structure over the tree's triangle test must return the same bits, any other one must agree within rounding.
     tree: Reference,
-    /// Judges differences: brute force over the structure's test, or over `exact` if the suite lacks this test.
+    /// Judges differences: brute force over the structure's triangle test, or over `exact` if the suite lacks it.
     judge: Reference,
     /// By workload and ray; `None` if not needed so far.
     hits: Vec<Vec<Option<Option<Hit>>>>,
@@ -51,8 +51,8 @@ impl<'a> TimedCheck<'a> {
 
     /// Checks the hits on all timed rays, `rays` of them per epoch; `None` if the structure panics.
     ///
-    /// With the triangle test of the tree, all bits must equal the tree's. Then the checksum of the timed hits of the
-    /// first epoch is enough, and later epochs must repeat it. An error if no tree can be built over the mesh.
+    /// If structure and tree share a triangle test, their hits must be the same bits. It then suffices to compare
+    /// checksums in epoch 0, because later epochs must repeat the hits. An error if no tree can be built over the mesh.
     pub fn check(
         &mut self,
         built: &Built,

@@ -1,4 +1,4 @@
-//! Samples of many structures on many workloads: the only module of the studies that takes times.
+//! Takes interleaved samples of many structures on many workloads.
 
 use super::built::Built;
 use super::guarded::Guarded;
@@ -12,7 +12,7 @@ use crate::measure::{
 use crate::registry::Choice;
 use crate::scene::Workload;
 
-/// The maximum time of a predicted sample, as a multiple of its share of the budget, before the clock reduces its rays.
+/// With `by_clock`, a sample that takes more than this multiple of its share of the budget gets fewer rays.
 const SLACK: u64 = 8;
 
 /// The reason why the samples of a case are invalid.
@@ -35,15 +35,15 @@ pub struct Timing<'a> {
     pub workloads: &'a [Workload],
     pub threads: &'a Threads,
     pub clock: &'a dyn Clock,
-    /// Whether the clock decides how many rays a case is timed on, as for runners: a prediction may be far off.
+    /// Whether the clock may reduce the rays of every case, as it does for runners, if a prediction is far off.
     pub by_clock: bool,
 }
 
 impl Timing<'_> {
     /// The number of rays and of samples of each case, from the cost of its rays. Failed builds and declined workloads
-    /// are included: so an epoch in which a program fails decides the same for all others.
+    /// are included, so a failure in one epoch does not change the numbers of any other case.
     pub fn allot(&self, plan: &SamplePlan) -> Allotment {
-        // Twins, which have the same label, take the same number of rays.
+        // Twins have the same label and are timed on the same number of rays.
         let label = |case: &Pair| (case.workload, &self.choices[case.structure].label);
         let group =
             |case: &Pair| self.cases.iter().position(|other| label(other) == label(case)).expect("it is among them");
@@ -56,8 +56,8 @@ impl Timing<'_> {
     /// Takes interleaved samples on the allotted rays of the cases that are timed. The samples of any two structures on
     /// a workload are on the same rays, or one has subsets on the rays of the other.
     ///
-    /// The cost of a ray for a runner is unknown: its clock may allot it fewer rays, and other ones in another epoch.
-    /// So it and all others of its workload are also timed on the next level: epochs then have rays in common.
+    /// A runner's cost per ray is unknown: its clock chooses the number of rays, which may differ between epochs. So
+    /// all structures on the workload are also timed on its next level, to give the epochs a common number of rays.
     pub fn take(
         &self,
         allotment: &Allotment,
@@ -80,7 +80,7 @@ impl Timing<'_> {
         };
         let (mut passes, failures): (Vec<_>, Vec<_>) = timed.iter().map(pass).collect();
         let _pin = self.threads.pin();
-        // The time that other processes take of the core is not part of a pass.
+        // Use processor time if possible: it excludes the time of other processes on the core.
         let own = CpuClock::Thread.on(self.threads);
         let clock = own.as_ref().map_or(self.clock, |clock| clock as &dyn Clock);
 
@@ -89,7 +89,7 @@ impl Timing<'_> {
         let is_remote = |built: &Built| built.accel.remote().is_some();
         let is_by_clock = |i: usize| built(i).is_some_and(|built| self.by_clock || is_remote(built));
         for (&i, pass) in timed.iter().zip(&mut passes).filter(|(i, _)| is_by_clock(**i)) {
-            // A prediction stands unless it is far off: then all epochs agree.
+            // Keep a prediction unless it is far off, so all epochs agree.
             let most_ns = if built(i).is_some_and(is_remote) { *share_ns } else { SLACK * share_ns };
             levels[i] = level_by_clock(&Stopwatch::new(clock), pass.as_mut(), levels[i], most_ns);
         }
@@ -119,7 +119,7 @@ struct TimedRays {
     is_by_clock: bool,
 }
 
-/// The samples of `case` before the first one: on its own rays and on the rays of each slower case of its workload.
+/// Empty samples of `case`: for its rays, and for the rays of each slower case of its workload.
 fn none(case: &TimedRays, cases: &[TimedRays]) -> Samples {
     let own = Samples::none(case.all, case.level);
     let mut fewer = vec![];
@@ -132,7 +132,7 @@ fn none(case: &TimedRays, cases: &[TimedRays]) -> Samples {
     fewer.retain(|&rays| rays < own.rays);
     fewer.sort_unstable_by(|a, b| b.cmp(a));
     fewer.dedup();
-    // Keep its hits on one fixed set of rays, regardless of the timed ones.
+    // Compute the checksum over a fixed set of rays, whichever rays are timed.
     let asked = if case.is_by_clock { Some(pilot_level(case.all)) } else { own.asked };
     Samples { asked, parts: fewer.into_iter().map(|rays| SubsetSamples { rays, ns: vec![] }).collect(), ..own }
 }

@@ -9,7 +9,7 @@ use crate::report::words::{interval, listed, slug};
 use crate::study::claims::CLAIMS;
 use crate::study::kendall::Order;
 
-/// The speedup by the SAH tree, whether the rays are the report's, and the numbers of the claims.
+/// The speedup by the SAH tree, the agreement of the ray counts with the report's, and the numbers of the claims.
 pub fn findings(main: &[Replicated], hard: &[Replicated]) -> Vec<Finding> {
     let mut findings: Vec<Finding> = [faster(hard), rays(main)].into_iter().flatten().collect();
     let number =
@@ -44,7 +44,7 @@ fn faster(hard: &[Replicated]) -> Option<Finding> {
     Some(Finding::new("hard", sentence).with_value(mean))
 }
 
-/// The number of rays that may be decided differently at edges.
+/// The largest difference in ray counts that decisions at edges explain.
 const CLOSE: u64 = 2;
 
 fn rays(main: &[Replicated]) -> Option<Finding> {
@@ -61,7 +61,7 @@ fn rays(main: &[Replicated]) -> Option<Finding> {
     (!main.is_empty()).then(|| Finding::new("rays", sentence))
 }
 
-/// Over all scenes, the largest `t'` of brute force / the smallest.
+/// Largest `t'` of brute force / smallest `t'`, over all scenes.
 fn t_prime(main: &[Replicated]) -> Option<Estimate> {
     let all: Vec<Estimate> = main.iter().filter_map(|own| own.t_prime(BRUTE)).collect();
     let by_size = |one: &&Estimate, other: &&Estimate| one.estimate.total_cmp(&other.estimate);
@@ -69,10 +69,10 @@ fn t_prime(main: &[Replicated]) -> Option<Estimate> {
     (all.len() == MAIN.len()).then(|| most.over(*least))
 }
 
-/// The scenes in the expected order, the largest improvement first; the first two are not compared.
+/// The scenes in the expected order, largest improvement first. The first two are not compared with each other.
 const ORDER: &str = "Torus Sphere Teapot Metallic Cornellbox Starters Billards Infinitycandy Cube";
 
-/// How well the improvements have the expected order, and the scenes significantly out of order: for all scenes.
+/// How well the improvements have the expected order. `None` unless all scenes are measured.
 fn order(main: &[Replicated]) -> Option<Finding> {
     let improvement = |name: &str| main.iter().find(|own| own.report.scene == name)?.improvement();
     let names: Vec<&str> = ORDER.split(' ').collect();

@@ -1,6 +1,6 @@
-//! `replicate`: measures the source report's tables again, and tests its conclusion.
+//! `replicate`: reproduces the source report's tables and tests its conclusion.
 //!
-//! The report times all rays of a picture, without construction, on its own machine: only ratios of seconds can be
+//! The report times all rays of a picture, without construction, on another machine: only ratios of seconds can be
 //! compared with it. `t'` is seconds / (rays x triangles).
 
 mod findings;
@@ -32,7 +32,7 @@ pub const STUDY: Study = Study {
     report,
 };
 
-// These numbers decide all claims together: with few epochs a significant result would depend on luck.
+// The default epochs, runs and budget (s). All claims are judged together, which needs many epochs.
 type Options = Measuring<8, 3, 5>;
 
 /// The structure whose hits are the origins of secondary rays. Its triangle test is in single precision, as in the

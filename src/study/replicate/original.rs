@@ -1,4 +1,4 @@
-//! The numbers in the report: its machine, its code, single runs.
+//! The numbers in the source report: single runs of its program on its machine.
 
 use crate::request::REPORT_TREE;
 
@@ -10,11 +10,11 @@ pub struct Row {
     pub rays: u64,
     /// Seconds with the tree (L = 100, T = 0.7), without its construction.
     pub tree_s: f64,
-    /// Only for an easy or normal scene: seconds with every ray tested against every triangle, and `improvement` as
-    /// printed; for Teapot it should be 23.776.
+    /// Seconds with every ray tested against every triangle, and the improvement as printed; for Teapot, 23.776 would
+    /// be right. `None` on a hard scene.
     pub brute_s: Option<f64>,
     pub improvement: Option<f64>,
-    /// Only for a hard scene: seconds of the construction.
+    /// Seconds of the construction. `None` unless the scene is hard.
     pub build_s: Option<f64>,
 }
 
@@ -50,13 +50,13 @@ pub const HARD: [Row; 3] = [
 pub struct SweepRow {
     /// L: a node with fewer triangles is a leaf.
     pub leaf: u32,
-    /// T: the share of triangles on both sides at which a split is discarded.
+    /// T: a split is discarded if at least this share of the triangles would be in both children.
     pub threshold: f32,
     pub seconds: [f64; 9],
 }
 
-/// The report's sweep; its columns Teapot and Torus are swapped in print and correct here. The setting of the main
-/// table, 100 / 0.7, has other seconds here: both are single runs.
+/// The report's sweep. In print, its columns Teapot and Torus are swapped; here they are correct. The row 100 / 0.7 is
+/// the setting of the main table, but has other seconds: both are single runs.
 pub const SWEEP: [SweepRow; 6] = [
     sweep(25, 0.4, [0.527, 1.405, 2.734, 6.897, 138.3193, 54.305, 65.218, 57.408, 50.229]),
     sweep(50, 0.5, [0.543, 1.319, 3.157, 7.730, 132.452, 45.076, 61.802, 54.773, 46.709]),
@@ -69,7 +69,7 @@ pub const SWEEP: [SweepRow; 6] = [
 /// The setting of the main table, and the default of the structure.
 pub const DEFAULT: SweepRow = SWEEP[4];
 
-/// The scene with all triangles in one place, and the setting that is expected to do more tests than brute force.
+/// The scene with all triangles in one place, and the setting for which more tests than brute force are expected.
 pub const CROWDED: (&str, SweepRow) = ("Infinitycandy", SWEEP[2]);
 
 const fn sweep(leaf: u32, threshold: f32, seconds: [f64; 9]) -> SweepRow {

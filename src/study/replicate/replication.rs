@@ -11,7 +11,7 @@ use crate::study::{Dataset, Epoch};
 /// Roles of structures. The settings of the sweep have their own [roles](original::SweepRow::role).
 pub const BRUTE: &str = "brute force";
 pub const SAH: &str = "sah";
-/// The report's tree. On an easy scene it is a setting of the sweep and has the role of that setting.
+/// The report's tree on a hard scene. On an easy scene the tree has the role of its setting in the sweep.
 pub const TREE: &str = "tree";
 
 pub struct Replicated<'a> {
@@ -67,8 +67,8 @@ impl Replicated<'_> {
         epoch.structures.iter().find(|own| own.role == role)
     }
 
-    /// ln(seconds) of the structures in these roles for all rays, by epoch. Each workload has the speed of the rays that
-    /// all of these structures were timed on.
+    /// ln(seconds) for all rays, by epoch and role. Each workload is extrapolated from the rays on which all of these
+    /// structures were timed.
     fn medians(&self, roles: &[&str]) -> Vec<Vec<f64>> {
         let of_epoch = |epoch: &&Epoch| {
             let in_role =
@@ -124,7 +124,7 @@ impl Replicated<'_> {
         Some(tests as f64 / (self.total() as f64 * self.first().triangles as f64))
     }
 
-    /// Seconds with every ray against every triangle / seconds with the report's tree; `None` on hard scenes.
+    /// Seconds with brute force / seconds with the report's tree; `None` on hard scenes.
     pub fn improvement(&self) -> Option<Estimate> {
         (!self.report.is_hard()).then(|| self.ratio(BRUTE, TREE))
     }
@@ -135,7 +135,7 @@ impl Replicated<'_> {
     }
 }
 
-/// ln(seconds) of a structure for all rays, by round, at the speed of the rays on which all of `beside` were timed.
+/// ln(seconds) of a structure for all rays, by round, extrapolated from the rays on which all of `beside` were timed.
 fn log_seconds(structure: &Structure, beside: &[&Structure]) -> Vec<f64> {
     let seconds = |(kind, rays): (usize, &Rays)| {
         let common = beside.iter().map(|other| other.rays[kind].rays).min().unwrap_or(rays.rays);

@@ -43,7 +43,7 @@ fn seconds(own: &Replicated, role: &str) -> Cell {
     Cell::from(seconds).sampled(own.is_sampled(role) == Some(true))
 }
 
-/// A column beside the report's: its heading, its name in CSV tables, and its cell for a scene.
+/// A column: its heading, its name in CSV tables, and its cell for a scene.
 type ReplicatedColumn = (&'static str, &'static str, fn(&Replicated) -> Cell);
 
 const SECONDS: [ReplicatedColumn; 12] = [
@@ -69,7 +69,7 @@ const T_PRIMES: [ReplicatedColumn; 5] = [
     ("sah-kd", "sah_t_prime", |own| own.t_prime(SAH).into()),
 ];
 
-/// A column that is empty for all of these scenes is left out.
+/// One row per scene. Columns that are empty for all scenes are left out.
 fn table(title: &str, scenes: &[Replicated], columns: &[ReplicatedColumn]) -> Table {
     let mut table = Table::of(title, scenes, &[("scene", &|own| own.first().title().into())]);
     columns.iter().for_each(|(name, _, cell)| table.push_column(*name, scenes.iter().map(cell)));

@@ -56,7 +56,7 @@ fn the_conclusion_is_the_mean_of_the_hard_scenes() {
     }
     let sentence = &report.finding("hard").unwrap().sentence;
     assert!(sentence.contains("speedup 8.00 on Dragon and 2.00 on Lucy; geometric mean"), "{sentence}");
-    // 1000 and 500 rays at 0.8 microseconds.
+    // 1000 and 500 rays at 0.8 microseconds per ray.
     let dataset = dataset(scenes.concat());
     let dragon = &replicated(&dataset)[0];
     let (seconds, t_prime) = (dragon.seconds(TREE).unwrap(), dragon.t_prime(TREE).unwrap());
@@ -82,8 +82,8 @@ fn what_is_said_of_the_hard_scenes_is_what_was_found() {
         let sentence = report.sentences().next().unwrap();
         assert!(sentence.starts_with(&format!("The SAH tree traces primary rays {told}")), "{sentence}");
     }
-    // Indistinguishable twins widen the interval: both runs have the noise of one A/A ratio in three epochs, and t is
-    // 4.303.
+    // Twins with different times widen the interval. This run and a rerun each add the noise of one A/A ratio; with
+    // three epochs, t is 4.303.
     let width = |twin: u64| {
         let faster = value(&of(&[hard("Sponza", 3, [800, 100, twin])]), "hard-sponza").unwrap();
         libm::log(faster.high().unwrap() / faster.low().unwrap())
@@ -112,7 +112,7 @@ fn an_easy_scene_has_its_improvement_its_sweep_and_its_rays() {
 
 #[test]
 fn claims_about_all_scenes_are_judged_with_all_scenes() {
-    // As expected, except for Cube, which gains more than all other scenes.
+    // The expected order, except that Cube improves more than all other scenes.
     let gains = [90, 50, 60, 40, 3, 9, 2, 20, 6];
     let mut scenes: Vec<Vec<Measured>> = MAIN.iter().zip(gains).map(|(row, gain)| main(row.scene, gain)).collect();
     for Measured { epoch, .. } in &mut scenes[6] {

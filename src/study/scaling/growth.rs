@@ -25,9 +25,9 @@ pub struct Growth {
     /// The name, with the keys that differ from their defaults.
     pub label: String,
     pub workload: String,
-    /// By number of triangles.
+    /// Ordered by number of triangles.
     pub points: Vec<Point>,
-    /// The exponent of the time per ray; `None`, as for all exponents, with fewer than three meshes in the fit.
+    /// The exponent of the time per ray. Every exponent is `None` with fewer than three meshes in the fit.
     pub time: Option<Estimate>,
     /// The same exponent over the meshes of at most [`LEVEL_8`] triangles, which the claims are about.
     pub time_to_level_8: Option<Estimate>,
@@ -37,7 +37,7 @@ pub struct Growth {
     pub bytes: Option<Estimate>,
     /// The exponent of triangle tests per ray, which are the same on every machine.
     pub tests: Option<Estimate>,
-    /// The exponent of nodes and leaves entered per ray.
+    /// The exponent of inner nodes and leaves entered per ray.
     pub steps: Option<Estimate>,
 }
 
@@ -120,8 +120,8 @@ fn growth(family: &'static str, points: Vec<Point>, [trace, build]: &[AaNoise; 2
     }
 }
 
-/// The slope of `value`, logarithms by epoch, over the logarithm of the number of triangles. `noise` is the variance
-/// that the A/A noise adds to a sum with these weights. `None` if a value is unknown, or with fewer than three meshes.
+/// The slope over ln(triangles) of the logarithms that `value` returns by epoch. `noise` returns the variance that the
+/// A/A noise adds to a sum with these weights. `None` if a value is unknown, or with fewer than three meshes.
 fn power(
     points: &[&Point],
     value: &dyn Fn(&Measurement) -> Option<Vec<f64>>,
@@ -130,7 +130,7 @@ fn power(
     let values: Vec<Vec<f64>> = points.iter().map(|point| value(&point.measurement)).collect::<Option<_>>()?;
     let places: Vec<f64> = points.iter().map(|point| libm::log(point.triangles() as f64)).collect();
     let weights = slope_weights(&places).filter(|weights| weights.len() > 2)?;
-    // Meshes share their first epochs; ignore further epochs of some meshes.
+    // Use only the first epochs, which all meshes have.
     let epochs = values.iter().map(Vec::len).min()?;
     let slope = |e: usize| weights.iter().zip(&values).map(|(weight, logs)| weight * logs[e]).sum();
     Rerun::of(&(0..epochs).map(slope).collect::<Vec<f64>>(), noise(&weights))

@@ -1,8 +1,8 @@
 //! `scaling`: how do time, build and memory grow with the number of triangles?
 //!
-//! Icospheres of at least 20 triangles from the same view: only the subdivision of the surface changes. The named
-//! meshes differ in more than their number of triangles, so their exponent is less meaningful. Powers are fitted to
-//! logarithms of medians, over the meshes on which the structure has more than one leaf: a single leaf is brute force.
+//! The icospheres have 20 triangles or more and the same view: only the subdivision of the surface changes. The named
+//! meshes differ in more than their size, so their exponent is less meaningful. Powers are fitted to logarithms of
+//! times, over the meshes on which the structure has more than one leaf: a single leaf is brute force.
 
 mod growth;
 mod section;
@@ -36,12 +36,12 @@ pub const STUDY: Study = Study {
 const STRUCTURES: [&str; 7] =
     ["median-kd", "sah-kd", "sah-kd-wide", "sah-hybrid", "sah-bvh", "obvhs-bvh2", "obvhs-cwbvh"];
 
-/// The default of `--finest`, as far as the claims need: the trees of the default structures take about 1 GB together.
+/// The default of `--finest`, which the claims need. The default structures then take about 1 GB together.
 const FINEST_BY_DEFAULT: u32 = 8;
 
 #[derive(Clone, Debug, clap::Args)]
 struct ScalingArgs {
-    // In addition to the icospheres.
+    // Meshes in addition to the icospheres.
     #[command(flatten)]
     scenes: Scenes,
     /// Finest icosphere: level 0 has 20 triangles, each further level four times as many, except level 10, which has 16
@@ -52,7 +52,7 @@ struct ScalingArgs {
     structures: Structures,
     #[command(flatten)]
     rays: Rays,
-    // These numbers decide all claims together: with few epochs a significant result would depend on luck.
+    // The default epochs, runs and budget (s). All claims are judged together, which needs many epochs.
     #[command(flatten)]
     measuring: Measuring<8, 3, 5>,
 }
@@ -62,7 +62,7 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     let structures = with_twin(args.structures.chosen(registry, &STRUCTURES)?);
     let workloads = args.rays.request(&[WorkloadKind::Primary, WorkloadKind::Random]);
     let settings = Settings { slowest: Some(SLOWEST), ..Settings::new(&args.measuring, registry)? };
-    // Before the spheres, because these meshes may be missing.
+    // Read the meshes before the spheres, because they may be missing.
     let meshes = args.scenes.read(registry, &["dragon", "lucy", "sponza"])?;
     let spheres = Scenes { scenes: (0..=args.finest).map(|level| format!("icosphere:{level}").into()).collect() };
     let spheres = spheres.read(registry, &[])?;

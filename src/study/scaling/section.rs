@@ -58,7 +58,7 @@ pub fn findings(growths: &[Growth]) -> Vec<Finding> {
     let sentence = format!("On spheres of n triangles the time of a primary ray grows like {}.", listed(&powers));
     let first = both.iter().find_map(|(_, growth)| growth.as_ref()?.time);
     let spheres = first.map(|power| Finding::new("spheres", sentence).with_value(power));
-    // The claims are about spheres up to level 8: coarser spheres cannot decide them.
+    // The claims are about spheres up to level 8: a run without level 8 cannot decide them.
     let claimed = both.iter().filter_map(|(key, growth)| {
         let growth = growth.filter(|growth| growth.points.iter().any(|point| point.triangles() >= LEVEL_8))?;
         Some(Finding::number(*key, growth.time_to_level_8?))
@@ -128,12 +128,12 @@ fn figure(group: &[Growth], quantity: &Quantity) -> Figure {
     }
 }
 
-/// Every point with its structure and family.
+/// Every point with its growth.
 fn all_points(growths: &[Growth]) -> impl Iterator<Item = (&Growth, &Point)> {
     growths.iter().flat_map(|growth| growth.points.iter().map(move |point| (growth, point)))
 }
 
-/// `None` with too few meshes for an exponent.
+/// The table of exponents; `None` with too few meshes for an exponent.
 fn exponents(family: &[Growth]) -> Option<Table> {
     let power = |x: Option<Estimate>| Cell::from(x.map(|x| Cell::estimate(x, Format::Decimals(2))));
     let over = |growth: &Growth| {

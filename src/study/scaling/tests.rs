@@ -16,7 +16,7 @@ fn measured(family: &str, n: usize, epoch: usize, build_ns: u64, ns: &[u64]) -> 
 
 const TRIANGLES: [usize; 4] = [100, 400, 1600, 6400];
 
-/// Four levels, two epochs of three rounds: 2 ns x n^b, the build 1000 n^c, both different in the odd epoch.
+/// Four meshes, two epochs of three rounds: 2 us x n^b per ray, builds of 1 ms x n^c; `wobble` varies both by epoch.
 fn spheres(b: f64, c: f64, wobble: f64) -> Vec<Measured> {
     let mut all = vec![];
     for (i, n) in TRIANGLES.into_iter().enumerate() {
@@ -30,7 +30,7 @@ fn spheres(b: f64, c: f64, wobble: f64) -> Vec<Measured> {
     all
 }
 
-/// Two epochs of a mesh beyond level 8 with this time.
+/// Two epochs of a sphere with `triangles` triangles and this time.
 fn finest_of(triangles: usize, ns: u64) -> impl Iterator<Item = Measured> {
     (0..2).map(move |epoch| measured(SPHERES, triangles, epoch, ns, &[ns + epoch as u64; 3]))
 }

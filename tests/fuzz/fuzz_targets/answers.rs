@@ -1,4 +1,4 @@
-//! `cargo +nightly fuzz run answers`, in this folder's parent.
+//! The target of libFuzzer: `cargo +nightly fuzz run --fuzz-dir tests/fuzz answers`.
 
 #![no_main]
 

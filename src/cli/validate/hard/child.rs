@@ -45,7 +45,7 @@ pub fn run_child(registry: &Registry, args: &Args) -> anyhow::Result<Status> {
         (None, None) => anyhow::bail!("a structure or a runner is needed"),
     };
     let answers = match run(case, &choice.subject(), args.rays as usize, &SystemClock::start()) {
-        // The registry has caught the panic; the parent recognises the exit status of a panic.
+        // The registry has caught the panic: resume it, because the parent recognises its exit status.
         Err(BuildError::Panic) => std::panic::resume_unwind(Box::new("a builder panicked")),
         answers => answers?,
     };
@@ -53,8 +53,8 @@ pub fn run_child(registry: &Registry, args: &Args) -> anyhow::Result<Status> {
     Ok(Status::Right)
 }
 
-/// The parent's side: runs a case with at most `rays` rays in a child. A structure has a time limit for the whole case,
-/// and a runner for each reply. The outer result is an error if no child can be started.
+/// The parent's side: runs a case with at most `rays` rays in a child. A structure has a time limit for the whole case;
+/// a runner has a time limit for each reply. The outer result is an error if no child can be started.
 pub fn answers(
     case: &HardCase,
     choice: &Choice,

@@ -87,8 +87,8 @@ fn refusal(score: &Score) -> Option<&str> {
     }
 }
 
-/// The exit status of a score. A structure with a known defect has no wrong scores. A runner that refuses a case was not
-/// checked. A structure in Rust must build over every mesh, so its refusal is an error.
+/// The exit status of a score. Wrong hits of a structure with a known defect do not count. A runner that refuses a case
+/// was not checked. A structure in Rust must build over every mesh, so its refusal is an error.
 fn status(choice: &Choice, score: &Score, strict: bool) -> Status {
     let is_inexact = choice.triangle_test() == Exact::NAME && score.rays().is_some_and(|rays| rays.inexact > 0);
     let rounds = strict && verdict(score).rounded > 0;
@@ -100,8 +100,8 @@ fn status(choice: &Choice, score: &Score, strict: bool) -> Status {
     }
 }
 
-/// Each of the structures over all `tests` that it offers. Structures that offer none of them, have known defects or
-/// name a test themselves stay unchanged.
+/// Each structure over each of the `tests` that it offers. A structure stays unchanged if it offers none of the tests,
+/// has a known defect, or was named with a test.
 fn choices(registry: &Registry, structures: Vec<Choice>, tests: &[String]) -> anyhow::Result<Vec<Choice>> {
     request::known_tests(registry, tests)?;
     let mut choices: Vec<Choice> = vec![];

@@ -28,9 +28,9 @@ pub fn record(case: &HardCase, choice: &Choice, score: &Score) -> Value {
         "hits": judged(|own| own.hits),
         "missed": judged(|own| own.missed),
         "false_hits": judged(|own| own.false_hits),
-        // By more than 4 ulps and more than 1e-6.
+        // Off by more than 4 ulps and more than 1e-6.
         "wrong_depth": judged(|own| own.wrong_depth),
-        // Wrong by more than 1 %, or 0.1 % at another primitive.
+        // Off by more than 1 %, or by more than 0.1 % on another primitive.
         "coarse_depth": rays.map(|rays| rays.coarse_depth),
         "wrong_primitive": judged(|own| own.wrong_primitive),
         "structure_errors": rays.filter(|rays| rays.knows_structure_errors).map(|rays| rays.validation.structure_errors),
@@ -40,7 +40,7 @@ pub fn record(case: &HardCase, choice: &Choice, score: &Score) -> Value {
         "ulps": rays.and_then(|rays| rays.judged.ulps),
         "slowness": rays.and_then(|rays| rays.slowness),
         "build_ns": rays.map(|rays| rays.build_ns),
-        // Only for a case that is a property.
+        // Null unless the case checks a property.
         "property": match score {
             Score::Property(property) => Some(property),
             _ => None,
@@ -48,7 +48,7 @@ pub fn record(case: &HardCase, choice: &Choice, score: &Score) -> Value {
     })
 }
 
-/// The verdict of a score on a structure. A property counts as the rays of its check.
+/// The verdict of a score on a structure. Each check of a property counts as a ray.
 pub fn verdict(score: &Score) -> Verdict {
     let failed = |fault| Verdict { rays: 1, wrong: 1, rounded: 0, fault };
     match score {

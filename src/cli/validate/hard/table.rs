@@ -1,4 +1,4 @@
-//! Scores as tables: cases down, structures across.
+//! Scores as tables, with a row per case and a column per structure.
 
 use crate::registry::Choice;
 use crate::report::number::{count, figures, plural};
@@ -51,7 +51,7 @@ pub fn summary(cases: &[&HardCase], columns: &[Column]) -> Vec<Table> {
     vec![outcomes(cases, columns, &title, |case| failed.contains(&case.name)), totals(cases, columns)]
 }
 
-/// Rows for the cases with a nonempty `cell`.
+/// A table with a row for each case that has a cell for at least one structure.
 fn table(
     cases: &[&HardCase],
     columns: &[Column],
@@ -75,7 +75,7 @@ fn table(
     Table::new(title, std::iter::once("case").chain(names), rows)
 }
 
-/// The outcomes of cases, with the worst ray, the first failure or the reason for every score that has one.
+/// A table of outcomes. Its notes give worst rays, first failures of properties, and reasons of refusals.
 fn outcomes(cases: &[&HardCase], columns: &[Column], title: &str, is_shown: impl Fn(&HardCase) -> bool) -> Table {
     let mut notes = vec![];
     for (i, case) in cases.iter().enumerate().filter(|(_, case)| is_shown(case)) {

@@ -1,5 +1,5 @@
 //! The SAH over a few planes per axis and a sample of the references in large nodes, and over all planes in small
-//! nodes: a fraction of the time and memory of keeping all events sorted, for trees of nearly the same cost.
+//! nodes. This takes a fraction of the time and memory of sorted events in all nodes; the trees cost nearly the same.
 
 use super::config::CellConfig;
 use super::grow::{Content, Context, Place};
@@ -13,7 +13,7 @@ use crate::build::sah_cost::SideAreas;
 use crate::build::sample::Sample;
 use crate::geometry::Aabb;
 
-/// References in ascending order of triangles; with their events once they are few.
+/// The references of a node in ascending order of triangles; `Fine`, for small nodes, adds their sorted events.
 pub(crate) enum Binned {
     Coarse(Part),
     Fine(Events),
@@ -33,7 +33,7 @@ impl Counts {
             let first = planes.first_bin(r.min(planes.axis));
             let last = planes.last_bin(r.max(planes.axis));
             if first > last {
-                // Only a flat reference begins above the bin in which it ends; it then lies in the plane between.
+                // Only a flat reference begins above the bin in which it ends: it lies in the plane between them.
                 counts.flat[last] += 1;
             } else {
                 counts.begin[first] += 1;
@@ -72,7 +72,7 @@ impl Binned {
     }
 }
 
-/// The cheapest plane that keeps within the budget, as estimated from a sample of `part`: its cost and the cut.
+/// The cost and the cut of the cheapest plane within the budget; `sample` estimates the numbers of references.
 fn cheapest(context: &Context<CellConfig>, part: &Part, sample: &Sample, place: &Place) -> Option<(f64, Cut)> {
     let found = on_axes(sample.len() >= PARALLEL, |axis| along(context, part, sample, place, axis));
     found.into_iter().flatten().reduce(|a, b| if b.0 < a.0 { b } else { a })
@@ -93,7 +93,7 @@ fn along(
     let mut offer = |plane: f32, below: usize, above: usize, flat_below: bool| {
         // A plane on a face of the cell cuts nothing.
         if min < plane && plane < max {
-            // Both sides of an inner plane have references, in the sample or not.
+            // Both sides of a plane inside the bounds have references, even if the sample has none there.
             let least = usize::from(range.0 < plane && plane < range.1);
             let [below, above] = [below, above].map(|count| sample.scaled(count).max(least));
             let cost = model.cell_split(&areas, plane, [below, above]);
@@ -105,7 +105,7 @@ fn along(
     let count = sample.len();
     let candidates = (context.config.candidates as usize).min(count);
     let Some(planes) = Planes::new(axis, range, candidates, sample) else {
-        // All lie in one plane, unless the axis is too long or short for a grid.
+        // No grid: all references lie in one plane, or their range is too large or too small.
         if range.0 == range.1 {
             offer(range.0, count, 0, true);
             offer(range.0, 0, count, false);
@@ -149,7 +149,7 @@ impl Content for Binned {
         let sample = Sample::new(&part.references, context.config.sample);
         let mut found = cheapest(context, part, &sample, place);
         if sample.len() < part.references.len() {
-            // A sample only estimates the number of references: check it.
+            // A sample only estimates the numbers of references: count them.
             let affords = |cut: Cut| {
                 let [below, above] = cut.counts(&part.references);
                 place.affords(below, above)
@@ -190,7 +190,7 @@ mod tests {
     use crate::build::check::{mesh, room, soup};
     use crate::build::sah_cost::CostModel;
 
-    /// The naive twin: every plane separately, counting all references.
+    /// Compares with a naive search that counts all references at every plane.
     #[test]
     fn no_plane_is_cheaper_than_the_one_that_is_chosen() {
         for mesh in [soup(40, 1), soup(700, 2), room(5)] {
@@ -221,7 +221,7 @@ mod tests {
         }
     }
 
-    /// In a sample, few of the references show that a plane across x cuts nearly all.
+    /// The sample has only short triangles. All other triangles are long, and a plane across x cuts them.
     #[test]
     fn a_sample_that_is_wrong_about_the_budget_is_not_the_last_word() {
         let stride = 20;

@@ -1,7 +1,7 @@
 use crate::build::quality::Quality;
 use crate::build::sah_cost::CostModel;
 
-/// The search for the cheapest cut of a cell.
+/// The configuration of the search for the cheapest cut of a cell.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CellConfig {
     pub costs: CostModel,
@@ -9,16 +9,16 @@ pub(crate) struct CellConfig {
     pub exact: u32,
     /// Planes per axis that larger nodes try, in 2..=62.
     pub candidates: u32,
-    /// Larger nodes use a sample of about this many references. At least 16.
+    /// A larger node uses a sample of at most this many references. At least 16.
     pub sample: u32,
 }
 
 impl CellConfig {
-    /// Every plane of every node.
+    /// The value of `exact` with which every node tries every plane.
     pub const ALL_PLANES: u32 = u32::MAX;
 
-    /// The cells of a wide tree. Steps are cheap, because three of them are one step of that tree, and all planes are
-    /// tried only in small nodes or never: the cheapest plane of a large node often cuts off empty space.
+    /// The configuration for a wide tree. Except in fast builds, a step is cheap: three are one wide step. Only small
+    /// nodes try all planes, or none do: in a large node, the cheapest plane often cuts off empty space.
     pub fn new(quality: Quality) -> Self {
         let (exact, candidates, sample, step) = match quality {
             Quality::Fast => (0, 12, 512, 1.0),

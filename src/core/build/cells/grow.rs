@@ -19,18 +19,18 @@ pub(crate) struct Context<'a, C> {
 pub(crate) struct Rules {
     /// Nodes with at most this many references are leaves.
     pub leaf: usize,
-    /// The share of clipped references on both sides at which a cut is discarded, if at all.
+    /// A cut is discarded if at least this share of the node's references lies on both sides; `None` discards no cut.
     pub threshold: Option<f32>,
     /// Whether a cut must cost less than testing all triangles.
     pub pays: bool,
-    /// Maximum number of references of all leaves, as a multiple of the root's.
+    /// Maximum number of references of all leaves, as a multiple of the root's references.
     pub duplication: f32,
     /// Whether a cut with all triangles on one side and fewer on the other is progress.
     pub one_side_is_progress: bool,
 }
 
 impl Rules {
-    /// Rules that make a leaf if no cut pays.
+    /// Rules that make a leaf if no cut costs less than the leaf.
     pub const fn sah(duplication: f32) -> Self {
         Self { leaf: 1, threshold: None, pays: true, duplication, one_side_is_progress: false }
     }
@@ -43,13 +43,13 @@ pub(crate) trait Content: Sized + Send {
 
     fn len(&self) -> usize;
 
-    /// In ascending order.
+    /// The triangle numbers in ascending order.
     fn ids(&self) -> impl Iterator<Item = u32>;
 
     /// The cut, or `None` if a leaf is better.
     fn choose(&self, context: &Context<Self::Config>, place: &Place) -> Option<Cut>;
 
-    /// The contents below and above; an error returns the content if the rule discards the cut after all.
+    /// The contents below and above. If the rule discards the cut after all, the error returns the content.
     fn divide(self, context: &Context<Self::Config>, place: &Place, cut: Cut) -> Result<(Self, Self), Self>;
 
     /// Whether this content, the result of a division, may be divided further.
@@ -63,7 +63,7 @@ pub(crate) trait Content: Sized + Send {
 pub(crate) struct Place {
     pub cell: Aabb,
     pub depth: u32,
-    /// The number of consecutive splits that left all triangles of the parent in one child.
+    /// The number of consecutive splits above this node without progress (see [`Rules::is_progress`]).
     stalled: u32,
     /// The maximum number of references of all leaves below this node.
     budget: f64,
@@ -81,7 +81,7 @@ pub(crate) trait Tree<C>: Default + Send {
     /// Appends an inner node without its children.
     fn open(&mut self);
 
-    /// Cuts the node `inner`. The subtree of the second child is the nodes from `second` to the end.
+    /// Adds the cut and the children to the node `inner`; the nodes from `second` on are the second child's subtree.
     fn close(&mut self, inner: usize, cut: Cut, second: usize);
 
     fn append(&mut self, other: Self);
@@ -96,18 +96,18 @@ impl<'a, C> Context<'a, C> {
     }
 }
 
-/// The maximum depth of a leaf: 8 + 1.3 log2 n (Pharr, Jakob, Humphreys).
+/// The maximum depth of a leaf: 8 + 1.3 log2 n, as in pbrt (Pharr, Jakob, Humphreys).
 const fn depth_cap(triangles: usize) -> u32 {
-    // The logarithm is rounded up to a whole number: no library function affects the shape of a tree.
+    // The number of binary digits replaces log2 n, so no library function affects the shape of a tree.
     let log2 = usize::BITS - if triangles > 1 { triangles } else { 1 }.leading_zeros();
     8 + log2 * 13 / 10
 }
 
-/// The depth cap of the largest mesh.
+/// An upper bound on the depth cap of every mesh.
 pub(crate) const DEEPEST: u32 = depth_cap(u32::MAX as usize);
 const _: () = assert!(DEEPEST == 49);
 
-/// Grows the tree over `content` in the cell of the mesh. The result does not depend on the number of threads.
+/// Grows the tree over `content` in the box of the mesh. The result does not depend on the number of threads.
 pub(crate) fn grow<C: Content, T: Tree<C>>(context: &Context<C::Config>, content: C) -> T {
     let mut tree = T::default();
     let place = Place::root(context, content.len());
@@ -130,7 +130,7 @@ fn subdivide<C: Content, T: Tree<C>>(
         Err(content) => return tree.leaf(content),
     };
 
-    // Give each side its share of the remaining references.
+    // Give each side its share of the budget of references.
     let (below_cell, above_cell) = place.cell.cut(cut.axis, cut.plane);
     let stalled = if context.rules.is_progress(count, below.len(), above.len()) { 0 } else { place.stalled + 1 };
     let share = place.budget / (below.len() + above.len()).max(1) as f64;
@@ -191,26 +191,26 @@ impl Place {
         (below + above) as f64 <= self.budget
     }
 
-    /// Whether the rules accept a cut of `count` clipped triangles into sides of these sizes.
+    /// Whether the rules accept a cut of `count` clipped references into sides of these sizes.
     pub fn accepts<C>(&self, context: &Context<C>, count: usize, [below, above]: [usize; 2]) -> bool {
         !context.rules.discards(below + above - count, count) && self.affords(below, above)
     }
 
-    /// Whether sides of these sizes are progress, or another split without progress is allowed: not the third in a row.
+    /// Whether sides of these sizes are progress, or at most the second split in a row without progress.
     pub fn progresses<C>(&self, context: &Context<C>, count: usize, below: usize, above: usize) -> bool {
         context.rules.is_progress(count, below, above) || self.stalled < 2
     }
 }
 
 impl Rules {
-    /// Whether neither side has all triangles of the node. The middle of a cell may also leave all of them in one half,
-    /// and the other half has only those that reach into it: such a rule accepts the smaller cell as progress.
+    /// Whether neither side has all triangles of the node. With `one_side_is_progress`, one side may have all of them
+    /// if the other has fewer: a plane in the middle of a cell then still makes the cell smaller.
     fn is_progress(&self, count: usize, below: usize, above: usize) -> bool {
         let most = if self.one_side_is_progress { below.min(above) } else { below.max(above) };
         most < count
     }
 
-    /// Whether too many of `count` triangles are on both sides for a cut.
+    /// Whether a cut with `both` of `count` triangles on both sides reaches the threshold.
     pub fn discards(&self, both: usize, count: usize) -> bool {
         self.threshold.is_some_and(|share| both as f64 >= f64::from(share) * count as f64)
     }

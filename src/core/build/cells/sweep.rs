@@ -1,11 +1,11 @@
-//! The exact SAH plane by a sweep over sorted events, kept sorted from the root down: O(n log n) for the whole tree.
+//! The exact SAH plane by a sweep over events. They are sorted once and stay sorted in children: O(n log n) per tree.
 //!
 //! # References
 //! Wald, Havran: On building fast kd-trees for ray tracing, and on doing that in O(N log N). IEEE Symposium on
 //! Interactive Ray Tracing 2006.
 //!
-//! As in the paper, a triangle in the plane goes only to the cheaper side: the traversal visits both sides of a plane
-//! that it crosses. The guard against duplication is not in the paper.
+//! As in the paper, a triangle in the plane goes only to the cheaper side. No hit is lost, because the traversal visits
+//! both sides of a plane that it crosses. The budget of references is not in the paper.
 
 use rayon::prelude::*;
 
@@ -19,8 +19,8 @@ use crate::build::reference::Reference;
 use crate::build::sah_cost::{CostModel, SideAreas};
 use crate::geometry::Aabb;
 
-/// The start or end of a reference on an axis, or its plane if it is flat: coordinate, kind and number of the
-/// reference, from the highest bit to the lowest. So the numeric order is the order of the sweep.
+/// The start or end of a reference on an axis, or the plane of a flat reference. From the highest bit to the lowest:
+/// coordinate, kind, number of the reference. The numeric order is thus the order of the sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Event(u64);
 
@@ -124,7 +124,7 @@ impl Events {
         best
     }
 
-    /// The references on the side `here` (0: below, 1: above), whose cell is `cell`; `sides` has all sides.
+    /// The references on the side `here` (0: below, 1: above) in its cell `cell`, given the `sides` of all references.
     fn part(&self, context: &Context<CellConfig>, sides: &[[bool; 2]], here: usize, cell: &Aabb) -> Self {
         let count = sides.iter().filter(|side| side[here]).count();
         let mut references = Vec::with_capacity(count);

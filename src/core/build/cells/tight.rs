@@ -1,4 +1,4 @@
-//! The cells of a KD-tree as tight boxes: the binary tree of a wide tree.
+//! The cells of a KD-tree as tight boxes, in a binary tree from which a wide tree is collapsed.
 
 use super::binned::Binned;
 use super::config::CellConfig;
@@ -8,7 +8,7 @@ use crate::build::cut::Cut;
 use crate::build::part::{Part, halves};
 use crate::geometry::{Aabb, Mesh};
 
-/// Maximum number of references of a leaf. The references of a cell with more are divided among several leaves.
+/// Maximum number of references of a leaf. A cell with more references becomes several leaves.
 const MOST: usize = 64;
 
 /// The nonempty cells of `mesh` as tight boxes, with on average at most `duplication` references per triangle.
@@ -46,7 +46,7 @@ impl BinaryTree {
     }
 }
 
-/// Has nonempty cells, each as the tight box of its clipped triangles, and inner nodes with two nonempty children.
+/// A leaf is the tight box of the clipped triangles of a nonempty cell; an inner node has two nonempty children.
 impl Tree<Binned> for BinaryTree {
     const SKIPS_EMPTY: bool = true;
 

@@ -1,4 +1,4 @@
-//! A tree whose parts can be moved.
+//! A binary tree whose subtrees can be moved.
 
 use std::ops::{Index, IndexMut};
 
@@ -9,10 +9,10 @@ use crate::build::extent::Extent;
 
 pub(super) const NONE: u32 = u32::MAX;
 
-/// No move makes a path longer than this: nested boxes would be cheapest as a chain.
+/// Maximum length of a path that a move creates. Without this limit, nested boxes become a chain, the cheapest tree.
 pub(super) const DEEPEST: u32 = 80;
 
-/// A node with links in both directions: the data of a search, in one cache line.
+/// A node with links to children and parent: the data of a search in one cache line.
 #[derive(Clone, Copy)]
 #[repr(align(64))]
 pub(super) struct Link {
@@ -124,7 +124,7 @@ impl Links {
         growth
     }
 
-    /// Moves `at` beside `target`, if that is still possible and still saves area.
+    /// Makes `at` the sibling of `target`, if that is still possible and still saves area.
     pub fn relocate(&mut self, at: u32, target: u32) {
         let (parent, sibling) = (self[at].parent, self.sibling(at));
         let grand = self[parent].parent;
@@ -138,7 +138,7 @@ impl Links {
             return;
         }
 
-        // The parent moves with the node, to become the parent of the target.
+        // The parent of `at` moves too: it becomes the parent of `target` and `at`.
         let old_area = self[parent].area;
         self.replace(grand, parent, sibling);
         let mut growth = self.refit(grand);
@@ -150,7 +150,7 @@ impl Links {
             return;
         }
 
-        // Earlier moves have made it useless: undo it.
+        // Earlier moves have made this move useless: undo it.
         self.replace(above, parent, target);
         self.refit(above);
         self.replace(grand, sibling, parent);
@@ -158,7 +158,7 @@ impl Links {
         self.refit(grand);
     }
 
-    /// The current nodes and references of `tree`, depth first.
+    /// `tree` with the current links, its nodes and references in depth-first order.
     pub fn write(&self, tree: &BinaryTree) -> BinaryTree {
         let mut order = Vec::with_capacity(tree.nodes.len());
         let mut number = vec![0; tree.nodes.len()];

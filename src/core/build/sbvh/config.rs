@@ -1,12 +1,12 @@
 use crate::build::quality::Quality;
 use crate::build::sah_cost::CostModel;
 
-/// In addition to object splits, spatial splits are tried if the children of the best object split overlap by more than
+/// [`Splits::SpatialAndObject`] tries spatial splits only if the children of the best object split overlap by more than
 /// this share of the root's area. The paper uses 1e-5; a larger share builds faster.
 pub(super) const ALPHA: f32 = 1e-3;
 
-/// Cost of the overlap of an object split that competes with a spatial one, as a multiple of testing the triangles of
-/// the smaller side in the overlap. 0 in the paper; trees between 2 and 10 are equally fast.
+/// Extra cost of an object split that competes with a spatial split: this multiple of the cost of testing the smaller
+/// side's triangles in the overlap of both sides. 0 in the paper; values from 2 to 10 give equally fast trees.
 pub(super) const OVERLAP_COST: f32 = 3.0;
 
 /// Maximum number of references of a leaf.
@@ -16,30 +16,30 @@ pub(super) const LEAF: usize = 64;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SbvhConfig {
     pub splits: Splits,
-    /// Candidate planes and bins per axis, in 2..=62; more finds cheaper splits and takes longer.
+    /// Candidate planes and bins per axis, in 2..=62; more candidates find cheaper splits and take longer.
     pub candidates: u32,
     /// Nodes with at most this many references try every object split; larger ones try `candidates`.
     pub exact: u32,
-    /// Nodes with at most this many references clip triangles to the slabs of a spatial split; others cut boxes.
+    /// Nodes with at most this many references clip triangles to the slabs of a spatial split; larger nodes cut boxes.
     pub sliced: u32,
     /// Nodes with at least this many references refine the search around the best plane of a spatial split.
     pub refined: u32,
-    /// Larger nodes use a sample of about this many references. At least 16.
+    /// A larger node uses a sample of at most this many references. At least 16.
     pub sample: u32,
-    /// Cost of a step to two children, in blocks of triangles. Positive; a step of an 8-wide tree is about three.
+    /// Cost of a binary step, in blocks of triangles; positive. A step of an eight-wide tree is about three of them.
     pub node_cost: f32,
-    /// Maximum number of references of a build, as a multiple of the triangles. At least 1.
+    /// Maximum number of references of the tree, as a multiple of the triangles. At least 1.
     pub duplication: f32,
 }
 
 /// The splits that a builder may use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Splits {
-    /// By planes: the leaves are disjoint.
+    /// By planes: leaves are disjoint, except if no plane can divide the references of a large leaf.
     Spatial,
-    /// By planes or by groups, whichever is cheaper.
+    /// By planes or into groups, whichever is cheaper.
     SpatialAndObject,
-    /// By groups: every triangle is in one leaf.
+    /// Into groups: every triangle is in one leaf.
     Object,
 }
 
@@ -51,7 +51,7 @@ impl SbvhConfig {
             Quality::Balanced => (20, 16, 0, 16, 16384),
             Quality::High => (20, 16, 4096, 16, 16384),
         };
-        // If only planes may split, references take most of the time: a fast build makes fewer, and larger leaves.
+        // If only planes split, making references takes most of the time: a fast build makes fewer, and larger leaves.
         let node_cost = match quality {
             Quality::Fast if spatial => 1.5,
             Quality::Fast => 0.4,

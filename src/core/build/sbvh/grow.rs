@@ -28,8 +28,8 @@ enum Split {
 
 /// The tree over the triangles of `mesh` with an area. It does not depend on the number of threads.
 ///
-/// Takes O(n log n) time and memory: paths have at most 16 + 2 log2 n levels of chosen splits and then halvings, and
-/// all leaves together have at most `config.duplication` times the triangles.
+/// Takes O(n log n) time and memory: a path has at most 18 + 2 log2 n levels of chosen splits, then halvings, and all
+/// leaves together have at most `config.duplication` references per triangle.
 pub(crate) fn build(mesh: &Mesh, config: &SbvhConfig) -> BinaryTree {
     let context = Context::new(mesh, config);
     let root = Part::whole(mesh);
@@ -57,7 +57,7 @@ fn grow(context: &Context, part: Part, place: Place, tree: &mut BinaryTree, slot
         Split::Set(group) => by_group(references, group, counts),
     };
 
-    // Give each side its share of the remaining references.
+    // Give each side its share of the budget of references.
     let share = place.budget / (below.references.len() + above.references.len()) as f64;
     let child = |part: &Part| Place { depth: place.depth + 1, budget: share * part.references.len() as f64 };
     let (below_place, above_place) = (child(&below), child(&above));
@@ -94,7 +94,7 @@ fn choose(
     if count <= BLOCK && !context.is_large(area) {
         return None;
     }
-    // A split of a single block is tried even if it costs more: one further down may pay, and `merge` undoes it if not.
+    // Split a single block even if that costs more: `merge` undoes the split unless a split further down pays.
     let leaf_cost = if count <= BLOCK { f64::INFINITY } else { context.unsplit_cost(area, count) };
     let full = count > LEAF;
     if place.depth < context.depth
@@ -138,11 +138,11 @@ fn cheapest(
     }
 }
 
-/// The additional cost of an object split of `count` references that competes with the best spatial one. In the
-/// heuristic every ray visits each box that it meets; but a ray with a hit in the nearer side need not visit the other,
-/// unless the two overlap. So the overlap costs once more, with the triangles of the smaller side. It does not if the
-/// plane adds more than a sixteenth of the references, as in nested shells: these references are then missing below.
-/// Nor in small nodes, where added references fill their own blocks.
+/// The extra cost of an object split of `count` references that competes with the best spatial split. In the heuristic,
+/// a ray visits every box that it meets. But a ray with a hit in the nearer box can skip the farther box, unless the
+/// boxes overlap. The overlap therefore costs extra, with the triangles of the smaller side. There is no extra cost if
+/// the plane adds more than a sixteenth of the references, as in nested shells: the budget would lack them further
+/// down. There is none in small nodes either: references that a plane adds there need additional blocks.
 fn overlap_cost(context: &Context, count: usize, object: &Offer<Split>, spatial: &Offer<Split>) -> f64 {
     if count < 4 * BLOCK || spatial.counts.iter().sum::<usize>() > count + count / 16 {
         return 0.0;
@@ -151,7 +151,7 @@ fn overlap_cost(context: &Context, count: usize, object: &Offer<Split>, spatial:
     f64::from(OVERLAP_COST) * context.costs.box_leaf(object.sides[0].overlap(object.sides[1]), fewer)
 }
 
-/// Merges the subtree at `own` into one leaf if that is cheaper; returns its cost then.
+/// Merges the subtree at `own` into one leaf and returns its cost; `None` if the leaf would cost more or be too large.
 fn merge(context: &Context, tree: &mut BinaryTree, own: usize, first: usize, area: f64, cost: f64) -> Option<f64> {
     if tree.references.len() - first > 2 * LEAF {
         return None;

@@ -1,15 +1,15 @@
-//! Binary trees of tight boxes by one builder: splits of space, splits of the set of triangles, or the cheaper of both.
+//! Builds binary trees of tight boxes by spatial splits, by object splits, or by the cheaper one at each node.
 //!
-//! Every reference is a triangle and the box of its part at this place of the tree. A *spatial* split cuts references
-//! at a plane: both sides are disjoint. An *object* split divides whole references into two groups, whose boxes may
-//! overlap. The surface area heuristic uses the tight boxes of both sides, and counts leaves by blocks of eight
-//! triangles. With only spatial splits the leaves partition space as in a KD-tree, except that a leaf too full to be
-//! cut in space (coincident triangles, an exhausted budget) is divided among several.
+//! A reference is a triangle and the box of its part in a node. A *spatial* split cuts references at a plane: both
+//! sides are disjoint. An *object* split divides whole references into two groups, whose boxes may overlap. The surface
+//! area heuristic uses the tight boxes of both sides, and counts leaves by blocks of eight triangles. With only spatial
+//! splits, the leaves partition space as in a KD-tree, except where no plane can divide a large leaf (coincident
+//! triangles, an exhausted budget): its references are divided among several leaves.
 //!
 //! # References
-//! Stich, Friedrich, Dietrich: Spatial Splits in Bounding Volume Hierarchies, High Performance Graphics 2009. Three
-//! departures from the paper: candidate planes are moved to the nearest edge of a box; triangles in a plane go to the
-//! cheaper side; and a budget of references is passed down, which makes the tree independent of the order of building.
+//! Stich, Friedrich, Dietrich: Spatial Splits in Bounding Volume Hierarchies, High Performance Graphics 2009. Here, a
+//! candidate plane lies at the highest box edge in its grid cell; triangles in a plane go to the cheaper side; overlap
+//! costs extra; and a budget of references is passed down, so the tree does not depend on the order of building.
 
 mod config;
 mod grow;

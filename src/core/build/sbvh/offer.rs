@@ -6,7 +6,7 @@ use crate::build::sah_cost::CostModel;
 use crate::geometry::Mesh;
 use crate::triangle::BLOCK;
 
-/// A box is large above this share of the root's half area: so few are that splitting their blocks costs little.
+/// A box is large above this share of the root's half area. Few are large, so splitting their blocks costs little.
 const LARGE: f64 = 1.0 / 2048.0;
 
 /// The inputs of every step of a build.
@@ -31,8 +31,8 @@ impl<'a> Context<'a> {
         area > LARGE * self.root_area
     }
 
-    /// The cost of a leaf, with which its splits compete. For a single block in a large box, such as a floor and a
-    /// wall, it includes a step: the split adds no node, only a child to the wide node above.
+    /// The cost of a leaf, to compare with its splits. For a single block in a large box, such as a floor and a wall,
+    /// it includes a step, because a split would add no wide node, only a child to the wide node above.
     pub fn unsplit_cost(&self, area: f64, count: usize) -> f64 {
         let leaf = self.costs.box_leaf(area, count);
         if count <= BLOCK && self.is_large(area) { self.costs.box_node(area, leaf) } else { leaf }
@@ -43,9 +43,9 @@ impl<'a> Context<'a> {
 pub(super) struct Offer<T> {
     pub cost: f64,
     pub split: T,
-    /// The boxes of both sides, as far as the search knows them.
+    /// The boxes of both sides; of the sampled references if the search uses a sample.
     pub sides: [Extent; 2],
-    /// The references of both sides.
+    /// The numbers of references on both sides.
     pub counts: [usize; 2],
 }
 
@@ -55,7 +55,7 @@ impl<T> Offer<T> {
     }
 }
 
-/// The cheaper of two, the first if they have equal cost.
+/// The cheaper of two offers; the first one if their costs are equal.
 pub(super) fn cheaper<T>(a: Option<Offer<T>>, b: Option<Offer<T>>) -> Option<Offer<T>> {
     match (a, b) {
         (Some(a), Some(b)) => Some(if b.cost < a.cost { b } else { a }),

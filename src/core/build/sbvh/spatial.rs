@@ -15,18 +15,17 @@ use crate::geometry::{Aabb, Mesh};
 /// Bins and planes in ascending order: slot `2 i` is bin `i`, slot `2 i + 1` is plane `i`.
 const SLOTS: usize = 2 * PLANES + 2;
 
-/// The references that begin and that end in each slot: their number and their whole boxes.
+/// For each slot, the references that begin in it and those that end in it: their number and the union of their boxes.
 ///
-/// The part below a plane consists of the parts of all references that begin below it. A plane cuts off exactly the
-/// part of a box beyond it, so the box of all parts is the box of the whole references, cut off at the plane: the slots
-/// between the ends of a reference need no update. Only sliced triangles grow each bin on their way by their slice
-/// there, both among the references that begin in it and those that end.
+/// The references with a part below a plane are those that begin below it. The box of all these parts is the union of
+/// the whole boxes, cut off at the plane. So a reference updates only the slots in which it begins and ends. A sliced
+/// triangle instead grows every bin that it reaches by its slice in this bin, in `begin_extents` and in `end_extents`.
 pub(super) struct Slots {
     begin: [u32; SLOTS],
     end: [u32; SLOTS],
     begin_extents: [Extent; SLOTS],
     end_extents: [Extent; SLOTS],
-    /// The box of the references that end in later slots.
+    /// For each slot, the box of the references that end in later slots.
     above: [Extent; SLOTS],
 }
 
@@ -48,7 +47,7 @@ impl Slots {
     fn add<const AXIS: usize, const SLICED: bool>(&mut self, mesh: &Mesh, sample: &Sample, planes: &Planes) {
         for r in sample.iter() {
             let (first, last) = (planes.first_bin(r.min(AXIS)), planes.last_bin(r.max(AXIS)));
-            // Only a flat reference begins above the bin in which it ends; it then lies in the plane between.
+            // Only a flat reference begins above the bin in which it ends: it lies in the plane between them.
             let (begin, end) = (first + first.min(last), last + last.max(first));
             self.begin[begin] += 1;
             self.end[end] += 1;
@@ -67,7 +66,7 @@ impl Slots {
 
     /// The cheapest plane for `node`, and its index among the planes.
     fn sweep(&mut self, context: &Context, planes: &Planes, node: &Node) -> Option<Offer<(Cut, usize)>> {
-        // Collect the references that end above each boundary, from the top.
+        // From the top, collect the boxes of the references that end above each boundary between slots.
         let slots = 2 * planes.bins() - 1;
         let mut above = Extent::EMPTY;
         for slot in (1..slots).rev() {
@@ -75,7 +74,7 @@ impl Slots {
             self.above[slot - 1] = above;
         }
 
-        // Every boundary between slots is a candidate: a plane, with the references in it above or below.
+        // Every boundary is a candidate: a plane, with the references that lie in it above or below.
         let mut best: Option<Offer<(Cut, usize)>> = None;
         let mut below = Extent::EMPTY;
         let (mut begun, mut ended) = (0, 0);
@@ -102,7 +101,7 @@ impl Slots {
     }
 }
 
-/// The cheapest plane for references in `extent` with at most `budget` references.
+/// The cheapest plane for references in `extent`; both sides together have at most `budget` references.
 pub(super) fn cheapest_cut(
     context: &Context,
     references: &[Reference],
@@ -114,7 +113,7 @@ pub(super) fn cheapest_cut(
     let some = Node { sample: Sample::new(references, context.config.sample), ..all };
     let mut offer = some.cheapest(context, extent, slots)?;
     if some.sample.len() < references.len() {
-        // A sample only estimates the number of references: count them.
+        // A sample only estimates the numbers of references: count them.
         offer.counts = offer.split.counts(references);
         if !some.affords(offer.counts) {
             return all.cheapest(context, extent, slots);

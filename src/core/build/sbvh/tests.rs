@@ -65,7 +65,7 @@ fn no_input_explodes() {
                 leaves.iter().for_each(|(_, ids)| ids.iter().for_each(|&id| seen[id as usize] = true));
                 assert!(mesh.solid().all(|id| seen[id as usize]), "{name} {config:?}");
 
-                // No path is longer than 16 + 2 log2 n chosen levels and the halvings below them.
+                // No path is longer than 16 + 2 (log2 n + 1) levels of chosen splits and the halvings below.
                 let log2 = (count as f64).log2().ceil() + 1.0;
                 let halvings = (f64::from(duplication) * count as f64).log2();
                 let most = 16.0 + 2.0 * log2 + halvings;
@@ -98,7 +98,7 @@ fn a_floor_and_a_wall_are_separate_leaves_and_tiles_of_a_floor_are_not() {
     });
     for config in configs() {
         let tree = build(&scene, &config);
-        // Planes leave them in several blocks together with parts of the object, and in fast builds a step costs more.
+        // Exempt: spatial splits only, whose blocks mix all triangles, and fast builds, in which a step costs more.
         let groups = config.splits != Splits::Spatial && config.exact > 0;
         for (_, ids) in leaves(&tree, 64).iter().filter(|_| groups) {
             let has = |part: [u32; 2]| part.iter().any(|id| ids.contains(id));

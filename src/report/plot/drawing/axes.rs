@@ -15,7 +15,7 @@ use super::canvas::{Area, DrawResult, TEXT, text, text_style, widest, width_of};
 use super::palette::{Colour, FAINT, INK, MIDDLE};
 use crate::report::number::count;
 
-/// A logarithmic axis with numbers at which it is labelled.
+/// A logarithmic axis with the numbers at its labels.
 pub type LogAxis = WithKeyPoints<LogCoord<f64>>;
 
 /// Numbers between two powers of ten that an axis labels, dense to sparse.
@@ -31,11 +31,11 @@ pub fn upward(ends: [f64; 2], length: i32) -> LogAxis {
     log_axis(ends, length, |_| 48)
 }
 
-/// As many round numbers as fit; each takes `room` pixels.
+/// A logarithmic axis with as many round numbers as fit; each takes `room` pixels.
 fn log_axis([low, high]: [f64; 2], length: i32, room: impl Fn(f64) -> i32) -> LogAxis {
     let per_decade = f64::from(length) / libm::log10(high / low);
     let exponents = libm::floor(libm::log10(low)) as i32..=libm::floor(libm::log10(high)) as i32;
-    // First all decades with numbers between them, then every second, third and further decade without.
+    // Try numbers in all decades, from dense to sparse, then only every second power of ten, every third, and so on.
     let between = FACTORS.into_iter().map(|factors| (1, factors));
     let powers = (2..20).map(|step| (step, FACTORS[3]));
     let ticks = |(step, factors): (i32, &[f64])| -> Vec<f64> {
@@ -54,7 +54,7 @@ fn log_axis([low, high]: [f64; 2], length: i32, room: impl Fn(f64) -> i32) -> Lo
     (low..high).log_scale().with_key_points(ticks)
 }
 
-/// A range of positive values with a margin at both ends, at least a factor of two.
+/// The range of positive `values`, at least a factor of two, with margins that are fractions of its log width.
 pub fn padded(values: impl Iterator<Item = f64>, [below, above]: [f64; 2]) -> [f64; 2] {
     let (low, high) = values.fold((f64::INFINITY, 0.0), |(low, high), v| (v.min(low), v.max(high)));
     if low > high {
@@ -73,7 +73,7 @@ pub const GAP: i32 = 20;
 
 pub type Axes<'a, Y = LogAxis> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<LogAxis, Y>>;
 
-/// The labels of axes and their margins: above, to the left and to the right.
+/// The titles and labels of two axes, and the margins above, to the left and to the right.
 pub struct AxisLabels<'a, V = f64> {
     pub x_title: &'a str,
     pub y_title: &'a str,
@@ -102,7 +102,7 @@ where
     Ok(chart)
 }
 
-/// Two logarithmic axes in `area`, with these titles, from the first to the last of these values.
+/// Two logarithmic axes in `area` with these titles and ends.
 pub fn log_log<'a>(
     area: &Area<'a>,
     [x_title, y_title]: [&str; 2],
@@ -111,7 +111,7 @@ pub fn log_log<'a>(
     let (width, height) = area.dim_in_pixel();
     let y = upward(y_ends, height as i32 - GAP - BOTTOM);
     let texts: Vec<String> = y.bold_points().iter().map(|tick| tick_text(*tick)).collect();
-    // The title beside the labels is as wide as text is high.
+    // The title beside the labels is rotated: it is as wide as text is high.
     let left = widest(&texts) + GAP + TEXT;
     // A number at the end of the axis extends beyond it by half its width.
     let right = 3 * GAP;
@@ -119,15 +119,15 @@ pub fn log_log<'a>(
     axes(area, x, y, &AxisLabels { x_title, y_title, y_text: &|y| tick_text(*y), top: GAP, left, right })
 }
 
-/// Height of a name.
+/// Height of a name in the legend.
 const LINE: i32 = 40;
 
-/// Height of the names below the axes.
+/// Height of the legend below the axes.
 pub fn legend_height(names: &[String]) -> i32 {
     if names.is_empty() { 0 } else { names.len() as i32 * LINE + GAP }
 }
 
-/// Draws names with a dot of their colours below the axes. Returns the remaining area.
+/// Draws the legend below the axes: names, each with a dot of its colour. Returns the remaining area.
 pub fn legend<'a>(area: &Area<'a>, names: &[String], colours: &[Colour]) -> DrawResult<Area<'a>> {
     const DOT: i32 = 8;
     let (axes, below) = area.split_vertically(area.dim_in_pixel().1 as i32 - legend_height(names));
@@ -141,7 +141,7 @@ pub fn legend<'a>(area: &Area<'a>, names: &[String], colours: &[Colour]) -> Draw
 
 /// A round number as an axis label: `0.001`, `20`, `5,000`, `1e6`.
 pub fn tick_text(value: f64) -> String {
-    // Drop the last digits, which the product of a round number and a power of ten may have.
+    // Remove the rounding error of the product of a round number and a power of ten.
     let rounded: f64 = format!("{value:.6e}").parse().expect("a number");
     match rounded {
         0.0 => "0".into(),

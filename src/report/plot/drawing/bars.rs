@@ -33,7 +33,7 @@ const GROUP: i32 = 380;
 /// Space for the number at the end of the longest bar.
 const NUMBER: i32 = 124;
 
-/// The layout of a drawing of some width.
+/// The layout of a drawing of a given width.
 struct Layout {
     /// Space for labels to the left of the bars; 0 if each label stands above its bar.
     left: i32,
@@ -66,7 +66,7 @@ fn part_colours(part: usize) -> [Colour; 2] {
 impl Bars {
     fn layout(&self, width: i32) -> Layout {
         let beside = widest(&self.labels) + GAP;
-        // Place labels above the bars if beside them they would leave the bars less than half of the width.
+        // Place labels above the bars if labels to the left would leave less than half of the width for bars.
         let left = if beside > width / 2 { 0 } else { beside };
         let [row, bar] = if self.parts.is_empty() { [54, 30] } else { [88, 48] };
         let step = if left == 0 { row + TEXT + 2 } else { row };
@@ -91,11 +91,11 @@ impl Bars {
         let across: Vec<i32> = (1..layout.columns as i32).map(|i| layout.left + i * layout.column).collect();
         let down: Vec<i32> = (1..=layout.height / layout.group).map(|i| i * layout.group).collect();
         for (i, (group, cell)) in self.groups.iter().zip(area.split_by_breakpoints(across, down)).enumerate() {
-            // Labels stand to the left of the first of the groups in a row.
+            // Labels stand to the left of the first group in a row.
             let left = if i % layout.columns == 0 { layout.left } else { 0 };
             self.draw_group(whole, group, &layout, &cell, left)?;
         }
-        // Centre it below all groups, unless it would leave the drawing.
+        // Centre the title below all groups, but keep it inside the drawing.
         let half = width_of(&self.x_title) / 2;
         let middle = ((width + layout.left) / 2).min(width - half).max(half);
         text(whole, &self.x_title, (middle, layout.height + FOOT / 2), MIDDLE.light, HPos::Center)
@@ -138,7 +138,7 @@ impl Bars {
                     chart.value(row, *value, bar.reach()[1], 0)?;
                 }
                 Bar::Product(factors, product) => {
-                    // The whole below its parts, whose product it must equal within its interval.
+                    // Draw the interval of the product below the factors: it must contain their product.
                     chart.value(row, *product, bar.reach()[1], layout.bar / 2 + 10)?;
                     chart.factors(row, factors)?;
                 }
@@ -209,8 +209,8 @@ impl BarChart<'_, '_> {
         text(self.whole, &figures(value.estimate), (x + 14, y), INK.light, HPos::Left)
     }
 
-    /// Draws an interval as an error bar, on a plate that makes it visible on a bar. An end beyond the axis has no
-    /// mark: the interval continues.
+    /// Draws an interval as an error bar, with a light border that makes it visible on a bar. An end beyond the axis
+    /// has no mark, because the interval continues.
     fn whisker(&self, ends: [f64; 2], y: i32) -> DrawResult {
         let axis = self.axes.x_range();
         let stem = ends.map(|end| self.place(end.clamp(axis.start, axis.end), y));

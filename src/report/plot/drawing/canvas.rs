@@ -24,11 +24,11 @@ pub type Place = (i32, i32);
 /// Size of text, from the top of the highest letter to the bottom of the lowest.
 pub const TEXT: i32 = 32;
 
-/// Name of the font: a viewer replaces it in an SVG; measuring uses the font in this program.
+/// The font name in an SVG. A viewer chooses its own font; text is measured with the font in this program.
 const FONT: &str = "sans-serif";
 
-/// Registers the font in this program instead of the system's fonts: the same picture everywhere. Ubuntu Light is under
-/// the Ubuntu Font Licence.
+/// Registers the font in this program, for the same picture on every system. Ubuntu Light is under the Ubuntu Font
+/// Licence.
 pub fn register() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {
@@ -52,7 +52,7 @@ pub fn widest<'a>(texts: impl IntoIterator<Item = &'a String>) -> i32 {
     texts.into_iter().map(|text| width_of(text)).max().unwrap_or(0)
 }
 
-/// Draws a line of text that begins, has its middle or ends at `place`, at half its height.
+/// Draws a line of text: its left end, middle or right end, as `side` selects, is at `place`, at half its height.
 pub fn text(area: &Area, text: &str, place: Place, colour: Colour, side: HPos) -> DrawResult {
     area.draw_text(text, &text_style(colour).pos(Pos::new(side, VPos::Center)), place)
 }

@@ -46,7 +46,7 @@ impl Chart {
         area.present()
     }
 
-    /// The text of an SVG file, `width` units wide if possible; a unit is two units of the file's view box.
+    /// The text of an SVG file, `width` units wide (scatter plots: 800). A unit is two units of the file's view box.
     pub fn svg(&self, width: f64) -> String {
         let mut text = String::new();
         self.draw(&SVGBackend::with_string(&mut text, self.size(width)).into_drawing_area()).expect(DRAWN);

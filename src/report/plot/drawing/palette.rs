@@ -27,8 +27,8 @@ pub const INK: Role = role("ink", [34, 38, 43], [226, 228, 231]);
 pub const MIDDLE: Role = role("middle", [100, 106, 114], [157, 164, 173]);
 pub const FAINT: Role = role("faint", [222, 225, 229], [52, 57, 64]);
 
-/// Colours of series. Colour-blind readers can distinguish the first ten as far as possible (after Okabe, Ito: Color
-/// universal design, 2008). All are dark or light enough for text.
+/// Colours of series. The first ten are chosen to be distinct for colour-blind readers (after Okabe, Ito: Color
+/// universal design, 2008). All have enough contrast for text.
 pub const SERIES: [Role; 24] = [
     role("s0", [106, 110, 116], [160, 166, 174]),
     role("s1", [184, 74, 0], [255, 150, 84]),
@@ -56,7 +56,7 @@ pub const SERIES: [Role; 24] = [
     role("s23", [6, 90, 107], [118, 226, 248]),
 ];
 
-/// Colours of the parts of a whole: shades of one colour, dark to pale, that no structure has.
+/// Colours of the parts of a whole: shades, dark to pale, of a colour that no structure has.
 pub const PARTS: [Role; 3] = [
     role("p0", [44, 62, 84], [204, 216, 230]),
     role("p1", [98, 124, 152], [134, 154, 176]),
@@ -91,8 +91,8 @@ pub fn colours(labels: &[String]) -> Vec<Colour> {
 }
 
 /// A colour for each label. The bare name of a structure has the fixed colour of the structure; any other label, such
-/// as one with keys, has one of the remaining colours. Its text decides which: the colour is the same in every chart,
-/// unless two texts of one chart collide.
+/// as a label with keys, has one of the remaining colours. The text of the label determines the colour, so it is the
+/// same in every chart, unless two texts of one chart collide.
 pub fn roles_of(labels: &[String]) -> Vec<Role> {
     let own = |label: &str| STRUCTURES.iter().position(|structure| *structure == label);
     let others = labels.iter().map(String::as_str).filter(|label| own(label).is_none());
@@ -101,8 +101,8 @@ pub fn roles_of(labels: &[String]) -> Vec<Role> {
     labels.iter().map(role).collect()
 }
 
-/// A number below `n` for each of `texts`, all different as long as there are enough: the number from the text, or the
-/// next free one. The order of the texts does not matter.
+/// A number below `n` for each of `texts`: the hash of the text, or the next free number if it is taken. Numbers repeat
+/// only if there are more than `n` texts. The order of the texts does not matter.
 fn spread<'a>(texts: impl Iterator<Item = &'a str>, n: usize) -> BTreeMap<&'a str, usize> {
     let mut given: BTreeMap<&str, usize> = BTreeMap::new();
     for text in texts.collect::<BTreeSet<_>>() {
@@ -114,7 +114,7 @@ fn spread<'a>(texts: impl Iterator<Item = &'a str>, n: usize) -> BTreeMap<&'a st
     given
 }
 
-/// The colour in the format of style sheets and drawings.
+/// The colour as `#RRGGBB`.
 pub fn hex(colour: Colour) -> String {
     format!("#{:02X}{:02X}{:02X}", colour.0, colour.1, colour.2)
 }

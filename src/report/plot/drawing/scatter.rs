@@ -21,7 +21,7 @@ struct Dot<'a> {
 }
 
 impl Scatter {
-    /// Names of the colours; empty if the labels are the same.
+    /// Names of the colours in the legend; empty if the labels of the points are these names.
     fn names(&self) -> Vec<String> {
         let is_said = self.points.iter().all(|point| point.label == point.group);
         if is_said { vec![] } else { self.groups() }
@@ -77,8 +77,8 @@ impl Dot<'_> {
     }
 }
 
-/// The border of the reached region: a staircase through the points of the front. Each step leads to the next point,
-/// the last one to the `end` of the axis.
+/// The Pareto front as a staircase: a horizontal line from each point to the `x` of the next point, and from the last
+/// point to the `end` of the axis.
 fn front(dots: &[Dot], end: i32) -> Vec<Place> {
     let mut front: Vec<Place> = dots.iter().filter(|dot| dot.point.is_front).map(|dot| dot.place).collect();
     front.sort_unstable();
@@ -86,7 +86,7 @@ fn front(dots: &[Dot], end: i32) -> Vec<Place> {
     front.iter().zip(ends).flat_map(|(&(x, y), end)| [(x, y), (end, y)]).collect()
 }
 
-/// Draws the labels of some points; the first points choose first.
+/// Draws the labels of `dots`; labels are placed in the order of `dots`.
 fn draw_labels(area: &Area, dots: &[&Dot], obstacles: &[Corners], frame: Corners) -> DrawResult {
     let widths = dots.iter().map(|dot| (dot.place, width_of(&dot.point.label)));
     let boxes = place(&widths.collect::<Vec<_>>(), TEXT, obstacles, frame);
@@ -120,12 +120,12 @@ fn is_inside(a: &Corners, b: &Corners) -> bool {
 /// Distance between a point and its label.
 const LABEL_GAP: i32 = 22;
 
-/// Places labels, which plotters does not: boxes `height` high for labels of these widths, in order, within `frame`: beside the point if there is space,
-/// otherwise as near as possible. They avoid each other and the obstacles as long as there is another place.
+/// Places labels of these widths inside `frame`, in order: beside the point if there is space, otherwise as near as
+/// possible. They avoid each other and the obstacles unless no candidate place is free.
 pub fn place(points: &[(Place, i32)], height: i32, obstacles: &[Corners], frame: Corners) -> Vec<Corners> {
     let mut taken = obstacles.to_vec();
     for &((x, y), width) in points {
-        // To the right and to the left, then increasingly higher and lower, by half lines; further away as well.
+        // Try places to the right and left of the point, near and further away, then higher and lower by half lines.
         let steps = (0..40).flat_map(|i| [-i, i]).map(|i| i * height / 2);
         let lefts =
             [x + LABEL_GAP, x - LABEL_GAP - width, x + LABEL_GAP + 60, x - LABEL_GAP - 60 - width, x - width / 2];

@@ -23,7 +23,7 @@ fn mean_table(all: &[Measurement]) -> Table {
     mean_table_of(all, &Reference::of(all, None))
 }
 
-/// The text of a cell, without an interval that contains only one number: its ends may differ in their last bits.
+/// The text of a cell, without its interval if both ends print like the estimate.
 fn cell(table: &Table, row: &str, column: &str) -> String {
     let column = table.columns.iter().position(|c| c == column).unwrap_or_else(|| panic!("no column {column}"));
     let row = table.rows.iter().find(|r| r[0].text() == row).unwrap_or_else(|| panic!("no row {row}"));
@@ -118,7 +118,7 @@ fn what_lies_within_the_noise_is_said_to_be_no_difference() {
     assert!(cell(&table, "sah-kd", "x obvhs").ends_with(" ="), "{table:?}");
     let said = "A/A noise (median-kd built twice and compared with itself): 1.00%; 0 of 2";
     assert!(table.notes[0].starts_with(said), "{:?}", table.notes);
-    // The twin differs more between epochs than on average.
+    // The ratio to the twin varies more between epochs than its mean differs from 1.
     for record in &mut all[..2] {
         let by = [1.02, 0.98, 1.03, 0.98, 1.0];
         let twin = record.samples_ns.iter().zip(by).map(|(ns, by)| ns * by);
@@ -158,7 +158,7 @@ fn a_mean_over_fewer_scenes_names_its_count_and_is_not_ranked() {
     let best = |row: &str| table.rows.iter().find(|r| r[0].text() == row).unwrap()[1].tone;
     assert_eq!((best("sah-kd"), best("sah-bvh")), (Tone::Best, Tone::Plain));
     assert!(table.notes.iter().any(|note| note.starts_with("(n of m)")), "{:?}", table.notes);
-    // If the reference has no time, no structure is compared and none lacks a time.
+    // A cell in which the reference has no time does not count.
     all[0].mrays_per_s = None;
     assert_eq!(cell(&mean_table(&all), "sah-bvh", "primary"), "9.00 (1 of 2)");
     assert!(!mean_table(&all[..1]).says_something());

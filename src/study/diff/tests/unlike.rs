@@ -39,7 +39,7 @@ fn runs_that_differ_in_more_than_their_code_are_unlike() {
         let refused = with(edit).unwrap_err();
         assert!(refused.contains(part), "{part:?} is not in {refused:?}");
     }
-    // Another build of a program is the purpose of a comparison, and without a gate subsets of the rays are comparable.
+    // Two builds of a program are comparable. Without a gate, different numbers of timed rays are comparable, too.
     let build = |side: &mut Side| side.all[0].config = serde_json::json!({ "leaf": 8, "threshold": 0.7, "build": "x" });
     assert_eq!(with(&build), Ok(()));
     assert_eq!(unlike(&old, &edited(1.0, 1.0, &|side| side.all[1].rays = 250), false), Ok(()));
@@ -98,7 +98,7 @@ fn on_two_machines_ratios_to_obvhs_are_compared_and_nothing_else() {
     let lanes = edited(1.0, 1.1, &|side| side.provenance.simd = "others".into());
     assert!(has_note(&Comparison::new(&old, &lanes, None, 1), "Two instruction sets, "));
 
-    // Other rays are rejected there as well, and so are times without a reference.
+    // Between two machines, other rays and times without a reference are rejected, too.
     let refused = |edit: &Edit| unlike(&old, &elsewhere(edit), false).unwrap_err().to_string();
     assert!(refused(&|side| side.all[0].workload_hash = "ff".into()).contains("the primary rays of Cube"));
     assert!(refused(&|side| side.provenance.obvhs = "0.5.0".into()).contains("the version of obvhs"));
