@@ -90,7 +90,7 @@ struct Silent;
 impl Observer for Silent {}
 
 fn observer(criterion: &mut Criterion) {
-    let scene = Builtin::find("teapot").and_then(|b| b.scene(None)).expect("a built-in scene is whole");
+    let scene = Builtin::find("teapot").and_then(|b| b.scene(None)).expect("built-in scenes are valid");
     let tree = <KdTree<MollerTrumbore> as Accel>::build(&Arc::clone(&scene.mesh), &KdConfig::SAH).expect("it builds");
     let caster =
         Registry::builtin().choose("sah-kd").expect("a registered name").build(&scene.mesh).expect("it builds");

@@ -86,7 +86,7 @@ impl Registry {
     ) -> Self {
         assert!(
             !name.is_empty() && name != "all" && !name.contains([':', ',', '=', ' ', '\t', '\n']),
-            "the name {name:?} must neither be \"all\" nor contain ':', ',', '=' or white space"
+            "the name {name:?} must not be empty or \"all\", and must not contain ':', ',', '=' or white space"
         );
         let test = A::TRIANGLE_TEST;
         assert!(self.find(name, test).is_none(), "there is already a structure {name:?} with the test {test:?}");

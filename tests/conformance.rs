@@ -95,7 +95,7 @@ fn every_configuration_of_ours_is_right() {
         passes(shapes(&subject, &degenerate));
     }
     let small = BUILTIN.iter().filter(|scene| scene.difficulty != Difficulty::Hard);
-    let named = |scene: &Builtin| (scene.name.to_string(), scene.scene(None).expect("a built-in scene is whole").mesh);
+    let named = |scene: &Builtin| (scene.name.to_string(), scene.scene(None).expect("built-in scenes are valid").mesh);
     are_right(&OURS, &small.map(named).collect::<Vec<_>>(), 60);
     are_right(&TREES, &BUILTIN.iter().map(named).collect::<Vec<_>>(), 60);
 }

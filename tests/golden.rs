@@ -40,7 +40,7 @@ fn draw_as_committed(choices: &[Choice]) -> Vec<(String, String, usize)> {
     let mut differing = vec![];
     for builtin in BUILTIN {
         // A real mesh on this machine must not change the picture.
-        let scene = builtin.scene(None).expect("a built-in scene is whole");
+        let scene = builtin.scene(None).expect("built-in scenes are valid");
         let golden = builtin.golden();
         for choice in choices {
             let accel = choice.build(&scene.mesh).expect("a valid mesh builds");

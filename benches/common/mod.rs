@@ -22,7 +22,7 @@ pub fn scenes() -> Vec<Scene> {
 
 /// A built-in scene with its procedural mesh.
 pub fn scene(name: &str) -> Scene {
-    Builtin::find(name).and_then(|builtin| builtin.scene(None)).expect("a built-in scene is whole")
+    Builtin::find(name).and_then(|builtin| builtin.scene(None)).expect("built-in scenes are valid")
 }
 
 /// Prints how long all benches of `build` or `traverse` take at least. Prints nothing in a test, or if the command has

@@ -34,7 +34,7 @@ pub enum FetchError {
     Address { file: String, url: String },
     #[error("{} exists with other contents (SHA-256 {found}, not {expected}): rename or remove it and fetch again", path.escaped())]
     Other { path: PathBuf, found: String, expected: String },
-    #[error("{url}: the server answers {status}: {}", advice(*status))]
+    #[error("{url}: the server responds with status {status}: {}", advice(*status))]
     Status { url: String, status: u16 },
     #[error("{url}: {cause}: check the connection and fetch again")]
     Connection { url: String, cause: String },
@@ -57,7 +57,7 @@ pub enum FetchError {
 fn advice(status: u16) -> &'static str {
     match status {
         404 | 410 => "the file is gone; `sahara fetch --list` prints its origin, to search for another copy",
-        401 | 403 => "it restricts access to the file",
+        401 | 403 => "the server restricts access to the file",
         429 | 500.. => "try again later",
         _ => "open the address in a browser",
     }

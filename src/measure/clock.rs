@@ -93,7 +93,7 @@ impl CpuClock {
 impl Clock for CpuClock {
     #[inline]
     fn now_ns(&self) -> u64 {
-        self.read_ns().expect("it was there before the work")
+        self.read_ns().expect("the system had this clock before the work")
     }
 }
 

@@ -49,7 +49,7 @@ use super::summary::{Variance, mean, median};
 pub fn log_ratios(numerator: &[f64], denominator: &[f64], epochs: usize) -> Vec<Vec<f64>> {
     assert_eq!(numerator.len(), denominator.len(), "samples come in pairs");
     assert!(epochs > 0 && numerator.len().is_multiple_of(epochs), "each epoch has the same number of rounds");
-    assert!(numerator.iter().chain(denominator).all(|&t| t > 0.0), "a sample takes time");
+    assert!(numerator.iter().chain(denominator).all(|&t| t > 0.0), "samples must be positive");
     let logs: Vec<f64> = numerator.iter().zip(denominator).map(|(a, b)| libm::log(a / b)).collect();
     logs.chunks((logs.len() / epochs).max(1)).map(<[f64]>::to_vec).collect()
 }

@@ -109,8 +109,8 @@ pub fn denormals(mxcsr: Option<u32>) -> &'static str {
     match (word & 1 << 15 != 0, word & 1 << 6 != 0) {
         (false, false) => "kept",
         (true, false) => "results flushed to zero",
-        (false, true) => "operands taken for zero",
-        (true, true) => "operands taken for zero, results flushed to zero",
+        (false, true) => "denormal operands read as zero",
+        (true, true) => "denormal operands read as zero, results flushed to zero",
     }
 }
 
@@ -140,7 +140,7 @@ mod tests {
     fn what_happens_to_small_numbers_is_said_in_words() {
         assert_eq!(denormals(Some(0x1f80)), "kept");
         assert_eq!(denormals(Some(0x9f80)), "results flushed to zero");
-        assert_eq!(denormals(Some(0x9fc0)), "operands taken for zero, results flushed to zero");
+        assert_eq!(denormals(Some(0x9fc0)), "denormal operands read as zero, results flushed to zero");
         assert_eq!(denormals(None), "unknown");
         // Nothing in this crate may flush denormals: hits would differ between machines.
         assert!(matches!(denormals(mxcsr()), "kept" | "unknown"));

@@ -93,7 +93,7 @@ impl<'a> Pass<'a> {
     /// # Panics
     /// If there are no rays.
     pub fn new(accel: &'a dyn DynAccel, rays: &'a [Ray], query: Query, threads: &'a Threads) -> Self {
-        assert!(!rays.is_empty(), "a pass has rays");
+        assert!(!rays.is_empty(), "a pass needs at least one ray");
         let mut pass = Self {
             accel,
             threads,

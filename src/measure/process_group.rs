@@ -154,7 +154,7 @@ mod tests {
         let mut line = String::new();
         BufReader::new(shell.stdout.take().unwrap()).read_line(&mut line).unwrap();
         end_started_by(shell.id());
-        assert_eq!(shell.wait().unwrap().code(), Some(128 + Signal::SIGKILL as i32), "what the shell says of it");
+        assert_eq!(shell.wait().unwrap().code(), Some(128 + Signal::SIGKILL as i32), "the shell reports the signal");
     }
 
     fn shell(script: &str, limit: Duration) -> Option<Output> {

@@ -109,7 +109,7 @@ impl Provenance {
         (threads > cores).then(|| {
             let all = plural(*cores, "core");
             format!(
-                "{threads} threads share {all}, so times represent neither {threads} nor {cores} threads: use \
+                "{threads} threads share {all}, so the times are not valid for {threads} or for {cores} threads: use \
                  at most --threads {cores}"
             )
         })

@@ -15,7 +15,7 @@ pub const LEVEL: f64 = 0.05;
 /// If `freedom` is less than 1, or `level` does not lie between a millionth and 1.
 pub fn factor(freedom: f64, level: f64) -> f64 {
     assert!(freedom >= 1.0, "an interval needs a degree of freedom");
-    assert!((1e-6..1.0).contains(&level), "an interval leaves a chance of at least a millionth to its outside");
+    assert!((1e-6..1.0).contains(&level), "the level must be at least 1e-6 and below 1");
     // Cache the last factor: tables use the same factor many times.
     thread_local! {
         static LAST: Cell<(f64, f64, f64)> = const { Cell::new((0.0, 0.0, 0.0)) };

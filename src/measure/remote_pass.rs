@@ -51,7 +51,7 @@ impl<'a> RemotePass<'a> {
     /// # Panics
     /// If there are no rays.
     pub fn new(accel: &'a dyn DynAccel, remote: &'a dyn Remote, rays: &'a [Ray], query: Query) -> (Self, Failure) {
-        assert!(!rays.is_empty(), "a pass has rays");
+        assert!(!rays.is_empty(), "a pass needs at least one ray");
         let failure = Failure::default();
         let mut pass = Self {
             accel,

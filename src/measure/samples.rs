@@ -103,11 +103,11 @@ pub fn take(
     samples: &mut [Samples],
     progress: &mut dyn FnMut(usize),
 ) {
-    assert_eq!([cases.len(); 2], [samples.len(), compared.len()], "samples are of the same cases");
+    assert_eq!([cases.len(); 2], [samples.len(), compared.len()], "one entry of each per case");
     let watch = Stopwatch::new(clock);
     let mut levels_of = vec![];
     for (case, samples) in cases.iter_mut().zip(samples.iter_mut()) {
-        let level_of = |rays: usize| level_of(case.rays(), rays).expect("a part has the rays of a level");
+        let level_of = |rays: usize| level_of(case.rays(), rays).expect("the rays of a level");
         let mut levels = vec![level_of(samples.rays)];
         levels.extend(samples.parts.iter().map(|part| level_of(part.rays)));
         if let Some(level) = samples.asked {

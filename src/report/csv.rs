@@ -21,13 +21,13 @@ pub fn table(table: &Table) -> Vec<u8> {
     if !columns.is_empty() {
         let names = |name: &String| ENDINGS.map(|ending| format!("{name}{ending}"));
         let names = table.columns.iter().zip(&columns).flat_map(|(name, column)| kept(names(name), *column));
-        writer.write_record(names.collect::<Vec<_>>()).expect("memory takes every write");
+        writer.write_record(names.collect::<Vec<_>>()).expect("writing to memory cannot fail");
     }
     for row in &table.rows {
         let fields = row.iter().zip(&columns).flat_map(|(cell, column)| kept(fields(cell), *column));
         writer.write_record(fields.collect::<Vec<_>>()).expect("all rows have the same columns");
     }
-    writer.into_inner().expect("memory takes every write")
+    writer.into_inner().expect("writing to memory cannot fail")
 }
 
 fn fields(cell: &Cell) -> [String; 4] {

@@ -22,7 +22,7 @@ pub fn serialize<S: Serializer>(name: impl AsRef<OsStr>, serializer: S) -> Resul
 pub fn deserialize<'de, D: Deserializer<'de>, N: From<OsString>>(deserializer: D) -> Result<N, D::Error> {
     match Name::deserialize(deserializer)? {
         Name::Text(text) => Ok(OsString::from(text).into()),
-        Name::Bytes(bytes) => of_bytes(bytes).map(N::from).ok_or_else(|| serde::de::Error::custom("no name of a file")),
+        Name::Bytes(bytes) => of_bytes(bytes).map(N::from).ok_or_else(|| serde::de::Error::custom("not a file name")),
     }
 }
 

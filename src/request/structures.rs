@@ -135,7 +135,7 @@ pub fn guide(registry: &Registry) -> anyhow::Result<Choice> {
 pub struct Structures {
     /// Structure with options (see `sahara list NAME`); may be repeated; `all` selects every structure once [default:
     /// in `compare`, all and sah-hybrid:batch=packets; in `scaling`, median-kd, sah-kd, sah-kd-wide, sah-hybrid,
-    /// sah-bvh and the two of obvhs]
+    /// sah-bvh, obvhs-bvh2 and obvhs-cwbvh]
     #[arg(long, short, value_name = "NAME[:key=value,..]")]
     pub structure: Vec<String>,
     /// Build quality of the eight-wide trees (sah-kd-wide, sah-kd-tight, sah-hybrid, sah-bvh) that do not set

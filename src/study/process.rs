@@ -75,7 +75,7 @@ pub fn measure_apart(
             continue;
         };
         let _ = write!(io::stderr(), "{own}");
-        match serde_json::from_str(message).map_err(|cause| failure(format!("it said {message:?}: {cause}")))? {
+        match serde_json::from_str(message).map_err(|cause| failure(format!("bad message {message:?}: {cause}")))? {
             Message::Stage(stage) => progress(stage),
             Message::Failed { sentence, of_one_scene, wrong_answer } => {
                 return Err(StudyError::Reported { sentence, of_one_scene, wrong_answer });
@@ -153,7 +153,7 @@ pub fn measure_into(
         Ok(())
     };
     if out.exists() {
-        return check_same().map(|()| Some("already holds this case: nothing is measured."));
+        return check_same().map(|()| Some("already contains this case: nothing is measured."));
     }
     let file = CaseFile::place(out)?;
     let prepared = Prepared::new(case, registry, None)?;

@@ -124,7 +124,7 @@ impl Chromium {
     }
 
     pub fn text(&mut self, expression: &str) -> String {
-        self.evaluate(expression).as_str().unwrap_or_else(|| panic!("{expression} is no text")).to_owned()
+        self.evaluate(expression).as_str().unwrap_or_else(|| panic!("{expression} is not a string")).to_owned()
     }
 
     /// The text of an expression, once `is_wanted` accepts it.

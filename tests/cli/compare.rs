@@ -29,7 +29,7 @@ fn results_go_to_files_that_read_back() {
     let [printed, messages] = folder.ends(status, &format!("compare Cube {SMALL} {files}"));
     // A warning, or the progress of a long run.
     let is_line_of_log = |line: &str| line.starts_with("warning: ") || line.contains(" %: ");
-    assert!(messages.lines().all(is_line_of_log), "no bar where nobody looks: {messages}");
+    assert!(messages.lines().all(is_line_of_log), "no progress bar without a terminal: {messages}");
 
     let mut rows = rows(folder.path("r.json"));
     let measured = rows.len();
@@ -59,7 +59,7 @@ fn results_go_to_files_that_read_back() {
         let short = structure.split(':').next_back().unwrap();
         assert!(text.contains(&format!("| {structure} |")) && printed.contains(short), "{text}\n{printed}");
     }
-    assert!(!printed.contains('\x1b'), "no colour where nobody looks");
+    assert!(!printed.contains('\x1b'), "no colour without a terminal");
     assert_eq!(folder.names(), ["r.csv", "r.json", "r.md"], "nothing else is left behind");
 }
 
@@ -77,7 +77,7 @@ fn a_file_without_camera_is_compared_and_rendered() {
     let decoded = image::open(folder.path("square.png")).unwrap().into_rgb8();
     assert_eq!(decoded.dimensions(), (20, 10));
     let colours: HashSet<_> = decoded.pixels().collect();
-    assert_eq!(colours.len(), 3, "two triangles and nothing");
+    assert_eq!(colours.len(), 3, "two triangles and the background");
 }
 
 #[test]

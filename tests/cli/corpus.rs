@@ -89,7 +89,7 @@ fn what_a_corpus_cannot_be_made_of_is_refused_and_nothing_of_others_is_replaced(
     ] {
         folder.refuses_in_a_line(&format!("rays corpus {options}"), parts);
     }
-    assert!(!folder.path("d").exists(), "what was refused has left a folder");
+    assert!(!folder.path("d").exists(), "a refused command created a folder");
     assert_eq!(files(&folder.path("theirs")).len(), 1);
 
     // A corpus must not be made from files that it replaces.

@@ -62,7 +62,7 @@ fn interrupted(folder: &Folder, more: &str) -> String {
 
 /// The number of cases that an interrupted run reports as measured: all 8 of the first scene, fewer of the second.
 fn measured(text: &str) -> usize {
-    let said = text.split("Interrupted: ").nth(1).unwrap_or_else(|| panic!("it does not say so: {text}"));
+    let said = text.split("Interrupted: ").nth(1).unwrap_or_else(|| panic!("no line about the interruption: {text}"));
     let number = said.split(' ').next().unwrap().parse().unwrap();
     assert!(said.contains(&format!(" of {CASES} cases")) && (8..CASES).contains(&number), "{text}");
     number
@@ -82,7 +82,7 @@ fn is_left(folder: &Folder) {
         thread::sleep(Duration::from_millis(10));
         processes(folder) == 0
     });
-    assert!(is_left, "{} processes go on", processes(folder));
+    assert!(is_left, "{} processes still run", processes(folder));
 }
 
 #[test]
@@ -90,7 +90,7 @@ fn what_is_interrupted_is_shown_and_nothing_goes_on() {
     let folder = Folder::new();
     let text = interrupted(&folder, "--export-json r.json");
     let before = measured(&text);
-    assert_eq!(processes(&folder), 0, "nothing goes on in the background");
+    assert_eq!(processes(&folder), 0, "no process may remain");
     assert!(before == 8 || text.contains(&format!(" ({} of 8 epochs)", before - 8)), "{text}");
     assert!(text.contains("--dir DIR keeps") && folder.names().is_empty(), "{text}");
 }

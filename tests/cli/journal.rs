@@ -29,7 +29,7 @@ pub fn answers(runs: &Path, study: &str) -> BTreeMap<String, Value> {
                 rays["parts"].as_array_mut().unwrap().iter_mut().for_each(|part| part["ns"] = Value::Null);
             }
         }
-        assert!(answers.insert(key.clone(), epoch).is_none(), "{key} is there twice");
+        assert!(answers.insert(key.clone(), epoch).is_none(), "{key} occurs twice");
     }
     answers
 }

@@ -61,7 +61,7 @@ fn a_plan_is_one_command_a_case_with_a_file_of_its_own() {
         let name = path.file_name().unwrap().to_str().unwrap().strip_suffix(".json").unwrap();
         assert!(name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-'), "{name}");
     }
-    assert!(files.len() == 4 && !dir.exists(), "nothing is made");
+    assert!(files.len() == 4 && !dir.exists(), "a plan creates no files");
 
     // A repeated study is planned once; scenes add up, as in all commands.
     assert_eq!(plan(&dir, "compare compare --scenes cube"), plan(&dir, "compare --scenes cube"));
@@ -148,7 +148,7 @@ fn a_job_measures_once_and_refuses_what_is_not_its_own() {
     let both = both.map(|child| child.wait_with_output().unwrap());
     assert!(both.iter().all(|output| output.status.code() == Some(RIGHT)), "{both:?}");
     let is_other = |output: &&Output| {
-        ["already holds this case", "its case is kept"].iter().any(|part| said(output)[1].contains(part))
+        ["already contains this case", "its case is kept"].iter().any(|part| said(output)[1].contains(part))
     };
     assert_eq!(both.iter().filter(is_other).count(), 1, "{both:?}");
     assert_eq!(fs::read_dir(folder.path("attribution")).unwrap().count(), 1);
@@ -166,7 +166,7 @@ fn a_job_measures_once_and_refuses_what_is_not_its_own() {
     // The scene of a job must be unchanged since the plan, and each of its threads needs a core.
     let hash = &lines[1].split("\"hash\":\"").nth(1).unwrap()[..16];
     for (from, to, part) in [
-        (file(&lines[1]).to_str().unwrap(), path.to_str().unwrap(), "holds another case"),
+        (file(&lines[1]).to_str().unwrap(), path.to_str().unwrap(), "contains another case"),
         (hash, "0123456789abcdef", "plan it again"),
         (&format!("\"word\":\"{mesh}"), "\"word\":\"torus", "plan it again"),
     ] {

@@ -65,7 +65,7 @@ impl Case {
         let mesh = match Mesh::new(self.positions.clone(), self.triangles.clone()) {
             Ok(mesh) => Arc::new(mesh),
             Err(refusal) if refusal.to_string().contains(' ') => return Ok(()),
-            Err(refusal) => return Err(format!("{refusal:?} is no sentence: {self:?}")),
+            Err(refusal) => return Err(format!("{refusal:?} is not a sentence: {self:?}")),
         };
         let registry = Registry::builtin();
         let blame = |what: String| format!("{what}\n{self:?}");

@@ -117,7 +117,7 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
     }
     let mask = args.mask.as_deref().map(|path| read_mask(path, terminal)).transpose()?;
     let waiting = spinner("comparing pictures", terminal);
-    let title = format!("{} against {}", args.actual.escaped(), args.expected.escaped());
+    let title = format!("{} compared with {}", args.actual.escaped(), args.expected.escaped());
     let comparisons = outputs.with_page(&title, |page| {
         let compared = pairs.par_iter().enumerate();
         compared.map(|(number, pair)| compare(number, pair, args, mask.as_ref(), page)).collect::<io::Result<Vec<_>>>()

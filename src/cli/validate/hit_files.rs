@@ -33,7 +33,7 @@ impl Run<'_> {
     ) -> anyhow::Result<Status> {
         let (args, workload) = (self.args, &file.workload);
         let [choice] = &self.structures[..] else {
-            anyhow::bail!("a hit file holds the hits of one structure: name one with --structure");
+            anyhow::bail!("a hit file contains the hits of one structure: name one with --structure");
         };
         let output = request::output(self.registry, to, &args.scenes, args.source().file())?;
         let label = &choice.label;

@@ -52,7 +52,7 @@ impl Run<'_> {
         }
         let hits: Vec<u64> = outcomes.iter().filter_map(|own| Some(own.found.as_ref().ok()?.hits)).collect();
         if args.ray.is_empty() && !hits.is_empty() && hits.iter().all(|&hits| hits == 0) {
-            shown.push("The reference hits nothing: no hit could be lost, so this run shows little.".into());
+            shown.push("No ray hits anything in the reference, so this run cannot find lost hits.".into());
         }
         terminal.print_table(&scene_table(scene, &rays, &self.reference, &outcomes, shown));
         terminal.print_notes(notes.into_iter().map(|note| format!("{}: {note}", scene.name)));

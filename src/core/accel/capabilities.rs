@@ -55,7 +55,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_what_is_declined_is_not_asked() {
+    fn rays_are_declined_only_for_unsupported_features() {
         let whole = Ray::new(Vec3::ZERO, Vec3::X);
         let (late, short) = (Ray { t_min: 0.5, ..whole }, whole.until(2.0));
         let odd = whole.until(f32::NAN);

@@ -2,9 +2,9 @@
 
 /// Receives the events of a traversal. Every method does nothing by default, so `()` compiles to nothing.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` cannot watch a traversal",
+    message = "`{Self}` is not an observer of a traversal",
     label = "does not implement `Observer`",
-    note = "pass `&mut ()` to watch nothing, or `&mut Counts::default()` to count steps and tests"
+    note = "pass `&mut ()` to observe nothing, or `&mut Counts::default()` to count steps and tests"
 )]
 pub trait Observer {
     /// Whether the observer uses the events. If not, a structure may take a faster path that reports no events.

@@ -27,7 +27,7 @@ pub enum BuildError {
     #[error("{0}")]
     Remote(String),
     /// The rays need a feature that the structure declines.
-    #[error("declined: it does not support {0}, which these rays need")]
+    #[error("declined: these rays need {0}, which the structure does not support")]
     Declined(&'static str),
     /// The structure's own code panicked.
     #[error("its builder panicked on this mesh: omit the structure, or check for extreme coordinates")]
@@ -270,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn any_hit_is_by_default_whether_there_is_a_closest_hit() {
+    fn the_default_any_hit_follows_from_the_closest_hit() {
         let until = |t_max| Ray::new(Vec3::ZERO, Vec3::X).until(t_max);
         // A `t` before `t_max` may round to it: the default trusts a structure that supports `t_max`.
         assert!(AtOne::<true>.any_hit(&until(1.0), &mut ()));

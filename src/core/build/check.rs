@@ -114,7 +114,7 @@ pub fn leaves(tree: &BinaryTree, most: u32) -> Vec<(Aabb, &[u32])> {
         }
     }
     assert_eq!(next as usize, tree.references.len());
-    assert!(stack.is_empty(), "every node exists");
+    assert!(stack.is_empty(), "every child is a node of the tree");
     found
 }
 

@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_of_the_triangle_in_the_cell_is_lost_and_sides_of_a_cut_are_the_boxes_of_their_polygons() {
+    fn clipped_boxes_contain_their_parts_and_cut_boxes_match_their_polygons() {
         let mut rng = rand_pcg::Pcg32::seed_from_u64(11);
         let (mut seen, mut cuts) = (0, 0);
         for _ in 0..20_000 {
@@ -185,7 +185,7 @@ mod tests {
                 cuts += 1;
             }
         }
-        assert!(seen > 5_000 && cuts > 1_000, "too few points and cuts to prove anything: {seen} {cuts}");
+        assert!(seen > 5_000 && cuts > 1_000, "too few points and cuts for a meaningful test: {seen} {cuts}");
     }
 
     #[test]
@@ -205,7 +205,7 @@ mod tests {
 
     /// Planes close to 0 cut triangles with large coordinates: the corner error exceeds the distances of the planes.
     #[test]
-    fn nothing_is_lost_where_edges_almost_lie_in_planes() {
+    fn clipping_keeps_every_point_of_edges_near_planes() {
         use std::cmp::Ordering::{Equal, Greater, Less};
         const SMALL: f32 = 1e-12;
         let mut rng = rand_pcg::Pcg32::seed_from_u64(12);
@@ -245,6 +245,6 @@ mod tests {
                 }
             }
         }
-        assert!(cuts > 20_000, "too few cuts to prove anything: {cuts}");
+        assert!(cuts > 20_000, "too few cuts for a meaningful test: {cuts}");
     }
 }

@@ -176,7 +176,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_door_names_what_it_refuses() {
+    fn new_reports_the_invalid_element() {
         let points = vec![Vec3::ZERO, Vec3::X, Vec3::new(0.0, f32::NAN, 1.0)];
         let error = Mesh::new(points, vec![]).unwrap_err();
         assert!(matches!(error, MeshError::NotFinite { vertex: 2, .. }), "{error}");
@@ -198,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn collinear_is_what_the_predicates_of_shewchuk_say() {
+    fn collinear_agrees_with_the_predicates_of_shewchuk() {
         let mut rng = rand_pcg::Pcg32::seed_from_u64(3);
         let mut found = [0; 2];
         for round in 0..30_000 {

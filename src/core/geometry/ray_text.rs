@@ -109,7 +109,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_whole_half_line_needs_no_interval_and_blanks_commas_or_both_stand_between_numbers() {
+    fn half_lines_omit_the_interval_and_blanks_or_commas_separate_numbers() {
         let ray = Ray::new(Vec3::new(0.0, 1.5, -2.0), Vec3::new(-0.0, 0.0, 1e-30));
         assert_eq!(ray.to_string(), "0.0,1.5,-2.0 -0.0,0.0,1e-30");
         assert_eq!("0,1.5,-2 -0,0,1e-30 [0,inf)".parse(), Ok(ray));
@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_a_ray_is_named() {
+    fn parse_errors_quote_the_fault() {
         let error = |text: &str| text.parse::<Ray>().unwrap_err().to_string();
         assert!(error("").contains("has 0 numbers") && error("1,2,3 [0,1]").contains("has 3 numbers"));
         assert!(error("1,2,3 4,5").contains("the ray \"1,2,3 4,5\" has 5 numbers"));
@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn what_hits_nothing_anywhere_is_refused_with_its_fault() {
+    fn rays_that_cannot_hit_are_rejected_with_the_reason() {
         let fault = |text: &str| Ray::parse_valid(text).unwrap_err().to_string();
         for (text, part) in [
             ("0 0 0 0 -0 0", "direction is zero"),

@@ -74,7 +74,7 @@ pub fn draw(runs: &Runs, registry: &Registry, progress: &mut dyn FnMut(String)) 
         parts.is_some_and(|(name, _)| registry.has_generator(name))
     };
     for request in runs.scenes().into_iter().filter(|request| !is_generated(&request.word)) {
-        progress(format!("loads {}", request.name));
+        progress(format!("loading {}", request.name));
         match request.load(registry) {
             Ok(scene) => loaded.push(LoadedScene { scene, request }),
             Err(_) => lost.push(request.name),
@@ -82,7 +82,7 @@ pub fn draw(runs: &Runs, registry: &Registry, progress: &mut dyn FnMut(String)) 
     }
     let mut pictures = vec![];
     for own in &loaded {
-        progress(format!("draws {}", own.scene.name));
+        progress(format!("drawing {}", own.scene.name));
         match scenes::picture(own, registry) {
             Some(picture) => pictures.push(picture),
             None => lost.push(own.scene.name.clone()),
@@ -92,7 +92,7 @@ pub fn draw(runs: &Runs, registry: &Registry, progress: &mut dyn FnMut(String)) 
     largest.sort_by_key(|own| std::cmp::Reverse(own.scene.mesh.len()));
     let (mut heat, mut errors) = (vec![], vec![]);
     for own in largest.into_iter().take(LARGEST) {
-        progress(format!("drawing heat and errors of {}", own.scene.name));
+        progress(format!("drawing heat maps and error maps of {}", own.scene.name));
         let rays = CameraRays::new(own, runs, registry);
         heat.extend(heat::maps(&rays).map(|maps| maps.figure(HEAT.id, &rays)));
         errors.extend(errors::maps(&rays).map(|maps| match maps {

@@ -186,7 +186,7 @@ impl RunFacts {
     pub fn sentence(&self) -> String {
         let [first, last] = &self.days;
         let days = if first == last { first.clone() } else { format!("{first} to {last}") };
-        let threads = if self.threads > 1 { "one thread where no other number is named" } else { "one thread" };
+        let threads = if self.threads > 1 { "one thread unless another number is given" } else { "one thread" };
         let Self { version, commit, cpu, simd, .. } = self;
         format!(
             "All numbers come from one run of sahara {version}, commit {commit}, on {threads} ({cpu}, {simd}), {days}."

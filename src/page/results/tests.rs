@@ -121,7 +121,7 @@ fn results_need_one_commit_and_state_the_threads() {
     let other = Provenance { commit: "0ther".into(), ..provenance("x") };
     let Err(error) = two(other) else { panic!("two commits were accepted as one run") };
     assert!(error.to_string().contains("more than one commit (0ther, c0ffee)"), "{error}");
-    for (threads, part) in [(1, "on one thread ("), (2, "where no other number is named")] {
+    for (threads, part) in [(1, "on one thread ("), (2, "unless another number is given")] {
         let sentence = two(Provenance { threads, ..provenance("x") }).unwrap().data.run.sentence();
         assert!(sentence.contains(part), "{sentence}");
     }

@@ -24,7 +24,7 @@ pub enum JournalError {
     Place(OutputError),
     #[error("{} is not a case of a study: move it away, or name another folder", .0.escaped())]
     Foreign(PathBuf),
-    #[error("{} holds another case: name another file with --out", .0.escaped())]
+    #[error("{} contains another case: name another file with --out", .0.escaped())]
     Other(PathBuf),
     #[error(
         "{} has version {there} of the case format, but this sahara uses version {here}: choose another folder, or \

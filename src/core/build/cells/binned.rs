@@ -223,7 +223,7 @@ mod tests {
 
     /// The sample has only short triangles. All other triangles are long, and a plane across x cuts them.
     #[test]
-    fn a_sample_that_is_wrong_about_the_budget_is_not_the_last_word() {
+    fn a_cut_over_budget_is_searched_again_without_a_sample() {
         let stride = 20;
         let needles = mesh(512 * stride, |i| {
             let y = i as f32 * 1e-3;

@@ -26,7 +26,7 @@ fn cells_as_tight_boxes_partition_space_and_lose_nothing() {
 }
 
 #[test]
-fn cells_that_cannot_be_cut_are_dealt_out() {
+fn full_cells_without_a_cut_become_several_leaves() {
     let coincident = check::mesh(1000, |_| [Vec3::X, Vec3::Y, Vec3::Z]);
     for config in cells() {
         let tree = build(&coincident, &config, 4.0);

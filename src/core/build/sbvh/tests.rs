@@ -32,7 +32,7 @@ fn every_point_of_every_triangle_is_in_a_leaf_and_spatial_splits_alone_partition
             assert!(config.splits != Splits::Object || references == mesh.len(), "{config:?}: {references}");
             if config.splits == Splits::Spatial {
                 let leaves = leaves(&tree, 64);
-                assert!(leaves.len() > 30, "too few leaves to prove anything");
+                assert!(leaves.len() > 30, "too few leaves for a meaningful test");
                 disjoint(&leaves);
             }
         }
@@ -40,7 +40,7 @@ fn every_point_of_every_triangle_is_in_a_leaf_and_spatial_splits_alone_partition
 }
 
 #[test]
-fn no_input_explodes() {
+fn references_and_depth_stay_bounded() {
     let n = 3000;
     let diagonals = mesh(n, |i| {
         let x = i as f32;
@@ -109,7 +109,7 @@ fn a_floor_and_a_wall_are_separate_leaves_and_tiles_of_a_floor_are_not() {
 }
 
 #[test]
-fn nothing_and_next_to_nothing_build() {
+fn empty_single_and_extreme_meshes_build() {
     let line = [Vec3::ZERO, Vec3::X, Vec3::X * 2.0];
     let one = [Vec3::X, Vec3::Y, Vec3::Z];
     let huge = one.map(|p| (p - 0.5) * f32::MAX * 1.5);

@@ -20,7 +20,7 @@ use canvas::{Area, DrawResult, register};
 use palette::{PAPER, colours};
 
 /// Drawing into memory with a registered font cannot fail.
-const DRAWN: &str = "memory takes every stroke, and the font is registered";
+const DRAWN: &str = "drawing into memory cannot fail, and the font is registered";
 
 impl Chart {
     /// Width and height in pixels for the requested `width`.
