@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Runs a plan on an engine, disturbs it, and holds the result against that of an undisturbed run.
+"""Runs a plan on an engine, disturbs it, and compares its results with those of an undisturbed run.
 
     disturb.py local    Snakemake on this machine
     disturb.py slurm    Snakemake with the Slurm executor, on a cluster of one node that is started for the test
-    disturb.py array    slurm-array.sh, likewise
+    disturb.py array    slurm-array.sh, on the same cluster
 
 SAHARA names the program. All files are below a temporary folder, which is kept when the test fails.
 """
@@ -32,7 +32,7 @@ PATIENCE = 600
 
 
 class Job:
-    """A job that has begun, as record.sh has noted it."""
+    """A job that has begun, as recorded by record.sh."""
 
     def __init__(self, line):
         process, there, self.slurm, self.file = line.split(" ", 3)
@@ -47,9 +47,9 @@ class Job:
 
 
 class Watch(threading.Thread):
-    """Looks at the results all the time: one that is there must stay the same file with the same content.
+    """Watches the results: an existing file must keep its inode and its content.
 
-    Its time of modification is no sign: Snakemake sets that of the files of a job that is done.
+    Modification times do not matter: Snakemake sets them for the files of a finished job.
     """
 
     def __init__(self, folder):
@@ -77,7 +77,7 @@ class Disturbed:
         self.in_vain = Counter()
 
     def jobs(self):
-        """All that have begun."""
+        """All jobs that have begun."""
         notes = self.place / "jobs"
         return [Job(line) for line in notes.read_text().splitlines()] if notes.exists() else []
 
@@ -95,11 +95,11 @@ class Disturbed:
         return found[-1]
 
     def said(self, job):
-        """What a job has said on standard error."""
+        """The standard error of a job."""
         return (self.place / f"{job.process}.err").read_text()
 
     def killed(self):
-        """A job is killed with -9: nothing of it may count."""
+        """A job is killed with -9: it must leave no result."""
         job = self.new_job()
         os.kill(job.process, signal.SIGKILL)
         self.in_vain[job.file] += 1
@@ -121,7 +121,7 @@ class Disturbed:
         return f"measured {job.file} twice at once"
 
     def repeated(self):
-        """A job for a case that is measured already: it measures nothing."""
+        """A job for a case that is already measured: it measures nothing."""
         file = next(iter(self.watch.seen)).relative_to(self.place)
         subprocess.run(["sh", "-c", SHELL + self.plan[str(file)]], cwd=self.place, check=True)
         job = [job for job in self.jobs() if job.file == str(file)][-1]
@@ -129,7 +129,7 @@ class Disturbed:
         return f"repeated {file}"
 
     def filled(self):
-        """The disk is full when a job wants to write: it says so, and there is no file."""
+        """The disk is full when a job writes: it reports an error and leaves no file."""
         folder = self.place / "runs"
         if not os.path.ismount(folder):
             return "skipped the full disk: only root may mount a small one"
@@ -164,7 +164,7 @@ class Disturbed:
         return f"requeued {job.file}"
 
     def drained(self):
-        """A node is drained: what runs ends, nothing begins; then it is resumed."""
+        """A node is drained: running jobs finish and no job starts; then it is resumed."""
         job = self.new_job()
         node = output("sinfo", "--noheader", "--format=%n").strip()
         output("scontrol", "update", f"NodeName={node}", "State=DRAIN", "Reason=test")
@@ -179,7 +179,7 @@ class Disturbed:
 
 
 def wait(until, what):
-    """Waits until something is so."""
+    """Waits until a condition holds."""
     end = time.monotonic() + PATIENCE
     while not until():
         assert time.monotonic() < end, f"not within {PATIENCE} s: {what}"
@@ -191,7 +191,7 @@ SHELL = 'sahara() { command "$SAHARA" "$@"; }\n'
 
 
 def planned(folder):
-    """Plans for the results of a folder. The lines by their files."""
+    """Returns the lines of the plan for a folder by their files."""
     plan = output(os.environ["MEASURES"], "study", "plan", *STUDIES, *OPTIONS, "--dir", "runs", cwd=folder)
     lines = plan.splitlines()
     assert len({line.split()[-1] for line in lines}) == len(lines) > 0, f"two jobs for one file, or none: {plan}"
@@ -212,7 +212,7 @@ def report(folder):
 
 
 def disturbed(name, place):
-    """The plan on an engine, with everything that may happen to it."""
+    """The plan on an engine, with all disturbances."""
     (place / "runs").mkdir(parents=True)
     with small_disk(place / "runs"), cluster(place.parent / "slurm", name != "local"):
         watch = Watch(place / "runs")

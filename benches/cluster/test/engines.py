@@ -1,4 +1,4 @@
-"""The engines: how the jobs of a plan are started on each, and whether it still has some."""
+"""The engines: how the jobs of a plan are started on each, and whether jobs remain."""
 
 import contextlib
 import os
@@ -41,12 +41,12 @@ class Snakemake:
         return self.process.poll() is not None
 
     def succeeded(self):
-        """Whether it says that all is done."""
+        """Whether it exited successfully."""
         return self.process.wait() == 0
 
     @contextlib.contextmanager
     def paused(self):
-        """Meanwhile no failed job is run again: how often it was begun would be chance."""
+        """While paused, no failed job is retried; otherwise the number of starts would be random."""
         self.process.send_signal(signal.SIGSTOP)
         try:
             yield
@@ -54,14 +54,14 @@ class Snakemake:
             self.process.send_signal(signal.SIGCONT)
 
     def stop(self):
-        """Ends it. Asked to end, it waits for its jobs, which may wait for a node that is drained."""
+        """Kills it: on SIGTERM it would wait for its jobs, possibly on a drained node."""
         if not self.is_over():
             self.process.kill()
             self.process.wait()
 
 
 class Array:
-    """slurm-array.sh. A task that fails has failed; the same array again measures what is missing."""
+    """slurm-array.sh. A failed task is not retried; submitting the array again measures the missing cases."""
 
     def __init__(self, place, studies, options):
         self.place = place
@@ -95,7 +95,7 @@ class Array:
 
 
 def engine(name, place, studies, options):
-    """The engine of that name, working in the folder `place`; a sentence where what it needs is not here."""
+    """The engine of that name, working in the folder `place`; exits with a message if a program is missing."""
     needed = {"local": ["snakemake"], "slurm": ["snakemake", "slurmctld", "munged"], "array": ["slurmctld", "munged"]}
     if name not in needed:
         sys.exit(f"there is no engine {name}: it is one of {', '.join(needed)}")

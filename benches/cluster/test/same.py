@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Whether two runs of one plan have the same counts and answers: whatever no clock decides.
+"""Compares two runs of one plan in all fields that do not depend on time, such as counts and hits.
 
     same.py RUNS OTHER_RUNS [REPORT OTHER_REPORT]
 
@@ -24,7 +24,7 @@ TABLES_OF_TIMES = {"replicate.csv"}
 
 
 def counts(value, of=""):
-    """A result without its times: of each is left whether it is known, and of samples how many there are."""
+    """A result in which each time is replaced by whether it is known, and each list of samples by its length."""
     if isinstance(value, dict):
         is_moment = lambda name: name in OF_CASES or f"{of}.{name}" in OF_CASES
         return {name: known(field) if is_moment(name) else counts(field, name) for name, field in value.items()}
@@ -32,12 +32,12 @@ def counts(value, of=""):
 
 
 def known(time):
-    """What is left of a time, or of several."""
+    """Whether a time is known; for a list, its length."""
     return len(time) if isinstance(time, list) else time is not None
 
 
 def difference(one, other, where=""):
-    """Where two values differ first; nothing where they do not."""
+    """The first difference of two values, or None."""
     if isinstance(one, dict) and isinstance(other, dict):
         for name in [*one, *(name for name in other if name not in one)]:
             if found := difference(one.get(name), other.get(name), f"{where}.{name}"):
@@ -55,7 +55,7 @@ def results(folder):
 
 
 def rows(report):
-    """The rows of a report, by file and row, likewise without times."""
+    """The rows of a report, by file and row, with times replaced in the same way."""
     found = {}
     for file in sorted(Path(report).glob("data/*.csv")):
         if file.name in TABLES_OF_TIMES:
@@ -68,7 +68,7 @@ def rows(report):
 
 
 def different(read, one, other):
-    """What differs between two folders, a sentence each."""
+    """The differences between two folders, one sentence each."""
     one, other = read(one), read(other)
     if not one:
         return ["there is nothing to compare"]
