@@ -4,10 +4,10 @@ use std::ffi::OsStr;
 use std::fmt::{self, Display, Formatter};
 use std::path::Path;
 
-/// A file may have any name: an escape sequence in it would change the terminal, a line break would break a table, and
-/// two names with different bytes that are not text would look equal.
+/// Prints names safely. Escape sequences in a file name change the terminal, and line breaks break a table. A lossy
+/// conversion prints all bytes that are not UTF-8 alike.
 pub trait Escaped {
-    /// The same name in one line: `\n` or `\u{1b}` for a control character, `\xff` for a byte that is not text.
+    /// The name on one line, with `\n` or `\u{1b}` for a control character and `\xff` for a byte that is not UTF-8.
     fn escaped(&self) -> Escape<'_>;
 }
 
@@ -33,13 +33,13 @@ impl Display for Escape<'_> {
     }
 }
 
-/// Whether a character moves the cursor, ends a line or changes the direction of writing.
+/// Whether a character moves the cursor, ends a line or changes the text direction.
 fn is_control(c: char) -> bool {
     c.is_control() || matches!(c, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// A word of a command line that a shell reads back, in one line: in plain quotes if these suffice, otherwise as
-/// `$'a\xff'`, which bash, zsh and ksh understand.
+/// Quotes `word` for a shell, on one line, if necessary: in single quotes; if it has control characters or bytes that
+/// are not UTF-8, as `$'a\xff'`, which bash, zsh and ksh understand.
 pub fn quoted(word: impl AsRef<OsStr>) -> String {
     let word = word.as_ref();
     let Some(text) = word.to_str().filter(|text| !text.chars().any(is_control)) else {

@@ -1,5 +1,5 @@
-//! The images of **sahara**: scenes with their meshes, cameras and rays; a renderer; the comparison of images with
-//! golden ones. The crate [`sahara_core`] has the trees; the crate `sahara` has the command, and re-exports these modules.
+//! The images of **sahara**: scenes with their meshes, cameras and rays, a renderer, and the comparison with golden
+//! images. The trees are in [`sahara_core`], the command is in `sahara`, which re-exports most modules.
 
 use sahara_core::{accel, geometry, oracle, triangle};
 #[cfg(test)]
@@ -13,5 +13,5 @@ pub mod plural;
 pub mod render;
 pub mod scene;
 
-// The version that this crate uses.
+// Callers need the same version of `image`.
 pub use image;

@@ -1,6 +1,6 @@
-//! Looks up names that people type, in upper or lower case, and suggests one for a misspelled name.
+//! Looks up names that people type, in upper or lower case, and suggests the right name for a misspelled one.
 
-/// Declares an enum with a name for each value; it has `ALL` of them, in the order of declaration, and `name`.
+/// Declares an enum with a name for each value; the enum has the constant `ALL` and the method `name`.
 #[macro_export]
 macro_rules! named_enum {
     ($(#[$doc:meta])* pub enum $type:ident { $($(#[$of:meta])* $value:ident = $name:literal,)* }) => {
@@ -10,10 +10,10 @@ macro_rules! named_enum {
         }
 
         impl $type {
-            /// In the order of tables.
+            /// All values, in the order of declaration and of tables.
             pub const ALL: [Self; [$($name),*].len()] = [$(Self::$value),*];
 
-            /// The name in commands, output and files.
+            /// The name of the value in commands, output and files.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$value => $name),*
@@ -33,7 +33,7 @@ pub struct Unknown {
     known: Vec<&'static str>,
 }
 
-/// The value in `all` with the name `wanted`, in upper or lower case; `what` is the noun for the error.
+/// The value in `all` with the name `wanted`, in upper or lower case; `what` is the noun in the error message.
 pub fn find<T: Copy, const N: usize>(
     what: &'static str,
     all: [T; N],
@@ -47,14 +47,14 @@ pub fn find<T: Copy, const N: usize>(
     })
 }
 
-/// The first of `known` with the name `wanted`, in upper or lower case.
+/// The first element of `known` with the name `wanted`, in upper or lower case.
 pub fn named<T>(known: impl IntoIterator<Item = T>, wanted: &str, name: impl Fn(&T) -> &str) -> Option<T> {
     known.into_iter().find(|one| name(one).eq_ignore_ascii_case(wanted))
 }
 
-/// The element of `known` that `wanted` probably means: at most a third of its letters differ, where two swapped
-/// neighbours count once (Damerau, "A technique for computer detection and correction of spelling errors", 1964), or it
-/// is the only one that begins with `wanted`. `None` if there is no such name.
+/// The element of `known` that `wanted` probably means: either at most a third of the letters of the longer name differ
+/// (swapped neighbours are one difference: Damerau, "A technique for computer detection and correction of spelling
+/// errors", 1964), or only this element begins with `wanted`, which has three letters or more. `None` otherwise.
 pub fn nearest<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let wanted: String = wanted.chars().take(60).flat_map(char::to_lowercase).collect();
     let known: Vec<&str> = known.into_iter().collect();
@@ -67,7 +67,7 @@ pub fn nearest<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Op
     begins.next().filter(|_| begins.next().is_none())
 }
 
-/// ` (did you mean NAME?)`, or an empty text.
+/// ` (did you mean NAME?)`, or an empty text if no name is near.
 pub fn suggestion<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     nearest(wanted, known).map_or(String::new(), |name| format!(" (did you mean {name}?)"))
 }

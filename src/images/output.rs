@@ -1,10 +1,10 @@
-//! Files and folders written whole or not at all, and standard output, whose reader may close it.
+//! Writes files and folders completely or not at all, and writes to standard output, which its reader may close.
 //!
-//! Contents are first written to a temporary name beside their place and then moved there: a reader never sees half of
-//! them, and the old contents stay after a failure.
+//! Contents are first written under a temporary name beside the target, which is then renamed to the target: no reader
+//! sees partial contents, and a failure keeps the old contents.
 //!
-//! A closed standard output, as after `head`, is not an error: the run continues to its verdict. Any other failure of
-//! standard output is reported at the end, and does not change the verdict.
+//! A closed standard output, as with `| head`, is not an error: the run continues and reaches its verdict. Any other
+//! failure of standard output is reported at the end, and does not change the verdict.
 
 use std::collections::HashSet;
 use std::fmt::Display;
@@ -21,7 +21,7 @@ use crate::escaped::Escaped as _;
 /// The file name for standard output.
 pub const STDOUT: &str = "-";
 
-/// The file that marks a folder as written by sahara: it lists the folder's files.
+/// The file that marks a folder as written by sahara and lists the folder's files.
 const MARK: &str = "sahara-files.json";
 
 /// The reason why a file or a folder cannot be written.
@@ -38,23 +38,23 @@ impl OutputError {
         Self::Place { path: path.into(), problem: problem.into() }
     }
 
-    /// A failed write of `path`. An error of tempfile keeps only its kind: its text names a temporary path.
+    /// A failed write of `path`. Drops the text of an error of `tempfile`: it names a temporary path.
     fn write(path: &Path, error: io::Error) -> Self {
         let cause = if error.get_ref().is_some() { error.kind().into() } else { error };
         Self::Write { path: path.into(), cause }
     }
 }
 
-/// A file for results, or standard output if its name is [`STDOUT`]. Special files, such as pipes, are written directly.
+/// A file for results, or standard output if its name is [`STDOUT`]. Special files such as pipes are written directly.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OutputFile {
     pub path: PathBuf,
-    /// The regular file. `None` for standard output, pipes and terminals: they can be read and written more than once.
+    /// The regular file, with links followed; `None` for standard output and special files such as pipes and terminals.
     regular: Option<PathBuf>,
 }
 
 impl OutputFile {
-    /// Checks that `path` can be written now, before the long run with the results; leaves no file behind.
+    /// Checks before a long run that its results can be written to `path`; leaves no file behind.
     pub fn check(path: &Path) -> Result<Self, OutputError> {
         let regular = match fs::metadata(path) {
             _ if path == Path::new(STDOUT) => {
@@ -73,7 +73,7 @@ impl OutputFile {
         Ok(Self { path: path.into(), regular })
     }
 
-    /// The same file, if it is not one of `inputs`, under any path.
+    /// Rejects a file that is one of `inputs`, with all links followed.
     pub fn apart_from<'a>(self, inputs: impl IntoIterator<Item = &'a Path>) -> Result<Self, OutputError> {
         let is_own = |input: &Path| self.regular.is_some() && input.canonicalize().ok() == self.regular;
         if inputs.into_iter().any(is_own) {
@@ -82,7 +82,7 @@ impl OutputFile {
         Ok(self)
     }
 
-    /// Rejects two results with the same place, under any paths.
+    /// Rejects two results in one file, with all links followed, and two results on standard output.
     pub fn are_apart<'a>(files: impl IntoIterator<Item = &'a Self>) -> Result<(), OutputError> {
         let mut places = HashSet::new();
         let mut files = files.into_iter().filter(|file| file.regular.is_some() || file.path == Path::new(STDOUT));
@@ -90,8 +90,8 @@ impl OutputFile {
         Err(OutputError::place(&twice.path, "two results would go there: name another file for one of them"))
     }
 
-    /// Standard output never fails here: missing output is reported when the command ends, and a closed one is not an
-    /// error. After any other failure an older file is unchanged.
+    /// Writes the contents. A failure of standard output is not returned: [`FAILURE`] records it until the command
+    /// ends. After any other failure, an older regular file is unchanged.
     pub fn write(&self, bytes: &[u8]) -> Result<(), OutputError> {
         let write = || {
             match &self.regular {
@@ -104,21 +104,21 @@ impl OutputFile {
         write().map_err(|cause| OutputError::write(&self.path, cause))
     }
 
-    /// Writes a file that does not exist yet; returns false if it exists. Of several writers, also on machines that
-    /// share a file system, one wins permanently. On return the file is on the disk; a failed write leaves no file.
+    /// Writes a new regular file; returns false if the path exists. Of several concurrent writers, even on machines
+    /// that share a file system, exactly one succeeds. The written file is on the disk; a failed write leaves no file.
     pub fn write_new(&self, bytes: &[u8]) -> Result<bool, OutputError> {
         let Some(regular) = &self.regular else { return Ok(false) };
         match written(regular, bytes).and_then(|file| Ok(file.persist_noclobber(regular)?)) {
             Err(cause) if cause.kind() == io::ErrorKind::AlreadyExists => return Ok(false),
             written => drop(written.map_err(|cause| OutputError::write(&self.path, cause))?),
         }
-        // Also put the name on the disk, on systems that can.
+        // Also flush the name of the file to the disk, if the system can.
         let _ = fs::File::open(folder_of(regular)).and_then(|folder| folder.sync_all());
         Ok(true)
     }
 }
 
-/// A new file beside `path` whose contents are on the disk.
+/// A new temporary file beside `path`, with its contents on the disk.
 fn written(path: &Path, bytes: &[u8]) -> io::Result<NamedTempFile> {
     let mut file = temporary_file(path)?;
     file.write_all(bytes)?;
@@ -126,7 +126,7 @@ fn written(path: &Path, bytes: &[u8]) -> io::Result<NamedTempFile> {
     Ok(file)
 }
 
-/// A folder for results; all its contents are written by sahara.
+/// A folder for results that contains only what sahara has written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OutputFolder {
     pub path: PathBuf,
@@ -134,7 +134,7 @@ pub struct OutputFolder {
 }
 
 impl OutputFolder {
-    /// Checks that `path` may be written: it is missing, empty or has only earlier output. Leaves no file behind.
+    /// Checks that `path` may be written: it is missing, empty or has only earlier output; leaves no file behind.
     pub fn check(path: &Path) -> Result<Self, OutputError> {
         if path.exists() && !path.is_dir() {
             return Err(OutputError::place(path, "it is a file: name a folder that does not exist yet"));
@@ -152,7 +152,7 @@ impl OutputFolder {
         Ok(folder)
     }
 
-    /// The same folder, if it contains none of `inputs`, under any path.
+    /// Rejects a folder that contains one of `inputs`, with all links followed.
     pub fn apart_from<'a>(self, inputs: impl IntoIterator<Item = &'a Path>) -> Result<Self, OutputError> {
         let is_inside = |input: &&Path| input.canonicalize().is_ok_and(|input| input.starts_with(&self.resolved));
         let Some(input) = inputs.into_iter().find(is_inside) else { return Ok(self) };
@@ -160,7 +160,7 @@ impl OutputFolder {
         Err(OutputError::place(&self.path, problem))
     }
 
-    /// Writes files, given by their paths in the folder with `/`. They replace the old contents, which a failure keeps.
+    /// Replaces the contents of the folder by `files` (relative paths with `/`); a failure keeps the old contents.
     pub fn write(&self, files: &[(String, Vec<u8>)]) -> Result<(), OutputError> {
         self.write_in(|folder| {
             files.iter().try_for_each(|(name, bytes)| {
@@ -171,7 +171,7 @@ impl OutputFolder {
         })
     }
 
-    /// Like [`write`](Self::write), for files that `fill` writes into the given folder: they may be larger than memory.
+    /// Like [`write`](Self::write), but `fill` writes the files, which may exceed memory, to the folder it gets.
     pub fn write_in<T>(&self, fill: impl FnOnce(&Path) -> io::Result<T>) -> Result<T, OutputError> {
         let replace = || {
             let new = temporary_folder(&self.resolved)?;
@@ -187,7 +187,7 @@ impl OutputFolder {
                 fs::rename(&self.resolved, &old)?;
             }
             fs::rename(new.path(), &self.resolved).inspect_err(|_| drop(fs::rename(&old, &self.resolved)))?;
-            // It has moved: nothing remains to be removed.
+            // The temporary path no longer exists: do not remove it.
             let _ = new.keep();
             Ok(filled)
         };
@@ -195,7 +195,7 @@ impl OutputFolder {
     }
 }
 
-/// All files below `folder` by their paths in it, with `/`, and the empty folders.
+/// All files and empty folders below `folder`, as relative paths with `/`.
 fn names_below(folder: &Path, prefix: &str) -> io::Result<Vec<String>> {
     let mut names = vec![];
     for entry in fs::read_dir(folder)? {
@@ -208,7 +208,7 @@ fn names_below(folder: &Path, prefix: &str) -> io::Result<Vec<String>> {
     Ok(names)
 }
 
-/// The unique path of an existing or future file, with links followed.
+/// The canonical path, with links followed, of a file that exists or may be created.
 fn resolved(path: &Path) -> io::Result<PathBuf> {
     path.canonicalize().or_else(|missing| {
         let (Some(folder), Some(name)) = (path.parent(), path.file_name()) else { return Err(missing) };
@@ -221,7 +221,7 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().unwrap_or(path)
 }
 
-/// A new file beside `path`, a path with a folder; it is removed when it is dropped.
+/// A temporary file beside `path`, which must have a folder; dropping the value removes the file.
 pub fn temporary_file(path: &Path) -> io::Result<NamedTempFile> {
     temporary(0o666).tempfile_in(folder_of(path))
 }
@@ -240,13 +240,13 @@ fn temporary(#[cfg_attr(not(unix), expect(unused_variables))] mode: u32) -> Buil
     builder
 }
 
-/// Whether a result is written to standard output: then messages must not be.
+/// Whether a result goes to standard output; messages then go to standard error.
 static TO_STDOUT: AtomicBool = AtomicBool::new(false);
 
-/// The reason why standard output is incomplete; unset if it is complete or was closed.
+/// The reason why standard output is incomplete; unset if the output is complete or its reader closed it.
 pub static FAILURE: OnceLock<io::Error> = OnceLock::new();
 
-/// Whether a result was requested as [`STDOUT`]: messages for people then go to standard error.
+/// Whether a result goes to [`STDOUT`]; if so, messages for people go to standard error.
 pub fn stdout_is_taken() -> bool {
     TO_STDOUT.load(Ordering::Relaxed)
 }
@@ -263,7 +263,7 @@ pub fn note(written: io::Result<()>) {
     }
 }
 
-/// A closed output is not an error.
+/// Treats a closed output as written.
 fn unless_gone(written: io::Result<()>) -> io::Result<()> {
     match written {
         Err(cause) if cause.kind() == io::ErrorKind::BrokenPipe => Ok(()),
@@ -271,12 +271,12 @@ fn unless_gone(written: io::Result<()>) -> io::Result<()> {
     }
 }
 
-/// Writes an error to standard error, in one line even if names of files contain line breaks.
+/// Writes an error to standard error, on one line even if file names in it contain line breaks.
 pub fn tell_error(error: impl Display) {
     tell(format_args!("error: {}", error.to_string().escaped()));
 }
 
-/// Writes a line to standard error; a closed one, or a full disk, does not end a run.
+/// Writes a line to standard error. Failures, such as a closed output or a full disk, are ignored.
 pub fn tell(line: impl Display) {
     let _ = writeln!(io::stderr(), "{line}");
 }

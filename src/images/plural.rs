@@ -13,7 +13,7 @@ pub fn count(n: u64) -> String {
     text
 }
 
-/// `1 scene`, `2 scenes`.
+/// A number with its noun: `1 scene`, `2 scenes`.
 pub fn plural(n: usize, noun: &str) -> String {
     format!("{} {noun}{}", count(n as u64), if n == 1 { "" } else { "s" })
 }

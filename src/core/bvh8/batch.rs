@@ -1,4 +1,4 @@
-//! Slices of rays.
+//! Traces slices of rays: one after the other, in packets, or interleaved.
 
 use std::ops::Range;
 
@@ -13,10 +13,10 @@ use crate::traversal::leaf::Nearest;
 use crate::traversal::walk::{silent, single};
 use crate::triangle::{Depth, INPUTS, TriangleTest, last_bits};
 
-/// Rays of a slice in one window: so many that its end, where few rays are active, hardly matters.
+/// Rays per window, a part of a slice. Windows are large because few interleaved rays are active at their ends.
 const WINDOW: usize = 4096;
 
-/// Groups of a window, by index in ascending order; the last one may be shorter.
+/// Some groups of a window, by ascending index. A group has sixteen rays; the last group of a window may have fewer.
 pub(super) struct Groups {
     numbers: [u8; WINDOW / RAYS],
     len: usize,
@@ -39,14 +39,14 @@ impl Groups {
         self.len += 1;
     }
 
-    /// The index ranges of their rays in a window of `rays`.
+    /// For each group, the range of its rays in a window of `rays` rays.
     #[inline(always)]
     fn places(&self, rays: usize) -> impl Iterator<Item = Range<usize>> {
         let first = |&number: &u8| usize::from(number) * RAYS;
         self.numbers[..self.len].iter().map(first).map(move |first| first..rays.min(first + RAYS))
     }
 
-    /// The same ranges, with adjacent groups joined.
+    /// The ranges of [`places`](Self::places), with adjacent ranges joined.
     fn runs(&self, rays: usize) -> impl Iterator<Item = Range<usize>> {
         let numbers = &self.numbers[..self.len];
         numbers.chunk_by(|one, next| next - one == 1).map(move |run| {
@@ -56,9 +56,9 @@ impl Groups {
     }
 }
 
-/// Hits whose `t` are computed together: the last bit of one does not wait for the previous one.
+/// Hits whose `t` are computed together, so the computation of one `t` does not wait for the previous `t`.
 struct HitBatch {
-    /// The inputs of their `t`, and their rays and triangles.
+    /// [`Depth::inputs`] of the hits; `rays` and `ids` are the numbers of their rays and triangles.
     inputs: [[f32; HITS]; INPUTS],
     rays: [usize; HITS],
     ids: [u32; HITS],
@@ -70,7 +70,7 @@ const HITS: usize = 8;
 impl HitBatch {
     const NONE: Self = Self { inputs: [[0.0; HITS]; INPUTS], rays: [0; HITS], ids: [0; HITS], len: 0 };
 
-    /// Adds a hit of ray number `i`; true if the batch is full, and must be finished.
+    /// Adds a hit of ray number `i`; true if the batch is full and must be finished.
     ///
     /// The depth itself is not stored: reading it as a whole right after it was written in pieces stalls the processor.
     #[must_use]
@@ -116,7 +116,7 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
     fn run<L: EightLanes>(self) {
         let Self { tree, rays, answers, form, level } = self;
         if ANY || !T::Depth::LATE || !L::FAST {
-            // Either no `t` is computed late, or eight at once are no faster.
+            // Either `t` needs no further step, or eight such steps at once are no faster.
             for (answer, ray) in answers.iter_mut().zip(rays) {
                 *answer = form(silent::<ANY, L, _>(tree, ray));
             }
@@ -140,7 +140,7 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
     }
 }
 
-/// Traces the groups of a window that form packets; returns the others.
+/// Traces the groups of a window that form packets; returns the other groups.
 struct InPackets<'a, const ANY: bool, T: TriangleTest, A, F> {
     tree: &'a Bvh8<T>,
     rays: &'a [Ray],
@@ -171,7 +171,7 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
     }
 }
 
-/// The closest hits of some groups of a window, as a kernel of its own, which is faster.
+/// Finds the closest hits of some groups of a window by interleaving. This is faster in a separate kernel.
 pub(super) struct Interleaved<'a, T: TriangleTest, A, F> {
     pub tree: &'a Bvh8<T>,
     pub rays: &'a [Ray],
@@ -208,7 +208,7 @@ fn alike(rays: &[Ray; RAYS]) -> bool {
     (differ(5) | differ(10) | differ(15)) >> 31 == 0
 }
 
-/// Traces `rays` on the current SIMD level; hits are in the order of the rays.
+/// Traces `rays` on the current SIMD level and writes `form` of each hit to `answers`, in the order of the rays.
 pub(super) fn answer<const ANY: bool, T: TriangleTest, A, O: Observer>(
     tree: &Bvh8<T>,
     rays: &[Ray],
@@ -218,7 +218,7 @@ pub(super) fn answer<const ANY: bool, T: TriangleTest, A, O: Observer>(
 ) {
     assert_eq!(rays.len(), answers.len(), "one result per ray");
     if O::ACTIVE {
-        // Count the steps of single rays.
+        // Observers receive the steps of single rays.
         for (answer, ray) in answers.iter_mut().zip(rays) {
             *answer = form(single::<ANY, _, O>(tree, ray, observer));
         }
@@ -237,7 +237,7 @@ pub(super) fn answer<const ANY: bool, T: TriangleTest, A, O: Observer>(
 
 /// Traces the groups of a window that form no packet.
 ///
-/// Interleaving hides latency but costs instructions: it pays neither in cached trees nor for any hit (TUNING.md).
+/// Interleaving hides latency but costs instructions. It pays only for closest hits in large trees (TUNING.md).
 fn answer_apart<const ANY: bool, T: TriangleTest, A>(
     level: Level,
     tree: &Bvh8<T>,

@@ -1,11 +1,11 @@
-//! The order in which rays visit the children of a node. For the closest hit, the build stores one order per octant of
-//! directions, which the traversal follows. For any hit, it visits the lanes from the last to the first.
+//! The order in which rays visit the children of a node. Closest-hit queries use one order per octant of directions,
+//! which the build stores. Any-hit queries visit the lanes from the last to the first.
 
 use super::collapse::Collapse;
 
 impl Collapse<'_> {
-    /// The lanes of the at most `parts` parts of `at` in the visiting order of each octant, three bits each, the last
-    /// one lowest; and the number of these bits. Takes the lanes in the order in which the parts are gathered.
+    /// For each octant, the lanes of the parts of `at` (at most `parts`) in visiting order, three bits each, the last
+    /// lane lowest; and the number of these bits. `lanes` yields one lane per part, in the order of `gather`.
     pub(super) fn orders<'b>(
         &self,
         at: u32,
@@ -28,7 +28,7 @@ impl Collapse<'_> {
         (std::array::from_fn(order), left_bits + right_bits)
     }
 
-    /// The axis with the largest distance of the boxes, and whether `r` comes before `l` on it.
+    /// The axis on which the boxes are furthest apart, and whether `r` comes before `l` on it.
     fn apart(&self, l: u32, r: u32) -> (usize, bool) {
         let [l, r] = [l, r].map(|at| &self.tree.nodes[at as usize].bounds);
         let (up, down) = (r.min - l.max, l.min - r.max);
@@ -48,7 +48,7 @@ mod tests {
     use crate::build::sah_cost::CostModel;
     use crate::build::sbvh::{SbvhConfig, Splits, build};
 
-    /// The parts in the visiting order of one octant, gathered separately for it.
+    /// A naive version: gathers the parts in the visiting order of one octant.
     fn gathered(collapse: &Collapse, at: u32, parts: usize, octant: usize, into: &mut Vec<Part>) {
         match collapse.dealt(at, parts) {
             Some([l, r]) => {

@@ -1,4 +1,4 @@
-//! Selects the nodes of a binary tree that become nodes and leaves of a wide one, by dynamic programming.
+//! Selects the nodes of a binary tree that become nodes and leaves of a wide tree, by dynamic programming.
 //!
 //! # References
 //! Ylitie, Karras, Laine: Efficient incoherent ray traversal on GPUs through compressed wide BVHs. HPG 2017, section 4.
@@ -8,13 +8,13 @@ use crate::build::binary_tree::{BinaryTree, Content};
 use crate::build::sah_cost::CostModel;
 use crate::geometry::Aabb;
 
-/// Maximum number of blocks of a leaf that is merged from several.
+/// Maximum number of blocks of a leaf that is merged from several leaves.
 const LARGEST: usize = 8;
 
-/// Several threads process nodes with at least this many nodes below them.
+/// If at least this many nodes are below a node, its two subtrees are processed in parallel.
 const PARALLEL: usize = 2048;
 
-/// For each node of a binary tree, its best representation by at most 1 to 7 parts.
+/// For each node of a binary tree, the cheapest divisions of its subtree into at most 1, 2, ... 7 [`Part`]s.
 pub(super) struct Collapse<'a> {
     pub(super) tree: &'a BinaryTree,
     best: Vec<Best>,
@@ -22,16 +22,16 @@ pub(super) struct Collapse<'a> {
 
 #[derive(Clone, Copy)]
 struct Best {
-    /// `cost[i]`: with at most `i + 1` parts.
+    /// `cost[i]`: the cost with at most `i + 1` parts.
     cost: [f32; WIDTH - 1],
-    /// `left[i]`: the number of parts, of at most `i + 1`, for the first child; 0 if one part less is as good.
-    /// `left[WIDTH - 1]`: the same for a wide node.
+    /// `left[i]`: how many of `i + 1` parts the first child gets; 0 if at most `i` parts are as cheap.
+    /// `left[WIDTH - 1]`: how many of `WIDTH` parts the first child gets if this node becomes a wide node.
     left: [u8; WIDTH],
-    /// Whether a single part is a leaf.
+    /// Whether the node becomes a leaf if it is a single part.
     leaf: bool,
-    /// The range of references below.
+    /// The range of references below the node.
     references: [u32; 2],
-    /// A lower bound of the number of different triangles among them.
+    /// A lower bound of the number of distinct triangles in this range.
     triangles: u32,
 }
 
@@ -56,7 +56,7 @@ pub(super) struct Children {
 }
 
 impl Children {
-    /// The parts in the order of lanes, up to the last one.
+    /// The parts in the order of their lanes, which are the last lanes of the node.
     pub fn parts(&self) -> &[Part] {
         &self.parts[..self.len]
     }
@@ -65,12 +65,12 @@ impl Children {
 struct Chooser<'a> {
     tree: &'a BinaryTree,
     costs: &'a CostModel,
-    /// Shares of the root's area fit an `f32` in any unit of length.
+    /// The half area of the root. Costs relative to it fit an `f32` in any unit of length.
     whole: f64,
 }
 
 impl Chooser<'_> {
-    /// Chooses for the node `at` and its subtree, whose choices are `best`.
+    /// Computes `best` for the node `at` and, in depth-first order, all nodes below it. `ids` is a scratch buffer.
     fn choose(&self, at: usize, best: &mut [Best], ids: &mut Vec<u32>) {
         let node = &self.tree.nodes[at];
         let area = node.bounds.half_area() / self.whole;
@@ -98,7 +98,7 @@ impl Chooser<'_> {
     }
 
     fn inner(&self, area: f64, [l, r]: [&Best; 2], ids: &mut Vec<u32>) -> Best {
-        // The best distribution of `parts` to the two children.
+        // The cheapest distribution of `parts` parts to the two children.
         let distribute = |parts: usize| {
             let with = |left: usize| (l.cost[left - 1] + r.cost[parts - left - 1], left as u8);
             (1..parts).map(with).min_by(|a, b| a.0.total_cmp(&b.0)).expect("at least two parts")
@@ -122,14 +122,14 @@ impl Chooser<'_> {
         best
     }
 
-    /// The cost of all triangles below a node as one leaf; infinite if they are too many, or cost more than `limit`.
+    /// The cost of all triangles below a node as one leaf. Infinite for too many; may be infinite if above `limit`.
     fn merged(&self, area: f64, limit: f32, best: &mut Best, ids: &mut Vec<u32>) -> f32 {
         let most = (LARGEST * WIDTH) as u32;
         let [first, end] = best.references;
         if end - first > 2 * most || best.triangles > most || self.as_leaf(area, best.triangles) > limit {
             return f32::INFINITY;
         }
-        // A triangle may be in several leaves: count distinct ones before giving up.
+        // Several leaves may contain the same triangle, so count distinct triangles.
         ids.clear();
         ids.extend_from_slice(&self.tree.references[first as usize..end as usize]);
         ids.sort_unstable();
@@ -149,7 +149,7 @@ impl<'a> Collapse<'a> {
         if let Some(root) = tree.nodes.first() {
             let whole = Some(root.bounds.half_area()).filter(|&whole| whole > 0.0).unwrap_or(1.0);
             Chooser { tree, costs, whole }.choose(0, &mut best, &mut vec![]);
-            // The root stays below a box even if it is a leaf: rays that miss it test nothing.
+            // Even a tree of one leaf gets a node above the leaf: rays that miss its box then test no triangle.
             best[0].leaf = false;
         }
         Self { tree, best }
@@ -170,11 +170,11 @@ impl<'a> Collapse<'a> {
     pub fn children(&self, at: u32) -> Children {
         let (mut found, mut len) = ([Part::Leaf(0); WIDTH], 0);
         self.gather(at, WIDTH, &mut |part| {
-            // A part that is not distributed is the only child of its node.
+            // If the node has a single part, its only child is a leaf.
             found[len] = if part == Part::Node(at) { Part::Leaf(at) } else { part };
             len += 1;
         });
-        // Nodes come before leaves, small boxes before large ones.
+        // Assign the lanes: nodes before leaves, small boxes before large boxes.
         let keys = found.map(|part| (matches!(part, Part::Leaf(_)), self.bounds(part).half_area()));
         let mut places: [usize; WIDTH] = std::array::from_fn(|place| place);
         places[..len].sort_by(|&a, &b| keys[a].0.cmp(&keys[b].0).then(keys[a].1.total_cmp(&keys[b].1)));
@@ -182,7 +182,7 @@ impl<'a> Collapse<'a> {
         let mut lanes = [0; WIDTH];
         (empty as u32..).zip(&places[..len]).for_each(|(lane, &place)| lanes[place] = lane);
 
-        // Empty lanes come after the last, so the first lane to visit is tested first.
+        // Empty lanes come last in each order, so the first branch of `Stack::push` is for a used lane.
         let unused = (0..empty as u32).rev().fold(0, |order, lane| order << 3 | lane);
         let orders = self.orders(at, WIDTH, &mut lanes.iter()).0.map(|order| order << (3 * empty) | unused);
         Children { parts: places.map(|place| found[place]), len, orders }
@@ -192,7 +192,7 @@ impl<'a> Collapse<'a> {
         if self.best[at as usize].leaf { Part::Leaf(at) } else { Part::Node(at) }
     }
 
-    /// The distribution of at most `parts` parts of `at` to its children; `None` if it is a single part.
+    /// How many of at most `parts` parts of `at` each child gets; `None` if `at` is a single part.
     pub(super) fn dealt(&self, at: u32, parts: usize) -> Option<[(u32, usize); 2]> {
         let left = |parts: usize| (parts, self.best[at as usize].left[parts - 1] as usize);
         let (parts, left) = (1..=parts).rev().map(left).find(|&(_, left)| left > 0)?;
@@ -202,7 +202,7 @@ impl<'a> Collapse<'a> {
         }
     }
 
-    /// Visits the at most `parts` parts of `at`, from the first child to the second.
+    /// Visits the parts of `at`, at most `parts`, from the first child to the second.
     fn gather(&self, at: u32, parts: usize, visit: &mut impl FnMut(Part)) {
         match self.dealt(at, parts) {
             Some(sides) => sides.iter().for_each(|&(at, parts)| self.gather(at, parts, visit)),
@@ -223,7 +223,7 @@ mod tests {
     use crate::build::check::soup;
     use crate::build::sbvh::{SbvhConfig, Splits, build};
 
-    /// Merged leaves are counted only if they may win; here always.
+    /// The collapse counts distinct triangles of a merged leaf only if the leaf may win. This test counts them always.
     #[test]
     fn leaves_that_are_not_counted_would_not_have_won() {
         let tree = build(&soup(3000, 44), &SbvhConfig::new(Splits::Spatial, Quality::Balanced));

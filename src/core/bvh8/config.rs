@@ -9,7 +9,7 @@ use crate::build::sbvh::{self, SbvhConfig, Splits};
 use crate::geometry::Mesh;
 use crate::triangle::TriangleTest;
 
-/// The build options of a [`Bvh8`](super::Bvh8). Structures of the command differ only in the partition.
+/// The build options of a [`Bvh8`](super::Bvh8). By default, the built-in structures differ only in the partition.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bvh8Config {
@@ -21,7 +21,7 @@ pub struct Bvh8Config {
     pub block_cost: f32,
     /// Maximum number of references, as a multiple of the triangles. At least 1; [`Quality::Fast`] uses at most 1.75.
     pub duplication: f32,
-    /// How a slice of rays is traced: [`Batch::Single`] unless the test is [`BATCHED`](TriangleTest::BATCHED).
+    /// How a slice of rays is traced. Must be [`Batch::Single`] unless the test is [`BATCHED`](TriangleTest::BATCHED).
     pub batch: Batch,
 }
 
@@ -46,7 +46,7 @@ pub enum Batch {
     /// One ray after the other.
     Single,
     /// Sixteen consecutive rays whose directions lie in the same octant form a packet. Other rays are traced one after
-    /// the other, or eight at a time in closest-hit queries on trees of more than 2 MiB.
+    /// the other or, in closest-hit queries on trees of more than 2 MiB, interleaved, eight at a time.
     Packets,
 }
 
@@ -67,7 +67,7 @@ impl Bvh8Config {
     }
 
     pub(super) fn partition(&self, mesh: &Mesh) -> BinaryTree {
-        // Trees without object splits have twice as many nodes and less to gain.
+        // Trees without object splits have twice as many nodes and gain less from reinsertion.
         let passes = match (self.quality, self.partition) {
             (Quality::Fast, Partition::Objects) => 2,
             (Quality::Fast, _) => 0,
@@ -75,7 +75,7 @@ impl Bvh8Config {
             (Quality::Balanced, _) => 3,
             (Quality::High, _) => 8,
         };
-        // Making references takes most of the time if planes cut triangles.
+        // If planes cut triangles, the creation of references takes most of the build time.
         let duplication = if self.quality == Quality::Fast { self.duplication.min(1.75) } else { self.duplication };
         let boxes = |splits| sbvh::build(mesh, &SbvhConfig { duplication, ..SbvhConfig::new(splits, self.quality) });
         let tree = match self.partition {

@@ -5,12 +5,12 @@ use super::prepared_ray::rows;
 use super::ray_packet::RayPacket;
 use crate::simd::{Lanes, each};
 
-/// Bounds of the crossings of several rays with a plane.
+/// Bounds of the parameters at which the rays of a packet cross the planes of boxes.
 ///
 /// **It rejects only boxes that every ray rejects.** A ray computes a near crossing as fl(fl(p - o) i). Subtraction and
-/// multiplication round monotonically, so the least fl(fl(p - o') i') over the corners of the ranges of o and i is not
-/// above it; the sign of the direction determines the least o'. The same holds for the far crossings. If the bound of a
-/// near crossing exceeds the bound of a far one, so do the crossings of each ray.
+/// multiplication round monotonically, so the least fl(fl(p - o') i') is a lower bound, where o' and i' are ends of the
+/// ranges of o and i. The sign of the direction determines o'. An upper bound of the far crossings follows in the same
+/// way. If the lower bound exceeds the upper bound, the near crossing of each ray exceeds its far crossing.
 pub(super) struct Frustum<L> {
     near_origin: [L; 3],
     far_origin: [L; 3],
@@ -22,7 +22,7 @@ pub(super) struct Frustum<L> {
     far: [usize; 3],
 }
 
-/// The least and the greatest number, in all lanes.
+/// The least and the greatest number of a row, each in all lanes.
 #[inline(always)]
 fn range<L: Lanes<WIDTH>>(row: &[L; 2]) -> [L; 2] {
     let (low, high) = (row[0].min(row[1]).store(), row[0].max(row[1]).store());

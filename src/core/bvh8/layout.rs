@@ -1,4 +1,4 @@
-//! Writes nodes and leaf blocks depth first, except the top of the tree, which comes first.
+//! Writes nodes and leaf blocks: first the top of the tree, then each subtree below the top, depth first.
 
 use rayon::prelude::*;
 
@@ -20,7 +20,7 @@ pub(super) struct Layout<T: TriangleTest> {
 }
 
 impl<T: TriangleTest> Layout<T> {
-    /// The tree of `collapse` within the limits, in pieces of at most `most` references, which do not change it.
+    /// Writes the tree of `collapse` in parallel pieces of at most `most` references; `most` does not affect its shape.
     pub fn new(mesh: &Mesh, collapse: &Collapse, limits: &Limits, most: usize) -> Result<Self, BuildError> {
         let Some(root) = collapse.root() else {
             return Ok(Self { root: Child::NOTHING, nodes: vec![], blocks: vec![] });
@@ -37,7 +37,7 @@ impl<T: TriangleTest> Layout<T> {
         Self::joined(root, top, pieces, limits)
     }
 
-    /// Joins the pieces behind `top`, which contains their places.
+    /// Appends the pieces to `top` and links them to their parents, which `top.cuts` lists.
     fn joined(root: Child, mut top: Piece<T>, pieces: Vec<Piece<T>>, limits: &Limits) -> Result<Self, BuildError> {
         let whole = || pieces.iter().chain([&top]);
         let nodes = whole().map(|piece| piece.nodes.len()).sum();
@@ -98,7 +98,7 @@ impl<'a, T: TriangleTest> Piece<'a, T> {
         Self { mesh, collapse, nodes: vec![], blocks: vec![], depth: 0, cut, cuts: vec![] }
     }
 
-    /// Writes `part`, which is below `depth` nodes.
+    /// Writes `part`, which has `depth` nodes above it.
     fn write(&mut self, part: Part, depth: usize) -> Child {
         match part {
             Part::Leaf(_) => self.leaf(part),
@@ -110,7 +110,7 @@ impl<'a, T: TriangleTest> Piece<'a, T> {
                 let mut node = Node { orders: children.orders, ..Node::EMPTY };
                 let parts = children.parts();
                 for (lane, &part) in (WIDTH - parts.len()..).zip(parts) {
-                    // Another thread writes small subtrees.
+                    // Leave small subtrees to other threads.
                     let is_left = matches!(part, Part::Node(_)) && self.collapse.references(part).len() <= self.cut;
                     let child = if is_left {
                         self.cuts.push(Cut { part, parent: own, lane, depth: depth + 1 });

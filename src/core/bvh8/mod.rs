@@ -1,4 +1,4 @@
-//! Eight-wide trees of tight boxes: one node layout, one traversal, four partitioning strategies.
+//! Eight-wide trees of tight boxes: one node layout, four partitioning strategies, traversals of one or several rays.
 
 mod accel;
 mod batch;

@@ -5,7 +5,7 @@ use glam::Vec3;
 use crate::accel::BuildError;
 use crate::geometry::Aabb;
 
-/// Maximum depth of a tree, in nodes, that a traversal can follow.
+/// Maximum number of nodes on a path that a traversal can follow.
 pub(super) const DEPTH: usize = 100;
 
 pub(super) const WIDTH: usize = 8;
@@ -16,17 +16,17 @@ pub(super) struct Limits {
     pub levels: usize,
     pub nodes: usize,
     pub blocks: usize,
-    /// Nodes of its binary tree, and references in that tree.
+    /// Nodes of the binary tree that becomes the wide tree, and references in the binary tree.
     pub binary: usize,
 }
 
 impl Limits {
-    /// The limits of child references and of traversals.
+    /// The limits that [`Child`] and the traversals impose.
     pub const OF_NODES: Self =
         Self { levels: DEPTH, nodes: Child::LARGEST, blocks: Child::LARGEST, binary: u32::MAX as usize };
 
-    /// Checks before the build that the binary tree of `triangles` triangles with on average at most `duplication`
-    /// references, with fewer than two nodes per reference, cannot have more nodes than it can number.
+    /// Checks before the build that the binary tree cannot have too many nodes. It has on average at most `duplication`
+    /// references per triangle, and fewer than two nodes per reference.
     pub fn admit(&self, triangles: usize, duplication: f32) -> Result<(), BuildError> {
         let most = 2.0 * f64::from(duplication) * triangles as f64;
         if most <= self.binary as f64 {
@@ -52,21 +52,21 @@ impl Limits {
     }
 }
 
-/// Eight boxes, coordinate by coordinate, and their contents: 256 bytes, four cache lines.
+/// Eight boxes, in structure-of-arrays layout, and their contents: 256 bytes, four cache lines.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(super) struct Node {
-    /// By axis, the lower and the upper planes of the boxes.
+    /// `planes[axis][side][lane]`: the lower (0) and the upper (1) planes of the boxes.
     pub planes: [[[f32; WIDTH]; 2]; 3],
     pub children: [Child; WIDTH],
-    /// For each octant of directions (bit 0 is set for a negative x), the order in which such a ray visits the lanes:
+    /// For each octant of directions (bit 0 is set for a negative x), the order in which its rays visit the lanes:
     /// three bits per lane, the last lane in the lowest bits. Unused lanes have the lowest numbers and come last.
     pub orders: [u32; 8],
 }
 
 const _: () = assert!(size_of::<Node>() == 256);
 
-/// A node by number, or a leaf as its first block and the number of its blocks.
+/// The number of a node, or the first block and the number of blocks of a leaf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(transparent)]
 pub(super) struct Child(u32);
@@ -76,13 +76,13 @@ impl Child {
     const COUNT_BITS: u32 = 4;
     /// Maximum number of blocks of a leaf.
     pub const BLOCKS: usize = (1 << Self::COUNT_BITS) - 1;
-    /// Number of nodes, and of blocks, that a child can refer to.
+    /// Maximum number of nodes, and of blocks, in a tree.
     pub const LARGEST: usize = 1 << (31 - Self::COUNT_BITS);
 
-    /// A leaf without triangles.
+    /// A leaf without triangles: the content of an unused lane, and the root of an empty tree.
     pub const NOTHING: Self = Self(Self::LEAF);
 
-    /// A leaf without triangles that is in no node.
+    /// A leaf without triangles that no node contains: it marks the bottom of a stack.
     pub const BOTTOM: Self = Self(Self::LEAF | 1 << Self::COUNT_BITS);
 
     pub fn node(at: usize) -> Self {
@@ -113,7 +113,7 @@ impl Child {
         (first as usize, (self.0 & Self::BLOCKS as u32) as usize)
     }
 
-    /// The same child after `nodes` nodes and `blocks` blocks have been placed before its own.
+    /// This child after its part of the tree has been moved behind `nodes` nodes and `blocks` blocks.
     pub fn moved(self, nodes: usize, blocks: usize) -> Self {
         match self.blocks() {
             None => Self::node(self.index() + nodes),
@@ -122,10 +122,10 @@ impl Child {
         }
     }
 
-    /// Eight children as they are in memory.
+    /// The bits of eight children.
     #[inline(always)]
     pub fn bits(children: &[Self; WIDTH]) -> &[u32; WIDTH] {
-        // SAFETY: `Child` is a transparent `u32`, so arrays of both have one layout.
+        // SAFETY: `Child` is a transparent `u32`, so an array of `Child` has the layout of an array of `u32`.
         unsafe { &*(&raw const *children).cast() }
     }
 
@@ -136,7 +136,7 @@ impl Child {
 }
 
 impl Node {
-    /// A node without children. No line meets its boxes; a ray without usable inverses finds empty leaves.
+    /// A node without children. Only rays with three NaN inverses meet its boxes; these rays find empty leaves.
     pub const EMPTY: Self = Self {
         planes: [[[f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]]; 3],
         children: [Child::NOTHING; WIDTH],
@@ -151,7 +151,7 @@ impl Node {
         self.children[lane] = child;
     }
 
-    /// The same node after `nodes` nodes and `blocks` blocks have been placed before its part of the tree.
+    /// This node after its part of the tree has been moved behind `nodes` nodes and `blocks` blocks.
     pub fn moved(self, nodes: usize, blocks: usize) -> Self {
         Self { children: self.children.map(|child| child.moved(nodes, blocks)), ..self }
     }
@@ -175,7 +175,7 @@ mod tests {
         assert_eq!(Child::node(nodes - 1).index(), nodes - 1);
         assert!(!Child::node(nodes - 1).is_leaf());
         assert_eq!(Child::leaf(blocks - 1, Child::BLOCKS).blocks(), Some((blocks - 1, Child::BLOCKS)));
-        // The next number would overflow into the mark of leaves.
+        // The next number would overflow into the leaf bit.
         assert_eq!((blocks as u32) << Child::COUNT_BITS, Child::LEAF);
     }
 }

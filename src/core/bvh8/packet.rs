@@ -2,12 +2,12 @@
 //!
 //! **The same hits as one ray at a time.** A packet visits the children of a node in the order of the octant that its
 //! rays share. A ray participates in a visit if and only if its own box test, with its own end, passes. The test of the
-//! whole packet rejects only boxes that each of its rays rejects (see [`Frustum`]). So every ray visits all leaves that
-//! it visits on its own, in the same order, and perhaps some behind its hit.
+//! whole packet rejects only boxes that each ray rejects (see [`Frustum`]). So every ray visits all leaves that a
+//! single ray visits, in the same order, and perhaps some leaves behind its hit.
 //!
-//! A leaf that nearly all rays visit is searched triangle by triangle, eight rays at once; other leaves are searched
-//! ray by ray. If the test of eight rays cannot decide whether a ray meets a triangle, or which of two hits is nearer,
-//! that ray searches the leaf again on its own. The nearest of the same hits does not depend on the order.
+//! If enough rays visit a leaf, it is searched triangle by triangle, with eight rays at once; otherwise, ray by ray. If
+//! the test of eight rays cannot decide whether a ray meets a triangle, or which of two hits is nearer, the ray
+//! searches the leaf again as a single ray. The nearest hit does not depend on the order in which hits are found.
 
 use std::mem::MaybeUninit;
 
@@ -22,13 +22,13 @@ use crate::geometry::{Hit, Ray};
 use crate::simd::{EightLanes, Level};
 use crate::triangle::TriangleTest;
 
-/// A packet with at most this many active rays is finished one ray at a time.
+/// If at most this many rays of a packet visit a node, its subtree is searched one ray at a time.
 const FEW: u32 = 3;
 
-/// The order 0 to 7, three bits per lane.
+/// The lanes in ascending order, three bits per lane, lane 0 lowest.
 const IN_LANES: u32 = 0o76543210;
 
-/// A child to visit, the place of its box, and the rays that may visit it.
+/// A child to visit, the place of its box (`lane` in the node `parent`), and the rays that may visit the child.
 #[derive(Clone, Copy)]
 struct Entry {
     child: Child,
@@ -61,7 +61,7 @@ impl<T: TriangleTest> Bvh8<T> {
             } else if active.count_ones() <= FEW {
                 self.one_by_one::<ANY, L>(child, active, &mut packet, &mut state);
             } else {
-                // SAFETY: a child that is no leaf names one of `nodes`, and a path has at most `DEPTH` of them
+                // SAFETY: a child that is not a leaf names one of `nodes`, and a path has at most `DEPTH` nodes
                 // (invariants of `Bvh8`). Each node above has left at most seven entries, so eight more fit in `SIZE`.
                 unsafe {
                     let node = self.nodes.get_unchecked(child.index());
@@ -86,7 +86,7 @@ impl<T: TriangleTest> Bvh8<T> {
                     return true;
                 }
                 len -= 1;
-                // SAFETY: entries are written before `len` counts them; their parent is a node.
+                // SAFETY: entries are written before `len` counts them. The `parent` of an entry is a node.
                 let (entry, node) = unsafe {
                     let entry = stack.get_unchecked(len).assume_init();
                     (entry, self.nodes.get_unchecked(entry.parent as usize))

@@ -6,7 +6,7 @@ use crate::triangle::{Depth, EightHits, TriangleTest};
 pub(super) const RAYS: usize = 16;
 pub(super) const HALVES: usize = RAYS / WIDTH;
 
-/// The nearest hits of sixteen rays so far, or the ends of their intervals: the data of a [`Nearest`] each.
+/// The nearest hits of sixteen rays so far, or the ends of their intervals: the data of one [`Nearest`] per ray.
 pub(super) struct PacketHits<'a, T: TriangleTest> {
     /// The blocks of the tree.
     blocks: &'a [LeafBlock<T>],
@@ -15,11 +15,11 @@ pub(super) struct PacketHits<'a, T: TriangleTest> {
     least: [[f32; WIDTH]; HALVES],
     /// [`NONE`] without a hit.
     ids: [[u32; WIDTH]; HALVES],
-    /// The places of the hit triangles, unless single rays found them: 8 x block + lane.
+    /// The places of the hit triangles, 8 x block + lane; unused for the rays in `alone`.
     places: [[u32; WIDTH]; HALVES],
-    /// The hits of the rays in `alone`.
+    /// The depths of the hits of the rays in `alone`.
     depths: [Option<T::Depth<'a>>; RAYS],
-    /// The rays whose hit was found by a search of a single ray, as bits.
+    /// The rays whose nearest hit was found by a search of a single ray, as bits.
     alone: u16,
 }
 
@@ -35,7 +35,7 @@ pub(super) struct HitLanes<L: EightLanes> {
 }
 
 impl<L: EightLanes> HitLanes<L> {
-    /// Updates the lanes of `active` with nearer hits of triangle `id` at `place`. Returns undecided lanes, as bits.
+    /// Updates the `active` lanes with nearer hits of triangle `id` at `place`. Returns the undecided lanes, as bits.
     #[inline(always)]
     pub fn offer<T: TriangleTest>(&mut self, active: L::Mask, found: &EightHits<L>, id: u32, place: u32) -> u32 {
         let id = L::splat_number(id);
@@ -49,7 +49,7 @@ impl<L: EightLanes> HitLanes<L> {
             return 0;
         }
         let nearer = L::both(met, found.high.cmp_lt(self.least));
-        // A triangle may be referenced by several leaves.
+        // Several leaves may reference the triangle of the nearest hit.
         let again = L::both(not_above, L::cmp_le_numbers(self.ids, id));
         let further = L::both(met, self.t.cmp_lt(found.low));
         let known = L::either(L::either(nearer, further), L::either(found.missed, again));
@@ -93,7 +93,7 @@ impl<'a, T: TriangleTest> PacketHits<'a, T> {
         Nearest { t, hit: (id != NONE).then(|| (self.depth(i), id)) }
     }
 
-    /// The depth of the hit of ray `i`, which must have one.
+    /// The depth of the hit of ray `i`. The ray must have a hit.
     #[inline(always)]
     pub fn depth(&self, i: usize) -> T::Depth<'a> {
         let (half, lane) = (i / WIDTH, i % WIDTH);
@@ -127,7 +127,7 @@ impl<'a, T: TriangleTest> PacketHits<'a, T> {
         }
     }
 
-    /// The same for a depth that is more than a float, and a triangle at `place`; false if the order is undecided.
+    /// Like [`offer`](Self::offer), for a depth with bounds and a triangle at `place`; false if the order is undecided.
     #[inline(always)]
     pub fn offer_between(&mut self, i: usize, depth: &T::Depth<'_>, id: u32, place: u32) -> bool {
         let (half, lane) = (i / WIDTH, i % WIDTH);

@@ -10,19 +10,19 @@ use crate::simd::{EightLanes, Level, each};
 use crate::traversal::leaf::{LeafBlock, NONE, Nearest, settle};
 use crate::triangle::{BETWEEN_BOUNDS, Depth, ORIGIN, TriangleTest, last_bits};
 
-/// With fewer rays a leaf is searched ray by ray: hardly any of them hits a triangle, which that search detects sooner.
-/// With so many, both halves have active rays.
+/// With fewer active rays, a leaf is searched ray by ray: hardly any of these rays hits a triangle, and that search
+/// detects misses sooner. With at least this many, both halves have active rays.
 const MANY: u32 = 12;
 
 pub(super) struct PacketState<'a, T: TriangleTest> {
     rays: &'a [Ray; RAYS],
-    /// The rays in the format of the triangle test, prepared at their first leaf: many never visit one.
+    /// The rays in the format of the triangle test, prepared at their first leaf, because many rays visit no leaf.
     prepared: [MaybeUninit<T::Ray>; RAYS],
     ready: u16,
     nearest: PacketHits<'a, T>,
     t_min: [f32; RAYS],
     candidates: [MaybeUninit<BlockCandidates<T>>; RAYS],
-    /// The rays that still search, as bits.
+    /// The rays whose search is not finished, as bits.
     pub unfinished: u16,
 }
 
@@ -30,7 +30,7 @@ pub(super) struct PacketState<'a, T: TriangleTest> {
 type BlockCandidates<T> = (u32, <T as TriangleTest>::Values<WIDTH>);
 
 impl<'a, T: TriangleTest> PacketState<'a, T> {
-    /// For rays that search `blocks`; sets the ends of the rays in `packet`.
+    /// The state before the first leaf of a tree with these `blocks`; also sets the ends of the rays in `packet`.
     #[inline(always)]
     pub fn new<L: EightLanes>(rays: &'a [Ray; RAYS], blocks: &'a [LeafBlock<T>], packet: &mut RayPacket<L>) -> Self {
         let nearest = PacketHits::until(blocks, |i| T::last(rays[i].t_max));
@@ -47,7 +47,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     }
 
     /// Passes the hit of each ray to `answer`.
-    #[allow(clippy::needless_range_loop)] // a lane is a column of many
+    #[allow(clippy::needless_range_loop)] // `lane` is an index into several arrays
     #[inline(always)]
     pub fn answer<const ANY: bool, L: EightLanes>(
         &self,
@@ -68,7 +68,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
                 if self.nearest.has_found(i) {
                     found |= 1 << lane;
                     let own = self.nearest.depth(i).inputs(&self.rays[i]);
-                    // The columns of the rays are filled already.
+                    // `packet.inputs` has filled the columns of the origin and the direction.
                     for column in (0..ORIGIN).chain([BETWEEN_BOUNDS]) {
                         inputs[column][lane] = own[column];
                     }
@@ -82,7 +82,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         }
     }
 
-    /// Ray `i` for a separate search: in the format of the test, and its nearest hit so far.
+    /// For a separate search of ray `i`: the ray in the format of the test, and its nearest hit so far.
     #[inline(always)]
     pub fn single(&mut self, i: usize) -> (&T::Ray, Nearest<T::Depth<'a>>) {
         self.prepare(1 << i);
@@ -111,7 +111,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         active: u16,
         packet: &mut RayPacket<L>,
     ) {
-        // Ray by ray takes a step per ray and block; triangle by triangle takes one per triangle and half of the rays.
+        // Compare the numbers of steps: one per triangle and half of the rays, or one per ray and block.
         let rays = active.count_ones();
         let triangles = || blocks.iter().map(LeafBlock::len).sum::<u32>();
         let pays = T::EIGHT && rays >= MANY && triangles() * HALVES as u32 <= rays * blocks.len() as u32;
@@ -128,8 +128,8 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         }
     }
 
-    /// Triangle by triangle, half of the rays at once. No branch depends on which rays meet a triangle, because such a
-    /// branch cannot be predicted. Returns the rays that must search the leaf on their own.
+    /// Searches triangle by triangle, with half of the rays at once. No branch depends on which rays meet a triangle:
+    /// such a branch cannot be predicted. Returns the rays that must search the leaf as single rays, as bits.
     #[inline(always)]
     fn triangle_by_triangle<L: EightLanes>(
         &mut self,
@@ -161,8 +161,8 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         left as u16
     }
 
-    /// Ray by ray, the triangles of a block at once. The first stage runs for all rays before the second stage decides
-    /// the candidates, because it cannot be predicted whether a ray has any. With `ANY`, rays with a hit stop.
+    /// Searches ray by ray, with the triangles of a block at once. The first stage runs for all rays before the second
+    /// stage runs: a branch on the candidates of a ray cannot be predicted. With `ANY`, a ray with a hit stops.
     #[inline(always)]
     fn ray_by_ray<const ANY: bool, L: EightLanes>(
         &mut self,
@@ -178,11 +178,11 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
             while left != 0 {
                 let i = left.trailing_zeros() as usize % RAYS;
                 left &= left - 1;
-                // SAFETY: `prepare` above has written the rays of `active`, and `left` has no others.
+                // SAFETY: `prepare` above has written the rays of `active`, and `left` is a subset of `active`.
                 let ray = unsafe { self.prepared[i].assume_init_ref() };
                 let (candidates, first) =
                     T::candidates::<WIDTH, L>(ray, &block.triangles, self.t_min[i], self.nearest.t(i));
-                // Values that exist anyway are stored without a branch.
+                // The values of a one-stage test exist already, so store them without a branch.
                 if T::ONE_STAGE || candidates != 0 {
                     self.candidates[i].write((candidates, T::values(first)));
                 }
@@ -193,7 +193,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
                 met &= met - 1;
                 // SAFETY: the loop above sets a bit of `met` only after it has written the candidates of that ray.
                 let candidates = unsafe { self.candidates[i].assume_init() };
-                // SAFETY: `prepare` above has prepared the rays of `active`, and `met` has no others.
+                // SAFETY: `prepare` above has prepared the rays of `active`, and `met` is a subset of `active`.
                 unsafe { self.settle(number, block, i, candidates) };
                 if ANY && self.nearest.has_found(i) {
                     searching &= !(1 << i);
@@ -221,7 +221,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         (mut candidates, values): BlockCandidates<T>,
     ) {
         if T::ONE_STAGE {
-            // The candidates are hits already, so no call is needed.
+            // All candidates are hits, so no call is needed.
             while candidates != 0 {
                 let lane = candidates.trailing_zeros() as usize % WIDTH;
                 candidates &= candidates - 1;
@@ -233,7 +233,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
             while candidates != 0 {
                 let lane = candidates.trailing_zeros() as usize % WIDTH;
                 let (id, place) = (block.ids[lane], (number * WIDTH + lane) as u32);
-                // A triangle may be referenced by several leaves.
+                // Several leaves may reference a triangle: skip the triangle of the nearest hit.
                 let decided = self.nearest.id(i) == id || {
                     // SAFETY: by the contract of this function ray `i` is prepared.
                     match T::decide_at_once(unsafe { self.prepared(i) }, &block.triangles, lane, &values) {
@@ -260,7 +260,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     #[inline(always)]
     unsafe fn prepared(&self, i: usize) -> &T::Ray {
         debug_assert!(self.ready >> i & 1 == 1);
-        // SAFETY: by the contract of this function `prepare` has written it, and nothing removes it.
+        // SAFETY: by the contract of this function `prepare` has written the ray. Written rays stay initialised.
         unsafe { self.prepared[i].assume_init_ref() }
     }
 

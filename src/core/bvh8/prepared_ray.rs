@@ -5,21 +5,20 @@ use crate::geometry::Ray;
 use crate::simd::{Lanes, each, indexed};
 use crate::traversal::line::inverses;
 
-/// A ray, prepared for the boxes of nodes.
+/// A ray, prepared for box tests.
 ///
-/// **No box is lost.** Units are 2^-24, relative to a parameter. Let the ray be in a closed box at the exact parameter
-/// t* >= `t_min`, which is at most one unit beyond the last parameter of interest (see
+/// **No box is lost.** Errors are relative, in units of 2^-24. Let t* >= `t_min` be an exact parameter at which the ray
+/// is in a closed box, at most one unit beyond the last parameter of interest (see
 /// [`Line`](crate::traversal::line::Line)). On each axis the ray crosses the near plane at n <= t* and the far plane at
-/// f >= t*. The computed near crossing is the rounded product N = fl(p - o) * i, where i = fl(1 / d). The computed far
-/// crossing is the rounded product F = fl(p - o) * g, where g is i enlarged by 16 units. Before the products are
-/// rounded, N is less than 2.1 units from n because of two roundings. F is less than 3.1 units from a point 16 units
-/// beyond f because of three roundings. So N <= F for the planes of any two axes if n is not negative, and `t_min` <=
-/// F. Rounding is monotonic, so the rounded products have the same order, even if they underflow. If n is negative,
-/// `t_min` replaces N. Callers move `end` beyond the last parameter of interest with
-/// [`after`](crate::traversal::line::after), by more than 6.9 units: the rounded N does not exceed it. If N overflows,
-/// `end` is infinite, and so is F. Infinite crossings (`d` = 0) order correctly. Undefined crossings are NaN (see
-/// [`inverses`]), which leaves the interval unchanged. No multiplication is fused with an addition: all instruction
-/// levels visit the same boxes for the same `end`.
+/// f >= t*. The computed near crossing is fl(N), where N = fl(p - o) * i, p is the plane and i = fl(1 / d). The
+/// computed far crossing is fl(F), where F = fl(p - o) * g, and g is i enlarged by 16 units. Two roundings put N less
+/// than 2.1 units from n. Three roundings put F less than 3.1 units from the point 16 units beyond f. So `t_min` <= F
+/// and, if n is not negative, N <= F for the planes of any two axes. Rounding is monotonic, so fl(N) <= fl(F), even if
+/// they underflow. If n is negative, `t_min` replaces fl(N). [`after`](crate::traversal::line::after) moves `end` more
+/// than 6.9 units beyond the last parameter of interest, so fl(N) does not exceed `end`. If fl(N) overflows, `end` and
+/// fl(F) are infinite. Infinite crossings (`d` = 0) order correctly. Undefined crossings are NaN (see [`inverses`]),
+/// which leaves the interval unchanged. No multiplication is fused with an addition, so all levels visit the same boxes
+/// for the same `end`.
 #[derive(Clone, Copy)]
 pub(super) struct PreparedRay {
     origin: [f32; 3],
@@ -37,7 +36,7 @@ pub(super) struct PreparedRay {
 /// The factor that enlarges the crossings of far planes.
 pub(super) const ENLARGED: f32 = 1.0 + 8.0 * f32::EPSILON;
 
-/// The rows of the near and of the far planes for rays of an octant, by axis. A node has six rows of planes.
+/// The rows of the near and the far planes in a node, by axis, for rays of an octant. A node has six rows of planes.
 #[inline(always)]
 pub(super) fn rows(octant: usize) -> ([usize; 3], [usize; 3]) {
     let [x, y, z] = indexed(|axis| octant >> axis & 1);

@@ -1,4 +1,4 @@
-//! Sixteen rays, prepared for the boxes of nodes.
+//! Sixteen rays, prepared for box tests.
 
 use super::node::{Node, WIDTH};
 use super::packet_hits::{HALVES, RAYS};
@@ -8,10 +8,10 @@ use crate::simd::{EightLanes, LaneVec3, each};
 use crate::traversal::line::{after, lanes_after};
 use crate::triangle::{DIRECTION, EightRays, INPUTS, ORIGIN};
 
-/// One number of each ray.
+/// One number per ray.
 type Row = [[f32; WIDTH]; HALVES];
 
-/// The rays of a packet: the numbers of a [`PreparedRay`] for each.
+/// The rays of a packet: for each ray, the numbers of a [`PreparedRay`].
 pub(super) struct RayPacket<L> {
     pub origin: [[L; HALVES]; 3],
     direction: [[L; HALVES]; 3],
@@ -19,14 +19,14 @@ pub(super) struct RayPacket<L> {
     pub enlarged: [[L; HALVES]; 3],
     pub t_min: [L; HALVES],
     t_max: [L; HALVES],
-    /// The largest magnitude of a component of the directions, and of the origins.
+    /// The largest magnitudes of a direction component (`longest`) and of an origin component (`farthest`).
     longest: f32,
     farthest: f32,
     ends: Row,
     pub octant: usize,
 }
 
-/// The eight numbers of eight rays, transposed: a row for each number. No closure: it might not be inlined.
+/// The eight numbers of each of eight rays, transposed: a row per number. Not a closure, which might not be inlined.
 #[inline(always)]
 fn numbers<L: EightLanes>(rays: &[Ray]) -> [L; 8] {
     let mut rows = [L::zero(); WIDTH];
@@ -37,7 +37,7 @@ fn numbers<L: EightLanes>(rays: &[Ray]) -> [L; 8] {
     L::transpose(rows)
 }
 
-/// The greatest number of all lanes.
+/// The greatest number in any lane.
 #[inline(always)]
 fn greatest<L: EightLanes>(lanes: L) -> f32 {
     let lanes = lanes.store();
@@ -45,8 +45,8 @@ fn greatest<L: EightLanes>(lanes: L) -> f32 {
 }
 
 impl<L: EightLanes> RayPacket<L> {
-    /// For rays of one octant without zero components whose inverses are finite and whose differences to planes in
-    /// `bounds` do not overflow; `None` for other rays. The ends are not set yet.
+    /// Prepares the rays. Returns `None` if a ray is invalid, if their octants differ, if an inverse is not a normal
+    /// float or overflows when enlarged, or if a difference to a plane in `bounds` may overflow. The ends are unset.
     #[inline(always)]
     pub fn new(rays: &[Ray; RAYS], bounds: &Aabb) -> Option<Self> {
         let (low, high) = rays.split_at(WIDTH);
@@ -67,7 +67,7 @@ impl<L: EightLanes> RayPacket<L> {
         let enlarged = each(&inverse, |halves| each(halves, |i| i.mul(L::splat(ENLARGED))));
         let (t_min, t_max) = (each(&row(3), |t| t.max(L::zero())), row(7));
 
-        // The conditions of `Ray::is_valid` and `inverses`; no inverse, enlarged or not, may be infinite or NaN.
+        // Check the conditions of `Ray::is_valid` and `inverses`. All inverses must stay finite when enlarged.
         let abs = |x: L| x.flip_sign(x);
         let mut good = u32::MAX;
         for half in 0..HALVES {
@@ -91,7 +91,7 @@ impl<L: EightLanes> RayPacket<L> {
         Some(Self { origin, direction, inverse, enlarged, t_min, t_max, longest, farthest, ends, octant })
     }
 
-    /// The rays that meet the box of `lane` before their ends, as bits.
+    /// The rays that enter the box in `lane` of `node` at or before their ends, as bits.
     #[inline(always)]
     pub fn meet(&self, node: &Node, lane: usize) -> u16 {
         let mut met = 0;
@@ -124,19 +124,19 @@ impl<L: EightLanes> RayPacket<L> {
         row
     }
 
-    /// Sets the end of ray `i`, with slack after `t`.
+    /// Sets the end of ray `i` to [`after`] of `t`.
     #[inline(always)]
     pub fn end(&mut self, i: usize, t: f32) {
         self.ends[i / WIDTH][i % WIDTH] = after(t);
     }
 
-    /// Sets the ends of all rays, with slack after `t`.
+    /// Sets the ends of all rays to [`after`] of `t`.
     #[inline(always)]
     pub fn end_all(&mut self, t: [L; HALVES]) {
         self.ends = each(&t, |t| lanes_after(*t).store());
     }
 
-    /// The columns of [`Depth::inputs`](crate::triangle::Depth::inputs) that hold half of the rays.
+    /// The origins and directions of half of the rays as columns of `Depth::inputs`; all other columns are zero.
     #[inline(always)]
     pub fn inputs(&self, half: usize) -> [[f32; WIDTH]; INPUTS] {
         let mut inputs = [[0.0; WIDTH]; INPUTS];

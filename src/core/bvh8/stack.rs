@@ -5,37 +5,37 @@ use std::mem::MaybeUninit;
 use super::node::{Child, DEPTH, Node, WIDTH};
 use crate::simd::EightLanes;
 
-/// Each node leaves at most seven children behind, and eight are written at once.
+/// Each node of a path leaves at most seven entries on the stack, and eight are written at once.
 pub(super) const SIZE: usize = DEPTH * (WIDTH - 1) + WIDTH;
-/// The bottom, the remaining children of all nodes of a path except the last one, and its eight children.
+/// `SIZE` suffices for the bottom, eight entries of the last node of a path, and seven entries of each node above it.
 const _: () = assert!(1 + (DEPTH - 1) * (WIDTH - 1) + WIDTH <= SIZE);
 
-/// Children to visit, the next one on top, and the parameters at which the ray enters them; not initialised for speed.
+/// Children to visit, the next one on top, and the parameters at which the ray enters them; uninitialised for speed.
 ///
 /// The address matters: eight entries are written at once, and a store across the border of two pages is slow. If the
-/// first few dozen entries cross a border, a traversal takes 1.25 to 1.4 times as long (Xeon). So the stack of a single
-/// ray lies in one page, see [`OnePage`]. Several simultaneous stacks should begin at different offsets in their pages,
-/// because the first-level cache has few ways for the same offset in many pages.
+/// first few dozen entries cross a border, a traversal takes 1.25 to 1.4 times as long (Xeon). So these entries lie in
+/// one page for a single ray, see [`OnePage`]. Several simultaneous stacks should begin at different offsets in their
+/// pages, because addresses at the same offset compete for the few ways of one set of the first-level cache.
 #[repr(C)]
 pub(super) struct Entries {
     children: [MaybeUninit<Child>; SIZE],
     enters: [MaybeUninit<f32>; SIZE],
 }
 
-/// The first `len` of some entries, for one of the queries. A separate length stays in a register.
+/// The first `len` of `entries`, for one query. `len` is separate from the entries, so it stays in a register.
 pub(super) struct Stack<'a, const ANY: bool> {
     entries: &'a mut Entries,
     len: usize,
 }
 
-/// A value in one page of memory, a quarter of a page after its beginning: the compiler spills registers near the
-/// beginning, and a load waits for a store to the same offset of another page.
+/// A value that begins a quarter of a page after the start of a page. The compiler spills registers to the start of a
+/// page, and a load waits for an earlier store to the same offset of another page (4K aliasing).
 #[repr(C, align(4096))]
 pub(super) struct OnePage<T>(pub [MaybeUninit<u8>; BEFORE], pub T);
 
 const BEFORE: usize = 1024;
 
-/// Entries of the second array that lie within the page: more than most traversals use.
+/// The page holds more entries of the second array, `enters`, than most traversals use.
 const _: () = assert!((4096 - BEFORE) / size_of::<Child>() - SIZE > 50);
 
 impl<T> OnePage<T> {
@@ -57,7 +57,7 @@ impl Entries {
     /// `entries` is valid for writes.
     #[inline(always)]
     pub unsafe fn reset(entries: *mut Self) {
-        // SAFETY: by the contract of this function the entries may be written, through raw pointers.
+        // SAFETY: by the contract of this function `entries` is valid for writes.
         unsafe {
             (&raw mut (*entries).children[0]).write(MaybeUninit::new(Child::BOTTOM));
             (&raw mut (*entries).enters[0]).write(MaybeUninit::new(f32::NEG_INFINITY));
@@ -79,20 +79,20 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
         self.len
     }
 
-    /// Pushes the children whose boxes are met, except the first, which it returns: in the order of the octant, or with
-    /// `ANY` from the highest lane to the lowest.
+    /// Pushes the children whose boxes the ray meets, except the first child, which is returned. The visiting order
+    /// is stored for the octant or, with `ANY`, runs from the highest lane to the lowest.
     ///
-    /// The first child is found by a branch for each place, not by a table look-up: a branch is predicted, and the
-    /// processor continues in the next node while the boxes of this one are still being tested.
+    /// Branches, one per place, find the first child. Unlike a table look-up, they are predicted: the processor
+    /// continues in the next node while it is still testing the boxes of this node.
     ///
     /// # Safety
-    /// Every node on the path has been pushed once, and there are at most [`DEPTH`].
+    /// Each node of the path is pushed once, and the path has at most [`DEPTH`] nodes.
     #[inline(always)]
     pub unsafe fn push<L: EightLanes>(&mut self, node: &Node, octant: usize, (enter, leave): (L, L)) -> Option<Child> {
         let children = Child::bits(&node.children);
         let order = node.orders[octant & 7];
-        // SAFETY: by the contract of this function at most `DEPTH` - 1 nodes have left entries, seven each, above at
-        // most one entry of `reset`: eight more fit, by the assertion at `SIZE`. A child is a transparent `u32`.
+        // SAFETY: by the contract of this function, the stack has at most one entry of `reset` and seven entries of
+        // each of `DEPTH` - 1 nodes. By the assertion at `SIZE`, eight more fit. A child is a transparent `u32`.
         let met = unsafe {
             let chosen = self.entries.children.as_mut_ptr().add(self.len).cast();
             if ANY {
@@ -120,12 +120,12 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
         None
     }
 
-    /// The next child that the ray enters at or before `end`.
+    /// Pops the next child that the ray enters at or before `end`; with `ANY`, the next child.
     #[inline(always)]
     pub fn pop(&mut self, end: f32) -> Option<Child> {
         while self.len > 0 {
             self.len -= 1;
-            // SAFETY: by the contract of `of`, `push` has written the entries below `len`; if `ANY`, the children.
+            // SAFETY: by the contract of `of`, `push` has written the entries below `len`; with `ANY`, only `children`.
             unsafe {
                 if ANY || self.entries.enters.get_unchecked(self.len).assume_init() <= end {
                     return Some(self.entries.children.get_unchecked(self.len).assume_init());
@@ -137,14 +137,14 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
 }
 
 impl Stack<'_, false> {
-    /// Pushes all children whose boxes are met, in the order of [`push`](Self::push).
+    /// Pushes all children whose boxes the ray meets, in the order of [`push`](Self::push).
     ///
     /// # Safety
-    /// See [`push`](Self::push).
+    /// As for [`push`](Self::push). In addition, [`pop_down`](Self::pop_down) is called before the next `push_all`.
     #[inline(always)]
     pub unsafe fn push_all<L: EightLanes>(&mut self, node: &Node, octant: usize, (enter, leave): (L, L)) {
         let children = Child::bits(&node.children);
-        // SAFETY: as in `push`: of the eight entries that a node pushes, the next step takes one off.
+        // SAFETY: as in `push`. A node leaves at most seven entries, because the caller pops one of the eight.
         let met = unsafe {
             let chosen = self.entries.children.as_mut_ptr().add(self.len).cast();
             let enters = self.entries.enters.as_mut_ptr().add(self.len).cast();
@@ -153,7 +153,7 @@ impl Stack<'_, false> {
         self.len += met.count_ones() as usize;
     }
 
-    /// The next child that the ray enters at or before `end`; finally [`BOTTOM`](Child::BOTTOM).
+    /// Pops the next child that the ray enters at or before `end`; finally [`BOTTOM`](Child::BOTTOM).
     ///
     /// # Safety
     /// The entries were [`reset`](Entries::reset), and the bottom has not been returned since.

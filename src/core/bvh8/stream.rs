@@ -1,8 +1,8 @@
 //! Interleaved closest-hit queries: several single rays are active at once.
 //!
 //! **The same hits as one ray after the other.** Each ray has its own stack and takes the same steps in the same order
-//! as on its own. After a step of one ray the memory for its next step is prefetched, and meanwhile the other rays take
-//! their steps. Rays at nodes and at leaves are in separate lists, so no branch depends on which comes next.
+//! as a single ray. After a step of one ray, the memory for its next step is prefetched while the other rays take
+//! steps. Rays at nodes and rays at leaves are in separate lists, so no branch depends on the type of the next child.
 
 use std::marker::PhantomData;
 use std::mem::MaybeUninit;
@@ -18,7 +18,7 @@ use crate::traversal::line::after;
 use crate::traversal::pages;
 use crate::triangle::TriangleTest;
 
-/// Active rays: enough to hide the latency of memory, few enough for the first-level cache.
+/// Number of active rays: enough to hide the latency of memory, few enough for the first-level cache.
 const SLOTS: usize = 8;
 
 struct StreamRay<'a, T: TriangleTest> {
@@ -44,7 +44,7 @@ impl<T: TriangleTest> Slots<'_, T> {
     pub const EMPTY: Self = Self([const { MaybeUninit::uninit() }; SLOTS]);
 }
 
-/// Some of the slots.
+/// Pointers to some of the slots.
 struct List<'a, T: TriangleTest>([*mut StreamRay<'a, T>; SLOTS]);
 
 impl<'a, T: TriangleTest> List<'a, T> {
@@ -96,7 +96,7 @@ impl<'a, T: TriangleTest> Stream<'a, T> {
         Self { tree, slots: PhantomData, nodes, leaves, free, at_nodes: 0, at_leaves: 0, freed: SLOTS }
     }
 
-    /// Traces all of `rays`; `done` receives the number and the hit of each.
+    /// Traces all of `rays`; `done` receives the number and the hit of each ray.
     #[inline(always)]
     pub fn run<L: EightLanes>(
         &mut self,
@@ -115,16 +115,16 @@ impl<'a, T: TriangleTest> Stream<'a, T> {
         }
     }
 
-    /// Starts a ray: visits the root, and if the ray meets a box there, takes a slot. There must be a free slot.
+    /// Starts a ray: visits the root and, if the ray meets one of its boxes, takes a slot. There must be a free slot.
     #[inline(always)]
     fn push<L: EightLanes>(&mut self, number: usize, ray: &'a Ray, done: &mut impl FnMut(usize, Option<Hit>)) {
         let (tree, root) = (self.tree, self.tree.root);
         let Some((t_min, nearest)) = start::<T>(ray).filter(|_| !root.is_leaf()) else { return done(number, None) };
         let (prepared_ray, end) = (PreparedRay::new(ray, tree.farthest, t_min), after(nearest.t));
-        // SAFETY: `freed` counts the slots in `free`, which `new` has borrowed for the lifetime of the stream, and is
-        // above 0. Every field of the slot is written before the slot is put into a list, except the entries above the
-        // top of its stack, which `left` excludes. A slot is in one list at a time, so no list becomes longer than
-        // `SLOTS`. A root that is no leaf is a node (invariants of `Bvh8`), the first of every path.
+        // SAFETY: `freed` is above 0 and counts the slots in `free`, which `new` has borrowed for the lifetime of the
+        // stream. Every field of the slot is written before the slot is put into a list, except the entries above the
+        // top of its stack, which `left` excludes. A slot is counted in one list at a time, so no list becomes longer
+        // than `SLOTS`. A root that is not a leaf is a node (invariants of `Bvh8`), and the first node of every path.
         unsafe {
             let slot = self.free.get(self.freed - 1);
             Entries::reset(&raw mut (*slot).entries);
@@ -154,16 +154,16 @@ impl<'a, T: TriangleTest> Stream<'a, T> {
         }
     }
 
-    /// A step of each ray.
+    /// Takes one step of each ray.
     #[inline(always)]
     fn round<L: EightLanes>(&mut self, done: &mut impl FnMut(usize, Option<Hit>)) {
         let tree = self.tree;
-        // Each list is rewritten in place while it is read. A slot is written to both lists, and counted in one.
+        // Each list is rewritten in place while it is read. A slot is written to both lists, but counted in only one.
         let (mut nodes, rays) = (0, self.at_nodes);
         for k in 0..rays {
-            // SAFETY: `push` has filled the first `at_nodes` slots of `nodes`, and each is in one list, so this is the
-            // only reference to it, and no list becomes longer than `SLOTS`. Its child is a node, so the bottom of its
-            // stack, a leaf, is left; a path has at most `DEPTH` nodes (invariants of `Bvh8`).
+            // SAFETY: the first `at_nodes` places of `nodes` are filled. Each slot is in one list, so `at` is the only
+            // reference to it, and no list becomes longer than `SLOTS`. Its child is a node, so the bottom of its
+            // stack, a leaf, has not been popped. A path has at most `DEPTH` nodes (invariants of `Bvh8`).
             unsafe {
                 let slot = self.nodes.get(k);
                 let at = &mut *slot;
@@ -180,8 +180,8 @@ impl<'a, T: TriangleTest> Stream<'a, T> {
         }
         let (mut leaves, rays) = (0, self.at_leaves + rays - nodes);
         for k in 0..rays {
-            // SAFETY: as above for `leaves`, whose slots are at a leaf: it names a range of `blocks` (invariants of
-            // `Bvh8`), or it is `Child::BOTTOM`, after which the slot is freed and its stack not used again.
+            // SAFETY: as above for `leaves`. The child is a leaf: a range of `blocks` (invariants of `Bvh8`), or
+            // `Child::BOTTOM`. After the bottom, the slot is freed and its stack is not used again.
             unsafe {
                 let slot = self.leaves.get(k);
                 let at = &mut *slot;
@@ -211,7 +211,7 @@ impl<'a, T: TriangleTest> Stream<'a, T> {
 }
 
 impl<T: TriangleTest> Bvh8<T> {
-    /// Prefetches the node that `child` names, or most of the first block of the leaf.
+    /// Prefetches the node `child`, or most of the first block of the leaf `child`.
     #[inline(always)]
     fn fetch(&self, child: Child) {
         let node = self.nodes.as_ptr().wrapping_add(child.index()).cast::<u8>();

@@ -1,10 +1,9 @@
-//! One traversal for both queries.
+//! The traversal of a single ray, for both queries.
 //!
 //! **No hit is lost.** Let the ray hit a triangle at the exact t* in its interval. Partitions round the boxes of
-//! clipped parts outward, so some leaf has a reference to the triangle and a box that contains the hit point, and the
-//! boxes of all nodes above this leaf contain it as well. The traversal loses none of these boxes (see
-//! [`PreparedRay`]), unless it has found a hit with a computed t before t*; `kdtree/traverse.rs` explains why this case
-//! is correct.
+//! clipped parts outward, so some leaf has a reference to the triangle and a box that contains the hit point. The boxes
+//! of all nodes above this leaf contain the point as well. The traversal enters all these boxes (see [`PreparedRay`]),
+//! unless it has found a hit with a computed t before t*; `kdtree/traverse.rs` explains why this case is correct.
 //!
 //! The closest-hit query visits children from front to back, in an order stored for the octant of the direction. The
 //! any-hit query visits lanes from the highest to the lowest: leaves before nodes and large boxes before small ones,
@@ -49,18 +48,18 @@ impl<T: TriangleTest> Bvh8<T> {
         let OnePage(_, entries) = &mut OnePage::new(Entries::new());
         // SAFETY: a stack of length 0 has no entries to read; `push` writes entries before it counts them.
         let mut stack = unsafe { Stack::<ANY>::of(entries, 0) };
-        // SAFETY: a root that is no leaf is a node (invariants of `Bvh8`), the first of every path.
+        // SAFETY: a root that is not a leaf is a node (invariants of `Bvh8`), and the first node of every path.
         let first =
             unsafe { self.enter::<ANY, L, O>(self.root, &prepared_ray, after(nearest.t), &mut stack, observer) };
-        // Prepare the ray for triangles only now, because many rays meet none of these boxes.
+        // Prepare the ray for triangles only now, because many rays meet no box of the root.
         let Some(first) = first else { return };
         self.descend::<ANY, L, O>(first, &mut stack, &prepared_ray, &T::prepare(ray), nearest, observer);
     }
 
-    /// Pushes the children whose boxes the ray enters at or before `end`, except the first, which it returns.
+    /// Pushes the children whose boxes the ray enters at or before `end`, except the first child, which is returned.
     ///
     /// # Safety
-    /// `node` is a node of the tree, and no node of the path was entered twice since the stack was empty.
+    /// `node` is a node of the tree. No node of its path has been entered twice since the stack was empty.
     #[inline(always)]
     unsafe fn enter<const ANY: bool, L: EightLanes, O: Observer>(
         &self,
@@ -71,7 +70,7 @@ impl<T: TriangleTest> Bvh8<T> {
         observer: &mut O,
     ) -> Option<Child> {
         observer.inner();
-        // SAFETY: a path has at most `DEPTH` nodes (invariants of `Bvh8`), each pushed once by contract.
+        // SAFETY: a path has at most `DEPTH` nodes (invariants of `Bvh8`), and by contract each is pushed once.
         unsafe {
             let node = self.nodes.get_unchecked(node.index());
             stack.push::<L>(node, prepared_ray.octant, prepared_ray.cross(node, end))
@@ -109,7 +108,7 @@ impl<T: TriangleTest> Bvh8<T> {
                 end = after(nearest.t);
                 None
             } else {
-                // SAFETY: a child that is no leaf names one of `nodes` (invariants of `Bvh8`), entered once.
+                // SAFETY: a child that is not a leaf names one of `nodes` (invariants of `Bvh8`), entered once.
                 unsafe { self.enter::<ANY, L, O>(child, prepared_ray, end, stack, observer) }
             };
             match next.or_else(|| stack.pop(end)) {

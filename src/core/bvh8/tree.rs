@@ -14,9 +14,9 @@ use crate::triangle::TriangleTest;
 /// A tree of nodes with eight tight boxes, and leaves of blocks of eight triangles.
 ///
 /// The configuration selects the partition: by spatial splits (leaves are the tight boxes of disjoint cells), by object
-/// splits, or by both. Collapse, layout and traversal are the same for all partitions. A build takes O(n log n) time
-/// and memory for a bounded duplication of references; the tree is the same for every number of threads. A node takes
-/// 256 bytes; a block over Möller-Trumbore takes 320 bytes. It cannot be updated.
+/// splits, or by both. Collapse, layout and traversal are the same for all partitions. If the duplication of references
+/// is bounded, a build takes O(n log n) time and memory. The tree is the same for every number of threads and cannot be
+/// updated. A node takes 256 bytes; a block over Möller-Trumbore takes 320 bytes.
 ///
 /// `papers/TUNING.md` documents how the constants were chosen and which experiments were rejected.
 ///
@@ -25,10 +25,10 @@ use crate::triangle::TriangleTest;
 /// incoherent ray traversal on GPUs through compressed wide BVHs, 2017 (the collapse). Stich, Friedrich, Dietrich:
 /// Spatial splits in bounding volume hierarchies, 2009.
 pub struct Bvh8<T: TriangleTest> {
-    // Invariants, on which the `unsafe` blocks of the traversals rely. `Layout` establishes them, and a tree is never
-    // changed: the root and all children of nodes name nodes in `nodes` or ranges of `blocks`; the root is a leaf only
-    // if there are no triangles; each node is the child of at most one other; and no path from the root has more than
-    // `DEPTH` nodes, because `Limits::check` refuses longer ones.
+    // The `unsafe` blocks of the traversals rely on these invariants, which `Layout` establishes; a tree is never
+    // changed. The root and all children of nodes name nodes in `nodes` or ranges of `blocks`. The root is a leaf only
+    // if there are no triangles. Each node is the child of at most one other node. No path from the root has more than
+    // `DEPTH` nodes, because `Limits::check` rejects longer paths.
     pub(super) root: Child,
     pub(super) nodes: Vec<Node>,
     pub(super) blocks: Vec<LeafBlock<T>>,
@@ -36,11 +36,11 @@ pub struct Bvh8<T: TriangleTest> {
     /// See [`farthest`].
     pub(super) farthest: Vec3A,
     pub(super) batch: Batch,
-    /// Whether closest-hit queries in packets interleave the rays that form no packet.
+    /// Whether closest-hit queries with [`Batch::Packets`] interleave the rays that form no packet.
     pub(super) interleaves: bool,
 }
 
-/// The bytes of the second-level cache of many processors. Rays in a tree that fits into it wait little for memory.
+/// The size in bytes of the second-level cache of many processors. A smaller tree has few cache misses to hide.
 const CACHE: usize = 2 << 20;
 
 impl<T: TriangleTest> Bvh8<T> {

@@ -4,12 +4,12 @@ use std::cmp::Ordering;
 
 use smallvec::SmallVec;
 
-/// A number as the exact sum of floats, none of them zero, the least first; zero is the empty sum. Their bits do not
-/// overlap nor, because rounding is to even, touch each other; the bits of an integer's terms may touch, but the
-/// largest term is within 2^-53 of the whole.
+/// A number as the exact sum of nonzero floats, in ascending magnitude; zero is the empty sum. The bits of the terms do
+/// not overlap and, because rounding is to even, do not touch. After [`Expansion::of_integer`] they may touch, but the
+/// largest term has a relative error of at most 2^-53.
 ///
-/// Exact as long as nothing overflows or underflows: products of six differences of `f32` numbers do neither, because
-/// they are below 2^780 and multiples of 2^-894. Products rely on fused multiplication.
+/// The operations are exact unless they overflow or underflow. Products of six differences of `f32` numbers do neither:
+/// they are below 2^780 and multiples of 2^-894. The error of a product comes from a fused multiply-add.
 ///
 /// # References
 /// Shewchuk: Adaptive precision floating-point arithmetic and fast robust geometric predicates. Discrete &
@@ -24,7 +24,7 @@ impl Expansion {
         difference
     }
 
-    /// `x`, which is less than 2^126, times 2 to the power of `exponent`, which is in [-1022, 800].
+    /// `x` times 2 to the power of `exponent`. `x` is below 2^126 in magnitude, `exponent` in [-1022, 800].
     pub fn of_integer(mut x: i128, exponent: i32) -> Self {
         debug_assert!(x.unsigned_abs() < 1 << 126 && (-1022..=800).contains(&exponent));
         let scale = f64::from_bits(((1023 + exponent) as u64) << 52);
@@ -38,7 +38,7 @@ impl Expansion {
         Self(terms)
     }
 
-    /// Adds a float: Shewchuk's growing of an expansion, without zeros.
+    /// Adds a float by Shewchuk's Grow-Expansion, which here drops zero terms.
     fn add(&mut self, mut x: f64) {
         let mut kept = 0;
         for i in 0..self.0.len() {
@@ -74,7 +74,7 @@ impl Expansion {
         minor
     }
 
-    /// The sum of the products of components.
+    /// The dot product.
     pub fn dot(a: &[Self; 3], b: &[Self; 3]) -> Self {
         let mut sum = Self::default();
         for (x, y) in a.iter().zip(b) {
@@ -87,7 +87,7 @@ impl Expansion {
         self.0.iter_mut().for_each(|term| *term = -*term);
     }
 
-    /// The order of the number and zero: the largest term is larger than the sum of all others.
+    /// The order of the number and zero: the sign of the largest term, which exceeds the sum of all other terms.
     pub fn sign(&self) -> Ordering {
         self.0.last().map_or(Ordering::Equal, |largest| largest.total_cmp(&0.0))
     }
@@ -138,7 +138,7 @@ mod tests {
 
     #[test]
     fn integers_are_those_of_rationals() {
-        // The second term is half of the lowest bit of the first; also numbers around all powers of two.
+        // The second term of `touching` is half of the lowest bit of the first; `around` is near all powers of two.
         let touching = (((1_i128 << 52) + 1) << 73) + (1 << 72) - 1;
         let around = (0..126).flat_map(|bits| [-1, 0, 1].map(|k| (1_i128 << bits) + k)).filter(|&x| x < 1 << 126);
         for x in around.chain([touching, (1 << 126) - 1, 0x1234_5678_9abc_def0_1234_5678_9abc]) {
@@ -156,7 +156,7 @@ mod tests {
     #[test]
     fn sums_and_products_are_those_of_rationals() {
         let rational = |x: &Expansion| RBig::from(x);
-        // Of similar size, and of all sizes.
+        // One third of the numbers has all sizes, two thirds have similar sizes.
         let number = |i: u32| {
             let bits = i.wrapping_mul(2_654_435_761);
             let similar = bits & 0xbfff_ffff | 0x2000_0000;
@@ -167,7 +167,7 @@ mod tests {
             let minor = Expansion::minor(&a, &b, &c, &d);
             let right = rational(&a) * rational(&b) - rational(&c) * rational(&d);
             assert_eq!(rational(&minor), right);
-            // Each is less than half of the lowest bit of the next.
+            // Each term is less than half of the lowest bit of the next term.
             for pair in minor.0.windows(2) {
                 let next = pair[1].to_bits();
                 let (bits, exponent) = (next & ((1 << 52) - 1), (next >> 52 & 0x7ff) as i32 - 1075);

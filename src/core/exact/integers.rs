@@ -1,4 +1,4 @@
-//! Intersects a line and a triangle in integers, if all used bits lie close together: much faster than sums of floats.
+//! Intersects a line and a triangle in integers: much faster than sums of floats, but only if all used bits are close.
 
 use std::cmp::Ordering;
 
@@ -9,22 +9,22 @@ use super::expansion::Expansion;
 use crate::geometry::Ray;
 use crate::simd::each;
 
-/// The number of places from the lowest to the highest used bit among points, p, and in a direction, d. Numbers of
-/// points are below 2^p, their differences below 2^(p + 1), components of cross products below 2^(2 p + 3), the sum of
-/// three products of these with a direction below 2^(2 p + d + 5), with a third difference below 2^(3 p + 6).
+/// The number of places from the lowest to the highest used bit: p for points, d for a direction. Coordinates of points
+/// are below 2^p, their differences below 2^(p + 1), components of cross products below 2^(2 p + 3). The dot product of
+/// a cross product with a direction is below 2^(2 p + d + 5), with a third difference below 2^(3 p + 6).
 type Places = i32;
 
-/// Whether the products of two differences and a direction are below 2^126.
+/// Whether triple products of two differences and a direction are below 2^126.
 fn sides_fit(points: Places, direction: Places) -> bool {
     2 * points + direction <= 121
 }
 
-/// Whether the products of three differences are below 2^126.
+/// Whether triple products of three differences are below 2^126.
 fn heights_fit(points: Places) -> bool {
     points <= 40
 }
 
-/// Like [`hit`](super::hit), for finite numbers; `None` if they do not fit.
+/// Like [`hit`](super::hit), for finite numbers; `None` if they do not fit into the integers.
 pub(super) fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<Option<ExactT>> {
     let [a, b, c] = corners;
     let (points, unit, places) = integers([ray.origin, a, b, c])?;
@@ -57,14 +57,14 @@ pub(super) fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<Option<ExactT>> {
     }))
 }
 
-/// Like [`side`](super::side), if the numbers fit.
+/// Like [`side`](super::side); `None` if the numbers do not fit.
 pub(super) fn side(ray: &Ray, [p, q]: [Vec3; 2]) -> Option<Ordering> {
     let ([origin, p, q], _, places) = integers([ray.origin, p, q])?;
     let ([direction], _, direction_places) = integers([ray.direction])?;
     sides_fit(places, direction_places).then(|| dot(direction, cross(minus(p, origin), minus(q, origin))).cmp(&0))
 }
 
-/// Like [`height`](super::height), if the numbers fit.
+/// Like [`height`](super::height); `None` if the numbers do not fit.
 pub(super) fn height(origin: Vec3, [a, b, c]: [Vec3; 3]) -> Option<f64> {
     let ([origin, a, b, c], unit, places) = integers([origin, a, b, c])?;
     if !heights_fit(places) {
@@ -74,7 +74,7 @@ pub(super) fn height(origin: Vec3, [a, b, c]: [Vec3; 3]) -> Option<f64> {
     Some(Expansion::of_integer(height, 3 * unit).approximate())
 }
 
-/// Vectors as multiples of 2 to the power of one number, that number, and the used places; `None` if too many.
+/// The vectors as multiples of a power of two, its exponent, and the used places; `None` if more than 60.
 fn integers<const N: usize>(vectors: [Vec3; N]) -> Option<([[i64; 3]; N], i32, Places)> {
     let (mut lowest, mut highest) = (i32::MAX, i32::MIN);
     for x in vectors.iter().flat_map(|vector| vector.to_array()).filter(|&x| x != 0.0) {
@@ -110,7 +110,7 @@ mod tests {
     use super::super::{difference, direction, hit_by_sums, side_by_sums, tracked};
     use super::*;
 
-    /// Numbers of a coarse grid, which are often coplanar, on edges and at corners; and of a fine one.
+    /// Numbers of coarse grids, where rays often meet edges or corners, of a fine grid, and of all sizes.
     #[test]
     fn integers_and_unrounded_floats_give_what_sums_give() {
         const ALL_SIZES: u32 = 1 << 24;
@@ -157,7 +157,7 @@ mod tests {
         assert!((20_000..59_000).contains(&unrounded) && zeros > 2_000, "{unrounded} {zeros}");
     }
 
-    /// The largest integers, of all signs, in the smallest and the largest units.
+    /// The largest integers that fit, with all signs, in units from the smallest to the largest.
     #[test]
     fn what_just_fits_does_not_overflow() {
         let most = (1_i64 << 40) - (1 << 16);
@@ -167,7 +167,7 @@ mod tests {
             for signs in 0..1_u32 << 15 {
                 let x = |k: u32| number(1 - 2 * i64::from(signs >> k & 1));
                 let vector = |k: u32| Vec3::new(x(3 * k), x(3 * k + 1), x(3 * k + 2));
-                // One number that uses the lowest place.
+                // One component of the origin and one of the direction use the lowest place.
                 let ray = Ray::new(Vec3 { x: unit, ..vector(0) }, Vec3 { y: unit, ..vector(1) });
                 let corners = [vector(2), vector(3), vector(4)];
                 let found = hit(&ray, corners).expect("it fits");

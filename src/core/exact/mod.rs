@@ -24,7 +24,7 @@ pub struct ExactT {
 
 /// The parameter at which the line of `ray` meets the closed triangle; `None` if it misses or lies in the plane.
 ///
-/// The function ignores the interval of the ray: see [`ExactT::is_within`]. Numbers that are not finite hit nothing.
+/// The function ignores the interval of the ray: see [`ExactT::is_within`]. If a number is not finite, the ray misses.
 /// Costs 50 nanoseconds, or a microsecond if the significant bits of the numbers span more than forty places.
 ///
 /// The line meets the closed triangle if no two of the three signed volumes with its edges have opposite signs.
@@ -38,9 +38,9 @@ pub fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactT> {
     integers::hit(ray, corners).unwrap_or_else(|| hit_by_sums(ray, corners))
 }
 
-/// Six times the volume of the tetrahedron of `origin` and a triangle, (a - origin) . (e x f), with a relative error
-/// below 2^-49: the numerator of `t`. Zero if and only if `origin` lies in the plane. For finite numbers, at a quarter
-/// of the cost of [`hit`].
+/// The numerator of `t`: (a - origin) . ((b - a) x (c - a)), six times the volume of the tetrahedron of `origin` and
+/// the triangle. The relative error is below 2^-49; the result is zero if and only if the four points lie in a plane.
+/// The numbers must be finite. Costs a quarter of [`hit`].
 pub fn height(origin: Vec3, corners: [Vec3; 3]) -> f64 {
     let of_sums = || {
         let [a, ..] = corners;
@@ -49,8 +49,8 @@ pub fn height(origin: Vec3, corners: [Vec3; 3]) -> f64 {
     integers::height(origin, corners).unwrap_or_else(of_sums)
 }
 
-/// The side on which the line of `ray` passes the line through two points: the sign of direction . ((p - origin) x (q -
-/// origin)). `Ordering::Equal` if both meet or are parallel. For finite numbers, at a sixth of the cost of [`hit`].
+/// The side on which the line of `ray` passes the line through p and q: the sign of direction . ((p - origin) x (q -
+/// origin)), zero if the lines meet or are parallel. The numbers must be finite. Costs a sixth of [`hit`].
 #[inline(always)]
 pub fn side(ray: &Ray, edge: [Vec3; 2]) -> Ordering {
     tracked::side(ray, edge).unwrap_or_else(|| side_of_any_size(ray, edge))
@@ -65,13 +65,13 @@ fn side_of_any_size(ray: &Ray, edge: [Vec3; 2]) -> Ordering {
     integers::side(ray, edge).unwrap_or_else(of_sums)
 }
 
-/// Whether the line of `ray` passes exactly through a point. For finite numbers.
+/// Whether the line of `ray` passes exactly through a point. The numbers must be finite.
 ///
-/// Costs a few nanoseconds, unless rounding hides whether the line passes through the point.
+/// Costs a few nanoseconds, or more if rounding errors could decide the result.
 #[inline(always)]
 pub fn passes_through(ray: &Ray, point: Vec3) -> bool {
     let (direction, offset) = (ray.direction.as_dvec3(), point.as_dvec3() - ray.origin.as_dvec3());
-    // Each product has an error of three units of 2^-53: values that are further apart differ.
+    // Each product has a relative error below 3 * 2^-53: products that are further apart differ.
     let may_be_equal = |x: f64, y: f64| (x - y).abs() <= 4.0 * f64::EPSILON * x.abs();
     may_be_equal(direction.x * offset.y, direction.y * offset.x)
         && may_be_equal(direction.y * offset.z, direction.z * offset.y)
@@ -79,7 +79,7 @@ pub fn passes_through(ray: &Ray, point: Vec3) -> bool {
         && surely_passes_through(ray, point)
 }
 
-/// The same without rounding: direction x (point - origin) is zero.
+/// [`passes_through`] without rounding: whether direction x (point - origin) is zero.
 fn surely_passes_through(ray: &Ray, point: Vec3) -> bool {
     let offset: [_; 3] = indexed(|axis| exact_sum(point[axis].into(), -f64::from(ray.origin[axis])));
     if offset.iter().any(|&(_, error)| error != 0.0) {
@@ -93,7 +93,7 @@ fn surely_passes_through(ray: &Ray, point: Vec3) -> bool {
     [(0, 1), (1, 2), (2, 0)].iter().all(|&(i, j)| product(i, j) == product(j, i))
 }
 
-/// The same for points relative to the origin.
+/// [`side`] in sums of floats; `p` and `q` are relative to the origin.
 fn side_by_sums(direction: &[Expansion; 3], p: &[Expansion; 3], q: &[Expansion; 3]) -> Ordering {
     Expansion::dot(direction, &cross(p, q)).sign()
 }
@@ -114,7 +114,7 @@ fn normal([a, b, c]: [Vec3; 3]) -> [Expansion; 3] {
     cross(&difference(b, a), &difference(c, a))
 }
 
-/// [`hit`] for all finite numbers, in sums of floats.
+/// [`hit`] in sums of floats, for all finite numbers.
 fn hit_by_sums(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactT> {
     let direction = direction(ray);
     let [a, b, c] = corners.map(|corner| difference(corner, ray.origin));
@@ -155,7 +155,7 @@ impl ExactT {
         (!t.is_nan()).then(|| self.order(t.into()))
     }
 
-    /// The order of this `t` and a number with at most the digits of two floats.
+    /// The order of this `t` and a float, the middle of two neighbouring floats, or infinity.
     fn order(&self, t: f64) -> Ordering {
         if t.is_infinite() {
             return 0.0_f64.total_cmp(&t);
@@ -167,19 +167,19 @@ impl ExactT {
         Expansion::minor(&self.numerator, &one, &Expansion::from(t), &self.denominator).sign()
     }
 
-    /// This `t` with a relative error below 2^-50. Neither overflows nor underflows: the numerator and the denominator
-    /// are below 2^391 and, if not zero, at least 2^-447.
+    /// This `t` with a relative error below 2^-50. The quotient neither overflows nor underflows: the numerator and the
+    /// denominator are below 2^391 in magnitude and, if not zero, at least 2^-447.
     pub fn approximate(&self) -> f64 {
         self.numerator.approximate() / self.denominator.approximate()
     }
 
-    /// The nearest `f32`, ties to even; infinity from half an ulp beyond the largest finite number.
+    /// The nearest `f32`, ties to even; infinity if the largest finite float is exceeded by at least half an ulp.
     pub fn round(&self) -> f32 {
         if self.numerator.sign().is_eq() {
             return 0.0;
         }
         let near = self.approximate() as f32;
-        // Rounded twice, it may be the neighbour of the nearest one: compare exactly in `f64`. Infinity is 2^128.
+        // `near` is rounded twice and may be off by one float: compare exactly with the middles. Infinity is 2^128.
         let wide = |x: f32| if x.is_infinite() { f64::from(x.signum()) * 2.0_f64.powi(128) } else { f64::from(x) };
         let middle = |x: f32, y: f32| (wide(x) + wide(y)) / 2.0;
         let is_even = near.to_bits() & 1 == 0;

@@ -1,7 +1,7 @@
-//! A second implementation of [`hit`](super::hit()): another formula, in rationals.
+//! A second implementation of [`hit`](super::hit()), for tests: another formula, in rational numbers.
 //!
-//! It shares no code and no library with the first. For tests; a hundred times slower. Its functions panic if a number
-//! of an origin, a direction or a corner is not finite.
+//! It shares no code and no library with the first one, and takes a hundred times as long. Its functions panic if an
+//! origin, a direction or a corner is not finite; only [`nearest`] accepts such rays, and returns `None`.
 
 use dashu_ratio::RBig;
 use glam::Vec3;
@@ -11,11 +11,11 @@ use crate::geometry::Ray;
 /// The intersection of the line of a ray and the plane of a triangle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
-    /// The determinant, the divisor of the other three; not zero.
+    /// The denominator of the other three numbers; not zero.
     pub determinant: RBig,
-    /// Barycentric of the second corner.
+    /// Barycentric coordinate of the second corner.
     pub u: RBig,
-    /// Barycentric of the third corner.
+    /// Barycentric coordinate of the third corner.
     pub v: RBig,
     /// Ray parameter.
     pub t: RBig,
@@ -52,7 +52,7 @@ pub fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<RBig> {
     (u >= RBig::ZERO && v >= RBig::ZERO && u + v <= RBig::ONE).then_some(t)
 }
 
-/// The hit of `ray` within its interval: half-open, a `t` that rounds to infinity being beyond its end.
+/// The `t` of the hit of `ray` in its half-open interval; a `t` that rounds to infinity is beyond the end.
 fn within(ray: &Ray, corners: [Vec3; 3]) -> Option<RBig> {
     let t = hit(ray, corners)?;
     let (t_min, t_max) = ray.interval();
@@ -65,12 +65,12 @@ fn nearest_float(t: &RBig) -> f32 {
     t.to_f32().value()
 }
 
-/// The nearest `f32` of the hit of `ray` within its half-open interval; an infinite `t` is beyond the end.
+/// The nearest `f32` to the `t` of the hit of `ray` in its half-open interval; if that is infinite, the ray misses.
 pub fn hit_within(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
     Some(nearest_float(&within(ray, corners)?))
 }
 
-/// Like [`hit_within`] for the nearest hit among `triangles`, with the lowest index at equal exact `t`.
+/// Like [`hit_within`], for the nearest hit among `triangles`; the lowest number wins at equal exact `t`.
 pub fn nearest(ray: &Ray, triangles: impl IntoIterator<Item = (u32, [Vec3; 3])>) -> Option<(f32, u32)> {
     if !ray.is_valid() {
         return None;

@@ -92,15 +92,15 @@ fn rounding_is_to_nearest_even() {
         assert_eq!(exact(x).compare(x.next_up()), Some(Ordering::Less));
     }
     assert_eq!(exact(0.0).round().to_bits(), 0);
-    // Decimal fractions are rounded by the compiler: an independent judge.
+    // The compiler rounds decimal fractions: an independent reference.
     assert_eq!(fraction(1.0, 3.0).round(), 1.0 / 3.0);
     assert_eq!(fraction(16_777_217.0, 1.0).round(), 16_777_216.0);
     assert_eq!(fraction(16_777_219.0, 1.0).round(), 16_777_220.0);
     assert_eq!(fraction(-7.0, 1000.0).round(), -0.007);
-    // Beside a tie by less than f64 can resolve.
+    // Closer to a tie than `f64` can resolve.
     let near_tie = |off: f64| ExactT { numerator: Expansion::difference(16_777_217.0, off), denominator: 1.0.into() };
     assert_eq!([-1e-20, 0.0, 1e-20].map(|off| near_tie(off).round()), [16_777_218.0, 16_777_216.0, 16_777_216.0]);
-    // Half of the smallest denormal is a tie to zero; more is not.
+    // Half of the smallest denormal is a tie and rounds to zero; anything larger rounds up.
     assert_eq!(fraction(1.0, 2.0_f64.powi(150)).round(), 0.0);
     assert_eq!(fraction(3.0, 2.0_f64.powi(151)).round(), f32::from_bits(1));
     // 2^128 - 2^103 is half an ulp above the largest float.
@@ -108,7 +108,7 @@ fn rounding_is_to_nearest_even() {
     let below = ExactT { numerator: Expansion::difference(limit, 1.0), denominator: 1.0.into() };
     let at = fraction(limit, 1.0);
     assert_eq!((below.round(), at.round()), (f32::MAX, f32::INFINITY));
-    // If no finite float is the nearest, every ray has ended.
+    // A `t` that rounds to infinity is beyond the end of every ray.
     let whole = Ray::new(Vec3::ZERO, Vec3::X);
     assert_eq!([&below, &at].map(|t| t.is_within(&whole)), [true, false]);
     assert!(!below.is_within(&whole.until(f32::MAX)));
@@ -142,7 +142,7 @@ fn a_line_passes_through_a_point_if_and_only_if_all_minors_are_zero() {
         let origin = Vec3::new(number(0), few(number(1)), number(2));
         let directions = [Vec3::new(few(number(3)), few(number(4)), 3.0), Vec3::Z, Vec3::new(1e-20, -0.0, 0.0)];
         for direction in directions {
-            // Nearly all steps are exact; from far away the difference takes more digits than f64 has.
+            // Most products of direction and step are exact; some differences need more digits than `f64` has.
             for origin in [origin, Vec3::new(few(origin.x), origin.y, few(origin.z)), Vec3::new(1e-30, 0.0, 0.0)] {
                 let ray = Ray::new(origin, direction);
                 for step in [0.0, 1.0, -2.0, 1024.0, 3e10] {

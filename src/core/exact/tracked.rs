@@ -1,4 +1,4 @@
-//! The side on which a line passes an edge, in `f64`. It has a result only if no operation rounds.
+//! The side on which a line passes an edge, in `f64` arithmetic, if no operation rounds.
 
 use std::cmp::Ordering;
 
@@ -31,7 +31,7 @@ impl Tracked {
         self.plus(Self { value: -other.value, ..other })
     }
 
-    /// Two differences of `f32` numbers times a third number neither overflow nor underflow: `error` is exact.
+    /// `error` is exact: a product of two differences of `f32` numbers and an `f32` neither overflows nor underflows.
     #[inline(always)]
     fn times(self, other: Self) -> Self {
         let value = self.value * other.value;
@@ -46,7 +46,7 @@ pub(super) fn side(ray: &Ray, edge: [Vec3; 2]) -> Option<Ordering> {
     let difference = |corner: Vec3, axis: usize| Tracked::of(corner[axis]).minus(Tracked::of(ray.origin[axis]));
     let term = |axis: usize| {
         let direction = Tracked::of(ray.direction[axis]);
-        // A zero component of the direction makes its term zero: the rest of the term need not be exact.
+        // A zero component of the direction makes its term zero, even if the other factor is not exact.
         if direction.value == 0.0 {
             return direction;
         }

@@ -4,9 +4,8 @@ use crate::accel::BuildError;
 use crate::build::cells::{CellConfig, Rules};
 use crate::build::sah_cost::CostModel;
 
-/// The build and traversal options of a [`KdTree`](super::KdTree); `median-kd` and `sah-kd` are two values. "The
-/// report" is the student report that sahara reproduces. An option without effect in combination with the other options
-/// must keep its value from [`REPORT`](Self::REPORT) or [`SAH`](Self::SAH); otherwise the build fails.
+/// The options of a [`KdTree`](super::KdTree): `median-kd` is [`REPORT`](Self::REPORT), `sah-kd` is [`SAH`](Self::SAH).
+/// "The report" is the student report sahara reproduces. Options without effect must keep `REPORT` or `SAH` values.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KdConfig {
@@ -18,21 +17,21 @@ pub struct KdConfig {
     pub stop: Stop,
     /// The way in which rays traverse the tree.
     pub traversal: Traversal,
-    /// `L` of [`Stop::Report`] and [`Stop::Leaf`]: fewer triangles make a leaf. At least 1; 100 in the report.
+    /// `L` of [`Stop::Report`] and [`Stop::Leaf`]: a node with fewer triangles is a leaf. At least 1 (report: 100).
     pub leaf: u32,
-    /// Whether a node of exactly `leaf` triangles may be split; the report does not specify it.
+    /// Whether a node of exactly `leaf` triangles may be split, which the report does not specify.
     pub limit: Limit,
-    /// `T` of [`Stop::Report`]: the share of triangles on both sides that discards a split. In (0, 1].
+    /// `T` of [`Stop::Report`]: a split with at least this share of triangles on both sides is discarded. In (0, 1].
     pub threshold: f32,
     /// The triangles to which the share `threshold` refers.
     pub count: CountOf,
-    /// How the median of the vertex coordinates is defined.
+    /// The definition of the median of vertex coordinates or centroids.
     pub median: Median,
     /// The side of a triangle with a vertex in the plane.
     pub equal: Equal,
     /// When the traversal of a ray stops.
     pub exit: Exit,
-    /// A small hashed mailbox: a ray tests a triangle only once while it is in the mailbox.
+    /// Whether rays use a small hashed mailbox: while a triangle is in it, the ray does not test the triangle again.
     pub mailbox: bool,
     /// SAH cost of an inner node. Positive; a higher cost gives larger leaves.
     pub traversal_cost: f32,
@@ -54,9 +53,9 @@ pub enum Plane {
     SpatialMedian,
     /// The median of the centroids of the node's triangles.
     CentroidMedian,
-    /// The plane of least SAH cost among 32 planes per axis (Hunt, Mark, Stoll 2006), sampled in large nodes.
+    /// The plane of least SAH cost of 32 planes per axis (Hunt, Mark, Stoll 2006); large nodes sample their triangles.
     SahBinned,
-    /// The plane of least SAH cost among all edges of clipped triangles.
+    /// The plane of least SAH cost among all faces of the boxes of clipped triangles.
     SahSweep,
 }
 
@@ -70,13 +69,14 @@ pub enum AxisRule {
     Longest,
 }
 
-/// The rule that makes a node a leaf. The depth limit 8 + 1.3 log2 n and the duplication guard apply to every rule.
+/// The rule that makes a node a leaf. Every rule also makes a leaf at depth 8 + 1.3 log2 n, if a split would exceed
+/// `duplication` and, with a median, instead of a third split in a row without progress.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stop {
-    /// Fewer than `leaf` triangles, a share of `threshold` on both sides, or no progress on three axes in a row.
+    /// Fewer than `leaf` triangles, or a share of `threshold` on both sides of the split.
     Report,
-    /// Fewer than `leaf` triangles; no other reason.
+    /// Fewer than `leaf` triangles.
     Leaf,
     /// The SAH cost of the split (with SAH planes: of every plane) is not below the cost of testing all triangles.
     Sah,
@@ -220,7 +220,7 @@ impl KdConfig {
         self.check_unread()
     }
 
-    /// Rejects an option without effect whose value is not the one in [`REPORT`](Self::REPORT) or [`SAH`](Self::SAH).
+    /// Rejects an option without effect, unless it has its value from [`REPORT`](Self::REPORT) or [`SAH`](Self::SAH).
     fn check_unread(&self) -> Result<(), BuildError> {
         let is_median = !matches!(self.plane, Plane::SahBinned | Plane::SahSweep);
         let asks_costs = !is_median || self.stop == Stop::Sah;

@@ -33,7 +33,7 @@ impl Triangles {
         let corners = self.ids.iter().flat_map(|&id| context.mesh.triangles()[id as usize]);
         let coordinate = |i: u32| context.mesh.positions()[i as usize][axis];
         if context.config.median == Median::Welded {
-            // A point counts once, even if many corners lie in it; adding 0.0 makes -0.0 and 0.0 equal.
+            // Corners at the same point count once. Adding 0.0 makes the bits of -0.0 and 0.0 equal.
             let bits = |i: u32| context.mesh.positions()[i as usize].to_array().map(|x| (x + 0.0).to_bits());
             let mut points: Vec<([u32; 3], u32)> = corners.map(|i| (bits(i), i)).collect();
             points.sort_unstable();
@@ -44,7 +44,7 @@ impl Triangles {
         }
     }
 
-    /// Whether a division of the cell into sides with these numbers of triangles is cheaper than testing all of them.
+    /// Whether the cut is inside the cell and the sides, with these numbers of triangles, cost less than a leaf.
     fn pays(&self, context: &Context<KdConfig>, place: &Place, cut: Cut, below: usize, above: usize) -> bool {
         // Vertices may lie outside the cell, and so may their median.
         let inside = place.cell.min[cut.axis] < cut.plane && cut.plane < place.cell.max[cut.axis];
@@ -53,7 +53,7 @@ impl Triangles {
     }
 }
 
-/// The middle value; of two middle values the lower one or the mean.
+/// The middle value; for an even number of values, the lower middle value or the mean of both.
 fn middle(mut values: Vec<f32>, rule: Median) -> f32 {
     let (middle, even) = ((values.len() - 1) / 2, values.len().is_multiple_of(2));
     let (_, &mut lower, rest) = values.select_nth_unstable_by(middle, f32::total_cmp);

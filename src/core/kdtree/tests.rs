@@ -44,7 +44,7 @@ fn configs() -> Vec<KdConfig> {
     ]
 }
 
-/// A floor of small triangles at y = 0, whose flat cells are crossed before the ray by less than any slack.
+/// A floor of small triangles at y = 0. A ray that starts just above it crosses flat cells at -slack < `t` < 0.
 #[test]
 fn rays_that_leave_a_flat_floor_test_none_of_its_triangles() {
     let corner = |i: usize, j: usize| Vec3::new(i as f32, 0.0, j as f32);
@@ -68,7 +68,7 @@ fn rays_that_leave_a_flat_floor_test_none_of_its_triangles() {
     }
 }
 
-/// Sheets an ulp apart that rays hit at `t` near 2^128: some crossings overflow although there are hits.
+/// Rays hit sheets, one ulp apart, at `t` near 2^128. Some plane crossings overflow, although the hits do not.
 #[test]
 fn hits_near_the_largest_t_are_found() {
     fn as_brute_force<T: TriangleTest>(mesh: &Arc<Mesh>, rays: &[Ray]) -> Vec<Hit> {
@@ -101,7 +101,7 @@ fn hits_near_the_largest_t_are_found() {
     }
 }
 
-/// A small mesh on a large floor: the first cuts in the middle separate only empty space and the floor.
+/// A small mesh on a large floor: the first cuts in the middle only separate the floor from empty space.
 #[test]
 fn the_middle_of_a_cell_finds_a_small_mesh_on_a_large_floor() {
     let mut rng = rand_pcg::Pcg32::seed_from_u64(9);
@@ -166,7 +166,7 @@ fn a_bad_configuration_is_refused_in_a_sentence() {
         KdConfig { traversal_cost: -1.0, ..KdConfig::SAH },
         KdConfig { empty_bonus: 1.0, ..KdConfig::SAH },
         KdConfig { duplication: 0.5, ..KdConfig::SAH },
-        // Nothing reads these options.
+        // These options have no effect.
         KdConfig { leaf: 8, ..KdConfig::SAH },
         KdConfig { threshold: 0.5, stop: Stop::Leaf, ..KdConfig::REPORT },
         KdConfig { axis: AxisRule::Longest, ..KdConfig::SAH },
@@ -180,7 +180,7 @@ fn a_bad_configuration_is_refused_in_a_sentence() {
     }
 }
 
-/// With limits that a small mesh reaches: the error counts what the tree has.
+/// Limits that a small mesh exceeds.
 #[test]
 fn a_tree_beyond_the_limits_is_refused() {
     let mesh = soup(600, 5);

@@ -1,16 +1,16 @@
 //! One traversal for both queries, in two variants: plane intervals and child boxes.
 //!
 //! **No hit is lost.** Let a ray hit a triangle at the exact parameter t* in its interval, at the point p. The
-//! references of the triangle were clipped outward, so some leaf whose closed cell contains p has a reference to the
+//! build clips references outward or not at all, so some leaf whose closed cell contains p has a reference to the
 //! triangle. Both variants visit every leaf whose closed cell contains a point of the ray in [t_min, nearest t]: they
 //! skip a child only if its interval, moved outward by more than the rounding of plane crossings (see [`Line`]), is
 //! empty or begins after the nearest hit so far. If a crossing overflows, plane intervals begin at a finite parameter
-//! before it, and child boxes are clipped to an interval without end. So they visit the leaf of p, unless they have
-//! found another hit with a computed t before t*. Then the other hit is nearer, up to the error of its triangle test,
-//! which is not an error of the traversal. The exact test has no such error: nearest t is a float that is not before
-//! the nearest exact hit so far. So the traversal reaches every hit that is nearer or equally near, and the result is
-//! the nearest exact hit, and among equally near hits the hit with the lowest number. Only [`Exit::FirstLeaf`] may lose
-//! nearer hits: it ends at the first leaf with a hit.
+//! before it, and child boxes are clipped to an interval without end. So both variants visit the leaf of p, unless they
+//! have found another hit with a computed t before t*. Then the other hit is nearer, up to the error of its triangle
+//! test, which is not an error of the traversal. The exact test has no such error: nearest t is a float that is not
+//! before the nearest exact hit so far. So the traversal reaches every hit that is nearer or equally near. The
+//! result is the nearest exact hit; among equally near hits, it is the hit with the lowest number. Only
+//! [`Exit::FirstLeaf`] may lose nearer hits: it ends at the first leaf with a hit.
 
 use std::mem::MaybeUninit;
 
@@ -26,7 +26,7 @@ use crate::traversal::line::{Line, after, before, finite_entry, open_end};
 use crate::traversal::walk::Walk;
 use crate::triangle::TriangleTest;
 
-/// The stack contains at most one node per level, from the root to [`DEEPEST`].
+/// The stack contains at most one node per level, and two of the lowest level, which is at most [`DEEPEST`].
 const STACK: usize = 64;
 const _: () = assert!(STACK > DEEPEST as usize);
 
@@ -59,7 +59,7 @@ enum Leaves {
     Boxes(Stack<(u32, Aabb, f32)>),
 }
 
-/// Nodes to visit later. The entries are not initialised, because that would cost as much as a short traversal.
+/// Nodes to visit later. The entries are uninitialised: initialising them would take as long as a short traversal.
 struct Stack<E> {
     entries: [MaybeUninit<E>; STACK],
     len: usize,
@@ -82,7 +82,7 @@ impl<E: Copy> Stack<E> {
     #[inline(always)]
     fn pop(&mut self) -> Option<E> {
         self.len = self.len.checked_sub(1)?;
-        // SAFETY: `push` writes an entry before it counts it, and this one was below the old length.
+        // SAFETY: `push` writes an entry before it counts it, and the popped entry was below the old length.
         Some(unsafe { self.entries[self.len].assume_init() })
     }
 }
@@ -121,7 +121,7 @@ impl Leaves {
     }
 }
 
-/// Cuts the ray's interval at each plane.
+/// Finds the next leaf. Cuts the ray's interval at each plane.
 #[inline(always)]
 fn by_intervals<O: Observer>(
     stack: &mut Stack<(u32, f32, f32)>,
@@ -147,8 +147,8 @@ fn by_intervals<O: Observer>(
         let t = line.crossing(axis, node.split());
         let (first, second) = if line.backward(axis) { (node.above(), at + 1) } else { (at + 1, node.above()) };
 
-        // The slack of the ends of the interval is more than twice the error of a crossing, so the crossing needs none
-        // here. Comparisons with NaN are false: then both children get the whole interval.
+        // The slack of the ends of the interval is more than twice the error of a crossing, so the crossing needs no
+        // slack here. If the crossing is NaN, both comparisons are false and both children get the whole interval.
         if t > t1 {
             at = first;
         } else if t < t0 {
@@ -162,7 +162,7 @@ fn by_intervals<O: Observer>(
     }
 }
 
-/// Tests both child boxes of each node. `end` is an [`open_end`].
+/// Finds the next leaf. Tests both child boxes of each node. `end` is a result of [`open_end`].
 #[inline(always)]
 fn by_boxes<O: Observer>(
     stack: &mut Stack<(u32, Aabb, f32)>,
@@ -182,7 +182,7 @@ fn by_boxes<O: Observer>(
             return Some(node);
         }
 
-        // The child that the ray enters first comes off first; if it enters both at once, the child that it leaves first.
+        // Visit first the child that the ray enters first; if it enters both at once, the child that it leaves first.
         observer.inner();
         let (below, above) = cell.cut(node.axis(), node.split());
         let (in_below, in_above) = (line.clip(&below, t_min, end), line.clip(&above, t_min, end));

@@ -12,10 +12,10 @@ use crate::traversal::pages;
 use crate::traversal::walk::walked_queries;
 use crate::triangle::{BLOCK, TriangleTest};
 
-/// A binary space partition by axis-aligned planes: 8-byte nodes in depth-first order, leaves of blocks of triangles.
+/// A binary space partition by axis-aligned planes: 8-byte nodes in depth-first order, blocks of triangles in leaves.
 ///
-/// The configuration selects the planes, the leaves and the traversal. If the duplication of references is
-/// bounded, a build takes O(n log n) time; the tree is the same for every number of threads. It cannot be updated.
+/// The configuration selects the planes, the leaves and the traversal. If the duplication of references is bounded, a
+/// build takes O(n log n) time. The tree is the same for every number of threads and cannot be updated.
 ///
 /// # References
 /// Wald, Havran: On building fast kd-trees for ray tracing, and on doing that in O(N log N), 2006. Havran: Heuristic
@@ -97,7 +97,7 @@ pub(super) fn plan(mesh: &Mesh, config: &KdConfig, limits: &Limits) -> Result<Pl
             grow(&context, Binned::all(&context))
         }
     };
-    // No number in a node exceeds these totals: if they fit, every node fits.
+    // No number in a node exceeds these totals: if the totals fit, every node fits.
     limits.check(plan.nodes.len(), plan.references.len())?;
     Ok(plan)
 }
@@ -115,7 +115,7 @@ impl<C: Content> Tree<C> for Plan {
     }
 
     fn open(&mut self) {
-        // `close` replaces it.
+        // A placeholder, which `close` replaces.
         self.nodes.push(Node::leaf(0, 0));
     }
 

@@ -5,9 +5,9 @@ use super::{Arithmetic, EightLanes, Lanes};
 
 /// 8 lanes in one AVX register, for machines with AVX2 and FMA; with `MASKS`, for machines with AVX-512 VL as well.
 ///
-/// Why the `unsafe` blocks below are sound: the type is private to `simd`, where only [`dispatch`](super::dispatch)
-/// names it, in functions that are compiled for these instructions and are called only for a [`Level`](super::Level)
-/// that has them. Loads and stores are unaligned, and of arrays as large as a register unless another note says so.
+/// The `unsafe` blocks below are sound, because the type is private to `simd`. Only [`dispatch`](super::dispatch) uses
+/// it, in functions that are compiled for these instructions and called only for a [`Level`](super::Level) that has
+/// them. Loads and stores are unaligned. They access arrays as large as a register unless a note says otherwise.
 #[derive(Clone, Copy, Debug)]
 pub struct Avx<const MASKS: bool>(__m256);
 
@@ -83,7 +83,7 @@ impl<const MASKS: bool> Lanes<8> for Avx<MASKS> {
     }
 }
 
-/// For each set of lanes, the numbers of its members, lowest first.
+/// `MEMBERS[set]`: the lanes of `set` in ascending order, then zeros.
 static MEMBERS: [[u8; 8]; 256] = {
     let mut table = [[0; 8]; 256];
     let mut set = 0;
@@ -107,7 +107,7 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
 
     const FAST: bool = true;
 
-    /// In three rounds: pairs of rows by 32 bits, pairs of pairs by 64, halves by 128.
+    /// Interleaves in three rounds: pairs of rows by 32 bits, pairs of pairs by 64 bits, halves by 128 bits.
     #[inline(always)]
     fn transpose([a, b, c, d, e, f, g, h]: [Self; 8]) -> [Self; 8] {
         // SAFETY: the machine has the instruction, see `Avx`.
@@ -142,11 +142,11 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
         keys: *mut f32,
         chosen: *mut u32,
     ) -> u32 {
-        // SAFETY: the machine has the instructions, see `Avx`; by its contract eight of each may be written.
+        // SAFETY: the machine has the instructions, see `Avx`; by contract eight keys and eight values may be written.
         unsafe {
             let hit = _mm256_cmp_ps::<_CMP_LE_OQ>(self.0, limit.0);
             let shifts = _mm256_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21);
-            // Only the three low bits of a lane's number count.
+            // The permutations below use only the three low bits of each index.
             let order = _mm256_srlv_epi32(_mm256_set1_epi32(order as i32), shifts);
             let set = _mm256_movemask_ps(_mm256_permutevar8x32_ps(hit, order)) as u32;
             let lanes = if MASKS {
@@ -165,7 +165,7 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
 
     #[inline(always)]
     unsafe fn compress(self, limit: Self, values: &[u32; 8], chosen: *mut u32) -> u32 {
-        // SAFETY: the machine has the instructions, see `Avx`; by its contract eight numbers may be written.
+        // SAFETY: the machine has the instructions, see `Avx`; by contract eight values may be written.
         unsafe {
             let set = self.le(limit);
             let values = _mm256_loadu_si256(values.as_ptr().cast());
@@ -223,7 +223,7 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
     }
 }
 
-/// The numbers of the members of a set, lowest first, then zeros.
+/// The lanes of `set` in ascending order, then zeros.
 #[inline(always)]
 fn members(set: u32) -> __m256i {
     // SAFETY: the machine has the instructions, see `Avx`; a row of the table has the eight bytes that are read.

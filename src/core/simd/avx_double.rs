@@ -2,8 +2,8 @@ use std::arch::x86_64::*;
 
 use super::{Arithmetic, indexed};
 
-/// 8 lanes of `f64` in two AVX registers, for machines with AVX2 and FMA: the double of [`Avx`](super::avx::Avx). It is
-/// made only from an [`Avx`](super::avx::Avx) or beside one, so the machine has the instructions.
+/// 8 lanes of `f64` in two AVX registers, for machines with AVX2 and FMA: the `Double` of [`Avx`](super::avx::Avx).
+/// Only code over `Avx` lanes constructs it, so the machine has the instructions.
 #[derive(Clone, Copy, Debug)]
 pub struct F64x8(pub(super) [__m256d; 2]);
 
@@ -42,7 +42,7 @@ impl Arithmetic<8> for F64x8 {
         }
         fn store(self) -> [f64; 8] {
             let mut values = [0.0; 8];
-            // Each store fills a half of the array.
+            // Each store fills half of the array.
             _mm256_storeu_pd(values.as_mut_ptr(), self.0[0]);
             _mm256_storeu_pd(values.as_mut_ptr().add(4), self.0[1]);
             values

@@ -1,14 +1,14 @@
 use std::mem::MaybeUninit;
 
-/// `array::from_fn` that is always inlined: a function of the standard library is compiled without the instructions of
-/// a [`Level`](super::Level) unless it is inlined, and stores lanes that pass through it to memory.
+/// `array::from_fn` that is always inlined. A function of the standard library that is not inlined is compiled without
+/// the instructions of a [`Level`](super::Level), and lanes pass through it in memory.
 #[inline(always)]
 pub fn indexed<const N: usize, B: Copy>(f: impl Fn(usize) -> B) -> [B; N] {
     let mut results = [const { MaybeUninit::uninit() }; N];
     for (i, result) in results.iter_mut().enumerate() {
         result.write(f(i));
     }
-    // SAFETY: the loop has written all of them, and `MaybeUninit<B>` has the layout of `B`.
+    // SAFETY: the loop has written all results, and `MaybeUninit<B>` has the layout of `B`.
     unsafe { std::ptr::from_ref(&results).cast::<[B; N]>().read() }
 }
 

@@ -19,12 +19,12 @@ use super::{EightLanes, Portable};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u8)]
 pub enum Level {
-    /// Arrays and loops, as the compiler translates them.
+    /// Scalar code over arrays, which the compiler may vectorise.
     Portable,
     /// AVX2, FMA and the bit instructions of the same generation (x86-64-v3).
     #[non_exhaustive]
     Avx2,
-    /// Also AVX-512 F and VL: packs lanes in one step.
+    /// The instructions of `Avx2`, and AVX-512 F and VL, which compress lanes in one step.
     #[non_exhaustive]
     Avx512,
 }
@@ -42,15 +42,15 @@ pub trait Kernel {
     /// The result.
     type Output;
 
-    /// Mark it, and all that it calls with lanes, `#[inline(always)]`: only inlined code is compiled for the level.
+    /// Mark it, and functions on lanes that it calls, `#[inline(always)]`: only inlined code is compiled for the level.
     fn run<L: EightLanes>(self) -> Self::Output;
 }
 
 static CURRENT: AtomicU8 = AtomicU8::new(UNCHOSEN);
 const UNCHOSEN: u8 = u8::MAX;
 
-/// Whether this build has the level. A build for one machine omits levels that the machine lacks, and levels below its
-/// highest one, except the portable one: each is a copy of every search. The feature `all-levels` includes all.
+/// Whether this build has the level. Each level compiles another copy of every search, so a build for one processor has
+/// only the highest level of the processor and the portable level. The feature `all-levels` includes all levels.
 const WITH_AVX2: bool =
     cfg!(all(target_arch = "x86_64", any(feature = "all-levels", not(target_feature = "avx512vl"))));
 const WITH_AVX512: bool = cfg!(all(
@@ -77,7 +77,7 @@ impl Level {
 
     #[cfg(target_arch = "x86_64")]
     fn is_available(self) -> bool {
-        // All features of `avx2` and `avx512` below.
+        // Detect all features that the functions `avx2` and `avx512` below enable.
         let bits = is_x86_feature_detected!("bmi1")
             && is_x86_feature_detected!("bmi2")
             && is_x86_feature_detected!("lzcnt")
@@ -150,8 +150,8 @@ impl FromStr for Level {
 pub fn dispatch<K: Kernel>(level: Level, kernel: K) -> K::Output {
     debug_assert!(level.is_available());
     match level {
-        // SAFETY: the machine has the instructions: `available` and `choose_highest` return a level only after
-        // `is_available` has detected its features, and no other code makes one except the portable one (see `Level`).
+        // SAFETY: the machine has the instructions. `is_available` has detected them before `available` or `choose`
+        // accepted the level, and no other code makes one, except `Portable` (see `Level`).
         #[cfg(target_arch = "x86_64")]
         Level::Avx2 if WITH_AVX2 => unsafe { avx2(kernel) },
         // SAFETY: as above.
@@ -161,7 +161,7 @@ pub fn dispatch<K: Kernel>(level: Level, kernel: K) -> K::Output {
     }
 }
 
-// Out of line: each kernel has its own frame.
+// Out of line, so each kernel has its own stack frame.
 #[cfg(target_arch = "x86_64")]
 #[inline(never)]
 #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]

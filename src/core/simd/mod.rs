@@ -1,4 +1,4 @@
-//! SIMD lanes of `f32` and `f64`, written once against a small trait; results are bit-identical for every width.
+//! SIMD lanes of `f32` and `f64` behind small traits. Code over lanes gives the same bits for every instruction set.
 
 #[cfg(target_arch = "x86_64")]
 #[macro_use]
@@ -56,14 +56,14 @@ pub trait Arithmetic<const N: usize>: Copy {
 
 /// `N` lanes of `f32`.
 pub trait Lanes<const N: usize>: Arithmetic<N, Scalar = f32> {
-    /// As many lanes of `f64`.
+    /// `N` lanes of `f64`.
     type Double: Arithmetic<N, Scalar = f64>;
 
     /// The lanes of an array.
     fn load(values: &[f32; N]) -> Self;
-    /// The same numbers.
+    /// The same numbers as `f64`.
     fn widen(self) -> Self::Double;
-    /// The nearest floats.
+    /// The nearest `f32` numbers.
     fn narrow(wide: Self::Double) -> Self;
 }
 
@@ -74,11 +74,11 @@ pub trait EightLanes: Lanes<8> {
     /// A `u32` per lane.
     type Numbers: Copy;
 
-    /// Whether lane operations are machine instructions, so work on many lanes at once pays off.
+    /// Whether lane operations are machine instructions: then work on many lanes at once pays.
     const FAST: bool;
 
-    /// Selects the lanes where `self <= limit`, in a given order: three bits per lane, the first one lowest. Writes
-    /// them to `keys` and their `values` to `chosen`; bit `i` of the result marks the `i`-th lane in that order.
+    /// Selects the lanes where `self <= limit`, in `order`: three bits per lane, the first lane lowest. Writes their
+    /// floats to `keys` and their `values` to `chosen`. Bit `i` of the result marks the `i`-th lane of `order`.
     ///
     /// # Safety
     /// Eight floats may be written to `keys` and eight numbers to `chosen`, for any number of selected lanes.
@@ -91,7 +91,7 @@ pub trait EightLanes: Lanes<8> {
         chosen: *mut u32,
     ) -> u32;
 
-    /// Like `compress_ordered`, in the order of the lanes and without the keys.
+    /// Like `compress_ordered`, but in the order of the lanes and without keys.
     ///
     /// # Safety
     /// Eight numbers may be written to `chosen`, for any number of selected lanes.
@@ -101,7 +101,7 @@ pub trait EightLanes: Lanes<8> {
     fn cmp_le(self, other: Self) -> Self::Mask;
     /// Lanes where `self < other`; false for NaN.
     fn cmp_lt(self, other: Self) -> Self::Mask;
-    /// The lanes of the bits that are set, lane 0 lowest.
+    /// The mask of the lanes whose bits are set, lane 0 lowest.
     fn mask(bits: u32) -> Self::Mask;
     /// The lanes of a mask as bits, lane 0 lowest.
     fn bits(mask: Self::Mask) -> u32;
@@ -134,7 +134,7 @@ mod tests {
     const SPECIAL: [f32; 12] =
         [0.0, -0.0, 1.0, -1.5, 1e-40, 3e38, f32::INFINITY, f32::NEG_INFINITY, f32::NAN, 0.1, 7.0, -1e-20];
 
-    /// Every special float beside every other.
+    /// Pairs of vectors that contain every pair of special floats in the same lane.
     fn specials() -> impl Iterator<Item = ([f32; 8], [f32; 8])> {
         let n = SPECIAL.len();
         (0..n * n).map(move |i| {
@@ -156,11 +156,11 @@ mod tests {
         }
     }
 
-    /// The selection from `a` up to `b`, in a given order and in the order of lanes: sets, and bits of keys and values.
+    /// Compresses the lanes where `a <= b`, in `order` and in ascending order: sets, then bits of keys and values.
     fn taken<L: EightLanes>(a: &[f32; 8], b: &[f32; 8], order: u32) -> ([u32; 2], [Vec<u32>; 3]) {
         let (a, b, values) = (L::load(a), L::load(b), std::array::from_fn(|i| 100 + i as u32));
         let (mut keys, [mut ordered, mut plain]) = ([0.0_f32; 8], [[0_u32; 8]; 2]);
-        // SAFETY: the arrays have eight places.
+        // SAFETY: the arrays have eight elements.
         let sets = unsafe {
             let set = a.compress_ordered(b, &values, order, keys.as_mut_ptr(), ordered.as_mut_ptr());
             [set, a.compress(b, &values, plain.as_mut_ptr())]
@@ -169,7 +169,7 @@ mod tests {
         (sets, [first(keys.map(f32::to_bits), sets[0]), first(ordered, sets[0]), first(plain, sets[1])])
     }
 
-    /// Selects the same lanes as the portable ones, for all comparisons and some orders.
+    /// Checks compression, masks and transposition against the portable lanes and naive code.
     fn same_compression<L: EightLanes>() {
         for seed in 0..SPECIAL.len() * SPECIAL.len() {
             let a: [f32; 8] = std::array::from_fn(|k| SPECIAL[(seed + 3 * k) % SPECIAL.len()]);

@@ -1,10 +1,10 @@
 use super::{Arithmetic, EightLanes, Lanes, each, indexed};
 
-/// Lanes as an array: the reference for the other implementations, and the fallback on other machines.
+/// Lanes as an array: the reference for other implementations, and the fallback on machines without their instructions.
 #[derive(Clone, Copy, Debug)]
 pub struct Portable<const N: usize, S = f32>([S; N]);
 
-/// Operations on two vectors that apply an operation on two numbers in each lane.
+/// Operations on two vectors that apply a scalar operation in each lane.
 macro_rules! lanewise {
     ($all:ident -> $result:ty; $($name:ident: $one:expr,)*) => {$(
         #[inline(always)]
@@ -114,7 +114,7 @@ impl EightLanes for Portable<8> {
         for at in 0..8 {
             let lane = (order >> (3 * at) & 7) as usize;
             if self.0[lane] <= limit.0[lane] {
-                // SAFETY: by its contract eight of both may be written; `count` were taken before.
+                // SAFETY: by contract eight keys and eight values may be written, and `count` is below 8.
                 unsafe {
                     keys.add(count).write(self.0[lane]);
                     chosen.add(count).write(values[lane]);
@@ -131,7 +131,7 @@ impl EightLanes for Portable<8> {
         let (mut set, mut count) = (0, 0);
         for (lane, &value) in values.iter().enumerate() {
             if self.0[lane] <= limit.0[lane] {
-                // SAFETY: by its contract eight may be written; `count` were taken before.
+                // SAFETY: by contract eight values may be written, and `count` is below 8.
                 unsafe { chosen.add(count).write(value) };
                 set |= 1 << lane;
                 count += 1;

@@ -33,7 +33,7 @@ impl<const N: usize, L: Lanes<N>> LaneVec3<N, L> {
     /// Vector `lane` of `M` vectors in structure-of-arrays layout, broadcast to every lane.
     ///
     /// # Panics
-    /// If there is no such vector.
+    /// If `lane` is not below `M`.
     #[inline(always)]
     pub fn splat_lane<const M: usize>([x, y, z]: &[[f32; M]; 3], lane: usize) -> Self {
         Self::new(L::splat(x[lane]), L::splat(y[lane]), L::splat(z[lane]))
@@ -47,7 +47,7 @@ impl<const N: usize, L: Lanes<N>> LaneVec3<N, L> {
 }
 
 impl<const N: usize, L: Arithmetic<N>> LaneVec3<N, L> {
-    /// From its coordinates.
+    /// The vectors with these coordinates.
     #[inline(always)]
     pub fn new(x: L, y: L, z: L) -> Self {
         Self { x, y, z, width: PhantomData }

@@ -1,4 +1,4 @@
-//! Triangles in leaves, and their search.
+//! Blocks of triangles in leaves, and the search of a leaf.
 
 use std::cmp::Ordering;
 
@@ -7,7 +7,7 @@ use crate::geometry::{Hit, Mesh, Ray};
 use crate::simd::EightLanes;
 use crate::triangle::{BLOCK, Depth, TriangleTest};
 
-/// The nearest hit so far, or the end of the interval.
+/// The nearest hit so far or, without a hit, the end of the interval.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Nearest<D> {
     /// A hit must lie at or before this `t`.
@@ -25,7 +25,7 @@ impl<D: Depth> Nearest<D> {
         Self { t: last, hit: None }
     }
 
-    /// Keeps the hit if it is nearer, by the order of its test, or as near with a lower number.
+    /// Keeps the hit if it is nearer by `order`, or equally near with a lower number.
     #[inline(always)]
     pub fn offer(&mut self, depth: D, id: u32, order: impl FnOnce(&D, &D) -> Ordering) {
         let better = match &self.hit {
@@ -50,7 +50,7 @@ impl<D: Depth> Nearest<D> {
     }
 }
 
-/// The number in lanes without a triangle.
+/// The triangle number in unused lanes.
 pub(crate) const NONE: u32 = u32::MAX;
 
 /// At most eight triangles, tested at once.
@@ -58,12 +58,12 @@ pub(crate) const NONE: u32 = u32::MAX;
 #[repr(C, align(64))]
 pub(crate) struct LeafBlock<T: TriangleTest> {
     pub triangles: T::Block<BLOCK>,
-    /// [`NONE`] in lanes without a triangle.
+    /// The numbers of the triangles; [`NONE`] in unused lanes.
     pub ids: [u32; BLOCK],
 }
 
 impl<T: TriangleTest> LeafBlock<T> {
-    /// Blocks for the triangles `ids` of `mesh`, in that order.
+    /// Appends blocks of the triangles `ids` of `mesh`, in this order.
     pub fn fill(mesh: &Mesh, ids: &[u32], blocks: &mut Vec<Self>) {
         blocks.extend(ids.chunks(BLOCK).map(|ids| {
             let mut corners = [[glam::Vec3::ZERO; 3]; BLOCK];
@@ -81,7 +81,7 @@ impl<T: TriangleTest> LeafBlock<T> {
         self.ids.iter().map(|&id| u32::from(id != NONE)).sum()
     }
 
-    /// The bytes of `blocks`: the numbers of the triangles count as references, everything else as triangles.
+    /// The bytes of `blocks`: `ids` count as references, all other bytes as triangles.
     pub fn footprint(blocks: &[Self]) -> Footprint {
         let references = blocks.len() * size_of::<[u32; BLOCK]>();
         Footprint { triangles: size_of_val(blocks) - references, references, ..Footprint::default() }
@@ -95,14 +95,14 @@ pub(crate) struct Mailbox([u32; 8]);
 impl Mailbox {
     pub const EMPTY: Self = Self([NONE; 8]);
 
-    /// Whether triangle `id` is in the mailbox; afterwards it is.
+    /// Returns whether triangle `id` is in the mailbox, and stores it there.
     #[inline(always)]
     fn visit(&mut self, id: u32) -> bool {
         std::mem::replace(&mut self.0[(id & 7) as usize], id) == id
     }
 }
 
-/// Searches the `count` triangles of a leaf; the observer counts blocks. With `ANY`, returns at the first hit.
+/// Searches a leaf of `count` triangles; `u32::MAX` will do without an observer. With `ANY`, stops at the first hit.
 #[inline(always)]
 pub(crate) fn search<'a, const ANY: bool, L: EightLanes, T: TriangleTest, O: Observer>(
     blocks: &'a [LeafBlock<T>],
@@ -132,9 +132,9 @@ pub(crate) fn search<'a, const ANY: bool, L: EightLanes, T: TriangleTest, O: Obs
     }
 }
 
-/// Decides the candidates of a block. Rare, so out of line: inlined, it would take registers from the traversal.
-///
-/// Candidates that need another call are left to [`settle_closely`]: with a call it would save no registers.
+/// Decides the candidates of a block. Candidates are rare, and an inlined function would take registers from the
+/// traversal. Candidates that need a function call are left to [`settle_closely`], because a function without calls
+/// saves no registers to the stack.
 #[inline(never)]
 pub(crate) fn settle<'a, T: TriangleTest>(
     block: &'a LeafBlock<T>,
@@ -144,10 +144,10 @@ pub(crate) fn settle<'a, T: TriangleTest>(
     nearest: &mut Nearest<T::Depth<'a>>,
 ) {
     while candidates != 0 {
-        // The remainder saves a check of bounds.
+        // `% BLOCK` saves a bounds check.
         let lane = candidates.trailing_zeros() as usize % BLOCK;
         let id = block.ids[lane];
-        // A triangle may be referenced by several leaves.
+        // Several leaves may reference a triangle: skip the triangle of the nearest hit.
         if nearest.hit.as_ref().is_none_or(|(_, nearest)| *nearest != id) {
             let Some(decided) = T::decide_at_once(ray, &block.triangles, lane, values) else {
                 return settle_closely(block, ray, candidates, values, nearest);
@@ -169,7 +169,7 @@ pub(crate) fn settle<'a, T: TriangleTest>(
     }
 }
 
-/// So few candidates are decided faster one by one.
+/// Up to this number, candidates are decided faster one by one.
 const FEW: u32 = 2;
 
 /// Like [`settle`], with all stages of the test.
@@ -203,9 +203,9 @@ fn settle_closely<'a, T: TriangleTest>(
     }
 }
 
-/// The start of every query: `t_min`, and a search up to the end of the interval; `None` if the ray can hit nothing.
+/// Starts a query: returns `t_min` and a [`Nearest`] without a hit; `None` if the ray can hit nothing.
 ///
-/// The prepared ray is not returned: the caller would copy it right after it was written, which stalls the processor.
+/// The caller prepares the ray itself, because copying a ray that has just been written stalls the processor.
 #[inline(always)]
 pub(crate) fn start<'a, T: TriangleTest>(ray: &Ray) -> Option<(f32, Nearest<T::Depth<'a>>)> {
     let (t_min, t_max) = ray.interval();

@@ -7,30 +7,30 @@ use crate::simd::{Lanes, each};
 
 /// The line of a ray, prepared for crossing axis-aligned planes.
 ///
-/// **Slack.** The crossing of the plane `axis = s` is computed as `(s - o) * (1 / d)`: three roundings, each by at most
-/// 2^-24 of the result, so its relative error is at most 3.01 * 2^-24, or its absolute error at most 2^-148 if the
-/// product underflows. [`before`] and [`after`] move it outward by 4 * 2^-23 = 8 * 2^-24 of itself and then by 2^-126.
-/// The rounding of their product takes back at most 1.01 * 2^-24, the rounding of their sum nothing: more than twice
-/// the error of a crossing remains, so a moved crossing compares correctly with a crossing that is not moved. The sign
-/// of a crossing is exact, because a difference of floats has the exact sign. An infinite crossing (`d` = 0, the ray
-/// beside the plane) orders correctly. A crossing is undefined in three cases: the ray lies in the plane (0 * inf), the
-/// inverse of `d` overflows or is too small for full precision, or the difference to some plane may overflow. It is NaN
-/// then, which every user reads as "may cross anywhere".
+/// **Slack.** The crossing of the plane `axis = s` is computed as `(s - o) * (1 / d)`. Each of the three roundings has
+/// a relative error of at most 2^-24. The crossing has a relative error of at most 3.01 * 2^-24, or an absolute error
+/// of at most 2^-148 if the product underflows. [`before`] and [`after`] move a crossing outward by 8 * 2^-24 of itself
+/// and then by 2^-126. The rounding of the product takes back at most 1.01 * 2^-24, the rounding of the sum nothing.
+/// More than twice the error of a crossing remains, so a moved crossing compares correctly with an unmoved one. The
+/// sign of a crossing is exact, because a difference of floats has the exact sign. If `d` = 0 and the ray is outside
+/// the plane, the crossing is infinite and orders correctly. A crossing is undefined in three cases: the ray lies in
+/// the plane (0 * inf), the inverse of `d` overflows or is too small for full precision, or the difference to some
+/// plane may overflow. An undefined crossing is NaN, which every user reads as "may cross anywhere".
 ///
 /// **Ends of the interval.** Let t* be the exact parameter of a hit in [`t_min`, `t_max`). It may lie beyond the last
-/// float before `t_max` and be reported as `t_max`. So moved crossings are compared with `t_min` itself and with an
-/// end: first [`TriangleTest::last`](crate::triangle::TriangleTest::last), later the bound of the nearest hit. If the
-/// test is exact, t* does not exceed this end. If the test rounds t* to the nearest float, the rounded t* does not
-/// exceed it, and t* exceeds it by at most 2^-24 of itself. A box that contains the hit is entered at an exact
-/// parameter e <= t* and left at f >= t*. The computed entry, moved by `before`, is at least 3.9 * 2^-24 of e before e,
-/// hence not beyond the end; the computed exit, moved by `after`, is not before f, hence not before `t_min`.
+/// float before `t_max` and be reported as `t_max`. Therefore moved crossings are compared with `t_min` and an end:
+/// first [`TriangleTest::last`](crate::triangle::TriangleTest::last), later the bound of the nearest hit. If the test
+/// is exact, t* does not exceed this end. If the test rounds t* to the nearest float, the rounded t* does not exceed
+/// the end, and t* exceeds the end by at most 2^-24 of t*. The ray enters a box that contains the hit at an exact
+/// parameter e <= t* and leaves it at f >= t*. The computed entry, moved by `before`, is at least 3.9 * 2^-24 of e
+/// before e, hence not beyond the end. The computed exit, moved by `after`, is not before f, hence not before `t_min`.
 ///
-/// **Overflow.** Only a crossing that is beyond the largest float, or before it by at most 2.6 * 2^-24 of it, may be
-/// computed as infinity. `before` leaves infinity unchanged: such an entry is beyond every finite end, and beyond the
-/// computed crossings of planes that the ray meets later. So either the entry is made finite, by [`finite_entry`], or
-/// the end is made infinite: by [`open_end`], or by `after`, if the end is before the largest float by at most 7.5 *
-/// 2^-24 of it. If the end stays finite, no box that the ray enters before it has an infinite entry. An infinite exit
-/// is correct.
+/// **Overflow.** A crossing may be computed as infinity only if it is beyond the largest float, or before it by at most
+/// 2.6 * 2^-24 of it. `before` leaves infinity unchanged. Such an entry would be beyond every finite end, and beyond
+/// the computed crossings of planes that the ray meets later. Therefore [`finite_entry`] makes the entry finite, or the
+/// end is made infinite: by [`open_end`], or by `after` if the end is before the largest float by at most 7.5 * 2^-24
+/// of it. If the end stays finite, no box that the ray enters before the end has an infinite entry. An infinite exit is
+/// correct.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Line {
     origin: [f32; 3],
@@ -54,10 +54,10 @@ pub(crate) fn after(t: f32) -> f32 {
     t * AFTER + TINY
 }
 
-/// [`before`] of the largest finite float: `before` moves no finite crossing beyond it.
+/// [`before`] of the largest finite float: the largest finite result of `before`.
 const LATEST: f32 = f32::MAX * BEFORE - TINY;
 
-/// `t`, a crossing that [`before`] has moved, or [`LATEST`] if it overflowed: not after the exact one.
+/// The crossing `t`, moved by [`before`]; [`LATEST`] if it overflowed. The result is not after the exact crossing.
 #[inline(always)]
 pub(crate) fn finite_entry(t: f32) -> f32 {
     if t < LATEST { t } else { LATEST }
@@ -87,7 +87,7 @@ pub(crate) fn inverses(ray: &Ray, farthest: Vec3A) -> [f32; 3] {
     // Compute all three axes at once: the preparation is a large part of the cost of a ray.
     let (origin, direction) = ray.vectors();
     if !(origin.abs() + farthest).is_finite() {
-        // Also for an empty box.
+        // The box may also be empty.
         return [f32::NAN; 3];
     }
     let inverse = direction.recip();
@@ -174,7 +174,7 @@ mod tests {
         }
     }
 
-    /// A naive version: each axis separately.
+    /// Compares with a naive version that treats each axis separately.
     #[test]
     fn inverses_are_those_of_each_axis() {
         let numbers =
@@ -204,12 +204,12 @@ mod tests {
         }
     }
 
-    /// The remaining slack after the rounding of the move, in units of 2^-24.
+    /// Measures the slack that rounding leaves, in units of 2^-24.
     #[test]
     fn the_slack_is_more_than_two_crossings_are_off() {
         let mut least = f64::INFINITY;
         for i in 0..200_000_u32 {
-            // Numbers of all sizes, and of all significands.
+            // Numbers of all exponents and many significands.
             let t = f32::from_bits((1 + i % 253) << 23 | i.wrapping_mul(2_654_435_761) >> 9);
             let units = |moved: f32| (f64::from(moved) / f64::from(t) - 1.0).abs() * f64::from(1 << 24);
             assert!(before(t) < t && t < after(t), "{t:e}");
@@ -247,7 +247,7 @@ mod tests {
         // Directions too short to invert.
         assert_eq!(clip([-2.0, 0.5, 0.5], [1e-40, 0.0, 0.0]), Some((0.0, f32::MAX)));
         assert!(clip([0.5, 0.5, 0.5], [1e-40, 1e-42, -1e-41]).is_some());
-        // Differences and inverses without full precision.
+        // A difference that overflows; an inverse without full precision.
         let large = Aabb { min: Vec3::splat(-3e37), max: Vec3::splat(3e37) };
         let ray = Ray::new(Vec3::new(-3.39e38, 0.0, 0.0), Vec3::new(1e38, 0.0, 0.0));
         assert_eq!(Line::new(&ray, &large).clip(&large, 0.0, f32::MAX), Some((0.0, f32::MAX)));

@@ -1,4 +1,4 @@
-//! Shared code of the traversals: leaves of blocks of triangles, plane crossings, levels, memory on large pages.
+//! Shared code of the traversals: leaf blocks, plane crossings, the choice of the SIMD level, memory in huge pages.
 
 pub(crate) mod leaf;
 pub(crate) mod line;

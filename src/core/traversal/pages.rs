@@ -1,7 +1,7 @@
-//! Memory: large arrays on large pages, and prefetching.
+//! Memory for large arrays in huge pages, and prefetching.
 
-/// Memory for `len` values that are read at random places, in huge pages if possible: a traversal of a few megabytes in
-/// pages of four kilobytes misses the translation cache at nearly every node. Only Linux is asked, and may decline.
+/// Memory for `len` values that are read at random places, in huge pages if possible. With pages of 4 KiB, a traversal
+/// of a few megabytes misses the TLB at nearly every node. Only Linux receives this advice, and it may decline.
 pub(crate) fn with_capacity<T>(len: usize) -> Vec<T> {
     let values = Vec::with_capacity(len);
     advise(values.as_ptr(), len * size_of::<T>());
@@ -15,7 +15,7 @@ pub(crate) fn moved<T: Copy>(values: Vec<T>) -> Vec<T> {
     moved
 }
 
-/// Prefetches the cache line at any address.
+/// Prefetches the cache line at `at`, which may be any address.
 #[inline(always)]
 pub(crate) fn fetch(at: *const u8) {
     #[cfg(target_arch = "x86_64")]
@@ -37,7 +37,7 @@ fn advise<T>(start: *const T, bytes: usize) {
     }
     const MADV_HUGEPAGE: c_int = 14;
     const PAGE: usize = 4096;
-    // SAFETY: this advice changes no values; it covers whole pages that the callers have just allocated.
+    // SAFETY: this advice changes no values, and it covers only whole pages of memory that the caller has allocated.
     unsafe {
         let first = start.addr().next_multiple_of(PAGE);
         let end = (start.addr() + bytes) / PAGE * PAGE;
@@ -50,7 +50,7 @@ fn advise<T>(start: *const T, bytes: usize) {
 #[cfg(not(target_os = "linux"))]
 fn advise<T>(_: *const T, _: usize) {}
 
-/// Whether the system confirms the advice to use huge pages for the memory around these values.
+/// Whether Linux lists the memory of `values` as advised to use huge pages.
 #[cfg(test)]
 fn are_large<T>(values: &[T]) -> bool {
     let at = values.as_ptr().addr() + size_of_val(values) / 2;
@@ -65,7 +65,7 @@ fn are_large<T>(values: &[T]) -> bool {
     flags.next().is_some_and(|line| line.split_whitespace().any(|flag| flag == "hg"))
 }
 
-/// Checks that the values lie in huge pages, if the system accepts such advice.
+/// Asserts that the memory of `values` is advised to use huge pages, if the system accepts such advice.
 #[cfg(test)]
 pub(crate) fn assert_large<T>(values: &[T]) {
     let mut probe = with_capacity::<u64>(1 << 20);

@@ -1,4 +1,4 @@
-//! Traversals that are written once over lanes and run on the current level.
+//! Runs traversals, which are written once over SIMD lanes, on the current SIMD level.
 
 use crate::accel::{Counts, Observer};
 use crate::geometry::{Hit, Ray};
@@ -28,12 +28,12 @@ pub(crate) fn silent<const ANY: bool, L: EightLanes, W: Walk>(structure: &W, ray
     if L::FAST {
         structure.walk::<ANY, L, ()>(ray, &mut ())
     } else {
-        // The counting traversal is compiled anyway, and on portable lanes counting takes little of the time.
+        // The counting traversal is compiled anyway, and counting costs little on portable lanes.
         watched::<ANY, W, Counts>(structure, ray, &mut Counts::default())
     }
 }
 
-/// A traversal with an observer: portable, so counts are the same everywhere; out of line, so there is one copy.
+/// Traverses with an observer: on portable lanes, so counts are the same everywhere; out of line, to compile one copy.
 #[inline(never)]
 fn watched<const ANY: bool, W: Walk, O: Observer>(structure: &W, ray: &Ray, observer: &mut O) -> Option<Hit> {
     structure.walk::<ANY, Portable<8>, O>(ray, observer)

@@ -14,10 +14,9 @@ pub const UPDATE: &str = "SAHARA_GOLDEN";
 /// The folder for the pictures of failures, relative to the current directory, which is the crate's folder in tests.
 const OUT: &str = "out/golden";
 
-/// Compares `actual` with the golden image `path`, in all channels, including alpha, and at its bits per channel. For
-/// tests.
+/// Compares `actual` with the golden image `path`: all channels, including alpha, without a conversion. For tests.
 ///
-/// With the environment variable `SAHARA_GOLDEN=update` the file is written instead as PNG, folders included.
+/// If `SAHARA_GOLDEN=update` is set in the environment, it writes `actual` to `path` as PNG, and creates its folders.
 ///
 /// ```
 /// use sahara_images::golden::{Allowed, Match, assert_image};
@@ -33,7 +32,7 @@ const OUT: &str = "out/golden";
 /// drawn.get_pixel_mut(36, 1).0[0] += 1;
 /// assert_image(&golden, drawn.clone(), Match::within(1.0));
 ///
-/// // Noise may take a few pixels farther: 1 % of them may differ by any amount.
+/// // Noise may change a few pixels more: 1 % of all pixels may differ by any amount.
 /// drawn.get_pixel_mut(9, 30).0[0] += 40;
 /// assert_image(&golden, drawn.clone(), Match::Tolerance { difference: 2.0, pixels: Allowed::Percent(1.0) });
 /// assert_image(&golden, drawn.clone(), Match::flip(0.01)); // as a person sees it
@@ -41,9 +40,9 @@ const OUT: &str = "out/golden";
 /// ```
 ///
 /// # Panics
-/// If the picture is not accepted, if its size, channels or bits per channel differ, or if there is no golden image.
-/// Then `out/golden` contains a folder with the name of the golden image and a page that shows both pictures and their
-/// difference; the message contains its path.
+/// If the picture is not accepted, if its size, channels or bits per channel differ, or if there is no golden image. If
+/// the pictures differ, the message contains the path of a page with both pictures and their difference, in a folder
+/// with the name of the golden image in `out/golden`. Without the feature `page`, this folder has no HTML page.
 #[track_caller]
 pub fn assert_image(path: impl AsRef<Path>, actual: impl Into<DynamicImage>, how: Match) {
     let (path, actual) = (path.as_ref(), actual.into());
@@ -56,7 +55,7 @@ pub fn assert_image(path: impl AsRef<Path>, actual: impl Into<DynamicImage>, how
     }
 }
 
-/// Like [`assert_image`], without a panic and with the pictures of a failure in `out`.
+/// Like [`assert_image`], but returns the error, never updates, and writes the pictures of a failure to `out`.
 ///
 /// # Errors
 /// If the picture is not accepted, or the golden image cannot be read.
@@ -105,7 +104,7 @@ mod tests {
         assert!(small.contains("1 x 1 pixels") && small.contains("SAHARA_GOLDEN=update"), "{small}");
         assert_eq!(read(&out.join("b/pictures/0-actual.png")).unwrap().width(), 1);
 
-        // Floats are shown as well.
+        // The pictures of a failure show floats with 8 bits.
         refusal(&Rgb32FImage::new(2, 2).into(), Match::Exact);
         assert_eq!(read(&out.join("b/pictures/0-actual.png")).unwrap().width(), 2);
 

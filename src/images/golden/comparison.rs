@@ -1,4 +1,4 @@
-//! One comparison, in the form of tables, JSON and the page.
+//! One comparison, as tables, JSON and the page show it.
 
 use image::{DynamicImage, RgbImage};
 use serde::Serialize;
@@ -13,16 +13,16 @@ use crate::plural::{count, plural};
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
     Differs,
-    /// It could not be read, or this measure does not support the pictures.
+    /// A picture is unreadable, or the rule or the mask does not fit the pictures.
     Failed,
     Missing,
     Additional,
-    /// It differs, but within the tolerance.
+    /// The pictures differ, but the rule accepts them.
     Accepted,
     Identical,
 }
 
-/// Two pictures of one name, or one picture without a partner.
+/// The comparison of two pictures with one name, or of one picture without a partner.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
     pub name: String,
@@ -32,15 +32,15 @@ pub struct Comparison {
     /// A command that investigates the difference.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub command: Option<String>,
-    /// The number that decided, unless all values must be equal.
+    /// The compared number and its limit; `None` if all values must be equal.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limit: Option<Limit>,
-    /// Measures of two pictures of one layout that differ.
+    /// The measures; `None` if the pictures are equal or have different layouts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measures: Option<Measures>,
 }
 
-/// Maps of the difference of two pictures, which a page shows beside them.
+/// Maps of the difference of two pictures, which the page shows beside the pictures.
 pub struct Maps {
     pub difference: RgbImage,
     pub flip: Option<FlipMap>,
@@ -59,13 +59,13 @@ impl Comparison {
         Self { said: vec![measures.difference.sentence(size)], measures: Some(measures), ..self }
     }
 
-    /// Whether the pictures are not accepted, or one is missing.
+    /// Whether the pictures are not accepted, or one of them is missing or unreadable.
     pub fn fails(&self) -> bool {
         self.verdict < Verdict::Accepted
     }
 }
 
-/// Compares two pictures, except the masked pixels. Also returns maps of the difference.
+/// Compares two pictures, except the masked pixels. Equal pictures and pictures that cannot be compared have no maps.
 pub fn compare(
     name: &str,
     [expected, actual]: [&DynamicImage; 2],
@@ -108,7 +108,7 @@ pub fn compare(
 }
 
 impl Difference {
-    /// The number of differing pixels of a picture of this size, with the largest difference and its place.
+    /// A sentence with the number of different pixels, their first place, and the largest difference and its place.
     pub fn sentence(&self, [width, height]: [u32; 2]) -> String {
         let Self { pixels, first, worst, largest, full_scale } = *self;
         let all = plural(width as usize * height as usize, "pixel");

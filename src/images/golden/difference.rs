@@ -1,4 +1,4 @@
-//! The difference of two pictures, in their own channels and depth.
+//! The difference of two pictures, without a conversion of channels or depth.
 
 use image::{DynamicImage, RgbImage};
 use serde::Serialize;
@@ -9,15 +9,15 @@ use crate::render::from_pixels;
 /// The difference of two pictures of one layout.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Difference {
-    /// How many pixels differ, at least 1.
+    /// The number of different pixels, at least 1.
     pub pixels: usize,
-    /// Column and row, from the top left, of the first of them in reading order.
+    /// Column and row, from the top left, of the first different pixel in reading order.
     pub first: [u32; 2],
-    /// The place of the largest difference, the first of several.
+    /// Column and row of the first pixel with the largest difference.
     pub worst: [u32; 2],
     /// The largest difference of a channel, including alpha; infinite if only one value is NaN.
     pub largest: f64,
-    /// The unit of `largest`: 255 or 65535; 1 for floats, which can be larger.
+    /// The value of white, in the unit of `largest`: 255 or 65535; 1 for floats, which can be larger.
     pub full_scale: f64,
 }
 
@@ -25,7 +25,7 @@ impl Difference {
     /// The difference of the pictures; `None` if all their values are equal.
     ///
     /// # Panics
-    /// If they differ in layout.
+    /// If the layouts differ.
     pub fn between(one: &DynamicImage, other: &DynamicImage) -> Option<Self> {
         let layout = Layout::of(one);
         let mut found: Option<Self> = None;
@@ -43,14 +43,14 @@ impl Difference {
     }
 }
 
-/// The number of pixels with a channel that differs by more than `difference`: in 1/255 of full scale, for floats in
-/// their own unit.
+/// The number of pixels with a channel that differs by more than `difference`. The unit is 1/255 of full scale, except
+/// for floats, which are compared unscaled.
 ///
 /// # Panics
 /// If the pictures differ in layout.
 pub fn pixels_over(one: &DynamicImage, other: &DynamicImage, difference: f64) -> usize {
     let layout = Layout::of(one);
-    // Compare whole numbers: a quotient could be rounded up or down at the limit.
+    // Compare products: a quotient could be rounded across the limit.
     let (own, limit) = if layout.is_float() { (1.0, difference) } else { (255.0, difference * layout.full_scale()) };
     gaps(one, other).filter(|gap| gap * own > limit).count()
 }
@@ -83,7 +83,7 @@ fn gaps<'a>(one: &'a DynamicImage, other: &'a DynamicImage) -> impl Iterator<Ite
     pixels(one).zip(pixels(other)).map(gap)
 }
 
-/// NaNs are equal to each other, and infinitely far from all other values.
+/// The distance of two values. NaNs are equal to each other, and infinitely far from all other values.
 pub(super) fn apart(one: f64, other: f64) -> f64 {
     let gap = (one - other).abs();
     if one == other || one.is_nan() && other.is_nan() {

@@ -24,7 +24,7 @@ pub fn check(
     remedy: &'static str,
 ) -> Result<(), GoldenError> {
     let [wanted, found] = pictures.map(Layout::of);
-    // A picture within a tolerance needs no other measures, which take long.
+    // Skip the other measures, which take long, if the picture is within the tolerance.
     let is_tolerance = matches!(how, Match::Tolerance { .. }) && wanted == found;
     if is_tolerance && how.limit(pictures, None, None).is_some_and(|limit| limit.is_met()) {
         return Ok(());
@@ -47,14 +47,14 @@ pub fn check(
             page.add(0, &comparison, Sides { expected: Some(expected), actual: Some(actual), values }, maps.as_ref())
         })?)
     };
-    // The difference stays the error if its pictures cannot be written.
+    // If the pictures cannot be written, the error still contains the difference.
     Err(match leave() {
         Ok(()) => refusal,
         Err(cause) => GoldenError::NotShown { refusal: Box::new(refusal), cause: Box::new(cause.into()) },
     })
 }
 
-/// The folder in `out` for `name`, with everything except letters, digits and `.`, `-`, `_` replaced.
+/// The folder in `out` for `name`; characters other than letters, digits, `.`, `-` and `_` become `_`.
 pub fn folder(out: &Path, name: &str) -> PathBuf {
     out.join(name.chars().map(|c| if c.is_alphanumeric() || ".-_".contains(c) { c } else { '_' }).collect::<String>())
 }

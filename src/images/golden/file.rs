@@ -1,4 +1,4 @@
-//! Files of pictures: read within bounds, written as PNG.
+//! Reads pictures up to a maximum size, and writes PNG files.
 
 use std::fs::File;
 use std::io::{Cursor, Error, Read};
@@ -11,7 +11,7 @@ use crate::escaped::Escaped as _;
 use crate::output::{OutputError, OutputFile};
 use crate::render::png_encoder;
 
-/// The maximum size of a file with its pixels, MiB, without the memory of the decoder.
+/// The maximum size of a file and its pixels together, in MiB; the decoder needs additional memory.
 const LARGEST: u64 = 512;
 
 /// The reason why a picture cannot be read or written.
@@ -41,30 +41,30 @@ fn reason(cause: &ImageError) -> String {
     }
 }
 
-/// Some messages of the decoders contain line breaks.
+/// The message on one line: some decoders put line breaks into messages.
 fn in_a_line(cause: &ImageError) -> String {
     cause.to_string().lines().collect::<Vec<_>>().join(" ")
 }
 
-/// Reads a picture with the file's channels and bits per channel: grey of less than 8 bits becomes 8 bits, a palette
-/// becomes RGB, or RGBA if it has transparency. The content of the file determines its format, not the name.
+/// Reads a picture and keeps its channels and bits per channel, but grey below 8 bits becomes 8 bits and a palette
+/// becomes RGB, or RGBA with transparency. The content of the file, not its name, determines the format.
 ///
 /// # Errors
-/// If there is no such file, or it is not a picture, or it has more than 512 MiB.
+/// If the file cannot be read, is damaged or not a picture, or has more than 512 MiB with its pixels.
 pub fn read(path: &Path) -> Result<DynamicImage, PictureError> {
     decode(path, &read_bytes(path)?)
 }
 
-/// The bytes of a file that is no larger than a picture may be.
+/// The bytes of a file, up to one byte more than a picture may have.
 pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, PictureError> {
     let mut bytes = vec![];
-    // One byte more shows that the file is too large.
+    // With the extra byte, [`decode`] rejects the file as too large.
     let file = File::open(path).and_then(|file| file.take((LARGEST << 20) + 1).read_to_end(&mut bytes));
     file.map_err(|cause| PictureError::Read { path: path.into(), cause })?;
     Ok(bytes)
 }
 
-/// The picture of a file with these bytes, like [`read`].
+/// Like [`read`], for `bytes` that were already read from the file `path`.
 pub(super) fn decode(path: &Path, bytes: &[u8]) -> Result<DynamicImage, PictureError> {
     decoded(bytes).map_err(|cause| PictureError::Decode { path: path.into(), cause })
 }
@@ -83,7 +83,7 @@ fn decoded(bytes: &[u8]) -> ImageResult<DynamicImage> {
     Ok(picture)
 }
 
-/// Whether the mark of the picture's end follows the last scan of a JPEG file. The decoder replaces missing pixels by
+/// Whether the marker "end of image" follows the last scan header of a JPEG file. The decoder fills missing pixels with
 /// grey.
 fn is_whole_jpeg(bytes: &[u8]) -> bool {
     let last = |mark: [u8; 2]| bytes.windows(2).rposition(|pair| pair == mark);
@@ -94,12 +94,12 @@ fn is_whole_jpeg(bytes: &[u8]) -> bool {
 /// Writes a PNG file, whole or not at all, and creates its folders.
 ///
 /// # Errors
-/// If the disk is full, the folder is not writable, or PNG has no such pixels.
+/// If the disk is full, the folder is not writable, or PNG does not support the channels.
 pub fn write(path: &Path, picture: &DynamicImage) -> Result<(), PictureError> {
     write_noted(path, picture, None)
 }
 
-/// Like [`write`], with a note in the file: ASCII that [`note`] reads.
+/// Like [`write`], with a note in the file: ASCII text, which [`note`] reads.
 pub(super) fn write_noted(path: &Path, picture: &DynamicImage, note: Option<&str>) -> Result<(), PictureError> {
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder).map_err(|cause| PictureError::Directory { path: folder.into(), cause })?;
@@ -111,7 +111,7 @@ pub(super) fn write_noted(path: &Path, picture: &DynamicImage, note: Option<&str
 /// The bytes of a PNG file, always the same for the same picture and note.
 pub(super) fn encode(picture: &DynamicImage, note: Option<&str>) -> ImageResult<Vec<u8>> {
     let mut bytes = vec![];
-    // Other functions would convert layouts that PNG does not support.
+    // Unlike other functions of `image`, `write_image` rejects layouts that PNG does not support.
     let [width, height] = [picture.width(), picture.height()];
     png_encoder(&mut bytes).write_image(picture.as_bytes(), width, height, picture.color().into())?;
     if let Some(note) = note {
@@ -123,7 +123,7 @@ pub(super) fn encode(picture: &DynamicImage, note: Option<&str>) -> ImageResult<
     Ok(bytes)
 }
 
-/// Whether these are the bytes that [`encode`] writes for the picture in them.
+/// Whether `bytes` equal the output of [`encode`] for the picture and the note that they contain.
 pub(super) fn is_own(bytes: &[u8]) -> bool {
     let encoded = |picture: DynamicImage| encode(&picture, note(bytes)).ok();
     decoded(bytes).ok().and_then(encoded).is_some_and(|own| own == bytes)
@@ -136,10 +136,10 @@ pub(super) fn note(bytes: &[u8]) -> Option<&str> {
     str::from_utf8(chunk.strip_prefix(TEXT)?.strip_prefix(KEY)?).ok()
 }
 
-/// Bytes of the signature and the first chunk; other chunks may follow.
+/// Bytes of the PNG signature and the first chunk; the chunk with the note follows.
 const HEADER: usize = 8 + 25;
 
-/// A chunk of text, and the keyword of this program.
+/// The type of PNG text chunks, and the keyword of the note.
 const TEXT: &[u8] = b"tEXt";
 const KEY: &[u8] = b"sahara\0";
 
@@ -237,7 +237,7 @@ mod tests {
         let good = base64::decode(GREY_1).unwrap();
         for length in 0..good.len() {
             fs::write(&path, &good[..length]).unwrap();
-            // Eight bytes determine the format, and all pixels precede the last chunk, which is empty.
+            // Eight bytes identify the format. The last 12 bytes, an empty chunk, may be missing.
             if (8..good.len() - 12).contains(&length) {
                 refusal("damaged or truncated");
             }
@@ -250,8 +250,8 @@ mod tests {
             refusal(other);
         }
 
-        // More than memory, refused before it is decoded: RGB with 16 bits, 16,384 x 16,384 pixels, a line of 2^31 - 1,
-        // and as many lines.
+        // Files with too many pixels are refused before they are decoded: RGB with 16 bits per channel and 16,384 x
+        // 16,384, (2^31 - 1) x 1 and (2^31 - 1) x (2^31 - 1) pixels.
         for text in [
             "iVBORw0KGgoAAAANSUhEUgAAQAAAAEAAEAIAAAB2OluQAAAADElEQVR4nGNgoD0AAABkAAGGZDw1",
             "iVBORw0KGgoAAAANSUhEUn////8AAAABEAIAAAB/xHjJAAAADElEQVR4nGNgoD0AAABkAAGGZDw1",
@@ -273,7 +273,7 @@ mod tests {
             assert_eq!((read(&path).unwrap(), note(&bytes), is_own(&bytes)), (picture.clone(), text, true));
             assert!(!is_own(&bytes[..bytes.len() - 1]));
         }
-        // A file of Pillow, and bytes that are not PNG.
+        // A file that Pillow wrote, and bytes that are not PNG.
         assert!(!is_own(&base64::decode(GREY_1).unwrap()) && !is_own(b""));
         assert_eq!([note(b""), note(&[0xFF; 50]), note(&base64::decode(GREY_1).unwrap())], [None; 3]);
     }

@@ -1,23 +1,23 @@
-//! Pictures of two folders, by their names.
+//! Pairs the pictures of two folders by name.
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Extensions of pictures. Some are read only with the feature `pictures`; without it each such picture has an error.
+/// Extensions of pictures. Without the feature `pictures`, all pictures except PNG are errors.
 const ENDINGS: [&str; 5] = ["png", "jpg", "jpeg", "webp", "exr"];
 
-/// A picture that one folder or both have.
+/// A picture in one of the folders or in both.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pair {
-    /// Its path within the folder.
+    /// The path relative to the folder.
     pub name: PathBuf,
     pub expected: Option<PathBuf>,
     pub actual: Option<PathBuf>,
 }
 
-/// All pictures of two folders and of those in them, by name.
+/// All pictures of two folders and their subfolders, sorted by name.
 ///
 /// # Errors
 /// If a folder cannot be read.
@@ -31,7 +31,7 @@ pub fn pairs(expected: &Path, actual: &Path) -> io::Result<Vec<Pair>> {
     Ok(wanted.union(&found).map(pair).collect())
 }
 
-/// The names of the pictures in a folder.
+/// The paths of all pictures in a folder and its subfolders, relative to it.
 fn pictures(folder: &Path) -> io::Result<BTreeSet<PathBuf>> {
     let (mut found, mut left) = (BTreeSet::new(), vec![PathBuf::new()]);
     while let Some(below) = left.pop() {
@@ -39,7 +39,7 @@ fn pictures(folder: &Path) -> io::Result<BTreeSet<PathBuf>> {
             let entry = entry?;
             let name = below.join(entry.file_name());
             let ending = name.extension().and_then(|ending| ending.to_str()).unwrap_or("").to_lowercase();
-            // A link to a folder may lead round in a circle.
+            // Links to folders are not followed, because they may form a cycle.
             if entry.file_type()?.is_dir() {
                 left.push(name);
             } else if ENDINGS.contains(&ending.as_str()) {

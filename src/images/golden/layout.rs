@@ -1,4 +1,4 @@
-//! The layout that pictures must share to be compared, and their values as numbers.
+//! The layout that two pictures must share to be compared, and the values of their channels as numbers.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -22,7 +22,7 @@ impl Layout {
         Self { size, channels, bits: (color.bits_per_pixel() / u16::from(channels)) as u8 }
     }
 
-    /// The largest value of a channel, which is white.
+    /// The value of a white channel: 255, 65535, or 1 for floats.
     pub fn full_scale(&self) -> f64 {
         match self.bits {
             8 => u8::MAX.into(),
@@ -41,7 +41,7 @@ impl Layout {
         self.size.map(|side| side as usize).iter().product()
     }
 
-    /// The channel with the opacity of a pixel, if there is one.
+    /// The index of the alpha channel, if there is one.
     pub(super) fn alpha(&self) -> Option<usize> {
         self.channels.is_multiple_of(2).then(|| usize::from(self.channels) - 1)
     }
@@ -50,13 +50,13 @@ impl Layout {
         usize::from(self.channels) * usize::from(self.bits / 8)
     }
 
-    /// The channels of a pixel, given by its bytes, as numbers.
+    /// The values of the channels in the bytes of a pixel.
     pub(super) fn values<'a>(&self, pixel: &'a [u8]) -> impl Iterator<Item = f64> + 'a {
         pixel.chunks_exact(usize::from(self.bits / 8)).map(value)
     }
 }
 
-/// The value of a channel of any of the three depths.
+/// The value of a channel with 8, 16 or 32 bits.
 fn value(sample: &[u8]) -> f64 {
     match *sample {
         [byte] => byte.into(),

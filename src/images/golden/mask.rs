@@ -4,7 +4,7 @@ use image::{DynamicImage, ImageBuffer, Pixel};
 
 use super::layout::Layout;
 
-/// The pixels of pictures of one size that are compared.
+/// Selects the compared pixels, for pictures of one size.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mask {
     pub size: [u32; 2],
@@ -21,7 +21,7 @@ impl Mask {
         Self { size: layout.size, compared }
     }
 
-    /// Whether a pixel, counted in reading order, is compared; without a mask all are.
+    /// Whether a pixel, counted in reading order, is compared; without a mask, every pixel is compared.
     pub fn compares(mask: Option<&Self>, pixel: usize) -> bool {
         mask.is_none_or(|mask| mask.compared[pixel])
     }
@@ -31,8 +31,8 @@ impl Mask {
         self.compared.iter().filter(|compared| !**compared).count()
     }
 
-    /// `actual` with the excluded pixels of `expected`, which makes these pixels equal for every window. All pictures
-    /// have one size, and both have one layout.
+    /// Copies the excluded pixels of `expected` to `actual`, because the windows of compared pixels contain them. Both
+    /// pictures have one layout, and the mask has their size.
     pub(super) fn applied(&self, expected: &DynamicImage, mut actual: DynamicImage) -> DynamicImage {
         macro_rules! of_one_kind {
             ($($kind:ident)*) => {

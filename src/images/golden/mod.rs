@@ -1,5 +1,5 @@
-//! Image regression: pictures of any renderer against golden images, exactly or by a tolerance. Each built-in scene must
-//! look the same with every structure, byte for byte. [`assert_image`] is for the tests of other crates.
+//! Image regression tests: compare pictures of any renderer with golden images, exactly or with a tolerance. Every
+//! exact structure must render the same pixels of a built-in scene. [`assert_image`] is for the tests of other crates.
 //!
 #![doc = include_str!("GOLDEN.md")]
 

@@ -1,7 +1,7 @@
-//! Views that show numbers, kept in PNG files without loss.
+//! PNG files that store one 32-bit number per pixel without loss.
 //!
-//! A pixel is a number of 32 bits in two channels of 16: the upper half is grey, the lower half is alpha. Golden images
-//! of your renderer may use the same format:
+//! Each pixel stores its number in two channels of 16 bits: the upper half in grey, the lower half in alpha. Golden
+//! images of your renderer may use the same format:
 //!
 //! ```
 //! use sahara_images::golden::numbers::packed;
@@ -19,7 +19,7 @@ use image::{DynamicImage, ImageBuffer, LumaA, Rgb32FImage};
 /// The number for a miss.
 pub const MISS: u32 = u32::MAX;
 
-/// A picture of numbers for a PNG file.
+/// A picture for a PNG file, with one number per pixel.
 ///
 /// # Panics
 /// If there are not as many numbers as pixels.
@@ -29,13 +29,13 @@ pub fn packed([width, height]: [u32; 2], numbers: &[u32]) -> DynamicImage {
     picture.expect("one number a pixel").into()
 }
 
-/// The numbers of a picture that [`packed`] has made; `None` for other kinds of pictures.
+/// The numbers of a picture that [`packed`] has made; `None` for pictures with other channels.
 pub fn unpacked(picture: &DynamicImage) -> Option<Vec<u32>> {
     let halves = picture.as_luma_alpha16()?.as_raw().as_chunks::<2>().0;
     Some(halves.iter().map(|[upper, lower]| u32::from(*upper) << 16 | u32::from(*lower)).collect())
 }
 
-/// A picture whose channels all have the float with these bits: differences of depths are differences of numbers.
+/// A float picture. Each pixel has the float with the bits of its number in all three channels.
 pub fn as_floats([width, height]: [u32; 2], numbers: &[u32]) -> DynamicImage {
     let values = numbers.iter().flat_map(|number| [f32::from_bits(*number); 3]).collect();
     Rgb32FImage::from_raw(width, height, values).expect("one number a pixel").into()

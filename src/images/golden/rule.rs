@@ -1,4 +1,4 @@
-//! The rule that accepts a picture in place of another one, and the number that decides.
+//! The rule that accepts a picture, and the number that it compares with a limit.
 
 use image::DynamicImage;
 use serde::Serialize;
@@ -12,12 +12,12 @@ use crate::plural::{count, plural};
 /// The condition for accepting a picture. Size, channels and bits per channel must always be equal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Match {
-    /// All values are equal, as with a deterministic renderer.
+    /// All values are equal: for deterministic renderers.
     Exact,
-    /// Few pixels have a channel that differs by more than `difference`: in 1/255 of full scale at any depth, for
-    /// floats in their own unit. Noise passes, a lost triangle does not.
+    /// At most `pixels` pixels have a channel that differs by more than `difference`, in 1/255 of full scale; floats
+    /// are compared unscaled. Noise passes, a missing triangle does not.
     Tolerance { difference: f64, pixels: Allowed },
-    /// The mean of FLIP is at most `mean`: the visible difference for a person who flips between the pictures. Not for
+    /// The mean of FLIP, the visible difference for a person who flips between the pictures, is at most `mean`. Not for
     /// floats.
     Flip { mean: f64, pixels_per_degree: f64 },
 }
@@ -31,18 +31,18 @@ pub enum Allowed {
 }
 
 impl Match {
-    /// No channel of any pixel differs by more than this.
+    /// No channel of any pixel differs by more than `difference`.
     pub fn within(difference: f64) -> Self {
         Self::Tolerance { difference, pixels: Allowed::Pixels(0) }
     }
 
-    /// FLIP on the screen that its authors assume.
+    /// The mean of FLIP is at most `mean`, at the pixels per degree that the authors of FLIP assume.
     pub fn flip(mean: f64) -> Self {
         Self::Flip { mean, pixels_per_degree: PIXELS_PER_DEGREE }
     }
 
-    /// The number that decides about two pictures of one layout, with its limit; `None` if all values must be equal.
-    /// Masked pixels must already be equal: [`Mask::applied`].
+    /// The number that the rule compares for two pictures of one layout, with its limit; `None` if all values must be
+    /// equal. Masked pixels must already be equal: [`Mask::applied`].
     pub(super) fn limit(
         self,
         [expected, actual]: [&DynamicImage; 2],
@@ -75,7 +75,7 @@ impl Allowed {
     fn of(self, compared: usize) -> usize {
         match self {
             Self::Pixels(pixels) => pixels,
-            // Only whole pixels differ: the fraction has no effect.
+            // Rounding down is correct, because the number of different pixels is whole.
             Self::Percent(percent) => (percent * compared as f64 / 100.0) as usize,
         }
     }
@@ -86,7 +86,7 @@ impl Allowed {
 #[error("FLIP needs pictures of 8 or 16 bits per channel, and these are floats: use --max-difference instead")]
 pub struct NoFlip;
 
-/// A number of a picture and the largest accepted one. JSON has the names of the measures and of the options.
+/// A compared number and its largest accepted value. The names in JSON are the names of the measures and options.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Limit {
@@ -110,7 +110,7 @@ impl Limit {
         }
     }
 
-    /// The number and its limit for pictures of this layout.
+    /// A sentence with the number and its limit, for pictures of this layout.
     pub fn sentence(&self, layout: &Layout) -> String {
         match *self {
             Self::Pixels { max_difference, pixels_over, allow_pixels } => {
@@ -122,7 +122,7 @@ impl Limit {
                 format!("{pixels} {}{more}, and {} {are} allowed", differ(pixels_over), count(allow_pixels as u64))
             }
             Self::Flip { flip_mean, max_flip } => {
-                // Decimals are added until the rounded mean is on the same side of the limit.
+                // Add decimals until the rounded mean is on the same side of the limit as the mean.
                 let is_true = |text: &String| {
                     text.parse::<f64>().is_ok_and(|rounded| (rounded <= max_flip) == (flip_mean <= max_flip))
                 };

@@ -1,4 +1,4 @@
-//! Golden images of scenes: their files, and how they are rendered, checked and updated.
+//! Golden images of scenes: renders, checks and updates their files.
 
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -12,13 +12,13 @@ use crate::render::{ViewKind, from_pixels, normal_colour, of_colours, shade};
 use crate::scene::{Camera, Scene, View};
 use crate::triangle::{Exact, TriangleTest};
 
-/// The triangle test that renders golden images: the exact one, so they contain no rounding errors.
+/// The triangle test that renders golden images: the exact test, which decides no hit by rounding.
 pub const TRIANGLE_TEST: &str = Exact::NAME;
 
 /// Width and height of a golden image of a built-in scene.
 pub const SIZE: [u32; 2] = [160, 160];
 
-/// The views of golden images: those that depend only on the hits.
+/// The views of golden images: they depend only on the hits.
 pub const VIEWS: [ViewKind; 4] = [ViewKind::Shaded, ViewKind::Depth, ViewKind::Normal, ViewKind::Primitive];
 
 const REMEDY: &str = "create the golden images with `sahara golden update`";
@@ -55,7 +55,7 @@ impl SceneGolden {
     }
 
     /// The golden image of a view in a folder, with the size and camera of `scene`. The file is `NAME.golden.png` for
-    /// the shaded view, `NAME.VIEW.golden.png` for others.
+    /// the shaded view, `NAME.VIEW.golden.png` for other views.
     pub fn file(folder: &Path, name: &str, view: ViewKind, scene: &Scene) -> Self {
         let view_name = if view == ViewKind::Shaded { String::new() } else { format!(".{}", view.name()) };
         let path = folder.join(format!("{name}{view_name}.golden.png"));
@@ -68,7 +68,7 @@ impl SceneGolden {
         self.bytes.is_some()
     }
 
-    /// The file. For a built-in scene only [`update`](Self::update) uses it.
+    /// The path of the file. For a built-in scene, only [`update`](Self::update) uses it.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -82,7 +82,7 @@ impl SceneGolden {
     /// The golden image in the form in which pictures are compared: depths as floats.
     ///
     /// # Errors
-    /// If there is none, it cannot be decoded, or its size or camera differs.
+    /// If the golden image is missing or damaged, or its size or camera differs.
     pub fn expected(&self) -> Result<DynamicImage, GoldenError> {
         let missing = |cause| GoldenError::Missing { cause, remedy: REMEDY };
         let read = || file::read_bytes(&self.path).map_err(missing);
@@ -106,7 +106,7 @@ impl SceneGolden {
         self.comparable(self.picture(scene, accel))
     }
 
-    /// Like [`drawn`](Self::drawn), for one pixel.
+    /// Like [`drawn`](Self::drawn), for the pixel of `ray`.
     pub fn drawn_pixel(&self, scene: &Scene, accel: &dyn DynAccel, ray: &Ray) -> DynamicImage {
         self.comparable(draw(scene, accel, self.view, [1, 1], &[*ray]))
     }
@@ -123,8 +123,7 @@ impl SceneGolden {
     /// A built-in scene must be loaded with its generated meshes, even if the real meshes are present.
     ///
     /// # Errors
-    /// If the golden image is missing or damaged, or the pictures differ. In the last case a page with both pictures is
-    /// written.
+    /// If the golden image is missing or damaged, its size or camera differs, or the pictures differ.
     pub fn check(&self, scene: &Scene, structure: &str, accel: &dyn DynAccel, out: &Path) -> Result<(), GoldenError> {
         let pictures = [&self.expected()?, &self.drawn(scene, accel)];
         let shown = failure::folder(out, &format!("{}-{structure}", scene.name.to_lowercase()));
@@ -135,8 +134,8 @@ impl SceneGolden {
     /// Renders the golden image and writes it if it differs from the existing file.
     ///
     /// # Errors
-    /// If it cannot be written; without [`Overwrite::Any`], if another program wrote the existing file; for a built-in
-    /// scene, if the source tree is missing.
+    /// If the file cannot be written; without [`Overwrite::Any`], if another program wrote the existing file; for a
+    /// built-in scene, if the source tree is missing.
     pub fn update(&self, scene: &Scene, accel: &dyn DynAccel, overwrite: Overwrite) -> Result<Update, GoldenError> {
         if self.bytes.is_some() && !self.path.parent().is_some_and(Path::is_dir) {
             return Err(GoldenError::NoSources);
@@ -175,8 +174,8 @@ impl SceneGolden {
         draw(scene, accel, self.view, self.size, &rays)
     }
 
-    /// Converts a picture to the form in which pictures are compared: packed depths become floats, all other views
-    /// stay.
+    /// Converts a picture to the form in which pictures are compared: packed depths become floats, other views do not
+    /// change.
     fn comparable(&self, picture: DynamicImage) -> DynamicImage {
         let numbers = if self.view == ViewKind::Depth { numbers::unpacked(&picture) } else { None };
         numbers.map_or(picture.clone(), |numbers| numbers::as_floats([picture.width(), picture.height()], &numbers))
@@ -197,7 +196,7 @@ fn camera_note(camera: &Camera) -> String {
     format!("--camera '{} {} {}'", point(camera.eye()), point(camera.target()), camera.vertical_fov())
 }
 
-/// The pixels of these rays. Depths and numbers of primitives are [packed](numbers::packed).
+/// The picture with one pixel per ray. Depths and numbers of primitives are [packed](numbers::packed).
 fn draw(scene: &Scene, accel: &dyn DynAccel, view: ViewKind, size: [u32; 2], rays: &[Ray]) -> DynamicImage {
     if view == ViewKind::Shaded {
         return of_colours(size, &shade(scene, accel, rays)).into();
@@ -261,7 +260,7 @@ mod tests {
         assert!(error.to_string().contains("Cube with sah-kd:leaf=1"), "{error}");
         assert_eq!(golden.update(&scene, &tree, Overwrite::Own).unwrap(), Update::Changed(**difference));
 
-        // Alpha and low bits count: it is another picture.
+        // The same colours with alpha or 16 bits per channel are a different picture.
         let drawn = golden.expected().unwrap();
         for other in [DynamicImage::from(drawn.to_rgba8()), drawn.to_rgb16().into()] {
             file::write(golden.path(), &other).unwrap();

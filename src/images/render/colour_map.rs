@@ -4,8 +4,8 @@ use image::RgbImage;
 
 use super::picture::from_pixels;
 
-/// Nine colours of the map "inferno" at equal distances: lightness rises evenly, also in grey and for colour-blind
-/// eyes.
+/// Nine equidistant colours of the map "inferno". Their lightness rises evenly, in greyscale and for colour-blind
+/// people as well.
 ///
 /// # References
 /// Smith, van der Walt, Firing: the colour maps of Matplotlib 1.5, 2015 (dedicated to the public domain, CC0).
@@ -21,18 +21,18 @@ const INFERNO: [[u8; 3]; 9] = [
     [252, 255, 164],
 ];
 
-/// The colour of `cost` on a logarithmic scale from 0 to `hottest`; above that it stays the same.
+/// The colour of `cost` on a logarithmic scale from 0 to `hottest`; higher costs get the colour of `hottest`.
 ///
-/// Costs of structures differ by factors of a hundred: on a linear scale that fits the worst, the best is black.
+/// Costs of structures differ by factors of a hundred: a linear scale up to the worst would show the best in black.
 pub fn heat(cost: u64, hottest: u64) -> [u8; 3] {
-    // The logarithm is libm's: the same on every machine.
+    // The logarithm of `libm` is the same on every machine.
     ramp(match hottest {
         0 => 0.0,
         _ => libm::log1p(cost.min(hottest) as f64) / libm::log1p(hottest as f64),
     })
 }
 
-/// The colour at a share of the map, from 0 to 1.
+/// The colour at the position `share` of the map, from 0 to 1.
 pub fn ramp(share: f64) -> [u8; 3] {
     // 255 steps between neighbouring colours.
     let steps = ((INFERNO.len() - 1) * 255) as f64;
@@ -43,7 +43,7 @@ pub fn ramp(share: f64) -> [u8; 3] {
     std::array::from_fn(|c| ((u32::from(below[c]) * (255 - part) + u32::from(above[c]) * part + 127) / 255) as u8)
 }
 
-/// A picture with the colours of all costs from 0 to `hottest` as a bar below it.
+/// Adds a bar with the colours of all costs from 0 to `hottest` below the picture.
 pub fn with_bar(picture: RgbImage, hottest: u64) -> RgbImage {
     let (width, bar) = (picture.width(), bar(picture.width(), hottest));
     let height = picture.height() + bar.height();
@@ -51,7 +51,7 @@ pub fn with_bar(picture: RgbImage, hottest: u64) -> RgbImage {
     RgbImage::from_raw(width, height, rows).expect("both have one width")
 }
 
-/// The bar of `width` pixels; below it a mark at 1 and at each power of ten.
+/// The bar, `width` pixels wide, above a mark at each power of ten, from 1.
 fn bar(width: u32, hottest: u64) -> RgbImage {
     let black = vec![[0; 3]; width as usize];
     let (last, whole) = (f64::from(width.max(2) - 1), libm::log1p(hottest as f64));
@@ -76,7 +76,7 @@ mod tests {
         assert_eq!(row(5)[50], heat(31, 999), "the root of 1000, less one, is in the middle");
         let marks: Vec<usize> = (0..101).filter(|&x| row(14)[x] != [0; 3]).collect();
         assert_eq!(marks, [10, 35, 67], "1, 10 and 100 of 999");
-        // A scale of one cost, and one pixel.
+        // The smallest scale and the smallest width.
         assert_eq!(super::bar(1, 1).dimensions(), (1, 15));
 
         let picture = RgbImage::from_pixel(101, 2, image::Rgb([7; 3]));
@@ -86,7 +86,7 @@ mod tests {
 
     #[test]
     fn the_scale_runs_from_black_to_pale_yellow_and_stays_there() {
-        // 9 is in the middle between 0 and 99: a factor of ten up to 1 + cost, and another one.
+        // 9 is in the middle between 0 and 99, because 1 + cost is 1, 10 and 100.
         assert_eq!([heat(0, 99), heat(9, 99), heat(99, 99)], [INFERNO[0], INFERNO[4], INFERNO[8]]);
         assert_eq!([heat(11, 10), heat(u64::MAX, 10), heat(u64::MAX, u64::MAX)], [INFERNO[8]; 3]);
         assert_eq!(heat(3, 0), INFERNO[0]);

@@ -9,7 +9,7 @@ use crate::geometry::{Hit, Ray};
 use crate::oracle::{DepthRule, Oracle, Outcome, Truth, outcome};
 use crate::scene::Scene;
 
-/// The primary rays of a picture, row by row, with their exact hits. One serves all structures.
+/// The primary rays of a picture, row by row, with their exact hits; independent of the structure.
 pub struct ExactPicture {
     pub size: [u32; 2],
     pub rays: Vec<Ray>,
@@ -17,7 +17,7 @@ pub struct ExactPicture {
 }
 
 impl ExactPicture {
-    /// Takes some microseconds per pixel.
+    /// Computes the exact hits, in some microseconds per pixel.
     pub fn new(scene: &Scene, size: [u32; 2]) -> Self {
         let oracle = Oracle::new(&scene.mesh);
         let rays = primary(scene, size);
@@ -25,20 +25,20 @@ impl ExactPicture {
         Self { size, rays, truths }
     }
 
-    /// The outcome of a pixel with this hit, by the strict depth rule.
+    /// Compares a structure's hit at a pixel with the exact hit, by the strict depth rule.
     pub fn outcome(&self, pixel: usize, hit: Option<Hit>) -> Outcome {
         outcome(self.truths[pixel].as_ref(), hit, DepthRule::STRICT)
     }
 }
 
-/// The primary rays of a picture, each checked against the exact oracle.
+/// The hits of the primary rays of a picture, each compared with the exact hit.
 pub struct ErrorMap {
     size: [u32; 2],
     pixels: Vec<(Outcome, Option<Hit>)>,
 }
 
-/// The outcomes with a colour. Colour-blind people can distinguish these colours (Okabe, Ito: Color universal design,
-/// 2008). All other outcomes are grey.
+/// The outcomes that are painted as errors, with colours that colour-blind people can distinguish (Okabe, Ito: Color
+/// universal design, 2008). All other outcomes are grey.
 const PAINTED: [(Outcome, &str, &str, [u8; 3]); 4] = [
     (Outcome::Missed, "missed", "vermilion", [213, 94, 0]),
     (Outcome::FalseHit, "false hit", "yellow", [240, 228, 66]),
@@ -51,7 +51,7 @@ pub fn error_name(outcome: Outcome) -> Option<&'static str> {
     PAINTED.iter().find(|(painted, ..)| *painted == outcome).map(|(_, name, ..)| *name)
 }
 
-/// The brightest grey of a right hit: errors must be brighter.
+/// The brightest grey of a correct hit: error colours are brighter.
 const BRIGHTEST: f32 = 90.0;
 
 impl ErrorMap {
@@ -77,12 +77,12 @@ impl ErrorMap {
         (0..self.pixels.len()).filter(move |&pixel| error_name(self.pixels[pixel].0).is_some())
     }
 
-    /// Pixels with this outcome.
+    /// The number of pixels with this outcome.
     pub fn count(&self, outcome: Outcome) -> usize {
         self.pixels.iter().filter(|(other, _)| *other == outcome).count()
     }
 
-    /// The meaning of each colour, with its number of pixels.
+    /// A sentence with the meaning of each colour and its number of pixels.
     pub fn legend(&self) -> String {
         let painted = PAINTED.map(|(outcome, name, colour, _)| format!("{name} {} ({colour})", self.count(outcome)));
         let right = self.count(Outcome::Right) + self.count(Outcome::Nothing);
@@ -94,12 +94,12 @@ impl ErrorMap {
         PAINTED.map(|(outcome, name, _, colour)| (name, self.count(outcome), colour))
     }
 
-    /// Errors in colours, enlarged, over a dim depth view of right hits.
+    /// Errors in colours, enlarged, over a dim depth view of correct hits.
     pub fn picture(&self) -> RgbImage {
         let right = |(outcome, hit): &(Outcome, Option<Hit>)| hit.filter(|_| *outcome == Outcome::Right);
         let nearest = self.pixels.iter().filter_map(right).fold(f32::INFINITY, |near, hit| near.min(hit.t));
         let colour = |pixel: &(Outcome, Option<Hit>)| {
-            // Far hits keep a third of the light, which distinguishes them from misses.
+            // Far hits keep a third of the brightness, which distinguishes them from misses.
             let light = |hit: Hit| 1.0 / 3.0 + 2.0 / 3.0 * if hit.t > nearest { nearest / hit.t } else { 1.0 };
             let grey = pixel.1.map_or(0, |hit| (BRIGHTEST * light(hit)) as u8);
             PAINTED.iter().find(|(outcome, ..)| *outcome == pixel.0).map_or([grey; 3], |(.., colour)| *colour)
@@ -147,7 +147,7 @@ mod tests {
         assert!(picture.pixels().all(|Rgb([r, g, b])| r == g && g == b && f32::from(*r) <= BRIGHTEST));
         assert_eq!(picture.get_pixel(0, 0), &Rgb([0; 3]));
 
-        // The hits and the exact hits belong to different meshes.
+        // Build the structure and compute the exact hits over different meshes.
         let empty = Arc::new(Mesh::new(vec![], vec![]).unwrap());
         let nothing = KdTree::<Exact>::build(&empty, &KdConfig::SAH).unwrap();
         let missed = ErrorMap::new(&scene, &nothing, size);

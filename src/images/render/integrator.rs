@@ -1,4 +1,4 @@
-//! The renderer of the source report's course: Phong materials, hard shadows, mirrors.
+//! The renderer of the course for which the source report was written: Phong materials, hard shadows, mirrors.
 
 use glam::Vec3;
 use rayon::prelude::*;
@@ -12,17 +12,17 @@ use crate::scene::{Light, Material, Scene, Surface};
 pub struct RayCounts {
     /// Closest hit, one per pixel.
     pub primary: u64,
-    /// Closest hit, one for each hit of a mirror material above the recursion limit.
+    /// Closest hit, one for each hit on a mirror material at a level below the recursion limit.
     pub mirror: u64,
     /// Any hit, one for each light and each hit of a primary or mirror ray.
     pub shadow: u64,
 }
 
-/// Pixels in a batch of rays.
+/// The number of pixels whose rays form a batch.
 const CHUNK: usize = 4096;
 
-/// The colours, linear RGB, of the pixels of these primary rays, traced by `accel` over the scene's mesh. The rays of one
-/// kind and level of a few thousand pixels are one batch; the colours do not depend on batches and threads.
+/// The colours, in linear RGB, of primary rays traced by `accel`, built over the scene's mesh. A batch consists of the
+/// rays of one kind and one mirror level for 4,096 pixels. The colours depend on neither batches nor threads.
 pub fn shade(scene: &Scene, accel: &dyn DynAccel, rays: &[Ray]) -> Vec<Vec3> {
     rays.par_chunks(CHUNK).flat_map_iter(|chunk| trace(scene, accel, chunk.to_vec()).0).collect()
 }
@@ -48,7 +48,7 @@ struct MirrorLevel {
 fn trace(scene: &Scene, accel: &dyn DynAccel, mut rays: Vec<Ray>) -> (Vec<Vec3>, RayCounts) {
     let mut counts = RayCounts { primary: rays.len() as u64, ..RayCounts::default() };
 
-    // Forward: the mirror rays of each level are the rays of the next.
+    // Forward: the mirror rays of each level are the rays of the next level.
     let mut levels = vec![];
     while !rays.is_empty() {
         let follow = (levels.len() as u32) < scene.recursion_limit;
@@ -108,14 +108,14 @@ fn shade_level(
 
 /// Light that a surface reflects to the eye: Lambert (`Kd`) and Blinn-Phong (`Ks`, `Ns`).
 ///
-/// The view vector goes to the eye even if a mirror shows the surface, as in the course.
+/// As in the course, the view vector points to the eye even if the surface is seen in a mirror.
 fn reflected(material: &Material, surface: &Surface, light: &Light, eye: Vec3) -> Vec3 {
     let normal = surface.shading_normal;
     let to_light = light.position - surface.point.position;
     let distance = to_light.length();
     let to_light = to_light / distance;
     let facing = normal.dot(to_light);
-    // A light at the surface point itself makes this NaN, and gives no light.
+    // A light at the surface point makes `facing` NaN and gives no light.
     if facing.is_nan() || facing <= 0.0 {
         return Vec3::ZERO;
     }

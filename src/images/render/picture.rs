@@ -1,4 +1,4 @@
-//! Pictures of 8 bits per channel: from colours, and as PNG.
+//! Makes pictures of 8 bits per channel from colours, and encodes them as PNG.
 
 use std::io::Write;
 
@@ -19,7 +19,7 @@ pub fn from_pixels([width, height]: [u32; 2], pixels: Vec<[u8; 3]>) -> RgbImage 
 }
 
 /// The picture of linear RGB colours: each channel times 255, rounded to the nearest; values below 0 or above 1 are
-/// clamped, NaN becomes 0. There is no gamma curve, as in the course.
+/// clamped, NaN becomes 0. As in the course, there is no gamma curve.
 ///
 /// # Panics
 /// Like [`from_pixels`].
@@ -31,7 +31,7 @@ pub(super) fn quantised(channel: f32) -> u8 {
     (channel * 255.0 + 0.5) as u8
 }
 
-/// The encoder of all PNG files: the same bytes for the same picture. The defaults of `save` may change.
+/// The encoder of all PNG files. Unlike the defaults of `image`, its settings never change.
 pub fn png_encoder<W: Write>(file: W) -> PngEncoder<W> {
     PngEncoder::new_with_quality(file, CompressionType::Fast, FilterType::Adaptive)
 }

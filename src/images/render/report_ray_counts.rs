@@ -1,4 +1,4 @@
-//! Asserts the ray counts of the source report, which hold only if scenes, meshes and the course's rules are right.
+//! Reproduces the ray counts of the source report, to test the scenes, the meshes and the rules of the course.
 
 use super::count_rays;
 use super::picture::primary;
@@ -7,23 +7,23 @@ use crate::kdtree::{KdConfig, KdTree};
 use crate::scene::tests::of_the_report;
 use crate::triangle::Exact;
 
-/// Counts of a recount with the course's own renderer, and the report's own total.
+/// Mirror and shadow rays in a recount with the course's renderer, and the total in the report.
 struct Known {
     scene: &'static str,
     mirror: u64,
     shadow: u64,
     report: u64,
-    /// The largest accepted difference of the total from the report's.
+    /// The largest accepted difference of the total from the report's total.
     within: u64,
     /// The largest accepted difference of mirror and shadow rays from the recount.
     recount: u64,
 }
 
-/// Two scenes are not reproduced exactly. Whether a ray hits at an edge depends on the rounding of the triangle test,
-/// and so do its mirror and shadow rays. The report's test is unknown; here the test is exact. In Infinitycandy mirrors
-/// multiply the few rays at edges. In the Cornell box walls meet at edges, and the report does not mention that the
-/// back wall is a mirror: with a mirror the total here differs by 8 from the report's, and the recount's by 29; without
-/// one 38,495 mirror rays and their shadow rays would be missing. The bounds below are observed, not derived.
+/// Two scenes do not match the recount exactly. Whether a ray hits at an edge depends on the rounding of the triangle
+/// test. The report's test is unknown; here the test is exact. In Infinitycandy, mirrors multiply the few rays at
+/// edges. In Cornellbox, walls meet at edges, and the back wall is a mirror, which the report does not mention. With
+/// the mirror, the total here differs by 8 from the report's total, and the recount's total by 29; without it, 38,495
+/// mirror rays and their shadow rays would be missing. The bounds below are observed, not derived.
 #[rustfmt::skip]
 const KNOWN: &[Known] = &[
     Known { scene: "Cube", mirror: 0, shadow: 20_648, report: 282_793, within: 1, recount: 0 },
@@ -36,7 +36,6 @@ const KNOWN: &[Known] = &[
     Known { scene: "Metallic", mirror: 60_264, shadow: 495_048, report: 817_456, within: 0, recount: 0 },
 ];
 
-/// Uses the exact triangle test: no rounding influences the counts.
 #[test]
 fn rays_are_as_many_as_in_the_report() {
     let mut wrong = vec![];

@@ -1,4 +1,4 @@
-//! Views of a scene, or of the work of a structure.
+//! Views of a scene, and of the cost and errors of a structure.
 
 use std::str::FromStr;
 
@@ -17,10 +17,10 @@ named_enum! {
     pub enum ViewKind {
         /// The shading of the source report's course.
         Shaded = "shaded",
-        /// Reciprocal distance of the hit, from white for the nearest in the picture to dark for the farthest; misses
-        /// are black.
+        /// Reciprocal distance of the hit, from white for the nearest hit in the picture to dark grey for the farthest;
+        /// misses are black.
         Depth = "depth",
-        /// Shading normal, its x, y, z from -1..1 to red, green, blue; misses are black.
+        /// Shading normal: x, y and z from -1 to 1 become red, green and blue; misses are black.
         Normal = "normal",
         /// A unique colour for each primitive, the same in every picture; misses are black.
         Primitive = "primitive",
@@ -44,10 +44,10 @@ impl FromStr for ViewKind {
     }
 }
 
-/// Draws a view of `scene` of `size` pixels with rays traced by `accel`, built over the scene's mesh.
+/// Draws a view of `scene` with `size` pixels. `accel`, built over the scene's mesh, traces the rays.
 ///
-/// `hottest` is the number of tests and steps that the heat view shows brightest. To compare structures, use the same
-/// number for all, for example the [`hottest`] of all. The other views ignore it.
+/// `hottest` is the number of tests and steps that the heat view shows brightest; other views ignore it. To compare
+/// structures, use one number for all, for example the maximum of their [`hottest`].
 ///
 /// # Errors
 /// If the heat view is requested of a structure that does not report triangle tests and steps.
@@ -80,10 +80,10 @@ pub fn draw(
     })
 }
 
-/// Tests and steps of the closest-hit query of each pixel, row by row.
+/// The sum of triangle tests and traversal steps of the closest-hit query of each pixel, row by row.
 ///
 /// # Errors
-/// If the structure does not report both.
+/// If the structure does not report tests and steps.
 pub fn costs(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Result<Vec<u64>, ViewError> {
     if accel.observed() != Observed::ALL {
         return Err(ViewError);
@@ -106,8 +106,8 @@ pub fn size_of(scene: &Scene, longest: u32) -> [u32; 2] {
     [width, height].map(|side| (u64::from(side) * u64::from(longest) / u64::from(most)).max(1) as u32)
 }
 
-/// Width and height of the pictures of the page. They also determine the scale of the heat view, which all pictures
-/// share.
+/// Width and height of the pictures of the page, and of the pictures from which `render` takes the scale of the heat
+/// view.
 pub fn coarse_size(scene: &Scene) -> [u32; 2] {
     size_of(scene, 320)
 }
@@ -117,7 +117,7 @@ pub fn normal_colour(scene: &Scene, ray: &Ray, hit: Hit) -> [u8; 3] {
     (scene.surface(ray, hit).shading_normal * 0.5 + 0.5).to_array().map(quantised)
 }
 
-/// The depth view of distances, one per pixel; infinite for a miss.
+/// The depth view of distances, one per pixel; a miss has an infinite distance.
 pub fn depth_picture(size: [u32; 2], depths: &[f32]) -> RgbImage {
     let seen = depths.iter().copied().filter(|t| t.is_finite());
     let (near, far) = seen.fold((f32::INFINITY, 0.0f32), |(near, far), t| (near.min(t), far.max(t)));

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use crate::accel::{Counts, DynAccel};
 use crate::geometry::{Hit, Ray};
 
-/// The closest-hit query of one ray.
+/// The counts and the hit of the closest-hit query of one ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Work {
     /// The counts that the structure reports.

@@ -9,13 +9,13 @@ use crate::escaped::Escaped as _;
 use crate::geometry::{Mesh, Transform};
 use crate::names::suggestion;
 
-/// The origin of a scene file, and the folders of other files.
+/// The name of a scene file, and the folders of the files that it names.
 pub(super) struct Origin<'a> {
-    /// The name for messages.
+    /// The name of the scene file in messages.
     pub file: &'a str,
     /// The folder that paths in the file are relative to; `None` for a built-in scene.
     pub folder: Option<&'a Path>,
-    /// The folder of real meshes; `None` for stand-ins only.
+    /// The folder of real meshes; `None` to use only stand-ins.
     pub real_meshes: Option<&'a Path>,
 }
 
@@ -26,7 +26,7 @@ impl Origin<'_> {
 }
 
 impl Scene {
-    /// The scene in a scene file, with the real meshes in the folder `real_meshes`; `None` for generated meshes only.
+    /// Reads a scene file. It uses the real meshes in the folder `real_meshes`, or only stand-ins if this is `None`.
     ///
     /// # Errors
     /// A file that cannot be read, an invalid key or value, a mesh that cannot be loaded, or a missing real mesh
@@ -38,8 +38,8 @@ impl Scene {
         Self::from_text(&text, &path.escaped().to_string(), folder, real_meshes)
     }
 
-    /// Like [`read`](Self::read), from the text of a scene file that messages call `file`; paths in it are relative to
-    /// `folder`, and not allowed without one.
+    /// Like [`read`](Self::read), but takes the text of a scene file. Messages call the scene file `file`. Paths in the
+    /// text are relative to `folder`; without a folder, paths are errors.
     ///
     /// # Errors
     /// As `read`.
@@ -96,7 +96,7 @@ pub(super) fn assemble(file: &SceneFile, origin: &Origin) -> Result<Scene, Scene
 
 #[derive(Default)]
 struct Parts {
-    /// The objects so far, in world space, with unit normals.
+    /// The objects that were already added, in world space, with unit normals.
     all: Model,
     stand_ins: Vec<String>,
     /// Whether a real mesh replaces a stand-in.
@@ -132,7 +132,7 @@ impl Parts {
 
         let first = self.all.normals.len();
         self.all.normals.extend(model.normals.iter().map(|&n| placement.normal(n)));
-        // If no mesh has normals, triangles need no normal indices.
+        // Keep `normal_indices` empty until a mesh has normals.
         if !model.normal_indices.is_empty() {
             let flat = |n: &[u32; 3]| n.contains(&Model::FLAT);
             let placed = |n| if flat(n) { CornerNormals::FLAT } else { shifted(n, first) };
@@ -144,7 +144,7 @@ impl Parts {
         self.paint(object, &model, key, origin)
     }
 
-    /// The mesh to use, and its placement.
+    /// The mesh of `object` and its placement: the real mesh if its file exists, or else `terrain` or `mesh`.
     fn choose(&mut self, object: &ObjectFile, key: &str, origin: &Origin) -> Result<(Model, Transform), SceneError> {
         if let (Some(real), Some(folder)) = (&object.real, origin.real_meshes) {
             let path = folder.join(&real.file);
@@ -203,7 +203,7 @@ impl Parts {
     }
 
     fn paint(&mut self, object: &ObjectFile, model: &Model, key: &str, origin: &Origin) -> Result<(), SceneError> {
-        // The file's materials come first, sorted by name; parsing has checked that each name exists.
+        // The materials of the scene file come first. Parsing has checked that each name exists.
         let number = |materials: &[Material], name: &str| {
             materials.iter().position(|m| m.name == name).expect("the file names its materials") as u32
         };

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use crate::geometry::Ray;
 
-/// A pinhole camera with square pixels; its constructor checks it.
+/// A pinhole camera with square pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     eye: Vec3,
@@ -30,7 +30,7 @@ impl Camera {
     /// A camera at `eye` that looks at `target`; `vertical_fov` is the full vertical angle in degrees.
     ///
     /// # Errors
-    /// If these do not make a view: see [`CameraError`].
+    /// If the arguments do not define a view, see [`CameraError`].
     pub fn new(eye: Vec3, target: Vec3, up: Vec3, vertical_fov: f32) -> Result<Self, CameraError> {
         if !(eye.is_finite() && target.is_finite() && up.is_finite()) {
             return Err(CameraError::NotFinite);
@@ -75,9 +75,9 @@ impl Camera {
     }
 }
 
-/// A camera with an image: makes the rays through its pixels.
+/// A camera with an image size; it makes the rays through the pixels.
 ///
-/// Computed in `f64` and rounded once: the rays have the same bits on every machine.
+/// Directions are computed in `f64` and rounded once, so the rays have the same bits on every machine.
 #[derive(Clone, Copy, Debug)]
 pub struct View {
     eye: Vec3,
@@ -90,7 +90,7 @@ pub struct View {
 }
 
 impl View {
-    /// The centre of a pixel.
+    /// The offset of the centre of a pixel.
     pub const CENTRE: Vec2 = Vec2::splat(0.5);
 
     /// The ray from the eye through the point `offset` of pixel (`x`, `y`), with a direction of unit length.

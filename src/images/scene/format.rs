@@ -8,14 +8,14 @@ use super::SceneError;
 use crate::scene::Material;
 use crate::scene::meshes::Terrain;
 
-/// The contents of a scene file. [`SceneFile::parse`] checks its values, [`super::Scene::read`] makes the scene.
+/// The contents of a scene file. [`SceneFile::parse`] checks the values, [`super::Scene::read`] makes the scene.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SceneFile {
     pub name: String,
     /// The source of the scene, for readers.
     pub source: Option<String>,
-    /// The number of triangles of the scene with generated meshes; checked if present.
+    /// The number of triangles of the scene; checked if present and no real mesh replaces a generated one.
     pub triangles: Option<usize>,
     /// Width and height of the image, 1 to 16384.
     #[serde(default = "default_size")]
@@ -23,15 +23,15 @@ pub struct SceneFile {
     /// Linear RGB.
     #[serde(default)]
     pub background: [f32; 3],
-    /// Level up to which mirror rays are followed, 0 to 64.
+    /// The level up to which mirror rays are traced, 0 to 64.
     #[serde(default = "default_recursion_limit")]
     pub recursion_limit: u32,
     /// See [`super::Scene::shadow_terminator_fix`].
     #[serde(default = "yes")]
     pub shadow_terminator_fix: bool,
-    /// How far each ray origin is moved along its direction, including those at the eye. The source report's course
-    /// avoids self-intersection in this way, and the report's ray counts depend on it. Without this key rays leave
-    /// surfaces error-bounded, which is right at every scale: see [`super::Offset`].
+    /// The origin of every ray, including camera rays, moves by this distance along the ray direction. The source
+    /// report's course avoids self-intersection in this way, and the report's ray counts depend on it. Without this
+    /// key, origins move by the error bound of the hit point, which works at every scale: see [`super::Offset`].
     pub ray_offset: Option<f32>,
     pub camera: CameraFile,
     #[serde(default)]
@@ -49,7 +49,7 @@ pub struct CameraFile {
     pub target: [f32; 3],
     #[serde(default = "default_up")]
     pub up: [f32; 3],
-    /// Degrees.
+    /// The full vertical angle in degrees.
     pub vertical_fov: f32,
 }
 
@@ -98,25 +98,25 @@ impl MaterialFile {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ObjectFile {
-    /// The name of a generator ([`super::meshes::GENERATORS`]), or a path relative to the scene file; `None` if there
-    /// is only `real`, or a `terrain`.
+    /// The name of a generator ([`super::meshes::GENERATORS`]), or a path relative to the folder of the scene file;
+    /// `None` if the object has only `real` or `terrain`.
     pub mesh: Option<String>,
-    /// Generated ground instead of a mesh.
+    /// A generated ground instead of a mesh.
     pub terrain: Option<Terrain>,
     /// The material of the whole mesh. Without `material` and `materials` the mesh keeps its own materials, or is grey.
     pub material: Option<String>,
-    /// Materials by part; a part is a material that the mesh itself names.
+    /// Materials by part; the parts of a mesh are its own materials.
     pub materials: Option<BTreeMap<String, String>>,
-    /// Together with `sca` and `tra`, the numbers of a [`crate::geometry::Transform`]; degrees.
+    /// The rotation of [`crate::geometry::Transform::new`], in degrees; `sca` is its scale, `tra` its translation.
     #[serde(default)]
     pub rot: [f32; 3],
     #[serde(default = "ones")]
     pub sca: [f32; 3],
     #[serde(default)]
     pub tra: [f32; 3],
-    /// The mesh that this one replaces, if any.
+    /// The name of the mesh that `mesh` replaces.
     pub stands_in_for: Option<String>,
-    /// The mesh file to use instead if it exists, or the only mesh.
+    /// The mesh file that replaces `mesh` if the file exists; without `mesh`, the file must exist.
     pub real: Option<RealMesh>,
 }
 
@@ -126,24 +126,24 @@ pub struct ObjectFile {
 pub struct RealMesh {
     /// Name in the folder of real meshes.
     pub file: String,
-    /// The address of the file, or of an archive that `unpack` explains how to unpack.
+    /// The address of the file; with `unpack`, the address of an archive.
     pub url: String,
     pub unpack: Option<String>,
     pub licence: String,
     pub origin: String,
-    /// SHA-256 of the file, in hexadecimal; absent if the file has to be unpacked.
+    /// SHA-256 of the file, in hexadecimal; `None` if the file is in an archive.
     pub sha256: Option<String>,
     pub bytes: Option<u64>,
-    /// The number of triangles of the source report's mesh, if it replaces one.
+    /// The number of triangles of the mesh in the source report, for scenes of the report.
     pub reported_triangles: Option<usize>,
-    /// Together with `sca` and `tra`, the placement of the real mesh; it replaces the placement of the stand-in.
+    /// With `sca` and `tra`, the placement of the real mesh, instead of the placement in [`ObjectFile`].
     #[serde(default)]
     pub rot: [f32; 3],
     #[serde(default = "ones")]
     pub sca: [f32; 3],
     #[serde(default)]
     pub tra: [f32; 3],
-    /// Triangles with these materials of the file are left out.
+    /// Materials of the mesh file; their triangles are left out.
     #[serde(default)]
     pub exclude_materials: Vec<String>,
 }
@@ -184,7 +184,7 @@ impl SceneFile {
     }
 
     fn check(&self) -> Result<(), (String, String)> {
-        // The name is printed in tables and plans and is part of file names.
+        // Tables and plans print the name, and file names contain it.
         let is_word = !self.name.trim().is_empty() && !self.name.contains(char::is_control);
         demand(is_word, "name", "give a name on one line without control characters")?;
         let in_size = self.size.iter().all(|n| (1..=16384).contains(n));
@@ -262,7 +262,7 @@ mod tests {
 
     const DOCUMENT: &str = include_str!("SCENE.md");
 
-    /// Keys in the first column of the table under a heading of the document.
+    /// The keys in the first column of the table under a heading of SCENE.md.
     fn documented(heading: &str) -> Vec<&'static str> {
         let (_, part) = DOCUMENT.split_once(&format!("\n## {heading}\n")).unwrap_or_else(|| panic!("no {heading}"));
         let part = part.split("\n## ").next().unwrap_or(part);

@@ -7,26 +7,26 @@ use glam::{DVec3, Vec3};
 use super::{Camera, CameraError, CornerNormals, Light, Material, Model, Offset, Scene, SceneError};
 use crate::geometry::{Aabb, Mesh, Transform};
 
-/// Degrees.
+/// The field of view of a camera outside the mesh, in degrees.
 const VERTICAL_FOV: f32 = 40.0;
 
-/// Degrees, for a camera inside.
+/// The field of view of a camera inside the mesh, in degrees.
 const INSIDE_FOV: f32 = 75.0;
 
 /// The direction from the mesh to the camera: to the right and a little up.
 const TOWARDS_CAMERA: DVec3 = DVec3::new(0.5, 0.35, 1.0);
 
-/// The share of the image's width or height that the box of the mesh may fill.
+/// The largest share of the image's width or height that the box of the mesh fills.
 const FILLED: f64 = 0.95;
 
 impl Scene {
-    /// A scene around `model`, called `name`: y is up, the camera sees the whole box, there is one light, and the
-    /// materials are the model's own or grey.
+    /// A scene called `name` around `model`. Its up direction is y, its camera sees the whole box of the mesh, and it
+    /// has one light. A model without materials is grey.
     ///
-    /// It has no shadow terminator fix, which would depend on the unit of length.
+    /// The shadow terminator fix is off, because it depends on the unit of length.
     ///
     /// # Errors
-    /// If the model is no valid mesh, or so large or so far away that `f32` has no place for the camera.
+    /// If the model is no valid mesh, or if `f32` cannot represent the camera and the light.
     pub fn framed(name: &str, model: Model) -> Result<Self, SceneError> {
         let mesh = Mesh::new(model.positions, model.triangles)
             .map_err(|cause| SceneError::Mesh { file: name.into(), cause })?;
@@ -64,11 +64,11 @@ impl Scene {
         })
     }
 
-    /// The same scene seen from the middle of its box, along its longer horizontal side. The light of a bare mesh moves
-    /// inside as well.
+    /// The same scene, seen from the middle of its box along the longer horizontal side. In a [framed](Scene::framed)
+    /// scene, the light moves inside as well.
     ///
     /// # Errors
-    /// If the mesh has no extent along that side, or is so large or far away that `f32` has no place for the camera.
+    /// If the mesh is empty or has no extent along this side, or if `f32` cannot represent the camera.
     pub fn from_inside(mut self) -> Result<Self, CameraError> {
         let bounds = if self.mesh.is_empty() { return Err(CameraError::NoDirection) } else { self.mesh.bounds() };
         let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
@@ -86,8 +86,8 @@ impl Scene {
     }
 }
 
-/// A camera that sees all eight corners of `bounds`, and a light beside and above it; `None` if `f32` has no place for
-/// them.
+/// A camera that sees all eight corners of `bounds`, and a light to the right of the camera and above it; `None` if
+/// `f32` cannot represent them.
 fn place(bounds: Aabb) -> Option<(Camera, Light)> {
     let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
     let centre = (min + max) / 2.0;
@@ -99,7 +99,7 @@ fn place(bounds: Aabb) -> Option<(Camera, Light)> {
     let fits = |corner: DVec3| corner.dot(right).abs().max(corner.dot(up).abs()) / reach + corner.dot(towards);
     let sign = |i: u32| if i == 0 { -0.5 } else { 0.5 };
     let corners = (0..8).map(|i| (max - min) * DVec3::new(sign(i & 1), sign(i & 2), sign(i & 4)));
-    // A single point has no size to fit.
+    // A single point has no size: use a distance that suits its coordinates.
     let distance = corners.map(fits).fold(f64::from(f32::MIN_POSITIVE), f64::max);
     let distance = if max == min { centre.abs().max_element().max(1.0) } else { distance };
 

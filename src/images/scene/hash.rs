@@ -1,4 +1,4 @@
-//! The identity of a scene as a hash: times, counts and pictures are comparable only between equal hashes.
+//! The hash that identifies a scene: times, counts and pictures are comparable only if the hashes are equal.
 
 use std::io::{BufWriter, Write};
 
@@ -9,10 +9,10 @@ use super::{Offset, Scene};
 
 impl Scene {
     /// SHA-256, in hexadecimal, of everything that rays, hits or pictures depend on: vertices, triangles, corner
-    /// normals, materials, lights, camera, background, depth of recursion, ray offsets, size of the image. Names, notes
-    /// and the list of stand-ins are left out.
+    /// normals, materials, lights, camera, background, recursion limit, shadow terminator fix, ray offset, image size.
+    /// It ignores names, notes, warnings and the list of stand-ins.
     pub fn hash(&self) -> String {
-        // Name every field of the scene: the compiler then reports a new one here.
+        // These patterns name every field of the scene. The compiler does not check this: add new fields by hand.
         let Self { mesh, normals, materials, material_of, lights, camera, background, .. } = self;
         let Self { recursion_limit, shadow_terminator_fix, offset, size, .. } = self;
         let Self { name: _, is_framed: _, stand_ins: _, notes: _, warnings: _, .. } = self;
@@ -39,7 +39,7 @@ impl Scene {
         hash.vectors(&[camera.eye(), camera.target(), camera.up(), *background]);
         hash.floats(&[camera.vertical_fov()]);
         hash.words([*recursion_limit, u32::from(*shadow_terminator_fix), size[0], size[1]]);
-        // The codes are part of every recorded hash: they are never changed and never given to another offset.
+        // Recorded hashes depend on these codes: never change a code, and never reuse one for another offset.
         let (code, length) = match *offset {
             Offset::Direction(distance) => (3, distance),
             Offset::ErrorBounded => (5, 0.0),
@@ -50,7 +50,7 @@ impl Scene {
     }
 }
 
-/// Buffered, because passing on single words takes longer than hashing them.
+/// SHA-256 behind a buffer: without it, the calls for single words would take longer than the hashing.
 struct Hash(BufWriter<Sha256>);
 
 const SUMMED: &str = "a sum takes all bytes";
@@ -64,7 +64,7 @@ impl Hash {
         self.words(floats.iter().map(|float| float.to_bits()));
     }
 
-    /// The length of a list: two lists then differ from one concatenated list.
+    /// Adds the length of a list: two lists then hash differently from their concatenation.
     fn count(&mut self, n: usize) {
         self.0.write_all(&(n as u64).to_le_bytes()).expect(SUMMED);
     }
@@ -80,7 +80,7 @@ impl Hash {
     }
 }
 
-/// Two digits per byte.
+/// The hexadecimal digits of `bytes`, two per byte.
 pub fn hexadecimal(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }

@@ -2,20 +2,20 @@
 
 use glam::Vec3;
 
-/// A point light. At distance `d` it gives `colour / (quadratic * d^2 + linear * d + 1)`.
+/// A point light. Its light at distance `d` is `colour / (quadratic * d^2 + linear * d + 1)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Light {
     pub position: Vec3,
     /// Linear RGB.
     pub colour: Vec3,
-    /// `lat` of the course: attenuation by distance; 0 gives none.
+    /// `lat` in scene files: attenuation by distance; 0 gives none.
     pub linear: f32,
-    /// `qat` of the course: attenuation by squared distance; 0 gives none.
+    /// `qat` in scene files: attenuation by squared distance; 0 gives none.
     pub quadratic: f32,
 }
 
 impl Light {
-    /// The colour that arrives at `distance` without an occluder.
+    /// The light that arrives at `distance` if nothing occludes it.
     pub fn at(&self, distance: f32) -> Vec3 {
         self.colour / (self.quadratic * distance * distance + self.linear * distance + 1.0)
     }

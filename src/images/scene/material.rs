@@ -2,12 +2,11 @@
 
 use glam::Vec3;
 
-/// A Phong-style material with the parameters that the report's scenes need. Colours are linear RGB, components from 0
-/// to 1.
+/// A Phong-style material with the parameters that the report's scenes need. Colours are linear RGB.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     pub name: String,
-    /// `Ka`: share of the diffuse colour without any light.
+    /// `Ka`: the product of `Ka` and `Kd` is visible without any light.
     pub ambient: Vec3,
     /// `Kd`: Lambert reflection.
     pub diffuse: Vec3,
@@ -15,12 +14,12 @@ pub struct Material {
     pub specular: Vec3,
     /// `Ns`: exponent of the highlight.
     pub shininess: f32,
-    /// `r`: weight of the mirror ray; 0 casts none.
+    /// `r`: weight of the mirror ray, 0 to 1; 0 casts none.
     pub mirror: f32,
 }
 
 impl Material {
-    /// Light grey, for meshes without materials.
+    /// A light grey material called `name`, for meshes without materials.
     pub fn named(name: impl Into<String>) -> Self {
         Self {
             name: name.into(),

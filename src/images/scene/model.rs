@@ -9,14 +9,14 @@ use super::Material;
 pub struct Model {
     pub positions: Vec<Vec3>,
     pub triangles: Vec<[u32; 3]>,
-    /// Corner normals, of any length; empty when the model is flat-shaded.
+    /// Corner normals, of any length; empty if the model is flat-shaded.
     pub normals: Vec<Vec3>,
     /// Three normal indices per triangle, or empty if there are no normals. In a partly smooth model, a triangle
     /// without normals has [`Model::FLAT`] three times.
     pub normal_indices: Vec<[u32; 3]>,
     /// The model's materials; a scene may replace them by name.
     pub materials: Vec<Material>,
-    /// One index into `materials` per triangle, or empty if all triangles have the first.
+    /// One index into `materials` per triangle, or empty if all triangles have the first material.
     pub material_of: Vec<u32>,
     /// Sentences about parts of a file that were left out or replaced.
     pub notes: Vec<String>,
@@ -26,7 +26,7 @@ impl Model {
     /// The normal index of a triangle without normals.
     pub const FLAT: u32 = u32::MAX;
 
-    /// The corners of a placed triangle, or their normals: a mirror reverses them, which keeps the front in front.
+    /// The indices of a placed triangle. A placement that mirrors reverses their order, which keeps the front side.
     pub fn placed([a, b, c]: [u32; 3], is_mirrored: bool) -> [u32; 3] {
         if is_mirrored { [a, c, b] } else { [a, b, c] }
     }

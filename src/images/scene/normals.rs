@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::Model;
 
-/// Unit normals in world space, three per triangle, or `None` for a flat triangle.
+/// Unit normals in world space: three per triangle, none for a flat triangle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CornerNormals {
     normals: Vec<Vec3>,
@@ -15,11 +15,11 @@ impl CornerNormals {
     /// The entry of a triangle without corner normals.
     pub const FLAT: [u32; 3] = [Model::FLAT; 3];
 
-    /// Makes them from normals and three indices into these per triangle. A triangle with a normal of length zero
-    /// becomes flat.
+    /// Takes normals, and three indices into `normals` per triangle. A triangle with a normal of length zero becomes
+    /// flat.
     ///
     /// # Panics
-    /// If an entry other than [`CornerNormals::FLAT`] names a normal that does not exist.
+    /// If an entry other than [`CornerNormals::FLAT`] has an index out of range.
     pub fn new(normals: Vec<Vec3>, mut indices: Vec<[u32; 3]>) -> Self {
         for corners in indices.iter_mut().filter(|c| **c != Self::FLAT) {
             if corners.iter().any(|&i| normals[i as usize] == Vec3::ZERO) {
@@ -36,7 +36,7 @@ impl CornerNormals {
         (corners != Self::FLAT).then(|| corners.map(|i| self.normals[i as usize]))
     }
 
-    /// The normals, and three indices into them per triangle.
+    /// The normals, and three indices into the normals per triangle.
     pub fn parts(&self) -> (&[Vec3], &[[u32; 3]]) {
         (&self.normals, &self.indices)
     }

@@ -10,12 +10,12 @@ use crate::geometry::{Hit, Mesh, PrimId, Ray};
 
 /// A mesh in world space with normals, materials, lights and a camera.
 ///
-/// Vertices and triangles of the objects are in the order of the scene file.
+/// The mesh contains the vertices and triangles of the objects in the order of the scene file.
 #[derive(Clone, Debug)]
 pub struct Scene {
     pub name: String,
     pub mesh: Arc<Mesh>,
-    /// `None` if all triangles are flat.
+    /// `None` if no triangle has corner normals.
     pub normals: Option<CornerNormals>,
     pub materials: Vec<Material>,
     /// One index into `materials` per triangle.
@@ -24,40 +24,40 @@ pub struct Scene {
     pub camera: Camera,
     /// Colour of a ray that hits nothing.
     pub background: Vec3,
-    /// Mirror rays are followed up to this level; the primary ray is level 0. Default 8.
+    /// Mirror rays are traced up to this level; primary rays have level 0. Default 8.
     pub recursion_limit: u32,
-    /// Whether shadow rays of smooth triangles start off the surface, at `point + normal * area^0.05`. The course uses
-    /// this against dark facets near the shadow boundary. Default true.
+    /// Whether shadow rays of smooth triangles start off the surface, at `point + normal * area^0.05`. The course of
+    /// the source report avoids dark facets near the shadow boundary in this way. Default of scene files: true.
     pub shadow_terminator_fix: bool,
-    /// The ray offset at surfaces: error-bounded, unless the scene file sets a `ray_offset`.
+    /// The offset of ray origins: error-bounded unless the scene file sets `ray_offset`.
     pub offset: Offset,
     /// Width and height of the image.
     pub size: [u32; 2],
-    /// Whether camera and light were placed around a bare mesh.
+    /// Whether [`Scene::framed`] made the scene.
     pub is_framed: bool,
-    /// Generated meshes that replace a missing real mesh.
+    /// Names of the generated meshes that replace missing real meshes.
     pub stand_ins: Vec<String>,
     /// Notes for readers of results, one sentence each.
     pub notes: Vec<String>,
-    /// The notes to print before the measuring.
+    /// Notes to print before the measurement.
     pub warnings: Vec<String>,
 }
 
 /// The surface at a hit, for shading.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface {
-    /// The point from which rays leave: see [`SurfacePoint::on_triangle`]; in a scene with the course's offset its
-    /// position is `origin + t * direction`, as in the course.
+    /// The point from which rays leave, see [`SurfacePoint::on_triangle`]. With [`Offset::Direction`], its position is
+    /// `origin + t * direction`, as in the course.
     pub point: SurfacePoint,
-    /// Unit normal interpolated between the corners; the geometric normal on a flat triangle.
+    /// Unit normal, interpolated from the corner normals; the geometric normal if the triangle has none.
     pub shading_normal: Vec3,
     /// Whether the corner normals differ.
     pub smooth: bool,
 }
 
 impl Scene {
-    /// The rays through the point `offset` of the pixels `range`, counted row by row from the top left, on an image of
-    /// `size`. `offset` is as in [`View::ray`](super::View::ray).
+    /// The camera rays of the pixels in `range` of an image of `size`. Pixels are numbered row by row from the top
+    /// left. Each ray passes through the point `offset` of its pixel, see [`View::ray`](super::View::ray).
     pub fn primary_rays(&self, size: [u32; 2], offset: Vec2, range: std::ops::Range<u32>) -> Vec<Ray> {
         let view = self.camera.view(size);
         let ray = |pixel| view.ray(pixel % size[0], pixel / size[0], offset);
@@ -96,9 +96,9 @@ impl Scene {
 
     /// The any-hit ray that tests whether `light` is hidden from the surface of `prim`.
     ///
-    /// It starts on the surface, or off it by [`Scene::shadow_terminator_fix`], with the offset [`Scene::offset`]. Its
-    /// length is the distance of the light from the surface point: as in the course, an occluder slightly beyond the
-    /// light counts. Lights behind the surface have shadow rays too.
+    /// Its start is the surface point, moved by [`Scene::shadow_terminator_fix`] and [`Scene::offset`]. Its length is
+    /// the distance from the unmoved surface point to the light. An occluder slightly beyond the light may therefore
+    /// count, as in the course. Lights behind the surface get shadow rays as well.
     pub fn shadow_ray(&self, prim: PrimId, surface: &Surface, light: &Light) -> Ray {
         let mut start = surface.point;
         if surface.smooth && self.shadow_terminator_fix {
@@ -108,13 +108,13 @@ impl Scene {
         self.offset.leave(&start, light.position - start.position).until(distance)
     }
 
-    /// `ray` reflected at `surface`, about the shading normal. It starts on the surface, offset by [`Scene::offset`].
+    /// `ray` reflected about the shading normal of `surface`. Its origin is the surface point, moved by `offset`.
     pub fn mirror_ray(&self, ray: &Ray, surface: &Surface) -> Ray {
         let (direction, normal) = (ray.direction, surface.shading_normal);
         self.offset.leave(&surface.point, direction - normal * (2.0 * direction.dot(normal)))
     }
 
-    /// Whether any triangle casts mirror rays.
+    /// Whether any triangle reflects mirror rays.
     pub fn has_mirrors(&self) -> bool {
         let mirrors: Vec<bool> = self.materials.iter().map(|m| m.mirror > 0.0).collect();
         self.recursion_limit > 0 && self.material_of.iter().any(|&m| mirrors[m as usize])

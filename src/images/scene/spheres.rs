@@ -4,23 +4,23 @@ use glam::Vec3;
 
 use super::{Camera, Light, Scene, meshes};
 
-/// Steps along an edge of the icosahedron, by level: 20 triangles and four times as many from each level to the next,
-/// except for the last one. It has 16 million: all structures over 21 million would exceed the memory of many machines.
+/// Steps along an edge of the icosahedron, by level. Level 0 has 20 triangles, and each further level has four times as
+/// many, except the last: it has 16 million, because all structures over 21 million would not fit into many machines.
 const STEPS: [u32; 11] = [1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 895];
 
 /// The finest level.
 pub const FINEST: u32 = STEPS.len() as u32 - 1;
 
-/// The number of triangles of the icosphere of a level.
+/// The number of triangles of the icosphere of this level.
 pub fn triangles(level: u32) -> usize {
     20 * (STEPS[level as usize] as usize).pow(2)
 }
 
-/// The icosphere of the level `parameters` with the camera and the light of the report's sphere: all levels have the
-/// same view.
+/// The icosphere whose level is the number in `parameters`. All levels have the camera and the light of the source
+/// report's sphere.
 ///
 /// # Errors
-/// If it is not a level.
+/// If `parameters` is not a level.
 pub fn generate(parameters: &str) -> anyhow::Result<Scene> {
     let level = parameters.parse::<u32>().ok().filter(|level| *level <= FINEST);
     let level = level.ok_or_else(|| anyhow::anyhow!("give a level from 0 to {FINEST}, such as icosphere:5"))?;

@@ -195,7 +195,7 @@ fn a_mirror_leaves_fronts_in_front() {
                 let front = (b - a).cross(c - a);
                 let corners = placed.normals.as_ref().and_then(|normals| normals.corners(t));
                 let is_in_front = |n: &Vec3| n.dot(front) >= 0.0;
-                // A corner's normal may lean back, but not all three of a triangle.
+                // One or two corner normals may point behind the triangle, but not all three.
                 assert!(corners.is_none_or(|corners| corners.iter().any(is_in_front)), "{mesh} {sca:?} {t}");
             }
         }
@@ -213,7 +213,7 @@ fn a_surface_has_the_point_and_both_normals() {
     assert_eq!((surface.point.normal, surface.shading_normal, surface.smooth), (Vec3::Z, Vec3::Z, false));
     assert_eq!(flat.area(Hit::new(4.0, front).prim), 2.0);
 
-    // At a corner of the sphere the normal is the corner's; on an edge it lies between.
+    // At a vertex, the shading normal is the vertex normal; at the middle of an edge, it is the mean of both ends.
     let round = scene(&PLAIN.replace("cube", "icosphere")).unwrap();
     let [a, b, c] = round.mesh.corners(7);
     let [at_a, at_b, at_c] = round.normals.as_ref().unwrap().corners(7).unwrap();
@@ -277,7 +277,7 @@ fn a_framed_mesh_is_whole_in_view_at_any_size_and_place() {
         let scene = Scene::framed("teapot", model).unwrap();
         assert_eq!(scene.offset, Offset::ErrorBounded);
 
-        // The four side planes of the view touch no corner, and one of them is near.
+        // All corners are in view, and the outermost reaches 94 to 96 % of the way from the centre to the border.
         let camera = &scene.camera;
         let forward = (camera.target() - camera.eye()).normalize();
         let right = forward.cross(camera.up()).normalize();

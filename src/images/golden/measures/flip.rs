@@ -4,8 +4,8 @@
 //! white, and the larger difference of a pixel counts. The paper ignores alpha.
 //!
 //! # References
-//! Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild: FLIP: a difference evaluator for alternating images,
-//! Proceedings of the ACM on Computer Graphics and Interactive Techniques 3(2), 2020.
+//! Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild: FLIP: a difference evaluator for alternating
+//! images, Proceedings of the ACM on Computer Graphics and Interactive Techniques 3(2), 2020.
 
 use std::f64::consts::PI;
 
@@ -19,7 +19,7 @@ use crate::golden::layout::Layout;
 /// the paper.
 pub const PIXELS_PER_DEGREE: f64 = 3840.0 * PI / 180.0;
 
-/// FLIP of each pixel, from 0 (equal) to 1. The pictures have one layout, without floats.
+/// FLIP of each pixel, from 0 (equal) to 1. The pictures must have one layout without floats.
 pub fn flip(one: &DynamicImage, other: &DynamicImage, pixels_per_degree: f64) -> Vec<f32> {
     let layout = Layout::of(one);
     let filters = Filters::new(pixels_per_degree);
@@ -40,7 +40,7 @@ pub fn flip(one: &DynamicImage, other: &DynamicImage, pixels_per_degree: f64) ->
 
 /// One-dimensional weights of the filters.
 struct Filters {
-    /// Contrast sensitivity: lightness, red to green, and two parts of blue to yellow with their shares.
+    /// Contrast sensitivity: lightness, red to green, and blue to yellow as two Gaussians with their shares.
     lightness: Vec<f64>,
     red_green: Vec<f64>,
     blue_yellow: [(f64, Vec<f64>); 2],
@@ -52,12 +52,12 @@ struct Filters {
 
 impl Filters {
     fn new(pixels_per_degree: f64) -> Self {
-        // A term `a sqrt(π/b) exp(-π² x²/b)` of the paper, x in degrees, is a Gaussian of this deviation in pixels. The
-        // widest one determines the size of all.
+        // A term `a sqrt(π/b) exp(-π² x²/b)` of the paper, x in degrees, is a Gaussian with this standard deviation in
+        // pixels. The widest Gaussian determines the window of all terms.
         let deviation = |b: f64| (b / (2.0 * PI * PI)).sqrt() * pixels_per_degree;
         let reach = (3.0 * deviation(0.04)).ceil() as usize;
         let term = |b| gaussian(reach, deviation(b));
-        // Its share is its sum over the window.
+        // The share of a term is its sum over the window, divided by the sum of both terms.
         let sum = |a: f64, b: f64| {
             let weights = offsets(reach).map(|x| libm::exp(-x * x / (2.0 * deviation(b) * deviation(b))));
             let across: f64 = weights.sum();
@@ -88,7 +88,7 @@ impl Filters {
     }
 }
 
-/// The weights; the positive ones are divided by their sum, and so are the negative ones.
+/// Scales the positive weights to the sum 1, and the negative weights to the sum -1.
 fn balanced(weights: Vec<f64>) -> Vec<f64> {
     let sum = |sign: f64| weights.iter().map(|weight| (sign * weight).max(0.0)).sum::<f64>();
     let (above, below) = (sum(1.0), sum(-1.0));
@@ -134,7 +134,7 @@ impl Seen {
     }
 }
 
-/// Linear RGB of a pixel's bytes over a grey background.
+/// Linear RGB of the bytes of a pixel over the grey `background`.
 fn linear(layout: &Layout, pixel: &[u8], background: f64) -> DVec3 {
     let mut values = [0.0; 4];
     layout.values(pixel).zip(&mut values).for_each(|(own, value)| *value = own / layout.full_scale());
@@ -145,7 +145,7 @@ fn linear(layout: &Layout, pixel: &[u8], background: f64) -> DVec3 {
     DVec3::from_array(shown.to_array().map(decoded))
 }
 
-/// From linear sRGB to XYZ.
+/// The matrix from linear sRGB to XYZ.
 const XYZ: DMat3 = DMat3::from_cols_array(&[
     10135552.0 / 24577794.0,
     2613072.0 / 12288897.0,
@@ -158,7 +158,7 @@ const XYZ: DMat3 = DMat3::from_cols_array(&[
     70074185.0 / 73733382.0,
 ]);
 
-/// XYZ as shares of white.
+/// XYZ of a linear RGB colour, divided by XYZ of white.
 fn of_white(rgb: DVec3) -> DVec3 {
     XYZ * rgb / (XYZ * DVec3::ONE)
 }
@@ -169,8 +169,8 @@ fn opponent(rgb: DVec3) -> DVec3 {
     DVec3::new(116.0 * xyz.y - 16.0, 500.0 * (xyz.x - xyz.y), 200.0 * (xyz.y - xyz.z))
 }
 
-/// CIELAB of a filtered colour in YCxCz, clamped to the colours of a screen; dark colours lose some of their chroma
-/// (Hunt).
+/// CIELAB of a filtered colour in YCxCz, after clamping the colour to the RGB cube. Chroma is scaled by lightness (Hunt
+/// effect).
 fn perceived(colour: DVec3) -> DVec3 {
     let y = (colour.x + 16.0) / 116.0;
     let xyz = DVec3::new(y + colour.y / 500.0, y, y - colour.z / 200.0);
@@ -185,14 +185,14 @@ fn lab(rgb: DVec3) -> DVec3 {
     DVec3::new(lightness, 5.0 * lightness * (x - y), 2.0 * lightness * (y - z))
 }
 
-/// The distance of two colours: Euclid's is too small for large distances.
+/// The HyAB distance of two colours: the Euclidean distance underestimates large differences.
 fn hyab(one: DVec3, other: DVec3) -> f64 {
     let gap = one - other;
     gap.x.abs() + (gap.y * gap.y + gap.z * gap.z).sqrt()
 }
 
-/// A distance, to the power of 0.7, mapped to 0..1 with most of the range for small ones. The largest is from green to
-/// blue.
+/// Maps `distance`, a HyAB distance raised to the power 0.7, to 0..1. The largest one is between green and blue; values
+/// up to 40 % of it get 95 % of the range.
 fn spread(distance: f64) -> f64 {
     let most = libm::pow(hyab(lab(DVec3::Y), lab(DVec3::Z)), 0.7);
     let bend = 0.4 * most;

@@ -15,21 +15,21 @@ use super::mask::Mask;
 
 pub use flip::PIXELS_PER_DEGREE;
 
-/// The measures of two pictures. An undefined measure is `None`, and null in JSON.
+/// The measures of two pictures. An undefined measure is `None` or not finite, and null in JSON.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Measures {
-    /// Compared pixels: all except the masked ones.
+    /// The number of compared pixels: all except the masked pixels.
     pub compared: usize,
     pub masked: usize,
     #[serde(flatten)]
     pub difference: Difference,
-    /// Pixels that differ by more than the accepted difference.
+    /// The number of pixels that differ by more than the tolerance.
     pub pixels_over: usize,
     /// The mean difference over all channels of all compared pixels, in the unit of `full_scale`.
     pub mean: f64,
     /// The peak signal-to-noise ratio in dB.
     pub psnr: f64,
-    /// Mean over the pixels with a whole window; `None` for smaller pictures.
+    /// Structural similarity: mean over the pixels whose window is inside the picture; `None` if no window is.
     pub ssim: Option<f64>,
     /// `None` for floats.
     pub flip: Option<Flip>,
@@ -52,7 +52,7 @@ pub struct FlipMap {
 }
 
 impl FlipMap {
-    /// FLIP of two pictures of one layout; `None` for floats, which this FLIP does not support.
+    /// FLIP of two pictures of one layout; `None` for floats.
     pub fn new(one: &DynamicImage, other: &DynamicImage, pixels_per_degree: f64) -> Option<Self> {
         let layout = Layout::of(one);
         (!layout.is_float()).then(|| Self { size: layout.size, values: flip::flip(one, other, pixels_per_degree) })
@@ -74,7 +74,7 @@ impl FlipMap {
 }
 
 impl Measures {
-    /// The measures of two pictures that differ and have equal masked pixels. `tolerance` is the limit of
+    /// The measures of two pictures that differ, but have equal masked pixels. `tolerance` is the limit of
     /// `pixels_over`.
     pub fn new(
         [one, other]: [&DynamicImage; 2],
@@ -105,7 +105,7 @@ impl Measures {
         }
     }
 
-    /// The measures of pictures whose values are names, such as numbers of primitives: the number of differing pixels,
+    /// The measures of pictures whose values are names, such as numbers of primitives: the number of different pixels,
     /// without sizes of differences.
     #[must_use]
     pub fn of_names(self) -> Self {

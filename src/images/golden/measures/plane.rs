@@ -1,23 +1,23 @@
-//! One separable convolution, for all measures with a window.
+//! Separable convolution, which all measures with a window use.
 
 use std::ops::Range;
 
 use rayon::prelude::*;
 
-/// Numbers of the pixels in some rows.
+/// One number per pixel, for some rows of a picture.
 pub struct Plane {
     width: usize,
     pub values: Vec<f64>,
 }
 
-/// Rows of a band.
+/// Rows per band.
 const BAND: usize = 64;
 
-/// A number for each pixel of a picture, computed in bands of rows in parallel. `of` receives the rows of a band and
-/// `reach` more on each side; beyond the edge the outermost row is repeated. It returns the numbers of the pixels in
-/// these rows.
+/// A number for each pixel of a picture, computed in parallel for bands of rows. `of` receives the indices of the rows
+/// of a band and of `reach` rows on each side (beyond the edge, the outermost row again), and returns the numbers of
+/// all pixels in these rows.
 ///
-/// Each thread takes the memory of a band, for any size of the picture. The numbers do not depend on the bands.
+/// The temporary memory of a thread is proportional to a band. The numbers do not depend on the bands.
 pub fn in_bands(size: [u32; 2], reach: usize, of: impl Fn(&[usize]) -> Vec<f64> + Sync) -> Vec<f32> {
     let [width, height] = size.map(|side| side as usize);
     let bands: Vec<Range<usize>> = (0..height).step_by(BAND).map(|top| top..height.min(top + BAND)).collect();
@@ -35,12 +35,12 @@ impl Plane {
         Self { width, values }
     }
 
-    /// The product of each value and the value of `other`.
+    /// The product of each value and the corresponding value of `other`.
     pub fn times(&self, other: &Self) -> Self {
         Self::new(self.width, self.values.iter().zip(&other.values).map(|(one, other)| one * other).collect())
     }
 
-    /// Each value convolved with its neighbours, weighted by `across` in a row and `down` in a column. Beyond the edge
+    /// Each value convolved with its neighbours, weighted by `across` in a row and `down` in a column. Beyond the edge,
     /// the outermost value is repeated.
     pub fn convolved(&self, across: &[f64], down: &[f64]) -> Self {
         let (width, reach) = (self.width, across.len() / 2);
@@ -65,7 +65,7 @@ impl Plane {
     }
 }
 
-/// Adds the first values of a row, weighted.
+/// Adds the first values of `row`, multiplied by `weight`, to `sums`.
 fn add(sums: &mut [f64], weight: f64, row: &[f64]) {
     sums.iter_mut().zip(row).for_each(|(sum, value)| *sum += weight * value);
 }

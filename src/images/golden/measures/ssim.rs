@@ -17,8 +17,8 @@ const SIGMA: f64 = 1.5;
 const C1: f64 = 1e-4;
 const C2: f64 = 9e-4;
 
-/// The mean over all channels, including alpha, and all pixels that are `compared` and have their window inside the
-/// pictures; `None` if there is no such pixel, or a value is not finite. Full scale of floats is 1.
+/// The mean of SSIM over all channels, including alpha, and all pixels that are `compared` and whose window is inside
+/// the pictures; `None` if there is no such pixel, or the mean is not finite. Full scale of floats is 1.
 pub fn ssim(one: &DynamicImage, other: &DynamicImage, compared: impl Fn(usize) -> bool) -> Option<f64> {
     let layout = Layout::of(one);
     let [width, height] = layout.size.map(|side| side as usize);
@@ -47,7 +47,7 @@ pub fn ssim(one: &DynamicImage, other: &DynamicImage, compared: impl Fn(usize) -
     mean.is_finite().then_some(mean)
 }
 
-/// A channel of some rows as shares of full scale.
+/// The values of a channel in some rows, divided by full scale.
 fn channel_of(picture: &DynamicImage, layout: &Layout, channel: usize, rows: &[usize]) -> Vec<f64> {
     let (width, bytes) = (layout.size[0] as usize, layout.bytes_per_pixel());
     let pixels =

@@ -18,7 +18,7 @@ fn changed(of: impl Fn(u32, u32, [u8; 3]) -> [u8; 3]) -> DynamicImage {
     RgbImage::from_fn(SIZE[0], SIZE[1], |x, y| Rgb(of(x, y, base.get_pixel(x, y).0))).into()
 }
 
-/// A shift by a pixel, colours 2 % darker, noise of one unit on every tenth pixel, and a hole.
+/// The base picture shifted by a pixel, 2 % darker, with noise of one unit on every tenth pixel, and with a hole.
 fn pictures() -> [DynamicImage; 4] {
     let base = base();
     let noise = |x, y, pixel: [u8; 3]| match (y * SIZE[0] + x) * 7919 % 10 {
@@ -42,7 +42,7 @@ fn plain(colour: [u8; 3]) -> DynamicImage {
     RgbImage::from_pixel(40, 30, Rgb(colour)).into()
 }
 
-/// Pixels per degree; the mean, the largest, and the values of the pixels 40, 40 and 0, 0.
+/// Pixels per degree; then the mean, the maximum, and the values of the pixels (40, 40) and (0, 0).
 type Known = (f64, [f64; 4]);
 
 /// Computed by the authors' program, `flip-evaluator` 1.7, in single precision, for the pictures above, which NumPy
@@ -90,7 +90,7 @@ fn flip_of_plain_colours_is_known() {
     let black_white = flip_of(&plain([0; 3]), &plain([255; 3]));
     // The result of the formulas in double precision; nv-flip 0.1.2, in single precision, returns 0.967392.
     assert!((black_white.mean - 0.96737976).abs() < 1e-6, "{black_white:?}");
-    // The order of the pictures does not matter, and neither does depth.
+    // Neither the order of the pictures nor their bits per channel matter.
     assert_eq!(flip_of(&green, &blue), flip_of(&blue, &green));
     let deep = |picture: &DynamicImage| DynamicImage::from(picture.to_rgb16());
     let [base, other] = [base().into(), pictures()[1].clone()];
@@ -107,7 +107,7 @@ fn flip_sees_alpha_where_it_shows() {
     let (red, green) = ([255, 0, 0], [0, 255, 0]);
     assert_eq!(flip_of(&clear(red, 255), &clear(green, 255)), flip_of(&plain(red), &plain(green)));
     assert_eq!(flip_of(&clear(red, 0), &clear(green, 0)).mean, 0.0, "nobody sees either");
-    // Black over black is black, over white it is grey.
+    // Half-transparent black is black over black, and grey over white.
     assert!(flip_of(&clear([0; 3], 255), &clear([0; 3], 128)).mean > 0.5);
     let grey = |alpha| DynamicImage::from(clear([77; 3], alpha).to_luma_alpha8());
     assert!(flip_of(&grey(255), &grey(200)).mean > 0.1);
@@ -123,7 +123,7 @@ fn ssim_is_that_of_another_program() {
     let base = DynamicImage::from(base());
     for (other, known) in pictures().iter().zip(KNOWN_SSIM) {
         let found = ssim::ssim(&base, other, |_| true).unwrap();
-        // Maps are kept in single precision.
+        // The map of SSIM has single precision.
         assert!((found - known).abs() < 1e-7, "{found}, not {known}");
     }
     assert_eq!(ssim::ssim(&base, &base, |_| true), Some(1.0));
@@ -140,7 +140,7 @@ fn masked_pixels_are_in_no_measure() {
     let masked = mask.applied(&base, hole.clone());
     assert_eq!(masked, base, "nothing else differs");
 
-    // A mask of half of the hole: the remaining part differs less, and is a larger share of the compared pixels.
+    // A mask over half of the hole leaves fewer pixels to compare, with smaller sums of differences.
     let mask = Mask::new(&GrayImage::from_fn(SIZE[0], SIZE[1], |_, y| Luma([u8::from(y < 40)])).into());
     let masked = mask.applied(&base, hole.clone());
     let measures = |actual: &DynamicImage, mask: Option<&Mask>| {

@@ -1,4 +1,4 @@
-//! The page itself.
+//! Renders the HTML of the page.
 
 use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment, UndefinedBehavior, Value, context};
@@ -7,7 +7,7 @@ use super::Entry;
 use crate::golden::measures::Measures;
 use crate::plural::count;
 
-/// The measures that are numbers, with their names.
+/// The measures that are finite, as text with their names.
 fn numbers(measures: &Measures) -> Vec<(&'static str, String)> {
     let Measures { compared, masked, difference, pixels_over, mean, psnr, ssim, flip } = measures;
     let whole = |pixels: usize| count(pixels as u64);
@@ -36,7 +36,7 @@ fn value(entry: Entry) -> Value {
     context! { numbers => numbers, ..Value::from(Serde(entry)) }
 }
 
-/// Failing comparisons first, then all others in order.
+/// The HTML of the page, with the comparisons sorted by verdict, failing ones first, then by number.
 pub fn page(title: &str, mut entries: Vec<Entry>) -> String {
     entries.sort_by_key(|entry| (entry.comparison.verdict, entry.number));
     let mut environment = Environment::new();

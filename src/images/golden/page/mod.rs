@@ -30,7 +30,7 @@ pub struct Page<'a> {
 /// The template's values for a comparison.
 #[derive(Clone, Debug, Serialize)]
 struct Entry {
-    /// Its index in the order of comparisons; part of its file names.
+    /// The index in the order of comparisons; part of the file names.
     number: usize,
     #[serde(flatten)]
     comparison: Comparison,
@@ -38,7 +38,7 @@ struct Entry {
     size: [u32; 2],
     worst: [u32; 2],
     maps: Vec<Map>,
-    /// A script with the values of the pixels.
+    /// The file of a script with the values of the pixels.
     values: Option<String>,
 }
 
@@ -48,11 +48,11 @@ struct Map {
     file: String,
 }
 
-/// Writes a page and its pictures into a folder; `fill` adds comparisons. Without the feature `page` it writes only the
-/// pictures.
+/// Writes a page and its pictures into a folder; `fill` adds comparisons. Without the feature `page`, it writes no
+/// HTML.
 ///
 /// # Errors
-/// If they cannot be written.
+/// If the page or its pictures cannot be written.
 pub fn write<T>(
     folder: &OutputFolder,
     title: &str,
@@ -77,7 +77,7 @@ pub fn index(folder: &Path) -> PathBuf {
 }
 
 impl Page<'_> {
-    /// Adds a comparison with its pictures. Only one of two equal pictures is shown.
+    /// Adds a comparison with its pictures. Of two equal pictures, it shows only the expected one.
     pub fn add(&self, number: usize, comparison: &Comparison, sides: Sides, maps: Option<&Maps>) -> io::Result<()> {
         let first = sides.expected.or(sides.actual);
         let size = first.map_or([1, 1], |picture| [picture.width(), picture.height()]);
@@ -95,7 +95,7 @@ impl Page<'_> {
         }
         if let Some(maps) = maps {
             add("difference", &maps.difference.clone().into())?;
-            // Names have no visible difference.
+            // FLIP of triangle numbers has no meaning.
             if let Some(map) = maps.flip.as_ref().filter(|_| sides.values != Values::Primitives) {
                 let colours = map.values.iter().map(|&value| ramp_colour(value.into())).collect();
                 add("FLIP", &from_pixels(map.size, colours).into())?;

@@ -7,7 +7,7 @@ use crate::golden::Layout;
 use crate::golden::numbers::{MISS, unpacked};
 use crate::render::{ViewKind, depth_picture, from_pixels, identity};
 
-/// The existing pictures of a comparison.
+/// The pictures of a comparison that exist.
 #[derive(Clone, Copy)]
 pub struct Sides<'a> {
     pub expected: Option<&'a DynamicImage>,
@@ -18,7 +18,7 @@ pub struct Sides<'a> {
 /// The kind of values in a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Values {
-    /// Colours: the channels.
+    /// The channels of colours.
     Colours,
     /// Distances, the same in all channels.
     Depths,
@@ -36,7 +36,7 @@ impl From<ViewKind> for Values {
     }
 }
 
-/// The picture in colours that PNG supports.
+/// The picture as PNG can store it: depths and primitives as colours, other floats with 8 bits.
 pub fn shown(picture: &DynamicImage, values: Values) -> DynamicImage {
     let layout = Layout::of(picture);
     match (values, picture) {
@@ -52,14 +52,14 @@ pub fn shown(picture: &DynamicImage, values: Values) -> DynamicImage {
     }
 }
 
-/// A script that passes the values of all pixels to the page: a page from a file must not read the pixels of a picture.
+/// A script that passes the values of all pixels to the page. A local page cannot read them from its pictures.
 pub fn values(number: usize, sides: Sides) -> String {
     let of = |picture: Option<&DynamicImage>| picture.map(|picture| numbers(picture, sides.values));
     let data = json!({ "expected": of(sides.expected), "actual": of(sides.actual) });
     format!("saharaValues({number}, {data});\n")
 }
 
-/// Numbers in little-endian order with their type, in base 64.
+/// The values in little-endian order and base 64, with their type, channels and size.
 fn numbers(picture: &DynamicImage, values: Values) -> serde_json::Value {
     let Layout { size, channels, bits } = Layout::of(picture);
     let of = |kind: &str, channels: u8, bytes: &[u8]| json!({ "type": kind, "channels": channels, "size": size, "base64": base64::encode(bytes) });

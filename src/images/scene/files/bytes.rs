@@ -1,14 +1,14 @@
-//! The common parts of files of rays and of hits: the header of 32 bytes, and checked reading of numbers.
+//! The common parts of ray, hit and truth files: the header of 32 bytes, and functions that read numbers.
 
 use sha2::{Digest, Sha256};
 
 use crate::accel::Query;
 use crate::scene::Workload;
 
-/// The identity of rays, as in the header of their file and of files of their hits.
+/// The identity of a set of rays, as in the headers of its ray, hit and truth files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RaysId {
-    /// Their query.
+    /// The query of all rays.
     pub query: Query,
     pub(super) count: u64,
     pub(super) hash: [u8; 8],
@@ -34,7 +34,7 @@ pub(super) const HEADER_BYTES: usize = 32;
 
 const VERSION: u32 = 1;
 
-/// Reads the header of a file of `what`, which must begin with `magic`.
+/// Reads the header of a file. The file contains `what` (rays or hits) and must begin with `magic`.
 pub(super) fn header(bytes: &[u8], magic: &[u8; 8], what: &str) -> Result<RaysId, String> {
     if bytes.len() < 8 || bytes[..8] != magic[..] {
         let magic = String::from_utf8_lossy(magic);
@@ -59,17 +59,17 @@ pub(super) fn header(bytes: &[u8], magic: &[u8; 8], what: &str) -> Result<RaysId
     Ok(RaysId { query, count: u64::from_le_bytes(eight(16)), hash: eight(24) })
 }
 
-/// Identifies the rays in files: the first bytes of the SHA-256 of [`Workload::bytes`](crate::scene::Workload::bytes).
+/// The hash of rays in file headers: the first 8 bytes of the SHA-256 of [`Workload::bytes`].
 pub(super) fn rays_hash(rays: &[u8]) -> [u8; 8] {
     Sha256::digest(rays)[..8].try_into().expect("eight bytes")
 }
 
-/// The `u32` at `at`, which must lie within.
+/// The `u32` at byte `at`. Panics if the bytes end before its last byte.
 pub(super) fn number(bytes: &[u8], at: usize) -> u32 {
     u32::from_le_bytes(bytes[at..at + 4].try_into().expect("four bytes"))
 }
 
-/// The part after `at`, which must have `count` items of `size` bytes. The file may end before it.
+/// The bytes from `at` to the end. An error if they are not `count` items of `size` bytes.
 pub(super) fn body(bytes: &[u8], at: usize, count: u64, size: u64) -> Result<&[u8], String> {
     let length = bytes.len();
     let short = || format!("the file is truncated: it has {length} bytes, but the first item begins at byte {at}");

@@ -1,16 +1,16 @@
-//! Files of exact hits.
+//! Truth files.
 
 use super::bytes::RaysId;
 use crate::accel::Query;
 use crate::scene::Workload;
 
-/// `t`, and the numbers of all triangles that are hit there, ascending and at least one; `None` for a miss.
+/// `t` and the numbers, ascending, of all triangles that the ray hits at `t` (at least one); `None` for a miss.
 pub type ExactHit = Option<(f64, Vec<u32>)>;
 
-/// The file of the exact hits of all rays of `workload`, whose query is closest hit, in the same order.
+/// The bytes of a truth file: the exact closest hits of all rays of `workload`, in the order of the rays.
 ///
 /// # Panics
-/// If there are more or fewer hits than rays, or the query of the workload is any hit.
+/// If the numbers of hits and rays differ, or if the query of the workload is any hit.
 pub fn exact_hits_bytes(workload: &Workload, hits: &[ExactHit]) -> Vec<u8> {
     assert_eq!(workload.rays.len(), hits.len(), "one hit per ray");
     assert_eq!(workload.query, Query::Closest, "only a closest hit has a distance");

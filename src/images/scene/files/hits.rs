@@ -1,4 +1,4 @@
-//! Files of hits.
+//! Hit files.
 
 use std::path::Path;
 
@@ -9,10 +9,10 @@ use crate::output::OutputFile;
 use crate::scene::Workload;
 use crate::scene::hash::hexadecimal;
 
-/// The hits of the rays of a file, in the same order.
+/// The hits of a set of rays, in the order of the rays.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HitFile {
-    /// The rays that are hit.
+    /// The identity of the rays.
     pub rays: RaysId,
     hits: Vec<Option<Hit>>,
 }
@@ -26,14 +26,14 @@ impl HitFile {
     /// The hits of all rays of `workload`.
     ///
     /// # Panics
-    /// If there are more or fewer hits than rays.
+    /// If the numbers of hits and rays differ.
     pub fn new(workload: &Workload, hits: Vec<Option<Hit>>) -> Self {
         assert_eq!(workload.rays.len(), hits.len(), "one hit per ray");
         Self { rays: RaysId::of(workload), hits }
     }
 
     /// # Errors
-    /// If the file cannot be read, is not a file of hits or is truncated.
+    /// If the file cannot be read, is not a hit file or is truncated.
     pub fn read(path: &Path) -> Result<Self, FileError> {
         read(path, MAGIC, Self::from_bytes)
     }
@@ -44,10 +44,10 @@ impl HitFile {
         Ok(file.write(&self.to_bytes())?)
     }
 
-    /// The hits, if they belong to these rays.
+    /// The hits, if they belong to `rays`.
     ///
     /// # Errors
-    /// If they are the hits of other rays or of another query.
+    /// If the hits belong to other rays or another query.
     pub fn hits_of(&self, rays: &RaysId) -> Result<&[Option<Hit>], String> {
         if (self.rays.hash, self.rays.count) != (rays.hash, rays.count) {
             let [theirs, ours] =

@@ -1,8 +1,8 @@
-//! Files of meshes.
+//! Mesh files for runners and corpora.
 
 use crate::geometry::Mesh;
 
-/// All triangles of `mesh` as a PLY file in the format of the document. Triangle n becomes face n.
+/// The bytes of a PLY file of `mesh`, as [`files`](super) defines it. Triangle n becomes face n.
 pub fn mesh_bytes(mesh: &Mesh) -> Vec<u8> {
     let header = format!(
         "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n\

@@ -21,7 +21,7 @@ pub use hits::{HitFile, hits_from_bytes, hits_to_bytes};
 pub use mesh::mesh_bytes;
 pub use rays::RayFile;
 
-/// The reason why a file of rays or hits cannot be used.
+/// The reason why a ray or hit file cannot be read or written.
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
     #[error("cannot read {}: {cause}: check that it exists and its permissions", path.escaped())]

@@ -1,4 +1,4 @@
-//! Files of rays.
+//! Ray files.
 
 use std::path::Path;
 
@@ -11,14 +11,14 @@ use crate::output::OutputFile;
 use crate::scene::hash::hexadecimal;
 use crate::scene::{Scene, Workload};
 
-/// Rays and their origin.
+/// A workload and the scene for which it was made.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RayFile {
     /// Name of the scene; may be empty.
     pub scene: String,
     /// [`Scene::hash`], in hexadecimal; `None` for rays without a scene.
     pub scene_hash: Option<String>,
-    /// The rays, their kind and query.
+    /// The rays, and the name and query of their workload.
     pub workload: Workload,
 }
 
@@ -44,11 +44,11 @@ impl RayFile {
         Ok(file.write(&self.to_bytes())?)
     }
 
-    /// Checks whether `rays` can be stored in a file.
+    /// Checks whether a ray file may contain `rays`.
     ///
     /// # Errors
-    /// If there are no rays, or one contains a number that is not finite (named by its position, counted from 1);
-    /// `t_max` may be infinite.
+    /// If there are no rays, if an origin or direction is not finite, or if an end of an interval is NaN. The message
+    /// has the position of the ray, counted from 1.
     pub fn check(rays: &[Ray]) -> Result<(), String> {
         let bad = |ray: &Ray| {
             let finite = ray.origin.is_finite() && ray.direction.is_finite();
@@ -73,7 +73,7 @@ impl RayFile {
     }
 
     /// # Errors
-    /// If these are rays of another scene, or of another version of it.
+    /// If the rays belong to another scene, or to another version of `scene`.
     pub fn check_scene(&self, scene: &Scene) -> Result<(), String> {
         match &self.scene_hash {
             Some(hash) if *hash != scene.hash() => Err(format!(

@@ -110,7 +110,7 @@ fn rays_and_hits_of_another_scene_are_refused() {
     drop(scene);
 }
 
-/// Runs the Python program of the document.
+/// Runs the first Python program of FORMAT.md.
 #[test]
 fn the_python_of_the_document_reads_our_rays_and_writes_hits_that_we_read() {
     if Command::new("python3").arg("--version").output().is_err() {

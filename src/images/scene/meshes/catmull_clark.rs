@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
-/// The neighbourhood of a vertex.
+/// The neighbourhood of a vertex: number of faces, sums of points, and whether the vertex is on the boundary.
 #[derive(Clone, Copy, Default)]
 struct Around {
     faces: f64,
@@ -20,8 +20,8 @@ struct Edge {
     face_points: DVec3,
 }
 
-/// Splits every polygon of a surface into as many quadrilaterals as it has corners, and smooths: the new points are the
-/// moved old vertices, then one point per edge, then one per face. The boundary becomes a cubic B-spline.
+/// Splits every polygon of a surface into as many quadrilaterals as it has corners, and smooths the surface. The new
+/// points are the moved vertices, then one point per edge, then one per face. The boundary becomes a cubic B-spline.
 ///
 /// # References
 /// Catmull, Clark: Recursively generated B-spline surfaces on arbitrary topological meshes (1978).
@@ -75,7 +75,7 @@ pub fn subdivide(points: &[DVec3], faces: &[Vec<u32>]) -> (Vec<DVec3>, Vec<[u32;
     new_points.extend(edges.iter().map(edge_point));
     new_points.extend(&face_points);
 
-    // Connect each corner with the middles of its edges and of its face.
+    // Make one quadrilateral per corner: the corner, the points of its two edges and the point of the face.
     let first_face = points.len() + edges.len();
     let mut quads = Vec::new();
     for (number, face) in faces.iter().enumerate() {

@@ -1,5 +1,5 @@
 //! Coincident surfaces, as in models from drawing programs: a ray hits several triangles at the same or nearly the same
-//! `t`. An exact triangle test must order them; a rounding one may not notice.
+//! `t`. An exact triangle test must order these hits; a test that rounds may see a tie.
 
 use glam::Vec3;
 
@@ -7,9 +7,9 @@ use super::plane::cube;
 use super::{flat, net, noise};
 use crate::scene::Model;
 
-/// Two cities on one ground: the square with corners (+-1, 0, +-1), which one city divides into 32 x 32 cells and the
-/// other into 31 x 31, with 144 houses each. Floors of houses lie in the ground, and houses stand in each other: 7,426
-/// triangles.
+/// Two cities on the square with corners (+-1, 0, +-1), 7,426 triangles. The ground of one city has 32 x 32 cells, the
+/// ground of the other 31 x 31. Each city has 144 houses. The bottom of each house lies in the plane of the ground, and
+/// houses of the two cities overlap.
 pub fn two_cities() -> Model {
     const BLOCKS: i32 = 12;
     let city = |cells: u32, salt: u32, shift: f32| {
@@ -25,15 +25,15 @@ pub fn two_cities() -> Model {
     joined(city(32, 1, 0.0).chain(city(31, 2, 0.03)))
 }
 
-/// 10 x 10 x 10 closed cubes side by side: every face between two of them exists twice, with opposite fronts: 12,000
-/// triangles.
+/// 10 x 10 x 10 closed cubes side by side, 12,000 triangles. Every side between two cubes exists twice, with opposite
+/// fronts.
 pub fn shared_faces() -> Model {
     let cube = |i: u32| boxed(Vec3::new((i % 10) as f32, (i / 10 % 10) as f32, (i / 100) as f32), Vec3::splat(0.5));
     joined((0..1000).map(cube))
 }
 
-/// A floor of 40 x 40 slabs side by side, the tops in one plane, on two triangles in the plane of all undersides:
-/// 19,202 triangles.
+/// A floor of 40 x 40 slabs side by side, 19,202 triangles. All tops lie in one plane. All undersides lie in another,
+/// which also contains a ground of two triangles.
 pub fn tiled_floor() -> Model {
     const SIDE: u32 = 40;
     let (half, thick) = (1.0 / SIDE as f32, 0.01);
@@ -44,7 +44,7 @@ pub fn tiled_floor() -> Model {
     joined(std::iter::once(ground(1)).chain((0..SIDE * SIDE).map(slab)))
 }
 
-/// `segments` triangles in the plane z = 0 around the origin, their common corner, with a rim of radius 1.
+/// A disc of radius 1 in the plane z = 0: `segments` triangles that share the origin as a corner.
 pub fn fan(segments: u32) -> Model {
     let rim = (0..segments).map(|i| {
         let (sine, cosine) = libm::sincos(f64::from(i) * std::f64::consts::TAU / f64::from(segments));
@@ -56,7 +56,7 @@ pub fn fan(segments: u32) -> Model {
     )
 }
 
-/// 5,000 copies of one triangle, each coordinate exact or different by one `f32` step.
+/// 5,000 copies of one triangle. Each coordinate of a copy is unchanged or moved by one `f32` step.
 pub fn near_duplicates() -> Model {
     const CORNERS: [Vec3; 3] = [Vec3::new(-1.1, -0.7, 0.3), Vec3::new(1.3, -0.9, -0.4), Vec3::new(0.1, 1.2, 0.2)];
     joined((0..5000).map(|copy| {
@@ -71,14 +71,14 @@ pub fn near_duplicates() -> Model {
     }))
 }
 
-/// 283 cubes around the origin, each a fiftieth larger than the previous one, 3,396 triangles. A ray into the largest
-/// may hit all of them, and no plane separates any two.
+/// 283 cubes around the origin, each a fiftieth larger than the previous one, 3,396 triangles. A ray may hit all cubes,
+/// and no plane separates any two of them.
 pub fn growing_shells() -> Model {
     let sides = std::iter::successors(Some(1.0_f32), |side| Some(side * 1.02));
     joined(sides.take(283).map(|side| boxed(Vec3::ZERO, Vec3::splat(side))))
 }
 
-/// The square with corners (+-1, 0, +-1), looking up, with `cells` cells per side.
+/// The square with corners (+-1, 0, +-1), facing up, with `cells` cells per side.
 fn ground(cells: u32) -> Model {
     let at = |step: u32| 2.0 * step as f32 / cells as f32 - 1.0;
     let across = cells + 1;
@@ -90,7 +90,7 @@ fn ground(cells: u32) -> Model {
     flat(corners.collect(), net(cells, cells, quad))
 }
 
-/// The closed cube with this middle and these half sides.
+/// The closed box around `middle` with the half extents `half`.
 fn boxed(middle: Vec3, half: Vec3) -> Model {
     let unit = cube();
     flat(unit.positions.iter().map(|&corner| middle + half * corner).collect(), unit.triangles)

@@ -1,12 +1,12 @@
-//! Meshes that fill a given box exactly.
+//! Scales meshes to fill a given box exactly.
 
 use glam::DVec3;
 
 use crate::geometry::Aabb;
 use crate::scene::Model;
 
-/// Scales and moves `model` along each axis: its box becomes `bounds` to the last bit. The unit normals of its vertices
-/// turn with it, and the corners use them.
+/// Scales and moves `model` along each axis: its box becomes `bounds` to the last bit. The vertex normals are
+/// transformed by the inverse transpose and become the corner normals.
 pub fn fit(model: &mut Model, bounds: Aabb) {
     let from = Aabb::of_points(model.positions.iter().copied());
     let (low, high) = (from.min.as_dvec3(), from.max.as_dvec3());
@@ -20,7 +20,7 @@ pub fn fit(model: &mut Model, bounds: Aabb) {
     model.normal_indices = model.triangles.clone();
 }
 
-/// The image of `p` under the map of the box from `low` to `high` onto `bounds`.
+/// Maps `p` by the scale and translation that map the box from `low` to `high` onto `bounds`.
 pub fn map_box(p: DVec3, [low, high]: [DVec3; 2], bounds: Aabb) -> DVec3 {
     let share = (p - low) / (high - low);
     bounds.min.as_dvec3() * (1.0 - share) + bounds.max.as_dvec3() * share

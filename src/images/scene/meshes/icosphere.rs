@@ -1,4 +1,4 @@
-//! The icosahedron, seen from outside and from inside, and the sphere made by dividing its sides.
+//! The icosahedron, facing outward or inward, and the sphere that subdivides its sides.
 
 use std::collections::HashMap;
 
@@ -7,9 +7,9 @@ use glam::DVec3;
 use super::{flat, smooth};
 use crate::scene::Model;
 
-/// Corners with the poles on the y axis, as in the course's files: a unit icosahedron, truncated to steps of 1/200,000.
+/// Corners of a unit icosahedron with poles on the y axis, truncated to steps of 1/200,000 as in the course's files.
 ///
-/// The truncation affects the report's ray counts: the mirroring room of Infinitycandy is one of these.
+/// The truncation affects the report's ray counts: an icosahedron is the mirror room of the scene Infinitycandy.
 fn corners() -> Vec<DVec3> {
     const HEIGHT: f64 = 0.447215;
     let lower = [[0.7236, 0.52572], [-0.276385, 0.85064], [-0.894425, 0.0], [-0.276385, -0.85064], [0.7236, -0.52572]];
@@ -22,7 +22,7 @@ fn corners() -> Vec<DVec3> {
 
 fn sides() -> Vec<[u32; 3]> {
     let lower = |i: u32| 1 + i % 5;
-    // The corner above the edge from lower corner i to the next one.
+    // The upper corner above the edge from lower corner i to lower corner i + 1.
     let upper = |i: u32| 6 + (i + 3) % 5;
     let gore = |i: u32| {
         let [a, b, c, d] = [lower(i), lower(i + 1), upper(i), upper(i + 1)];
@@ -31,10 +31,10 @@ fn sides() -> Vec<[u32; 3]> {
     (0..5).flat_map(gore).collect()
 }
 
-/// The icosahedron of radius 1 with poles on the y axis, flat: 20 triangles.
+/// The icosahedron of radius 1 with poles on the y axis: 20 triangles, facing outward.
 ///
-/// Each triangle has its own normal, as in the course's file. A normal computed from the placed and rounded corners
-/// differs a little, and after eight mirrors a ray or two more would hit an edge.
+/// Each triangle has a normal, as in the course's file. A normal computed from the placed, rounded corners differs
+/// slightly: after eight reflections, one or two more rays would hit an edge.
 pub fn icosahedron() -> Model {
     let points = corners();
     let normal = |triangle: &[u32; 3]| {
@@ -49,7 +49,7 @@ pub fn icosahedron() -> Model {
     }
 }
 
-/// The same, looking inward.
+/// The [`icosahedron`], facing inward.
 pub fn inside_out_icosahedron() -> Model {
     let mut model = icosahedron();
     model.triangles.iter_mut().for_each(|t| t.swap(1, 2));
@@ -59,11 +59,11 @@ pub fn inside_out_icosahedron() -> Model {
 
 /// A closed, smooth sphere of radius 1: `20 * steps^2` triangles, `10 * steps^2 + 2` vertices.
 ///
-/// Each side of the icosahedron is divided into a flat, even net of `steps` steps along each edge, whose points are
-/// then projected onto the sphere, not after each halving: so the silhouette of the report's scene shows.
+/// Each side of the icosahedron is divided evenly, with `steps` steps along each edge; then all points are projected
+/// onto the sphere. Projecting after each halving would give another silhouette than the report's sphere has.
 ///
 /// # Panics
-/// If `steps` is 0 or above 4096, which exceeds the triangles of a mesh.
+/// If `steps` is 0 or above 4096.
 pub fn icosphere(steps: u32) -> Model {
     assert!((1..=4096).contains(&steps), "an icosphere has 1 to 4096 steps, not {steps}");
     let mut net = Net { points: corners(), rows: HashMap::new(), steps };
@@ -73,13 +73,13 @@ pub fn icosphere(steps: u32) -> Model {
 
 struct Net {
     points: Vec<DVec3>,
-    /// The points along an edge of the icosahedron, from the end with the lower number.
+    /// The points along each edge of the icosahedron, from the end with the lower number.
     rows: HashMap<(u32, u32), Vec<u32>>,
     steps: u32,
 }
 
 impl Net {
-    /// Point numbers from `first` to `last` in `steps` even steps; the points between are projected to the sphere.
+    /// Adds the points between `first` and `last`, projected onto the sphere; returns the numbers of the whole row.
     fn row(&mut self, first: u32, last: u32, steps: u32) -> Vec<u32> {
         let (from, to) = (self.points[first as usize], self.points[last as usize]);
         let between = 1..steps.max(1);
@@ -89,7 +89,7 @@ impl Net {
         row
     }
 
-    /// The row along an edge, which two sides share.
+    /// The row of points along an edge; both sides at the edge share these points.
     fn edge(&mut self, first: u32, last: u32) -> Vec<u32> {
         let key = (first.min(last), first.max(last));
         if !self.rows.contains_key(&key) {

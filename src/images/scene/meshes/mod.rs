@@ -66,7 +66,7 @@ pub fn by_name(name: &str) -> Option<Model> {
     GENERATORS.iter().find(|g| g.name == name).map(|g| (g.make)())
 }
 
-/// A smooth model with the normals of the course's mesh files.
+/// A smooth model with normals as in the course's mesh files.
 fn smooth(points: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Model {
     Model {
         normals: normals::of_the_course(&points, &triangles),
@@ -81,13 +81,13 @@ fn flat(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Model {
     Model { positions, triangles, ..Model::default() }
 }
 
-/// The triangles of a net of quadrilaterals, row by row; `quad` returns the corners for a row and a column.
+/// The triangles of a net of quadrilaterals, row by row; `quad(row, column)` returns four corners.
 fn net(rows: u32, columns: u32, quad: impl Fn(u32, u32) -> [u32; 4]) -> Vec<[u32; 3]> {
     let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column)));
     cells.flat_map(|(row, column)| halves(quad(row, column))).collect()
 }
 
-/// Both triangles of a quadrilateral, cut from its first corner to its third.
+/// The two triangles of a quadrilateral, cut from its first corner to its third.
 fn halves([a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
     [[a, b, c], [a, c, d]]
 }

@@ -2,14 +2,14 @@
 
 use glam::{DVec3, Vec3};
 
-/// Steps of a component: the program that wrote the course's files stored normals as 16-bit integers.
+/// Steps per unit: the program that wrote the course's files stored normal components as 16-bit integers.
 const STEPS: f64 = 32767.0;
 
-/// One normal per vertex, as in the course's mesh files: the normals of its triangles, weighted by their angles
-/// there, in steps of 1/32767 (towards zero), then written with six decimals. Triangles without area have no weight.
+/// One normal per vertex, as in the course's mesh files: the mean of the triangle normals, weighted by the angles at
+/// the vertex, truncated to multiples of 1/32767 and rounded to six decimals. Triangles without area have no weight.
 ///
-/// The course's teapot file shows these steps. They matter: mirror rays follow the normals, and with exact ones the
-/// report's ray counts are missed by up to 140.
+/// The course's teapot file has these multiples. Mirror rays depend on the normals: with exact normals, ray counts
+/// differ from the report's by up to 140.
 pub(super) fn of_the_course(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
     let mut sums = vec![DVec3::ZERO; points.len()];
     for triangle in triangles {
@@ -27,7 +27,7 @@ pub(super) fn of_the_course(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Vec
     sums.into_iter().map(written).collect()
 }
 
-/// One unit normal per vertex: the mean normal of its triangles, weighted by area; up if they cancel.
+/// One unit normal per vertex: the mean of the triangle normals, weighted by area; `Vec3::Y` if the sum is zero.
 pub(super) fn by_area(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
     let mut normals = vec![Vec3::ZERO; positions.len()];
     for triangle in triangles {

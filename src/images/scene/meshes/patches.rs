@@ -1,4 +1,4 @@
-//! Architecture out of surface patches and boxes, each with its own vertices, in several materials.
+//! Builds architecture from surface patches and boxes in several materials. Patches share no vertices.
 
 use glam::Vec3;
 
@@ -21,7 +21,7 @@ pub struct Patches {
 }
 
 impl Patches {
-    /// Sets the material of all later parts; it is looked up by its name.
+    /// Sets the material of all later parts. Materials with the same name are the same material.
     pub fn of(&mut self, material: &Material) {
         let known = self.model.materials.iter().position(|m| m.name == material.name);
         self.material = known.unwrap_or(self.model.materials.len()) as u32;
@@ -30,8 +30,8 @@ impl Patches {
         }
     }
 
-    /// A net of `columns` x `rows` quads, two triangles each, over the points `at(column, row)`; the front is the side
-    /// from which columns run to the right when rows run up. When `round`, the last column meets the first.
+    /// Adds a net of `columns` x `rows` quads, two triangles each, over the points `at(column, row)`. Seen from the
+    /// front, columns run to the right and rows upwards. If `round`, the last column is joined to the first.
     pub fn patch(
         &mut self,
         [columns, rows]: [usize; 2],
@@ -60,12 +60,12 @@ impl Patches {
         model.material_of.resize(model.triangles.len(), self.material);
     }
 
-    /// A flat quad; the corners run counter-clockwise when seen from the front.
+    /// Adds a flat quad; its corners run counter-clockwise if seen from the front.
     pub fn quad(&mut self, [a, b, c, d]: [Vec3; 4]) {
         self.patch([1, 1], false, Finish::Flat, |column, row| [[a, b], [d, c]][row][column]);
     }
 
-    /// A box between two corners given in the coordinates of `frame`, low one first.
+    /// Adds a box between the corners `low` and `high`, in the coordinates of `frame`.
     pub fn block(&mut self, frame: &Frame, low: [f32; 3], high: [f32; 3]) {
         let at = |corner: usize| {
             let [x, y, z] = std::array::from_fn(|i| if corner >> i & 1 == 1 { high[i] } else { low[i] });
@@ -76,7 +76,7 @@ impl Patches {
         }
     }
 
-    /// A turned body around the vertical through `foot`: (radius, height) from bottom to top.
+    /// Adds a surface of revolution about the vertical through `foot`; `profile`: (radius, height) from the bottom up.
     pub fn lathe(&mut self, foot: Vec3, profile: &[[f32; 2]], sides: usize) {
         self.patch([sides, profile.len() - 1], true, Finish::Smooth, |column, row| {
             let [radius, height] = profile[row];
@@ -85,7 +85,7 @@ impl Patches {
         });
     }
 
-    /// A straight moulding along the right axis of `frame`: (height, depth) from bottom to top.
+    /// Adds a straight moulding along the right axis of `frame`; `profile`: (height, depth) from the bottom up.
     pub fn moulding(&mut self, frame: &Frame, [from, to]: [f32; 2], profile: &[[f32; 2]]) {
         for (&[y0, z0], &[y1, z1]) in profile.iter().zip(&profile[1..]) {
             self.quad([frame.at(from, y0, z0), frame.at(to, y0, z0), frame.at(to, y1, z1), frame.at(from, y1, z1)]);
@@ -93,7 +93,7 @@ impl Patches {
     }
 }
 
-/// Sine and cosine of `part` of `whole` turns.
+/// Sine and cosine of the fraction `part / whole` of a full turn.
 pub fn turn(part: usize, whole: usize) -> (f32, f32) {
     let angle = part as f32 / whole as f32 * std::f32::consts::TAU;
     (sine(angle), cosine(angle))

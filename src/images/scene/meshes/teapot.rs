@@ -16,13 +16,13 @@ pub(super) const BOUNDS: Aabb =
 /// Squares along each side of a patch, before subdivision.
 const STEPS: usize = 4;
 
-/// The teapot of the report, 4032 triangles and 2082 vertices, smooth; y is up and the spout points to +x.
+/// The smooth teapot of the report: 4032 triangles and 2082 vertices; y is up and the spout points to +x.
 ///
-/// Its mesh is: Newell's 32 patches, each evaluated on a 4 x 4 grid and welded into four shells (body with rim and
-/// bottom, handle, spout, lid); one Catmull-Clark step, to 2016 quadrilaterals; each of these cut along its longer
-/// diagonal. All vertices agree with the course's file to its last digit.
+/// Newell's 32 patches are evaluated on a grid of 4 x 4 squares each and welded into four shells (body with rim and
+/// bottom, handle, spout, lid). One Catmull-Clark step gives 2016 quadrilaterals. Each quadrilateral is cut along its
+/// longer diagonal. All vertices agree with the course's file to the last digit of the file.
 ///
-/// One control point differs from the published ones: see `PUBLISHED`.
+/// One control point differs from the published data: see `PUBLISHED`.
 pub fn teapot() -> Model {
     let (points, faces) = welded_patches();
     let (points, quads) = catmull_clark::subdivide(&points, &faces);
@@ -31,11 +31,11 @@ pub fn teapot() -> Model {
     smooth(points, triangles)
 }
 
-/// Number, published and used x of a control point on the rim: in the report's mesh two of its digits are swapped,
-/// which dents the rim a little.
+/// A control point on the rim: its number (from 0), its published x, and its x here. The report's mesh swaps two digits
+/// of x, which makes a small dent in the rim.
 const PUBLISHED: (usize, f64, f64) = (16, -0.784, -0.874);
 
-/// Patches and points of the data file. Patch entries count from 1.
+/// Patches and points of the data file. Patches number their points from 1.
 fn published() -> (Vec<[usize; 16]>, Vec<DVec3>) {
     let (mut patches, mut points) = (Vec::new(), Vec::new());
     for line in PATCHES.lines().filter(|l| !l.starts_with(['#', 'p'])) {
@@ -48,8 +48,8 @@ fn published() -> (Vec<[usize; 16]>, Vec<DVec3>) {
     (patches, points)
 }
 
-/// The grids of all patches as one surface per shell. At the poles, where a side of a patch is one point, faces are
-/// triangles.
+/// The grids of all patches as one surface per shell. At a pole, one side of each patch is a single point, and the
+/// faces are triangles.
 fn welded_patches() -> (Vec<DVec3>, Vec<Vec<u32>>) {
     let (patches, mut controls) = published();
     let (number, published, used) = PUBLISHED;
@@ -64,7 +64,7 @@ fn welded_patches() -> (Vec<DVec3>, Vec<Vec<u32>>) {
         for row in 0..=STEPS {
             for column in 0..=STEPS {
                 let p = evaluate(&patch.map(|i| controls[i - 1]), row, column);
-                // Neighbours compute their common points in different orders: compare them rounded.
+                // Neighbouring patches compute shared points with different rounding errors: compare rounded points.
                 let key = (shell(number), (p * 1e6).round().as_i64vec3());
                 let vertex = *known.entry(key).or_insert(points.len() as u32);
                 if vertex as usize == points.len() {
@@ -82,7 +82,7 @@ fn welded_patches() -> (Vec<DVec3>, Vec<Vec<u32>>) {
     (points, faces)
 }
 
-/// The connected piece that a patch, counted from 0, belongs to.
+/// The shell of a patch; patches are numbered from 0.
 fn shell(patch: usize) -> usize {
     match patch {
         0..12 | 28.. => 0,
@@ -102,7 +102,7 @@ fn evaluate(controls: &[DVec3; 16], row: usize, column: usize) -> DVec3 {
     (0..16).map(|i| controls[i] * (down[i / 4] * across[i % 4])).sum()
 }
 
-/// Turns z up into y up and fills the box of the report's mesh: a scale of 7.7634375 in all directions.
+/// Rotates z up to y up and fills the box of the report's mesh: a scale of 7.7634375 along all axes.
 fn into_bounds(points: &[DVec3]) -> Vec<DVec3> {
     let turned: Vec<DVec3> = points.iter().map(|p| DVec3::new(p.x, p.z, -p.y)).collect();
     let low = turned.iter().copied().fold(DVec3::INFINITY, DVec3::min);
@@ -135,7 +135,7 @@ mod tests {
         }
     }
 
-    /// The course's file may not be distributed: this test runs only where the file exists.
+    /// The course's file may not be distributed, so this test runs only if the file exists.
     #[test]
     fn vertices_triangles_and_normals_are_those_of_the_report() {
         let folder = std::env::var_os("SAHARA_DATA").unwrap_or_default();
@@ -146,7 +146,7 @@ mod tests {
         }
         let (ours, theirs) = (teapot(), crate::scene::load(&path).unwrap());
 
-        // Match each vertex with the nearest.
+        // Match each vertex with the nearest vertex of the file.
         let gap = |p: &Vec3, i: u32| p.distance(theirs.positions[i as usize]);
         let all = || 0..theirs.positions.len() as u32;
         let nearest_of = |p: &Vec3| all().min_by(|&i, &j| gap(p, i).total_cmp(&gap(p, j))).unwrap();
@@ -155,7 +155,7 @@ mod tests {
         assert!(worst < 1e-5, "a vertex is {worst} off");
         assert_eq!(nearest.iter().copied().collect::<HashSet<u32>>(), all().collect());
 
-        // Compare the triangles as sets, and the normals of their corners.
+        // Compare the sets of triangles and the normals of their corners.
         let from_least = |[a, b, c]: [u32; 3]| [[a, b, c], [b, c, a], [c, a, b]].into_iter().min();
         let matched: HashSet<_> = ours.triangles.iter().map(|t| from_least(t.map(|i| nearest[i as usize]))).collect();
         assert_eq!(matched, theirs.triangles.iter().map(|&t| from_least(t)).collect());

@@ -7,19 +7,19 @@ use serde::Deserialize;
 use super::{flat, halves, noise};
 use crate::scene::Model;
 
-/// Height of the widest hills; each octave is half as wide and half as high as the one before.
+/// Height of the widest hills. The hills of each further octave are half as wide and half as high.
 const HEIGHT: f32 = 0.2;
 
-/// Hills of the first octave from one side to the other.
+/// Number of hills of the first octave along one side.
 const HILLS: f32 = 4.0;
 
-/// Ground over the square with corners (+-1, +-1) of x and z, looking up, in rows of square cells; the last row ends
-/// with the last triangle. Equal `seed`s give the same ground at any subdivision; cells have the size of the finest
-/// hills.
+/// Ground over the square with corners (+-1, +-1) in x and z, facing up, in rows of square cells. Rows start at z = -1;
+/// the last row may be incomplete. With the same `seed`, more triangles show the same hills in more detail: the
+/// narrowest hills are at least two cells wide.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Terrain {
-    /// From 1 to [`Terrain::MOST`].
+    /// The exact number of triangles, from 1 to [`Terrain::MOST`].
     pub triangles: usize,
     #[serde(default = "one")]
     pub seed: u32,
@@ -37,7 +37,7 @@ impl Terrain {
         let cells = self.triangles.div_ceil(2);
         let columns = cells.isqrt() + usize::from(cells.isqrt() * cells.isqrt() < cells);
         let rows = cells.div_ceil(columns);
-        // Hills narrower than two cells would be noise between neighbouring vertices.
+        // Leave out hills narrower than two cells: the vertices would sample them too coarsely.
         let octaves = (0..).take_while(|&k| HILLS * (1 << k) as f32 <= columns as f32 / 2.0).count().max(1) as u32;
         let across = columns + 1;
         let vertex = |i: usize| {
@@ -80,7 +80,7 @@ mod tests {
             let model = terrain(count, 1);
             let mesh = Mesh::new(model.positions, model.triangles).unwrap();
             assert!(mesh.len() == count && mesh.degenerate().is_empty(), "{count}");
-            // Seen from above, each triangle is half a cell: none overlaps another, because their areas add up.
+            // Seen from above, each triangle has the area of half a cell, and its front is on top.
             let above = |[a, b, c]: [Vec3; 3]| (b - a).cross(c - a).y / 2.0;
             let areas: Vec<f32> = (0..count as u32).map(|i| above(mesh.corners(i))).collect();
             let side = ((count as f32 / 2.0).ceil().sqrt()).ceil();

@@ -8,8 +8,8 @@ use super::*;
 use crate::geometry::{Aabb, Mesh};
 use crate::scene::hash::hexadecimal;
 
-/// The numbers of edges with one triangle and of edges with more than two, without triangles that repeat a corner and
-/// with corners at the same point merged.
+/// The numbers of edges with one triangle and of edges with more than two triangles. Degenerate triangles do not count,
+/// and vertices at the same point are merged.
 fn loose_and_crowded_edges(mesh: &Mesh) -> (usize, usize) {
     let mut edges: HashMap<_, u32> = HashMap::new();
     for triangle in mesh.solid() {
@@ -22,12 +22,12 @@ fn loose_and_crowded_edges(mesh: &Mesh) -> (usize, usize) {
     (count(|n| n == 1), count(|n| n > 2))
 }
 
-/// The number of connected pieces.
+/// The number of connected pieces of the mesh.
 fn pieces(model: &Model) -> usize {
     sdf::pieces(model.positions.len(), &model.triangles).into_iter().collect::<HashSet<_>>().len()
 }
 
-/// A hash of vertices and indices; its first 16 digits reveal a change as well as all 64.
+/// A hash of vertices and indices: the first 16 hexadecimal digits of a SHA-256.
 fn fingerprint(model: &Model) -> String {
     let mut hasher = Sha256::new();
     model.positions.iter().flat_map(|p| p.to_array()).for_each(|x| hasher.update(x.to_bits().to_le_bytes()));
@@ -78,12 +78,12 @@ const KNOWN: &[Known] = &[
     Known { name: "growing_shells", vertices: 2264, triangles: 3396, degenerate: 0, pieces: 283, edges: (0, 0), bounds: bounds([-266.223_36, 266.223_36], [-266.223_36, 266.223_36], [-266.223_36, 266.223_36]), fingerprint: "1eb57e4815e770ed" },
 ];
 
-/// Normals have unit length and point to the front of the triangles.
+/// Checks that normals have unit length and point to the front of the triangles.
 fn assert_normals(name: &str, model: &Model) {
     assert!(model.normal_indices.is_empty() || model.normal_indices.len() == model.triangles.len(), "{name}");
-    // Steps of 1/32767 make a normal slightly short.
+    // Truncation to multiples of 1/32767 makes a normal slightly shorter than 1.
     assert!(model.normals.iter().all(|n| (0.9999..1.000_001).contains(&n.length())), "{name}");
-    // Normals of coarse surface nets belong to the solid, which bends more sharply than its triangles.
+    // In meshes from signed distances, a vertex normal may point behind a triangle at a sharp bend.
     let is_coarse = ["rabbit", "fox", "elephant", "dragon", "lucy"].contains(&name);
     for (corners, normals) in model.triangles.iter().zip(&model.normal_indices) {
         let [a, b, c] = corners.map(|i| model.positions[i as usize]);

@@ -1,4 +1,4 @@
-//! Turned bodies: the torus, and the sphere of meridians and parallels.
+//! Surfaces of revolution: the torus, and the sphere of meridians and parallels.
 
 use glam::DVec3;
 
@@ -10,7 +10,7 @@ const SIDES: u32 = 24;
 const TUBE: f64 = 0.37;
 
 /// A closed, smooth torus about the y axis: 48 segments around the ring of radius 1, 24 sides around the tube of radius
-/// 0.37; 1,152 vertices, twice as many triangles.
+/// 0.37; 1,152 vertices, 2,304 triangles.
 pub fn torus() -> Model {
     let point = |i: u32| {
         let (cosine, sine) = on_circle(i / SIDES, SEGMENTS);
@@ -24,11 +24,11 @@ pub fn torus() -> Model {
 }
 
 /// A smooth sphere of radius 1 with poles on the y axis: `segments * (bands + 1)` vertices, `2 * segments * bands`
-/// triangles, including `2 * segments` without area: each pole is `segments` vertices in one point, as in the course's
-/// sphere.
+/// triangles. Each pole consists of `segments` vertices at one point, as in the course's sphere, so `2 * segments` of
+/// the triangles have no area.
 ///
 /// # Panics
-/// Below 3 segments or 2 bands.
+/// If `segments` is below 3 or `bands` is below 2.
 pub fn uv_sphere(segments: u32, bands: u32) -> Model {
     assert!(segments >= 3 && bands >= 2, "a sphere has at least 3 segments and 2 bands, not {segments} and {bands}");
     let point = |i: u32| {
@@ -41,7 +41,7 @@ pub fn uv_sphere(segments: u32, bands: u32) -> Model {
     smooth((0..segments * (bands + 1)).map(point).collect(), net(bands, segments, quad))
 }
 
-/// Cosine and sine of `step` of `steps` equal parts of a full turn, exact at the quarters.
+/// Cosine and sine of the fraction `step / steps` of a full turn, exact at multiples of a quarter turn.
 fn on_circle(step: u32, steps: u32) -> (f64, f64) {
     if (4 * step).is_multiple_of(steps) {
         return [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)][(4 * step / steps % 4) as usize];

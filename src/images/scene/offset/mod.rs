@@ -1,5 +1,5 @@
-//! Moves the origins of rays that leave a surface: far enough not to hit it again, near enough to miss no other
-//! surface.
+//! Moves the origins of secondary rays off the surface: far enough not to hit this surface again, and not so far that
+//! the ray misses another surface.
 
 mod surface_point;
 
@@ -11,35 +11,34 @@ use crate::geometry::Ray;
 
 /// The offset of the origins of secondary rays.
 ///
-/// The point of a hit is rounded, so it lies a little before or behind the surface: half of the rays that start at it
-/// hit their own surface again (acne). An origin with too large an offset passes through surfaces that the ray should
-/// hit (leak).
+/// A hit point is rounded, so it lies slightly in front of or behind the surface. About half of the rays that start at
+/// the rounded point hit the same surface again (acne). With too large an offset, rays start behind another surface
+/// that they should hit (leak).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Offset {
-    /// By this distance along the direction, including rays from the eye: the source report's course does this, with
-    /// 0.01. A grazing ray leaves the surface slowly and may hit it again.
+    /// Moves every origin, including the eye, by this distance along the ray direction. The source report's course uses
+    /// 0.01. A grazing ray stays near its surface and may hit it again.
     Direction(f32),
-    /// Along the normal by the error bound of the point.
+    /// Moves the origin along the normal by the error bound of the point; camera rays do not move.
     ///
-    /// Guaranteed, for a point from [`SurfacePoint::on_triangle`] at any scale and place: the origin lies on the side of
-    /// the triangle's plane to which the ray leaves, so the ray does not hit the triangle again; and at a distance of at
-    /// most about ten units in the last place of the largest coordinate of its corners. The ray passes through another
-    /// surface that is nearer than that.
+    /// For a point from [`SurfacePoint::on_triangle`], at any scale and position, the origin lies on the side of the
+    /// triangle's plane to which the ray leaves, so the ray does not hit the triangle again. The origin moves by at
+    /// most about 12 units in the last place of the largest corner coordinate. The ray misses surfaces within this
+    /// distance.
     ///
     /// # References
-    /// Pharr, Jakob, Humphreys: Physically Based Rendering, 4th edition, 2023, section 6.8.6. This version departs in two
-    /// points, for triangles with a coordinate of zero and coordinates so small that the error bound underflows: every
-    /// coordinate in which the normal is not zero moves by at least one float, and `t = 0` is excluded.
+    /// Pharr, Jakob, Humphreys: Physically Based Rendering, 4th edition, 2023, section 6.8.6. Two changes handle error
+    /// bounds that are 0 (a coordinate is 0 at all corners) or underflow: the origin moves by at least one float along
+    /// each axis on which the normal is not 0, and `t = 0` is excluded.
     ErrorBounded,
 }
 
-/// The least positive number: it excludes `t = 0`, where a hit belongs to the surface that the ray leaves.
+/// The smallest positive `f32`. It excludes `t = 0`: a hit at 0 belongs to the surface that the ray leaves.
 const T_MIN: f32 = f32::from_bits(1);
 
 impl Offset {
-    /// The ray that leaves `start` in `direction`, which is normalised.
-    ///
-    /// It starts on the side of the triangle to which it leaves. Costs a few additions and multiplications.
+    /// The ray that leaves `start` in `direction`, which may have any length above 0. The direction of the ray has unit
+    /// length.
     pub fn leave(self, start: &SurfacePoint, direction: Vec3) -> Ray {
         match self {
             Self::Direction(distance) => moved_along(start.position, direction, distance),
@@ -47,7 +46,7 @@ impl Offset {
         }
     }
 
-    /// The ray that leaves `origin`, a point on no surface, in `direction`, which is normalised.
+    /// Like [`leave`](Self::leave), but from a point `origin` that lies on no surface.
     pub fn leave_free(self, origin: Vec3, direction: Vec3) -> Ray {
         match self {
             Self::Direction(distance) => moved_along(origin, direction, distance),
@@ -56,13 +55,13 @@ impl Offset {
     }
 }
 
-/// The course's offset, in `f32` throughout. Distances along the ray count from the moved origin.
+/// The course's offset, computed in `f32`. The parameter `t` of the ray counts from the moved origin.
 fn moved_along(origin: Vec3, direction: Vec3, distance: f32) -> Ray {
     let direction = direction.normalize();
     Ray::new(origin + direction * distance, direction)
 }
 
-/// Normalises in `f64`, in which the square of no `f32` overflows or vanishes.
+/// Normalises in `f64`, because squares of `f32` values neither overflow nor underflow there.
 fn unit(direction: Vec3) -> Vec3 {
     direction.as_dvec3().normalize_or_zero().as_vec3()
 }

@@ -5,29 +5,29 @@ use crate::geometry::Ray;
 /// A point on a triangle, from which rays leave.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
-    /// The point as computed.
+    /// The rounded point.
     pub position: Vec3,
-    /// A bound of the distance between a point from barycentrics and the triangle, along each axis. Not negative.
+    /// A bound, along each axis, of the distance between the rounded point and the triangle; at least 0.
     pub error: Vec3,
-    /// Unit normal of the triangle, on either side; zero on a degenerate one.
+    /// Unit normal on the front side of the triangle; zero if the triangle is degenerate.
     pub normal: Vec3,
 }
 
-/// The rounding of seven operations in `f32`, relative: with `u = 2^-24`, 7 u / (1 - 7 u).
+/// A bound of the relative error of seven roundings in `f32`: 7 u / (1 - 7 u) with `u = 2^-24`.
 const GAMMA_7: f32 = {
     let u = 0.5 * f32::EPSILON as f64;
     (7.0 * u / (1.0 - 7.0 * u)) as f32
 };
 
 impl SurfacePoint {
-    /// The point of the triangle with these weights of its corners. Their sum is 1; they are clamped to [0, 1].
+    /// The point of the triangle with these barycentric weights. They are clamped to [0, 1] and divided by their sum.
     ///
-    /// The point is a weighted mean of the corners: even with wrong weights it lies in the triangle, up to the rounding
-    /// of the mean. The error of `origin + t * direction` grows with the length of the ray instead.
+    /// The point is a weighted mean of the corners: even with wrong weights it lies in the triangle, except for the
+    /// rounding of the mean. The error of `origin + t * direction`, in contrast, grows with the length of the ray.
     ///
-    /// `error` is pbrt's bound, gamma(7) times the sum of the magnitudes of the terms: enough for weights and a sum in
-    /// `f32`. Here the sum is computed in `f64` and rounded once; the rest of the bound is a margin for triangle tests
-    /// that round distances from the start.
+    /// `error` is pbrt's bound, gamma(7) times the sum of the magnitudes of the terms. It suffices for weights and a
+    /// sum in `f32`. Here the sum is computed in `f64` and rounded once. The rest of the bound is a margin for triangle
+    /// tests that round the differences between corners and ray origin.
     ///
     /// # References
     /// Pharr, Jakob, Humphreys: Physically Based Rendering, 4th edition, 2023, section 6.8.
@@ -41,8 +41,8 @@ impl SurfacePoint {
         Self { position: point.as_vec3(), error: magnitude.as_vec3() * GAMMA_7, normal: normal.as_vec3() }
     }
 
-    /// The point moved to the side to which a ray in `direction` leaves, by the extent of the error box along the
-    /// normal, then by one more float against the rounding of this sum.
+    /// The point, moved to the side of the triangle to which `direction` points: along the normal by the extent of the
+    /// error box, then, because this sum is rounded, by one float along each axis on which the normal is not 0.
     pub(super) fn moved_out(&self, direction: Vec3) -> Vec3 {
         let is_behind = self.normal.as_dvec3().dot(direction.as_dvec3()) < 0.0;
         let normal = if is_behind { -self.normal } else { self.normal };
@@ -55,8 +55,8 @@ impl SurfacePoint {
     }
 }
 
-/// The barycentric weights of the point in which the line of the ray meets the plane of the corners, by Cramer's rule
-/// in `f64`; equal weights if the line lies in the plane. Some are outside [0, 1] if it misses the triangle.
+/// The barycentric weights of the point where the line of the ray meets the plane of the corners, by Cramer's rule in
+/// `f64`. Some are outside [0, 1] if the line misses the triangle. All are equal if the determinant is 0.
 pub fn barycentrics(ray: &Ray, corners: [Vec3; 3]) -> DVec3 {
     let [a, b, c] = corners.map(Vec3::as_dvec3);
     let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());

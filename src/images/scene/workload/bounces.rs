@@ -8,10 +8,10 @@ use crate::accel::DynAccel;
 use crate::geometry::{Hit, Ray};
 use crate::scene::{Scene, Surface};
 
-/// The batch size of a thread; the hits do not depend on it.
+/// The number of rays that a thread traces at once; the hits do not depend on this number.
 const CHUNK: usize = 4096;
 
-/// A ray and its hit.
+/// A ray, its hit and the surface at the hit.
 pub struct SurfaceHit {
     /// The index of the ray in the batch.
     pub number: usize,
@@ -20,7 +20,7 @@ pub struct SurfaceHit {
     pub surface: Surface,
 }
 
-/// The rays with a hit, in order, with their hits.
+/// The hits of `rays` in the order of the rays, without misses.
 pub fn surface_hits(scene: &Scene, rays: &[Ray], accel: &dyn DynAccel) -> Vec<SurfaceHit> {
     let hits = rays.iter().zip(accel.closest_by_chunks(rays, CHUNK)).enumerate();
     hits.filter_map(|(number, (&ray, hit))| {
@@ -48,7 +48,7 @@ pub fn diffuse(source: &mut Source) -> Vec<Ray> {
     let hits = primary_hits(source);
     let mut direction = |ray: &Ray, normal: Vec3| loop {
         let normal = if normal.dot(ray.direction) > 0.0 { -normal } else { normal }.as_dvec3();
-        // A unit vector plus a uniform point of the unit sphere is cosine-distributed.
+        // The normal plus a uniform point on the unit sphere is cosine-distributed about the normal.
         let sum = normal + source.sampler.direction();
         if sum.length_squared() > 1e-12 {
             break sum.normalize().as_vec3();

@@ -1,7 +1,7 @@
-//! The kinds of workloads.
+//! All workloads without parameters.
 //!
-//! To add one, write the function that makes its rays and add a line to the table below. Names, the command line and
-//! `sahara list` follow from it.
+//! To add a workload, write the function that makes its rays and add a line to the table below. The command line and
+//! `sahara list` use this table.
 
 use std::str::FromStr;
 
@@ -16,7 +16,7 @@ use crate::names::{Unknown, find, named_enum};
 macro_rules! kinds {
     ($($(#[$doc:meta])* $kind:ident, $name:literal, $query:ident, $make:path;)*) => {
         named_enum! {
-            /// The kind of a workload: the origins and directions of its rays.
+            /// A workload without parameters.
             #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
             #[serde(rename_all = "kebab-case")]
             pub enum WorkloadKind {
@@ -25,7 +25,7 @@ macro_rules! kinds {
         }
 
         impl WorkloadKind {
-            /// The query of these rays.
+            /// The query of the rays.
             pub fn query(self) -> Query {
                 match self {
                     $(Self::$kind => Query::$query),*
@@ -42,26 +42,26 @@ macro_rules! kinds {
 }
 
 kinds! {
-    /// From the eye through the middle of each pixel, in tiles of four by four pixels within blocks of 32 by 32.
-    /// Secondary rays are in the same order.
+    /// From the eye through the middle of each pixel, in tiles of four by four pixels within blocks of 32 by 32 pixels.
+    /// Secondary rays have the order of their primary rays.
     Primary, "primary", Closest, primary::centres;
-    /// From the eye through the top left corner of each pixel: on regular meshes they hit edges and vertices.
+    /// From the eye through the top left corner of each pixel. On regular meshes, these rays hit edges and vertices.
     Corners, "corners", Closest, primary::corners;
-    /// From each primary hit to each light, one light after the other, any hit.
+    /// From each primary hit to each light, any hit. The rays of one light are consecutive.
     Shadow, "shadow", Any, bounces::shadow;
-    /// From each primary hit, reflected about the shading normal, for any material.
+    /// From each primary hit, on any material, in the direction reflected about the shading normal.
     Mirror, "mirror", Closest, bounces::mirror;
     /// From each primary hit in a random direction, cosine-distributed about the shading normal.
     Diffuse, "diffuse", Closest, bounces::diffuse;
-    /// Like [`WorkloadKind::Diffuse`], any hit, with a length of a tenth of the box's diagonal: ambient occlusion.
+    /// Ambient occlusion: like [`WorkloadKind::Diffuse`], but any hit, with a tenth of the box's diagonal as `t_max`.
     Ambient, "ambient", Any, bounces::ambient;
     /// Lines through two random points of the sphere around the scene's box.
     Random, "random", Closest, lines::random;
-    /// Rays along the axes, both ways, on a lattice; every fourth line of it has the coordinate of a vertex.
+    /// Rays along both directions of each axis, on a lattice. Every fourth row and column lies at a vertex coordinate.
     Axis, "axis", Closest, lines::axis;
-    /// The closest-hit rays of the whole picture: each pixel's primary ray and then its mirror rays.
+    /// The closest-hit rays of the whole picture: the primary ray of each pixel, then its mirror rays.
     Image, "image", Closest, picture::closest;
-    /// The any-hit rays of the whole picture, in the order of their origins' hits.
+    /// The any-hit rays of the whole picture: shadow rays in the order of [`WorkloadKind::Image`].
     ImageShadow, "image-shadow", Any, picture::shadow;
 }
 

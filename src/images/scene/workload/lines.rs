@@ -1,4 +1,4 @@
-//! Rays that depend only on the scene's box.
+//! Rays that do not depend on the camera: random lines and lines along the axes.
 
 use glam::{DVec3, Vec3};
 
@@ -6,7 +6,7 @@ use super::source::Source;
 use crate::geometry::Ray;
 use crate::scene::Scene;
 
-/// As many rays as pixels, each from one random point of the sphere around the scene's box towards another.
+/// One ray per pixel, from a random point of the sphere around the scene's box towards another random point of it.
 pub fn random(source: &mut Source) -> Vec<Ray> {
     let Some((centre, radius)) = sphere(source.scene) else { return vec![] };
     let mut ray = || loop {
@@ -18,10 +18,10 @@ pub fn random(source: &mut Source) -> Vec<Ray> {
     (0..source.sampling.pixels()).map(|_| ray()).collect()
 }
 
-/// About as many rays along the axes as pixels: a square lattice of lines for each axis and direction.
+/// About one ray per pixel, parallel to an axis: a square lattice of rays for each direction of each axis.
 ///
-/// Lines pass through the middle of the lattice cells. Every fourth has the coordinate of a vertex instead: rays then
-/// pass through vertices, along edges and in the planes of triangles.
+/// Most rays pass through the middle of a lattice cell. Every fourth row and column is moved to a vertex coordinate, to
+/// make rays pass through vertices, along edges and in the planes of triangles.
 pub fn axis(source: &mut Source) -> Vec<Ray> {
     let scene = source.scene;
     let Some((centre, radius)) = sphere(scene) else { return vec![] };
@@ -46,7 +46,7 @@ pub fn axis(source: &mut Source) -> Vec<Ray> {
     rays
 }
 
-/// The coordinate of line `i` of `side`.
+/// The coordinate along `axis` of row or column `i` of a lattice with `side` rows and columns.
 fn line(scene: &Scene, axis: usize, i: u32, side: u32) -> f32 {
     let positions = scene.mesh.positions();
     if i.is_multiple_of(4) {

@@ -1,4 +1,4 @@
-//! Workloads: sets of rays of one kind for a scene.
+//! Workloads: sets of rays with one query.
 
 mod bounces;
 mod kinds;
@@ -20,11 +20,11 @@ use crate::geometry::Ray;
 pub use kinds::WorkloadKind;
 pub use source::Sampling;
 
-/// Rays of one kind for a scene, with the same bits on every machine and with every structure over the same triangle
-/// test.
+/// Named rays with one query. Their bits are the same on every machine, and for every structure that finds the origins
+/// of secondary rays with the same triangle test.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Workload {
-    /// [`WorkloadKind::name`], or the name in a file of rays.
+    /// [`WorkloadKind::name`], or the name in a ray file.
     pub name: String,
     /// The query of all rays.
     pub query: Query,
@@ -32,17 +32,17 @@ pub struct Workload {
 }
 
 impl Workload {
-    /// Makes the rays. `accel`, built over the scene's mesh, finds the hits at which secondary rays start.
+    /// Makes the rays. `accel` is built over the scene's mesh and finds the hits at which secondary rays start.
     ///
-    /// A workload is empty if the scene has no such rays: no shadow rays without lights, no secondary rays without
-    /// primary hits, no rays at all for an empty mesh.
+    /// A workload may be empty: without lights it has no shadow rays, without primary hits no secondary rays, and for
+    /// an empty mesh no random or axis-parallel rays.
     pub fn new(scene: &Scene, kind: WorkloadKind, sampling: &Sampling, accel: &dyn DynAccel) -> Self {
         let mut source = Source { scene, sampling, accel, sampler: Sampler::new(kind.name(), sampling.seed) };
         let rays = kind.rays(&mut source);
         Self { name: kind.name().into(), query: kind.query(), rays: spread(rays, sampling.limit) }
     }
 
-    /// All ray bits, little-endian: origin, `t_min`, direction, `t_max`.
+    /// The bits of all rays, little-endian: origin, `t_min`, direction, `t_max`.
     pub fn bytes(&self) -> Vec<u8> {
         let numbers = |ray: &Ray| {
             let [o, d] = [ray.origin, ray.direction];
@@ -51,8 +51,7 @@ impl Workload {
         self.rays.iter().flat_map(numbers).flat_map(|value| value.to_bits().to_le_bytes()).collect()
     }
 
-    /// The first 16 hexadecimal digits of the SHA-256 of [`bytes`](Self::bytes): names the workload in
-    /// exports.
+    /// The first 16 hexadecimal digits of the SHA-256 of [`bytes`](Self::bytes), for exports.
     pub fn hash(&self) -> String {
         hexadecimal(&Sha256::digest(self.bytes())[..8])
     }

@@ -1,4 +1,4 @@
-//! Rays from the eye, in the order in which renderers traverse pixels.
+//! Rays from the eye, row by row or in the tile order of renderers.
 
 use glam::{UVec2, Vec2};
 
@@ -21,13 +21,13 @@ pub fn by_row(source: &Source, offset: Vec2) -> Vec<Ray> {
     source.scene.primary_rays(source.sampling.size, offset, 0..source.sampling.pixels())
 }
 
-/// Side of a tile in pixels, and side of the blocks of tiles that renderers distribute over their threads.
+/// Sides of a tile and of a block, in pixels. Renderers distribute blocks over threads.
 const TILE: u32 = 4;
 const BLOCK: u32 = 32;
 
 /// Reorders the pixels of a picture from rows into blocks of 32 by 32 pixels, and within a block into tiles of four by
-/// four. Rays that are near in the slice are then near in the picture, as in renderers, and structures can trace
-/// packets. Blocks and tiles at the right and lower border may be smaller.
+/// four. As in renderers, rays that are near in the slice are then near in the picture, so structures can trace packets
+/// efficiently. Blocks and tiles at the right and lower border may be smaller.
 fn in_tiles<T: Copy>(pixels: &[T], [width, height]: [u32; 2]) -> Vec<T> {
     assert_eq!(pixels.len(), width as usize * height as usize, "a picture has all its pixels");
     let corners = |from: UVec2, to: UVec2, side: u32| {

@@ -29,7 +29,7 @@ const SPINE: [Vec4; 22] = [
     vec4(1.26, 2.44, 0.17, 0.18),
 ];
 
-/// Curve pieces between two points of the centre line.
+/// Curve pieces from one point of the centre line to the next.
 const PIECES: usize = 6;
 
 const AROUND: f32 = 16.0;
@@ -45,7 +45,7 @@ pub fn model(sdf: &mut Sdf) -> Frame {
     frames[frames.len() - 1]
 }
 
-/// The body: cones whose distance is lowered by the height of the scales at the foot point.
+/// The body: cones whose distance is reduced by the height of the scales at the nearest surface point.
 fn scaly_tube(sdf: &mut Sdf, tube: &Tube, frames: &[Frame]) {
     sdf.group(Blend { displacement: 0.15, ..Blend::smooth(0.0) });
     let mut rows = 0.0;
@@ -70,16 +70,16 @@ fn scaly_tube(sdf: &mut Sdf, tube: &Tube, frames: &[Frame]) {
     }
 }
 
-/// Height from 0 to 1 of the scales at `row` along the body, on the side (`x`, `y`) seen along it; y is the back.
+/// Height of the scales, from 0 to 1, at `row` along the body, in direction (`x`, `y`) from the axis; +y is the back.
 fn scales(row: f32, x: f32, y: f32) -> f32 {
     let turn = (libm::atan2(f64::from(x), f64::from(y)) / std::f64::consts::TAU) as f32;
     let belly = ((turn.abs() - 0.36) / 0.03).clamp(0.0, 1.0);
 
-    // Broad plates across the belly, with a furrow between two of them.
+    // Broad plates across the belly, with furrows between them.
     let part = row * 0.6 - (row * 0.6).floor();
     let plate = (1.0 - (2.0 * part - 1.0) * (2.0 * part - 1.0)).sqrt();
 
-    // Round scales elsewhere, each row shifted by half a scale and lying over the next.
+    // Round scales elsewhere; each row is shifted by half a scale and overlaps the next row.
     let mut scale = 0.0f32;
     for step in -1..=1 {
         let line = row.floor() + step as f32;
@@ -95,7 +95,7 @@ fn scales(row: f32, x: f32, y: f32) -> f32 {
     scale * (1.0 - belly) + plate * belly
 }
 
-/// Spines along the back, long on neck and hump, short on the tail.
+/// Spines along the back: long on the neck and the hump, short on the tail.
 fn crest(sdf: &mut Sdf, tube: &Tube, frames: &[Frame]) {
     sdf.group(Blend::undisplaced(0.035));
     let mut since = 0.0;

@@ -4,7 +4,7 @@ use glam::{Vec3, Vec4, vec4};
 
 use crate::scene::meshes::sdf::{Blend, Frame, Sdf, cosine, sine};
 
-/// Adds the whole figure.
+/// Adds head, neck, arms, hands and torch.
 pub fn model(sdf: &mut Sdf) {
     let v = Vec3::new;
     sdf.group(Blend::smooth(0.3)).cone(v(0.0, 16.1, -0.05), 0.62, v(0.0, 17.5, 0.05), 0.46);
@@ -140,7 +140,7 @@ fn grip(sdf: &mut Sdf, at: Vec3, handle: f32) {
     sdf.cone(at + Vec3::new(0.28, 0.1, -0.1), 0.14, at + Vec3::new(0.12, 0.48, 0.22), 0.11);
 }
 
-/// Handle with rings, a cup, and a flame of five tongues.
+/// A handle with rings, a cup, and a flame of five tongues.
 fn torch(sdf: &mut Sdf) {
     let (x, z) = (-2.92, 1.06);
     let v = |y: f32| Vec3::new(x, y, z);

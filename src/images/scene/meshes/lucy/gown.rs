@@ -7,7 +7,7 @@ use crate::scene::meshes::{
     sdf::{Blend, Sdf, rounded_intersection, sine},
 };
 
-/// Horizontal sections: height, half width, half depth, and the middle in x and z.
+/// Horizontal sections: height, half width, half depth, and x and z of the centre.
 const BODY: [[f32; 5]; 12] = [
     [1.2, 2.45, 2.15, 0.0, 0.05],
     [2.0, 2.35, 2.05, 0.0, 0.05],
@@ -42,7 +42,7 @@ fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// Distance to the side of the body made `wider`, and the angle around it: 0 in front, growing to +x.
+/// Distance to the side of the body, widened by `wider`, and the angle around the body: 0 in front, growing to +x.
 fn section_distance(p: Vec3, wider: f32) -> (f32, f32) {
     let i = BODY.iter().rposition(|section| section[0] <= p.y).unwrap_or(0).min(BODY.len() - 2);
     let (low, high) = (&BODY[i], &BODY[i + 1]);
@@ -59,12 +59,12 @@ fn capped(side: f32, y: f32, low: f32, high: f32) -> f32 {
     side.max(low - y).max(y - high)
 }
 
-/// Round ridges with sharp valleys between them, from 0 to 1.
+/// Round ridges with sharp valleys between them: values from 0 to 1.
 fn pleat(phase: f32) -> f32 {
     sine(phase).abs()
 }
 
-/// Height of the folds: long pleats that fan out downwards, shallow at the hips, swung around the bent knee.
+/// Height of the folds: long pleats that fan out downwards; they are shallow at the hips and at the bent knee.
 fn folds(p: Vec3, turn: f32) -> f32 {
     let drop = 1.0 - smoothstep(2.0, 12.0, p.y);
     let wander = noise::smooth(Vec3::new(turn * 1.3, p.y * 0.16, 0.0), 3);
@@ -76,7 +76,7 @@ fn folds(p: Vec3, turn: f32) -> f32 {
     let depth = 0.07 + 0.46 * drop;
     let long = depth * tight * (0.62 * wide + 0.38 * narrow * (0.6 + 0.4 * wander) - 0.35);
 
-    // Above the belt the cloth hangs from both shoulders, in folds that sag towards the middle.
+    // Above the belt, the cloth hangs from both shoulders in folds that sag towards the middle.
     let breast = smoothstep(12.8, 13.6, p.y);
     let sag = pleat(3.4 * (p.y - 0.55 * p.x.abs() - 0.3 * p.x * p.x) + 0.8 * fine_wander);
     long * (1.0 - breast) + breast * 0.09 * sag * (1.0 - smoothstep(15.4, 16.0, p.y))
@@ -103,7 +103,7 @@ fn legs(sdf: &mut Sdf) {
     }
 }
 
-/// The part of the gown that falls over the belt, with its waving hem.
+/// The part of the gown that falls over the belt, with a waving hem, and the belt.
 fn overfold(sdf: &mut Sdf) {
     sdf.group(Blend::smooth(0.05)).primitive(Vec3::new(0.0, 11.0, 0.0), 3.2, |p| {
         let flare = 0.10 + 0.09 * (12.6 - p.y).max(0.0);
@@ -137,7 +137,7 @@ fn bodice(sdf: &mut Sdf) {
     sdf.tube(&neckline, 5);
 }
 
-/// Three strands of cloth from the left shoulder across the breast to the right hip and around the back.
+/// Four strands of cloth from the left shoulder across the breast to the right hip and around the back.
 fn sash(sdf: &mut Sdf) {
     sdf.group(Blend::smooth(0.06));
     for i in 0..4 {
@@ -158,7 +158,7 @@ fn sash(sdf: &mut Sdf) {
     }
 }
 
-/// Pleats that hang from the left forearm, each a little shorter than the one before, with turned hems.
+/// Pleats that hang from the left forearm. Each is a little shorter than the pleat before.
 fn hanging_cloth(sdf: &mut Sdf) {
     sdf.group(Blend::smooth(0.14));
     for i in 0..7 {

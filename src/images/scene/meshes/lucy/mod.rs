@@ -1,4 +1,4 @@
-//! A winged, draped figure with a torch that replaces the scanned Lucy, which may not be copied.
+//! A winged, draped figure with a torch. It replaces the scanned Lucy, which may not be copied.
 
 mod figure;
 mod gown;
@@ -18,8 +18,8 @@ const BOUNDS: Aabb = Aabb { min: Vec3::new(-6.74, 0.0, -3.87), max: Vec3::new(6.
 
 const STEP: f32 = 0.0835;
 
-/// An evenly tessellated, closed statue of 275,690 triangles with smooth normals, 23 high, standing on y = 0 and looking
-/// to +z.
+/// An evenly tessellated, closed statue of 275,690 triangles with smooth normals, 23 high, standing on y = 0 and
+/// looking to +z.
 pub fn lucy() -> Model {
     let mut sdf = Sdf::plain();
     gown::model(&mut sdf);

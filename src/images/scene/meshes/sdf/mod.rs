@@ -1,6 +1,6 @@
-//! Solids given by signed distance functions: primitives with smooth union and subtraction, and a fine displacement.
+//! Solids as signed distance functions: primitives with smooth union and subtraction, and a fine displacement.
 //!
-//! Everything is plain `f32` arithmetic and square roots: a solid is the same on every machine.
+//! Distances use only `f32` arithmetic, square roots and `libm`, so a solid is the same on every machine.
 //!
 //! # References
 //! Quilez: Distance functions; Smooth minimum. iquilezles.org, 2008 to 2024.
@@ -17,21 +17,20 @@ pub use split::split_to;
 #[cfg(test)]
 pub use surface_nets::pieces;
 
-/// A function of position.
+/// A number for every position.
 type Field = Box<dyn Fn(Vec3) -> f32 + Send + Sync>;
 
-/// A distance larger than any in a solid.
+/// A distance larger than every distance in a solid.
 const FAR: f32 = 1e9;
 
 struct Primitive {
     centre: Vec3,
     radius: f32,
-    /// Signed distance to the surface, negative inside; it may be too small but must not grow faster than about 1 per
-    /// unit.
+    /// Signed distance to the surface, negative inside. It may be too small, but its slope must not exceed about 1.
     distance: Field,
 }
 
-/// How a group of primitives is joined to the solid so far.
+/// The operation that joins a group of primitives to the groups before it.
 #[derive(Clone, Copy, Debug)]
 pub struct Blend {
     /// Width of the smooth minimum; 0 gives a sharp crease.
@@ -43,7 +42,7 @@ pub struct Blend {
 }
 
 impl Blend {
-    /// A displaced union.
+    /// A union with displacement.
     pub fn smooth(smoothing: f32) -> Self {
         Self { smoothing, subtract: false, displacement: 1.0 }
     }
@@ -53,7 +52,7 @@ impl Blend {
         Self { displacement: 0.0, ..Self::smooth(smoothing) }
     }
 
-    /// A displaced subtraction.
+    /// A subtraction with displacement.
     pub fn subtract(smoothing: f32) -> Self {
         Self { subtract: true, ..Self::smooth(smoothing) }
     }
@@ -64,16 +63,16 @@ struct Group {
     primitives: Vec<Primitive>,
 }
 
-/// A solid: groups joined in order, the primitives of one group by plain union.
+/// A solid: a list of groups that are joined in order. The primitives of a group are joined by a plain union.
 pub struct Sdf {
     groups: Vec<Group>,
-    /// Height added to the surface at a point near it, times the share of the group there.
+    /// Height added to the surface near a point, before it is multiplied by [`Blend::displacement`].
     displacement: Field,
     /// Largest magnitude of the displacement.
     highest: f32,
 }
 
-/// The primitives that can affect the surface near some place, as (group, primitive), ascending.
+/// The primitives that can affect the surface in some region, as (group, primitive), ascending.
 type Active = Vec<(u16, u16)>;
 
 impl Sdf {
@@ -87,13 +86,13 @@ impl Sdf {
         Self::new(0.0, |_| 0.0)
     }
 
-    /// Starts a group: the primitives added next are joined to the solid so far by `blend`.
+    /// Starts a group. The primitives that are added next are joined to the earlier groups by `blend`.
     pub fn group(&mut self, blend: Blend) -> &mut Self {
         self.groups.push(Group { blend, primitives: Vec::new() });
         self
     }
 
-    /// Adds a primitive that lies in the sphere of `radius` around `centre` to the last group.
+    /// Adds a primitive to the last group. It must lie in the sphere of `radius` around `centre`.
     pub fn primitive(
         &mut self,
         centre: Vec3,
@@ -105,7 +104,7 @@ impl Sdf {
         self
     }
 
-    /// The primitives that can change the surface within `radius` of `centre`.
+    /// The primitives that can affect the surface within `radius` of `centre`.
     fn near(&self, centre: Vec3, radius: f32) -> Active {
         let mut active = Active::new();
         for (i, group) in (0..).zip(&self.groups) {
@@ -116,7 +115,7 @@ impl Sdf {
         active
     }
 
-    /// Signed distance without displacement, and the share of the displacement there.
+    /// Signed distance without displacement, and the share of the displacement at `p`.
     fn undisplaced_distance(&self, active: &Active, p: Vec3) -> (f32, f32) {
         let (mut distance, mut displaced) = (FAR, 1.0);
         for members in active.chunk_by(|a, b| a.0 == b.0) {
@@ -124,7 +123,7 @@ impl Sdf {
             let Blend { smoothing, subtract, displacement } = group.blend;
             let sign = if subtract { -1.0 } else { 1.0 };
 
-            // A group farther than this does not change the surface.
+            // Skip primitives farther than `bound`: they do not change the distance.
             let mut near = FAR;
             let mut bound = sign * distance + smoothing;
             for &(_, j) in members {
@@ -152,14 +151,14 @@ impl Sdf {
         }
     }
 
-    /// Direction in which the distance grows, of unit length, by central differences over `step`.
+    /// The unit gradient of the distance, by central differences over `step`.
     fn normal(&self, active: &Active, p: Vec3, step: f32) -> Vec3 {
         let along = |axis: Vec3| self.distance(active, p + axis * step) - self.distance(active, p - axis * step);
         Vec3::new(along(Vec3::X), along(Vec3::Y), along(Vec3::Z)).normalize_or(Vec3::Y)
     }
 }
 
-/// The smooth minimum of width `k` of two distances, and the share of the second in it.
+/// The smooth minimum of two distances with width `k`, and the share of the second distance in it.
 fn smooth_minimum(a: f32, b: f32, k: f32) -> (f32, f32) {
     if k <= 0.0 || (a - b).abs() >= k {
         return if b < a { (b, 1.0) } else { (a, 0.0) };

@@ -1,10 +1,10 @@
-//! The primitives: ellipsoids, round cones, tubes along splines, and frames to place them in.
+//! Primitives: ellipsoids, round cones and tubes along splines; and frames in which primitives are placed.
 
 use glam::{Vec3, Vec4};
 
 use super::Sdf;
 
-/// A coordinate frame: `right`, `up` and `ahead`, of unit length and at right angles.
+/// A coordinate frame: `right`, `up` and `ahead` are orthogonal unit vectors.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
     pub origin: Vec3,
@@ -16,7 +16,7 @@ pub struct Frame {
 impl Frame {
     pub const WORLD: Self = Self { origin: Vec3::ZERO, right: Vec3::X, up: Vec3::Y, ahead: Vec3::Z };
 
-    /// The frame at `origin` that looks `ahead`, with `up` as near as possible to the given one.
+    /// The frame at `origin` that looks `ahead`. Its up axis is as near to `up` as possible.
     pub fn looking(origin: Vec3, ahead: Vec3, up: Vec3) -> Self {
         let ahead = ahead.normalize();
         let right = up.cross(ahead).normalize();
@@ -35,14 +35,14 @@ impl Frame {
     }
 }
 
-/// Two spheres with the tangent cone between them.
+/// The solid of two spheres and the cone tangent to both.
 #[derive(Clone, Copy, Debug)]
 pub struct RoundCone {
     pub a: Vec3,
     pub b: Vec3,
     pub radius_a: f32,
     pub radius_b: f32,
-    /// Unit vector from `a` to `b`, and their distance; 0 when one sphere holds the other.
+    /// Unit vector from `a` to `b`, and their distance; both are 0 if one sphere contains the other.
     axis: Vec3,
     length: f32,
     /// Sine and cosine of half the opening angle.
@@ -64,13 +64,13 @@ impl RoundCone {
         Self { a, b, radius_a, radius_b, axis: (b - a) / length, length, sine, cosine }
     }
 
-    /// Exact distance, in the plane through the axis and `p`.
+    /// Exact signed distance, computed in the plane through the axis and `p`.
     pub fn distance(&self, p: Vec3) -> f32 {
         let q = p - self.a;
         let along = q.dot(self.axis);
         let off = (q.length_squared() - along * along).max(0.0).sqrt();
 
-        // Foot of the perpendicular on the cone's side, along the axis and stretched by the cosine.
+        // Foot of the perpendicular from `p` on the side of the cone: from 0 at `a` to `length * cosine` at `b`.
         let foot = along * self.cosine - off * self.sine;
         if foot <= 0.0 {
             q.length() - self.radius_a
@@ -82,11 +82,11 @@ impl RoundCone {
     }
 }
 
-/// Points of a tube along a smooth curve: x, y, z and radius.
+/// Points of a tube along a smooth curve; each point is x, y, z and radius.
 pub struct Tube(pub Vec<Vec4>);
 
 impl Tube {
-    /// The Catmull-Rom curve through `knots`, in `steps` pieces between two of them.
+    /// The Catmull-Rom curve through `knots`, with `steps` pieces from one knot to the next.
     pub fn through(knots: &[Vec4], steps: usize) -> Self {
         let at = |i: usize| knots[i.min(knots.len() - 1)];
         let piece = |i: usize| {
@@ -106,7 +106,7 @@ impl Tube {
         (self.centre((i + 1).min(self.pieces())) - self.centre(i.saturating_sub(1))).normalize()
     }
 
-    /// Frames along the tube that do not twist about it; the one at point `start` has `up` on top.
+    /// One frame per point; frames do not twist about the tube. The frame at point `start` has its up axis near `up`.
     pub fn frames(&self, start: usize, up: Vec3) -> Vec<Frame> {
         let frame = |i: usize, up: Vec3| Frame::looking(self.centre(i), self.tangent(i), up);
         let mut frames = vec![frame(start, up); self.0.len()];
@@ -140,7 +140,7 @@ pub fn cosine(angle: f32) -> f32 {
     libm::cos(f64::from(angle)) as f32
 }
 
-/// The intersection of two solids whose surfaces meet at right angles, grown by `radius`, which rounds the edge.
+/// Distance to an intersection with a rounded edge; `u` and `v` are the distances to surfaces `radius` further inside.
 pub fn rounded_intersection(u: f32, v: f32, radius: f32) -> f32 {
     let (out_u, out_v) = (u.max(0.0), v.max(0.0));
     (out_u * out_u + out_v * out_v).sqrt() + u.max(v).min(0.0) - radius
@@ -151,17 +151,17 @@ impl Sdf {
         self.primitive(centre, radius, move |p| p.distance(centre) - radius)
     }
 
-    /// An ellipsoid along the axes of the world.
+    /// Adds an ellipsoid along the world axes.
     pub fn ellipsoid(&mut self, centre: Vec3, radii: Vec3) -> &mut Self {
         self.ellipsoid_in(&Frame { origin: centre, ..Frame::WORLD }, Vec3::ZERO, radii)
     }
 
-    /// An ellipsoid along the axes of `frame`, around the point `centre` there.
+    /// Adds an ellipsoid along the axes of `frame`; `centre` is in the coordinates of `frame`.
     pub fn ellipsoid_in(&mut self, frame: &Frame, centre: impl Into<Vec3>, radii: impl Into<Vec3>) -> &mut Self {
         let (centre, radii) = (centre.into(), radii.into());
         let frame = Frame { origin: frame.at(centre.x, centre.y, centre.z), ..*frame };
         self.primitive(frame.origin, radii.max_element(), move |p| {
-            // Exact on the surface and to first order near it.
+            // Exact on the surface, and to first order near the surface.
             let q = frame.local(p);
             let (a, b) = ((q / radii).length(), (q / (radii * radii)).length());
             if b < 1e-9 { -radii.min_element() } else { a * (a - 1.0) / b }
@@ -174,7 +174,7 @@ impl Sdf {
         self.primitive((a + b) * 0.5, radius, move |p| cone.distance(p))
     }
 
-    /// A tube through `knots`, given by place and radius, in `steps` cones between two of them.
+    /// Adds a tube through `knots` (x, y, z, radius), with `steps` cones from one knot to the next.
     pub fn tube(&mut self, knots: &[Vec4], steps: usize) -> &mut Self {
         let tube = Tube::through(knots, steps);
         for i in 0..tube.pieces() {
@@ -184,7 +184,7 @@ impl Sdf {
         self
     }
 
-    /// A tube through `knots` that are given in `frame`.
+    /// Adds a tube through `knots` in the coordinates of `frame`.
     pub fn tube_in(&mut self, frame: &Frame, knots: &[Vec4], steps: usize) -> &mut Self {
         let outside = |knot: &Vec4| frame.at(knot.x, knot.y, knot.z).extend(knot.w);
         self.tube(&knots.iter().map(outside).collect::<Vec<_>>(), steps)

@@ -1,4 +1,4 @@
-//! Converts a signed distance function to triangles: surface nets with relaxed vertices.
+//! Converts signed distance functions to triangles: surface nets with relaxed vertices.
 //!
 //! # References
 //! Gibson: Constrained elastic surface nets. 1998.
@@ -12,8 +12,8 @@ use crate::geometry::Aabb;
 use crate::scene::{Model, meshes::normals};
 
 impl Sdf {
-    /// The largest connected piece of the surface inside `bounds`: closed, with edges of about `step` and a unit normal
-    /// for each vertex; `relax` rounds even it out.
+    /// The largest connected piece of the surface inside `bounds`: closed, with edges of about the length `step` and
+    /// one unit normal per vertex. `relax` is the number of relaxation rounds, which even out the triangles.
     pub fn surface(&self, bounds: Aabb, step: f32, relax: usize) -> Model {
         let mut grid = Grid::sample(self, bounds, step);
         grid.simplify();
@@ -35,8 +35,8 @@ impl Sdf {
         largest_piece(Model { positions, triangles, normals, ..Model::default() })
     }
 
-    /// Moves the vertices of `model` onto the surface and uses its normals: for meshes that are too coarse for good
-    /// normals.
+    /// Moves the vertices of `model` onto the surface and takes the normals of the surface: for meshes so coarse that
+    /// normals computed from triangles are bad.
     pub fn settle(&self, model: &mut Model, step: f32) {
         let settled = |&start: &Vec3| {
             let active = self.near(start, 2.0 * step);
@@ -51,7 +51,7 @@ impl Sdf {
     }
 }
 
-/// The connected piece of each vertex: the number of one of the vertices in it.
+/// The connected piece of each vertex, named by the number of one vertex of the piece.
 pub fn pieces(vertices: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
     let mut parent: Vec<u32> = (0..vertices as u32).collect();
     fn root(parent: &mut [u32], mut v: u32) -> u32 {
@@ -70,7 +70,7 @@ pub fn pieces(vertices: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
     (0..vertices as u32).map(|v| root(&mut parent, v)).collect()
 }
 
-/// Drops all pieces except the one with the most vertices: bubbles inside the solid, crumbs beside it.
+/// Keeps only the piece with the most vertices. Other pieces are cavities in the solid and crumbs beside it.
 fn largest_piece(model: Model) -> Model {
     let pieces = pieces(model.positions.len(), &model.triangles);
     let mut sizes = vec![0u32; pieces.len()];
@@ -90,7 +90,7 @@ fn largest_piece(model: Model) -> Model {
     kept
 }
 
-/// One vertex in every cell that the surface passes, one quad for every grid edge that it cuts.
+/// Makes one vertex in every cell that the surface crosses, and one quad for every grid edge that the surface crosses.
 fn net(grid: &Grid) -> (Vec<Vec3>, Vec<[u32; 4]>) {
     let cells = grid.cells();
     let positions = cells.par_iter().map(|&cell| middle(grid, cell)).collect();
@@ -103,7 +103,7 @@ fn net(grid: &Grid) -> (Vec<Vec3>, Vec<[u32; 4]>) {
     let mut quads = Vec::with_capacity(cells.len());
     for &cell in &cells {
         for axis in 0..3 {
-            // The edge from this cell's first corner along the axis; the four cells around it all have vertices.
+            // If the surface crosses the edge from `cell` to `next`, all four cells around this edge have vertices.
             let mut next = cell;
             next[axis] += 1;
             if inside(cell) == inside(next) {
@@ -136,10 +136,10 @@ fn middle(grid: &Grid, cell: [usize; 3]) -> Vec3 {
     sum / count
 }
 
-/// Moves every vertex along the surface towards the mean of its neighbours, and back onto the surface.
+/// Moves every vertex in its tangent plane towards the mean of its neighbours, then back onto the surface.
 fn relaxed(sdf: &Sdf, grid: &Grid, positions: &[Vec3], quads: &[[u32; 4]]) -> Vec<Vec3> {
-    // Sums at each vertex: normals, neighbours and the number of neighbours. In a closed surface every edge is walked
-    // once in each direction, so the next corners of all quads are all neighbours.
+    // Sum normals, neighbours and the number of neighbours of each vertex. On a closed surface, quads contain every
+    // edge once in each direction, so the corners after a vertex in its quads are all its neighbours.
     let mut around = vec![(Vec3::ZERO, Vec3::ZERO, 0.0); positions.len()];
     for quad in quads {
         let [a, b, c, d] = quad.map(|i| positions[i as usize]);
@@ -158,7 +158,7 @@ fn relaxed(sdf: &Sdf, grid: &Grid, positions: &[Vec3], quads: &[[u32; 4]]) -> Ve
         let pull = (neighbours / count - p) * 0.4;
         let slid = p + pull - n * pull.dot(n);
 
-        // One secant step back to the surface, along the normal and never far.
+        // Return to the surface by one secant step along the normal, at most half a grid step long.
         let active = grid.active(p);
         let here = sdf.distance(active, slid).clamp(-step, step);
         if here == 0.0 {

@@ -12,17 +12,17 @@ const HALF_WALL: f32 = 26.0;
 /// One arch in its wall, in the coordinates of the side.
 struct Arch {
     middle: f32,
-    /// Half of the bay, and of the opening.
+    /// Half the width of the bay; `radius` is half the width of the opening.
     half_bay: f32,
     radius: f32,
-    /// The heights at which the arch begins, and at which its wall ends.
+    /// The heights at which the arch begins and the wall above it ends.
     heights: [f32; 2],
     half_wall: f32,
     /// Pieces of the half circle.
     pieces: usize,
 }
 
-/// Builds `bays` bays of width `bay`; the frame stands at the left end, looking into the court.
+/// Builds `bays` bays of width `bay`. They begin at the origin of `frame`, which looks into the court.
 pub fn build(patches: &mut Patches, frame: &Frame, bays: usize, bay: f32) {
     let length = bays as f32 * bay;
     let lower = Column { height: 306.0, radius: 29.0, sides: 20, leaves: 8, shaft: ("column_a", [0.95, 0.90, 0.82]) };
@@ -46,7 +46,7 @@ pub fn build(patches: &mut Patches, frame: &Frame, bays: usize, bay: f32) {
 }
 
 impl Arch {
-    /// Point of a circle of `radius` about the arch's middle; step 0 is on the left, the last on the right.
+    /// A point of the half circle of `radius` about the middle of the arch, from step 0 on the left to the last step.
     fn on_circle(&self, step: usize, radius: f32) -> [f32; 2] {
         let angle = step as f32 / self.pieces as f32 * std::f32::consts::PI;
         [self.middle - radius * cosine(angle), self.heights[0] + radius * sine(angle)]
@@ -56,7 +56,7 @@ impl Arch {
         let (w, [spring, top]) = (self.half_wall, self.heights);
         let ends = [self.middle - self.half_bay, self.middle + self.half_bay];
 
-        // Wall faces on both sides: a fan of quads over the arch, and the piers beside it.
+        // Both sides of the wall: a fan of quads above the arch, and a quad on each side of the arch.
         patches.of(&material("brick", [0.93, 0.84, 0.72]));
         for side in [1.0, -1.0] {
             let place = |u: f32, y: f32| frame.at(u, y, w * side);
@@ -70,13 +70,13 @@ impl Arch {
             }
         }
 
-        // The underside of the arch and of the piers.
+        // The underside of the arch.
         patches.of(&material("arch", [1.0, 0.95, 0.86]));
         patches.patch([self.pieces, 1], false, Finish::Smooth, |column, row| {
             let [u, y] = self.on_circle(column, self.radius);
             frame.at(u, y, if row == 0 { -w } else { w })
         });
-        // Bands of mouldings around the arch, towards the court.
+        // Mouldings around the arch, on the side of the court.
         let size = self.radius / 72.0;
         let bands =
             [[0.0, 0.0], [0.0, 5.0], [6.0, 7.0], [8.0, 4.0], [14.0, 4.0], [16.0, 8.0], [21.0, 9.0], [23.0, 0.0]];

@@ -17,7 +17,7 @@ pub struct Column {
 }
 
 impl Column {
-    /// Builds it at the origin of `frame`.
+    /// Builds the column at the origin of `frame`.
     pub fn build(&self, patches: &mut Patches, frame: &Frame) {
         let r = self.radius;
         let foot = frame.origin;
@@ -38,7 +38,7 @@ impl Column {
         ];
         patches.lathe(foot, &base.map(|[x, y]| [x * r, y * r]), self.sides);
 
-        // The shaft swells a little in its lower third: few, long triangles.
+        // The shaft tapers above its lower third. It has few, long triangles.
         let (low, high) = (1.03 * r, top - capital);
         let shaft = [[1.0, 0.0], [1.0, 0.33], [0.95, 0.7], [0.86, 1.0]];
         patches.of(&material(self.shaft.0, self.shaft.1));

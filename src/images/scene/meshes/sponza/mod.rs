@@ -1,7 +1,7 @@
-//! A two-storey arcaded court that replaces the Sponza model, which may not be copied.
+//! A two-storey arcaded court. It replaces the Sponza model, which may not be copied.
 //!
-//! Like real architecture, and unlike a scan, it is tessellated unevenly: huge wall triangles stand next to tiny ones
-//! in capitals, balusters and roof tiles.
+//! Like most models of architecture, and unlike scans, it is tessellated unevenly: large triangles in walls are next to
+//! small triangles in capitals, balusters and roof tiles.
 
 mod arcade;
 mod column;
@@ -15,7 +15,7 @@ use crate::scene::{Material, Model};
 /// The number of triangles of the source report's Sponza.
 const TRIANGLES: usize = 174_838;
 
-/// Half length of the court along x, half width along z, and the z of its middle.
+/// Half length of the court along x, half width along z, and z of its middle.
 const COURT: [f32; 3] = [1248.0, 215.0, -38.0];
 
 const WALK: f32 = 280.0;
@@ -25,7 +25,7 @@ const UPPER: f32 = 470.0;
 /// Top of the upper arcade, at the eaves.
 const EAVES: f32 = 900.0;
 
-/// Column spacing below; above, columns stand twice as close.
+/// Column spacing of the lower storey; it is half as large in the upper storey.
 const BAY: f32 = 208.0;
 
 /// A building of 174,838 triangles with an open court, 3721 long (x), 1555 high and 2288 wide; the court's floor is at
@@ -35,7 +35,7 @@ pub fn sponza() -> Model {
     let [half_length, half_width, middle] = COURT;
     let side = |x: f32, z: f32, ahead: Vec3| Frame::looking(Vec3::new(x, 0.0, z), ahead, Vec3::Y);
 
-    // Each side of the court, seen from it: right along the arcade, ahead into the court.
+    // The frames of the sides: the right axis runs along the arcade, the ahead axis into the court.
     let long_bays = (2.0 * half_length / BAY) as usize;
     let sides = [
         (side(-half_length, middle - half_width, Vec3::Z), long_bays),
@@ -53,7 +53,7 @@ pub fn sponza() -> Model {
     patches.model
 }
 
-/// Matt stone, with the reflection of all materials of the scene and a tint.
+/// Matt stone: all materials of the scene reflect 0.588 of the light, multiplied by `tint`.
 fn material(name: &str, tint: [f32; 3]) -> Material {
     Material {
         ambient: Vec3::splat(0.588),

@@ -27,7 +27,7 @@ pub fn walk(patches: &mut Patches, frame: &Frame, bays: usize, bay: f32) {
         patches.block(frame, [u - 25.0, 290.0, -WALK], [u + 25.0, 306.0, 19.0 - WALK]);
     }
 
-    // Back wall, floor and ceiling: two triangles each, at any length. The corners belong to the long sides.
+    // Back wall, floor and ceiling, two triangles each. The long sides include the corners of the building.
     let over = if bay == BAY { WALK } else { 0.0 };
     let (from, to) = (-over, length + over);
     patches.of(&material("brick", [0.93, 0.84, 0.72]));
@@ -40,7 +40,7 @@ pub fn walk(patches: &mut Patches, frame: &Frame, bays: usize, bay: f32) {
     patches.quad([at(from, top, -WALK), at(to, top, -WALK), at(to, top, 16.0), at(from, top, 16.0)]);
 }
 
-/// A groin vault over one bay of the lower walk: the higher of two crossing barrels.
+/// A groin vault over one bay of the lower walk: the maximum of two crossing barrel vaults.
 fn vault(patches: &mut Patches, frame: &Frame, from: f32, bay: f32) {
     patches.of(&material("ceiling", [0.95, 0.90, 0.80]));
     let rise = |t: f32| 100.0 * (1.0 - (2.0 * t - 1.0) * (2.0 * t - 1.0)).max(0.0).sqrt();
@@ -76,7 +76,7 @@ pub fn grounds(patches: &mut Patches) {
     let [half_length, half_width, middle] = COURT;
     let v = Vec3::new;
 
-    // Large slabs, one for each bay.
+    // Rows of large slabs.
     patches.of(&material("floor", [0.86, 0.80, 0.72]));
     let bays = 16;
     let (from, to) = (-half_length - WALK, half_length + WALK);
@@ -101,10 +101,10 @@ pub fn grounds(patches: &mut Patches) {
     patches.quad([at(-1921.0, 1105.0), at(1800.0, 1105.0), at(1800.0, -1183.0), at(-1921.0, -1183.0)]);
 }
 
-/// One slope of a roof: both ends of its eaves, and the way from the eaves to the ridge.
+/// One slope of a roof: both ends of its eaves, and the vector from the eaves to the ridge.
 type Slope = [Vec3; 3];
 
-/// Roofs around the court; their tiles use the remaining `triangles`, which must fit on them.
+/// Roofs around the court. Their tiles bring the building to `triangles` triangles, which must fit on the roofs.
 pub fn roofs(patches: &mut Patches, triangles: usize) {
     let [half_length, half_width, middle] = COURT;
     let v = Vec3::new;
@@ -120,7 +120,7 @@ pub fn roofs(patches: &mut Patches, triangles: usize) {
     patches.of(&material("roof", [0.95, 0.60, 0.44]));
     for [from, to, up] in slopes {
         patches.quad([from, to, to + up, from + up]);
-        // The underside, slightly lower, is the part of the eaves visible from the court.
+        // The slightly lower underside is visible from the court.
         let down = v(0.0, -4.0, 0.0);
         patches.quad([to + down, from + down, from + up + down, to + up + down]);
         patches.quad([from + down, to + down, to, from]);
@@ -145,11 +145,11 @@ pub fn roofs(patches: &mut Patches, triangles: usize) {
     assert!(left == 0, "{left} triangles are left when all roofs are tiled");
 }
 
-/// Rows of tiles from eaves to ridge, and the width of a tile.
+/// Number of rows of tiles from the eaves to the ridge; `TILE` is the width of a tile.
 const ROWS: usize = 11;
 const TILE: f32 = 44.0;
 
-/// A half-round tile, lifted at its lower end where it lies on the next.
+/// A half-round tile. Its lower end is lifted, because it lies on the next tile.
 fn tile(patches: &mut Patches, [from, to, up]: &Slope, [column, columns]: [usize; 2], row: usize, sides: usize) {
     let along = (to - from) / columns as f32;
     let step = up / ROWS as f32;
