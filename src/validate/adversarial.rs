@@ -26,7 +26,7 @@ named_enum! {
         FromVertices = "from-vertices",
         /// From a point of a triangle.
         FromSurface = "from-surface",
-        /// From a coordinate at which a builder may split: a middle, a median, a quarter, a corner of a triangle's box.
+        /// From a coordinate at which a builder may split: an eighth of the box, or from a triangle or its box.
         FromSplits = "from-splits",
         /// Nearly in the plane of a triangle.
         Grazing = "grazing",
@@ -148,7 +148,7 @@ impl<'a> Generator<'a> {
         corners
     }
 
-    /// A point in the box, or around it up to twice its size.
+    /// A point of the cube around the box, or of a cube four times as wide.
     fn origin(&mut self) -> Vec3 {
         let reach = if self.sampler.coin() { 0.5 } else { 2.0 };
         self.bounds.centre() + self.sampler.cube() * (self.size * reach)
@@ -166,7 +166,7 @@ impl<'a> Generator<'a> {
         }
     }
 
-    /// A point with such coordinates.
+    /// A point whose coordinates come from `split`.
     fn on_splits(&mut self) -> Vec3 {
         Vec3::from_array(std::array::from_fn(|axis| self.split(axis)))
     }
@@ -185,7 +185,7 @@ impl<'a> Generator<'a> {
         Ray::new(origin, self.any_direction(origin))
     }
 
-    /// A ray through a vertex, an edge point or a split, along `direction`, from outside the box or inside.
+    /// A ray through a vertex, an edge point or a split, along `direction`, from outside or inside the box.
     fn through(&mut self, direction: Vec3) -> Ray {
         let target = match self.sampler.below(3) {
             0 => self.vertex(),
@@ -193,7 +193,7 @@ impl<'a> Generator<'a> {
             _ => self.on_splits(),
         };
         let away = self.sampler.pick(&[0.0, 0.25, 1.0, 2.0, 10.0]);
-        // The steps along equal components are equal, which keeps the ray in its plane when coordinates are simple.
+        // Equal components get equal steps: with simple coordinates, the ray stays in the plane of its target.
         Ray::new(target - direction * (self.size * away), direction)
     }
 
@@ -223,7 +223,7 @@ impl<'a> Generator<'a> {
         let direction = self.sampler.direction();
         let direction = self.axis_of(direction);
         let mut ray = self.through(direction);
-        // Often mix the coordinates of several vertices: they are corners of boxes of different triangles.
+        // For half of the rays, mix the coordinates of several vertices: the ray then follows edges of boxes.
         if self.sampler.coin() {
             let axis = direction.abs().max_position();
             for other in [(axis + 1) % 3, (axis + 2) % 3] {
@@ -244,7 +244,7 @@ impl<'a> Generator<'a> {
             let other = (axis + 1) % 3;
             ray.origin[other] = if self.sampler.coin() { bounds.min[other] } else { bounds.max[other] };
         }
-        // Aim at the mesh more often than not.
+        // Aim half of the rays at the mesh.
         if self.sampler.coin() {
             let target = self.on_surface();
             let mut aimed = target - ray.origin;

@@ -1,4 +1,4 @@
-//! Whether the structure, its triangle test or the reference causes a difference.
+//! Decides whether the structure, its triangle test or the reference causes a difference.
 
 use std::cmp::Ordering;
 
@@ -40,7 +40,7 @@ impl Dispute<'_> {
         }
     }
 
-    /// The verdict for two different tests. The structure's own test decides about the disputed triangles.
+    /// Corrects the verdict `other` for two different tests: the structure's own test decides about disputed triangles.
     fn own_test(&self, own: ScalarTest, other: Blame) -> Blame {
         let of = |hit: Option<Hit>| hit.and_then(|hit| own(self.ray, self.corners(hit.prim)?));
         let by_the_test = |sentence: &str| (Kind::TriangleTest, format!("{}, but {sentence}", other.1));
@@ -53,7 +53,7 @@ impl Dispute<'_> {
                 }
                 _ => other,
             },
-            // It may return what its test returns, right or wrong.
+            // The structure may return what its test returns, right or wrong.
             (Kind::WrongT | Kind::Invented, Some(f)) => match of(self.found) {
                 Some(t) if DepthRule::COARSE.allows(t.into(), f.t, true) => {
                     by_the_test("the structure's own triangle test gives the same result")
@@ -64,9 +64,9 @@ impl Dispute<'_> {
         }
     }
 
-    /// Both must return the same bits, and the reference has tested every triangle.
+    /// The verdict if both have the same test: they must return the same bits. The reference has tested every triangle.
     fn same_test(&self, test: ScalarTest) -> Blame {
-        // The test must return this hit at this primitive.
+        // Require that the test returns the structure's hit at its primitive.
         if let Some(f) = self.found {
             let solid = self.corners(f.prim).filter(|_| !self.mesh.is_degenerate(f.prim.index()));
             let right_t = self.expected.is_some_and(|e| e.t.to_bits() == f.t.to_bits());
@@ -103,7 +103,7 @@ impl Dispute<'_> {
         let sure = exactly(expected.prim, nearer.round());
         let Some(f) = self.found else { return (Kind::Lost, sure) };
         if nearer.compare(f.t).is_some_and(Ordering::is_ge) {
-            // It may cull hits behind the computed one.
+            // The traversal may cull hits behind the computed one.
             let sentence =
                 format!("{sure}, which is not before the computed t of {:?}: the traversal may skip it", f.prim);
             return (Kind::TriangleTest, sentence);
@@ -115,7 +115,7 @@ impl Dispute<'_> {
         }
     }
 
-    /// The same computed `t` at two primitives. The lower number must win if the traversal had to visit it.
+    /// The verdict for two primitives at the same computed `t`. The lower number must win if it had to be visited.
     fn tie(&self, expected: Hit, found: Hit) -> Blame {
         let lower = self.true_hit(expected).filter(|t| t.compare(found.t).is_some_and(Ordering::is_le));
         if lower.is_some() && expected.prim.index() < found.prim.index() {
@@ -131,14 +131,14 @@ impl Dispute<'_> {
         truths.into_iter().flatten().min_by(|(a, _), (b, _)| a.cmp(b))
     }
 
-    /// The structure and the reference have different tests. Exact arithmetic judges structure and test together;
-    /// differences that rounding in this precision explains are blamed on the test.
+    /// The verdict for different tests. Exact arithmetic judges structure and test together; differences that rounding
+    /// in this precision explains are blamed on the test.
     fn other_test(&self) -> Option<Blame> {
         let (truth, found) = (self.nearest(), self.found);
         if let Some(blame) = found.and_then(|hit| self.no_hit(hit, truth.as_ref())) {
             return Some(blame);
         }
-        // The structure compares computed depths: a hit is lost if every t that its test may compute is less.
+        // The structure compares computed depths: a hit is lost if its t is below the returned t under any rounding.
         let limit = found.map_or(f64::INFINITY, |hit| hit.t.into());
         let is_found = |t: &ExactT, prim| {
             found.is_some_and(|f| f.prim == prim || DepthRule::STRICT.allows(t.approximate(), f.t, false))
@@ -160,7 +160,7 @@ impl Dispute<'_> {
         self.rounded(truth)
     }
 
-    /// The reason why no test of this precision returns that hit; `None` if one may return it.
+    /// The reason why no test of this precision returns this hit; `None` if one may return it.
     fn no_hit(&self, found: Hit, truth: Option<&(ExactT, PrimId)>) -> Option<Blame> {
         let prim = found.prim;
         let is_there =
@@ -181,7 +181,7 @@ impl Dispute<'_> {
         }
     }
 
-    /// Where rounding may explain a lost or invented hit: whether the structure or the reference is wrong.
+    /// The verdict if rounding may explain a lost or invented hit: whether the structure or the reference is wrong.
     fn rounded(&self, truth: Option<(ExactT, PrimId)>) -> Option<Blame> {
         let is_right = |hit: Option<Hit>| match (&truth, hit) {
             (None, None) => true,

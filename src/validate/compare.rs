@@ -33,7 +33,7 @@ impl ExpectedHits<'_> {
         batches.map(|(rays, hits)| Self { rays, hits, ..*self }).collect()
     }
 
-    /// The sums before the first difference.
+    /// The sums if there are no differences.
     fn no_difference(&self) -> Validation {
         let hits = self.hits.iter().flatten().count() as u64;
         Validation { rays: self.rays.len() as u64, hits, ..Validation::default() }
@@ -44,8 +44,8 @@ impl ExpectedHits<'_> {
         WorstRay { index: index as u64, ray: self.rays[index], expected: self.hits[index], found, kind, verdict }
     }
 
-    /// The sums of a batch that `kind`, a panic or an endless loop, has ended at a ray, or at the first ray of a whole
-    /// batch.
+    /// The sums of a batch that a panic or an endless loop (`kind`) has ended. The reported ray is the ray of `call`,
+    /// or the first ray of the batch.
     pub(super) fn ended(&self, call: Call, kind: Kind, why: String) -> Validation {
         let rays = self.rays.len();
         let (index, verdict) = match call {
@@ -75,9 +75,9 @@ impl ExpectedHits<'_> {
     }
 }
 
-/// Compares `subject` with `reference` on every ray. Three checks: the closest hit equals the reference's; the any-hit
-/// result agrees with the closest hit; the ray has the same hits on its own and in a batch. Batches are loaded with
-/// [`Accel::load`](crate::accel::Accel::load), as for timing.
+/// Compares `subject` with `reference` on every ray. There are three checks: the closest hit equals the reference's;
+/// the any-hit result agrees with the closest hit; the ray has the same hits on its own and in a batch. Batches are
+/// loaded with [`Accel::load`](crate::accel::Accel::load), as for timing.
 ///
 /// Both structures must be built over `mesh`. Rays that the structure declines are left out and counted. A panic is
 /// caught and ends its batch; [`validate_watched`](super::validate_watched) also stops endless loops. Runs on all
@@ -105,8 +105,8 @@ pub(super) fn admitted(subject: &dyn DynAccel, rays: &[Ray], expected: &[Option<
     known.filter(|(ray, _)| capabilities.declines(ray).is_none()).unzip()
 }
 
-/// Compares `found`, closest hits from elsewhere, with the hits of the reference. It makes the first check of
-/// [`validate`] and not the two checks that query the structure.
+/// Compares `found`, closest hits from elsewhere, with the hits of the reference. This is only the first check of
+/// [`validate`]; the other two need the structure.
 ///
 /// # Panics
 /// If there is not one hit per ray.
@@ -126,14 +126,14 @@ pub fn validate_hits(expected: &ExpectedHits, found: &[Option<Hit>]) -> Validati
 
 /// The indices of the rays on which `found` differs from the expected hits, each with the kind of the difference. The
 /// expected hits come from another tree over the triangle test of the reference; the kind presumes that this tree is
-/// right. Differences within the depth rule of the reference are left out.
+/// right. Differences within the depth rule of the reference are omitted.
 pub fn differences(expected: &ExpectedHits, found: &[Option<Hit>]) -> Vec<(usize, Kind)> {
     let differs = |index: usize| Some((index, expected.dispute(index, found[index]).blame()?.0));
     (0..expected.rays.len()).into_par_iter().filter_map(differs).collect()
 }
 
-/// Compares `found`, any-hit results from elsewhere, with the closest hits of the reference. The exact oracle judges the
-/// rays on which they differ.
+/// Compares `found`, any-hit results from elsewhere, with the closest hits of the reference. The exact oracle judges
+/// the differences.
 ///
 /// If structure and reference share the triangle test, a hit that the reference lacks is `Invented`, even if the oracle
 /// has a hit there. If rounding may explain a result, the structure `subject` also traces this ray with the closest-hit
@@ -232,7 +232,7 @@ pub(super) fn validate_batch(subject: &dyn DynAccel, batch: &ExpectedHits, clock
     sums
 }
 
-/// A hit that no structure returns: a structure must overwrite it in every slot.
+/// An initial value that no structure returns: a structure must overwrite it in every slot.
 fn unwritten() -> Option<Hit> {
     Some(Hit::new(f32::NEG_INFINITY, u32::MAX - 1))
 }

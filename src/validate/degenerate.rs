@@ -49,7 +49,7 @@ pub(crate) fn sheets(count: u16) -> Arc<Mesh> {
 pub(crate) const TRIANGLE: [Vec3; 3] =
     [Vec3::new(-1.0, -0.5, 0.25), Vec3::new(1.5, -0.75, 0.5), Vec3::new(0.25, 1.0, -0.5)];
 
-/// Triangles that share no vertex.
+/// A mesh of triangles that share no vertex indices.
 pub(crate) fn mesh(triangles: impl IntoIterator<Item = [Vec3; 3]>) -> Arc<Mesh> {
     let triangles: Vec<[Vec3; 3]> = triangles.into_iter().collect();
     Arc::new(Mesh::from_triangles(&triangles).expect("made of finite numbers"))
@@ -115,7 +115,7 @@ pub(crate) fn octahedron() -> impl Iterator<Item = [Vec3; 3]> {
     })
 }
 
-/// Triangle `k` lies at 1.3^k and has that size: every middle split separates only a few triangles.
+/// Triangle `k` lies at 1e-16 x 1.3^k and has about that size: a middle split separates only a few triangles.
 pub(crate) fn exponential(n: usize) -> Arc<Mesh> {
     let mut at = 1e-16_f32;
     mesh((0..n).map(|_| {
@@ -145,7 +145,7 @@ pub(crate) fn box_grid(n: usize) -> Arc<Mesh> {
     mesh(triangles)
 }
 
-/// No plane between centroids separates them.
+/// Triangles with the same centroid: no plane between centroids separates them.
 pub(crate) fn same_centroid(n: usize) -> Arc<Mesh> {
     let mut sampler = Sampler::new(7);
     mesh((0..n).map(|_| {
@@ -160,8 +160,8 @@ pub(crate) fn huge_and_small() -> Arc<Mesh> {
     mesh(soup_triangles(200, 8).chain([huge]))
 }
 
-/// An octahedron whose triangles are divided into four `levels` times and projected to the unit sphere; closed, shared
-/// vertices.
+/// An octahedron whose triangles are divided into four `levels` times and projected to the unit sphere. It is closed:
+/// neighbours have the same corners, bit for bit.
 fn sphere(levels: usize) -> Arc<Mesh> {
     let mut triangles: Vec<[Vec3; 3]> = octahedron().collect();
     for _ in 0..levels {
@@ -182,8 +182,8 @@ mod tests {
     use crate::geometry::Ray;
     use crate::oracle::Oracle;
 
-    /// In a closed mesh with corners on a grid, along the axes: `t` is known, through faces, edges, vertices, and in the
-    /// planes of sides.
+    /// Rays along an axis of a closed mesh with corners on a grid have a known `t`, through faces, edges and vertices,
+    /// and in the planes of sides.
     #[test]
     fn rays_in_the_box_of_a_grid_hit_exactly_the_far_side() {
         let mesh = box_grid(4);
@@ -194,7 +194,7 @@ mod tests {
                 let truth =
                     oracle.nearest(&Ray::new(Vec3::new(x, y, 0.25), Vec3::new(zero, zero, -0.5))).expect("closed");
                 assert_eq!(truth.rounded(), 2.5);
-                // Vertices of the grid within a side have four, six or eight triangles, and fewer at the rim.
+                // Inside a side, a vertex of the grid belongs to six triangles, and an edge to two.
                 let through = |c: f32| (c * 2.0).fract() == 0.0;
                 let inside = x.abs() < 1.0 && y.abs() < 1.0;
                 match (through(x), through(y)) {

@@ -35,7 +35,7 @@ pub struct Ulps {
     pub max: f64,
 }
 
-/// JSON has no infinite numbers: they are written as null.
+/// JSON has no infinite numbers: they are stored as null.
 fn infinite_if_null<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     Ok(<Option<f64> as serde::Deserialize>::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
 }
@@ -53,8 +53,8 @@ impl ErrorCounts {
 
     /// The upper bound of the true share with 95 % confidence, at most 1; `None` without rays.
     ///
-    /// One-sided: at this rate so few errors would occur in 5 % of the cases. Without an error it is 1 - 0.05^(1 / n),
-    /// about 3 / n.
+    /// One-sided: if the true share were the bound, this few or fewer errors would occur in 5 % of the runs. Without an
+    /// error the bound is 1 - 0.05^(1 / n), about 3 / n.
     ///
     /// # References
     /// Clopper, Pearson: The use of confidence or fiducial limits illustrated in the case of the binomial. Biometrika

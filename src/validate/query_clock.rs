@@ -35,12 +35,12 @@ impl QueryClock {
     }
 
     fn set(&self, state: Option<(Call, Instant)>) {
-        *self.0.lock().expect("nobody panics while holding it") = state;
+        *self.0.lock().expect("no thread panics while it holds the lock") = state;
     }
 
     /// The running query, if it has taken longer than `limit`.
     pub fn overdue(&self, limit: Duration) -> Option<Call> {
-        let (call, since) = (*self.0.lock().expect("nobody panics while holding it"))?;
+        let (call, since) = (*self.0.lock().expect("no thread panics while it holds the lock"))?;
         (since.elapsed() > limit).then_some(call)
     }
 }

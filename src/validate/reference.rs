@@ -23,8 +23,8 @@ use crate::triangle::{
 /// Tests one triangle: `t` if the ray hits it within its interval.
 pub type ScalarTest = fn(&Ray, [Vec3; 3]) -> Option<f32>;
 
-/// A triangle test with its own reference. Without it, a structure would be compared with Möller-Trumbore. The registry
-/// offers brute force, and all structures of this crate, only over such tests.
+/// A triangle test with its own reference. Without one, the reference would be brute force with `exact`. The registry
+/// offers brute force, and all structures of this crate, only over tests with a reference.
 pub(crate) trait HasReference: TriangleTest {}
 
 type OfMesh = fn(&Arc<Mesh>) -> Result<Reference, BuildError>;
@@ -64,7 +64,7 @@ pub struct Reference {
     /// reference has tested every triangle. `None` if the tests differ, or if the reference may itself have lost hits.
     pub test: Option<ScalarTest>,
     /// The precision of the structure's triangle test, if the reference does not share it: differences that its
-    /// rounding explains are no errors of the tree.
+    /// rounding explains are not errors of the tree.
     pub precision: Precision,
     /// The structure's own triangle test, if it is known but too slow to run over all triangles. Run on the disputed
     /// triangles, it distinguishes hits lost by the structure from hits that its test does not find.
@@ -77,7 +77,7 @@ impl Reference {
     /// `exact`; in the second case the test itself decides disputed triangles.
     ///
     /// # Errors
-    /// If it cannot be built over the mesh.
+    /// If the reference cannot be built over the mesh.
     pub fn of_test(test: &str, mesh: &Arc<Mesh>) -> Result<Self, BuildError> {
         match test {
             #[cfg(feature = "peer-embree")]
@@ -102,7 +102,7 @@ impl Reference {
 
     #[cfg(feature = "peer-embree")]
     fn in_disputes(disputed: ScalarTest, mesh: &Arc<Mesh>) -> Result<Self, BuildError> {
-        // The rounding of this test is known exactly: no bound is needed.
+        // The structure's own test judges disputed triangles: no bound on its rounding is needed.
         let precision = Precision::Exact;
         Ok(Self { test: None, precision, disputed: Some(disputed), ..Self::brute_force::<Exact>(mesh)? })
     }
@@ -117,8 +117,8 @@ impl Reference {
         self.test.is_some() || self.disputed.is_some()
     }
 
-    /// Any other structure as a reference. It may have lost hits, so the exact oracle decides the rays on which a
-    /// structure over the triangle test named `test` has other hits.
+    /// Uses any other structure as a reference. It may have lost hits, so exact arithmetic judges the differences.
+    /// `test` names the triangle test of the structure that is compared with it.
     pub fn structure(accel: Box<dyn DynAccel>, test: &str) -> Self {
         let precision = if test == Exact::NAME { Precision::Exact } else { Precision::Single };
         Self { accel, test: None, precision, disputed: None }

@@ -6,14 +6,14 @@ use crate::accel::{BuildError, DynAccel};
 use crate::geometry::Ray;
 use crate::measure::spread;
 
-/// Rays that are traced again in another batch.
+/// Number of rays that are traced again in another batch.
 const AGAIN: usize = 256;
 
 /// Like [`validate_known`](super::validate_known), for a structure that takes long to receive a ray: each query runs
-/// once for all rays, and once more for some of them.
+/// once for all rays; the closest-hit query runs once more for some of them.
 ///
 /// # Errors
-/// If its program has failed: then no ray is checked.
+/// If the program of the structure has failed; no ray is then checked.
 pub fn validate_remote(subject: &dyn DynAccel, expected: &ExpectedHits) -> Result<Validation, BuildError> {
     let rays = expected.rays;
     let found = subject.closest(rays);
@@ -41,7 +41,7 @@ pub fn validate_remote(subject: &dyn DynAccel, expected: &ExpectedHits) -> Resul
 /// Checks that the program of a structure, if it has one, has replied to all requests.
 ///
 /// # Errors
-/// If it has failed: its hits have no meaning.
+/// If the program has failed: its hits have no meaning.
 pub fn has_replied(subject: &dyn DynAccel) -> Result<(), BuildError> {
     let failure = subject.remote().and_then(|remote| remote.failure());
     failure.map_or(Ok(()), |why| Err(BuildError::Remote(why)))

@@ -1,5 +1,5 @@
-//! Bounds the rounding of a triangle test in single precision: a structure with an unknown test is wrong only if no
-//! such rounding explains its hit.
+//! Bounds the rounding of a triangle test in single precision. If the test of a structure is unknown, its hit is wrong
+//! only if this rounding cannot explain it.
 
 use glam::{DVec3, Vec3};
 
@@ -8,8 +8,8 @@ use crate::geometry::{Mesh, PrimId, Ray};
 /// Half a unit in the last place of 1, the largest relative error of one operation.
 const ROUNDOFF: f64 = 1.0 / (1_u64 << 24) as f64;
 
-/// The maximum number of such errors in a test: a dozen operations on three coordinates, and as many again for tests
-/// that store planes or transformations instead of corners.
+/// The maximum number of rounding errors in a test: a dozen operations on three coordinates, and as many again for
+/// tests that store planes or transformations instead of corners.
 const OPERATIONS: f64 = 32.0;
 
 /// Products of at least this size overflow in single precision, and determinants below its inverse underflow or have no
@@ -27,9 +27,9 @@ pub enum Precision {
 }
 
 /// A line, a triangle, and the maximum error of a test. Let A be the largest distance of the corners and the ray's
-/// origin from the origin of the coordinates. A barycentric weight is wrong by at most `OPERATIONS` roundings of A
-/// times the longest edge over the determinant; a depth by as many roundings of A times the square of that edge over
-/// the determinant, and of the depth itself.
+/// origin from the origin of the coordinates. A barycentric weight has an error of at most `OPERATIONS` roundings of A
+/// times the longest edge times the length of the direction over the determinant. A depth has an error of as many
+/// roundings of A times the square of that edge over the determinant, plus as many of the depth itself.
 ///
 /// # References
 /// Higham: Accuracy and Stability of Numerical Algorithms, 2nd edition, 2002 (running error of inner products).
@@ -71,20 +71,20 @@ impl Margin {
         }
     }
 
-    /// Whether a rounding test may miss a triangle that is hit: near an edge, near an end of the ray's interval, along
-    /// the plane, or with numbers that are too large or too small.
+    /// Whether a test of this precision may miss a triangle that is hit: near an edge, near an end of the ray's
+    /// interval, along the plane, or with numbers that are too large or too small.
     pub fn may_miss(&self, ray: &Ray) -> bool {
         let (t_min, _) = ray.interval();
-        // The smallest weight is at most a third, except for the rounding of `f64` beyond all bounds.
+        // The weights add up to 1, so the smallest is at most a third; rounding in `f64` may break this.
         let is_inside = self.weight.min(1.0 / 3.0) > self.weight_error
             && self.t - self.t_error > f64::from(t_min)
             && self.t + self.t_error < ray.end();
         self.precision == Precision::Single && !(is_inside && self.is_in_range)
     }
 
-    /// Whether a rounding test may return a hit at `t` on a triangle that is missed, or hit outside the interval.
+    /// Whether a test of this precision may return a hit at `t` though the ray misses the triangle in its interval.
     pub fn may_hit(&self, ray: &Ray, t: f32) -> bool {
-        // Along the plane any weight and depth may result, and a triangle without area has no weights.
+        // Along the plane, a test may compute any weight and depth; a triangle without area has no weights.
         let is_along = self.weight_error.is_nan() || self.weight_error >= 1.0;
         let is_near = self.weight >= -self.weight_error && self.may_round_to(t);
         let (t_min, t_max) = ray.interval();
@@ -92,19 +92,19 @@ impl Margin {
         self.precision == Precision::Single && is_within && (is_along || is_near || !self.is_in_range)
     }
 
-    /// Whether a rounding test may compute `t` as the parameter at the plane.
+    /// Whether a test of this precision may compute `t` as the parameter at the plane.
     pub fn may_round_to(&self, t: f32) -> bool {
         let is_near = (f64::from(t) - self.t).abs() <= self.t_error || self.t_error.is_nan();
         self.precision == Precision::Single && (is_near || !self.is_in_range)
     }
 
-    /// The largest parameter that a rounding test may compute for the plane.
+    /// The largest parameter at the plane that a test of this precision may compute.
     pub fn latest(&self) -> f64 {
         self.t + if self.precision == Precision::Single { self.t_error } else { 0.0 }
     }
 }
 
-/// The nearest triangle that no rounding hides, with a hit before `limit` under any rounding.
+/// The nearest triangle whose hit is before `limit` under any rounding in single precision, and its `t`.
 pub fn nearest_sure(mesh: &Mesh, ray: &Ray, limit: f64) -> Option<(f64, PrimId)> {
     let margins = mesh.solid().map(|index| (Margin::new(ray, mesh.corners(index), Precision::Single), index));
     let sure = margins.filter(|(margin, _)| margin.latest() < limit && !margin.may_miss(ray));
@@ -132,7 +132,7 @@ mod tests {
     use crate::triangle::{BaldwinWeber, Exact, MollerTrumbore, TriangleTest, Watertight};
     use crate::validate::{Reference, Stratum, degenerate_meshes, validate};
 
-    /// Brute force with a test in single precision, judged as a structure with an unknown test.
+    /// No hit of a test in single precision is an error if the structure's test counts as unknown.
     fn is_excused<T: TriangleTest>(count: usize) {
         for (name, mesh) in degenerate_meshes() {
             let subject = BruteForce::<T>::build(&mesh, &Default::default()).unwrap();
@@ -146,8 +146,8 @@ mod tests {
         }
     }
 
-    /// Volumes (Plücker) are left out: their error grows with the square of the distance, and to excuse it would excuse
-    /// lost leaves of large, fine meshes.
+    /// Plücker is left out: its error grows with the square of the distance, and a bound that covers it would also
+    /// excuse lost leaves of large, fine meshes.
     #[test]
     fn no_test_by_edges_or_planes_rounds_beyond_the_bound() {
         is_excused::<MollerTrumbore>(40);

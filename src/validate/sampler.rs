@@ -4,7 +4,7 @@ use glam::Vec3;
 use rand_core::{RngCore, SeedableRng};
 use rand_pcg::Pcg32;
 
-/// A seeded source of random values for ray and mesh generators. It uses no function whose bits vary by platform.
+/// A seeded source of random values for ray and mesh generators. It calls no function whose result varies by platform.
 pub struct Sampler(Pcg32);
 
 impl Sampler {

@@ -10,26 +10,26 @@ use crate::names::named_enum;
 /// Sums over the rays of a comparison.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Validation {
-    /// Compared rays; if a panic or an endless loop ended a batch, all rays of the batch.
+    /// Compared rays, including all rays of a batch that a panic or an endless loop ended.
     pub rays: u64,
     /// Rays that the structure declines ([`Capabilities`](crate::accel::Capabilities)): they were not traced.
     pub declined: u64,
     /// Rays with a hit of the reference.
     pub hits: u64,
     /// Rays with another `t` than the reference, bit for bit, or with a hit instead of a miss or the reverse. With
-    /// different triangle tests: rays on which the two differ by more than 4 ulps and 1e-6.
+    /// different triangle tests: rays on which the two differ by more than 4 ulps and more than 1e-6, relatively.
     pub differing: u64,
     /// Hits lost or invented by the structure; zero in a correct one.
     pub structure_errors: u64,
-    /// Differences that the triangle test causes: by exact arithmetic its hit is a miss or is not the nearer hit.
+    /// Differences that rounding of the triangle test causes, by exact arithmetic.
     pub test_errors: u64,
-    /// Differences that the reference causes, which has another triangle test: the structure's hit is right.
+    /// Differences that the reference causes by its other triangle test: the structure's hit is right.
     pub reference_errors: u64,
-    /// Wrong hits of a structure whose triangle test the reference does not share, which no rounding of such a test
-    /// explains.
+    /// Wrong hits of a structure whose triangle test the reference does not share, if rounding of that test cannot
+    /// explain them.
     pub answer_errors: u64,
-    /// Depths of such a structure that are wrong by [`DepthRule::STRICT`](crate::oracle::DepthRule::STRICT), but that rounding
-    /// in single precision explains.
+    /// Depths of such a structure that [`DepthRule::STRICT`](crate::oracle::DepthRule::STRICT) rejects, but that
+    /// rounding in single precision explains.
     pub depth_errors: u64,
     /// Rays on which any hit and closest hit contradict each other.
     pub any_hit_errors: u64,
@@ -41,8 +41,8 @@ pub struct Validation {
     pub hangs: u64,
     /// Rays with the `t` of the reference at another primitive that also has it: not an error.
     pub ties: u64,
-    /// Ties for which the reference has a lower number that is exactly hit no later: an error only of a structure that
-    /// promises the lowest number.
+    /// Ties in which the reference's primitive has the lower number and is exactly hit no later: an error only of a
+    /// structure that promises the lowest number.
     pub higher_ids: u64,
     /// At most [`Validation::WORST`] rays, worst first.
     pub worst: Vec<WorstRay>,
@@ -73,9 +73,9 @@ named_enum! {
         /// The structure panics.
         #[serde(rename = "panics")]
         Panicked = "panics",
-        /// An exact hit, and the structure returns a miss.
+        /// The structure misses an exact hit.
         Lost = "lost",
-        /// An exact hit, but the structure returns a hit behind it, or a hit that exact arithmetic does not confirm.
+        /// The structure returns a hit behind an exact hit, or one that exact arithmetic does not confirm.
         NearerLost = "nearer-lost",
         /// A hit that the triangle test over all triangles does not return.
         Invented = "invented",
@@ -87,14 +87,14 @@ named_enum! {
         AnyHitDisagrees = "any-hit-disagrees",
         /// In a batch the ray has another hit than on its own.
         Unrepeatable = "unrepeatable",
-        /// Right, except that `t` is wrong by more than the strict rule of depth allows, and by no more than rounding
-        /// explains.
+        /// `t` is wrong by more than the strict rule of depth allows, but rounding explains it. Everything else is
+        /// right.
         Depth = "depth",
         /// An error of the triangle test, not of the structure.
         TriangleTest = "triangle-test",
         /// The reference, which has another triangle test, is wrong; the structure's hit is right.
         Reference = "reference",
-        /// The same `t` at a higher number than the lowest that is hit there: wrong only if the lowest is promised.
+        /// The same `t`, but a lower number is also hit there: wrong only if the lowest number is promised.
         HigherId = "higher-id",
         /// The same `t` at another primitive: not an error.
         Tie = "tie",
@@ -112,7 +112,7 @@ impl Validation {
     /// The number of stored rays.
     pub const WORST: usize = 10;
 
-    /// Wrong hits of all kinds that no rounding explains; 0 in a correct structure.
+    /// Errors of all kinds that no rounding explains; 0 for a correct structure.
     pub fn errors(&self) -> u64 {
         self.structure_errors + self.answer_errors + self.any_hit_errors + self.unrepeatable + self.panics + self.hangs
     }
@@ -140,8 +140,8 @@ impl Validation {
         whole
     }
 
-    /// Counts a ray on which structure and reference differ. `tells_structure_errors`: an error of the structure can be
-    /// distinguished from an error of its triangle test.
+    /// Counts a ray on which structure and reference differ. `tells_structure_errors`: whether the reference
+    /// distinguishes errors of the structure from errors of its triangle test.
     pub(super) fn note(&mut self, ray: WorstRay, tells_structure_errors: bool) {
         match ray.kind {
             Kind::Tie => self.ties += 1,
@@ -166,7 +166,7 @@ impl Validation {
 }
 
 impl WorstRay {
-    /// Relative distance of the two `t`; infinite for a hit and a miss.
+    /// Relative distance of the two `t`; infinite if one of the results is a miss.
     fn gap(&self) -> f64 {
         match (self.expected, self.found) {
             (Some(e), Some(f)) => (f64::from(e.t) - f64::from(f.t)).abs() / f64::from(e.t.abs().max(f32::MIN_POSITIVE)),

@@ -1,6 +1,6 @@
-//! Queries that may never return, on threads with a time limit.
+//! Runs queries that may never return, on threads with a time limit.
 //!
-//! No other thread can end a thread: a hanging one is left behind, and ends with the process.
+//! No thread can end another thread: a hanging thread is left behind, and ends with the process.
 
 use std::collections::BTreeMap;
 use std::panic::resume_unwind;
@@ -36,12 +36,12 @@ pub enum WatchError {
 /// Runs `work` on a separate thread and waits for at most `limit`.
 ///
 /// # Errors
-/// If the work panics, or takes longer; then its thread is left behind.
+/// If the work panics, or takes longer than `limit`. In the second case its thread is left behind.
 pub fn watched<R: Send + 'static>(limit: Duration, work: impl FnOnce() -> R + Send + 'static) -> Result<R, WatchError> {
     let (sender, receiver) = channel();
     thread::spawn(move || {
         let result = caught(work).map_err(|payload| message(payload.as_ref()));
-        // After the limit there is no receiver.
+        // Ignore the error: after the limit there is no receiver.
         let _ = sender.send(result);
     });
     match receiver.recv_timeout(limit) {
@@ -61,7 +61,7 @@ struct Comparison {
     next: AtomicUsize,
 }
 
-/// The batch that a thread compares, and its query.
+/// The batch that a thread compares, and the running query.
 #[derive(Default)]
 struct ThreadState {
     batch: AtomicUsize,

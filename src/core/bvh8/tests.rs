@@ -86,7 +86,7 @@ fn packets_leave_alone_what_their_common_bounds_cannot_tell() {
         let mut hits = [None; 16];
         tree.closest_hits(&rays, &mut hits, &mut ());
         assert_eq!(hits, rays.map(|ray| tree.closest_hit(&ray, &mut ())));
-        assert!(hits[5].is_some(), "nothing is proven by a ray that hits nothing");
+        assert!(hits[5].is_some(), "ray 5 must hit a triangle");
     }
 }
 

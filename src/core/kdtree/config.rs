@@ -206,7 +206,7 @@ impl KdConfig {
         let positive = |x: f32| x > 0.0 && x.is_finite();
         let demands = [
             (self.leaf >= 1, "leaf must be at least 1"),
-            (self.threshold > 0.0 && self.threshold <= 1.0, "threshold must lie above 0 and be at most 1"),
+            (self.threshold > 0.0 && self.threshold <= 1.0, "threshold must be above 0 and at most 1"),
             (
                 positive(self.traversal_cost) && positive(self.intersection_cost),
                 "traversal_cost and intersection_cost must be positive numbers",

@@ -109,7 +109,7 @@ impl Level {
 
     #[cold]
     fn choose_highest() -> Self {
-        let highest = *Self::available().last().expect("the portable level is always there");
+        let highest = *Self::available().last().expect("the portable level is always available");
         highest.choose();
         highest
     }

@@ -6,10 +6,10 @@ use crate::simd::{LaneVec3, Lanes, indexed};
 /// Baldwin-Weber, in `f32`: the test transforms the ray into the space of the unit triangle.
 ///
 /// Guarantees: the least arithmetic of all tests. Not guaranteed: accuracy, because the transformation is relative to
-/// the world's origin and errors grow with the distance from it (at 1e3 extents, every second hit is lost); closed
+/// the world's origin and errors grow with the distance from it (at 1e3 scene sizes, half of the hits are lost); closed
 /// meshes may leak at edges. 48 bytes per triangle.
 ///
-/// A block stores all twelve numbers of the matrix, so lanes may have different axes; in `f64`, rounded once.
+/// A block stores all twelve numbers of the matrix, computed in `f64` and rounded once; lanes may have different axes.
 ///
 /// # References
 /// Baldwin, Weber: Fast ray-triangle intersections by coordinate transformation. Journal of Computer Graphics
@@ -27,7 +27,7 @@ pub struct ToUnit<const N: usize> {
 
 const _: () = assert!(size_of::<ToUnit<1>>() == 48);
 
-/// Rows and translation of one triangle; zero, which hits nothing, if it has no area.
+/// The rows and translations of one triangle. If it has no area, all are zero, and no ray hits it.
 fn to_unit(corners: [Vec3; 3]) -> [(DVec3, f64); 3] {
     let [a, b, c] = corners.map(Vec3::as_dvec3);
     let (edge1, edge2) = (b - a, c - a);
@@ -37,7 +37,7 @@ fn to_unit(corners: [Vec3; 3]) -> [(DVec3, f64); 3] {
     if det == 0.0 {
         return [(DVec3::ZERO, 0.0); 3];
     }
-    // The third direction is free; an axis makes a column of the matrix trivial.
+    // The third basis vector is free. An axis makes one column of the matrix trivial.
     let free = DVec3::AXES[longest];
     [edge2.cross(free), free.cross(edge1), normal].map(|row| (row / det, -row.dot(a) / det))
 }

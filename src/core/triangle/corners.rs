@@ -10,7 +10,7 @@ pub struct Corners<const N: usize>([[[f32; N]; 3]; 3]);
 const _: () = assert!(size_of::<Corners<1>>() == 36);
 
 impl<const N: usize> Corners<N> {
-    /// Unused lanes contain triangles without extent.
+    /// Stores at most `N` triangles. Unused lanes contain triangles without extent.
     ///
     /// # Panics
     /// If there are more than `N` triangles.
@@ -66,7 +66,7 @@ impl Place<'_> {
     pub(super) fn coordinates(&self) -> [f32; 9] {
         let lanes = self.coordinates.len() / 9;
         debug_assert!(self.lane < lanes);
-        // SAFETY: `Corners::place`, the only constructor, passes nine rows of `lanes`, and checks the lane.
+        // SAFETY: `Corners::place`, the only constructor, stores nine rows of `lanes` floats and checks the lane.
         indexed(|row| unsafe { *self.coordinates.get_unchecked(row * lanes + self.lane) })
     }
 

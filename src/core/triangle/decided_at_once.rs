@@ -17,7 +17,7 @@ macro_rules! decided_at_once {
     };
 }
 
-/// The common part of such tests that use rays unchanged.
+/// `decided_at_once` for tests that use rays unchanged.
 macro_rules! decided_on_rays {
     () => {
         type Ray = (glam::Vec3, glam::Vec3);
@@ -31,7 +31,7 @@ macro_rules! decided_on_rays {
     };
 }
 
-/// The common part of such tests that use rays and corners unchanged.
+/// `decided_on_rays` for tests that use corners unchanged as well.
 macro_rules! decided_on_corners {
     () => {
         type Block<const N: usize> = $crate::triangle::Corners<N>;
@@ -44,7 +44,7 @@ macro_rules! decided_on_corners {
     };
 }
 
-/// [`decided_on_corners`] for a test in `f64`: `$solve` gives the lanes that the line may meet, and the parameters.
+/// `decided_on_corners` for a test in `f64`: `$solve` returns the lanes that count as hit, and each `t`.
 macro_rules! decided_in_f64 {
     ($solve:ident) => {
         decided_on_corners!();
@@ -59,7 +59,7 @@ macro_rules! decided_in_f64 {
             let wide = |v| $crate::simd::LaneVec3::<N, L>::splat(v).widen();
             let corners = $crate::simd::each(&block.load::<L>(), |corner| corner.widen());
             let (inside, t) = $solve(wide(origin), wide(direction), corners);
-            // Compare the beginning before rounding, which may turn a hit behind it into zero.
+            // Compare with `from` before rounding, which may turn a small negative `t` into zero.
             let inside = inside & L::splat(from).widen().le(t);
             let t = L::narrow(t);
             (inside & t.le(L::splat(to)), t)

@@ -4,13 +4,13 @@ use std::marker::PhantomData;
 use crate::geometry::Ray;
 use crate::simd::{EightLanes, Kernel, Level, dispatch};
 
-/// The number of [`Depth::inputs`]: the coordinates of three corners, and the values of the constants below.
+/// The length of [`Depth::inputs`]: corners, origin, direction, and the distance between the bounds of `t`.
 pub const INPUTS: usize = 16;
-/// The index of the origin's first coordinate.
+/// The index of the origin's first coordinate in [`Depth::inputs`].
 pub const ORIGIN: usize = 9;
-/// The index of the direction's first coordinate.
+/// The index of the direction's first coordinate in [`Depth::inputs`].
 pub const DIRECTION: usize = 12;
-/// The index of the distance between the bounds of `t`.
+/// The index of the distance between the bounds of `t` in [`Depth::inputs`].
 pub const BETWEEN_BOUNDS: usize = 15;
 
 /// The position of a hit along its ray, as exactly as the triangle test knows it.
@@ -19,13 +19,13 @@ pub trait Depth: Copy {
     /// [`TriangleTest::order`](super::TriangleTest::order).
     fn order(&self, other: &Self) -> Option<Ordering>;
 
-    /// The depth of a hit at `t`, if `t` alone determines a depth.
+    /// The depth of a hit at `t`; `None` if a depth contains more than `t`.
     fn of(t: f32) -> Option<Self>;
 
-    /// The `t` to return for a hit of `ray`: the nearest float.
+    /// The `t` to return for a hit of `ray`: the float nearest to the depth.
     fn t(&self, ray: &Ray) -> f32;
 
-    /// Whether `t` takes a further step, faster for eight hits at once: [`inputs`](Self::inputs) and [`ts`](Self::ts).
+    /// Whether computing `t` takes a further step, which [`ts`](Self::ts) does faster for eight hits at once.
     const LATE: bool = false;
 
     /// The inputs of `ts` for a hit of `ray`: corners, origin, direction, and the distance between the bounds.
@@ -34,16 +34,16 @@ pub trait Depth: Copy {
         unreachable!("a depth whose `t` is late has inputs")
     }
 
-    /// The same bits as [`t`](Self::t) for up to eight hits, in the lanes `which`, from their inputs.
+    /// The bits of [`t`](Self::t) for up to eight hits, in the lanes `which`, from their [`inputs`](Self::inputs).
     #[inline(always)]
     fn ts<L: EightLanes>(_inputs: &[[f32; 8]; INPUTS], _which: u32) -> [f32; 8] {
         unreachable!("a depth whose `t` is late computes the `t` of eight hits")
     }
 
-    /// A float that is not before the hit. Everything beyond it along the ray can be skipped.
+    /// An upper bound of `t`, as a float. A traversal can skip everything beyond it.
     fn bound(&self) -> f32;
 
-    /// A float that is not behind the hit.
+    /// A lower bound of `t`, as a float.
     fn least(&self) -> f32;
 }
 
@@ -68,7 +68,7 @@ impl<D: Depth> Kernel for LastBits<'_, D> {
     }
 }
 
-/// The depth of the tests that compute `t` as a float, which is never NaN.
+/// The depth of tests that compute `t` as a float. It is never NaN.
 impl Depth for f32 {
     #[inline(always)]
     fn of(t: f32) -> Option<f32> {

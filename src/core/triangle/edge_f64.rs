@@ -1,34 +1,34 @@
 use super::TriangleTest;
 use crate::simd::{Arithmetic, LaneVec3};
 
-/// The edge test of [`Plucker`](super::Plucker) in `f64` over corners in `f32`, widened by its own rounding error:
-/// scalar triple products for the sides, `t` from the plane equation relative to the origin, rounded to `f32`.
+/// The edge test of [`Plucker`](super::Plucker) in `f64` for `f32` corners, widened by its own rounding error. Triple
+/// products decide the sides; `t` comes from the plane equation relative to the origin, rounded to `f32`.
 ///
-/// Proved, where a vector's size is the sum of its components' magnitudes, D the size of d, and det = d . (e1 x e2):
+/// Proved for a ray o + t d, where |v| sums the magnitudes of a vector's components, D = |d|, det = d . (e1 x e2):
 ///
 /// - The test finds a triangle that the ray hits if |det| >= 2^-48 D |e1| |e2|.
-/// - If it reports a hit, the volume of the direction and an edge e from a corner p, which is the barycentric of the
-///   third corner times |det|, is not below -2^-47 D |p - o| |e|, and the error of `t` is at most 2^-49 |e1| |e2| (|a -
-///   o| + |t| D) / |det|, plus half an ulp of the final rounding.
+/// - If it reports a hit, the barycentric of each corner is at least -2^-47 D |p - o| |e| / |det|, where the opposite
+///   edge e starts at the corner p, and the error of `t` is at most 2^-49 |e1| |e2| (|a - o| + |t| D) / |det|, plus
+///   half an ulp of the final rounding.
 ///
-/// As with [`MollerTrumboreF64`](super::MollerTrumboreF64), the errors are small except for needles and slivers. Slower.
+/// As with [`MollerTrumboreF64`](super::MollerTrumboreF64), only needles and slivers have large errors. Slower.
 ///
 /// # References
 /// See [`Plucker`](super::Plucker).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct EdgeF64;
 
-/// The lanes whose triangle the line does not certainly miss, and the parameters at their planes.
+/// The lanes whose triangle counts as hit by the line, and `t` at their planes.
 ///
-/// The volume of the direction and two corners p, q is computed as d . (p x (q - p)): its error grows with the length
-/// of the edge and not with the distance twice.
+/// The volume of the direction d and two corners p and q is computed as d . (p x (q - p)): its error grows with the
+/// distance times the length of the edge, not with the square of the distance.
 ///
-/// **Bounds.** With n = 2^-53, the relative error of a difference is n; a component of a cross product of two
-/// differences has an error of 4.1 n (|x||y'| + |y||x'|), a dot product adds 3 n: the error of d . (p x e) is at most
-/// 7.1 n 2 |d| |p| |e| in sums of magnitudes, which leave space in 9 for the rounding of the bound. A value computed
-/// not below the negative bound of 18 is exactly not below -33 n |d| |p| |e|. The sign of det = d . (e1 x e2) is known
-/// if the computed value is beyond 18 n |d| |e1| |e2|, so if the exact one is beyond 26; the error of a . (e1 x e2) is
-/// 8.1 n |a| |e1| |e2|, and the error of t less than 14 n |e1| |e2| (|a| + |t| |d|) / |det|.
+/// **Bounds.** With n = 2^-53, a difference has a relative error of n, a component of a cross product of two
+/// differences an error of 4.1 n (|x||y'| + |y||x'|), and a dot product adds 3 n. The error of d . (p x e) is then at
+/// most 7.1 n 2 |d| |p| |e|, and 9 instead of 7.1 covers the rounding of the bound. If a computed value is at least -18
+/// n |d| |p| |e|, the exact value is at least -33 n |d| |p| |e|. The sign of det = d . (e1 x e2) is certain if the
+/// computed |det| exceeds 18 n |d| |e1| |e2|, and so if the exact one exceeds 26 n |d| |e1| |e2|. The error of a . (e1
+/// x e2) is 8.1 n |a| |e1| |e2|, and the error of t less than 14 n |e1| |e2| (|a| + |t| |d|) / |det|.
 #[inline(always)]
 fn solve<const N: usize, L: Arithmetic<N, Scalar = f64>>(
     origin: LaneVec3<N, L>,
@@ -43,7 +43,7 @@ fn solve<const N: usize, L: Arithmetic<N, Scalar = f64>>(
     let det = direction.dot(normal);
     let mut inside = unit.mul(edge1.abs_sum().mul(edge2.abs_sum())).lt(det.flip_sign(det));
 
-    // The volumes add up to det, whose sign is known: each must have this sign, or an absolute value within rounding.
+    // Each volume must have the sign of det, which is their sum, or be zero within its rounding error.
     for (from, to) in [(second, third), (third, first), (first, second)] {
         let (p, edge) = (from - origin, to - from);
         let volume = direction.dot(p.cross(edge)).flip_sign(det);

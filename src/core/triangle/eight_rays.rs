@@ -21,8 +21,8 @@ pub struct EightRays<L> {
 pub struct EightHits<L: EightLanes> {
     /// The rays that hit the triangle within their intervals.
     pub met: L::Mask,
-    /// The rays that miss the triangle, or hit it beyond their current end. Rays in neither mask are undecided and must
-    /// be tested individually. A test of [one stage](super::TriangleTest::ONE_STAGE) leaves it empty.
+    /// The rays that miss the triangle, or hit it outside their interval or beyond `to`. Rays in neither mask must be
+    /// tested individually. A test of [one stage](super::TriangleTest::ONE_STAGE) decides all and leaves this empty.
     pub missed: L::Mask,
     /// Lower bounds of `t` of the rays that hit.
     pub low: L,

@@ -1,4 +1,4 @@
-//! The first stage of the exact test, in `f32`. It rejects most triangles that the ray misses, and no hits.
+//! The first stage of the exact test, in `f32`. It rejects most triangles that the ray misses, and none that it hits.
 
 use glam::{Vec3, Vec3Swizzles as _};
 
@@ -10,39 +10,39 @@ use crate::simd::{EightLanes, LaneVec3, Lanes};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FilterRay {
     origin: Vec3,
-    /// The direction, scaled.
+    /// The direction times [`Scaling::scale`].
     scaled: Vec3,
     scaling: Scaling,
 }
 
-/// The power of two that scales directions: the largest component is then in [1, 2), or less if denormal.
+/// The power of two that scales the largest component of a direction to [1, 2), or to less if it is denormal.
 #[derive(Clone, Copy, Debug)]
 struct Scaling {
     /// The factor and its inverse.
     scale: f32,
     unscaled: f32,
-    /// [`TINY`], or infinity if an overflow cannot be ruled out: then nothing is rejected.
+    /// [`TINY`], or infinity if an overflow is possible: no triangle is rejected then.
     tiny: f32,
 }
 
-/// `N` triangles, and bounds of the rounding.
+/// `N` triangles, and the sizes that bound the rounding errors.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct FilterBlock<const N: usize> {
     pub(super) corners: Corners<N>,
     /// The largest component of the two edges; infinite if an overflow is possible, negative in unused lanes.
     extents: [f32; N],
-    /// 10 units of 2^-24 of the largest component of the normal, with the magnitudes of its two products added.
+    /// [`HEIGHT`] times N, rounded up, in the notation of [`filter_block`].
     areas: [f32; N],
 }
 
 /// The results of the first stage for `N` triangles, in the notation of [`filter_block`].
 #[derive(Clone, Copy, Debug)]
 pub struct Candidates<L> {
-    /// Has the sign of det.
+    /// h times the sign of det.
     height: L,
     abs_det: L,
-    /// The minimum of u, v and |det| - u - v; NaN if one is.
+    /// The minimum of u, v and |det| - u - v; NaN if one of them is NaN.
     least: L,
     slack: L,
     height_error: L,
@@ -62,23 +62,23 @@ pub struct CandidateBounds<const N: usize> {
 
 /// 2^-24, the relative error of a difference, a product and a sum.
 const UNIT: f32 = f32::EPSILON / 2.0;
-/// Twice the 40 units of 2^-24 of the argument at [`filter_block`], times 2 for the direction.
+/// The factor of E (|s| + 2 E) in 2 k, for the k = 40 w D E (|s| + 2 E) and D = 2 of [`filter_block`].
 const SLACK: f32 = 2.0 * 40.0 * 2.0 * UNIT;
-/// The error of the height in units of N |s|, and the error of det in units of N as a multiple of it, derived below.
+/// [`filter_block`] derives the errors: at most `HEIGHT` N |s| for h, at most `DETERMINANT` `HEIGHT` N for det.
 const HEIGHT: f32 = 10.0 * UNIT;
 const DETERMINANT: f32 = 6.0;
 /// More than all underflows together: each loses at most 2^-150, and the underflows of u, v and det add up to less than
 /// (4 |s| + 12 E + 42) 2^-150, while TINY (1 + |s| + 2 E) is added. Not denormal, because sums would then be slow.
 const TINY: f32 = f32::MIN_POSITIVE;
 const _: () = assert!(TINY.is_normal());
-/// Coordinates up to here cannot overflow: E is at most 2^41, |s| below 2^43, and intermediates at most 2 E E |s|.
+/// Coordinates up to `LARGE` cannot overflow: E is at most 2^41, |s| below 2^43, intermediates at most 2 E E |s|.
 const LARGE: f32 = (1_u64 << 40) as f32;
 
 impl Scaling {
-    /// For directions and origins whose components have at most these magnitudes.
+    /// `longest` and `farthest` bound the magnitudes of the components of directions and of origins.
     #[inline(always)]
     fn new(longest: f32, farthest: f32) -> Self {
-        // By two to the negative exponent of the largest component: exact, except where the result is denormal.
+        // Scale by 2^-e, where e is the exponent of the largest component: exact, unless the result is denormal.
         let exponent = longest.to_bits() >> 23;
         let scale = match exponent {
             254 => f32::MIN_POSITIVE / 2.0,
@@ -129,8 +129,8 @@ impl<L> Candidates<L> {
         }
     }
 
-    /// Two pairs, and two bounds: if the first of a pair is below the second in both pairs, the line certainly meets
-    /// the triangle at an exact `t` between the bounds.
+    /// Two pairs and two bounds: if both pairs are strictly ascending, the line certainly meets the triangle at an
+    /// exact `t` between the bounds.
     #[inline(always)]
     pub(super) fn look<const N: usize>(&self) -> ([[L; 2]; 2], [L; 2])
     where
@@ -149,37 +149,37 @@ impl<L> Candidates<L> {
     }
 }
 
-/// The lanes whose triangle the ray may meet at a `t` up to `to`, including all that it does meet; and the results.
+/// A superset of the lanes whose triangle the ray meets at a `t` up to `to`, as bits, and the results.
 ///
-/// **Why no hit is lost.** Let s = o - a, e and f the edges from a, det = e . (d x f), u = s . (d x f), v = d . (s x e),
-/// exact for the `f32` corners and ray; the line meets the closed triangle if u, v and det - u - v, taken with the sign
-/// of det, are not negative. Let E bound the components of e and f, D = 2 the components of d, |s| be the sum of the
-/// magnitudes of the components of s, and w = 2^-24. A difference of inputs, a product and a sum have a relative error
-/// of w. The components of d x f are bounded by 2 D E, with an error of 3.1 w 2 D E; the sum of the components of s x e
-/// by 2 E |s|, with an error of 4.1 w of that. Hence the error of u is 7.1 w 2 D E |s|, of v 7.1 w 2 D E |s|, and of
-/// det 7.1 w 6 D E E. The sum of all three and of the rounding of u + v and of the rest of det (the sign of its sum
-/// with the slack is exact) is within k = 40 w D E (|s| + 2 E), in which more than 6 w D E |s| remain for the rounding
-/// of k itself.
+/// **Why no hit is lost.** Let o and d be origin and direction, a the first corner, s = o - a, e and f the edges from
+/// a, det = e . (d x f), u = s . (d x f), v = d . (s x e), all exact for the `f32` input. The line meets the closed
+/// triangle if u, v and det - u - v, each times the sign of det, are not negative. Let E bound the components of e and
+/// f, D = 2 the components of d, |s| be the sum of the magnitudes of the components of s, and w = 2^-24 the relative
+/// error of a difference of inputs, a product and a sum. The components of d x f are at most 2 D E, with an error of
+/// 3.1 w 2 D E; the sum of the components of s x e is at most 2 E |s|, with an error of 4.1 w 2 E |s|. Hence the error
+/// of u and of v is 7.1 w 2 D E |s|, and of det 7.1 w 6 D E E. These three errors, the rounding of u + v, and the
+/// rounding of det - (u + v) add up to at most k = 40 w D E (|s| + 2 E); k leaves more than 6 w D E |s| for its own
+/// rounding. The sign of the last sum, which adds the slack, is exact.
 ///
-/// If the computed sign of det is right, a hit has u and v not below -k, and u + v not beyond |det| + k. If it is
-/// wrong, the exact |det| is at most k; then so are |u|, |v| and |u + v| of a hit, and the computed ones are at most 2
-/// k. So rejecting values beyond 2 k rejects no hit, and values inside by more than 2 k are hits. Underflow adds less
-/// than [`TINY`] (1 + |s| + 2 E); if an intermediate might overflow the bound is infinite, and comparisons that involve
-/// infinity or NaN decide nothing.
+/// If the computed sign of det is right, a hit has u and v of at least -k, and u + v of at most |det| + k. If it is
+/// wrong, the exact |det| is at most k; |u|, |v| and |u + v| of a hit are then at most k, and their computed values at
+/// most 2 k. So rejecting values that are outside by more than 2 k rejects no hit, and values inside by more than 2 k
+/// prove a hit. Underflow adds less than [`TINY`] (1 + |s| + 2 E). If an intermediate may overflow, the bound is
+/// infinite, and comparisons with infinity or NaN decide nothing.
 ///
-/// **The bounds of `t`.** A hit is at t = h / |det|, with h = f . (s x e) taken with the sign of det. Let N bound |e_i
-/// f_k| + |e_k f_i| for each pair of axes: the components of e x f, without cancellation. In the computed h each term
-/// s_i e_k f_j has a relative error of 8.1 w, in det each d_i e_k f_j of 7.1 w, so the error of h is less than 8.1 w N
-/// |s| and of det less than 43 w N; both underflow by less than [`TINY`] (1 + E). Take bounds dh and dd of 10 w N |s|
-/// and 60 w N, more than both and their own rounding: if |det| is beyond dd its sign is certain, and a hit with h below
-/// -dh lies behind the origin. A hit at a t of at most T, where T is not below `to` for the scaled direction, has h - T
-/// |det| at most dh + T dd; the computed difference, in which T |det| is at most 6 N T, has an error of 7 w N T and w
-/// of itself, which dd more than covers. Here the slack 2 k (160 w N or more) replaces dd. If the computed |det|, d',
-/// is beyond 16 dd, and h' is the computed height, |h/d - h'/d'| <= (dh + |h'/d'| dd) / |d| is at most 16/15 of the
-/// same with d' instead of d, which 9/8 covers together with its rounding; the quotient and the ends of the interval
-/// round by less than 8 w of t, and [`TINY`] covers the underflow when t is converted back to the direction. Before
-/// that no relevant value underflows: a value inside by more than 2 k has |s| > 2^-18 E, and a det beyond 16 TINY
-/// requires an E above 2^-63, so the error is beyond 2^-104.
+/// **The bounds of `t`.** A hit is at t = h / |det|, where h is f . (s x e) times the sign of det. Let N bound |e_i
+/// f_k| + |e_k f_i| for each pair of axes: the components of e x f, without cancellation. Each term s_i e_k f_j of the
+/// computed h has a relative error of 8.1 w, each term d_i e_k f_j of det 7.1 w. So the error of h is less than 8.1 w N
+/// |s|, and of det less than 43 w N; underflow adds less than [`TINY`] (1 + E) to each. The bounds dh = 10 w N |s| and
+/// dd = 60 w N exceed these errors and their own rounding. If |det| exceeds dd, its sign is certain, and a computed h
+/// below -dh means that t is negative. A hit at a t up to T, which is at least `to` in lengths of the scaled direction,
+/// has h - T |det| <= dh + T dd. As T |det| is at most 6 N T, this difference has an error of 7 w N T plus w of itself,
+/// which dd covers too. The code replaces dd by the slack 2 k, which is at least 160 w N. Let det' and h' be the
+/// computed values. If |det'| exceeds 16 dd, |h/det - h'/det'| <= (dh + |h'/det'| dd) / |det|. This is at most 16/15 of
+/// the same quotient over |det'|; 9/8 covers that and its rounding. The quotient and the ends of the interval round by
+/// less than 8 w t, and [`TINY`] covers the underflow when t is converted back. No relevant value underflows before: a
+/// value inside by more than 2 k has |s| > 2^-18 E, and a det beyond 16 TINY requires E > 2^-63, so the error exceeds
+/// 2^-104.
 #[inline(always)]
 pub(super) fn filter_block<const N: usize, L: Lanes<N>>(
     ray: &FilterRay,
@@ -197,7 +197,7 @@ pub(super) fn filter_block<const N: usize, L: Lanes<N>>(
 /// Like [`filter_block`], for eight rays and one triangle of a block: the rays that miss it, and the results.
 ///
 /// All directions are scaled like the longest one. The argument at [`filter_block`] only requires that no component is
-/// beyond 2, and that the error of a component that becomes denormal is at most 2^-150, so it holds for all.
+/// beyond 2, and that a component that becomes denormal has an error of at most 2^-150, so it holds for all rays.
 #[inline(always)]
 pub(super) fn filter_eight<const N: usize, L: EightLanes>(
     rays: &EightRays<L>,
@@ -216,8 +216,8 @@ pub(super) fn filter_eight<const N: usize, L: EightLanes>(
     (signs.cmp_lt(L::zero()), candidates)
 }
 
-/// The same for lines and triangles, lane by lane, with the corners, extents and areas of the triangles: if the first
-/// result is negative, the line does not meet the triangle at a `t`, for the scaled direction, up to `last`.
+/// The filter for one line and one triangle per lane, with the corners, extents and areas of the triangles. If the
+/// first result is negative, the line does not meet the triangle at a `t` in [0, `last`] of the scaled direction.
 #[inline(always)]
 fn filter_lanes<const N: usize, L: Lanes<N>>(
     origin: LaneVec3<N, L>,
@@ -230,7 +230,7 @@ fn filter_lanes<const N: usize, L: Lanes<N>>(
     let to_origin = origin - a;
     let (edge1, edge2) = (b - a, c - a);
 
-    // Möller-Trumbore without the division. Fusing omits roundings, which the bound allows.
+    // Möller-Trumbore without the division. Fused operations round less often, which the bounds allow.
     let p = direction.cross_loosely(edge2);
     let q = to_origin.cross_loosely(edge1);
     let det = edge1.dot_loosely(p);
@@ -241,19 +241,19 @@ fn filter_lanes<const N: usize, L: Lanes<N>>(
     let distance = to_origin.abs_sum();
     let tiny = L::splat(scaling.tiny);
     let slack = distance.add(extent.add(extent)).mul_add_loosely(extent.mul_add_loosely(L::splat(SLACK), tiny), tiny);
-    // A NaN in u or v makes the third one NaN, which wins.
+    // If u or v is NaN, the third value is NaN, too, and `min` returns it as its second operand.
     let least = u.min(v).min(abs_det.sub(u.add(v)));
     let outside = least.add(slack);
 
-    // Compute it even if no lane remains: that cannot be predicted, and one mispredicted branch per block is enough.
+    // Compute the height even if no lane remains: one mispredicted branch per block, in the caller, is enough.
     let height = edge2.dot_loosely(q).flip_sign(det);
     let underflow = extent.mul_add_loosely(tiny, tiny);
     let height_error = area.mul_add_loosely(distance, underflow);
     let behind = slack.sub(abs_det).max(height.add(height_error));
     let beyond = slack.mul_add_loosely(last, height_error).add(last.mul_sub_loosely(abs_det, height));
 
-    // Each is negative if it rejects and NaN if it cannot decide; the minimum is negative if any rejects. The extent of
-    // unused lanes is negative.
+    // Each value is negative if it rejects the lane, and NaN if it cannot decide; the minimum is negative only if one
+    // of them is. The extent of unused lanes is negative.
     let signs = beyond.min(behind).min(outside).min(extent);
     let scale = scaling.scale;
     (signs, Candidates { height, height_error, abs_det, least, slack, area, underflow, scale })

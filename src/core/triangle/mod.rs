@@ -1,8 +1,8 @@
-//! Triangle tests. All structures share them, so hits with the same test are bit-identical.
+//! Triangle tests. Structures share them: with the same test, all structures return the same bits of `t`.
 //!
-//! To add one: a file here that implements [`TriangleTest`], a word in the list of `offered.rs`, a line in
-//! `Registry::builtin` (it compiles only if the test is in the list of references, `validate/reference.rs`), and a line
-//! in `triangle/tests/every.rs`.
+//! To add a test, write a file here that implements [`TriangleTest`], and add the test to the lists of `offered.rs` and
+//! `validate/reference.rs`, to `Registry::builtin` (which does not compile without the line in `reference.rs`), and to
+//! `triangle/tests/every.rs`.
 
 #[macro_use]
 pub(crate) mod decided_at_once;
@@ -46,8 +46,8 @@ pub(crate) const BLOCK: usize = 8;
 /// Decides whether and where a ray intersects a triangle.
 ///
 /// A test works in two stages: the first stage tests all lanes of a block at once, the second stage tests the remaining
-/// candidates lane by lane. Most tests decide everything in the first stage. A test is written once, over lanes; one
-/// lane is the scalar form. All widths return the same bits.
+/// candidates lane by lane. Most tests decide everything in the first stage. The code of a test is generic over the
+/// number of lanes; one lane is the scalar form. All widths return the same bits.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a triangle test",
     label = "does not implement `TriangleTest` (`sahara_core::triangle::TriangleTest`)",
@@ -70,29 +70,29 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// The values that the first stage passes to the second stage.
     type Values<const N: usize>: Copy;
 
-    /// The position of a hit along the ray; the test orders hits by it. It may refer to the block.
+    /// The position of a hit along the ray; the test orders hits by it. It may borrow the block.
     type Depth<'a>: Depth;
 
     /// Prepares a valid ray.
     fn prepare(ray: &Ray) -> Self::Ray;
 
-    /// The block of at most `N` triangles, given by their corners. Rays never hit unused lanes.
+    /// Packs at most `N` triangles, given by their corners, into a block. Rays never hit unused lanes.
     ///
     /// # Panics
     /// If there are more than `N` triangles.
     fn block<const N: usize>(triangles: &[[Vec3; 3]]) -> Self::Block<N>;
 
-    /// The largest `t` of a hit on a valid ray up to `t_max`: the float below, if hits are ordered by rounded `t`.
+    /// The largest `t` of a hit on a valid ray with this `t_max`: the float below it, if the rounded `t` orders hits.
     #[inline(always)]
     fn last(t_max: f32) -> f32 {
-        // A valid ray ends after 0, so this is `next_down`, without the cases that cost each ray a dozen instructions.
+        // A valid ray ends after 0: this is `next_down` without the special cases, which cost a dozen instructions.
         f32::from_bits(t_max.to_bits().wrapping_sub(1))
     }
 
     /// The first stage: the lanes that the ray may hit at a `t` in [`from`, `to`], as bits, and the input of
-    /// [`values`](Self::values) if there are any lanes.
+    /// [`values`](Self::values), which has no meaning if there are no such lanes.
     ///
-    /// The results are not a closure, which might not be inlined, and so not compiled for the level.
+    /// It does not return a closure: a closure might not be inlined, and would then not be compiled for the SIMD level.
     fn candidates<const N: usize, L: Lanes<N>>(
         ray: &Self::Ray,
         block: &Self::Block<N>,
@@ -103,8 +103,8 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// The values for the second stage.
     fn values<const N: usize, L: Lanes<N>>(first: Self::First<N, L>) -> Self::Values<N>;
 
-    /// The second stage: whether and where the ray hits a candidate. A `t` outside the interval of the ray is not a
-    /// hit; a `t` beyond the `to` of the first stage may be one.
+    /// The second stage: whether and where the ray hits a candidate within its interval. The hit may lie beyond the
+    /// `to` of the first stage.
     fn decide<'a, const N: usize>(
         ray: &Self::Ray,
         block: &'a Self::Block<N>,
@@ -112,8 +112,8 @@ pub trait TriangleTest: Send + Sync + 'static {
         values: &Self::Values<N>,
     ) -> Option<Self::Depth<'a>>;
 
-    /// Like [`decide`](Self::decide), but small enough to inline: `None` if the first stage does not decide. The values
-    /// come from [`values`](Self::values), not from [`look_closer`](Self::look_closer).
+    /// Like [`decide`](Self::decide), but small enough to inline: `None` if the candidate needs `decide`. The values
+    /// must come from [`values`](Self::values), not from [`look_closer`](Self::look_closer).
     #[inline(always)]
     fn decide_at_once<'a, const N: usize>(
         ray: &Self::Ray,
@@ -124,8 +124,8 @@ pub trait TriangleTest: Send + Sync + 'static {
         Self::ONE_STAGE.then(|| Self::decide(ray, block, lane, values))
     }
 
-    /// Refines many candidates at once, if that pays: the remaining candidates, and their values for
-    /// [`decide`](Self::decide). It may drop candidates beyond `nearest`.
+    /// Refines many candidates at once: the remaining candidates, and their values for [`decide`](Self::decide). `None`
+    /// if refining does not pay. It may drop candidates beyond `nearest`.
     #[inline(always)]
     fn look_closer(
         _ray: &Self::Ray,
@@ -148,18 +148,18 @@ pub trait TriangleTest: Send + Sync + 'static {
         unreachable!("depths that need the ray to be ordered have an order of their own")
     }
 
-    /// Whether the first stage decides everything: [`decide`](Self::decide) accepts all, [`Depth::of`] makes depths.
+    /// Whether the first stage decides everything: [`decide`](Self::decide) accepts all, [`Depth::of`] returns a depth.
     const ONE_STAGE: bool = false;
 
-    /// Whether structures can trace several rays of a slice at once over this test. Each batch strategy is compiled for
-    /// each such test, which takes most of the compile time.
+    /// Whether structures compile batch strategies, which trace several rays of a slice at once, for this test. They
+    /// take most of the compile time.
     const BATCHED: bool = false;
 
     /// Whether the test implements [`meet_eight`](Self::meet_eight).
     const EIGHT: bool = false;
 
     /// Tests eight rays against the triangle in `lane` of a block: the hits of the `active` rays at a `t` up to `to`,
-    /// as far as the first stage decides. `None` if all of these rays miss the triangle.
+    /// if the first stage decides them. May return `None` if all `active` rays miss the triangle.
     #[inline(always)]
     fn meet_eight<const N: usize, L: EightLanes>(
         _rays: &EightRays<L>,
@@ -171,7 +171,7 @@ pub trait TriangleTest: Send + Sync + 'static {
         unreachable!("a test that has this form writes it")
     }
 
-    /// The depth of a hit of [`meet_eight`](Self::meet_eight) from bounds of `t`, if [`Depth::of`] makes none.
+    /// The depth of a hit of [`meet_eight`](Self::meet_eight), from bounds of `t`, if [`Depth::of`] is `None`.
     #[inline(always)]
     fn depth_between<const N: usize>(_block: &Self::Block<N>, _lane: usize, _low: f32, _high: f32) -> Self::Depth<'_> {
         unreachable!("a depth that takes more than a float is made by its test")
@@ -185,7 +185,7 @@ pub trait TriangleTest: Send + Sync + 'static {
     }
 }
 
-/// The `t` at which `ray`, if valid, hits the triangle within its interval.
+/// The `t` at which `ray` hits the triangle within its interval. An invalid ray hits nothing.
 pub fn scalar_hit<T: TriangleTest>(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
     let (t_min, t_max) = ray.interval();
     let triangle = T::block(&[corners]);

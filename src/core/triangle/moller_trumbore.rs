@@ -6,8 +6,8 @@ use crate::simd::{EightLanes, LaneVec3, Lanes};
 /// Möller-Trumbore in `f32`: no precomputation, two-sided, division only for `t`.
 ///
 /// Guarantees: edges and vertices belong to the triangle (all comparisons include equality); there is no epsilon; NaN
-/// never hits. Not guaranteed: closed meshes may leak at edges, because the two neighbours round their barycentrics
-/// independently; `t` of a grazing ray may be off by thousands of ulps. Cost: one division per eight tests
+/// never hits. Not guaranteed: closed meshes may leak at edges, because the two triangles at an edge round their
+/// barycentrics independently; `t` of a grazing ray may be off by thousands of ulps. Cost: one division per eight tests
 /// (`cargo bench --bench kernels`).
 ///
 /// # References
@@ -42,7 +42,7 @@ fn solve<const N: usize, L: Lanes<N>>(
     to_origin: LaneVec3<N, L>,
     [edge1, edge2]: [LaneVec3<N, L>; 2],
 ) -> Solution<L> {
-    // Solve by Cramer's rule; all numerators share the sign of the determinant when the barycentrics are positive.
+    // Use Cramer's rule; if the barycentrics are positive, their numerators have the sign of the determinant.
     let p = direction.cross(edge2);
     let q = to_origin.cross(edge1);
     let det = edge1.dot(p);

@@ -3,36 +3,36 @@ use crate::simd::{Arithmetic, LaneVec3};
 
 /// [`MollerTrumbore`](super::MollerTrumbore) in `f64`, widened by its own rounding error; `t` is rounded to `f32`.
 ///
-/// Proved, where D, E and |s| are the sums of the magnitudes of the components of the direction, of both edges at the
-/// first corner, and of the vector from this corner to the origin, and det = e1 . (d x e2):
+/// Proved, where D, E and |s| are the sums of the magnitudes of the components of the direction d, of both edges e1 and
+/// e2 at the first corner, and of the vector from this corner to the origin, and det = e1 . (d x e2):
 ///
 /// - The test finds a triangle that the ray hits if |det| >= 2^-46 D E E.
 /// - If it reports a hit, no barycentric is below -2^-46 D E (|s| + 2 E) / |det|, and the error of `t` is at most 2^-51
 ///   E E (|s| + |t| D) / |det|, plus half an ulp of the final rounding.
 ///
-/// So it loses a ray through an edge or a vertex of a closed mesh only at needles that the ray grazes.
+/// So the test loses a ray through an edge or a vertex of a closed mesh only at needles that the ray grazes.
 ///
-/// The errors are small for triangles of ordinary shape, but not for needles and slivers: |det| is twice the area times
-/// the sine of the angle to the plane times the length of the direction. Measured on single triangles: a false hit
-/// 4.5e-11 outside a sliver of aspect ratio 10,000; a missed hit on a needle of aspect ratio 10,000,000, which the ray
-/// meets along its length; a `t` that is off by 115 ulps on another needle. [`Exact`](super::Exact) is right.
+/// The errors are large only for needles and slivers: |det| is twice the area times the sine of the angle to the plane
+/// times the length of the direction. Measured on single triangles: a false hit 4.5e-11 outside a sliver of aspect
+/// ratio 10,000; a missed hit on a needle of aspect ratio 10,000,000, which the ray meets along its length; a `t` that
+/// is off by 115 ulps on another needle. [`Exact`](super::Exact) has none of these errors.
 ///
-/// Cost: two to three times the `f32` test in blocks.
+/// Cost: two to three times the time of the `f32` test in blocks.
 ///
 /// # References
 /// See [`MollerTrumbore`](super::MollerTrumbore).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MollerTrumboreF64;
 
-/// The lanes whose triangle the line does not certainly miss, and the parameters at their planes.
+/// The lanes whose triangle counts as hit by the line, and `t` at their planes.
 ///
 /// **Bounds.** As for the first stage of the exact test (`filter::filter_block`), with n = 2^-53 instead of 2^-24: the
-/// error of u, v and det - u - v is less than 40 n D E (|s| + 2 E), of det 43 n D E E, where D and E bound the
-/// components of the direction and of the edges, here by sums instead of maxima. If det may have either sign there is
-/// no hit: this is the case if its computed magnitude is at most 80 n D E E, hence never if the exact one is 2^7 n D E
-/// E. A value computed not below the negative slack is exactly not below twice that, 80 n D E (|s| + 2 E). In sums, the
-/// error of h = f . (s x e) is 8.1 n |e| |f| |s| <= 2.1 n E E |s| and of det 1.8 n D E E, so the error of h / det is
-/// less than 4 n E E (|s| + |t| D) / |det|.
+/// error of u, v and det - u - v is less than 40 n D E (|s| + 2 E), of det 43 n D E E. D and E bound the components of
+/// the direction and of the edges, here as sums instead of maxima. If the sign of det is uncertain, there is no hit:
+/// that is so if the computed |det| is at most 80 n D E E, and never if the exact one is 2^7 n D E E or more. If a
+/// computed value is at least minus the slack, the exact value is at least minus twice the slack, 80 n D E (|s| + 2 E).
+/// With sums, the error of h = f . (s x e) is 8.1 n |e| |f| |s| <= 2.1 n E E |s|, and of det 1.8 n D E E, so the error
+/// of h / det is less than 4 n E E (|s| + |t| D) / |det|.
 #[inline(always)]
 fn solve<const N: usize, L: Arithmetic<N, Scalar = f64>>(
     origin: LaneVec3<N, L>,

@@ -1,8 +1,8 @@
 use super::{Corners, TriangleTest};
 use crate::simd::{LaneVec3, Lanes, each};
 
-/// Edge test in `f32`: the ray passes the three edges on the same side, by triple products of the corners relative to
-/// the origin; `t` from the plane through the first corner.
+/// Edge test in `f32`: a ray hits if it passes all three edges on the same side, by triple products of the corners
+/// relative to its origin. `t` comes from the plane through the first corner.
 ///
 /// Guarantees: the two triangles at an edge compute the same number for it with opposite signs, so no ray passes
 /// between them; `t` is as accurate as the normal. Not guaranteed: rays through vertices may be lost; products of four

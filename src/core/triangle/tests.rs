@@ -1,4 +1,4 @@
-//! Common parts of the tests of triangle tests: numbers, rays and triangles.
+//! Generators of numbers, rays and triangles for the tests of triangle tests.
 
 mod closed;
 mod eight_rays;
@@ -20,12 +20,12 @@ pub(crate) fn unit(rng: &mut Pcg32) -> f32 {
     rng.next_u32() as f32 / u32::MAX as f32 * 2.0 - 1.0
 }
 
-/// Coarse numbers: hits on edges and corners, -0.0 and parallel rays are frequent.
+/// Small integers: hits on edges and corners, zeros and parallel rays are frequent.
 pub(crate) fn grid(rng: &mut Pcg32) -> f32 {
     (rng.next_u32() % 5) as f32 - 2.0
 }
 
-/// Any size, up to the overflow and the underflow of the products of tests.
+/// Any finite number: products may overflow and underflow.
 pub(crate) fn any(rng: &mut Pcg32) -> f32 {
     loop {
         let x = f32::from_bits(rng.next_u32());
@@ -47,7 +47,7 @@ pub(crate) fn ray(rng: &mut Pcg32, number: Number) -> Ray {
     Ray::new(point(rng, number), point(rng, number))
 }
 
-/// Aims at the triangle from any distance: it is often hit or narrowly missed.
+/// A ray aimed at the triangle from any distance: it often hits or narrowly misses.
 fn aimed(rng: &mut Pcg32, [a, b, c]: [Vec3; 3]) -> Ray {
     let (u, v) = (unit(rng) * 0.7 + 0.3, unit(rng) * 0.7 + 0.3);
     let target = a + (b - a) * u + (c - a) * v;
@@ -61,7 +61,7 @@ fn true_t(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
 
 /// Difficult cases for the stages of a filter: all sizes, aimed closely, on a grid, at random.
 fn hard(rng: &mut Pcg32, round: usize) -> (Ray, [Vec3; 3]) {
-    // Every size of scene, not every tenth power: each intermediate underflows at a different one.
+    // Use every power of two as a scale: each intermediate underflows at a different one.
     let scale = f32::from_bits((1 + rng.next_u32() % 251) << 23);
     match round % 4 {
         0 => (ray(rng, any), triangle(rng, any)),

@@ -4,15 +4,15 @@ use super::{Corners, TriangleTest};
 use crate::geometry::Ray;
 use crate::simd::{Lanes, each, indexed};
 
-/// Watertight, in `f32`: the test shears the triangle, which makes the ray the third axis, and tests edges in 2D; it
-/// recomputes edge values that are exactly zero, very small or very large in `f64`.
+/// Watertight, in `f32`: the test shears space such that the ray runs along the third axis, and tests edges in 2D. If
+/// an edge value is zero, or their sum is very small or very large, it recomputes them in `f64`.
 ///
 /// Guarantees: a corner is sheared to the same point for every triangle that contains it, and the sign of an edge is
 /// exact for the sheared corners, so no ray passes between the triangles of a closed mesh, including edges and
-/// vertices. Not guaranteed: the sheared corners are rounded, so a ray within an ulp of an edge may go to either side
-/// (it may miss a single triangle at its rim), and `t` of slivers may be off by thousands of ulps.
+/// vertices. Not guaranteed: accuracy. Shearing rounds, so a ray within an ulp of an edge may go to either side (or
+/// miss a single triangle at its rim), and `t` of slivers may be off by thousands of ulps.
 ///
-/// Range: any size of scene in which differences of coordinates do not overflow; below 1e-15 and above 1e6 units the
+/// Range: any size of scene in which differences of coordinates do not overflow. Below 1e-15 and above 1e6 units the
 /// test is slower. It may lose rays with a largest component below 3e-39 or above 8e37, and hits beyond 3e26.
 ///
 /// # References
@@ -41,7 +41,7 @@ impl TriangleTest for Watertight {
 
     #[inline(always)]
     fn prepare(ray: &Ray) -> ShearedRay {
-        // The longest component becomes the third; swapping the others keeps the winding if it points backward.
+        // The longest component becomes the third. If it is negative, the other axes are swapped to keep the winding.
         let z = ray.direction.abs().max_position();
         let (mut x, mut y) = ((z + 1) % 3, (z + 2) % 3);
         if ray.direction[z] < 0.0 {
@@ -61,7 +61,7 @@ impl TriangleTest for Watertight {
 
     #[inline(always)]
     fn candidates<const N: usize, L: Lanes<N>>(ray: &ShearedRay, block: &Corners<N>, from: f32, to: f32) -> (u32, L) {
-        // Corners as seen from the origin, sheared.
+        // Shear the corners, relative to the origin.
         let [[x, y, z], shear] = each(&[ray.origin, ray.shear], |v| each(v, |&x| L::splat(x)));
         let zs = each(&block.axis::<L>(ray.axes[2]), |corner| corner.sub(z));
         let sheared = |axis: usize, origin: L, shear: L| {
@@ -71,7 +71,7 @@ impl TriangleTest for Watertight {
         let xs = sheared(ray.axes[0], x, shear[0]);
         let ys = sheared(ray.axes[1], y, shear[1]);
 
-        // The edges, recomputed in f64 if one is zero: products of two floats are exact there, and so is the sign.
+        // Compute the edge values; in `f64` if one is zero, where products of two floats, and so the signs, are exact.
         let edges = |[ax, bx, cx]: [L; 3], [ay, by, cy]: [L; 3]| {
             [cx.mul(by).sub(cy.mul(bx)), ax.mul(cy).sub(ay.mul(cx)), bx.mul(ay).sub(by.mul(ax))]
         };
@@ -97,12 +97,12 @@ impl TriangleTest for Watertight {
     }
 }
 
-/// Sums of edge values between these neither lose digits to underflow nor overflow in the computation of `t`.
+/// Sums of edge values from `SMALL` to `LARGE` cause no underflow and no overflow in the computation of `t`.
 const SMALL: f32 = 1.0 / (1_u128 << 100) as f32;
 const LARGE: f32 = (1_u64 << 40) as f32;
 
-/// The edge values. Lanes with a zero among them, or with a sum that is too small or too large, are computed in `f64`,
-/// all three times a power of two, which changes neither their signs nor `t`.
+/// The edge values, recomputed in `f64` in lanes where one is zero or their sum is too small or too large. A power of
+/// two scales all three values of such a lane, which changes neither their signs nor `t`.
 #[cold]
 fn in_f64<const N: usize, L: Lanes<N>>(volumes: [L; 3], xs: [L; 3], ys: [L; 3]) -> [L; 3] {
     let mut values = each(&volumes, |v| v.store());
@@ -112,7 +112,7 @@ fn in_f64<const N: usize, L: Lanes<N>>(volumes: [L; 3], xs: [L; 3], ys: [L; 3]) 
         if [u, v, w].iter().all(|v| *v != 0.0) && (SMALL..=LARGE).contains(&(u + v + w).abs()) {
             continue;
         }
-        // Products of two floats are exact, and so is the sign of a difference.
+        // Products of two floats are exact in `f64`, and so is the sign of their difference.
         let [[ax, bx, cx], [ay, by, cy]] = each(&[xs, ys], |v| each(v, |corner| f64::from(corner[lane])));
         let exact = [cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax];
         let largest = exact.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
@@ -124,7 +124,7 @@ fn in_f64<const N: usize, L: Lanes<N>>(volumes: [L; 3], xs: [L; 3], ys: [L; 3]) 
     each(&values, L::load)
 }
 
-/// The reciprocal of the largest power of two that does not exceed `x`, which is far from the ends of `f64`.
+/// The reciprocal of the largest power of two up to `x`. `x` is positive and far from the ends of `f64`.
 fn inverse_power_of_two(x: f64) -> f64 {
     f64::from_bits((2046 - (x.to_bits() >> 52)) << 52)
 }

@@ -23,7 +23,7 @@ pub enum PictureError {
     Decode { path: PathBuf, cause: ImageError },
     #[error("cannot write the picture {} as PNG with 8 or 16 bits per channel: {}", path.escaped(), in_a_line(cause))]
     Encode { path: PathBuf, cause: ImageError },
-    #[error("cannot make the directory {}: {cause}", path.escaped())]
+    #[error("cannot create the folder {}: {cause}", path.escaped())]
     Directory { path: PathBuf, cause: Error },
     #[error(transparent)]
     Write(#[from] OutputError),

@@ -26,7 +26,7 @@ pub const MISS: u32 = u32::MAX;
 pub fn packed([width, height]: [u32; 2], numbers: &[u32]) -> DynamicImage {
     let halves = numbers.iter().flat_map(|number| [(number >> 16) as u16, *number as u16]).collect();
     let picture = ImageBuffer::<LumaA<u16>, Vec<u16>>::from_raw(width, height, halves);
-    picture.expect("one number a pixel").into()
+    picture.expect("one number per pixel").into()
 }
 
 /// The numbers of a picture that [`packed`] has made; `None` for pictures with other channels.
@@ -38,7 +38,7 @@ pub fn unpacked(picture: &DynamicImage) -> Option<Vec<u32>> {
 /// A float picture. Each pixel has the float with the bits of its number in all three channels.
 pub fn as_floats([width, height]: [u32; 2], numbers: &[u32]) -> DynamicImage {
     let values = numbers.iter().flat_map(|number| [f32::from_bits(*number); 3]).collect();
-    Rgb32FImage::from_raw(width, height, values).expect("one number a pixel").into()
+    Rgb32FImage::from_raw(width, height, values).expect("one number per pixel").into()
 }
 
 #[cfg(test)]

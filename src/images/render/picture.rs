@@ -14,7 +14,7 @@ use crate::scene::{Scene, View};
 /// # Panics
 /// If the number of `pixels` is not width times height.
 pub fn from_pixels([width, height]: [u32; 2], pixels: Vec<[u8; 3]>) -> RgbImage {
-    assert_eq!(pixels.len() as u64, u64::from(width) * u64::from(height), "one colour a pixel");
+    assert_eq!(pixels.len() as u64, u64::from(width) * u64::from(height), "one colour per pixel");
     RgbImage::from_raw(width, height, pixels.into_flattened()).expect("all pixels are there")
 }
 

@@ -6,7 +6,7 @@ use crate::validate::{Stratum, degenerate_meshes};
 
 type Correct = BruteForce<MollerTrumbore>;
 
-/// The damage that a broken structure does to the right hit of ray `x`, the origin's bits.
+/// A structure that damages right hits: `damage` gets the bits of the ray's `origin.x`, and the right hit.
 struct Broken {
     correct: Correct,
     damage: Damage,
@@ -40,7 +40,7 @@ impl Accel for Broken {
 
 type Damage = fn(u32, Option<Hit>) -> Option<Hit>;
 
-/// Compares a damaged structure on random rays through a soup, with the same triangle test or another.
+/// Compares a damaged structure on random rays through a soup. `share`: the reference has the same triangle test.
 fn damaged(damage: Damage, any: fn(bool) -> bool, share: bool) -> Validation {
     let mesh = soup();
     let mut reference = Reference::brute_force::<MollerTrumbore>(&mesh).unwrap();
@@ -67,7 +67,7 @@ fn damage_is_found_and_told_apart_whoever_judges() {
     for (name, damage, kind) in rows {
         for share in [true, false] {
             let v = damaged(damage, |any| any, share);
-            // Another test may round by an ulp.
+            // Rounding of another test may explain an ulp.
             let kind = kind.filter(|_| share || name != "an ulp");
             let wrong = if share { v.structure_errors } else { v.answer_errors };
             assert_eq!(v.worst_error().map(|worst| worst.kind), kind, "{name}");
@@ -83,7 +83,7 @@ fn damage_is_found_and_told_apart_whoever_judges() {
     }
 }
 
-/// A test in single precision may round by a few millionths here, but not by a tenth of a thousandth.
+/// Rounding in single precision explains a relative error of 2e-6 here, but not of 1e-4.
 #[test]
 fn depths_are_judged_by_a_bound_of_rounding() {
     let near = |_, hit: Option<Hit>| hit.map(|h| Hit { t: h.t * (1.0 + 2e-6), ..h });
@@ -118,7 +118,7 @@ fn contradictions_and_moods_are_found() {
 #[test]
 fn a_farther_hit_is_a_lost_nearer_one() {
     let mesh = soup();
-    // Keep only the second half of the triangles, under their numbers: each omitted one becomes a point.
+    // Each triangle of the first half becomes a point; the second half keeps its numbers.
     let keep = mesh.triangles().iter().enumerate().map(|(i, t)| if i < 250 { [t[0]; 3] } else { *t });
     let kept = Mesh::new(mesh.positions().to_vec(), keep.collect()).unwrap();
     let half = Correct::build(&Arc::new(kept), &Default::default()).unwrap();
@@ -130,7 +130,7 @@ fn a_farther_hit_is_a_lost_nearer_one() {
     assert!(answers.answer_errors > 500 && answers.structure_errors == 0);
     let kinds = |v: &Validation| v.worst.iter().all(|w| w.kind == Kind::Lost);
     assert!(kinds(&v) && kinds(&answers), "lost outright comes before lost behind another");
-    // Rays that hit both halves: the kept triangle is behind.
+    // Keep rays that hit the second half: on these, an error is a lost nearer hit on the first half.
     let only = |v: &Validation| v.structure_errors + v.answer_errors;
     let both: Vec<Ray> = rays.into_iter().filter(|ray| half.closest_hit(ray, &mut ()).is_some()).collect();
     let reference = Reference::brute_force::<MollerTrumbore>(&mesh).unwrap();
@@ -152,7 +152,7 @@ fn any_hit_that_rounding_may_excuse_is_wrong_if_the_closest_hit_contradicts_it()
     use glam::Vec3;
     let corners = vec![Vec3::new(1.0, 1.0, 1.0), Vec3::new(2.0, 1.0, 1.25), Vec3::new(1.0, 2.0, 1.5)];
     let mesh = Arc::new(Mesh::new(corners, vec![[0, 1, 2]]).unwrap());
-    // From just above the triangle, away from it: rounding may find a hit at 0.
+    // The ray starts just above the triangle and points away from it: rounding may find a hit at 0.
     let ray = Ray::new(Vec3::new(1.25, 1.25, 1.187_500_1), Vec3::new(0.1, 0.1, 1.0));
     let reference = Reference::of_test("own", &mesh)?;
     let hits = &reference.closest_hits(&[ray]);

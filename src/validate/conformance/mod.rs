@@ -66,7 +66,7 @@ impl Subject {
     }
 }
 
-/// Compares `count` rays of every stratum on every mesh, and reports everything; after a hang it runs no further query.
+/// Compares `count` rays of every stratum on every mesh, and returns all comparisons. It stops after a hang.
 ///
 /// # Errors
 /// If a mesh does not build.
@@ -90,12 +90,11 @@ pub fn findings(subject: &Subject, meshes: &[Named], count: usize) -> Result<Vec
     Ok(findings)
 }
 
-/// The hits are right: no structure error on any mesh and stratum, any hit agrees with closest hit, single rays agree
-/// with batches, nothing panics or hangs, and the lowest primitive wins if that is promised. Declined rays are not
-/// traced.
+/// Checks that hits are right: no structure error on any mesh and stratum, any hit agrees with closest hit, single rays
+/// agree with batches, nothing panics or hangs, and the lowest primitive wins if that is promised. Declined rays are
+/// not traced.
 ///
-/// A structure with a triangle test that this crate lacks fails by hits that no rounding of a test in single precision
-/// explains.
+/// A structure whose triangle test this crate lacks fails only if rounding in single precision cannot explain its hits.
 ///
 /// # Errors
 /// One line per failing mesh and stratum, with the worst ray.
@@ -139,7 +138,7 @@ impl Finding {
     }
 }
 
-/// Few lines in full, many lines cut short.
+/// The error contains the first ten lines and the number of further lines.
 fn outcome(lines: Vec<String>) -> Result<(), String> {
     const SHOWN: usize = 10;
     if lines.is_empty() {

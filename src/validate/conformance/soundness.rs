@@ -39,7 +39,7 @@ fn trace(accel: &Arc<dyn DynAccel>, rays: &[Ray], limit: Duration) -> Result<Tra
         if accel.capabilities().any_hit {
             accel.any_hits(&rays, &mut plain.any);
             kept.any_hits(&mut loaded.any);
-            // Query again after both: loaded rays must stay unchanged.
+            // Query closest hits again: the any-hit query must leave loaded rays unchanged.
             kept.closest_hits(&mut loaded.closest);
             accel.any_hits_counted(&rays, &mut counted.any, &mut counts[1]);
         }
@@ -48,9 +48,9 @@ fn trace(accel: &Arc<dyn DynAccel>, rays: &[Ray], limit: Duration) -> Result<Tra
     })
 }
 
-/// Counting changes nothing: the hits are the same, at the same primitive if the lowest is promised, and counts
-/// declared unobserved stay zero. Loading changes nothing either: loaded rays have the same hits as other rays, bit for
-/// bit.
+/// Checks that counting changes nothing: the hits are the same, at the same primitive if the lowest is promised, and
+/// counts declared unobserved stay zero. Loading changes nothing either: loaded rays have the same hits as other rays,
+/// bit for bit.
 ///
 /// # Errors
 /// One line per failing mesh.
@@ -66,7 +66,7 @@ pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(),
             let traced = match trace(&accel, &rays, subject.limit) {
                 Ok(traced) => traced,
                 Err(ended) => {
-                    // A single ray may cause the failure.
+                    // Find the first ray that also fails on its own.
                     let alone = rays.iter().find(|ray| trace(&accel, &[**ray], subject.limit).is_err());
                     let which = alone.map_or("all rays".into(), |ray| format!("ray \"{ray}\""));
                     return Err(format!("{place}: tracing {which} with counts failed: {ended}"));
@@ -109,7 +109,7 @@ pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(),
     outcome(lines)
 }
 
-/// The shape is possible: every triangle with an area is referenced, and the structure takes memory.
+/// Checks that the shape is possible: it references every triangle with an area, and the structure takes memory.
 ///
 /// # Errors
 /// One line per failing mesh.

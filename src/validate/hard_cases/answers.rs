@@ -24,14 +24,14 @@ pub struct Answers {
     pub build_ns: u64,
     /// Rays on which any hit contradicts closest hit.
     pub any_hit_errors: u64,
-    /// The number of rays, among some of them, whose hit on their own differs from the hit in a batch.
+    /// Rays whose hit on their own differs from the hit in a batch, among at most 500 rays traced again.
     pub unrepeatable: u64,
-    /// Time of these rays / time of the ordinary rays of the case, if it has any; median of interleaved passes.
+    /// Time per ray of the case / time per ordinary ray, if the case has ordinary rays; median of interleaved passes.
     pub slowness: Option<f64>,
     pub property: Option<Property>,
 }
 
-/// Encodes the bits, because numbers of JSON are finite.
+/// Encodes the bits: JSON has no infinite numbers and no NaN.
 fn hits_as_bytes<S: Serializer>(hits: &[Option<Hit>], serializer: S) -> Result<S::Ok, S::Error> {
     hits_to_bytes(hits).serialize(serializer)
 }
@@ -89,10 +89,10 @@ fn traced(accel: &dyn DynAccel, set: &Set, clock: &dyn Clock) -> Answers {
     Answers { hits, any_hit_errors, unrepeatable, slowness: slowness(accel, set, clock), ..Answers::default() }
 }
 
-/// Passes over these rays and over the ordinary ones.
+/// Number of passes over the case's rays and over its ordinary rays.
 const PASSES: usize = 15;
 
-/// Time of the case's rays / time of its ordinary rays.
+/// Time per ray of the case / time per ordinary ray.
 fn slowness(accel: &dyn DynAccel, set: &Set, clock: &dyn Clock) -> Option<f64> {
     if set.ordinary.is_empty() {
         return None;

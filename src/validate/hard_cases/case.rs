@@ -21,9 +21,9 @@ pub struct HardCase {
 
 /// The totals that include a case.
 ///
-/// The survey measured 71 cases and ranked 59. It did not rank the empty scene, vertices that are not finite, the ends
-/// of intervals, origins on a surface, and the six kinds of invalid rays. Of the 59, ten are extreme: scales of at most
-/// 1e-20 or at least 1e15, directions with such lengths, and origins 1e8 away.
+/// The survey measured the cases up to number 71 and ranked 59 of them. It did not rank the empty scene, vertices that
+/// are not finite, the ends of intervals, origins on a surface, and invalid rays. Of the 59, ten are extreme: scales of
+/// at most 1e-20 or at least 1e15, directions with such lengths, and origins 1e8 away.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Rank {

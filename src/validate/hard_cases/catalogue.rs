@@ -21,7 +21,7 @@ const OVERFLOW: &str = "Embree, FLT_LARGE; measured: every peer of f32 misses or
 const TIME: &str = "Embree, verify.cpp, nan_test and inf_test: time below 2.5 times the time of valid rays";
 
 cases! {
-    // Closed meshes from inside, near zero and far from it: every ray hits.
+    // Closed meshes from inside: every ray hits.
     Moderate 1 "closed_random", Hit => |n| Set::new(star(), n, 1, |_, s| Ray::new(inside(s), s.direction())),
         "Random rays inside a spiky closed star: the minimum requirement of watertight traversal.",
         "pbrt-v4, shapes_test.cpp, Triangle.Watertight";
@@ -258,8 +258,8 @@ cases! {
         "A ray from outside crosses a closed surface an even number of times.",
         "survey: volume and point-in-solid tests depend on it";
     Added 75 "metamorphic", Property => metamorphic,
-        "Reordered, mirrored and doubled scenes keep t; so do rotated, moved and cut scenes if the arithmetic is \
-         exact.",
+        "Reordered and mirrored scenes keep t, and scaling by a power of two scales t; rotated, moved and cut scenes \
+         keep t if the arithmetic is exact.",
         "survey: finds errors that a comparison with the same triangle test cannot find";
     Added 76 "any_equals_closest", Property => any_equals_closest,
         "Any hit has its own loop in most systems, with its own bugs.", "pbrt-v4: a second copy of the loop";
@@ -286,7 +286,7 @@ cases! {
          64.",
         "stacks of 32 or 64 entries in svenstaro/bvh and pbrt-v4";
     Added 84 "limits", Property => limits,
-        "Numbers of nodes and references must stay bounded where triangles cannot be separated, or memory runs out.",
+        "References and depth must stay bounded if no plane separates the triangles, or memory runs out.",
         "pbrt-v4, kd-tree: depth 8 + 1.3 log2 N and bad refines; Embree, regression with failing allocations";
 
     // Failures that reviews and fuzzing of this crate have found.

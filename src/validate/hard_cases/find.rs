@@ -3,7 +3,7 @@
 use super::case::HardCase;
 use super::catalogue::CASES;
 
-/// A name without a hard case.
+/// No hard case has this name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("there is no hard case {name:?}; similar names: {nearest}; `sahara list hard` lists all")]
 pub struct UnknownCase {

@@ -40,14 +40,14 @@ pub(super) fn sphere() -> Arc<Mesh> {
     indexed(model.positions, model.triangles)
 }
 
-/// The closed star of pbrt's watertight test: a sphere of 32 meridians and parallels whose vertices lie at random radii of
-/// 1 to 6. All points nearer to zero than 0.9 are inside.
+/// The closed star of pbrt's watertight test: a sphere of 32 meridians and parallels with vertices at random radii of 1
+/// to 6. All points nearer to zero than 0.9 are inside.
 pub(super) fn star() -> Arc<Mesh> {
     let mut sampler = Sampler::new(1);
     let [top, bottom, ..]: [f32; 2] = std::array::from_fn(|_| 1.0 + 5.0 * sampler.unit());
     let sphere = meshes::uv_sphere(32, 32);
     let points = sphere.positions.iter().map(|&p| {
-        // The vertices of a pole are one point.
+        // The vertices at a pole coincide, so they need the same radius.
         let pole = p.x == 0.0 && p.z == 0.0;
         let radius = 1.0 + 5.0 * sampler.unit();
         p * match p.y > 0.0 {
@@ -121,7 +121,7 @@ pub(super) fn ulp_copies() -> Arc<Mesh> {
     mesh((0..500).map(|_| TRIANGLE.map(|p| Vec3::from_array(p.to_array().map(&mut shift)))))
 }
 
-/// Needles without area along a line, and among them slivers with an area.
+/// Needles along a line: most have no area, every fourth is a sliver with an area.
 pub(super) fn line() -> Arc<Mesh> {
     let on_line = |i: usize, step: f32| Vec3::new(i as f32 * 0.125 + step, 0.0, 0.0);
     mesh((0..400).map(|i| {
@@ -156,7 +156,7 @@ pub(super) fn largest_numbers() -> Arc<Mesh> {
     }))
 }
 
-/// Each triangle stands across the x axis at its power of two, and has that size.
+/// A triangle at each power of two on the x axis, across this axis and as large as its distance from zero.
 pub(super) fn deep_chain() -> Arc<Mesh> {
     mesh((-60..=60).map(|exponent| {
         let at = libm::scalbnf(1.0, exponent);

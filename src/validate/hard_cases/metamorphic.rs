@@ -15,7 +15,7 @@ use crate::validate::{Sampler, has_replied};
 /// A change of a scene that keeps every `t`, or multiplies it by a power of two.
 struct Change {
     name: &'static str,
-    /// Whether every product rounds as before: then every test must return the same bits. Otherwise only an exact test
+    /// Whether every product rounds as before: then every test must return the same bits. Otherwise only the exact test
     /// must.
     same_rounding: bool,
     triangles: fn(&[[Vec3; 3]]) -> Vec<[Vec3; 3]>,
@@ -36,7 +36,7 @@ const SAME: Change = Change {
     factor: 1.0,
 };
 
-/// Coordinates of the scene are multiples of 2^-10 below 8: these changes are computed exactly.
+/// All changes are exact: coordinates of the scene are multiples of 2^-10 below 8.
 const CHANGES: [Change; 7] = [
     Change {
         name: "in another order",
@@ -63,7 +63,7 @@ fn halves(&[a, b, c]: &[Vec3; 3]) -> [[Vec3; 3]; 2] {
     [[a, b, middle], [a, middle, c]]
 }
 
-/// Compares the hits in a scene with those in its changes.
+/// Compares the hits in a scene with the hits in each changed scene.
 pub(super) fn metamorphic(subject: &Subject, rays: usize) -> Result<Property, BuildError> {
     let mut sampler = Sampler::new(75);
     let mut grid = |reach: f32| (sampler.cube() * (reach * 1024.0)).round() / 1024.0;

@@ -10,12 +10,12 @@ use crate::validate::conformance::Subject;
 use crate::validate::degenerate::{exponential, huge_and_small, needles, soup};
 use crate::validate::{Reference, Sampler, Stratum, Validation, has_replied, validate};
 
-/// Rays of one property, divided among strata and meshes.
+/// The number of rays for each of `among` strata and meshes, at least 4.
 pub(super) fn shared(rays: usize, among: usize) -> usize {
     rays.div_ceil(among).max(4)
 }
 
-/// The structure and brute force with its triangle test.
+/// The structure and the reference for its triangle test.
 fn with_reference(subject: &Subject, mesh: &Arc<Mesh>) -> Result<(Box<dyn DynAccel>, Reference), BuildError> {
     Ok(((subject.build)(mesh)?, Reference::of_test(subject.triangle_test, mesh)?))
 }
@@ -61,10 +61,10 @@ fn validated(
     Ok(property)
 }
 
-/// The maximum number of crossings in these scenes; a structure that does not advance is stopped here.
+/// The maximum number of rays per line, more than these scenes need: it stops a structure that does not advance.
 const CROSSINGS: usize = 4096;
 
-/// The rays that continue behind each hit of `ray` as `accel` finds them; the first is `ray` itself.
+/// `ray`, and a ray that continues behind each hit of `accel` on the same line.
 fn continued(accel: &dyn DynAccel, ray: Ray) -> Vec<Ray> {
     let mut rays = vec![ray];
     while let Some(hit) = accel.closest(&rays[rays.len() - 1..])[0] {
@@ -85,7 +85,7 @@ fn through_star(count: usize, seed: u64) -> Vec<Ray> {
     (0..count).map(ray).collect()
 }
 
-/// Compares each continued ray with brute force, whose hits are the next origins.
+/// Compares each ray that continues behind a hit of brute force with brute force.
 pub(super) fn continuation(subject: &Subject, rays: usize) -> Result<Property, BuildError> {
     let mesh = star();
     let (accel, reference) = with_reference(subject, &mesh)?;
@@ -97,7 +97,7 @@ pub(super) fn continuation(subject: &Subject, rays: usize) -> Result<Property, B
     Ok(Property { checked: found.rays, broken: found.errors(), example })
 }
 
-/// If brute force with the same test also counts an odd number, the test is to blame.
+/// Checks that each ray crosses a closed mesh an even number of times, or as often as brute force with the same test.
 pub(super) fn parity(subject: &Subject, rays: usize) -> Result<Property, BuildError> {
     let (accel, reference) = with_reference(subject, &star())?;
     let mut property = Property::default();
@@ -111,9 +111,9 @@ pub(super) fn parity(subject: &Subject, rays: usize) -> Result<Property, BuildEr
     Ok(property)
 }
 
-/// A tree with more references per triangle is out of control, over any mesh.
+/// The largest accepted number of references per triangle, on any mesh.
 const REFERENCES: usize = 64;
-/// A tree with more edges from root to leaf is out of control.
+/// The largest accepted number of edges from root to leaf.
 const DEPTH: usize = 1024;
 
 pub(super) fn limits(subject: &Subject, _rays: usize) -> Result<Property, BuildError> {

@@ -15,7 +15,7 @@ pub(super) fn inside(sampler: &mut Sampler) -> Vec3 {
     sampler.direction() * (0.5 * sampler.unit())
 }
 
-/// From at most half the radius away from the centre. Its vertices are rounded, but the surface stays closed.
+/// Rays from inside a sphere, at most half its radius from the centre. Rounded vertices leave the sphere closed.
 pub(super) fn in_sphere(count: usize, centre: Vec3, radius: f32) -> Set {
     let mesh = moved(&sphere(), |p| centre + p * radius);
     Set::new(mesh, count, 2, |_, sampler| Ray::new(centre + inside(sampler) * radius, sampler.direction()))
@@ -27,7 +27,7 @@ pub(super) fn nearly_axis(sampler: &mut Sampler, tiny: f32) -> Vec3 {
     direction
 }
 
-/// Along an axis, the other two components `zero`.
+/// A direction along an axis; the other two components are `zero`.
 pub(super) fn along_axis(sampler: &mut Sampler, zero: f32) -> Vec3 {
     let mut direction = Vec3::splat(zero);
     direction[sampler.below(3)] = sampler.sign();
@@ -39,8 +39,7 @@ fn on_grid(sampler: &mut Sampler) -> f32 {
     sampler.below(17) as f32 / 8.0 - 1.0
 }
 
-/// From outside the cube along an axis, through its face at t = 2. A negative direction has zeros of the other sign,
-/// like `-axis`.
+/// A ray along an axis from outside the cube, which it meets at t = 2. The zeros of a negative direction are -0.0.
 pub(super) fn face_plane(_: &Mesh, sampler: &mut Sampler) -> Ray {
     let (axis, sign) = (sampler.below(3), sampler.sign());
     let mut origin = [on_grid(sampler), on_grid(sampler), -3.0 * sign];
@@ -48,7 +47,7 @@ pub(super) fn face_plane(_: &Mesh, sampler: &mut Sampler) -> Ray {
     Ray::new(Vec3::from_array(origin), Vec3::AXES[axis] * sign)
 }
 
-/// Through a grid point of the cube from four steps away; without one of its components if `flat`.
+/// A diagonal ray through a grid point of the cube, from four steps away; one component is zero if `flat`.
 pub(super) fn diagonal(sampler: &mut Sampler, flat: bool) -> Ray {
     let through = Vec3::new(on_grid(sampler), on_grid(sampler), on_grid(sampler));
     let mut direction = Vec3::new(sampler.sign(), sampler.sign(), sampler.sign());
@@ -58,7 +57,7 @@ pub(super) fn diagonal(sampler: &mut Sampler, flat: bool) -> Ray {
     Ray::new(through - direction * 4.0, direction)
 }
 
-/// A point over the sheet.
+/// A point at `height` over the sheet.
 pub(super) fn at_height(sampler: &mut Sampler, height: f32) -> Vec3 {
     Vec3::new(sampler.signed(), sampler.signed(), height)
 }
@@ -68,7 +67,7 @@ pub(super) fn in_plane(_: &Mesh, sampler: &mut Sampler) -> Ray {
     Ray::new(at_height(sampler, 0.0), Vec3::new(direction.x, direction.y, 0.0))
 }
 
-/// Over a tilted sheet, whose vertices are slightly out of the plane by rounding.
+/// A ray at this slope to a tilted sheet, whose vertices rounding moves slightly out of the plane.
 pub(super) fn at_slope(sampler: &mut Sampler, slope: f32) -> Ray {
     let direction = sampler.direction();
     let flat = Vec3::new(direction.x, direction.y, 0.0).normalize_or(Vec3::X);
@@ -85,23 +84,23 @@ pub(super) fn overlapping(count: usize) -> Set {
     })
 }
 
-/// Every other ray starts in the plane x = 0.5.
+/// A random half of the rays starts in the plane x = 0.5.
 pub(super) fn from_split_plane(_: &Mesh, sampler: &mut Sampler) -> Ray {
     let x = if sampler.coin() { 0.5 } else { 0.5 + 2.0 * sampler.signed() };
     Ray::new(Vec3::new(x, sampler.signed(), sampler.signed()), sampler.direction())
 }
 
-/// Inside the star, mesh and origins times `scale`.
+/// Rays from inside the star; mesh and origins are multiplied by `scale`.
 pub(super) fn scaled(count: usize, scale: f32) -> Set {
     Set::new(star_times(scale), count, 11, |_, sampler| Ray::new(inside(sampler) * scale, sampler.direction()))
 }
 
-/// Inside the star, with directions of this length.
+/// Rays from inside the star, with directions of this length.
 pub(super) fn long(count: usize, length: f32) -> Set {
     Set::new(star(), count, 11, |_, sampler| Ray::new(inside(sampler), sampler.direction() * length))
 }
 
-/// Onto a field of strips, from above.
+/// Rays onto a field of strips, from above.
 pub(super) fn slivers(count: usize, placed: fn(Vec3) -> Vec3) -> Set {
     Set::new(moved(&strips(), placed), count, 12, |_, sampler| {
         let target = Vec3::new(1000.0 * sampler.unit(), sampler.unit(), 0.0);
@@ -115,7 +114,7 @@ pub(super) fn below(sampler: &mut Sampler) -> Vec3 {
     Vec3::new(sampler.signed(), sampler.signed(), -3.0 - 2.0 * sampler.unit())
 }
 
-/// Well inside the single triangle that the mesh copies.
+/// A ray to a point well inside the triangle that the mesh copies.
 pub(super) fn to_copies(_: &Mesh, sampler: &mut Sampler) -> Ray {
     let ([a, b, c], [u, v, w]) = (TRIANGLE, sampler.barycentric().map(|weight| 0.2 + 0.4 * weight));
     let origin = Vec3::new(sampler.signed(), sampler.signed(), 4.0 * sampler.sign());
@@ -127,16 +126,16 @@ pub(super) fn to_line(_: &Mesh, sampler: &mut Sampler) -> Ray {
     ray_to(target + Vec3::new(sampler.signed(), sampler.sign(), sampler.signed()), target)
 }
 
-/// From around the mesh towards its triangles.
+/// A ray from around the mesh to one of its triangles.
 pub(super) fn to_surface(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     let (centre, reach) = (mesh.bounds().centre(), mesh.bounds().extent().max_element());
     ray_to(centre + sampler.direction() * reach, on_surface(mesh, sampler))
 }
 
-/// Integer corners: eighths of edges are then exact.
+/// A triangle with integer corners: eighths of its edges are exact.
 pub(super) const SIMPLE: [Vec3; 3] = [Vec3::ZERO, Vec3::new(8.0, 0.0, 4.0), Vec3::new(0.0, 8.0, -4.0)];
 
-/// Towards a corner or an eighth of an edge, from a simple point in front, so the difference is exact: t is 1.
+/// A ray to a corner or an eighth of an edge, from a simple point in front: the difference is exact, so t is 1.
 pub(super) fn exactly_on_the_rim(_: &Mesh, sampler: &mut Sampler) -> Ray {
     let [a, b, c] = SIMPLE;
     let normal = (b - a).cross(c - a);
@@ -168,7 +167,7 @@ pub(super) fn around_shells(_: &Mesh, sampler: &mut Sampler) -> Ray {
     Ray::new(origin, (target - origin) / outermost)
 }
 
-/// A teapot in a closed box a hundred thousand times as large, from inside the box.
+/// Rays to a teapot, from inside a closed box a hundred thousand times as large.
 pub(super) fn stadium(count: usize) -> Set {
     let pot = pot();
     Set::new(joined(&pot, &moved(&box_grid(8), |p| p * 1e5)), count, 37, |_, sampler| {
@@ -177,8 +176,8 @@ pub(super) fn stadium(count: usize) -> Set {
     })
 }
 
-/// From just outside one triangle of the sequence, through all smaller ones. It is hit first; if products of three of
-/// its lengths overflow, the next one whose products do not overflow is hit instead.
+/// A ray from just outside one triangle of the sequence, through all smaller ones. It hits this triangle first. A test
+/// in which products of three lengths overflow there finds the next triangle without an overflow instead.
 pub(super) fn through_smaller(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     let [corner, ..] = mesh.corners(sampler.below(300) as u32);
     let side = |sampler: &mut Sampler| 0.05 + 0.2 * sampler.unit();
@@ -192,13 +191,13 @@ pub(super) fn along_chain(_: &Mesh, sampler: &mut Sampler) -> Ray {
     Ray::new(Vec3::new(at, 0.0, 0.0) + across * at, Vec3::X + across)
 }
 
-/// Through a sphere, with an interval around only the first or the second crossing.
+/// A ray through a sphere, whose interval contains only the first or only the second crossing.
 pub(super) fn window(_: &Mesh, sampler: &mut Sampler) -> Ray {
     let ray = ray_to(sampler.direction() * 3.0, sampler.cube() * 0.3);
     if sampler.coin() { ray.until(1.0) } else { Ray { t_min: 1.0, ..ray } }
 }
 
-/// From inside a cube to its upper face, in simple steps, so t is known: the interval is a function of t.
+/// A ray from inside a cube to its upper face. Simple numbers make t exact; `interval` maps t to the ray's interval.
 pub(super) fn to_the_lid(sampler: &mut Sampler, interval: fn(f32) -> (f32, f32)) -> Ray {
     let grid = |sampler: &mut Sampler| sampler.below(65) as f32 / 64.0 - 0.5;
     let origin = Vec3::new(grid(sampler), grid(sampler), grid(sampler));
@@ -248,7 +247,7 @@ pub(super) fn spoil_interval(sampler: &mut Sampler, ray: &mut Ray) {
     }
 }
 
-/// Products of three lengths of this star underflow, products of two do not.
+/// Products of three lengths of this star underflow; products of two do not.
 pub(super) fn in_tiny_star(count: usize) -> Set {
     let scale = libm::scalbnf(1.0, -47);
     Set::new(star_times(scale), count, 60, |mesh, sampler| {
@@ -264,7 +263,7 @@ pub(super) fn from_the_largest(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     Ray::new(Vec3::new(side, target.y, target.z), Vec3::new(-0.3 * side, drift.y, drift.z))
 }
 
-/// One triangle; the ray that was found first, and others towards or next to points of its edges.
+/// One triangle, the ray that first showed the failure, and rays towards or next to points of its edges.
 pub(super) fn along_edges(
     count: usize,
     seed: u64,
@@ -282,13 +281,13 @@ pub(super) fn along_edges(
     set
 }
 
-/// Towards a point of a needle through zero, from near its middle.
+/// A ray towards a point of a needle through zero, from near its middle.
 pub(super) fn along_needle(sampler: &mut Sampler, target: Vec3) -> Ray {
     let origin = sampler.cube() * 100.0;
     Ray::new(origin, (target - origin) / 64.0)
 }
 
-/// A hit whose exact t is below `t_max` and rounds to it.
+/// A ray with a hit whose exact t is below `t_max` and rounds to it.
 pub(super) fn before_the_end(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     loop {
         let corners = triangle(mesh, sampler);

@@ -51,16 +51,16 @@ pub struct RayScore {
     pub judged: ErrorCounts,
     /// Wrong depths by the coarse rule: visible in a picture.
     pub coarse_depth: u64,
-    /// Comparison with brute force: errors of the structure, and errors by rounding of its triangle test.
+    /// Comparison with brute force: errors of the structure, and rounding errors of its triangle test.
     pub validation: Validation,
-    /// Whether that brute force has the structure's own triangle test.
+    /// Whether `validation` distinguishes errors of the structure from errors of its triangle test.
     pub knows_structure_errors: bool,
     /// Rays on which any hit contradicts closest hit, or a batch contradicts a single ray.
     pub contradictions: u64,
     /// Hits whose `t` is not the nearest `f32` of the exact `t`, or whose primitive is not the nearest one with the
     /// lowest number. An exact test must have none.
     pub inexact: u64,
-    /// Time of the rays / time of ordinary rays.
+    /// Time per ray of the case / time per ordinary ray.
     pub slowness: Option<f64>,
     pub build_ns: u64,
 }
@@ -89,7 +89,7 @@ impl CaseTruth {
         Self { set: case.set(rays).map(with_truths), references: BTreeMap::new() }
     }
 
-    /// Scores the results of a structure over `test`.
+    /// Scores the results of a structure over the triangle test `test`.
     ///
     /// # Errors
     /// If brute force cannot be built over the mesh.
@@ -135,7 +135,7 @@ impl Score {
         }
     }
 
-    /// No miss, false hit, wrong depth (strict) or structure error, and no contradiction.
+    /// Whether there is no miss, false hit, wrong depth (strict), structure error or contradiction.
     pub fn is_clean(&self) -> bool {
         match self {
             Self::Rays(score) => score.judged.errors() == 0 && score.is_sound(),
@@ -144,7 +144,7 @@ impl Score {
         }
     }
 
-    /// No error that the structure causes, rather than its triangle test.
+    /// Whether no error is caused by the structure, rather than by its triangle test.
     pub fn is_sound(&self) -> bool {
         match self {
             Self::Rays(score) => score.is_sound(),
@@ -155,7 +155,7 @@ impl Score {
 }
 
 impl RayScore {
-    /// No hit that the structure lost or invented, under any rounding of its triangle test, and no contradiction.
+    /// Whether the structure lost and invented no hit, under any rounding of its test, and contradicts itself nowhere.
     fn is_sound(&self) -> bool {
         self.validation.errors() == 0 && self.contradictions == 0
     }

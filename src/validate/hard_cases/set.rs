@@ -17,7 +17,7 @@ pub struct Set {
 }
 
 impl Set {
-    /// `count` rays over `mesh`, drawn from their own seeded random numbers.
+    /// `count` rays over `mesh`, with random numbers from `seed`.
     pub(super) fn new(
         mesh: Arc<Mesh>,
         count: usize,

@@ -65,7 +65,7 @@ fn every_machine_makes_the_same_cases() {
             point.to_array().iter().for_each(|x| hasher.update(x.to_bits().to_le_bytes()));
         }
         set.mesh.triangles().iter().flatten().for_each(|index| hasher.update(index.to_le_bytes()));
-        // All NaNs are equal.
+        // Hash all NaNs alike.
         let number = |x: u32| if f32::from_bits(x).is_nan() { u32::MAX } else { x };
         bits(&set.rays).into_iter().for_each(|x| hasher.update(number(x).to_le_bytes()));
     }
@@ -104,8 +104,8 @@ fn what_must_be_hit_is_and_what_must_be_missed_is_not() {
     assert_eq!((hit, missed), (49, 10));
 }
 
-/// Rational numbers share nothing with the oracle and the exact test. They check all triangles of small meshes, and of
-/// other meshes the triangles that are hit first.
+/// Rational arithmetic shares no code with the oracle and the exact test. It checks all triangles of small meshes, and
+/// the first triangle hit of other meshes.
 #[test]
 fn rational_arithmetic_finds_the_same_truths() {
     let (mut whole, mut hits) = (0, 0);

@@ -1,4 +1,4 @@
-//! One triangle in `f64`, with bounds on the rounding.
+//! Intersects one triangle in `f64`, with bounds on the rounding errors.
 
 use glam::Vec3;
 
@@ -6,7 +6,7 @@ use crate::exact;
 use crate::geometry::Ray;
 use crate::simd::{Arithmetic, LaneVec3, Lanes, Portable, each};
 
-/// The decision of `f64` about a line and a triangle.
+/// The result of `f64` arithmetic for a line and a triangle.
 pub(super) enum Bounds {
     /// The line misses the triangle.
     Miss,
@@ -21,15 +21,15 @@ const UNIT: f64 = f64::EPSILON / 2.0;
 
 /// Bounds the intersection of the line of `ray` and a triangle, by Möller-Trumbore.
 ///
-/// **Bounds.** Let s = o - a, e and f the edges from a, u = s . (d x f), v = d . (s x e), det = e . (d x f), h = f . (s
-/// x e); the line meets the closed triangle if u, v, w = det - u - v have no opposite signs and det is not zero, at t =
-/// h / det. Let n = 2^-53, let E bound the components of e and f, D the components of d, and let |s| be the sum of the
-/// magnitudes of the components of s. Differences of inputs, products and sums have a relative error of n. So the error
-/// of the components of d x f is 3.1 n 2 D E, of the sum of the components of s x e 4.1 n 2 E |s|, and hence of u and v
-/// 7.1 n 2 D E |s|, of det 7.1 n 6 D E E, of w the sum of these and 2 n of its terms, 9.2 n (4 D E |s| + 6 D E E), and
-/// of h 8.1 n 2 E E |s|. The constants below are larger by more than the rounding of the bounds. `f32` inputs neither
-/// overflow nor underflow: products of three differences and a direction are below 2^520 and, if not zero, at least
-/// 2^-596.
+/// **Bounds.** Let o and d be origin and direction, a the first corner, s = o - a, e and f the edges from a, u = s . (d
+/// x f), v = d . (s x e), det = e . (d x f), h = f . (s x e). The line meets the closed triangle, at t = h / det, if
+/// det is not zero and no two of u, v and w = det - u - v have opposite signs. Let n = 2^-53, let E bound the
+/// components of e and f, D the components of d, and |s| be the sum of the magnitudes of the components of s.
+/// Differences of inputs, products and sums have a relative error of n. The errors are 3.1 n 2 D E for the components
+/// of d x f, 4.1 n 2 E |s| for the sum of the components of s x e, 7.1 n 2 D E |s| for u and v, 7.1 n 6 D E E for det,
+/// 9.2 n (4 D E |s| + 6 D E E) for w, and 8.1 n 2 E E |s| for h. The constants below exceed them by more than the
+/// rounding of the bounds. `f32` inputs neither overflow nor underflow: products of three differences and a direction
+/// are below 2^520 and, if not zero, at least 2^-596.
 #[inline(always)]
 pub(super) fn look(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
@@ -39,7 +39,7 @@ pub(super) fn look(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     let (det, u, v) = (edge1.dot(p), to_origin.dot(p), direction.dot(q));
     let w = det - u - v;
 
-    // Certainly opposite signs mean a miss.
+    // If two signs are certainly opposite, the line misses.
     let extent = edge1.abs().max(edge2.abs()).max_element();
     let distance = to_origin.abs().element_sum();
     let unit = UNIT * extent * direction.abs().max_element();
@@ -64,7 +64,7 @@ pub(super) fn look(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     Bounds::Hit { low: low.store()[0], high: high.store()[0] }
 }
 
-/// Like [`look`], for a line exactly through a corner and certainly not along the plane; `None` for others.
+/// Like [`look`], for a line exactly through a corner and certainly not along the plane; `None` for other lines.
 #[inline(always)]
 pub(super) fn look_at_corners(ray: &Ray, corners: [Vec3; 3]) -> Option<Bounds> {
     let corner = corners.into_iter().find(|&corner| exact::passes_through(ray, corner))?;
@@ -82,9 +82,9 @@ fn determinant(ray: &Ray, corners: [Vec3; 3]) -> (f64, f64) {
     (direction.dot(edge1.cross(edge2)), 48.0 * UNIT * extent * extent * direction.abs().max_element())
 }
 
-/// Bounds of the `t` at which the line, which is not perpendicular to the axis, has the same coordinate as a point. The
-/// difference of two floats has the right sign, and is zero if and only if they are equal; the difference and the
-/// division each have a relative error of a unit of 2^-53.
+/// Bounds of the `t` at which the line reaches the coordinate of a point on this axis. The line must not be
+/// perpendicular to the axis. The difference of two floats has the right sign, and is zero if and only if they are
+/// equal; the difference and the division each have a relative error of at most 2^-53.
 #[inline(always)]
 fn at_height(point: Vec3, ray: &Ray, axis: usize) -> Bounds {
     let t = (f64::from(point[axis]) - f64::from(ray.origin[axis])) / f64::from(ray.direction[axis]);
@@ -92,8 +92,8 @@ fn at_height(point: Vec3, ray: &Ray, axis: usize) -> Bounds {
     Bounds::Hit { low: t - error, high: t + error }
 }
 
-/// Whether the line misses the triangle, from det, whose sign is certain, and u, v and w with their errors, in the
-/// notation of [`look`]: whether one of these has not the sign of det, which is their sum.
+/// Whether the line misses the triangle: whether u, v or w, given with their errors, has the opposite sign of det,
+/// their sum. The sign of det is certain. The notation is from [`look`].
 #[inline(always)]
 fn passes_by(ray: &Ray, [a, b, c]: [Vec3; 3], det: f64, [u, v, w]: [(f64, f64); 3]) -> bool {
     let sign = det.total_cmp(&0.0);
@@ -104,8 +104,8 @@ fn passes_by(ray: &Ray, [a, b, c]: [Vec3; 3], det: f64, [u, v, w]: [(f64, f64); 
     is_opposite(u, a, c) || is_opposite(v, b, a) || is_opposite(w, c, b)
 }
 
-/// Like [`look`], for lines that are known to meet their triangles, one per lane: the lanes with bounds of the exact
-/// `t`, as bits, and the bounds. `t` is computed at the plane.
+/// Like [`look`], for one line and triangle per lane that are known to meet: the lanes for which bounds of the exact
+/// `t` are known, as bits, and the bounds.
 ///
 /// **Bounds.** In the notation of [`look`], the error of the components of the normal e x f is 4.1 n 2 E E, so the
 /// error of h = s . (e x f) is 8.1 n 2 E E |s|, and of det = -d . (e x f) 7.1 n 6 D E E.
@@ -129,7 +129,7 @@ pub(super) fn place<const N: usize, L: Lanes<N>>(
     (times(det_error, 1024.0).le(det.flip_sign(det)), low, high)
 }
 
-/// Like [`place`], for a line and a triangle in an axis-aligned plane, such as floors; `None` for others.
+/// Like [`place`], for an axis-aligned triangle, such as a floor; `None` for other triangles and for parallel lines.
 #[inline(always)]
 pub(super) fn place_in_axis_plane(ray: &Ray, [a, b, c]: &[Vec3; 3]) -> Option<Bounds> {
     let across = a.cmpeq(*b) & a.cmpeq(*c) & ray.direction.cmpne(Vec3::ZERO);
@@ -139,10 +139,10 @@ pub(super) fn place_in_axis_plane(ray: &Ray, [a, b, c]: &[Vec3; 3]) -> Option<Bo
 
 /// Bounds of the exact `t` of lines at triangles that they are known to meet, from the width of the filter's bounds.
 ///
-/// **Bounds.** The errors here are the filter's errors, with 2^-53 instead of 2^-24: for the same N, |s| and D the
-/// error of the height is less than 8.1 units of N |s|, of the determinant less than 7.1 of 3 D N. The filter has used
-/// 10, and 10 of 6 N for its scaled direction. So 2^-29 of half the width of its bounds covers both, and the other half
-/// the filter's own rounding; 2^-50 of `t` covers the division and later operations.
+/// **Bounds.** In the notation of the filter, but with units of 2^-53 instead of 2^-24, the error of the height is less
+/// than 8.1 units of N |s|, and of the determinant less than 7.1 units of 3 D N. The filter's bounds allow 10 units of
+/// N |s| and, for its scaled direction, 10 units of 6 N. So 2^-29 of half their width covers both errors; the other
+/// half covers the filter's own rounding. 2^-50 of `t` covers the division and later operations.
 #[inline(always)]
 pub(super) fn pass_plane<const N: usize, L: Lanes<N>>(
     origin: LaneVec3<N, L>,
@@ -159,8 +159,8 @@ pub(super) fn pass_plane<const N: usize, L: Lanes<N>>(
     (t.sub(error), t.add(error))
 }
 
-/// Like [`place`] for one line and triangle, with the exact height instead of a rounded one: at any distance of the
-/// origin from the plane, the bounds have only the relative error of the determinant, and in the plane they are zero.
+/// Like [`place`] for one line and triangle, with the exact height instead of a rounded one: the bounds have only the
+/// relative error of the determinant. If the origin lies in the plane, both are zero.
 pub(super) fn place_closely(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     let (det, det_error) = determinant(ray, corners);
     if det.abs() < 1024.0 * det_error || det == 0.0 {
@@ -172,7 +172,7 @@ pub(super) fn place_closely(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     Bounds::Hit { low: low.store()[0], high: high.store()[0] }
 }
 
-/// |h/d - h'/d'| <= (dh + |h'/d'| dd) / (|d'| - dd), where dd <= 2^-10 |d'|; the rest is within 2^-50.
+/// Bounds of h/d: |h/d - h'/d'| <= (dh + |h'/d'| dd) / (|d'| - dd), with dd <= 2^-10 |d'|, and 2^-50 for rounding.
 #[inline(always)]
 fn divide<const N: usize, D: Arithmetic<N, Scalar = f64>>(height: D, height_error: D, det: D, det_error: D) -> (D, D) {
     let abs = |x: D| x.flip_sign(x);

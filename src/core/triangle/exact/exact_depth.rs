@@ -10,7 +10,7 @@ use crate::simd::{EightLanes, LaneVec3, indexed};
 use crate::triangle::corners::Place;
 use crate::triangle::{BETWEEN_BOUNDS, DIRECTION, Depth, INPUTS, ORIGIN};
 
-/// The exact position of a hit along its ray: bounds of its `t` in `f32`, and the triangle if these do not decide.
+/// The exact position of a hit along its ray: bounds of its `t` in `f32`, and the triangle if the bounds do not decide.
 #[derive(Clone, Copy, Debug)]
 pub struct ExactDepth<'a> {
     low: f32,
@@ -27,7 +27,7 @@ impl<'a> ExactDepth<'a> {
         Self { low, high, width: high - low, triangle }
     }
 
-    /// The same with bounds that are not the filter's: their width does not determine the error of `f64`.
+    /// The same hit, whose bounds are not the filter's: their width does not bound the error of `f64`.
     #[inline(always)]
     pub(super) fn looked_up(self) -> Self {
         Self { width: f32::INFINITY, ..self }
@@ -49,7 +49,7 @@ impl<'a> ExactDepth<'a> {
 
     #[cold]
     fn exact(&self, ray: &Ray) -> exact::ExactT {
-        exact::hit(ray, self.triangle.corners()).expect("a depth is that of a hit")
+        exact::hit(ray, self.triangle.corners()).expect("a depth exists only for a hit")
     }
 
     /// The order of two hits of `ray` whose bounds overlap.
@@ -90,7 +90,7 @@ fn meet_at_a_corner(ray: &Ray, a: &[Vec3; 3], b: &[Vec3; 3]) -> bool {
     a.iter().any(|corner| b.contains(corner) && exact::passes_through(ray, *corner))
 }
 
-/// The same for a shared edge.
+/// Whether a line that is known to meet two triangles meets both in a shared edge.
 fn meet_at_an_edge(ray: &Ray, a: &[Vec3; 3], b: &[Vec3; 3]) -> bool {
     let shared = |edge: &[Vec3; 2]| b.contains(&edge[0]) && b.contains(&edge[1]);
     [[a[0], a[1]], [a[1], a[2]], [a[2], a[0]]]
@@ -164,15 +164,15 @@ impl Depth for ExactDepth<'_> {
 #[inline(always)]
 fn rounded(bounds: Bounds) -> Option<f32> {
     match bounds {
-        // The upper one: of two zeros it is the positive one.
+        // Of two zeros, the upper bound is the positive one.
         Bounds::Hit { low, high } if low as f32 == high as f32 => Some(high as f32),
         _ => None,
     }
 }
 
-/// The `t` of a line and a triangle that it is known to meet, rounded once, by exact arithmetic if necessary.
+/// The correctly rounded `t` of a line at a triangle that it is known to meet, by exact arithmetic if necessary.
 #[cold]
 fn exact_t(ray: &Ray, corners: [Vec3; 3]) -> f32 {
-    let exact = || exact::hit(ray, corners).expect("a depth is that of a hit").round();
+    let exact = || exact::hit(ray, corners).expect("a depth exists only for a hit").round();
     rounded(place_closely(ray, corners)).unwrap_or_else(exact)
 }

@@ -23,7 +23,7 @@ use enclosure::{Bounds, look, look_at_corners, place, place_closely, place_in_ax
 ///
 /// Guarantees: a ray hits a triangle if and only if the given ray meets the given closed triangle; hits are ordered by
 /// their exact `t`, at equal `t` by number; the returned `t` is the exact `t`, correctly rounded (so a `t` just before
-/// an open end `t_max` may be returned as `t_max`). In a structure that loses nothing, the result for every ray is the
+/// an open end `t_max` may be returned as `t_max`). In a structure that loses no hit, the result for every ray is the
 /// mathematical one. Not guaranteed: speed, if many rays pass exactly through edges or start in planes of triangles.
 /// Each such triangle costs 50 nanoseconds, or a microsecond if the significant bits of the coordinates span more than
 /// forty binary places. Results may be wrong if the processor is set to treat denormal numbers as zero.
@@ -35,7 +35,7 @@ use enclosure::{Bounds, look, look_at_corners, place, place_closely, place_in_ax
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Exact;
 
-/// The ray of both stages.
+/// A ray, prepared for both stages.
 #[derive(Clone, Copy, Debug)]
 pub struct ExactRay {
     filter: FilterRay,
@@ -62,7 +62,7 @@ impl TriangleTest for Exact {
         FilterBlock::new(triangles)
     }
 
-    /// Hits just before `t_max` may lie beyond the last float before it.
+    /// An exact `t` below `t_max` may lie above the float before `t_max`.
     #[inline(always)]
     fn last(t_max: f32) -> f32 {
         t_max
@@ -91,7 +91,7 @@ impl TriangleTest for Exact {
         bounds: &CandidateBounds<N>,
     ) -> Option<ExactDepth<'a>> {
         if let Some(decided) = Self::decide_at_once(ray, block, lane, bounds) {
-            // The bounds may come from `look_closer`, and must not be mistaken for the filter's.
+            // The bounds may come from `look_closer`: mark them as not the filter's.
             return decided.map(ExactDepth::looked_up);
         }
         let (low, high) = in_f64(&ray.ray, block.corners.place(lane), bounds.sure >> lane & 1 == 1)?;
@@ -115,7 +115,7 @@ impl TriangleTest for Exact {
         if high < start || end <= low {
             return Some(None);
         }
-        // Rays that leave a floor or a wall come here for each of its triangles that their lines meet.
+        // Rays that start in an axis-aligned floor or wall get here for each of its triangles that their lines meet.
         let bounds = place_in_axis_plane(&ray.ray, &block.corners.place(lane).corners())?;
         let inside = within(&ray.ray, bounds)?;
         Some(inside.map(|(low, high)| ExactDepth::new(block.corners.place(lane), low, high).looked_up()))
@@ -141,7 +141,7 @@ impl TriangleTest for Exact {
         active: L::Mask,
     ) -> Option<EightHits<L>> {
         let (rejected, candidates) = filter_eight(rays, block, lane, to);
-        // Branch, because many triangles of a leaf are missed by all rays: that saves the bounds.
+        // Return early: often all rays miss a triangle of a leaf, and the bounds need not be computed.
         if L::bits(active) & !L::bits(rejected) == 0 {
             return None;
         }
@@ -160,14 +160,14 @@ impl TriangleTest for Exact {
 
     #[inline(always)]
     fn order_closely(ray: &ExactRay, one: &ExactDepth, other: &ExactDepth) -> Ordering {
-        // Copy them: depths that are ordered at once then need not lie in memory.
+        // Copy the depths: those that are ordered without this call then need not lie in memory.
         let (one, other) = (*one, *other);
         one.order_closely(&other, &ray.ray)
     }
 }
 
-/// Decides in `f64`, or exactly, a triangle that `f32` could not: bounds of the exact `t` if the ray meets it. If
-/// `met`, the line is known to meet it. Rare, so out of line.
+/// Decides a triangle that `f32` leaves undecided, in `f64` or exactly: bounds of the exact `t`, or `None` for a miss.
+/// `met`: the line is known to meet the triangle. Not inlined, because it is rare.
 #[inline(never)]
 fn in_f64(ray: &Ray, triangle: Place, met: bool) -> Option<(f32, f32)> {
     let corners = triangle.corners();
@@ -184,7 +184,7 @@ fn in_f64(ray: &Ray, triangle: Place, met: bool) -> Option<(f32, f32)> {
         .unwrap_or_else(|| exactly(ray, corners))
 }
 
-/// Whether a hit with these bounds lies in the interval of `ray`, and its bounds in `f32`; `None` if undecided.
+/// The bounds of a hit in `f32` if it lies in the interval of `ray`, `Some(None)` for a miss, `None` if undecided.
 #[inline(always)]
 fn within(ray: &Ray, bounds: Bounds) -> Option<Option<(f32, f32)>> {
     let (start, end) = (f64::from(ray.interval().0), ray.end());
@@ -196,7 +196,7 @@ fn within(ray: &Ray, bounds: Bounds) -> Option<Option<(f32, f32)>> {
     }
 }
 
-/// Refines in `f64` the candidates of a block if more than two are too close for `f32`: those left, and their bounds.
+/// Refines candidates in `f64` if `f32` cannot decide more than two: the remaining candidates, and their bounds.
 struct Crowd<'a> {
     ray: &'a Ray,
     block: &'a FilterBlock<8>,
@@ -234,7 +234,7 @@ impl Kernel for Crowd<'_> {
     }
 }
 
-/// A quick test whether the triangle is axis-aligned, such as floors and walls, and the ray parallel to its plane.
+/// Whether the triangle lies in an axis-aligned plane, such as a floor or a wall, and the ray is parallel to it.
 #[inline(always)]
 fn runs_along(ray: &Ray, [a, b, c]: &[Vec3; 3]) -> bool {
     (a.cmpeq(*b) & a.cmpeq(*c) & ray.direction.cmpeq(Vec3::ZERO)).any()

@@ -1,11 +1,11 @@
-//! Eight rays and one triangle give the hits of each ray on its own.
+//! Checks that eight rays tested together have the hits of each ray on its own.
 
 use std::marker::PhantomData;
 
 use super::*;
 use crate::simd::{EightLanes, Kernel, LaneVec3, Level, dispatch, each};
 
-/// Eight rays, triangles, and the end of the search. The result: hits, and decided ones among them.
+/// Eight rays, triangles, and the end of the search. The result: the number of hits, and of decided hits.
 struct Eight<'a, T>(&'a [Ray; 8], &'a [[Vec3; 3]], f32, PhantomData<T>);
 
 impl<T: TriangleTest> Kernel for Eight<'_, T> {
@@ -19,7 +19,7 @@ impl<T: TriangleTest> Kernel for Eight<'_, T> {
         let block = T::block::<8>(triangles);
         let mut counts = [0; 2];
         for (lane, &corners) in triangles.iter().enumerate() {
-            // All except one.
+            // Activate all rays except the last.
             let found = T::meet_eight(&lanes, &block, lane, L::load(&to), L::mask(0x7f));
             let found =
                 found.map(|found| (L::bits(found.met), L::bits(found.missed), found.low.store(), found.high.store()));
@@ -62,7 +62,7 @@ fn eight<L: EightLanes>(rays: &[Ray; 8]) -> EightRays<L> {
     }
 }
 
-/// Rays of all sizes and of one size, from afar, with intervals that end nearby; at triangles of all kinds.
+/// The counts for random rays, aimed rays and rays of similar direction, some with short intervals.
 fn tell<T: TriangleTest>() -> [usize; 2] {
     let mut rng = Pcg32::seed_from_u64(12);
     let mut sums = [0; 2];
@@ -81,7 +81,7 @@ fn tell<T: TriangleTest>() -> [usize; 2] {
             if round % 7 == 0 { Ray { t_min: 0.5, ..ray }.until(1.5) } else { ray }
         };
         let rays: [Ray; 8] = std::array::from_fn(|_| one());
-        // Triangles that are too far away cannot be targets.
+        // Aimed rays are invalid if the triangle is too far away.
         if !rays.iter().all(Ray::is_valid) {
             continue;
         }

@@ -1,4 +1,4 @@
-//! Properties of every triangle test, and of nearly all of them.
+//! Properties of every triangle test, except `exact_on_a_grid`, which only some tests have.
 
 use std::marker::PhantomData;
 
@@ -26,7 +26,7 @@ fn all_widths_agree<T: TriangleTest>() {
         }
         hits
     }
-    /// Eight lanes on a level.
+    /// `check` with eight lanes of a SIMD level.
     struct Eight<'a, T>(&'a Ray, &'a [[Vec3; 3]], PhantomData<T>);
     impl<T: TriangleTest> Kernel for Eight<'_, T> {
         type Output = usize;
@@ -52,7 +52,7 @@ fn all_widths_agree<T: TriangleTest>() {
     assert!(hits > 5_000, "{}: too few hits for a meaningful test: {hits}", T::NAME);
 }
 
-/// Hits a slightly smaller triangle only if it hits this one, and this one only if it hits a slightly larger one.
+/// A ray hits this triangle if it hits a slightly smaller one, and only if it hits a slightly larger one.
 fn right_away_from_edges<T: TriangleTest>() {
     let mut rng = Pcg32::seed_from_u64(2);
     let mut hits = 0;
@@ -90,7 +90,7 @@ fn exact_on_a_grid<T: TriangleTest>() {
     assert!(hits > 1_000, "the grid must produce hits, or the test proves nothing: {hits}");
 }
 
-/// For any numbers the test does not crash, and returns no `t` outside the interval, except one rounded to the end.
+/// For any numbers, the test does not panic, and returns no `t` outside the interval except one rounded to its end.
 fn survives_all_numbers<T: TriangleTest>() {
     let mut rng = Pcg32::seed_from_u64(4);
     for _ in 0..30_000 {
@@ -104,7 +104,7 @@ fn survives_all_numbers<T: TriangleTest>() {
     }
 }
 
-/// If a test gives the true `t`, and that is a float: an interval has it if it begins there, not if it ends there.
+/// If the exact `t` is a float, an interval that begins there contains the hit; an interval that ends there does not.
 fn intervals_are_half_open<T: TriangleTest>() {
     let mut rng = Pcg32::seed_from_u64(13);
     let mut hits = 0;
@@ -133,7 +133,7 @@ fn intervals_are_half_open<T: TriangleTest>() {
     assert!(hits > 1_000, "{}: too few hits for a meaningful test: {hits}", T::NAME);
 }
 
-/// A ray without end ends at numbers whose nearest float is not finite.
+/// An unbounded ray ends before the numbers that round to infinity.
 fn a_t_beyond_the_largest_float_is_no_hit<T: TriangleTest>() {
     let at = |z: f32| [Vec3::new(-1.0, -1.0, z), Vec3::new(3.0, -1.0, z), Vec3::new(-1.0, 3.0, z)];
     let short = |length: f32| Ray::new(Vec3::ZERO, Vec3::new(0.0, 0.0, length));

@@ -12,7 +12,7 @@ fn hits_where_only_the_height_underflows_are_found() {
     assert_eq!(scalar_hit::<Exact>(&ray, corners), Some(0.0));
 }
 
-/// Some interval, often one that ends at the hit.
+/// The ray, often with an interval that begins or ends near the hit.
 pub(super) fn windowed(rng: &mut Pcg32, ray: Ray, corners: [Vec3; 3]) -> Ray {
     let t = judge::hit(&ray, corners).map_or(1.0, |t| t.round());
     let end = |rng: &mut Pcg32| match rng.next_u32() % 4 {
@@ -36,7 +36,7 @@ fn the_exact_test_agrees_with_the_judges_everywhere() {
         let ray = windowed(&mut rng, ray, corners);
         let found = scalar_hit::<Exact>(&ray, corners);
         assert_eq!(found.map(f32::to_bits), true_t(&ray, corners).map(f32::to_bits), "{ray:?} {corners:?}");
-        // These sums are also used by the test itself: a second judge shares nothing with it, but is slower.
+        // The test itself uses the sums of the first judge. The second judge shares nothing with it, but is slower.
         if round % 31 == 0 && ray.is_valid() {
             let second = rational::hit_within(&ray, corners);
             assert_eq!(found.map(f32::to_bits), second.map(f32::to_bits), "{ray:?} {corners:?}");
@@ -46,7 +46,7 @@ fn the_exact_test_agrees_with_the_judges_everywhere() {
     assert!(hits > 30_000, "{hits}");
 }
 
-/// Long, narrow or along axes, for which the filter knows heights best, and rays beside them.
+/// Triangles that are narrow or axis-aligned, for which the filter bounds heights best, and rays from nearby.
 pub(super) fn narrow(rng: &mut Pcg32) -> (Ray, [Vec3; 3]) {
     let mut corners = triangle(rng, unit);
     let width = libm::exp2f(-((rng.next_u32() % 24) as f32));
@@ -91,12 +91,12 @@ fn the_last_bits_of_eight_hits_are_those_of_each() {
                     assert_eq!(ts[lane], t, "{level}, {lane} of {which:b}: {inputs:?}");
                 }
             }
-            // Unused lanes contain zeros or NaN, which is not a hit.
+            // Fill unused lanes with zeros or NaN, which are no hit.
             inputs = [[[0.0, f32::NAN][len % 2]; 8]; INPUTS];
             owed.clear();
             len = 1 + rng.next_u32() as usize % 8;
         }
     }
-    // The filter decides every fourth case of this difficulty.
+    // The filter bounds `t` for at least a quarter of these difficult hits.
     assert!(hits > 200_000 && seen > 50_000, "{seen} of {hits}");
 }

@@ -1,4 +1,4 @@
-//! Compares the promises of the tests in `f64`, with their constants, with rationals.
+//! Checks the documented bounds of the tests in `f64` against rationals.
 
 use dashu_ratio::RBig;
 
@@ -25,7 +25,7 @@ impl Sizes {
     }
 }
 
-/// The promises of a test, all three times the determinant.
+/// The documented bounds of a test; `outside` and `t` are multiplied by the determinant.
 struct Bounds {
     /// A hit triangle is found if the determinant is larger.
     found: f64,
@@ -62,7 +62,7 @@ fn ulp(t: f64) -> f64 {
     f64::from(t.next_up()) - f64::from(t)
 }
 
-/// The deviations of a test within its promises.
+/// The numbers of hits and of errors within the documented bounds.
 #[derive(Debug, Default)]
 struct Freedom {
     hits: u32,
@@ -105,7 +105,7 @@ fn check<T: TriangleTest>(ray: &Ray, corners: [Vec3; 3], bounds: fn(&Sizes, f64)
     }
 }
 
-/// Needles and slivers, along which rays graze.
+/// A needle or sliver, and a ray that grazes it.
 fn needle(rng: &mut Pcg32) -> (Ray, [Vec3; 3]) {
     let long = point(rng, unit) * 1e6;
     let thin = |rng: &mut Pcg32| point(rng, unit) * libm::exp2f((rng.next_u32() % 20) as f32 - 8.0);
@@ -126,7 +126,7 @@ fn hold<T: TriangleTest>(bounds: fn(&Sizes, f64) -> Bounds) {
         }
     }
     let Freedom { hits, lost, invented, off } = freedom;
-    // Without any of these, only an exact test would meet its bound.
+    // Without such errors, the bounds would remain untested.
     assert!(hits > 2_000 && lost > 0 && invented > 0 && off > 20, "{}: {freedom:?}", T::NAME);
 }
 

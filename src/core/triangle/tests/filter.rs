@@ -1,11 +1,11 @@
-//! The first stage of the exact test loses nothing, leaves little, and is certain only of true hits.
+//! Checks that the first stage of the exact test loses no hit, leaves few misses, and is certain only of true hits.
 
 use super::super::filter::{FilterBlock, FilterRay, filter_block};
 use super::*;
 use crate::exact::ExactT;
 use crate::simd::{EightLanes, Kernel, Level, dispatch};
 
-/// The result of the first stage for one triangle, in lane 3 of 8: whether it is a candidate, and sure bounds of `t`.
+/// The result of the first stage for one triangle, in lane 3 of 8: whether it is a candidate; bounds of `t` if sure.
 struct Look<'a>(&'a Ray, [Vec3; 3], f32);
 
 impl Kernel for Look<'_> {
@@ -35,7 +35,7 @@ fn near(rng: &mut Pcg32) -> (Ray, [Vec3; 3]) {
 fn the_first_stage_loses_no_hit_is_right_when_sure_and_leaves_little() {
     let mut rng = Pcg32::seed_from_u64(6);
     let (mut hits, mut sure, mut narrow, mut cut) = (0, 0, 0, 0);
-    // Of ordinary rays without an end.
+    // Counts for ordinary unbounded rays.
     let (mut misses, mut kept, mut met, mut unsure) = (0, 0, 0, 0);
     for round in 0..400_000 {
         let (ray, corners) = match round % 3 {

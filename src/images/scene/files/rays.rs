@@ -67,7 +67,7 @@ impl RayFile {
     /// If a name contains a control character, which would garble tables.
     pub fn check_names(scene: &str, kind: &str) -> Result<(), String> {
         match [scene, kind].into_iter().find(|name| name.chars().any(char::is_control)) {
-            Some(name) => Err(format!("the name {name:?} holds a control character: choose another")),
+            Some(name) => Err(format!("the name {name:?} contains a control character: choose another")),
             None => Ok(()),
         }
     }
