@@ -45,9 +45,11 @@ pub fn announce(target: &str, scenes: &[Scene]) {
     );
 }
 
-/// Every structure over its first triangle test; brute force only on meshes of fewer than 10,000 triangles.
+/// Every structure over its first triangle test, except peers whose library is absent; brute force only on meshes of
+/// fewer than 10,000 triangles.
 pub fn structures(mesh: &Arc<Mesh>) -> Vec<Choice> {
     let registry = Registry::builtin();
     let names = registry.names().into_iter().filter(|&name| name != "brute-force" || mesh.len() < 10_000);
-    names.map(|name| registry.choose(name).expect("a registered name")).collect()
+    let choices = names.map(|name| registry.choose(name).expect("a registered name"));
+    choices.filter(|choice| choice.entry.absence().is_none()).collect()
 }
