@@ -1,10 +1,10 @@
 //! [bvh](https://github.com/svenstaro/bvh) 0.13 (crate `bvh`): a binary BVH by binned SAH, one triangle per leaf.
 //!
-//! The crate has no closest-hit query: it returns candidates, and its caller tests triangles. The adapter passes a
-//! custom query to its plain iterator: the crate's ray, with a box test that also rejects boxes behind the nearest hit
-//! so far. The iterator visits left before right, and panics on trees deeper than 32. The crate's ray (unit direction
-//! and inverse, by its own constructor) is prepared before the clock starts. The builder runs on the threads of the
-//! caller.
+//! The crate has no closest-hit query: it returns candidates, and the caller tests their triangles. The adapter passes
+//! a custom query to the crate's plain iterator: the crate's ray, with a box test that also rejects boxes behind the
+//! nearest hit so far. The iterator visits left before right, and panics on trees deeper than 32. The crate's ray (with
+//! unit direction and inverse, from its constructor) is prepared before the clock starts. The builder runs on the
+//! caller's threads.
 
 use std::cell::Cell;
 use std::sync::Arc;
@@ -71,7 +71,7 @@ impl IntersectsAabb<f32, 3> for PrunedRay<'_> {
     }
 }
 
-/// Boxes are tested in units of length, with more roundings than `t` has: their slack.
+/// Slack for box tests: the distance to a box is a length, with more roundings than `t`.
 const SLACK: f32 = 1.0 + 8.0 * f32::EPSILON;
 
 fn point(v: Vec3) -> Point3<f32> {
@@ -158,7 +158,7 @@ impl<T: TriangleTest> Accel for SvenstaroBvh<T> {
         let bounds = |own: &Aabb<f32, 3>| {
             geometry::Aabb::of_points([own.min, own.max].map(|corner| Vec3::from(<[f32; 3]>::from(corner))))
         };
-        // Nodes store the boxes of their children; the root's box is the hull of its two.
+        // Nodes store the boxes of their children: the root's box is the union of both.
         let root = match self.tree.nodes.first() {
             None => geometry::Aabb::EMPTY,
             Some(BvhNode::Leaf { shape_index, .. }) => bounds(&self.shapes[*shape_index].bounds),
@@ -176,7 +176,7 @@ impl<T: TriangleTest> Accel for SvenstaroBvh<T> {
 
 /// The triangle test of the crate: Möller-Trumbore over a unit direction; it culls back faces.
 ///
-/// Wrapped for both windings; `t` is divided by the direction's length. Rejects determinants and `t` below epsilon.
+/// The adapter tests both windings and divides `t` by the direction's length. Determinants and `t` below epsilon miss.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SvenstaroTest;
 

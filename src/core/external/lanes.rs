@@ -1,4 +1,4 @@
-//! Blocks of triangles for tests of other projects, which have no lanes.
+//! Blocks for the triangle tests of other projects, which test one triangle at a time.
 
 use glam::Vec3;
 
@@ -10,7 +10,7 @@ pub(super) fn block<B, const N: usize>(triangles: &[[Vec3; 3]], make: impl Fn([V
     std::array::from_fn(|lane| make(triangles.get(lane).copied().unwrap_or_default()))
 }
 
-/// The lanes with `t` in the interval, and all `t`; a miss is infinitely far.
+/// The lanes with a `t` in [`from`, `to`], as bits, and the `t` of all lanes; infinity for a miss.
 #[inline(always)]
 pub(super) fn candidates<const N: usize, L: Lanes<N>>(from: f32, to: f32, t: impl Fn(usize) -> f32) -> (u32, L) {
     let t = L::load(&indexed(t));

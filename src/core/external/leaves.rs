@@ -6,11 +6,11 @@ use crate::triangle::TriangleTest;
 /// The triangles with an area, in the order of the mesh, prepared for the test `T`, for a peer that tests boxes.
 pub(super) struct Leaves<T: TriangleTest> {
     triangles: Vec<T::Block<1>>,
-    /// The triangle of the mesh for each of them.
+    /// The number of each triangle in the mesh.
     pub ids: Vec<u32>,
 }
 
-/// The triangle test's data of a ray.
+/// A ray, also in the format of the triangle test, and its interval.
 pub(super) struct Start<T: TriangleTest> {
     pub asked: Ray,
     pub ray: T::Ray,
@@ -26,7 +26,7 @@ impl<T: TriangleTest> Start<T> {
         start::<T>(ray).map(|(t_min, nearest)| Self { asked: *ray, ray: T::prepare(ray), t_min, last: nearest.t })
     }
 
-    /// No hit yet.
+    /// The state of a search without a hit so far.
     #[inline(always)]
     pub fn nearest<'a>(&self) -> Nearest<T::Depth<'a>> {
         Nearest::until(self.last)
@@ -40,7 +40,7 @@ impl<T: TriangleTest> Leaves<T> {
         Self { triangles, ids }
     }
 
-    /// The boxes of the triangles, in order.
+    /// The boxes of the triangles, in the order of `ids`.
     pub fn boxes(&self, mesh: &Mesh) -> impl Iterator<Item = Aabb> {
         self.ids.iter().map(|&id| mesh.triangle_bounds(id))
     }

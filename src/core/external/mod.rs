@@ -1,14 +1,12 @@
 //! Structures of other projects: the baseline `obvhs`, and the peers, each behind its own feature (`peer-*`, or `peers`
 //! for all). The adapters do not handicap them.
 //!
-//! - **Rays** are converted to the peer's format once, before the clock starts
-//!   ([`Accel::load`](crate::accel::Accel::load)): its own ray with unit or inverse direction if it has one, and the
-//!   input of the triangle test. The structures of this crate prepare rays inside the timed region, so the comparison
-//!   favours the peers.
-//! - **Triangle tests**: the peer's own test, wrapped as a test of this crate if its API exposes it, which makes brute
-//!   force over it a possible reference; and the tests of this crate if the peer takes a closure.
-//! - **Triangles without area** are left out, as for all structures. An empty scene returns misses without a call to
-//!   the peer.
+//! - **Rays** are converted once, before the clock starts ([`Accel::load`](crate::accel::Accel::load)): to the peer's
+//!   own ray, with its unit or inverse direction, and to the input of the triangle test. The structures of this crate
+//!   prepare rays inside the timed region, so the comparison favours the peers.
+//! - **Triangle tests**: a peer uses its own test, and also the tests of this crate if it accepts a closure. If its API
+//!   exposes its test, the adapter wraps this test for this crate, so brute force over it can be a reference.
+//! - **Triangles without area** are left out, as for all structures.
 //! - **Conventions** that differ from the contract are declared
 //!   ([`Accel::CONVENTIONS`](crate::accel::Accel::CONVENTIONS)); `sahara list` prints them, and they do not count as
 //!   errors.

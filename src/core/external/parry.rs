@@ -1,10 +1,10 @@
 //! [parry](https://github.com/dimforge/parry) 0.31 (crate `parry3d`): a binary BVH, one triangle per leaf.
 //!
-//! The tree is built by the builder of parry's own mesh shape: top down, binned. It takes the leaf test as a closure,
-//! and traverses from near to far with early termination. The closure respects `t_min`, which parry's own mesh shape
-//! does not support; nothing is culled. The ray is two vectors; the crate computes its inverse direction itself, in the
-//! timed region, and accepts no precomputed one. parry has no query that stops at the first hit. For any hit, the leaf
-//! test of the adapter reports its first hit at t = -infinity, so every remaining box lies behind it.
+//! The tree is built by the builder of parry's own mesh shape: top down, binned. The query takes the leaf test as a
+//! closure, and traverses from near to far with early termination. The closure respects `t_min`, which parry's mesh
+//! shape does not support, and culls no back faces. The ray is two vectors; the crate computes the inverse direction in
+//! the timed region, and accepts no precomputed one. parry has no query that stops at the first hit. For any hit, the
+//! adapter's leaf test reports its first hit at t = -infinity, so every remaining box lies behind the hit.
 
 use std::cell::Cell;
 use std::sync::Arc;
@@ -46,7 +46,7 @@ impl<T: TriangleTest> ParryBvh<T> {
     #[inline]
     fn query<const ANY: bool, O: Observer>(&self, ready: &Ready<T>, observer: &mut O) -> Option<Hit> {
         let Ready { walked, t_max, start } = ready;
-        // The closure cannot change captured variables.
+        // The closure is `Fn`, so it cannot change captured variables.
         let (nearest, tests) = (Cell::new(start.nearest()), Cell::new(0));
         self.tree.cast_ray(walked, *t_max, |leaf, _| {
             let mut best = nearest.get();
@@ -100,12 +100,12 @@ impl<T: TriangleTest> Accel for ParryBvh<T> {
 
     prepared_queries!();
 
-    /// Nodes with the tables for moving objects.
+    /// The nodes include parry's tables for moving objects.
     fn footprint(&self) -> Footprint {
         Footprint { nodes: self.tree.total_memory_size(), ..self.leaves.footprint() }
     }
 
-    /// Without SAH cost: only a traversal can see the nodes of the tree.
+    /// The SAH cost is unknown, because parry shows the nodes only to traversals.
     fn shape(&self) -> TreeShape {
         let leaves = self.leaves.ids.len();
         if leaves <= 1 {
@@ -115,7 +115,7 @@ impl<T: TriangleTest> Accel for ParryBvh<T> {
             inner: leaves - 1,
             leaves,
             references: leaves,
-            // Counted in nodes.
+            // parry counts the depth in nodes.
             depth: self.tree.subtree_depth(0) as usize - 1,
             largest_leaf: 1,
             ..TreeShape::default()

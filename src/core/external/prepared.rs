@@ -49,7 +49,7 @@ pub(crate) fn load<'a, S: Prepare>(structure: &'a S, rays: &[Ray]) -> Box<dyn Lo
     Box::new(PreparedBatch { structure, rays: rays.iter().map(|ray| structure.ready(ray)).collect() })
 }
 
-/// A batch of such rays.
+/// A batch of prepared rays; `None` for rays that can hit nothing.
 struct PreparedBatch<'a, S: Prepare> {
     structure: &'a S,
     rays: Vec<Option<S::Ready>>,

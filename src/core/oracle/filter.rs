@@ -1,21 +1,21 @@
 //! The filter: one ray and one triangle in `f64`, with a proven error bound.
 //!
 //! # Proof
-//! Let `u` = 2^-53. The numbers are finite `f32`, hence exact in `f64`. Write `a`, `b`, `c` for the corners relative to
-//! the origin of the ray; each of their components is one subtraction, that is, the true one times (1 + e), |e| <= u.
+//! Let `u` = 2^-53. The numbers are finite `f32`, hence exact in `f64`. Let `a`, `b`, `c` be the corners relative to
+//! the ray's origin. Each of their components is computed by one subtraction: the true value times (1 + e), |e| <= u.
 //!
 //! *Nothing overflows, nothing underflows.* A component of `a`, of an edge or of the direction is 0 or between 2^-149
-//! and 2^129 in magnitude. Every rounded product of two is a multiple of 2^-350 (it is at least 2^-298, and has 53
-//! bits), and so is the difference of two such products, which hence is 0 or at least 2^-350; times a third component,
-//! at least 2^-499. Everything is below 2^(129 + 129 + 129 + 3) = 2^390. All of this is far from the ends of `f64`,
-//! 2^-1022 and 2^1024: every operation has a relative error of at most `u`, and a product is 0 only if a factor is.
+//! and 2^129 in magnitude. A rounded product of two components is 0 or at least 2^-298, and has 53 bits, so it is a
+//! multiple of 2^-350. The difference of two such products is therefore 0 or at least 2^-350, and times a third
+//! component 0 or at least 2^-499. All values are below 2^(129 + 129 + 129 + 3) = 2^390. The limits of `f64`, 2^-1022
+//! and 2^1024, are far away: every operation has a relative error of at most `u`. A product is 0 only if a factor is.
 //!
-//! *A triple product* `x . (y z)` is the sum of six terms `x_i y_j z_k`. On its way into the sum, a term is multiplied
-//! by at most eight factors (1 + e): one a component for its subtraction (3), the two products (2), the difference of
-//! two (1), the sum of three (2). So the computed sum is off by at most g P, where P is the sum of the magnitudes of
-//! the six true terms and g = 8u / (1 - 8u) (Higham 2002, section 3.1). The same sum of magnitudes, computed by the
-//! same operations, is at least (1 - g) P. Hence the error is at most g / (1 - g) times the *computed* sum of
-//! magnitudes, which is less than 16 u times it. The product by 16 u, a power of two, is exact.
+//! *A triple product* `x . cross(y, z)` is the sum of six terms `x_i y_j z_k`. Rounding multiplies each term by at most
+//! eight factors (1 + e): three for the subtractions of its components, two for its products, one for the difference
+//! of two products, two for the sum of three. So the error of the computed sum is at most g P, where P is the sum of
+//! the magnitudes of the six true terms and g = 8u / (1 - 8u) (Higham 2002, section 3.1). The sum of magnitudes,
+//! computed by the same operations, is at least (1 - g) P. Hence the error is at most g / (1 - g) times the *computed*
+//! sum of magnitudes, which is less than 16 u times this sum. The multiplication by 16 u, a power of two, is exact.
 //!
 //! # References
 //! Shewchuk: Adaptive precision floating-point arithmetic and fast robust geometric predicates. 1997 (the idea of the
@@ -30,14 +30,14 @@ use crate::geometry::Ray;
 /// 16 u.
 const BOUND: f64 = 16.0 / (1u64 << 53) as f64;
 
-/// 8 u, relative: more than the error of four roundings.
+/// 8 u: more than the relative error of four roundings.
 const OUTWARD: f64 = 8.0 / (1u64 << 53) as f64;
 
 /// The filter's proof about a ray and a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Proof {
     Missed,
-    /// The line meets the closed triangle, at a `t` within the span.
+    /// The line meets the closed triangle at a `t` within the span.
     Hit(Span),
     Undecided,
 }
@@ -50,7 +50,7 @@ pub struct Span {
 }
 
 impl Span {
-    /// A span around computed ends whose relative error is at most four roundings.
+    /// The span between computed ends, widened by more than the relative error of four roundings.
     pub fn outward(low: f64, high: f64) -> Self {
         Self { low: low - low.abs() * OUTWARD, high: high + high.abs() * OUTWARD }
     }
@@ -64,7 +64,7 @@ struct TripleProduct {
 }
 
 impl TripleProduct {
-    /// `x . (y z)`: see the proof above.
+    /// `x . cross(y, z)`: see the proof above.
     fn of(x: DVec3, y: DVec3, z: DVec3) -> Self {
         let value = x.x * (y.y * z.z - y.z * z.y) + x.y * (y.z * z.x - y.x * z.z) + x.z * (y.x * z.y - y.y * z.x);
         let (x, y, z) = (x.abs(), y.abs(), z.abs());
@@ -79,7 +79,7 @@ impl TripleProduct {
     }
 }
 
-/// Classifies the whole line of `ray`, of finite numbers, by the volumes of [`exact::hit`](crate::exact::hit).
+/// Classifies the whole line of `ray` by the volumes of [`exact::hit`](crate::exact::hit). All numbers must be finite.
 pub fn classify(ray: &Ray, corners: [Vec3; 3]) -> Proof {
     let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
     let corners = corners.map(|p| p.as_dvec3());
@@ -90,7 +90,7 @@ pub fn classify(ray: &Ray, corners: [Vec3; 3]) -> Proof {
         return Proof::Missed;
     }
 
-    // Compute the edges from the corners themselves: each component then has one rounding.
+    // Compute the edges from the absolute corners, so each component has only one rounding.
     let (e1, e2) = (corners[1] - corners[0], corners[2] - corners[0]);
     let whole = TripleProduct::of(direction, e1, e2);
     match whole.sign() {
@@ -100,12 +100,12 @@ pub fn classify(ray: &Ray, corners: [Vec3; 3]) -> Proof {
     }
 }
 
-/// Encloses `numerator / denominator`, whose denominator is known not to be 0.
+/// Encloses `numerator / denominator`. The denominator is known not to be 0.
 fn quotient(numerator: TripleProduct, denominator: TripleProduct) -> Span {
     let sign = denominator.value.signum();
     let (value, denominator) =
         (numerator.value * sign, TripleProduct { value: denominator.value * sign, ..denominator });
-    // Each of these has one rounding, each quotient one more: three together. Multiples of 2^-700 do not become 0.
+    // These four bounds and the quotients have one rounding each. The bounds, multiples of 2^-700, do not underflow.
     let (top_low, top_high) = (value - numerator.error, value + numerator.error);
     let (small, large) = (denominator.value - denominator.error, denominator.value + denominator.error);
     let low = top_low / if top_low < 0.0 { small } else { large };
@@ -126,7 +126,7 @@ mod tests {
             Proof::Missed => assert_eq!(truth, None, "{ray:?} {corners:?}"),
             Proof::Hit(span) => {
                 let t = truth.as_ref().expect("the filter has proved it");
-                // The approximation has two roundings fewer than the span allows.
+                // The approximation has fewer roundings than `outward` allows.
                 let near = Span::outward(t.approximate(), t.approximate());
                 assert!(span.low <= near.high && near.low <= span.high, "{span:?} {near:?}");
             }

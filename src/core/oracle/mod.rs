@@ -20,7 +20,7 @@ pub use outcome::{DepthRule, Outcome, outcome, ulp};
 pub struct Truth {
     /// The exact `t`.
     pub t: ExactT,
-    /// The numbers of all triangles that are hit there, ascending; at least one.
+    /// The numbers of all triangles that are hit at `t`, ascending; at least one.
     pub ids: Vec<u32>,
 }
 
@@ -30,12 +30,12 @@ impl Truth {
         self.t.round()
     }
 
-    /// Whether the hit is at one of these triangles, at any `t`.
+    /// Whether the primitive of `hit` is one of these triangles; the `t` of `hit` is ignored.
     pub fn names(&self, hit: Hit) -> bool {
         self.ids.binary_search(&hit.prim.index()).is_ok()
     }
 
-    /// The rounded `t` and the lowest number, which an exact triangle test must return.
+    /// The rounded `t` and the lowest number: the hit that an exact triangle test must return.
     pub fn first(&self) -> (f32, u32) {
         (self.rounded(), self.ids[0])
     }
@@ -45,8 +45,8 @@ impl Truth {
 ///
 /// It has three stages: a tree of boxes that loses no hit, `f64` arithmetic with a proven error bound, and exact sums
 /// of floats ([`exact`]) if that bound does not decide. It shares these sums with the triangle test
-/// [`Exact`](crate::triangle::Exact), and no other code with the structures and tests that it checks. The tests compare
-/// both with `exact::rational`.
+/// [`Exact`](crate::triangle::Exact), and no other code with the structures and triangle tests that it checks. Unit
+/// tests compare the oracle and `Exact` with `exact::rational`.
 pub struct Oracle {
     mesh: Arc<Mesh>,
     tree: tree::Tree,

@@ -80,7 +80,7 @@ impl<'a> NearestSearch<'a> {
 }
 
 impl NearestHit {
-    /// Computes `t` exactly, unless that is already done.
+    /// Computes the exact `t` if it is still unknown.
     fn compute_t(&mut self, ray: &Ray) {
         if self.t.is_none() {
             self.t = exact::hit(ray, self.corners);

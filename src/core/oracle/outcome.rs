@@ -3,28 +3,28 @@
 use super::Truth;
 use crate::geometry::Hit;
 
-/// The condition for a wrong depth.
+/// The tolerance for the depth of a hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DepthRule {
-    /// Allowed relative error at a primitive that is exactly the first one hit.
+    /// Allowed relative error of a hit on one of the exactly nearest primitives.
     right: f64,
-    /// Allowed relative error at any other primitive.
+    /// Allowed relative error of a hit on any other primitive.
     other: f64,
-    /// Error that is always allowed, in units in the last place of the exact `t` as an `f32`.
+    /// Error that is always allowed, in units in the last place (ulps) of the exact `t` as an `f32`.
     ulps: f64,
 }
 
 impl DepthRule {
-    /// Only errors that are visible in a picture: more than 1 % at the right primitive, more than 0.1 % at another.
+    /// Rejects errors that are visible in a picture: more than 1 % on a right primitive, more than 0.1 % on another.
     pub const COARSE: Self = Self { right: 1e-2, other: 1e-3, ulps: 0.0 };
 
-    /// More than 4 units in the last place and more than 1e-6, at any primitive.
+    /// Rejects errors that are both above 4 ulps and above 1e-6 of `t`, on any primitive.
     pub const STRICT: Self = Self { right: 1e-6, other: 1e-6, ulps: 4.0 };
 
-    /// Whether a hit at `found` counts as one at `t`, which is not negative. `right`: its primitive is hit there.
+    /// Whether `found` is within the tolerance of the exact `t`, which is at least 0; `right`: the primitive is right.
     pub fn allows(self, t: f64, found: f32, right: bool) -> bool {
         let allowed = (t * if right { self.right } else { self.other }).max(ulp(t) * self.ulps);
-        // This is false for NaN.
+        // The comparison is false if `found` is NaN.
         (f64::from(found) - t).abs() <= allowed
     }
 }
@@ -32,21 +32,21 @@ impl DepthRule {
 /// The outcome of one ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Outcome {
-    /// A miss, and the structure returns a miss.
+    /// The ray misses, and the structure returns a miss.
     Nothing,
     /// The right primitive at the right depth.
     Right,
-    /// A hit, and the structure returns a miss.
+    /// The ray hits, and the structure returns a miss.
     Missed,
-    /// A miss, and the structure returns a hit.
+    /// The ray misses, and the structure returns a hit.
     FalseHit,
-    /// A hit at a wrong depth, at any primitive.
+    /// A hit at a wrong depth, on any primitive.
     WrongDepth,
-    /// A hit at a primitive that is not among the nearest, but at their depth within the tolerance.
+    /// A hit on a primitive that is not among the nearest, but at their depth within the tolerance.
     WrongPrimitive,
 }
 
-/// The outcome of a ray with this hit.
+/// The outcome of a ray whose exact hit is `truth` if the structure returns `answer`.
 pub fn outcome(truth: Option<&Truth>, answer: Option<Hit>, rule: DepthRule) -> Outcome {
     match (truth, answer) {
         (None, None) => Outcome::Nothing,
@@ -63,7 +63,7 @@ pub fn outcome(truth: Option<&Truth>, answer: Option<Hit>, rule: DepthRule) -> O
     }
 }
 
-/// The distance between floats around `t`, which is not negative; below the normal range, between denormals.
+/// The distance between neighbouring floats at `t`, which is not negative; at least the distance of denormals.
 pub fn ulp(t: f64) -> f64 {
     let exponent = if t > 0.0 { libm::ilogb(t).clamp(-126, 127) } else { -126 };
     libm::ldexp(1.0, exponent - 23)

@@ -10,12 +10,12 @@ use crate::triangle::tests::{Number, any, grid, point, unit};
 pub struct Numbers {
     random: Pcg32,
     number: Number,
-    /// A power of two, with which denormals are coarse.
+    /// A power of two that multiplies the coordinates of points.
     scale: f32,
 }
 
 impl Numbers {
-    /// From harmless to hostile.
+    /// Ordinary numbers, denormal to very large numbers, numbers on a grid, and any floats.
     pub fn all() -> impl Iterator<Item = Self> {
         let powers = [127 << 23, 1 << 10, 1 << 23, 97 << 23, 157 << 23, 253 << 23];
         let scaled = powers.map(|bits| (unit as Number, f32::from_bits(bits)));
@@ -41,7 +41,7 @@ impl Numbers {
     }
 }
 
-/// Both oracles and the exact test use the same exact sums; the rational arithmetic shares nothing with them.
+/// The oracles and the exact triangle test share exact sums; rational arithmetic shares nothing with them.
 #[test]
 fn rational_arithmetic_agrees() {
     let mut hits = 0;
@@ -72,7 +72,7 @@ fn all_triangles_at_the_nearest_t_are_listed() {
     let truth = oracle.nearest(&ray).unwrap();
     assert_eq!((truth.rounded(), &truth.ids[..]), (1.0, &[1, 3, 4][..]));
     assert_eq!(nearest(&ray, &mesh), Some(truth));
-    // Half-open, at both ends.
+    // Both ends of the half-open interval.
     assert_eq!(oracle.nearest(&ray.until(1.0)), None);
     assert!(oracle.nearest(&ray.until(1.0_f32.next_up())).is_some());
     assert_eq!(oracle.nearest(&Ray { t_min: 1.0, ..ray }).unwrap().ids, [1, 3, 4]);

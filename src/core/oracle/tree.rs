@@ -5,18 +5,18 @@
 //! box is convex, so a point of a closed triangle is in the triangle's box, and in the box of every node above it.
 //!
 //! Let a ray hit a triangle at the exact `t`. For each axis, the coordinate `o + t d` is in the slab `[low, high]` of
-//! each of those boxes. If `d` is 0, of either sign, then `o` is in it, and the comparison of the two floats decides
-//! this exactly. If not, `t` is between `(low - o) / d` and `(high - o) / d`. Each is computed in `f64` with one
-//! rounding for the difference and one for the quotient: both are exactly 0 or in magnitude between 2^-149 / 2^128 and
-//! 2^129 / 2^-149, where nothing overflows or underflows. They are moved outward by four times the error of these two
-//! roundings. So the interval of a node, the intersection of the three slabs and of `[t_min, bound]`, contains `t`
-//! whenever `bound >= t`. A node is skipped only if its interval is empty: if the ray hits nothing in it within the
-//! ray's interval, or only behind the bound, which is never less than the exact `t` of a hit that has been found.
+//! each of those boxes. If `d` is 0 or -0, then `o` is in the slab, and comparisons of floats decide this exactly.
+//! Otherwise `t` is between `(low - o) / d` and `(high - o) / d`. Each quotient is computed in `f64` with one rounding
+//! for the difference and one for the division. It is exactly 0 or in magnitude between 2^-149 / 2^128 and
+//! 2^129 / 2^-149, where nothing overflows or underflows. It is moved outward by four times the error of these two
+//! roundings. The interval of a node is the intersection of the three slabs and of `[t_min, bound]`. It contains `t` if
+//! `bound >= t`. A node is skipped only if its interval is empty. Then every hit in the node is outside the interval of
+//! the ray or behind the bound, and the bound is never less than the exact `t` of the nearest hit so far.
 
 use super::filter::Span;
 use crate::geometry::{Aabb, Mesh, Ray};
 
-/// A binary BVH; each child has half of the triangles of its parent.
+/// A binary BVH; each child has half of its parent's triangles.
 pub struct Tree {
     /// Nodes in depth-first order.
     nodes: Vec<Node>,
@@ -38,7 +38,7 @@ enum NodeKind {
 
 const LEAF: usize = 4;
 
-/// The maximum number of nodes on the stack: one per level, and 2^30 triangles halved 28 times fit in a leaf.
+/// The maximum number of nodes on the stack: one per level. 2^30 triangles, halved 28 times, fit in a leaf.
 const STACK: usize = 32;
 
 impl Tree {
@@ -71,8 +71,8 @@ impl Tree {
         self.grow(second);
     }
 
-    /// Calls `test` for every triangle that `ray` hits in its interval up to `bound`, and for some that it misses. `test`
-    /// returns the bound for the remaining triangles, which may only decrease. `ray` must be valid.
+    /// Calls `test` for every triangle that `ray` hits in its interval up to `bound`, and for some that it misses.
+    /// `test` returns the bound for the remaining triangles, which may only decrease. `ray` must be valid.
     pub fn visit(&self, ray: &Ray, mut bound: f64, mut test: impl FnMut(u32) -> f64) {
         let enter = |index: u32, bound: f64| Some((index, near(ray, &self.nodes.get(index as usize)?.bounds, bound)?));
         let mut stack = [(0, 0.0); STACK];
@@ -111,7 +111,7 @@ impl Tree {
     }
 }
 
-/// A lower bound of the `t` in [`t_min`, `bound`] at which `ray` is in the box; `None` if it provably never is.
+/// A lower bound of the `t` in [`t_min`, `bound`] at which `ray` is in the box; `None` if `ray` certainly misses it.
 fn near(ray: &Ray, bounds: &Aabb, bound: f64) -> Option<f64> {
     let (mut near, mut far) = (f64::from(ray.interval().0), bound);
     let Ray { origin, direction, .. } = ray;

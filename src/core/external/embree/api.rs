@@ -6,22 +6,23 @@ use std::sync::OnceLock;
 
 use libloading::Library;
 
-/// Names the library to load.
+/// The environment variable with the path of the library.
 pub const VARIABLE: &str = "SAHARA_EMBREE";
 
-/// Names for the system's search path.
+/// File names of the library on the system's search path.
 const NAMES: [&str; 4] = ["libembree4.so.4", "libembree4.so", "libembree4.4.dylib", "embree4.dll"];
 
 /// An object of Embree.
 pub type Handle = *mut c_void;
 
-/// Receives errors: the pointer given with the function, the code, a sentence.
+/// A callback for errors. It receives the pointer registered with it, the code and a message.
 pub type OnError = unsafe extern "C" fn(*mut c_void, c_int, *const c_char);
 
-/// Receives changes of memory: the pointer given with the function, bytes, whether it has happened. May refuse.
+/// A callback for memory. It receives its registered pointer, a change in bytes, and whether the change has happened.
+/// It returns false to refuse the change.
 pub type OnMemory = unsafe extern "C" fn(*mut c_void, isize, bool) -> bool;
 
-/// The options of a query: the head of `RTCIntersectArguments` and `RTCOccludedArguments`, and some space.
+/// The options of a query: `RTCIntersectArguments` or `RTCOccludedArguments`.
 #[repr(C)]
 pub struct Arguments {
     pub flags: c_uint,
@@ -29,7 +30,7 @@ pub struct Arguments {
     pub rest: [usize; 5],
 }
 
-/// Kinds of geometry, buffers and formats, as numbered in its headers.
+/// Kinds of geometry, buffers and formats, as numbered in Embree's headers.
 pub const TRIANGLES: c_int = 0;
 pub const INDICES: c_int = 0;
 pub const VERTICES: c_int = 1;
@@ -37,12 +38,12 @@ pub const UINT3: c_int = 0x5003;
 pub const FLOAT3: c_int = 0x9003;
 const VERSION: c_int = 0;
 
-/// A flag of scenes: Plücker instead of Möller-Trumbore, and widened boxes.
+/// The scene flag `RTC_SCENE_FLAG_ROBUST`: Plücker instead of Möller-Trumbore, and widened boxes.
 pub const ROBUST: c_int = 4;
 
 macro_rules! api {
     ($($field:ident = $symbol:literal: fn($($argument:ty),*) $(-> $result:ty)?;)*) => {
-        /// Its functions.
+        /// The functions of Embree.
         pub struct Api {
             $(pub $field: unsafe extern "C" fn($($argument),*) $(-> $result)?,)*
         }
@@ -84,8 +85,7 @@ api! {
     occluded16 = "rtcOccluded16": fn(*const c_int, Handle, *mut c_void, *const Arguments);
 }
 
-/// Embree 4, loaded once and never unloaded: its threads outlive its objects. If it is missing or has another version,
-/// the sentence contains a remedy.
+/// Loads Embree 4 once; never unloads it, because its threads outlive its objects. The error contains a remedy.
 pub fn api() -> Result<&'static Api, String> {
     static LOADED: OnceLock<Result<(Library, Api), String>> = OnceLock::new();
     LOADED.get_or_init(load).as_ref().map(|(_, api)| api).map_err(String::clone)
@@ -93,8 +93,8 @@ pub fn api() -> Result<&'static Api, String> {
 
 fn load() -> Result<(Library, Api), String> {
     let named = env::var_os(VARIABLE).filter(|path| !path.is_empty());
-    // SAFETY: loading runs the initialisers of the library. The user names it, or it is the system's own
-    // Embree: both are trusted to be the named library.
+    // SAFETY: loading runs the initialisers of the library. It is the library that the user names, or the system's
+    // Embree; both are trusted.
     let open = |name: &OsStr| unsafe { Library::new(name) };
     let library = match &named {
         Some(path) => open(path)
@@ -122,7 +122,7 @@ fn load() -> Result<(Library, Api), String> {
         }
         (api, version)
     };
-    // 40400 for 4.4.0.
+    // The version of 4.4.0 is 40400.
     if version / 10_000 != 4 {
         return Err(other(&format!("its version is {}.{}", version / 10_000, version / 100 % 100)));
     }

@@ -11,9 +11,9 @@ use crate::geometry::Mesh;
 /// Errors and memory that Embree reports.
 #[derive(Default)]
 struct Monitor {
-    /// The first error since the last look.
+    /// The first error since the last call of `refusal`.
     error: Mutex<Option<String>>,
-    /// Bytes that it has allocated.
+    /// Bytes that Embree has allocated.
     bytes: AtomicIsize,
 }
 
@@ -23,8 +23,8 @@ pub struct Scene {
     device: Handle,
     /// The scene, committed.
     pub(super) handle: Handle,
-    /// Embree stores a pointer to it. In an `Arc`, whose content stays in place and may be shared: a pointer into a
-    /// `Box` is no longer valid once the box is moved.
+    /// Embree stores a pointer to this. The content of an `Arc` stays in place and may be shared; a pointer into a
+    /// `Box` becomes invalid when the box is moved.
     monitor: Arc<Monitor>,
 }
 
@@ -34,14 +34,14 @@ unsafe impl Send for Scene {}
 unsafe impl Sync for Scene {}
 
 /// # Safety
-/// `monitor` is the pointer given with this function, and outlives the device; `text` is null or a string of C.
+/// `monitor` is the pointer registered with this function, and outlives the device; `text` is null or a C string.
 unsafe extern "C" fn on_error(monitor: *mut c_void, _: c_int, text: *const c_char) {
     // SAFETY: by the contract of this function the monitor lives.
     let monitor = unsafe { &*monitor.cast::<Monitor>() };
     let sentence = if text.is_null() {
         "it gives no reason".into()
     } else {
-        // SAFETY: by the contract of this function it is a string of C, because it is not null.
+        // SAFETY: by the contract of this function `text` is a C string, because it is not null.
         unsafe { CStr::from_ptr(text) }.to_string_lossy().into_owned()
     };
     if let Ok(mut error) = monitor.error.lock() {
@@ -50,7 +50,7 @@ unsafe extern "C" fn on_error(monitor: *mut c_void, _: c_int, text: *const c_cha
 }
 
 /// # Safety
-/// `monitor` is the pointer given with this function, and outlives the device.
+/// `monitor` is the pointer registered with this function, and outlives the device.
 unsafe extern "C" fn on_memory(monitor: *mut c_void, bytes: isize, _: bool) -> bool {
     // SAFETY: by the contract of this function the monitor lives.
     unsafe { &*monitor.cast::<Monitor>() }.bytes.fetch_add(bytes, Ordering::Relaxed);
@@ -58,12 +58,12 @@ unsafe extern "C" fn on_memory(monitor: *mut c_void, bytes: isize, _: bool) -> b
 }
 
 impl Scene {
-    /// Builds over the triangles `ids` of `mesh`; `device` is the configuration that `rtcNewDevice` takes.
+    /// Builds a scene of the triangles `ids` of `mesh`; `device` is the configuration for `rtcNewDevice`.
     pub fn new(mesh: &Mesh, ids: &[u32], flags: c_int, quality: c_int, device: &str) -> Result<Self, BuildError> {
         let api = api().map_err(BuildError::Unavailable)?;
         let options = CString::new(device).expect("no zero inside");
-        // SAFETY: the calls and their order follow Embree's manual. The monitor given to the functions is stored in
-        // `scene`, which releases the device before it drops the monitor, even after a failure.
+        // SAFETY: the calls and their order follow Embree's manual. The monitor registered here is stored in `scene`,
+        // which releases the device before it drops the monitor, even after a failure.
         unsafe {
             let device = (api.new_device)(options.as_ptr());
             if device.is_null() {
@@ -86,11 +86,11 @@ impl Scene {
         }
     }
 
-    /// Passes the triangles. Embree pads and aligns the buffers that it makes itself.
+    /// Copies the triangles to buffers that Embree allocates, pads and aligns.
     fn attach(&self, mesh: &Mesh, ids: &[u32], quality: c_int) -> Result<(), BuildError> {
         let (api, positions) = (self.api, mesh.positions());
-        // SAFETY: the buffers are not null, and have the requested number of items of 12 bytes, which the loops write;
-        // the geometry is released here and kept alive by the scene.
+        // SAFETY: the buffers are not null, and have space for the items of 12 bytes that are written. The scene keeps
+        // the geometry alive after its release here.
         unsafe {
             let geometry = (api.new_geometry)(self.device, TRIANGLES);
             let vertices: *mut Vec3 = (api.new_buffer)(geometry, VERTICES, 0, FLOAT3, 12, positions.len()).cast();
@@ -124,7 +124,7 @@ impl Scene {
 
 impl Drop for Scene {
     fn drop(&mut self) {
-        // SAFETY: `new` has made both, and only this releases them; the monitor is dropped later.
+        // SAFETY: `new` has created both objects, and only `drop` releases them; the monitor is dropped later.
         unsafe {
             (self.api.release_scene)(self.handle);
             (self.api.release_device)(self.device);

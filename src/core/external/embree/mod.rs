@@ -4,8 +4,8 @@
 //! Its flag ROBUST changes both the triangle test and the box test, so there are two structures: `embree` and
 //! `embree-robust`. Only its own triangle test is available; brute force over it uses a scene of one triangle for each
 //! tested triangle ([`alone`]). Rays and packets of eight or sixteen are converted to its format before the clock
-//! starts: 48, 384 and 768 bytes, all that it reads. Each query gets a copy on the stack, followed by an empty hit.
-//! Builds run on the threads of the caller. The shape of its tree is unknown, so the adapter reports one leaf.
+//! starts: 48, 384 and 768 bytes, all that Embree reads. Each query gets a copy on the stack; a closest-hit query adds
+//! an empty hit. Builds use the caller's number of threads. The adapter cannot see the tree and reports one leaf.
 //!
 //! # References
 //! Wald, Woop, Benthin, Johnson, Ernst: Embree: a kernel framework for efficient CPU ray tracing. SIGGRAPH 2014.
@@ -26,11 +26,11 @@ use api::Arguments;
 use device::Scene;
 use rays::Packet;
 
-/// A scene of Embree. Its triangle test is Möller-Trumbore, and it computes boxes by fused multiply-add; with `ROBUST`
+/// A scene of Embree. Its triangle test is Möller-Trumbore, and it tests boxes by fused multiply-add; with `ROBUST`
 /// (`RTC_SCENE_FLAG_ROBUST`), the test is Plücker and the boxes are widened.
 pub struct Embree<const ROBUST: bool> {
     scene: Scene,
-    /// The triangle of the mesh for each triangle of the scene.
+    /// The number in the mesh of each triangle of the scene.
     ids: Vec<u32>,
     packet: Lanes,
     arguments: Arguments,
@@ -40,13 +40,13 @@ pub struct Embree<const ROBUST: bool> {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EmbreeConfig {
-    /// Its build quality.
+    /// Embree's build quality.
     pub quality: Quality,
     /// Rays per query: 1, 8 or 16. Packets of the register width are the fastest: 8 with AVX2, 16 with AVX-512.
     pub packet: Lanes,
     /// Whether queries declare the rays of a packet as coherent.
     pub rays: Rays,
-    /// The instructions that it may use.
+    /// The instructions that Embree may use.
     pub isa: Isa,
 }
 
@@ -56,7 +56,7 @@ pub struct EmbreeConfig {
 pub enum Quality {
     /// Binned surface area heuristic.
     Medium = 1,
-    /// With spatial splits.
+    /// Binned surface area heuristic with spatial splits.
     #[default]
     High = 2,
 }
@@ -89,10 +89,10 @@ pub enum Rays {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Isa {
-    /// All of the processor.
+    /// All instructions of the processor.
     #[default]
     Native,
-    /// None beyond AVX2, to compare with a build for processors without AVX-512.
+    /// At most AVX2, to compare with a build for processors without AVX-512.
     Avx2,
 }
 
@@ -112,7 +112,7 @@ impl From<Lanes> for u32 {
     }
 }
 
-/// A batch of rays in packets; the last one has the remaining rays.
+/// A batch of rays in packets; the last packet has the remaining rays.
 struct Packets<'a, const LANES: usize, const ROBUST: bool> {
     structure: &'a Embree<ROBUST>,
     packets: Vec<Packet<LANES>>,
@@ -193,7 +193,7 @@ impl<const ROBUST: bool> Accel for Embree<ROBUST> {
         }
     }
 
-    /// As counted by Embree's memory monitor, including buffers of corners.
+    /// Embree's memory monitor counts the bytes, including the buffers of corners.
     fn footprint(&self) -> Footprint {
         let references = size_of_val(&self.ids[..]);
         Footprint { references, other: self.scene.bytes(), ..Footprint::default() }
@@ -204,7 +204,7 @@ impl<const ROBUST: bool> Accel for Embree<ROBUST> {
     }
 }
 
-/// The result of Embree's triangle test without a traversal: a scene of one triangle. Takes up to a millisecond.
+/// The `t` of Embree's triangle test alone, from a scene of one triangle. Takes up to a millisecond.
 pub fn alone<const ROBUST: bool>(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
     let mesh = Arc::new(Mesh::new(corners.into(), vec![[0, 1, 2]]).ok()?);
     let config = EmbreeConfig { quality: Quality::Medium, ..Default::default() };

@@ -40,10 +40,10 @@ const _: () = assert!(offset_of!(Query<1>, normal) == 48 && size_of::<Query<1>>(
 const _: () = assert!(offset_of!(Query<8>, normal) == 384 && size_of::<Query<8>>() >= 672);
 const _: () = assert!(offset_of!(Query<16>, normal) == 768 && size_of::<Query<16>>() == 1344);
 
-/// At most `LANES` rays, 1, 8 or 16; rays that are not valid are left out of the query.
+/// At most `LANES` rays; `LANES` is 1, 8 or 16. Queries skip invalid rays.
 #[repr(C, align(64))]
 pub struct Packet<const LANES: usize> {
-    /// -1 for the used lanes.
+    /// -1 in lanes with a valid ray, otherwise 0.
     valid: [c_int; LANES],
     rays: RayLanes<LANES>,
 }
@@ -69,7 +69,7 @@ impl<const LANES: usize> Packet<LANES> {
                 packet.direction[axis][lane] = ray.direction[axis];
             }
             packet.t_near[lane] = t_min;
-            // Embree's end is closed.
+            // Embree's interval includes its end.
             packet.t_far[lane] = if t_max == f32::INFINITY { t_max } else { t_max.next_down() };
             valid[lane] = -1;
         }
@@ -93,7 +93,7 @@ impl<const LANES: usize> Packet<LANES> {
         };
         let (api, valid, rays) = (scene.api, self.valid.as_ptr(), (&raw mut query).cast());
         // SAFETY: `Scene::new` has committed the scene; mask and rays have the alignment that Embree requires, and are
-        // as large as any that Embree 4 reads and writes (asserted at their types).
+        // as large as the types that Embree 4 reads and writes (asserted at their types).
         unsafe {
             match LANES {
                 1 if self.valid[0] == 0 => {}

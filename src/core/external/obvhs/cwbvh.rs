@@ -13,7 +13,7 @@ use obvhs::triangle::Triangle;
 use super::{Tree, aabb};
 use crate::accel::{Observer, Part, TreeShape};
 
-/// Compressed, 8 wide: 80-byte nodes, at most three triangles a leaf.
+/// Eight-wide nodes, compressed to 80 bytes; at most three triangles per leaf.
 ///
 /// # References
 /// Ylitie, Karras, Laine: Efficient incoherent ray traversal on GPUs through compressed wide BVHs. HPG 2017.
@@ -28,7 +28,7 @@ impl Tree for CwBvh {
         (&mut self.nodes, &mut self.primitive_indices)
     }
 
-    /// Follows the links as a traversal does: children have triangles (the first, a bit for each) or an index.
+    /// A child encodes a leaf, by its first triangle and one bit per triangle, or the index of a node.
     fn leads_inside(&self, triangles: usize) -> bool {
         self.nodes.iter().all(|node| {
             (0..8).filter(|&child| !node.is_child_empty(child)).all(|child| {
@@ -43,8 +43,8 @@ impl Tree for CwBvh {
         })
     }
 
-    /// The traversal of obvhs through its own macro, as its documentation recommends, over nodes without a check of
-    /// bounds. A group of triangles in a node does not count as a node, so only inner nodes are steps.
+    /// The traversal of obvhs by its own macro, as its documentation recommends, without bounds checks of nodes. The
+    /// observer counts inner nodes and triangles: a leaf is a part of its parent, not a node.
     ///
     /// # Safety
     /// As for [`Tree::walk`].
@@ -58,8 +58,8 @@ impl Tree for CwBvh {
         let mut hit = RayHit::none();
         let mut state = self.new_traversal(ray.direction);
         let mut node;
-        // SAFETY: the traversal begins at the root, if there is one, and continues only to children, which exist:
-        // `leads_inside` holds by the contract of this function.
+        // SAFETY: the traversal begins at the root, if it exists, and continues only to children. All children exist,
+        // because `leads_inside` holds by the contract of this function.
         let tree = unsafe { UncheckedTree::new(&self.nodes) };
         traverse!(
             tree,
@@ -83,7 +83,7 @@ impl Tree for CwBvh {
         (hit.t < f32::INFINITY).then_some(hit)
     }
 
-    /// Children of a node with triangles are its leaves; their boxes are rounded outward to a grid of 256 cells.
+    /// A child with triangles counts as a leaf. Boxes of children are rounded outward to a grid of 256 cells per axis.
     fn shape(&self) -> TreeShape {
         let root = (!self.nodes.is_empty()).then(|| (Place::Node(0), aabb(self.total_aabb)));
         TreeShape::of(root, |place, _| match place {
@@ -104,7 +104,7 @@ impl Tree for CwBvh {
     }
 }
 
-/// A node, or a child of one with this number of triangles.
+/// A node by its index, or a leaf by its number of triangles.
 enum Place {
     Node(usize),
     Leaf(u32),
@@ -115,12 +115,12 @@ struct UncheckedTree<'a> {
     nodes: UncheckedNodes<'a>,
 }
 
-/// Nodes, accessed without a check of bounds.
+/// Nodes, accessed without bounds checks.
 struct UncheckedNodes<'a>(&'a [CwBvhNode]);
 
 impl<'a> UncheckedTree<'a> {
     /// # Safety
-    /// Only numbers of existing nodes may be looked up.
+    /// Only indices of existing nodes may be used.
     unsafe fn new(nodes: &'a [CwBvhNode]) -> Self {
         Self { nodes: UncheckedNodes(nodes) }
     }
@@ -132,7 +132,7 @@ impl Index<usize> for UncheckedNodes<'_> {
     #[inline(always)]
     fn index(&self, at: usize) -> &CwBvhNode {
         debug_assert!(at < self.0.len());
-        // SAFETY: by the contract of `UncheckedTree::new` only numbers of existing nodes are looked up.
+        // SAFETY: by the contract of `UncheckedTree::new` only indices of existing nodes are used.
         unsafe { self.0.get_unchecked(at) }
     }
 }

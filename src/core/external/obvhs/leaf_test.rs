@@ -10,7 +10,7 @@ use crate::simd::Lanes;
 use crate::triangle::decided_at_once::decided_at_once;
 use crate::triangle::{Depth, TriangleTest};
 
-/// A triangle test in the format of obvhs: infinity for a miss. It also enforces the start of the interval.
+/// A triangle test in the format of obvhs: it returns infinity for a miss or a `t` before the start of the interval.
 pub trait LeafTest: Send + Sync + 'static {
     /// The name of the triangle test.
     const NAME: &'static str;
@@ -25,7 +25,7 @@ pub trait LeafTest: Send + Sync + 'static {
     /// Prepares a ray.
     fn prepare(ray: &Ray) -> Self::Ray;
 
-    /// The `tmax` to give to obvhs for a ray with the exclusive end `t_max`: it rejects a rounded `t` equal to it.
+    /// The `tmax` for obvhs if a ray has the exclusive end `t_max`. obvhs rejects a rounded `t` equal to its `tmax`.
     #[inline(always)]
     fn end(t_max: f32) -> f32 {
         t_max
@@ -35,7 +35,7 @@ pub trait LeafTest: Send + Sync + 'static {
     fn test(triangle: &Self::Triangle, ray: &PreparedRay, prepared: &Self::Ray) -> f32;
 }
 
-/// A triangle test of this crate.
+/// The triangle test `T` of this crate.
 pub struct Over<T>(PhantomData<T>);
 
 impl<T: TriangleTest> LeafTest for Over<T> {
@@ -52,7 +52,7 @@ impl<T: TriangleTest> LeafTest for Over<T> {
         (*ray, T::prepare(ray))
     }
 
-    /// Behind the last `t`: a test that decides exactly may round a `t` before `t_max` to `t_max`.
+    /// The float after the last `t` of the test: an exact test may round a `t` before `t_max` to `t_max`.
     #[inline(always)]
     fn end(t_max: f32) -> f32 {
         T::last(t_max).next_up()
@@ -88,9 +88,9 @@ impl LeafTest for Native {
 
 /// The triangle test of obvhs: Möller-Trumbore on precomputed edges and normal, 64 bytes per triangle.
 ///
-/// Wrapped as a test of this crate, which makes brute force over it a reference for the BVHs that use it. It reads
-/// signs from the sign bit of rounded quotients. Therefore it misses hits exactly on an edge if a barycentric
-/// coordinate is -0.0: on edges seen from the back, and on the third edge also from the front.
+/// The wrapper makes brute force over this test a reference for the BVHs that use it. The test reads signs from the
+/// sign bit of rounded quotients. Therefore it misses hits exactly on an edge if a barycentric coordinate is -0.0: on
+/// edges seen from the back, and on the third edge also from the front.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RtTest;
 
@@ -104,7 +104,7 @@ impl TriangleTest for RtTest {
 
     #[inline(always)]
     fn prepare(ray: &Ray) -> PreparedRay {
-        // Use the whole line: the caller checks the interval.
+        // Use the whole line, because `candidates` checks the interval.
         PreparedRay::new(ray.origin.into(), ray.direction.into(), f32::NEG_INFINITY, f32::MAX)
     }
 

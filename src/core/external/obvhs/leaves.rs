@@ -13,11 +13,11 @@ use crate::traversal::pages;
 /// Triangles in the order of a tree, prepared for the test `T`.
 pub(super) struct Leaves<T: LeafTest> {
     pub triangles: Vec<T::Triangle>,
-    /// The triangle of the mesh for each of them.
+    /// The number of each triangle in the mesh.
     pub ids: Vec<u32>,
 }
 
-/// The input of the builders of obvhs: the triangles with an area, and their numbers.
+/// The input of the builders of obvhs: the triangles with an area, and their numbers in the mesh.
 pub(super) fn input(mesh: &Mesh) -> (Vec<Triangle>, Vec<u32>) {
     let ids: Vec<u32> = mesh.solid().collect();
     let triangle = |&id: &u32| {
@@ -28,7 +28,7 @@ pub(super) fn input(mesh: &Mesh) -> (Vec<Triangle>, Vec<u32>) {
 }
 
 impl<T: LeafTest> Leaves<T> {
-    /// Uses the memory and the threads that the structures of this crate use.
+    /// Uses huge pages and all threads, like the structures of this crate.
     pub fn new(mesh: &Arc<Mesh>, solid: &[u32], order: &[u32]) -> Self {
         let mut ids = pages::with_capacity(order.len());
         ids.par_extend(order.par_iter().map(|&i| solid[i as usize]));
@@ -41,7 +41,7 @@ impl<T: LeafTest> Leaves<T> {
         self.triangles.len()
     }
 
-    /// The ray in the formats of obvhs and of the test; `None` if it can hit nothing.
+    /// The ray in the formats of obvhs and of the test; `None` if the ray can hit nothing.
     #[inline(always)]
     pub fn start(&self, ray: &Ray) -> Option<(PreparedRay, T::Ray)> {
         let (t_min, t_max) = ray.interval();
@@ -51,15 +51,15 @@ impl<T: LeafTest> Leaves<T> {
         })
     }
 
-    /// Returns `t` of a triangle of the tree by its number, infinity for a miss.
+    /// The `test` for [`Tree::walk`](super::Tree::walk): the `t` of the triangle at a position, infinity for a miss.
     ///
     /// # Safety
-    /// The number must be below [`Leaves::len`].
+    /// The returned function may only receive positions below [`Leaves::len`].
     #[inline(always)]
     pub unsafe fn test(&self, prepared: T::Ray) -> impl Fn(&PreparedRay, usize) -> f32 {
         move |ray, index| {
             debug_assert!(index < self.triangles.len());
-            // SAFETY: by the contract of this function the number is below `len`.
+            // SAFETY: by the contract of this function `index` is below `len`.
             T::test(unsafe { self.triangles.get_unchecked(index) }, ray, &prepared)
         }
     }

@@ -1,13 +1,13 @@
 //! The baseline: the BVHs of the crate `obvhs`. The adapter does not handicap them.
 //!
 //! Each BVH is offered over the triangle tests of this crate and over obvhs' own [`RtTest`], which is its fastest
-//! configuration. Triangles are stored in the order of the tree, so no traversal follows an index; the number of the
-//! final hit is mapped back once. The ray is prepared once with obvhs' own inverse direction, in the timed region like
-//! the rays of the structures of this crate.
+//! configuration. Triangles are stored in the order of the leaves, so a traversal needs no lookup in an index array;
+//! only the final hit is mapped to its triangle in the mesh. The ray is prepared once, with obvhs' own inverse
+//! direction, in the timed region like the rays of the structures of this crate.
 //!
 //! The adapter gives these trees the same advantages as the trees of this crate: arrays on large pages, triangles
-//! converted on all threads, no bounds checks. The traversals are obvhs' own without its checks: the links that they
-//! follow are checked once, when the tree is built.
+//! converted on all threads, no bounds checks. The traversals are obvhs' own without its checks: the links are checked
+//! once, when the tree is built.
 //!
 //! Known defects of obvhs 0.4.0, which validation shows: `CwBvh` misses every ray with a direction component of -0.0
 //! and loses hits with t < 1e-4; both BVHs lose axis-parallel rays close to a box face, and rays with short directions;
@@ -90,25 +90,25 @@ fn aabb(bounds: obvhs::aabb::Aabb) -> Aabb {
     Aabb { min: bounds.min.into(), max: bounds.max.into() }
 }
 
-/// The interface of both trees of obvhs. Tests return `t` of a triangle in the order of the tree, infinity for a miss.
+/// The interface of both trees of obvhs. A position is the index of a triangle in the order of the leaves.
 pub trait Tree: Send + Sync + Sized + 'static {
     /// A node.
     type Node: Copy;
 
-    /// Builds it.
+    /// Builds the tree.
     fn build(triangles: &[Triangle], params: BvhBuildParams) -> Self;
 
-    /// The nodes, and the triangle for each place.
+    /// The nodes, and the index of the triangle at each position.
     fn arrays(&mut self) -> (&mut Vec<Self::Node>, &mut Vec<u32>);
 
-    /// Whether all links lead to nodes, and all leaves contain places below `triangles`. Traversals rely on it.
+    /// Whether all links lead to nodes, and all leaves contain positions below `triangles`. Traversals require it.
     fn leads_inside(&self, triangles: usize) -> bool;
 
-    /// The nearest hit; with `ANY` the first one found.
+    /// The nearest hit; with `ANY` the first one found. `test` returns the `t` at a position, infinity for a miss.
     ///
     /// # Safety
     /// [`Tree::leads_inside`] must return true for the number of triangles that `test` accepts: the traversal follows
-    /// links, and passes places in leaves to `test`, without checking them.
+    /// links, and passes positions in leaves to `test`, without checking them.
     unsafe fn walk<const ANY: bool>(
         &self,
         ray: PreparedRay,
@@ -140,7 +140,7 @@ impl<B: Tree, T: LeafTest> Accel for Obvhs<B, T> {
     #[inline]
     fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
         let (ray, prepared) = self.leaves.start(ray)?;
-        // SAFETY: `build` has asserted `leads_inside` for the number of triangles that the test accepts.
+        // SAFETY: `build` has asserted `leads_inside` for the number of triangles that `test` accepts.
         let found = unsafe { self.tree.walk::<false>(ray, self.leaves.test(prepared), observer) };
         found.map(|hit| self.leaves.hit(hit))
     }

@@ -1,10 +1,10 @@
-//! [tinybvh](https://github.com/jbikker/tinybvh) 1.6.8 by the crate `tinybvh-rs` 0.1: `BVH8_CPU`, its fastest layout,
-//! by its best builder, with spatial splits (SBVH).
+//! [tinybvh](https://github.com/jbikker/tinybvh) 1.6.8 from the crate `tinybvh-rs` 0.1: `BVH8_CPU`, its fastest layout,
+//! built by its best builder, with spatial splits (SBVH).
 //!
-//! A C++ compiler builds it, for the instructions of this machine. Only the builders are called through the crate; both
-//! queries call the linked C++ library ([`query`]). The ray (unit direction, inverse) is made before the clock starts;
-//! for a closest hit it is copied to the stack, because the hit is written into it. Triangles are copied as corners of
-//! 16 bytes, the format of tinybvh, which builds large scenes on its own threads.
+//! A C++ compiler compiles it for the instructions of this machine. Only the builders are called through the crate;
+//! both queries call the linked C++ library ([`query`]). The ray (unit direction, inverse) is prepared before the clock
+//! starts; each query copies it to the stack, into the larger ray type of C++. tinybvh takes triangles as corners of 16
+//! bytes, and builds large scenes on its own threads.
 //!
 //! # References
 //! Fuetterling, Lojewski, Pfreundt, Ebert: Accelerated single ray tracing for wide vector units. HPG 2017.
@@ -23,9 +23,9 @@ use query::{RayHead, Tree};
 
 /// The 8-wide BVH of tinybvh.
 pub struct TinyBvh {
-    /// `None` without triangles.
+    /// `None` if there are no triangles.
     tree: Option<Tree>,
-    /// The triangle of the mesh for each triangle of the tree.
+    /// The number in the mesh of each triangle of the tree.
     ids: Vec<u32>,
     shape: TreeShape,
 }
@@ -34,13 +34,13 @@ pub struct TinyBvh {
 const NODE_BYTES: usize = 256;
 const LEAF_BYTES: usize = 192;
 
-/// It treats a hit beyond this distance as a miss.
+/// tinybvh treats a hit beyond this distance as a miss.
 const FAR: f32 = tinybvh_rs::INFINITE;
 
 /// The mask of a ray that meets all instances.
 const EVERYTHING: u32 = 0xffff;
 
-/// tinybvh's inverse: never infinite.
+/// tinybvh's inverse of a direction component; never infinite.
 #[inline(always)]
 fn inverse(x: f32) -> f32 {
     if x.abs() > 1e-12 { 1.0 / x } else { FAR.copysign(if x >= 0.0 { 1.0 } else { -1.0 }) }
@@ -69,8 +69,8 @@ impl Prepare for TinyBvh {
         let unit = ray.direction * (1.0 / length);
         let inverse = Vec3::from_array(unit.to_array().map(inverse));
         let end = ((t_max - t_min) * length).min(FAR);
-        // A check of tinybvh ends the process if this sum, in this order, is NaN. If the direction or these products
-        // overflow, rays no longer miss the empty children of a node, and tinybvh reads outside its arrays.
+        // A check of tinybvh ends the process if this sum, in this order, is NaN. If `unit` or `origin * inverse`
+        // overflows, rays no longer miss the empty children of a node, and tinybvh reads outside its arrays.
         let checked = unit.x + unit.y + unit.z + end + origin.x + origin.y + origin.z;
         if checked.is_nan() || !unit.is_finite() || !(origin * inverse).is_finite() {
             return None;
@@ -102,11 +102,11 @@ impl Prepare for TinyBvh {
     }
 }
 
-/// The size of the stacks of its traversal and of its conversion, which do not check for overflow.
+/// The size of the stacks of tinybvh's traversal and conversion, which do not check for overflow.
 const STACK: usize = 256;
 
-/// The shape, and the maximum number of nodes on a stack: in the traversal all children except one of every node of a
-/// path, and eight more; in the conversion two words for each inner child.
+/// The shape, and a bound for the entries on a stack. Per node on a path, the traversal needs an entry for each child
+/// except one, the conversion two entries for each inner child except one entry. The bound adds eight entries once.
 fn shape(nodes: &[mbvh::Node]) -> (TreeShape, usize) {
     let (mut shape, mut most) = (TreeShape::default(), 0);
     let mut stack = vec![(0, 0, 0)];
@@ -154,7 +154,7 @@ impl Accel for TinyBvh {
         }
         let corners: Vec<[f32; 4]> =
             ids.iter().flat_map(|&id| mesh.corners(id)).map(|v| v.extend(0.0).to_array()).collect();
-        // Its own layout is converted from two others.
+        // tinybvh converts its layout `BVH8_CPU` from two other layouts.
         let refusal = |error: tinybvh_rs::Error| BuildError::Mesh(format!("tinybvh reports an error: {error}"));
         let corners: Positions = corners.as_slice().into();
         let mut binary = bvh::BVH::new_hq(corners).map_err(refusal)?;
@@ -171,7 +171,7 @@ impl Accel for TinyBvh {
 
     prepared_queries!();
 
-    /// From the sizes of its nodes and of its leaves, which contain the triangles.
+    /// Computed from the sizes of nodes and of leaves, which contain the triangles.
     fn footprint(&self) -> Footprint {
         let nodes = self.shape.inner * NODE_BYTES + self.shape.leaves * LEAF_BYTES;
         Footprint { nodes, references: size_of_val(&self.ids[..]), ..Footprint::default() }

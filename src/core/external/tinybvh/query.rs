@@ -1,15 +1,15 @@
 //! The two queries of `BVH8_CPU`, called in the C++ library that `tinybvh-rs` compiles and links.
 //!
-//! The crate passes a ray of 64 bytes to functions that read 128, and does not expose `IsOccluded` at all. Both
-//! functions are called here by the names that the C++ compiler gives them (Itanium ABI). The code relies on the layout
-//! of the ray and of the crate's tree in the version that `Cargo.toml` pins.
+//! The crate passes a ray of 64 bytes to functions that read 128, and does not expose `IsOccluded`. Therefore this
+//! module calls both functions by their mangled C++ names (Itanium ABI). It relies on the layout of the ray and of the
+//! crate's tree in the version that `Cargo.toml` pins.
 
 use std::ffi::c_void;
 use std::mem;
 
 use tinybvh_rs::bvh8_cpu;
 
-/// `tinybvh::Ray` up to its 64 bytes of custom data: everything that a query reads and writes.
+/// `tinybvh::Ray` without its last 64 bytes, the custom data: all that a query reads and writes.
 #[repr(C, align(64))]
 #[derive(Clone, Copy)]
 pub struct RayHead {
@@ -18,7 +18,7 @@ pub struct RayHead {
     pub direction: [f32; 3],
     pub instance: u32,
     pub inverse: [f32; 3],
-    /// The hit: instance, distance, barycentric coordinates, triangle.
+    /// This field and the next four are the hit: instance, distance, barycentric coordinates, triangle.
     pub hit_instance: u32,
     pub t: f32,
     pub u: f32,
@@ -37,7 +37,7 @@ const _: () = assert!(size_of::<RayHead>() == 64 && size_of::<FullRay>() == 128)
 
 /// A finished tree and the C++ object in it.
 pub struct Tree {
-    /// Frees the object when it is dropped; not used otherwise.
+    /// Frees `object` on drop; not used otherwise.
     _owner: bvh8_cpu::BVH,
     object: *const c_void,
 }
@@ -50,7 +50,7 @@ unsafe impl Sync for Tree {}
 #[cfg(target_env = "msvc")]
 compile_error!("peer-tinybvh calls C++ by the names of the Itanium ABI, which Microsoft's compiler does not follow");
 
-// SAFETY: the names encode the types of the arguments; the results have the types of the version in `Cargo.toml`.
+// SAFETY: the names encode the argument types; the result types are from the version in `Cargo.toml`.
 unsafe extern "C" {
     #[link_name = "_ZNK7tinybvh8BVH8_CPU9IntersectERNS_3RayE"]
     fn intersect(tree: *const c_void, ray: *mut FullRay) -> i32;
@@ -61,23 +61,23 @@ unsafe extern "C" {
 impl Tree {
     pub fn new(owner: bvh8_cpu::BVH) -> Self {
         const { assert!(size_of::<bvh8_cpu::BVH>() == size_of::<*const c_void>()) };
-        // SAFETY: the crate's tree is as large as its only field, C++'s `unique_ptr`, which is a pointer.
+        // SAFETY: the only field of the crate's tree is a C++ `unique_ptr`, which is one pointer (size asserted above).
         let object = unsafe { mem::transmute_copy::<bvh8_cpu::BVH, *const c_void>(&owner) };
         assert!(!object.is_null(), "a converted tree has an object");
         Self { _owner: owner, object }
     }
 
-    /// Distance and triangle of the nearest hit before `ray.t`, in (0, `ray.t`).
+    /// Distance and triangle of the nearest hit in (0, `ray.t`).
     #[inline]
     pub fn closest(&self, ray: &RayHead) -> Option<(f32, u32)> {
         let mut whole = FullRay { head: *ray, custom: [0; 8] };
-        // SAFETY: the object lives as long as `self`, even if that is moved: it is on the heap of C++. The ray has the
-        // size and alignment of its type in C++ (asserted at `FullRay`), and nothing else refers to it.
+        // SAFETY: the object is on the C++ heap and lives as long as `self`, even if `self` is moved. The ray has the
+        // size and alignment of its C++ type (asserted at `FullRay`), and no other reference to it exists.
         unsafe { intersect(self.object, &raw mut whole) };
         (whole.head.t < ray.t).then_some((whole.head.t, whole.head.primitive))
     }
 
-    /// Whether anything is hit in (0, `ray.t`). Stops at the first hit.
+    /// Whether the ray hits anything in (0, `ray.t`). Stops at the first hit.
     #[inline]
     pub fn any(&self, ray: &RayHead) -> bool {
         let whole = FullRay { head: *ray, custom: [0; 8] };
