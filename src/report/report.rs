@@ -22,17 +22,17 @@ pub struct Report {
     pub data: Table,
 }
 
-/// A sentence about the data and the number in it. The page, `papers/RESULTS.md` and README print the same sentence;
-/// claims and the marks in README refer to its key.
+/// A sentence about the data, and the number in this sentence. The page, `papers/RESULTS.md` and README print the same
+/// sentence; claims and the marks in README refer to its key.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
     /// Letters, digits and hyphens; unique among the findings of a study.
     pub key: String,
-    /// Ends with a full stop; empty if the finding is only a number that a claim refers to.
+    /// Ends with a full stop; empty if the finding is only a number that a claim refers to, or only a name.
     pub sentence: String,
     /// The number in the sentence; `None` if the sentence has no number.
     pub value: Option<Estimate>,
-    /// A name that the page shows as the answer to its question, such as the label of the fastest structure.
+    /// A name that answers the question at the top of the page, such as the label of the fastest structure.
     pub name: Option<String>,
     /// Whether the terminal shows the sentence only with `--verbose`.
     pub is_detail: bool,
@@ -157,7 +157,7 @@ impl Finding {
         Self { key: key.into(), sentence: sentence.into(), value: None, name: None, is_detail: false }
     }
 
-    /// A finding without a sentence: a name that the page shows as the answer to its question.
+    /// A finding without a sentence: a name that answers the question at the top of the page.
     pub fn named(key: impl Into<String>, name: impl Into<String>) -> Self {
         Self { name: Some(name.into()), ..Self::new(key, "") }
     }

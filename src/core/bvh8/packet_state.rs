@@ -128,8 +128,8 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         }
     }
 
-    /// Searches triangle by triangle, with half of the rays at once. No branch depends on which rays meet a triangle:
-    /// such a branch cannot be predicted. Returns the rays that must search the leaf as single rays, as bits.
+    /// Searches triangle by triangle, with half of the rays at once. It skips a triangle that all rays miss; no other
+    /// branch depends on which rays meet it. Returns the rays that must search the leaf as single rays, as bits.
     #[inline(always)]
     fn triangle_by_triangle<L: EightLanes>(
         &mut self,
@@ -161,8 +161,8 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         left as u16
     }
 
-    /// Searches ray by ray, with the triangles of a block at once. The first stage runs for all rays before the second
-    /// stage runs: a branch on the candidates of a ray cannot be predicted. With `ANY`, a ray with a hit stops.
+    /// Searches ray by ray, with the triangles of a block at once. In each block, the first stage runs for all rays
+    /// before the second, without a branch on the candidates of each ray. With `ANY`, a ray with a hit stops.
     #[inline(always)]
     fn ray_by_ray<const ANY: bool, L: EightLanes>(
         &mut self,
@@ -221,7 +221,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         (mut candidates, values): BlockCandidates<T>,
     ) {
         if T::ONE_STAGE {
-            // All candidates are hits, so no call is needed.
+            // All candidates are hits: the call in `leaf::settle` is not needed.
             while candidates != 0 {
                 let lane = candidates.trailing_zeros() as usize % WIDTH;
                 candidates &= candidates - 1;

@@ -1,5 +1,5 @@
-//! The SAH over a few planes per axis and a sample of the references in large nodes, and over all planes in small
-//! nodes. This takes a fraction of the time and memory of sorted events in all nodes; the trees cost nearly the same.
+//! In large nodes, the SAH over a few planes per axis, for a sample of the references; in small nodes, over all planes.
+//! This takes a fraction of the time and memory of sorted events in all nodes; the trees cost nearly the same.
 
 use super::config::CellConfig;
 use super::grow::{Content, Context, Place};

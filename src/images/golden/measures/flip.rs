@@ -185,7 +185,7 @@ fn lab(rgb: DVec3) -> DVec3 {
     DVec3::new(lightness, 5.0 * lightness * (x - y), 2.0 * lightness * (y - z))
 }
 
-/// The HyAB distance of two colours: the Euclidean distance underestimates large differences.
+/// The HyAB distance of two colours. The Euclidean distance would underestimate large differences.
 fn hyab(one: DVec3, other: DVec3) -> f64 {
     let gap = one - other;
     gap.x.abs() + (gap.y * gap.y + gap.z * gap.z).sqrt()
