@@ -67,9 +67,9 @@ mod tests {
         for _ in 0..6000 {
             *counts.entry(orders.shuffled(3)).or_insert(0) += 1;
         }
-        // Five standard deviations of a count of 6000 with probability 1/6 are 144.
         let is_order = |order: &Vec<usize>| (0..3).all(|i| order.contains(&i));
         assert!(counts.len() == 6 && counts.keys().all(is_order), "{counts:?}");
+        // The count of each order has mean 1000; five standard deviations are 144.
         assert!(counts.values().all(|&n| (856..=1144).contains(&n)), "{counts:?}");
     }
 

@@ -1,4 +1,4 @@
-//! Rays that break traversals, for any mesh: named, seeded strata, the same on every machine.
+//! Adversarial rays for any mesh, likely to expose errors of traversals: seeded strata, the same on every machine.
 
 use glam::Vec3;
 
@@ -9,7 +9,7 @@ use crate::names::named_enum;
 use crate::triangle::{MollerTrumbore, scalar_hit};
 
 named_enum! {
-    /// A stratum. Strata are never pooled: each has its own way to fail.
+    /// A kind of adversarial rays. Strata are never pooled, because each exposes other errors.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum Stratum {
         /// Random lines through the box: every structure handles them.
@@ -18,19 +18,20 @@ named_enum! {
         Vertices = "vertices",
         /// Through a point of an edge.
         Edges = "edges",
-        /// Axis-parallel, coordinates taken from vertices, zeros of both signs.
+        /// Axis-parallel, with zeros of both signs, often through coordinates of vertices.
         AxisParallel = "axis-parallel",
-        /// In the plane of a face of the box of the mesh or of a triangle.
+        /// In the plane of a face of the box of the mesh, or of the box of a triangle.
         FacePlanes = "face-planes",
         /// From a vertex.
         FromVertices = "from-vertices",
         /// From a point of a triangle.
         FromSurface = "from-surface",
-        /// From a coordinate at which a builder may split: an eighth of the box, or from a triangle or its box.
+        /// From a point with likely split positions as coordinates: eighths of the box, middles and corners of
+        /// triangles.
         FromSplits = "from-splits",
         /// Nearly in the plane of a triangle.
         Grazing = "grazing",
-        /// Along diagonals: components of equal size, one of them perhaps a zero of either sign.
+        /// Along diagonals: components of equal size, but one may be +0.0 or -0.0.
         Diagonals = "diagonals",
         /// Two components nearly zero: 1e-9, 1e-30 or denormal.
         NearlyAxis = "nearly-axis",
@@ -40,7 +41,7 @@ named_enum! {
         FarOrigins = "far-origins",
         /// From very near a triangle: small `t`.
         NearSurface = "near-surface",
-        /// Intervals that begin or end at a hit, or an ulp beside it.
+        /// Intervals that begin or end at a hit, an ulp beside it, or around it.
         Windows = "windows",
         /// NaN, infinity, zero directions, empty intervals: no ray may hit.
         Invalid = "invalid",
@@ -51,7 +52,7 @@ named_enum! {
 }
 
 impl Stratum {
-    /// `count` rays of this stratum for `mesh`. For an empty mesh, rays for a triangle of unit size.
+    /// `count` rays of this stratum for `mesh`. An empty mesh gets rays for a triangle of unit size.
     pub fn rays(self, mesh: &Mesh, count: usize, seed: u64) -> Vec<Ray> {
         let mut generator = Generator::new(mesh, seed ^ (self as u64) << 32);
         (0..count).map(|_| generator.ray(self)).collect()
@@ -307,7 +308,7 @@ impl<'a> Generator<'a> {
         ray
     }
 
-    /// Some origins are so far away that a direction short enough for the largest `t` is not denormal.
+    /// Some origins are far away: the direction that moves the hit to the largest `t` is then not denormal.
     fn rounded_end(&mut self) -> Ray {
         let corners = self.corners();
         let (target, away) = (self.sampler.point_of(corners), self.sampler.pick(&[1.0, 30.0, 1e3]));
@@ -328,8 +329,7 @@ pub fn rounded_ends(ray: &Ray, t: &ExactT) -> [Ray; 2] {
     [ray.until(end), Ray { t_min: end, ..*ray }]
 }
 
-/// `ray` with a direction so short that its hit at `t` moves close to the largest float, as precisely as the direction
-/// can be rounded.
+/// `ray` with a direction so short that its hit at `t` moves to the largest float, up to the rounding of the direction.
 pub fn near_the_largest_t(ray: &Ray, t: f64) -> Ray {
     Ray { direction: (ray.direction.as_dvec3() * (t / f64::from(f32::MAX))).as_vec3(), ..*ray }
 }

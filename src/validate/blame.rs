@@ -40,12 +40,12 @@ impl Dispute<'_> {
         }
     }
 
-    /// Corrects the verdict `other` for two different tests: the structure's own test decides about disputed triangles.
+    /// Corrects the verdict `other` of `other_test`: the structure's own test, run on the disputed triangles, decides.
     fn own_test(&self, own: ScalarTest, other: Blame) -> Blame {
         let of = |hit: Option<Hit>| hit.and_then(|hit| own(self.ray, self.corners(hit.prim)?));
         let by_the_test = |sentence: &str| (Kind::TriangleTest, format!("{}, but {sentence}", other.1));
         match (other.0, self.found) {
-            // The traversal is right if its own test misses the triangle, or finds it no nearer than the returned hit.
+            // The traversal is right if its own test misses the triangle, or hits it no nearer than the returned hit.
             (Kind::Lost | Kind::NearerLost, found) => match (of(self.expected), found) {
                 (None, _) => by_the_test("the structure's own triangle test misses it"),
                 (Some(t), Some(f)) if t >= f.t => {
@@ -64,9 +64,9 @@ impl Dispute<'_> {
         }
     }
 
-    /// The verdict if both have the same test: they must return the same bits. The reference has tested every triangle.
+    /// The verdict if structure and reference have the same test: both must return the same bits.
     fn same_test(&self, test: ScalarTest) -> Blame {
-        // Require that the test returns the structure's hit at its primitive.
+        // The test must return the found hit at the found primitive.
         if let Some(f) = self.found {
             let solid = self.corners(f.prim).filter(|_| !self.mesh.is_degenerate(f.prim.index()));
             let right_t = self.expected.is_some_and(|e| e.t.to_bits() == f.t.to_bits());
@@ -94,7 +94,7 @@ impl Dispute<'_> {
         }
     }
 
-    /// Brute force with the same test has a hit, the structure a farther one or none: an error if the hit is real.
+    /// The verdict if brute force has a hit, but the structure a farther one or none: an error if the hit is real.
     fn lost(&self, expected: Hit) -> Blame {
         let Some(nearer) = self.true_hit(expected) else {
             let sentence = format!("by exact arithmetic the ray does not hit {:?} in its interval", expected.prim);
@@ -131,14 +131,14 @@ impl Dispute<'_> {
         truths.into_iter().flatten().min_by(|(a, _), (b, _)| a.cmp(b))
     }
 
-    /// The verdict for different tests. Exact arithmetic judges structure and test together; differences that rounding
-    /// in this precision explains are blamed on the test.
+    /// The verdict if structure and reference have different tests. Exact arithmetic judges structure and test
+    /// together; the test is to blame for differences that rounding in its precision explains.
     fn other_test(&self) -> Option<Blame> {
         let (truth, found) = (self.nearest(), self.found);
         if let Some(blame) = found.and_then(|hit| self.no_hit(hit, truth.as_ref())) {
             return Some(blame);
         }
-        // The structure compares computed depths: a hit is lost if its t is below the returned t under any rounding.
+        // A nearer hit is lost if its `t` is below the found `t` under any rounding.
         let limit = found.map_or(f64::INFINITY, |hit| hit.t.into());
         let is_found = |t: &ExactT, prim| {
             found.is_some_and(|f| f.prim == prim || DepthRule::STRICT.allows(t.approximate(), f.t, false))
@@ -181,7 +181,7 @@ impl Dispute<'_> {
         }
     }
 
-    /// The verdict if rounding may explain a lost or invented hit: whether the structure or the reference is wrong.
+    /// The verdict if rounding may explain the difference. `None` if the structure and the reference are both right.
     fn rounded(&self, truth: Option<(ExactT, PrimId)>) -> Option<Blame> {
         let is_right = |hit: Option<Hit>| match (&truth, hit) {
             (None, None) => true,

@@ -39,13 +39,13 @@ impl ExpectedHits<'_> {
         Validation { rays: self.rays.len() as u64, hits, ..Validation::default() }
     }
 
-    /// The ray with this index, for which the structure returns `found`.
+    /// The record of a ray for which the structure returns `found`.
     pub(super) fn worst(&self, index: usize, found: Option<Hit>, kind: Kind, verdict: String) -> WorstRay {
         WorstRay { index: index as u64, ray: self.rays[index], expected: self.hits[index], found, kind, verdict }
     }
 
-    /// The sums of a batch that a panic or an endless loop (`kind`) has ended. The reported ray is the ray of `call`,
-    /// or the first ray of the batch.
+    /// The sums of a batch that a panic or an endless loop (`kind`) has ended. The reported ray is the ray that caused
+    /// it, or the first ray of the batch if only the whole batch does.
     pub(super) fn ended(&self, call: Call, kind: Kind, why: String) -> Validation {
         let rays = self.rays.len();
         let (index, verdict) = match call {
@@ -106,7 +106,7 @@ pub(super) fn admitted(subject: &dyn DynAccel, rays: &[Ray], expected: &[Option<
 }
 
 /// Compares `found`, closest hits from elsewhere, with the hits of the reference. This is only the first check of
-/// [`validate`]; the other two need the structure.
+/// [`validate`]; the other two checks need the structure.
 ///
 /// # Panics
 /// If there is not one hit per ray.
@@ -125,8 +125,8 @@ pub fn validate_hits(expected: &ExpectedHits, found: &[Option<Hit>]) -> Validati
 }
 
 /// The indices of the rays on which `found` differs from the expected hits, each with the kind of the difference. The
-/// expected hits come from another tree over the triangle test of the reference; the kind presumes that this tree is
-/// right. Differences within the depth rule of the reference are omitted.
+/// expected hits come from another tree over the triangle test of the reference; the kinds presume that this tree is
+/// right. If the reference has another test, differences that `DepthRule::STRICT` allows are omitted.
 pub fn differences(expected: &ExpectedHits, found: &[Option<Hit>]) -> Vec<(usize, Kind)> {
     let differs = |index: usize| Some((index, expected.dispute(index, found[index]).blame()?.0));
     (0..expected.rays.len()).into_par_iter().filter_map(differs).collect()

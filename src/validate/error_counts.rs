@@ -53,8 +53,8 @@ impl ErrorCounts {
 
     /// The upper bound of the true share with 95 % confidence, at most 1; `None` without rays.
     ///
-    /// One-sided: if the true share were the bound, this few or fewer errors would occur in 5 % of the runs. Without an
-    /// error the bound is 1 - 0.05^(1 / n), about 3 / n.
+    /// One-sided: if the true share were the bound, at most this number of errors would occur in 5 % of the runs.
+    /// Without an error the bound is 1 - 0.05^(1 / n), about 3 / n.
     ///
     /// # References
     /// Clopper, Pearson: The use of confidence or fiducial limits illustrated in the case of the binomial. Biometrika
@@ -73,7 +73,7 @@ impl ErrorCounts {
 /// The probability that the true share exceeds its bound.
 const LEVEL: f64 = 0.05;
 
-/// Counts the wrong hits on some rays.
+/// Counts the errors of `answers`, compared with the exact hits `truths`.
 ///
 /// # Panics
 /// If the numbers of hits and truths differ.
@@ -105,7 +105,7 @@ pub fn count_errors(truths: &[Option<Truth>], answers: &[Option<Hit>], rule: Dep
 fn summary(mut ulps: Vec<f64>) -> Option<Ulps> {
     ulps.sort_unstable_by(f64::total_cmp);
     let max = *ulps.last()?;
-    // The smallest value that at least this share does not exceed.
+    // The smallest value that is not exceeded by at least this share of the values.
     let quantile = |percent: usize| ulps[(ulps.len() * percent).div_ceil(100) - 1];
     Some(Ulps { median: quantile(50), p99: quantile(99), max })
 }

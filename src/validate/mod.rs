@@ -1,9 +1,9 @@
-//! Validation: compares a structure with a reference, hit for hit; the exact oracle judges the differences.
+//! Validation: compares a structure with a reference, hit for hit; exact arithmetic judges the differences.
 //!
-//! There are two kinds of errors. A *structure error* is a result that differs from brute force with the same triangle
-//! test because the traversal lost or invented a hit: a correct structure has none, on any ray. A *triangle-test error*
-//! is caused by the triangle test: it returns a hit where exact arithmetic finds none, or at another depth, and a
-//! correct traversal may return or cull this hit. If the reference lacks the structure's test, exact arithmetic
+//! There are three kinds of errors. A *structure error* is a hit that the traversal lost or invented: the result
+//! differs from brute force with the same triangle test. A correct structure has none, on any ray. A *triangle-test
+//! error* is caused by the triangle test: it returns a hit where exact arithmetic finds none, or at another depth; a
+//! correct traversal may return or cull such a hit. If the reference lacks the structure's test, exact arithmetic
 //! decides: differences that rounding in single precision explains are triangle-test errors; all others are *answer
 //! errors*.
 

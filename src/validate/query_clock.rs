@@ -26,7 +26,7 @@ pub(super) enum Call {
 pub(super) struct QueryClock(Mutex<Option<(Call, Instant)>>);
 
 impl QueryClock {
-    /// The result of a query, or the message of its panic.
+    /// Runs a query. Returns its result, or the message of its panic.
     pub fn run<R>(&self, call: Call, query: impl FnOnce() -> R) -> Result<R, String> {
         self.set(Some((call, Instant::now())));
         let result = caught(query);

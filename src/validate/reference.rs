@@ -56,12 +56,12 @@ references!(
 /// Rays per task of a thread: few, because brute force takes milliseconds per ray.
 const BATCH: usize = 32;
 
-/// The reference of a comparison, and how strict it is.
+/// A reference, and how strictly hits are compared with its hits.
 pub struct Reference {
     /// Returns the hits.
     pub accel: Box<dyn DynAccel>,
-    /// The triangle test that the structure and the reference share: their hits must be the same bits, and the
-    /// reference has tested every triangle. `None` if the tests differ, or if the reference may itself have lost hits.
+    /// The triangle test that structure and reference share, if the reference tests every triangle: their hits must
+    /// then be the same bits. `None` if the tests differ, or if the reference may itself have lost hits.
     pub test: Option<ScalarTest>,
     /// The precision of the structure's triangle test, if the reference does not share it: differences that its
     /// rounding explains are not errors of the tree.

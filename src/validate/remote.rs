@@ -1,4 +1,4 @@
-//! Compares a program in any language with the reference.
+//! Compares a runner, a program in any language, with the reference.
 
 use super::compare::same;
 use super::{ExpectedHits, Kind, Validation, validate_hits};
@@ -6,7 +6,7 @@ use crate::accel::{BuildError, DynAccel};
 use crate::geometry::Ray;
 use crate::measure::spread;
 
-/// Number of rays that are traced again in another batch.
+/// The maximum number of rays that are traced again, in another batch.
 const AGAIN: usize = 256;
 
 /// Like [`validate_known`](super::validate_known), for a structure that takes long to receive a ray: each query runs

@@ -12,8 +12,8 @@ const ROUNDOFF: f64 = 1.0 / (1_u64 << 24) as f64;
 /// tests that store planes or transformations instead of corners.
 const OPERATIONS: f64 = 32.0;
 
-/// Products of at least this size overflow in single precision, and determinants below its inverse underflow or have no
-/// finite reciprocal.
+/// Products of at least `LARGEST` may overflow in single precision. Determinants below `SMALLEST` may underflow or have
+/// no finite reciprocal.
 const LARGEST: f64 = (1_u128 << 125) as f64;
 const SMALLEST: f64 = 1.0 / (1_u128 << 102) as f64;
 
@@ -26,10 +26,9 @@ pub enum Precision {
     Single,
 }
 
-/// A line, a triangle, and the maximum error of a test. Let A be the largest distance of the corners and the ray's
-/// origin from the origin of the coordinates. A barycentric weight has an error of at most `OPERATIONS` roundings of A
-/// times the longest edge times the length of the direction over the determinant. A depth has an error of as many
-/// roundings of A times the square of that edge over the determinant, plus as many of the depth itself.
+/// A line, a triangle, and the maximum error of a test. Let A be the largest distance of the corners and of the ray's
+/// origin from zero, L the longest edge, D the length of the direction, and r = `OPERATIONS` * `ROUNDOFF`. The error of
+/// a barycentric weight is at most r A L D / |det|, and the error of a depth at most r A L L / |det| + r |t|.
 ///
 /// # References
 /// Higham: Accuracy and Stability of Numerical Algorithms, 2nd edition, 2002 (running error of inner products).
@@ -75,7 +74,7 @@ impl Margin {
     /// interval, along the plane, or with numbers that are too large or too small.
     pub fn may_miss(&self, ray: &Ray) -> bool {
         let (t_min, _) = ray.interval();
-        // The weights add up to 1, so the smallest is at most a third; rounding in `f64` may break this.
+        // The weights add up to 1, so the smallest is at most a third; `min` limits what rounding in `f64` adds.
         let is_inside = self.weight.min(1.0 / 3.0) > self.weight_error
             && self.t - self.t_error > f64::from(t_min)
             && self.t + self.t_error < ray.end();
@@ -132,7 +131,7 @@ mod tests {
     use crate::triangle::{BaldwinWeber, Exact, MollerTrumbore, TriangleTest, Watertight};
     use crate::validate::{Reference, Stratum, degenerate_meshes, validate};
 
-    /// No hit of a test in single precision is an error if the structure's test counts as unknown.
+    /// Checks that no hit of a test in single precision is an error if the test counts as unknown.
     fn is_excused<T: TriangleTest>(count: usize) {
         for (name, mesh) in degenerate_meshes() {
             let subject = BruteForce::<T>::build(&mesh, &Default::default()).unwrap();

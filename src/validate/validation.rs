@@ -19,17 +19,17 @@ pub struct Validation {
     /// Rays with another `t` than the reference, bit for bit, or with a hit instead of a miss or the reverse. With
     /// different triangle tests: rays on which the two differ by more than 4 ulps and more than 1e-6, relatively.
     pub differing: u64,
-    /// Hits lost or invented by the structure; zero in a correct one.
+    /// Hits lost or invented by the structure; zero in a correct structure.
     pub structure_errors: u64,
-    /// Differences that rounding of the triangle test causes, by exact arithmetic.
+    /// Differences that the triangle test causes: by exact arithmetic its hit is a miss or not the nearer hit.
     pub test_errors: u64,
-    /// Differences that the reference causes by its other triangle test: the structure's hit is right.
+    /// Differences that the reference causes if it has another triangle test: the structure's hit is right.
     pub reference_errors: u64,
     /// Wrong hits of a structure whose triangle test the reference does not share, if rounding of that test cannot
     /// explain them.
     pub answer_errors: u64,
-    /// Depths of such a structure that [`DepthRule::STRICT`](crate::oracle::DepthRule::STRICT) rejects, but that
-    /// rounding in single precision explains.
+    /// Depths that [`DepthRule::STRICT`](crate::oracle::DepthRule::STRICT) rejects, but that rounding in single
+    /// precision explains; only if the reference has another triangle test.
     pub depth_errors: u64,
     /// Rays on which any hit and closest hit contradict each other.
     pub any_hit_errors: u64,
@@ -37,7 +37,7 @@ pub struct Validation {
     pub unrepeatable: u64,
     /// Batches that a panic of the structure ended.
     pub panics: u64,
-    /// Batches that took too long: 1 ends the comparison.
+    /// Batches that took too long. The first one ends the comparison.
     pub hangs: u64,
     /// Rays with the `t` of the reference at another primitive that also has it: not an error.
     pub ties: u64,
@@ -59,7 +59,7 @@ pub struct WorstRay {
     /// The hit of the structure.
     pub found: Option<Hit>,
     pub kind: Kind,
-    /// The exact result, in one sentence.
+    /// The reason, in one sentence.
     pub verdict: String,
 }
 
@@ -75,7 +75,7 @@ named_enum! {
         Panicked = "panics",
         /// The structure misses an exact hit.
         Lost = "lost",
-        /// The structure returns a hit behind an exact hit, or one that exact arithmetic does not confirm.
+        /// The structure returns a hit behind the exact hit, or one that exact arithmetic does not confirm.
         NearerLost = "nearer-lost",
         /// A hit that the triangle test over all triangles does not return.
         Invented = "invented",
@@ -109,7 +109,7 @@ impl Kind {
 }
 
 impl Validation {
-    /// The number of stored rays.
+    /// The maximum number of stored rays.
     pub const WORST: usize = 10;
 
     /// Errors of all kinds that no rounding explains; 0 for a correct structure.

@@ -17,7 +17,7 @@ use crate::accel::DynAccel;
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::panics::caught;
 
-/// Default time limit of a build, or of 256 rays: far longer than any of them takes unless it hangs.
+/// Default time limit of a build, or of a batch of 256 rays: far longer than either takes unless it hangs.
 pub const LIMIT: Duration = Duration::from_secs(120);
 
 const PAUSE: Duration = Duration::from_millis(20);
@@ -76,8 +76,8 @@ impl Comparison {
 }
 
 /// Like [`validate`](super::validate), but the comparison ends when the structure takes longer than `limit` for one ray
-/// or for 256 rays: the result names the ray, and keeps the comparison so far. `expected` are the hits of `reference`
-/// for `rays`.
+/// or for a batch of 256 rays. The result then contains that ray and the finished batches. `expected` are the hits of
+/// `reference` for `rays`.
 ///
 /// Runs on as many separate threads as the machine has processors. A hanging thread is left behind.
 pub fn validate_watched(

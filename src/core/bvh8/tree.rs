@@ -13,7 +13,7 @@ use crate::triangle::TriangleTest;
 
 /// A tree of nodes with eight tight boxes, and leaves of blocks of eight triangles.
 ///
-/// The configuration selects the partition: by spatial splits (leaves are the tight boxes of disjoint cells), by object
+/// The configuration selects the partition: by spatial splits (disjoint cells, with a tight box in each), by object
 /// splits, or by both. Collapse, layout and traversal are the same for all partitions. If the duplication of references
 /// is bounded, a build takes O(n log n) time and memory. The tree is the same for every number of threads and cannot be
 /// updated. A node takes 256 bytes; a block over Möller-Trumbore takes 320 bytes.

@@ -2,9 +2,9 @@
 //!
 //! The crate has no closest-hit query: it returns candidates, and the caller tests their triangles. The adapter passes
 //! a custom query to the crate's plain iterator: the crate's ray, with a box test that also rejects boxes behind the
-//! nearest hit so far. The iterator visits left before right, and panics on trees deeper than 32. The crate's ray (with
-//! unit direction and inverse, from its constructor) is prepared before the clock starts. The builder runs on the
-//! caller's threads.
+//! nearest hit so far. The iterator visits the left child first, and panics on trees deeper than 32 levels. The crate's
+//! ray (with unit direction and inverse, from its constructor) is prepared before the clock starts. The builder runs on
+//! the caller's threads.
 
 use std::cell::Cell;
 use std::sync::Arc;
@@ -58,7 +58,7 @@ impl BHShape<f32, 3> for TriangleBox {
 /// A ray that misses every box behind the nearest hit.
 struct PrunedRay<'a> {
     ray: &'a PreparedRay<f32, 3>,
-    /// Distance of the nearest hit so far.
+    /// The distance beyond which boxes are rejected.
     limit: Cell<f32>,
 }
 
@@ -71,7 +71,7 @@ impl IntersectsAabb<f32, 3> for PrunedRay<'_> {
     }
 }
 
-/// Slack for box tests: the distance to a box is a length, with more roundings than `t`.
+/// Slack for box tests: they compare lengths, which have more roundings than `t`.
 const SLACK: f32 = 1.0 + 8.0 * f32::EPSILON;
 
 fn point(v: Vec3) -> Point3<f32> {
@@ -158,7 +158,7 @@ impl<T: TriangleTest> Accel for SvenstaroBvh<T> {
         let bounds = |own: &Aabb<f32, 3>| {
             geometry::Aabb::of_points([own.min, own.max].map(|corner| Vec3::from(<[f32; 3]>::from(corner))))
         };
-        // Nodes store the boxes of their children: the root's box is the union of both.
+        // Nodes store the boxes of their children: the box of the root is the union of the two.
         let root = match self.tree.nodes.first() {
             None => geometry::Aabb::EMPTY,
             Some(BvhNode::Leaf { shape_index, .. }) => bounds(&self.shapes[*shape_index].bounds),

@@ -3,14 +3,14 @@ use crate::geometry::{Aabb, Mesh, Ray};
 use crate::traversal::leaf::{Nearest, start};
 use crate::triangle::TriangleTest;
 
-/// The triangles with an area, in the order of the mesh, prepared for the test `T`, for a peer that tests boxes.
+/// The triangles with an area, in mesh order, prepared for the test `T`. The tree of the peer refers to their indices.
 pub(super) struct Leaves<T: TriangleTest> {
     triangles: Vec<T::Block<1>>,
     /// The number of each triangle in the mesh.
     pub ids: Vec<u32>,
 }
 
-/// A ray, also in the format of the triangle test, and its interval.
+/// A ray, its form for the triangle test, and its interval.
 pub(super) struct Start<T: TriangleTest> {
     pub asked: Ray,
     pub ray: T::Ray,

@@ -2,10 +2,10 @@
 //! for all). The adapters do not handicap them.
 //!
 //! - **Rays** are converted once, before the clock starts ([`Accel::load`](crate::accel::Accel::load)): to the peer's
-//!   own ray, with its unit or inverse direction, and to the input of the triangle test. The structures of this crate
-//!   prepare rays inside the timed region, so the comparison favours the peers.
+//!   own ray, with unit or inverse direction if it stores one, and to the input of the triangle test. The structures of
+//!   this crate prepare rays inside the timed region, so the comparison favours the peers.
 //! - **Triangle tests**: a peer uses its own test, and also the tests of this crate if it accepts a closure. If its API
-//!   exposes its test, the adapter wraps this test for this crate, so brute force over it can be a reference.
+//!   exposes its own test, the adapter wraps it as a test of this crate, and brute force over it can be the reference.
 //! - **Triangles without area** are left out, as for all structures.
 //! - **Conventions** that differ from the contract are declared
 //!   ([`Accel::CONVENTIONS`](crate::accel::Accel::CONVENTIONS)); `sahara list` prints them, and they do not count as

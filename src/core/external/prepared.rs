@@ -5,10 +5,10 @@ use crate::geometry::{Hit, Ray};
 
 /// A structure whose queries take a ray in another format.
 pub(crate) trait Prepare: Accel {
-    /// All data of a ray that do not depend on the tree.
+    /// A ray in that format. It does not depend on the tree.
     type Ready: Send + Sync;
 
-    /// The ray in that format; `None` if it can hit nothing.
+    /// Converts a ray; `None` if it can hit nothing.
     fn ready(&self, ray: &Ray) -> Option<Self::Ready>;
 
     fn closest<O: Observer>(&self, ready: &Self::Ready, observer: &mut O) -> Option<Hit>;

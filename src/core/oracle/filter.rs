@@ -152,7 +152,7 @@ mod tests {
         assert!(hits > 1500, "{hits}");
     }
 
-    /// Rays at a corner or along an edge: the filter must not guess.
+    /// Rays at a corner or at the middle of an edge: the filter must not guess.
     #[test]
     fn rays_at_edges_are_decided_right_or_not_at_all() {
         let mut undecided = 0;

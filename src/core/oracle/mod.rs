@@ -45,8 +45,8 @@ impl Truth {
 ///
 /// It has three stages: a tree of boxes that loses no hit, `f64` arithmetic with a proven error bound, and exact sums
 /// of floats ([`exact`]) if that bound does not decide. It shares these sums with the triangle test
-/// [`Exact`](crate::triangle::Exact), and no other code with the structures and triangle tests that it checks. Unit
-/// tests compare the oracle and `Exact` with `exact::rational`.
+/// [`Exact`](crate::triangle::Exact), and only the types of meshes, rays and boxes with the structures that it checks.
+/// Unit tests compare the oracle and `Exact` with `exact::rational`.
 pub struct Oracle {
     mesh: Arc<Mesh>,
     tree: tree::Tree,
@@ -58,9 +58,9 @@ impl Oracle {
         Self { mesh: mesh.clone(), tree: tree::Tree::new(mesh) }
     }
 
-    /// The exact nearest hit of `ray` in its half-open interval, on closed triangles, with all triangles hit there.
+    /// The exact nearest hit of `ray` in its half-open interval, with all closed triangles that are hit at this `t`.
     ///
-    /// `None` for a ray that is not valid. A ray in the plane of a triangle misses it.
+    /// `None` for an invalid ray. A ray in the plane of a triangle misses this triangle.
     pub fn nearest(&self, ray: &Ray) -> Option<Truth> {
         if !ray.is_valid() {
             return None;

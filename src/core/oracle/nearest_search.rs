@@ -38,9 +38,9 @@ impl<'a> NearestSearch<'a> {
         Some(Truth { t: found.t?, ids: found.ids })
     }
 
-    /// Tests triangle `id`. Returns the `t` beyond which there is no nearer hit.
+    /// Tests triangle `id`. Returns a bound beyond which no nearer hit lies.
     pub fn triangle(&mut self, id: u32) -> f64 {
-        // A triangle with the corners of the nearest one is hit at the same `t`.
+        // A triangle with the same corners as the nearest one is hit at the same `t`.
         if let Some(nearest) = self.nearest.as_mut().filter(|n| n.corners == self.mesh.corners(id)) {
             nearest.ids.push(id);
         } else if let Some(mut found) = self.find(id) {

@@ -1,4 +1,4 @@
-//! How the hit of a structure differs from the exact one.
+//! Classifies the differences between the hits of a structure and the exact ones.
 
 use super::Truth;
 use crate::geometry::Hit;

@@ -10,7 +10,7 @@ use crate::triangle::tests::{Number, any, grid, point, unit};
 pub struct Numbers {
     random: Pcg32,
     number: Number,
-    /// A power of two that multiplies the coordinates of points.
+    /// A power of two that multiplies the coordinates of points; with some, all coordinates are denormal.
     scale: f32,
 }
 

@@ -9,7 +9,7 @@ use crate::simd::{LaneVec3, Lanes, indexed};
 /// the world's origin and errors grow with the distance from it (at 1e3 scene sizes, half of the hits are lost); closed
 /// meshes may leak at edges. 48 bytes per triangle.
 ///
-/// A block stores all twelve numbers of the matrix, computed in `f64` and rounded once; lanes may have different axes.
+/// A block stores all twelve numbers of each matrix, rounded from `f64`, because lanes may differ in the free axis.
 ///
 /// # References
 /// Baldwin, Weber: Fast ray-triangle intersections by coordinate transformation. Journal of Computer Graphics

@@ -44,7 +44,7 @@ macro_rules! decided_on_corners {
     };
 }
 
-/// `decided_on_corners` for a test in `f64`: `$solve` returns the lanes that count as hit, and each `t`.
+/// `decided_on_corners` for a test in `f64`: `$solve` returns the lanes whose triangle counts as hit, and all `t`.
 macro_rules! decided_in_f64 {
     ($solve:ident) => {
         decided_on_corners!();

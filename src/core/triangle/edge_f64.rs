@@ -7,11 +7,11 @@ use crate::simd::{Arithmetic, LaneVec3};
 /// Proved for a ray o + t d, where |v| sums the magnitudes of a vector's components, D = |d|, det = d . (e1 x e2):
 ///
 /// - The test finds a triangle that the ray hits if |det| >= 2^-48 D |e1| |e2|.
-/// - If it reports a hit, the barycentric of each corner is at least -2^-47 D |p - o| |e| / |det|, where the opposite
-///   edge e starts at the corner p, and the error of `t` is at most 2^-49 |e1| |e2| (|a - o| + |t| D) / |det|, plus
-///   half an ulp of the final rounding.
+/// - If it reports a hit, the barycentric of each corner is at least -2^-47 D |p - o| |e| / |det|, where e is the
+///   opposite edge, from corner p. The error of `t` is at most 2^-49 |e1| |e2| (|a - o| + |t| D) / |det|, with the
+///   first corner a, plus half an ulp of the final rounding.
 ///
-/// As with [`MollerTrumboreF64`](super::MollerTrumboreF64), only needles and slivers have large errors. Slower.
+/// Only needles and slivers have large errors, see [`MollerTrumboreF64`](super::MollerTrumboreF64). The test is slower.
 ///
 /// # References
 /// See [`Plucker`](super::Plucker).

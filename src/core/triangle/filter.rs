@@ -64,11 +64,11 @@ pub struct CandidateBounds<const N: usize> {
 const UNIT: f32 = f32::EPSILON / 2.0;
 /// The factor of E (|s| + 2 E) in 2 k, for the k = 40 w D E (|s| + 2 E) and D = 2 of [`filter_block`].
 const SLACK: f32 = 2.0 * 40.0 * 2.0 * UNIT;
-/// [`filter_block`] derives the errors: at most `HEIGHT` N |s| for h, at most `DETERMINANT` `HEIGHT` N for det.
+/// The error of h is at most `HEIGHT` N |s|, the error of det `DETERMINANT` `HEIGHT` N: see [`filter_block`].
 const HEIGHT: f32 = 10.0 * UNIT;
 const DETERMINANT: f32 = 6.0;
-/// More than all underflows together: each loses at most 2^-150, and the underflows of u, v and det add up to less than
-/// (4 |s| + 12 E + 42) 2^-150, while TINY (1 + |s| + 2 E) is added. Not denormal, because sums would then be slow.
+/// More than all underflows together. Each loses at most 2^-150, and the underflows of u, v and det add up to less than
+/// (4 |s| + 12 E + 42) 2^-150, while TINY (1 + |s| + 2 E) is added. Not denormal: sums of denormals are slow.
 const TINY: f32 = f32::MIN_POSITIVE;
 const _: () = assert!(TINY.is_normal());
 /// Coordinates up to `LARGE` cannot overflow: E is at most 2^41, |s| below 2^43, intermediates at most 2 E E |s|.
@@ -129,8 +129,8 @@ impl<L> Candidates<L> {
         }
     }
 
-    /// Two pairs and two bounds: if both pairs are strictly ascending, the line certainly meets the triangle at an
-    /// exact `t` between the bounds.
+    /// Two pairs of numbers, and two bounds. If the first number is below the second in both pairs, the line certainly
+    /// meets the triangle, at an exact `t` between the bounds.
     #[inline(always)]
     pub(super) fn look<const N: usize>(&self) -> ([[L; 2]; 2], [L; 2])
     where
@@ -149,7 +149,7 @@ impl<L> Candidates<L> {
     }
 }
 
-/// A superset of the lanes whose triangle the ray meets at a `t` up to `to`, as bits, and the results.
+/// The lanes whose triangle the ray may meet at a `t` up to `to`, as bits, including all hits; and the results.
 ///
 /// **Why no hit is lost.** Let o and d be origin and direction, a the first corner, s = o - a, e and f the edges from
 /// a, det = e . (d x f), u = s . (d x f), v = d . (s x e), all exact for the `f32` input. The line meets the closed
@@ -158,8 +158,8 @@ impl<L> Candidates<L> {
 /// error of a difference of inputs, a product and a sum. The components of d x f are at most 2 D E, with an error of
 /// 3.1 w 2 D E; the sum of the components of s x e is at most 2 E |s|, with an error of 4.1 w 2 E |s|. Hence the error
 /// of u and of v is 7.1 w 2 D E |s|, and of det 7.1 w 6 D E E. These three errors, the rounding of u + v, and the
-/// rounding of det - (u + v) add up to at most k = 40 w D E (|s| + 2 E); k leaves more than 6 w D E |s| for its own
-/// rounding. The sign of the last sum, which adds the slack, is exact.
+/// rounding of det - (u + v) add up to at most k = 40 w D E (|s| + 2 E), with more than 6 w D E |s| to spare for the
+/// rounding of k itself. The sign of the last sum, which adds the slack, is exact.
 ///
 /// If the computed sign of det is right, a hit has u and v of at least -k, and u + v of at most |det| + k. If it is
 /// wrong, the exact |det| is at most k; |u|, |v| and |u + v| of a hit are then at most k, and their computed values at
@@ -173,13 +173,13 @@ impl<L> Candidates<L> {
 /// |s|, and of det less than 43 w N; underflow adds less than [`TINY`] (1 + E) to each. The bounds dh = 10 w N |s| and
 /// dd = 60 w N exceed these errors and their own rounding. If |det| exceeds dd, its sign is certain, and a computed h
 /// below -dh means that t is negative. A hit at a t up to T, which is at least `to` in lengths of the scaled direction,
-/// has h - T |det| <= dh + T dd. As T |det| is at most 6 N T, this difference has an error of 7 w N T plus w of itself,
-/// which dd covers too. The code replaces dd by the slack 2 k, which is at least 160 w N. Let det' and h' be the
-/// computed values. If |det'| exceeds 16 dd, |h/det - h'/det'| <= (dh + |h'/det'| dd) / |det|. This is at most 16/15 of
-/// the same quotient over |det'|; 9/8 covers that and its rounding. The quotient and the ends of the interval round by
-/// less than 8 w t, and [`TINY`] covers the underflow when t is converted back. No relevant value underflows before: a
-/// value inside by more than 2 k has |s| > 2^-18 E, and a det beyond 16 TINY requires E > 2^-63, so the error exceeds
-/// 2^-104.
+/// has h - T |det| <= dh + T dd. Because T |det| is at most 6 N T, this difference has an error of 7 w N T plus w of
+/// itself, which dd covers too. The code replaces dd by the slack 2 k, which is at least 160 w N. Let det' and h' be
+/// the computed values. If |det'| exceeds 16 dd, |h/det - h'/det'| <= (dh + |h'/det'| dd) / |det|. This is at most
+/// 16/15 of the same quotient over |det'|; 9/8 covers that and its rounding. The quotient and the ends of the interval
+/// round by less than 8 w t, and [`TINY`] covers the underflow when t is converted back. No relevant value underflows
+/// before: a value inside by more than 2 k has |s| > 2^-18 E, and a det beyond 16 TINY requires E > 2^-63, so the error
+/// exceeds 2^-104.
 #[inline(always)]
 pub(super) fn filter_block<const N: usize, L: Lanes<N>>(
     ray: &FilterRay,
@@ -245,7 +245,7 @@ fn filter_lanes<const N: usize, L: Lanes<N>>(
     let least = u.min(v).min(abs_det.sub(u.add(v)));
     let outside = least.add(slack);
 
-    // Compute the height even if no lane remains: one mispredicted branch per block, in the caller, is enough.
+    // Compute the height even if no lane remains: a branch here would be unpredictable, and the caller has one already.
     let height = edge2.dot_loosely(q).flip_sign(det);
     let underflow = extent.mul_add_loosely(tiny, tiny);
     let height_error = area.mul_add_loosely(distance, underflow);

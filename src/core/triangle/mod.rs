@@ -70,7 +70,7 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// The values that the first stage passes to the second stage.
     type Values<const N: usize>: Copy;
 
-    /// The position of a hit along the ray; the test orders hits by it. It may borrow the block.
+    /// The position of a hit along the ray. The test orders hits by this value, which may borrow the block.
     type Depth<'a>: Depth;
 
     /// Prepares a valid ray.

@@ -17,7 +17,7 @@ use crate::simd::{Arithmetic, LaneVec3};
 /// ratio 10,000; a missed hit on a needle of aspect ratio 10,000,000, which the ray meets along its length; a `t` that
 /// is off by 115 ulps on another needle. [`Exact`](super::Exact) has none of these errors.
 ///
-/// Cost: two to three times the time of the `f32` test in blocks.
+/// Cost: two to three times as much as the `f32` test in blocks.
 ///
 /// # References
 /// See [`MollerTrumbore`](super::MollerTrumbore).

@@ -5,8 +5,8 @@ use crate::simd::{LaneVec3, Lanes, each};
 /// relative to its origin. `t` comes from the plane through the first corner.
 ///
 /// Guarantees: the two triangles at an edge compute the same number for it with opposite signs, so no ray passes
-/// between them; `t` is as accurate as the normal. Not guaranteed: rays through vertices may be lost; products of four
-/// coordinates leave the range of `f32` at scales of 1e9 and above, and below 1e-10.
+/// between them; `t` is as accurate as the normal. Not guaranteed: rays through vertices may be lost; products of three
+/// lengths leave the range of `f32` at scales of 1e13 and above, and below 1e-12.
 ///
 /// # References
 /// Shoemake: Plücker coordinate tutorial. Ray Tracing News 11(1), 1998. Segura, Feito: Algorithms to test ray-triangle

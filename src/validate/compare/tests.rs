@@ -6,7 +6,7 @@ use crate::validate::{Stratum, degenerate_meshes};
 
 type Correct = BruteForce<MollerTrumbore>;
 
-/// A structure that damages right hits: `damage` gets the bits of the ray's `origin.x`, and the right hit.
+/// A structure that damages the right hits: `damage` receives the bits of `ray.origin.x` and the right hit.
 struct Broken {
     correct: Correct,
     damage: Damage,

@@ -22,14 +22,14 @@ pub struct Subject {
     pub lowest_id: bool,
     /// Time limit of a build or a query before it counts as hanging.
     pub limit: Duration,
-    /// Builds it.
+    /// Builds the structure.
     pub build: Build,
 }
 
 /// Builds a structure.
 pub type Build = Arc<dyn Fn(&Arc<Mesh>) -> Result<Box<dyn DynAccel>, BuildError> + Send + Sync>;
 
-/// The comparison on one mesh and one stratum.
+/// The result on one mesh and one stratum.
 pub struct Finding {
     /// Name of the mesh.
     pub mesh: String,
@@ -43,7 +43,7 @@ pub type Named = (String, Arc<Mesh>);
 const SEED: u64 = 2003;
 
 impl Subject {
-    /// The structures that `build` builds; `triangle_test` as in [`Accel::TRIANGLE_TEST`].
+    /// The structures that `build` returns; `triangle_test` as in [`Accel::TRIANGLE_TEST`].
     pub fn new(
         name: &str,
         triangle_test: &'static str,

@@ -48,9 +48,9 @@ fn trace(accel: &Arc<dyn DynAccel>, rays: &[Ray], limit: Duration) -> Result<Tra
     })
 }
 
-/// Checks that counting changes nothing: the hits are the same, at the same primitive if the lowest is promised, and
-/// counts declared unobserved stay zero. Loading changes nothing either: loaded rays have the same hits as other rays,
-/// bit for bit.
+/// Checks that queries with counts find the same `t`, and the same primitive if the structure promises the lowest at
+/// equal `t`; that counts declared unobserved stay zero; and that a ray has the same hit, bit for bit, whether it is
+/// loaded or not.
 ///
 /// # Errors
 /// One line per failing mesh.

@@ -21,9 +21,9 @@ pub struct HardCase {
 
 /// The totals that include a case.
 ///
-/// The survey measured the cases up to number 71 and ranked 59 of them. It did not rank the empty scene, vertices that
-/// are not finite, the ends of intervals, origins on a surface, and invalid rays. Of the 59, ten are extreme: scales of
-/// at most 1e-20 or at least 1e15, directions with such lengths, and origins 1e8 away.
+/// The survey of ray tracers behind the catalogue measured the cases up to number 71 and ranked 59 of them. Not ranked
+/// are the empty scene, vertices that are not finite, ends of intervals, origins on a surface, and invalid rays. Ten of
+/// the 59 are extreme: scales up to 1e-20 or from 1e15, directions of such lengths, and origins 1e8 away.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Rank {
@@ -33,7 +33,7 @@ pub enum Rank {
     Extreme,
     /// In no total: the input is not valid, no ray can hit, or systems differ in what an interval includes.
     Unranked,
-    /// Added to the survey's measured cases: in no total, which keeps totals comparable.
+    /// Not measured by the survey: in no total, which keeps totals comparable.
     Added,
 }
 
@@ -55,10 +55,10 @@ pub enum Content {
         /// Default number of rays.
         rays: usize,
         expected: Expected,
-        /// Mesh and rays, the same bits on every machine. Fewer rays are the first of more.
+        /// Mesh and rays, the same bits on every machine. The first rays do not depend on the number of rays.
         make: fn(usize) -> Set,
     },
-    /// A property of hits, or the reason why it cannot be checked.
+    /// The check of a property of hits, with the number of rays. An error if the structure cannot be built.
     Property(fn(&Subject, usize) -> Result<Property, BuildError>),
 }
 
@@ -97,9 +97,8 @@ impl Property {
     }
 }
 
-/// The table of the cases, `CASES`. A row contains: rank, number and name; the expected hits, the number of rays unless
-/// it is 10,000, and the generator of mesh and rays, or the check of a property; the reason, in one sentence; its
-/// source.
+/// The table of the cases, `CASES`. A row contains rank, number and name; the expected hits, the number of rays (10,000
+/// if omitted) and the generator of mesh and rays, or the check of a property; the reason; the source.
 macro_rules! cases {
     ($($rank:ident $number:literal $name:literal, $expected:ident $(($of:literal))? $(x $rays:literal)? => $make:expr,
         $reason:literal, $source:expr;)*) => {

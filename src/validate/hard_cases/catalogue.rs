@@ -21,7 +21,7 @@ const OVERFLOW: &str = "Embree, FLT_LARGE; measured: every peer of f32 misses or
 const TIME: &str = "Embree, verify.cpp, nan_test and inf_test: time below 2.5 times the time of valid rays";
 
 cases! {
-    // Closed meshes from inside: every ray hits.
+    // A closed star, from inside: every ray hits.
     Moderate 1 "closed_random", Hit => |n| Set::new(star(), n, 1, |_, s| Ray::new(inside(s), s.direction())),
         "Random rays inside a spiky closed star: the minimum requirement of watertight traversal.",
         "pbrt-v4, shapes_test.cpp, Triangle.Watertight";
@@ -171,7 +171,7 @@ cases! {
         "No triangle at all: no root box, no node, no hit, no panic.",
         "kdtree-ray: asserts; Embree, verify.cpp, empty_scene";
 
-    // Scenes of extreme extent.
+    // Distant origins, scenes of extreme extent, and triangles that no split separates.
     Moderate 49 "far_1e3", Oracle => |n| Set::new(star_times(0.3), n, 36, |mesh, s| from_afar(mesh, s, 1e3)),
         "From 1e3 away: the boxes of thin leaves are a few ulps of t deep.", "Ize 2013";
     Moderate 50 "far_1e6", Oracle => |n| Set::new(star_times(0.3), n, 36, |mesh, s| from_afar(mesh, s, 1e6)),

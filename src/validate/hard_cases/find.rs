@@ -3,7 +3,7 @@
 use super::case::HardCase;
 use super::catalogue::CASES;
 
-/// No hard case has this name.
+/// The error for a name that no hard case has.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("there is no hard case {name:?}; similar names: {nearest}; `sahara list hard` lists all")]
 pub struct UnknownCase {
@@ -16,7 +16,7 @@ pub fn catalogue() -> Vec<&'static HardCase> {
     CASES.iter().collect()
 }
 
-/// The first of [`find_all`].
+/// The first case of [`find_all`].
 ///
 /// # Errors
 /// Like [`find_all`].
@@ -27,7 +27,7 @@ pub fn find(name: &str) -> Result<&'static HardCase, UnknownCase> {
 /// The case called `name`, in upper or lower case, or all cases with that number: number 23 is two cases.
 ///
 /// # Errors
-/// If there is none: the error contains the three most similar names.
+/// If no case matches. The error contains the three most similar names.
 pub fn find_all(name: &str) -> Result<Vec<&'static HardCase>, UnknownCase> {
     let mut cases = catalogue();
     cases.retain(|case| case.name.eq_ignore_ascii_case(name) || case.number.to_string() == name);

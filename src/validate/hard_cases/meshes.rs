@@ -17,7 +17,7 @@ pub(super) fn moved(mesh: &Mesh, to: impl Fn(Vec3) -> Vec3) -> Arc<Mesh> {
     indexed(mesh.positions().iter().copied().map(to).collect(), mesh.triangles().to_vec())
 }
 
-/// All of `one`, then all of `other`.
+/// The triangles of `one`, followed by the triangles of `other`.
 pub(super) fn joined(one: &Mesh, other: &Mesh) -> Arc<Mesh> {
     let first = one.positions().len() as u32;
     let moved_on = other.triangles().iter().map(|corners| corners.map(|corner| first + corner));

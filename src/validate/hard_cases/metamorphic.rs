@@ -99,8 +99,8 @@ pub(super) fn metamorphic(subject: &Subject, rays: usize) -> Result<Property, Bu
     Ok(property)
 }
 
-/// Rays straight down through the inner corners of a sheet, each in the plane of many boxes. A structure must hit
-/// everything that it hits with an almost equal direction, under any rounding of its triangle test.
+/// Rays straight down through inner corners of a sheet, in the planes of many boxes. A structure that hits the sheet
+/// with an almost equal direction must also hit it straight down, under any rounding of its triangle test.
 pub(super) fn straight_down(subject: &Subject, rays: usize) -> Result<Property, BuildError> {
     let accel = (subject.build)(&sheet(32))?;
     let (mut sampler, mut property) = (Sampler::new(77), Property::default());

@@ -85,7 +85,7 @@ fn through_star(count: usize, seed: u64) -> Vec<Ray> {
     (0..count).map(ray).collect()
 }
 
-/// Compares each ray that continues behind a hit of brute force with brute force.
+/// Compares `subject` with brute force on rays, and on their continuations behind each hit of brute force.
 pub(super) fn continuation(subject: &Subject, rays: usize) -> Result<Property, BuildError> {
     let mesh = star();
     let (accel, reference) = with_reference(subject, &mesh)?;

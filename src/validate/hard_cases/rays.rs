@@ -15,7 +15,7 @@ pub(super) fn inside(sampler: &mut Sampler) -> Vec3 {
     sampler.direction() * (0.5 * sampler.unit())
 }
 
-/// Rays from inside a sphere, at most half its radius from the centre. Rounded vertices leave the sphere closed.
+/// Rays from inside a sphere, at most half its radius from the centre. Moving the sphere rounds it but keeps it closed.
 pub(super) fn in_sphere(count: usize, centre: Vec3, radius: f32) -> Set {
     let mesh = moved(&sphere(), |p| centre + p * radius);
     Set::new(mesh, count, 2, |_, sampler| Ray::new(centre + inside(sampler) * radius, sampler.direction()))
@@ -176,8 +176,8 @@ pub(super) fn stadium(count: usize) -> Set {
     })
 }
 
-/// A ray from just outside one triangle of the sequence, through all smaller ones. It hits this triangle first. A test
-/// in which products of three lengths overflow there finds the next triangle without an overflow instead.
+/// A ray from just outside one triangle of the sequence, through all smaller ones. It hits this triangle first. If
+/// products of three of its lengths overflow, a test in `f32` may hit a smaller triangle instead.
 pub(super) fn through_smaller(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     let [corner, ..] = mesh.corners(sampler.below(300) as u32);
     let side = |sampler: &mut Sampler| 0.05 + 0.2 * sampler.unit();
@@ -223,7 +223,7 @@ pub(super) fn off_a_sphere(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     Ray::new(origin, if direction.dot(origin) < 0.0 { -direction } else { direction })
 }
 
-/// Rays through the star, each made invalid; the valid rays serve as ordinary ones.
+/// Rays through the star, each made invalid. The original, valid rays serve as ordinary rays.
 pub(super) fn spoilt(count: usize, spoil: fn(&mut Sampler, &mut Ray)) -> Set {
     let mut ordinary = vec![];
     let set = Set::new(star(), count, 60, |_, sampler| {

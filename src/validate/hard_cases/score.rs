@@ -16,7 +16,7 @@ use crate::validate::{ErrorCounts, ExpectedHits, Reference, Validation, count_er
 pub struct CaseTruth {
     /// `None` for a property.
     set: Option<(Set, Vec<Option<Truth>>)>,
-    /// By the triangle test of the structure.
+    /// The references, by the name of the triangle test.
     references: BTreeMap<&'static str, Reference>,
 }
 
@@ -144,7 +144,7 @@ impl Score {
         }
     }
 
-    /// Whether no error is caused by the structure, rather than by its triangle test.
+    /// Whether the structure itself, rather than its triangle test, causes no error.
     pub fn is_sound(&self) -> bool {
         match self {
             Self::Rays(score) => score.is_sound(),

@@ -28,7 +28,7 @@ pub fn record(case: &HardCase, choice: &Choice, score: &Score) -> Value {
         "hits": judged(|own| own.hits),
         "missed": judged(|own| own.missed),
         "false_hits": judged(|own| own.false_hits),
-        // Off by more than 4 ulps and more than 1e-6.
+        // Off by more than 4 ulps and by a relative error above 1e-6.
         "wrong_depth": judged(|own| own.wrong_depth),
         // Off by more than 1 %, or by more than 0.1 % on another primitive.
         "coarse_depth": rays.map(|rays| rays.coarse_depth),

@@ -15,14 +15,14 @@ const NAMES: [&str; 4] = ["libembree4.so.4", "libembree4.so", "libembree4.4.dyli
 /// An object of Embree.
 pub type Handle = *mut c_void;
 
-/// A callback for errors. It receives the pointer registered with it, the code and a message.
+/// A callback for errors. It receives the pointer registered with it, an error code and a message.
 pub type OnError = unsafe extern "C" fn(*mut c_void, c_int, *const c_char);
 
-/// A callback for memory. It receives its registered pointer, a change in bytes, and whether the change has happened.
-/// It returns false to refuse the change.
+/// A callback for memory. It receives the pointer registered with it, a change in bytes, and whether the change has
+/// happened. It returns false to refuse the change.
 pub type OnMemory = unsafe extern "C" fn(*mut c_void, isize, bool) -> bool;
 
-/// The options of a query: `RTCIntersectArguments` or `RTCOccludedArguments`.
+/// The options of a query: the first fields of `RTCIntersectArguments` and `RTCOccludedArguments`, and zeros.
 #[repr(C)]
 pub struct Arguments {
     pub flags: c_uint,
@@ -85,7 +85,7 @@ api! {
     occluded16 = "rtcOccluded16": fn(*const c_int, Handle, *mut c_void, *const Arguments);
 }
 
-/// Loads Embree 4 once; never unloads it, because its threads outlive its objects. The error contains a remedy.
+/// Loads Embree 4 once, and never unloads it, because its threads outlive its objects. The error contains a remedy.
 pub fn api() -> Result<&'static Api, String> {
     static LOADED: OnceLock<Result<(Library, Api), String>> = OnceLock::new();
     LOADED.get_or_init(load).as_ref().map(|(_, api)| api).map_err(String::clone)
@@ -93,7 +93,7 @@ pub fn api() -> Result<&'static Api, String> {
 
 fn load() -> Result<(Library, Api), String> {
     let named = env::var_os(VARIABLE).filter(|path| !path.is_empty());
-    // SAFETY: loading runs the initialisers of the library. It is the library that the user names, or the system's
+    // SAFETY: loading runs the initialisers of the library. The library is either named by the user or the system's
     // Embree; both are trusted.
     let open = |name: &OsStr| unsafe { Library::new(name) };
     let library = match &named {
@@ -110,8 +110,8 @@ fn load() -> Result<(Library, Api), String> {
         let place = named.as_ref().map_or(NAMES[0].into(), |path| path.display().to_string());
         format!("{place} is not Embree 4: {what}; set {VARIABLE} to the path of libembree4")
     };
-    // SAFETY: a library with these symbols is Embree's, and only functions whose types are unchanged since Embree 3 are
-    // called before its version is known.
+    // SAFETY: a library with these symbols is Embree. Before its version is known, only functions are called whose
+    // types have not changed since Embree 3.
     let (api, version) = unsafe {
         let api = Api::find(&library).map_err(|error| other(&error.to_string()))?;
         let device = (api.new_device)(c"threads=1".as_ptr());

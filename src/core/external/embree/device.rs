@@ -89,8 +89,8 @@ impl Scene {
     /// Copies the triangles to buffers that Embree allocates, pads and aligns.
     fn attach(&self, mesh: &Mesh, ids: &[u32], quality: c_int) -> Result<(), BuildError> {
         let (api, positions) = (self.api, mesh.positions());
-        // SAFETY: the buffers are not null, and have space for the items of 12 bytes that are written. The scene keeps
-        // the geometry alive after its release here.
+        // SAFETY: the buffers are checked for null, and have space for the items of 12 bytes that are written. The
+        // scene keeps the geometry alive after its release here.
         unsafe {
             let geometry = (api.new_geometry)(self.device, TRIANGLES);
             let vertices: *mut Vec3 = (api.new_buffer)(geometry, VERTICES, 0, FLOAT3, 12, positions.len()).cast();

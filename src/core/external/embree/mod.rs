@@ -2,10 +2,10 @@
 //! `SAHARA_EMBREE` or from the system's search path.
 //!
 //! Its flag ROBUST changes both the triangle test and the box test, so there are two structures: `embree` and
-//! `embree-robust`. Only its own triangle test is available; brute force over it uses a scene of one triangle for each
-//! tested triangle ([`alone`]). Rays and packets of eight or sixteen are converted to its format before the clock
-//! starts: 48, 384 and 768 bytes, all that Embree reads. Each query gets a copy on the stack; a closest-hit query adds
-//! an empty hit. Builds use the caller's number of threads. The adapter cannot see the tree and reports one leaf.
+//! `embree-robust`. Its triangle test runs only inside a scene: to decide a disputed hit, [`alone`] builds a scene of
+//! one triangle. Rays and packets of eight or sixteen are converted to Embree's format before the clock starts: 48, 384
+//! and 768 bytes, all that Embree reads. Each query gets a copy on the stack; a closest-hit query adds an empty hit.
+//! Builds use the caller's number of threads. The adapter cannot see the tree and reports one leaf.
 //!
 //! # References
 //! Wald, Woop, Benthin, Johnson, Ernst: Embree: a kernel framework for efficient CPU ray tracing. SIGGRAPH 2014.
@@ -26,11 +26,11 @@ use api::Arguments;
 use device::Scene;
 use rays::Packet;
 
-/// A scene of Embree. Its triangle test is Möller-Trumbore, and it tests boxes by fused multiply-add; with `ROBUST`
-/// (`RTC_SCENE_FLAG_ROBUST`), the test is Plücker and the boxes are widened.
+/// A scene of Embree. By default, the triangle test is Möller-Trumbore and the box test uses fused multiply-add. With
+/// `ROBUST` (`RTC_SCENE_FLAG_ROBUST`), the triangle test is Plücker and the boxes are widened.
 pub struct Embree<const ROBUST: bool> {
     scene: Scene,
-    /// The number in the mesh of each triangle of the scene.
+    /// For each triangle of the scene, its number in the mesh.
     ids: Vec<u32>,
     packet: Lanes,
     arguments: Arguments,
@@ -204,7 +204,7 @@ impl<const ROBUST: bool> Accel for Embree<ROBUST> {
     }
 }
 
-/// The `t` of Embree's triangle test alone, from a scene of one triangle. Takes up to a millisecond.
+/// The `t` of Embree's triangle test, from a scene that contains only this triangle. Takes up to a millisecond.
 pub fn alone<const ROBUST: bool>(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
     let mesh = Arc::new(Mesh::new(corners.into(), vec![[0, 1, 2]]).ok()?);
     let config = EmbreeConfig { quality: Quality::Medium, ..Default::default() };

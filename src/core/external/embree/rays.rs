@@ -93,7 +93,7 @@ impl<const LANES: usize> Packet<LANES> {
         };
         let (api, valid, rays) = (scene.api, self.valid.as_ptr(), (&raw mut query).cast());
         // SAFETY: `Scene::new` has committed the scene; mask and rays have the alignment that Embree requires, and are
-        // as large as the types that Embree 4 reads and writes (asserted at their types).
+        // at least as large as the types of Embree 4 (asserted at their types).
         unsafe {
             match LANES {
                 1 if self.valid[0] == 0 => {}

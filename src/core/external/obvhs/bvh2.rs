@@ -38,7 +38,7 @@ impl Tree for Bvh2 {
         })
     }
 
-    /// The traversal of obvhs, step by step, without its assertions and with an observer. A test compares the hits.
+    /// The steps of the traversal of obvhs, without its assertions and with an observer. A test compares the hits.
     ///
     /// # Safety
     /// As for [`Tree::walk`].
@@ -69,7 +69,7 @@ impl Tree for Bvh2 {
 }
 
 /// # Safety
-/// As for [`Tree::walk`], whose tree has these `nodes`.
+/// As for [`Tree::walk`] of the tree with these `nodes`.
 #[inline(always)]
 unsafe fn descend<const ANY: bool, O: Observer>(
     nodes: &[Bvh2Node],
@@ -112,7 +112,7 @@ unsafe fn descend<const ANY: bool, O: Observer>(
             mem::swap(&mut near, &mut far);
         }
 
-        // Leaves are searched at once, even the farther one before the content of the nearer inner node.
+        // Leaves are searched immediately: a far leaf even before the subtree of a near inner node.
         let mut enters = |node: &Bvh2Node, t: f32, ray: &mut PreparedRay, observer: &mut O| {
             let meets = t < ray.tmax;
             if meets && node.is_leaf() {

@@ -64,7 +64,7 @@ impl<T: TriangleTest> LeafTest for Over<T> {
     }
 }
 
-/// obvhs' own test on its precomputed triangle, called as in its documentation: its fastest configuration.
+/// obvhs' own test on its precomputed triangle, called as in its documentation. This is the fastest configuration.
 pub struct Native;
 
 impl LeafTest for Native {

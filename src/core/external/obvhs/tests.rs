@@ -25,7 +25,7 @@ fn rays(count: usize) -> Vec<Ray> {
     (0..count).map(&mut ray).collect()
 }
 
-/// Compares the traversal of the adapter with obvhs' own, which returns the nearest hit and whether there is any.
+/// Compares the adapter's traversals with obvhs' own: `own` returns the closest hit and the any-hit result of obvhs.
 fn same_answers<B: Tree>(own: impl Fn(&Obvhs<B, Native>, &Ray) -> (Option<Hit>, bool)) {
     for triangles in [1, 2, 3, 3000] {
         let mesh = soup(triangles);
@@ -42,7 +42,7 @@ fn same_answers<B: Tree>(own: impl Fn(&Obvhs<B, Native>, &Ray) -> (Option<Hit>, 
     }
 }
 
-/// The hits of obvhs' own traversals, which have no common trait.
+/// The results of obvhs' own traversals; a macro, because the traversals have no common trait.
 macro_rules! own_walk {
     () => {
         |built, ray| {

@@ -25,7 +25,7 @@ use query::{RayHead, Tree};
 pub struct TinyBvh {
     /// `None` if there are no triangles.
     tree: Option<Tree>,
-    /// The number in the mesh of each triangle of the tree.
+    /// For each triangle of the tree, its number in the mesh.
     ids: Vec<u32>,
     shape: TreeShape,
 }
@@ -105,8 +105,8 @@ impl Prepare for TinyBvh {
 /// The size of the stacks of tinybvh's traversal and conversion, which do not check for overflow.
 const STACK: usize = 256;
 
-/// The shape, and a bound for the entries on a stack. Per node on a path, the traversal needs an entry for each child
-/// except one, the conversion two entries for each inner child except one entry. The bound adds eight entries once.
+/// The shape, and a bound of stack entries: per node of a path, the traversal leaves all children except one on the
+/// stack, the conversion two words per inner child except one word; the traversal writes eight more.
 fn shape(nodes: &[mbvh::Node]) -> (TreeShape, usize) {
     let (mut shape, mut most) = (TreeShape::default(), 0);
     let mut stack = vec![(0, 0, 0)];

@@ -1,8 +1,8 @@
 //! The two queries of `BVH8_CPU`, called in the C++ library that `tinybvh-rs` compiles and links.
 //!
-//! The crate passes a ray of 64 bytes to functions that read 128, and does not expose `IsOccluded`. Therefore this
-//! module calls both functions by their mangled C++ names (Itanium ABI). It relies on the layout of the ray and of the
-//! crate's tree in the version that `Cargo.toml` pins.
+//! The crate passes a ray of 64 bytes to functions whose ray type has 128, and does not expose `IsOccluded`. Therefore
+//! this module calls both functions by their mangled C++ names (Itanium ABI). It relies on the layout of the ray and of
+//! the crate's tree in the version that `Cargo.toml` pins.
 
 use std::ffi::c_void;
 use std::mem;
@@ -50,7 +50,7 @@ unsafe impl Sync for Tree {}
 #[cfg(target_env = "msvc")]
 compile_error!("peer-tinybvh calls C++ by the names of the Itanium ABI, which Microsoft's compiler does not follow");
 
-// SAFETY: the names encode the argument types; the result types are from the version in `Cargo.toml`.
+// SAFETY: the names encode the argument types; the result types are correct for the version in `Cargo.toml`.
 unsafe extern "C" {
     #[link_name = "_ZNK7tinybvh8BVH8_CPU9IntersectERNS_3RayE"]
     fn intersect(tree: *const c_void, ray: *mut FullRay) -> i32;

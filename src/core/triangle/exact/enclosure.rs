@@ -82,9 +82,9 @@ fn determinant(ray: &Ray, corners: [Vec3; 3]) -> (f64, f64) {
     (direction.dot(edge1.cross(edge2)), 48.0 * UNIT * extent * extent * direction.abs().max_element())
 }
 
-/// Bounds of the `t` at which the line reaches the coordinate of a point on this axis. The line must not be
-/// perpendicular to the axis. The difference of two floats has the right sign, and is zero if and only if they are
-/// equal; the difference and the division each have a relative error of at most 2^-53.
+/// Bounds of the `t` at which the line has the coordinate of the point on this axis. The line must not be perpendicular
+/// to the axis. The difference of two floats has the right sign, and is zero if and only if they are equal; the
+/// difference and the division each have a relative error of at most 2^-53.
 #[inline(always)]
 fn at_height(point: Vec3, ray: &Ray, axis: usize) -> Bounds {
     let t = (f64::from(point[axis]) - f64::from(ray.origin[axis])) / f64::from(ray.direction[axis]);
@@ -93,7 +93,7 @@ fn at_height(point: Vec3, ray: &Ray, axis: usize) -> Bounds {
 }
 
 /// Whether the line misses the triangle: whether u, v or w, given with their errors, has the opposite sign of det,
-/// their sum. The sign of det is certain. The notation is from [`look`].
+/// their sum. The sign of det must be certain. Notation as at [`look`].
 #[inline(always)]
 fn passes_by(ray: &Ray, [a, b, c]: [Vec3; 3], det: f64, [u, v, w]: [(f64, f64); 3]) -> bool {
     let sign = det.total_cmp(&0.0);
@@ -137,7 +137,7 @@ pub(super) fn place_in_axis_plane(ray: &Ray, [a, b, c]: &[Vec3; 3]) -> Option<Bo
     Some(at_height(*a, ray, axis))
 }
 
-/// Bounds of the exact `t` of lines at triangles that they are known to meet, from the width of the filter's bounds.
+/// Bounds of the exact `t` of lines that are known to meet their triangles, from the `width` of the filter's bounds.
 ///
 /// **Bounds.** In the notation of the filter, but with units of 2^-53 instead of 2^-24, the error of the height is less
 /// than 8.1 units of N |s|, and of the determinant less than 7.1 units of 3 D N. The filter's bounds allow 10 units of
@@ -159,8 +159,8 @@ pub(super) fn pass_plane<const N: usize, L: Lanes<N>>(
     (t.sub(error), t.add(error))
 }
 
-/// Like [`place`] for one line and triangle, with the exact height instead of a rounded one: the bounds have only the
-/// relative error of the determinant. If the origin lies in the plane, both are zero.
+/// Like [`place`] for one line and triangle, with the height of [`exact::height`], whose relative error is below 2^-49:
+/// the width of the bounds comes from the determinant. If the origin lies in the plane, both bounds are zero.
 pub(super) fn place_closely(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     let (det, det_error) = determinant(ray, corners);
     if det.abs() < 1024.0 * det_error || det == 0.0 {

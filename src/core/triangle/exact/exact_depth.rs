@@ -75,8 +75,8 @@ impl<'a> ExactDepth<'a> {
     }
 }
 
-/// A quick test whether two triangles lie in one plane: a line then meets both at the same `t`. They do if they have
-/// the same corners (one triangle in several leaves, or a sheet with two sides), or lie in the same axis-aligned plane.
+/// A quick test whether two triangles lie in one plane: a line then meets both at the same `t`. It recognises equal
+/// corners (one triangle in several leaves, or a sheet with two sides) and a common axis-aligned plane.
 #[inline(always)]
 fn surely_coplanar(a: &[Vec3; 3], b: &[Vec3; 3]) -> bool {
     let first = a[0];
@@ -164,7 +164,7 @@ impl Depth for ExactDepth<'_> {
 #[inline(always)]
 fn rounded(bounds: Bounds) -> Option<f32> {
     match bounds {
-        // Of two zeros, the upper bound is the positive one.
+        // Return the upper bound: if the bounds are zeros of different sign, it is the positive zero.
         Bounds::Hit { low, high } if low as f32 == high as f32 => Some(high as f32),
         _ => None,
     }

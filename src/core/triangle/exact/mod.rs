@@ -21,9 +21,9 @@ use enclosure::{Bounds, look, look_at_corners, place, place_closely, place_in_ax
 /// integers or exact sums of floats for the remaining ones. Each decision is made only when needed: bounds of `t` order
 /// the hits, the bounds are narrowed if they overlap, and one `t` per ray is computed to the last bit.
 ///
-/// Guarantees: a ray hits a triangle if and only if the given ray meets the given closed triangle; hits are ordered by
-/// their exact `t`, at equal `t` by number; the returned `t` is the exact `t`, correctly rounded (so a `t` just before
-/// an open end `t_max` may be returned as `t_max`). In a structure that loses no hit, the result for every ray is the
+/// Guarantees: a ray hits a triangle if and only if it exactly meets the closed triangle; hits are ordered by their
+/// exact `t`, at equal `t` by number; the returned `t` is the exact `t`, correctly rounded (a `t` just before `t_max`
+/// may therefore be returned as `t_max`). In a structure that loses no hit, the result for every ray is the
 /// mathematical one. Not guaranteed: speed, if many rays pass exactly through edges or start in planes of triangles.
 /// Each such triangle costs 50 nanoseconds, or a microsecond if the significant bits of the coordinates span more than
 /// forty binary places. Results may be wrong if the processor is set to treat denormal numbers as zero.
@@ -160,7 +160,7 @@ impl TriangleTest for Exact {
 
     #[inline(always)]
     fn order_closely(ray: &ExactRay, one: &ExactDepth, other: &ExactDepth) -> Ordering {
-        // Copy the depths: those that are ordered without this call then need not lie in memory.
+        // Copy the depths: otherwise they would be in memory even if they are ordered without this call.
         let (one, other) = (*one, *other);
         one.order_closely(&other, &ray.ray)
     }
@@ -196,7 +196,7 @@ fn within(ray: &Ray, bounds: Bounds) -> Option<Option<(f32, f32)>> {
     }
 }
 
-/// Refines candidates in `f64` if `f32` cannot decide more than two: the remaining candidates, and their bounds.
+/// Refines candidates in `f64` if more than two are undecided: the remaining candidates and their bounds, else `None`.
 struct Crowd<'a> {
     ray: &'a Ray,
     block: &'a FilterBlock<8>,

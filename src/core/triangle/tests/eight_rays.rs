@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 use super::*;
 use crate::simd::{EightLanes, Kernel, LaneVec3, Level, dispatch, each};
 
-/// Eight rays, triangles, and the end of the search. The result: the number of hits, and of decided hits.
+/// Eight rays, triangles, and the end of the search. The result: the number of hits, and how many of them are decided.
 struct Eight<'a, T>(&'a [Ray; 8], &'a [[Vec3; 3]], f32, PhantomData<T>);
 
 impl<T: TriangleTest> Kernel for Eight<'_, T> {

@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 use super::*;
 use crate::simd::{EightLanes, Kernel, Level, dispatch};
 
-/// Every width gives the bits of the scalar form, and unused lanes hit nothing.
+/// All widths return the bits of the scalar form, and unused lanes hit nothing.
 fn all_widths_agree<T: TriangleTest>() {
     fn check<T: TriangleTest, const N: usize, L: Lanes<N>>(ray: &Ray, triangles: &[[Vec3; 3]]) -> usize {
         let (t_min, t_max) = ray.interval();
@@ -52,7 +52,7 @@ fn all_widths_agree<T: TriangleTest>() {
     assert!(hits > 5_000, "{}: too few hits for a meaningful test: {hits}", T::NAME);
 }
 
-/// A ray hits this triangle if it hits a slightly smaller one, and only if it hits a slightly larger one.
+/// A test reports a hit if a slightly smaller triangle is exactly hit, and only if a slightly larger one is.
 fn right_away_from_edges<T: TriangleTest>() {
     let mut rng = Pcg32::seed_from_u64(2);
     let mut hits = 0;
@@ -133,7 +133,7 @@ fn intervals_are_half_open<T: TriangleTest>() {
     assert!(hits > 1_000, "{}: too few hits for a meaningful test: {hits}", T::NAME);
 }
 
-/// An unbounded ray ends before the numbers that round to infinity.
+/// An unbounded ray has no hit at a `t` that rounds to infinity.
 fn a_t_beyond_the_largest_float_is_no_hit<T: TriangleTest>() {
     let at = |z: f32| [Vec3::new(-1.0, -1.0, z), Vec3::new(3.0, -1.0, z), Vec3::new(-1.0, 3.0, z)];
     let short = |length: f32| Ray::new(Vec3::ZERO, Vec3::new(0.0, 0.0, length));

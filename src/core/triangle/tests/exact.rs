@@ -46,7 +46,7 @@ fn the_exact_test_agrees_with_the_judges_everywhere() {
     assert!(hits > 30_000, "{hits}");
 }
 
-/// Triangles that are narrow or axis-aligned, for which the filter bounds heights best, and rays from nearby.
+/// A narrow or axis-aligned triangle, where the bounds of the height are tightest, and a ray at it or beside it.
 pub(super) fn narrow(rng: &mut Pcg32) -> (Ray, [Vec3; 3]) {
     let mut corners = triangle(rng, unit);
     let width = libm::exp2f(-((rng.next_u32() % 24) as f32));

@@ -27,9 +27,9 @@ impl Sizes {
 
 /// The documented bounds of a test; `outside` and `t` are multiplied by the determinant.
 struct Bounds {
-    /// A hit triangle is found if the determinant is larger.
+    /// The test must find a triangle that is hit if the determinant is larger than this.
     found: f64,
-    /// How far a barycentric of a hit may be below zero: for the first, the second and the third corner.
+    /// How far below zero a barycentric of a reported hit may be: of the first, the second and the third corner.
     outside: [f64; 3],
     /// The maximum error of `t` before it is rounded.
     t: f64,
@@ -96,7 +96,7 @@ fn check<T: TriangleTest>(ray: &Ray, corners: [Vec3; 3], bounds: fn(&Sizes, f64)
             freedom.off += u32::from(error > ulp(t));
         }
         None if is_hit => {
-            // At the very ends of the interval the computed `t` decides.
+            // Near the ends of the interval, the rounded `t` decides.
             let at_an_end = t <= off || t + off >= f64::from(f32::MAX);
             assert!(determinant < sure || at_an_end, "{}: a sure hit is lost: {ray:?} {corners:?}", T::NAME);
             freedom.lost += 1;
@@ -126,7 +126,7 @@ fn hold<T: TriangleTest>(bounds: fn(&Sizes, f64) -> Bounds) {
         }
     }
     let Freedom { hits, lost, invented, off } = freedom;
-    // Without such errors, the bounds would remain untested.
+    // The rays must be hard enough to cause such errors, or the bounds remain untested.
     assert!(hits > 2_000 && lost > 0 && invented > 0 && off > 20, "{}: {freedom:?}", T::NAME);
 }
 

@@ -39,7 +39,7 @@ pub(super) fn walk(document: &Document) -> Result<(Vec<Node<'_>>, Vec<DMat4>), F
         }
     }
 
-    // Visit all nodes, those that are shown first.
+    // Visit the shown nodes, then the hidden ones. The last entry of `waiting` is visited first.
     let hidden = (0..nodes.len()).filter(|&node| !is_shown[node]);
     let mut waiting: Vec<usize> = hidden.chain(roots.iter().rev().copied()).filter(|&node| is_root(node)).collect();
     let mut worlds = vec![DMat4::IDENTITY; nodes.len()];
