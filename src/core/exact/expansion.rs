@@ -138,7 +138,7 @@ mod tests {
 
     #[test]
     fn integers_are_those_of_rationals() {
-        // The second largest term of `touching` is half of the largest one's lowest bit; `around` is near powers of two.
+        // The second largest term of `touching` is half of the largest one's lowest bit; `around` is near powers of 2.
         let touching = (((1_i128 << 52) + 1) << 73) + (1 << 72) - 1;
         let around = (0..126).flat_map(|bits| [-1, 0, 1].map(|k| (1_i128 << bits) + k)).filter(|&x| x < 1 << 126);
         for x in around.chain([touching, (1 << 126) - 1, 0x1234_5678_9abc_def0_1234_5678_9abc]) {

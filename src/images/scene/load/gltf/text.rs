@@ -4,10 +4,14 @@
 //! that this loader does not read, and misreads some invalid files. The document is therefore reduced to the parts that
 //! are read before the crate parses it.
 
+use std::borrow::Cow;
+use std::collections::HashMap;
 use std::ops::Range;
 
 use gltf::json::validation::{Error, Validate as _};
 use gltf::json::{Path, Root};
+use serde::de::DeserializeOwned;
+use serde_json::value::RawValue;
 use serde_json::{Value, json};
 
 use super::extensions;
@@ -25,10 +29,9 @@ const BYTES_AN_OBJECT: usize = 48;
 const ENTRIES_AN_OBJECT: usize = 12;
 
 /// The keys that are read, without the keys of joints and weights.
-const KEYS: &str = "accessors attributes baseColorFactor buffer bufferView bufferViews buffers byteLength byteOffset \
-    byteStride children componentType count indices inverseBindMatrices joints material materials matrix mesh meshes \
-    mode name nodes normalized pbrMetallicRoughness primitives rotation scale scene scenes skin skins sparse targets \
-    translation type uri values NORMAL POSITION";
+const KEYS: &str = "attributes baseColorFactor buffer bufferView byteLength byteOffset byteStride children componentType \
+    count indices inverseBindMatrices joints material matrix mesh mode name nodes normalized pbrMetallicRoughness \
+    primitives rotation scale skin sparse targets translation type uri values NORMAL POSITION";
 
 /// The keys of numbers that may be 2^32 or more. Indices may not: the crate would cut them off.
 const LARGE: &str = "baseColorFactor byteLength byteOffset count matrix rotation scale translation";
@@ -51,23 +54,42 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fa
     if !text.trim_ascii_start().starts_with(b"{") {
         return Err(no_gltf("it is not a JSON object"));
     }
-    let mut document: Value = serde_json::from_slice(text).map_err(|error| no_gltf(&error.to_string()))?;
+    let broken = |error: serde_json::Error| no_gltf(&error.to_string());
+    let members: Members = serde_json::from_slice(text).map_err(broken)?;
     // Other versions and extensions first: they explain what is wrong with the rest.
-    check_version(&document["asset"])?;
+    check_version(&value(&members, "asset")?)?;
     let mut notes = Notes::default();
-    extensions::check(&document["extensionsRequired"], &document["extensionsUsed"], &mut notes)?;
-    let instances = items(&document["nodes"]).map(extensions::instances).collect();
-    let textured = items(&document["materials"]).map(is_textured).collect();
+    let [required, used] = ["extensionsRequired", "extensionsUsed"].map(|key| value(&members, key));
+    extensions::check(&required?, &used?, &mut notes)?;
 
-    prune("", &mut document)?;
-    document["asset"] = json!({"version": "2.0"});
+    let nodes = members.get("nodes").map(|nodes| nodes.get()).filter(|nodes| *nodes != "null").unwrap_or("[]");
+    let texts: Vec<&RawValue> = serde_json::from_str(nodes).map_err(broken)?;
+    let (mut nodes, mut instances) = (vec![], vec![]);
+    for (number, text) in texts.into_iter().enumerate() {
+        let place = format!("nodes[{number}]");
+        let node = serde_json::from_str(text.get()).map_err(|error| Fault::part(&place, error.to_string()))?;
+        instances.push(extensions::instances(&node));
+        nodes.push(typed(&place, node)?);
+    }
     // The crate wants a list of nodes, which is optional.
-    let scenes = document.get_mut("scenes").and_then(Value::as_array_mut);
-    for scene in scenes.into_iter().flatten().filter_map(Value::as_object_mut) {
+    let mut scenes = value(&members, "scenes")?;
+    for scene in scenes.as_array_mut().into_iter().flatten().filter_map(Value::as_object_mut) {
         scene.entry("nodes").or_insert_with(|| json!([]));
     }
-    let root: Root = serde_path_to_error::deserialize(document)
-        .map_err(|error| Fault::part(error.path().to_string(), error.inner().to_string()))?;
+    let materials = value(&members, "materials")?;
+    let textured = materials.as_array().into_iter().flatten().map(is_textured).collect();
+    let root = Root {
+        scene: typed("scene", value(&members, "scene")?)?,
+        scenes: typed_list("scenes", scenes)?,
+        nodes,
+        materials: typed_list("materials", materials)?,
+        skins: typed_list("skins", value(&members, "skins")?)?,
+        meshes: typed_list("meshes", value(&members, "meshes")?)?,
+        accessors: typed_list("accessors", value(&members, "accessors")?)?,
+        buffer_views: typed_list("bufferViews", value(&members, "bufferViews")?)?,
+        buffers: typed_list("buffers", value(&members, "buffers")?)?,
+        ..Root::default()
+    };
     for (m, mesh) in root.meshes.iter().enumerate() {
         for (p, primitive) in mesh.primitives.iter().enumerate() {
             // The crate panics at an accessor of positions that is out of bounds.
@@ -81,23 +103,40 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fa
     Ok((Document { root, instances, textured, notes }, chunk))
 }
 
-fn items(list: &Value) -> impl Iterator<Item = &Value> {
-    list.as_array().into_iter().flatten()
+/// The members of a document as text: all values of a document would take twenty times as much memory.
+type Members<'a> = HashMap<Cow<'a, str>, &'a RawValue>;
+
+/// A member, null if there is none.
+fn value(members: &Members, key: &str) -> Result<Value, Fault> {
+    let read = |text: &&RawValue| serde_json::from_str(text.get());
+    let value = members.get(key).map_or(Ok(Value::Null), read);
+    value.map_err(|error| Fault::part(key, error.to_string()))
 }
 
-/// Removes members that are null or not read. An index of 2^32 or more becomes 2^32 - 1, which is out of bounds. A list
-/// within a list is refused, because serde accepts a list in place of an object.
-fn prune(key: &str, value: &mut Value) -> Result<(), Fault> {
+/// A list of items of the crate; a missing one is empty.
+fn typed_list<T: DeserializeOwned>(key: &str, list: Value) -> Result<Vec<T>, Fault> {
+    if list.is_null() { Ok(vec![]) } else { typed(key, list) }
+}
+
+/// A value of a type of the crate, without what is not read.
+fn typed<T: DeserializeOwned>(place: &str, mut value: Value) -> Result<T, Fault> {
+    prune("", &mut value).map_err(|problem| Fault::part(place, problem))?;
+    serde_path_to_error::deserialize(value).map_err(|error| {
+        let place = format!("{place}.{}", error.path()).replace(".[", "[");
+        Fault::part(place.trim_end_matches('.'), error.inner().to_string())
+    })
+}
+
+/// Cuts out what is not read. Indices of 2^32 or more become the largest, which is out of bounds. serde takes a list for an
+/// object as well.
+fn prune(key: &str, value: &mut Value) -> Result<(), &'static str> {
     match value {
         Value::Object(members) => {
             let set = |key: &str| key.strip_prefix("JOINTS_").or(key.strip_prefix("WEIGHTS_"))?.parse::<u8>().ok();
-            let is_read = |key: &str| is_among(KEYS, key.as_bytes()) || set(key).is_some();
-            members.retain(|key, value| is_read(key) && !value.is_null());
+            members.retain(|key, _| is_among(KEYS, key.as_bytes()) || set(key).is_some());
             return members.iter_mut().try_for_each(|(key, value)| prune(key, value));
         }
-        Value::Array(list) if list.iter().any(Value::is_array) => {
-            return Err(Fault::part(key, "unexpected list: export the file again"));
-        }
+        Value::Array(list) if list.iter().any(Value::is_array) => return Err("unexpected list: export the file again"),
         Value::Array(list) => return list.iter_mut().try_for_each(|value| prune(key, value)),
         Value::Number(number) if number.as_u64() > Some(u32::MAX.into()) && !is_among(LARGE, key.as_bytes()) => {
             *value = u32::MAX.into();
