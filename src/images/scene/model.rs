@@ -1,5 +1,7 @@
 //! The output of mesh generators and file loaders.
 
+use std::collections::TryReserveError;
+
 use glam::Vec3;
 
 use super::Material;
@@ -29,5 +31,35 @@ impl Model {
     /// The indices of a placed triangle. A placement that mirrors reverses their order, which keeps the front side.
     pub fn placed([a, b, c]: [u32; 3], is_mirrored: bool) -> [u32; 3] {
         if is_mirrored { [a, c, b] } else { [a, b, c] }
+    }
+
+    /// Allocates memory for more elements, with normals and a material for each triangle.
+    pub(super) fn try_reserve(
+        &mut self,
+        vertices: usize,
+        normals: usize,
+        triangles: usize,
+    ) -> Result<(), TryReserveError> {
+        self.positions.try_reserve_exact(vertices)?;
+        self.normals.try_reserve_exact(normals)?;
+        self.triangles.try_reserve_exact(triangles)?;
+        self.normal_indices.try_reserve_exact(triangles)?;
+        self.material_of.try_reserve_exact(triangles)
+    }
+
+    /// Makes triangles flat if one of their normals has no direction, because shading normalizes normals. Adds a note.
+    pub(super) fn flatten_invalid_normals(&mut self) {
+        let Self { normals, normal_indices, notes, .. } = self;
+        let is_valid = |&n: &u32| {
+            n == Self::FLAT || normals.get(n as usize).is_some_and(|n| n.is_finite() && n.length_squared() > 0.0)
+        };
+        let mut flattened = 0;
+        for corners in normal_indices.iter_mut().filter(|corners| !corners.iter().all(is_valid)) {
+            *corners = [Self::FLAT; 3];
+            flattened += 1;
+        }
+        if flattened > 0 {
+            notes.push(format!("{flattened} triangles have an invalid normal: shaded flat"));
+        }
     }
 }

@@ -50,21 +50,6 @@ pub fn load(path: &Path) -> Result<Model, LoadError> {
     let malformed = |Fault { place, problem }| LoadError::Malformed { file: file(), place, problem };
     let mut model = read(bytes, path.parent().unwrap_or(Path::new(""))).map_err(malformed)?;
     Mesh::check(&model.positions, &model.triangles).map_err(|cause| LoadError::Mesh { file: file(), cause })?;
-    flatten_bad_normals(&mut model);
+    model.flatten_invalid_normals();
     Ok(model)
-}
-
-/// Makes triangles flat that have a normal of length zero, because shading divides by the length of a normal.
-fn flatten_bad_normals(model: &mut Model) {
-    let usable = |n: u32| {
-        n == Model::FLAT || model.normals.get(n as usize).is_some_and(|n| n.is_finite() && n.length_squared() > 0.0)
-    };
-    let mut flattened = 0;
-    for corners in model.normal_indices.iter_mut().filter(|corners| !corners.iter().all(|&n| usable(n))) {
-        *corners = [Model::FLAT; 3];
-        flattened += 1;
-    }
-    if flattened > 0 {
-        model.notes.push(format!("{flattened} triangles have an invalid normal: shaded flat"));
-    }
 }

@@ -13,9 +13,6 @@ use super::text::{lines, name, plain, words};
 use crate::escaped::Escaped as _;
 use crate::scene::Material;
 
-/// The most libraries that are read, more than any exporter writes.
-const MOST_LIBRARIES: usize = 64;
-
 /// By their names, the materials that a library defines, and whether they have a texture.
 type Materials = IndexMap<Vec<u8>, Option<(Material, bool)>>;
 
@@ -27,15 +24,9 @@ pub(super) fn read(
     folder: &Path,
     notes: &mut Notes,
 ) -> Vec<Material> {
-    let paths = libraries.iter().flat_map(|names| paths(names, folder));
-    let mut paths: Vec<_> = paths.take(MOST_LIBRARIES + 1).collect();
-    if paths.len() > MOST_LIBRARIES {
-        paths.pop();
-        notes.add(format!("only the first {MOST_LIBRARIES} material files are read"));
-    }
     let mut materials: Materials = names.into_iter().map(|name| (name, None)).collect();
     let mut files: HashSet<PathBuf> = HashSet::new();
-    for path in paths {
+    for path in libraries.iter().flat_map(|names| paths(names, folder)) {
         match path {
             Ok(path) if !files.insert(path.clone()) => {}
             Ok(path) => read_library(&path, &mut materials, notes).unwrap_or_else(|problem| notes.add(problem)),
@@ -104,14 +95,11 @@ fn read_value(line: &[u8], (material, has_texture): &mut (Material, bool)) -> Op
             }
             material.shininess = values.shininess.map_or(material.shininess, |shininess| shininess.max(0.0));
         }
-        Some(keyword) if is_texture(keyword) => *has_texture |= words.next().is_some(),
+        Some(b"bump" | b"norm" | b"disp" | b"decal") => *has_texture |= words.next().is_some(),
+        Some(keyword) if keyword.starts_with(b"map_") => *has_texture |= words.next().is_some(),
         _ => {}
     }
     Some(())
-}
-
-fn is_texture(keyword: &[u8]) -> bool {
-    keyword.starts_with(b"map_") || [&b"bump"[..], b"norm", b"disp", b"decal"].contains(&keyword)
 }
 
 /// The values of a statement; empty if it is wrong. tobj gets each separately, because a value that it rejects voids

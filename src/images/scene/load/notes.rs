@@ -1,7 +1,6 @@
 //! Notes about the parts of a file that were left out.
 
 use crate::plural::plural;
-use crate::scene::polygon::Splitter;
 
 /// Sentences without repetition, limited in number.
 #[derive(Debug, Default)]
@@ -30,13 +29,6 @@ impl Notes {
     pub fn count(&mut self, count: usize, kind: &str, remark: &str) {
         if count > 0 {
             self.kept.push(format!("{} {remark}", plural(count, kind)));
-        }
-    }
-
-    /// Adds what a reader found wrong with polygons.
-    pub fn polygons(&mut self, splitter: &Splitter) {
-        for (count, defect) in splitter.defects() {
-            self.count(count, "polygon", defect);
         }
     }
 

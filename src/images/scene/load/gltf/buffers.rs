@@ -25,12 +25,9 @@ pub(super) fn read(list: &mut [Buffer], mut chunk: Option<Vec<u8>>, folder: &Pat
     let mut files: HashMap<PathBuf, Bytes> = HashMap::new();
     let mut read = |number: usize, uri: Option<String>| {
         let Some(uri) = uri else {
-            let reason = match number {
-                0 => "the file has no binary chunk",
-                _ => "only buffer 0 may use the binary chunk",
-            };
-            let none = || format!("it has no URI, and {reason}: export the file again");
-            return chunk.take_if(|_| number == 0).map(Rc::new).ok_or_else(none);
+            let none =
+                "it has no URI, which only buffer 0 of a file with a binary chunk may lack: export the file again";
+            return chunk.take_if(|_| number == 0).map(Rc::new).ok_or_else(|| none.to_owned());
         };
         if uri.starts_with("data:") {
             return embedded(&uri).map(Rc::new);

@@ -40,9 +40,9 @@ fn others(list: &Value) -> impl Iterator<Item = &str> {
 fn decompression(name: &str) -> Option<&'static str> {
     match name {
         "EXT_meshopt_compression" | "KHR_meshopt_compression" => {
-            Some("decompress the file with `gltfpack -noq -i IN -o OUT` or `gltf-transform cp IN OUT`")
+            Some("decompress it with `gltfpack -noq -i IN -o OUT`")
         }
-        "KHR_draco_mesh_compression" => Some("decompress the file with `gltf-transform cp IN OUT`"),
+        "KHR_draco_mesh_compression" => Some("decompress it with `gltf-transform cp IN OUT`"),
         _ => None,
     }
 }

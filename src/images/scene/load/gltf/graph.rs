@@ -27,44 +27,38 @@ pub(super) fn walk(document: &Document) -> Result<(Vec<Node<'_>>, Vec<DMat4>), F
             }
         }
     }
-    let is_root = |node: usize| parents[node].is_none();
-    let roots: Vec<usize> = match document.default_scene() {
-        Some(scene) => scene.nodes().map(|node| node.index()).collect(),
-        None => (0..nodes.len()).filter(|&node| is_root(node)).collect(),
+    let is_root = |node: &Node| parents[node.index()].is_none();
+    let file_roots = nodes.iter().filter(|node| is_root(node)).cloned();
+    let roots: Vec<Node> = match document.default_scene() {
+        Some(scene) => scene.nodes().collect(),
+        None => file_roots.clone().collect(),
     };
-    let mut is_shown = vec![false; nodes.len()];
-    for &root in &roots {
-        if !is_root(root) || std::mem::replace(&mut is_shown[root], true) {
-            return fault(root, "the scene lists it twice, or another node does: list only roots, once".to_owned());
-        }
-    }
 
     // Visit the shown nodes, then the hidden ones. The last entry of `waiting` is visited first.
-    let hidden = (0..nodes.len()).filter(|&node| !is_shown[node]);
-    let mut waiting: Vec<usize> = hidden.chain(roots.iter().rev().copied()).filter(|&node| is_root(node)).collect();
-    let mut worlds = vec![DMat4::IDENTITY; nodes.len()];
-    // 0 for a node that is not yet visited.
-    let mut depths = vec![0; nodes.len()];
+    let entry = |node, is_shown| (node, DMat4::IDENTITY, 1, is_shown);
+    let mut waiting: Vec<_> = file_roots.map(|root| entry(root, false)).collect();
+    waiting.extend(roots.into_iter().rev().map(|root| entry(root, true)));
+    let mut worlds = vec![None; nodes.len()];
     let mut shown = Vec::new();
-    while let Some(number) = waiting.pop() {
-        let node = &nodes[number];
-        let (mut above, mut depth) = (DMat4::IDENTITY, 1);
-        if let Some(parent) = parents[number] {
-            (above, depth) = (worlds[parent], depths[parent] + 1);
-            is_shown[number] = is_shown[parent];
+    while let Some((node, above, depth, is_shown)) = waiting.pop() {
+        let number = node.index();
+        if is_shown && (worlds[number].is_some() || depth == 1 && !is_root(&node)) {
+            return fault(number, "the scene lists it twice, or another node does: list only roots, once".to_owned());
         }
-        worlds[number] = above * local(node);
-        depths[number] = depth;
         if depth > DEEPEST {
             return fault(number, format!("it lies deeper than {DEEPEST} nodes: flatten the hierarchy"));
         }
-        shown.extend(is_shown[number].then(|| node.clone()));
-        let first = waiting.len();
-        waiting.extend(node.children().map(|child| child.index()));
-        waiting[first..].reverse();
+        if worlds[number].is_none() {
+            let world = above * local(&node);
+            worlds[number] = Some(world);
+            let first = waiting.len();
+            waiting.extend(node.children().map(|child| (child, world, depth + 1, is_shown)));
+            waiting[first..].reverse();
+            shown.extend(is_shown.then_some(node));
+        }
     }
-    if let Some(node) = depths.iter().position(|depth| *depth == 0) {
+    if let Some(node) = worlds.iter().position(Option::is_none) {
         return fault(node, "it is its own ancestor: remove the cycle".to_owned());
     }
-    Ok((shown, worlds))
+    Ok((shown, worlds.into_iter().flatten().collect()))
 }

@@ -17,22 +17,20 @@ use glam::{DMat3, DMat4, DVec3, Vec3};
 use gltf::Document;
 
 use self::accessors::Accessors;
-use self::placement::{Placement, Pose};
-use self::shape::{Attribute, Shape, Sizes};
+use self::placement::Placement;
+use self::shape::Shape;
 use super::error::Fault;
-use crate::plural::plural;
 use crate::scene::{Material, Model};
 
 /// A scene may have at most as many triangles, and as many vertices, as its files have bytes, plus this number. Only
 /// shared meshes make more triangles than bytes.
 const MOST_REPEATED: usize = 1 << 24;
 
-/// Reads a glTF file and expands its node graph: adds one copy of a mesh for each node or instance that shows it. A
-/// skin poses its mesh.
+/// Reads a glTF file and expands its node graph: adds one copy of a mesh for each node or instance that shows it.
 ///
 /// Transforms are multiplied in f64 and rounded once, when they are applied to vertices. Triangles of mirrored nodes
 /// are reversed, which keeps their front side. Points, lines, textures and morph targets are left out. It counts all
-/// visible triangles, vertices, normals, joints and instances before it reads an element.
+/// visible triangles, vertices, normals and instances before it reads an element.
 pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
     let (text::Document { mut root, instances, textured, mut notes }, chunk) = text::parse(&bytes)?;
     let size = bytes.len();
@@ -46,34 +44,31 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
     let document = Document::from_json_without_validation(root);
     let accessors = Accessors::new(&document, &buffers)?;
     let (shown, worlds) = graph::walk(&document)?;
-    let placements = shown
-        .into_iter()
-        .filter_map(|node| Some(Placement { mesh: node.mesh()?, instances: instances[node.index()], node }));
-    let placements: Vec<Placement> = placements.collect();
+    let with_mesh = shown.into_iter().filter_map(|node| Some((node.mesh()?, instances[node.index()], node)));
+    let placements: Vec<Placement> =
+        with_mesh.map(|(mesh, instances, node)| Placement { mesh, instances, node }).collect();
     let mut shapes = HashMap::new();
-    let mut sizes = Sizes::default();
+    let mut sizes = [Saturating(0); 4];
     for placement in &placements {
         let mesh = placement.mesh.index();
         if let Entry::Vacant(shape) = shapes.entry(mesh) {
             shape.insert(Shape::count(&placement.mesh)?);
         }
-        let [copies, joints] = placement.sizes(accessors)?.map(Saturating);
+        let copies = Saturating(placement.copies(accessors)?);
         for (total, size) in sizes.iter_mut().zip(shapes[&mesh].sizes) {
             *total += size * copies;
         }
-        sizes[3] += copies + joints;
+        sizes[3] += copies;
     }
     let mut model = Model { materials: document.materials().enumerate().map(material).collect(), ..Model::default() };
     if sizes[2].0 == 0 {
-        let surfaces = plural(shapes.values().map(|shape| shape.parts.len()).sum(), "triangle primitive");
-        let others = plural(shapes.values().map(|shape| shape.left_out).sum(), "primitive");
-        let shown = format!("{surfaces} without triangles, and {others} of points or lines or without positions");
-        return Err(Fault::file(format!("it has no visible triangles: its nodes show {shown}")));
+        let problem = "its nodes show no triangle primitive with positions and at least three corners";
+        return Err(Fault::file(format!("it has no visible triangles: {problem}")));
     }
     reserve(&mut model, sizes.map(|size| size.0), size)?;
     for placement in &placements {
-        for pose in placement.poses(&worlds, accessors)? {
-            add(&mut model, placement, &pose, &shapes[&placement.mesh.index()], accessors)?;
+        for transform in placement.transforms(&worlds, accessors)? {
+            add(&mut model, placement, transform, &shapes[&placement.mesh.index()], accessors)?;
         }
     }
 
@@ -89,12 +84,8 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
         model.material_of = Vec::new();
     }
 
-    let is_unposed = |placement: &&Placement| {
-        let mut positions = shapes[&placement.mesh.index()].positions.iter();
-        placement.node.skin().is_some() && positions.any(|attribute| attribute.influences.is_empty())
-    };
-    let unposed = placements.iter().filter(is_unposed).count();
-    notes.count(unposed, "node", "with a skin, but without joints in its mesh: shown as stored, without a pose");
+    let skinned = placements.iter().filter(|placement| placement.node.skin().is_some()).count();
+    notes.count(skinned, "node", "with a skin: its mesh is placed by the first joint and not bent");
     let textured = (0..).zip(&textured).filter(|(number, is_textured)| **is_textured && used.contains(number)).count();
     notes.count(textured, "material", "with a texture, which is ignored: the base colour is used");
     let parts = shapes.values().flat_map(|shape| &shape.parts);
@@ -109,18 +100,11 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
 /// Checks the sizes against the limit and allocates the memory for the whole scene, before anything is expanded: a
 /// small file can show a large mesh many times.
 ///
-/// `sizes` are the numbers of vertices, normals, triangles, and other elements to read: parts, influences, joints and
-/// instances.
+/// `sizes` are the numbers of vertices, normals, triangles, and other elements to read: parts and instances.
 fn reserve(model: &mut Model, sizes: [usize; 4], bytes: usize) -> Result<(), Fault> {
     let [vertices, normals, triangles, others] = sizes;
     let most = bytes.saturating_add(MOST_REPEATED).min(u32::MAX as usize - 1);
-    let fits = sizes.iter().all(|&size| size <= most)
-        && model.positions.try_reserve_exact(vertices).is_ok()
-        && model.normals.try_reserve_exact(normals).is_ok()
-        && model.triangles.try_reserve_exact(triangles).is_ok()
-        && model.normal_indices.try_reserve_exact(triangles).is_ok()
-        && model.material_of.try_reserve_exact(triangles).is_ok();
-    if fits {
+    if sizes.iter().all(|&size| size <= most) && model.try_reserve(vertices, normals, triangles).is_ok() {
         return Ok(());
     }
     let shown = format!("its nodes instantiate {triangles} triangles and {vertices} vertices");
@@ -129,24 +113,20 @@ fn reserve(model: &mut Model, sizes: [usize; 4], bytes: usize) -> Result<(), Fau
     Err(Fault::file(format!("{shown}, but {limit}: split the scene")))
 }
 
-/// Adds the triangles of a mesh in a pose.
-fn add<'a>(
+/// Adds the triangles of a copy of a mesh.
+fn add(
     model: &mut Model,
     placement: &Placement,
-    pose: &'a Pose,
-    shape: &Shape<'a>,
-    accessors: Accessors<'a>,
+    transform: DMat4,
+    shape: &Shape,
+    accessors: Accessors,
 ) -> Result<(), Fault> {
-    let vectors = |attribute: &Attribute| -> Result<_, Fault> {
-        let vectors = accessors.read(attribute.vectors)?.map(DVec3::from_array);
-        Ok(vectors.zip(pose.transforms(attribute, accessors)?))
-    };
     let mut first_vertices = Vec::new();
-    for attribute in &shape.positions {
+    for &accessor in &shape.positions {
         let first = model.positions.len();
         first_vertices.push(first as u32);
-        let placed = |(position, transform): (DVec3, DMat4)| transform.transform_point3(position).as_vec3();
-        model.positions.extend(vectors(attribute)?.map(placed));
+        let placed = |position| transform.transform_point3(DVec3::from_array(position)).as_vec3();
+        model.positions.extend(accessors.read(accessor)?.map(placed));
         if let Some(number) = model.positions[first..].iter().position(|placed| !placed.is_finite()) {
             let (mesh, placed) = (placement.mesh.index(), model.positions[first + number].to_array());
             let problem = format!("it places vertex {number} of mesh {mesh} at {placed:?}, which is not finite");
@@ -154,14 +134,14 @@ fn add<'a>(
         }
     }
     let mut first_normals = Vec::new();
-    for attribute in &shape.normals {
+    let to_normal = to_normal(DMat3::from_mat4(transform));
+    for &accessor in &shape.normals {
         first_normals.push(model.normals.len() as u32);
-        let turned = |(normal, transform): (DVec3, DMat4)| to_normal(DMat3::from_mat4(transform)) * normal;
-        model.normals.extend(vectors(attribute)?.map(turned).map(|normal| normal.normalize_or_zero().as_vec3()));
+        let turned = |normal| (to_normal * DVec3::from_array(normal)).normalize_or_zero().as_vec3();
+        model.normals.extend(accessors.read(accessor)?.map(turned));
     }
+    let is_mirrored = transform.determinant() < 0.0;
     for part in &shape.parts {
-        let first_transform = pose.transforms(&shape.positions[part.positions], accessors)?.next();
-        let is_mirrored = first_transform.is_some_and(|transform| transform.determinant() < 0.0);
         let material = part.primitive.material().index().unwrap_or(model.materials.len());
         for corners in part.triangles(accessors)? {
             let corners = Model::placed(corners, is_mirrored);

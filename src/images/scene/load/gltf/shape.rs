@@ -9,25 +9,16 @@ use indexmap::IndexSet;
 use super::accessors::Accessors;
 use crate::scene::load::error::Fault;
 
-/// The numbers of vertices, normals and triangles, and of what else is read to place them.
-pub(super) type Sizes = [Saturating<usize>; 4];
-
 /// A mesh whose accessors are counted, but not yet read. Its primitives often share accessors.
 #[derive(Default)]
 pub(super) struct Shape<'a> {
-    pub positions: IndexSet<Attribute>,
-    pub normals: IndexSet<Attribute>,
+    pub positions: IndexSet<usize>,
+    pub normals: IndexSet<usize>,
     pub parts: Vec<Part<'a>>,
-    pub sizes: Sizes,
+    /// The numbers of vertices, normals, triangles and primitives.
+    pub sizes: [Saturating<usize>; 4],
     /// Primitives that are points or lines, or have no positions.
     pub left_out: usize,
-}
-
-/// The accessors of vectors, and of the joints and weights with which a skin moves them; all of one length.
-#[derive(PartialEq, Eq, Hash)]
-pub(super) struct Attribute {
-    pub vectors: usize,
-    pub influences: Vec<[usize; 2]>,
 }
 
 /// The triangles of a primitive.
@@ -62,13 +53,6 @@ impl<'a> Shape<'a> {
             }
             accessor => Ok(accessor.map(|accessor| accessor.index())),
         };
-        let mut influences = Vec::new();
-        for set in 0.. {
-            match (attribute(Semantic::Joints(set))?, attribute(Semantic::Weights(set))?) {
-                (Some(joints), Some(weights)) => influences.push([joints, weights]),
-                _ => break,
-            }
-        }
         let normals = attribute(Semantic::Normals)?;
         let corners = primitive.indices().map_or(vertices, |indices| indices.count());
         let is_list = primitive.mode() == Mode::Triangles;
@@ -79,13 +63,10 @@ impl<'a> Shape<'a> {
         // A part takes time even if it has no triangles.
         self.sizes[2] += if is_list { corners / 3 } else { corners.saturating_sub(2) };
         self.sizes[3] += 1;
-        let mut add = |vectors, kind: usize| {
+        let mut add = |accessor, kind: usize| {
             let list = if kind == 0 { &mut self.positions } else { &mut self.normals };
-            let (index, is_new) = list.insert_full(Attribute { vectors, influences: influences.clone() });
-            if is_new {
-                self.sizes[kind] += vertices;
-                self.sizes[3] += Saturating(influences.len()) * Saturating(vertices.saturating_add(1));
-            }
+            let (index, is_new) = list.insert_full(accessor);
+            self.sizes[kind] += if is_new { vertices } else { 0 };
             index
         };
         let positions = add(positions, 0);

@@ -28,7 +28,7 @@ const BYTES_AN_OBJECT: usize = 48;
 /// The most entries of lists and objects, per object.
 const ENTRIES_AN_OBJECT: usize = 12;
 
-/// The keys that are read, without the keys of joints and weights.
+/// The keys that are read.
 const KEYS: &str = "attributes baseColorFactor buffer bufferView byteLength byteOffset byteStride children componentType \
     count indices inverseBindMatrices joints material matrix mesh mode name nodes normalized pbrMetallicRoughness \
     primitives rotation scale skin sparse targets translation type uri values NORMAL POSITION";
@@ -132,8 +132,7 @@ fn typed<T: DeserializeOwned>(place: &str, mut value: Value) -> Result<T, Fault>
 fn prune(key: &str, value: &mut Value) -> Result<(), &'static str> {
     match value {
         Value::Object(members) => {
-            let set = |key: &str| key.strip_prefix("JOINTS_").or(key.strip_prefix("WEIGHTS_"))?.parse::<u8>().ok();
-            members.retain(|key, _| is_among(KEYS, key.as_bytes()) || set(key).is_some());
+            members.retain(|key, _| is_among(KEYS, key.as_bytes()));
             return members.iter_mut().try_for_each(|(key, value)| prune(key, value));
         }
         Value::Array(list) if list.iter().any(Value::is_array) => return Err("unexpected list: export the file again"),

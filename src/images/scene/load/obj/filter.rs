@@ -5,6 +5,7 @@
 //! guard; each has a test that fails without it.
 
 use std::borrow::Cow;
+use std::collections::VecDeque;
 use std::io::{self, Read, Write as _};
 
 use indexmap::IndexSet;
@@ -34,10 +35,9 @@ enum Reading {
     Faces,
 }
 
-/// The faces from `first` on, up to the next section.
-#[derive(Clone, Copy)]
+/// Consecutive faces.
 pub(super) struct Section {
-    pub first: usize,
+    pub faces: usize,
     pub material: u32,
     /// Whether all corners have normals.
     pub is_smooth: bool,
@@ -57,7 +57,6 @@ pub(super) struct Contents {
     material: u32,
     /// The name of the next face's material, if it may be another one.
     next_material: Option<Vec<u8>>,
-    faces: usize,
     /// Corners of the face being read: vertex and normal counted from 1, or normal 0 for none.
     corners: Vec<[u32; 2]>,
     models: u32,
@@ -68,15 +67,13 @@ pub(super) struct Contents {
     unknown: usize,
     /// The first unknown statement, with its line.
     first_unknown: Option<(usize, String)>,
-    /// A statement.
-    to_tobj: Vec<u8>,
+    /// The bytes of a statement that tobj has not yet read.
+    to_tobj: VecDeque<u8>,
 }
 
 pub(super) struct Filter<'a> {
     statements: Box<dyn Iterator<Item = (Reading, usize, Cow<'a, [u8]>)> + 'a>,
     pub contents: Contents,
-    /// How much of the statement tobj has taken.
-    taken: usize,
     /// The fault of a statement. tobj itself finds no fault in the statements that it is given.
     pub fault: Option<Fault>,
 }
@@ -86,17 +83,13 @@ impl<'a> Filter<'a> {
         let read = move |reading| statements(text).map(move |(line, statement)| (reading, line, statement));
         let statements = Box::new(read(Reading::Vectors).chain(read(Reading::Faces)));
         let contents = Contents { next_material: Some(b"default".to_vec()), models: 1, ..Contents::default() };
-        Self { statements, contents, taken: 0, fault: None }
+        Self { statements, contents, fault: None }
     }
 }
 
 /// Gives one statement at a time.
 impl Read for Filter<'_> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        if self.taken == self.contents.to_tobj.len() {
-            self.contents.to_tobj.clear();
-            self.taken = 0;
-        }
         while self.contents.to_tobj.is_empty()
             && let Some((reading, line, statement)) = self.statements.next()
         {
@@ -105,9 +98,7 @@ impl Read for Filter<'_> {
                 return Err(io::ErrorKind::InvalidData.into());
             }
         }
-        let taken = (&self.contents.to_tobj[self.taken..]).read(buffer)?;
-        self.taken += taken;
-        Ok(taken)
+        self.contents.to_tobj.read(buffer)
     }
 }
 
@@ -118,19 +109,16 @@ impl Contents {
         notes.count(self.small_faces, "face", SMALL);
         notes.count(self.shapes, "statement", "of points, lines, curves or surfaces: ignored");
         notes.count(self.weighted, "weight", "w other than 1 in statements `v`: ignored");
-        match &self.first_unknown {
-            None if self.triangles == 0 => Err(Fault::file("it has no triangles: no face has three corners")),
-            Some((line, statement)) if self.triangles == 0 => {
+        if let Some((line, statement)) = &self.first_unknown {
+            if self.triangles == 0 {
                 let problem = "does not begin with an OBJ keyword, and no face follows: this is another format";
-                Err(Fault::line(*line, format!("{statement} {problem}")))
+                return Err(Fault::line(*line, format!("{statement} {problem}")));
             }
-            Some((line, statement)) => {
-                let ignored = format!("{} lines without an OBJ keyword are ignored", self.unknown);
-                notes.add(format!("{ignored}; the first is line {line}: {statement}"));
-                Ok(())
-            }
-            None => Ok(()),
+            let ignored = format!("{} lines without an OBJ keyword are ignored", self.unknown);
+            notes.add(format!("{ignored}; the first is line {line}: {statement}"));
         }
+        let none = || Fault::file("it has no triangles: no face has three corners");
+        (self.triangles > 0).then_some(()).ok_or_else(none)
     }
 
     /// Reads a statement, and writes what tobj needs of it.
@@ -165,14 +153,14 @@ impl Contents {
         let is_vertex = keyword == b"v";
         let vectors = if is_vertex { &mut self.vertices } else { &mut self.normals };
         vectors.last_model.push(0);
-        self.to_tobj.extend_from_slice(keyword);
+        self.to_tobj.extend(keyword);
         for _ in 0..3 {
             let word = words.next()?;
             number(word).filter(|number: &f32| number.is_finite() || !is_vertex)?;
-            self.to_tobj.push(b' ');
-            self.to_tobj.extend_from_slice(word);
+            self.to_tobj.push_back(b' ');
+            self.to_tobj.extend(word);
         }
-        self.to_tobj.push(b'\n');
+        self.to_tobj.push_back(b'\n');
         // tobj divides by a fourth number. More are colours, which tobj wants for every vertex or none.
         if is_vertex && let (Some(weight), None) = (words.next(), words.next()) {
             self.weighted += usize::from(number::<f32>(weight) != Some(1.0));
@@ -197,18 +185,18 @@ impl Contents {
             self.material = self.materials.insert_full(name).0 as u32;
         }
         let (material, is_smooth) = (self.material, self.corners.iter().all(|&[_, normal]| normal > 0));
-        if self.sections.last().is_none_or(|last| (last.material, last.is_smooth) != (material, is_smooth)) {
-            self.sections.push(Section { first: self.faces, material, is_smooth });
+        match self.sections.last_mut().filter(|last| (last.material, last.is_smooth) == (material, is_smooth)) {
+            Some(section) => section.faces += 1,
+            None => self.sections.push(Section { faces: 1, material, is_smooth }),
         }
-        self.faces += 1;
 
         if self.corners_in_model >= CORNERS_IN_MODEL {
-            self.to_tobj.extend_from_slice(b"g\n");
+            self.to_tobj.extend(b"g\n");
             self.models += 1;
             self.corners_in_model = 0;
         }
         self.corners_in_model += self.corners.len();
-        self.to_tobj.push(b'f');
+        self.to_tobj.push_back(b'f');
         for &[vertex, normal] in &self.corners {
             // tobj gives a corner without a normal the normal of another corner: here it is the first of the file.
             let normal = normal.max(1);
@@ -216,7 +204,7 @@ impl Contents {
             self.normals.add_use(normal, self.models);
             write!(self.to_tobj, " {vertex}//{normal}").expect("a list takes all bytes");
         }
-        self.to_tobj.push(b'\n');
+        self.to_tobj.push_back(b'\n');
         Ok(())
     }
 

@@ -6,6 +6,7 @@ mod filter;
 mod vectors;
 
 use std::io::BufReader;
+use std::iter::repeat_n;
 use std::mem;
 use std::path::Path;
 
@@ -56,16 +57,13 @@ fn triangles(parts: Vec<tobj::Model>, contents: &mut Contents, notes: &mut Notes
 
     let (mut splitter, mut points) = (Splitter::default(), vec![]);
     let (mut vertices, mut normals) = (&vertices[..], &normal_numbers[..]);
-    let (mut sections, mut face) = (contents.sections.iter().peekable(), 0);
-    let mut section = contents.sections[0];
+    let mut sections = contents.sections.iter().flat_map(|section| repeat_n(section, section.faces));
     for mesh in parts.into_iter().map(|part| part.mesh) {
         // tobj leaves the sizes out where all faces are triangles.
         let (mut sizes, mut start) = (mesh.face_arities.iter(), 0);
         while start < mesh.indices.len() {
             let size = sizes.next().map_or(3, |&size| size as usize);
-            while let Some(next) = sections.next_if(|next| next.first <= face) {
-                section = *next;
-            }
+            let section = sections.next().expect("each face is in a section");
             let vertex = |i: usize| vertices[mesh.indices[start + i] as usize];
             points.clear();
             points.extend((0..size).map(|i| model.positions[vertex(i) as usize]));
@@ -81,11 +79,11 @@ fn triangles(parts: Vec<tobj::Model>, contents: &mut Contents, notes: &mut Notes
                     model.material_of.push(section.material);
                 }
             }
-            (start, face) = (start + size, face + 1);
+            start += size;
         }
         vertices = &vertices[mesh.positions.len() / 3..];
         normals = &normals[mesh.normals.len() / 3..];
     }
-    notes.polygons(&splitter);
+    splitter.defects().into_iter().for_each(|(count, defect)| notes.count(count, "polygon", defect));
     model
 }

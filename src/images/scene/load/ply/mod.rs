@@ -63,7 +63,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Model, Fault> {
     }
     let mut notes = Notes::default();
     notes.count(small, "face", SMALL);
-    notes.polygons(&splitter);
+    splitter.defects().into_iter().for_each(|(count, defect)| notes.count(count, "polygon", defect));
     model.notes = notes.into_vec();
     Ok(model)
 }

@@ -8,7 +8,7 @@ type Readers = [fn(&mut &[u8]) -> Result<f64, &'static str>; ENCODINGS.len()];
 #[derive(Clone, Copy)]
 pub(super) struct Kind {
     pub is_integer: bool,
-    /// For each of the encodings, what takes a number from the front of the rows.
+    /// For each encoding, a function that takes a number from the front of the rows.
     pub readers: Readers,
 }
 

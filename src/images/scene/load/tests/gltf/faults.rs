@@ -11,18 +11,16 @@ fn files_that_show_nothing_are_refused_with_a_reason() {
         all[key] = Value::Null;
     }
     let counts = [("indices", json!(null)), ("/accessors/0/count", json!(0)), ("/accessors/1/count", json!(0))];
-    for (file, surfaces) in [
-        (changed(&[("/scenes/0/nodes", json!([]))]), "0 triangle primitives"),
-        (changed(&[("/scenes/0", json!({"name": "empty"}))]), "0 triangle primitives"),
-        (changed(&[("/nodes/0", json!({"name": "empty"}))]), "0 triangle primitives"),
-        (changed(&[("/meshes", json!([])), ("/nodes", json!([{}]))]), "0 triangle primitives"),
-        (changed(&[("/meshes/0/primitives", json!([]))]), "0 triangle primitives"),
-        (changed(&counts), "1 triangle primitive"),
-        (all.to_string().into_bytes(), "0 triangle primitives"),
+    for file in [
+        changed(&[("/scenes/0/nodes", json!([]))]),
+        changed(&[("/scenes/0", json!({"name": "empty"}))]),
+        changed(&[("/nodes/0", json!({"name": "empty"}))]),
+        changed(&[("/meshes", json!([])), ("/nodes", json!([{}]))]),
+        changed(&[("/meshes/0/primitives", json!([]))]),
+        changed(&counts),
+        all.to_string().into_bytes(),
     ] {
-        let shown = format!("{surfaces} without triangles, and 0 primitives of points or lines or without positions");
-        let why = format!("it has no visible triangles: its nodes show {shown}");
-        assert_error(loaded(&file), "a.gltf", &[&why]);
+        assert_error(loaded(&file), "a.gltf", &["it has no visible triangles: its nodes show no triangle primitive"]);
     }
 }
 
