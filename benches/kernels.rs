@@ -1,8 +1,8 @@
-//! The inner loops: `cargo bench --bench kernels`.
+//! Times of triangle tests and of observers: `cargo bench --bench kernels`.
 //!
 //! The group `observer` traces the same rays through the same tree with `()`, with an observer that does nothing, and
 //! with one that counts. The times differ by more than the cost of observing: with `()`, the traversal runs on the
-//! current SIMD level; with the other two, which are [`ACTIVE`](Observer::ACTIVE), it runs on portable lanes.
+//! current SIMD level; with an [`ACTIVE`](Observer::ACTIVE) observer, it runs on portable lanes.
 
 use std::hint::black_box;
 use std::sync::Arc;
@@ -84,7 +84,7 @@ fn triangle_tests(criterion: &mut Criterion) {
     triangle_test::<Exact>(criterion);
 }
 
-/// An observer that ignores all events but is active, unlike `()`.
+/// An observer that ignores all events. Unlike `()`, it is active.
 struct Silent;
 
 impl Observer for Silent {}

@@ -51,7 +51,7 @@ impl Grid {
         header.into_bytes().into_iter().chain(self.positions().flat_map(bytes)).chain(faces).collect()
     }
 
-    /// The document, and its buffer, which must be in the file `mesh.bin`.
+    /// The glTF document, and the contents of its buffer file `mesh.bin`.
     fn gltf(&self) -> (String, Vec<u8>) {
         let [vertices, triangles] = self.counts();
         let [before, after] = [12 * vertices, 12 * triangles];
@@ -71,7 +71,7 @@ impl Grid {
     }
 }
 
-/// A glTF document of `count` nodes with different matrices; each node has the first triangle of `mesh.bin`.
+/// A glTF document of `count` nodes with different matrices. Each node draws one triangle.
 fn nodes(count: usize) -> String {
     let matrix = |i: usize| format!("[1,0,0.125,0,0,1,0,0,-0.125,0,1,0,{},{},0.5,1]", i as f64 / 7.0, i as f64 / -3.0);
     let node = |i: usize| format!(r#"{{"name":"node {i}","mesh":0,"matrix":{}}}"#, matrix(i));
@@ -91,7 +91,7 @@ fn little(triangle: [usize; 3]) -> Vec<u8> {
     triangle.map(|corner| (corner as u32).to_le_bytes()).concat()
 }
 
-/// Writes the files of all benches: the mesh in each format, and the nodes.
+/// Writes the files to load: `grid` in each format, and a glTF file of `node_count` nodes.
 fn write(grid: &Grid, node_count: usize, folder: &Path) {
     let (document, buffer) = grid.gltf();
     let files = [

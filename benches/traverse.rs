@@ -10,7 +10,7 @@ use sahara::measure::{CpuClock, Pass, Stopwatch, SystemClock, Threads, Timed};
 use sahara::registry::Registry;
 use sahara::scene::{Sampling, Scene, Workload};
 
-/// The rays of the whole picture, as in `sahara compare`.
+/// The workloads of a scene, with all rays of the picture as in `sahara compare`. Omits empty workloads.
 fn workloads(scene: &Scene) -> Vec<Workload> {
     let caster =
         Registry::builtin().choose("sah-kd").expect("a registered name").build(&scene.mesh).expect("it builds");
@@ -19,8 +19,8 @@ fn workloads(scene: &Scene) -> Vec<Workload> {
     workloads.filter(|workload| !workload.rays.is_empty()).collect()
 }
 
-/// Times passes of a workload with the lead-in and the clock of `sahara compare`, which therefore measures the same
-/// times.
+/// Times passes of a workload. The untimed warm-up (`lead_in`) and the clock are the same as in `sahara compare`: the
+/// times are comparable.
 fn bench(criterion: &mut Criterion, group: &str, name: &str, accel: &dyn DynAccel, workload: &Workload) {
     let threads = Threads::pinned(1).expect("there is a thread");
     let _pin = threads.pin();
@@ -57,7 +57,7 @@ fn traverse(criterion: &mut Criterion) {
     }
 }
 
-/// The batch strategies: `cargo bench --bench traverse -- slices/lucy`.
+/// Trace times of the batch strategies: `cargo bench --bench traverse -- slices/lucy`.
 fn slices(criterion: &mut Criterion) {
     for name in common::SLICED {
         let scene = common::scene(name);

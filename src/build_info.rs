@@ -1,5 +1,5 @@
-//! Build script: records the commit, the compiler and its settings. Unknown values, such as the commit without git, are
-//! "unknown".
+//! Build script: records the commit, the compiler and its settings. A value that cannot be determined is "unknown": for
+//! example, the commit if git is missing.
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -19,14 +19,14 @@ fn main() {
     set("SAHARA_PROFILE", env::var("PROFILE").ok());
     set("SAHARA_OBVHS", locked(&root, "obvhs"));
 
-    // SAHARA_COMMIT includes whether the sources differ from the commit: rerun when they change.
+    // Rerun this script when the sources change: SAHARA_COMMIT marks changed sources.
     for path in ["src", "Cargo.toml", "Cargo.lock", ".cargo/config.toml"] {
         rerun_if_changed(&root.join(path));
     }
 }
 
-/// The commit of the sources, with `+changes` if they differ from it; `None` if the crate is not the root of a git work
-/// tree.
+/// The commit of the sources, with `+changes` if the sources differ from it. `None` if the crate is not the root of a
+/// git work tree.
 fn commit(root: &Path) -> Option<String> {
     let git = |args: &[&str]| output(root, "git", args);
     let top = PathBuf::from(git(&["rev-parse", "--show-toplevel"])?);
@@ -37,7 +37,7 @@ fn commit(root: &Path) -> Option<String> {
         rerun_if_changed(&root.join(git(&["rev-parse", "--git-path", file])?));
     }
     let commit = git(&["rev-parse", "--short=12", "HEAD"])?;
-    // Without optional locks git does not write the index: a new index would rerun this script and rebuild the crate.
+    // Without optional locks, git does not write the index. A new index would rerun this script and rebuild the crate.
     let sources = [
         "--no-optional-locks",
         "status",
@@ -59,7 +59,7 @@ fn locked(root: &Path, package: &str) -> Option<String> {
     Some(entry.split('"').next()?.to_owned())
 }
 
-/// Reruns this script when `path` changes. A missing path would rerun it on every build.
+/// Reruns this script when `path` changes. Skips a missing path, because cargo would rerun the script on every build.
 fn rerun_if_changed(path: &Path) {
     if path.exists() {
         println!("cargo::rerun-if-changed={}", path.display());

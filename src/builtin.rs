@@ -1,4 +1,4 @@
-//! The twelve scenes of the source report and their golden images, which are part of the program.
+//! The twelve scenes of the source report and their golden images, compiled into the program.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use crate::names::{named, suggestion};
 use crate::scene::format::SceneFile;
 use crate::scene::{Scene, SceneError};
 
-/// How the source report groups its scenes.
+/// The group of a scene in the source report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Difficulty {
     Easy,
@@ -17,7 +17,7 @@ pub enum Difficulty {
     Hard,
 }
 
-/// A scene that is part of the program.
+/// A scene that is compiled into the program.
 #[derive(Debug)]
 pub struct Builtin {
     pub name: &'static str,
@@ -58,7 +58,7 @@ pub const BUILTIN: &[Builtin] = builtin! {
 };
 
 impl Builtin {
-    /// The scene called `name`, in upper or lower case.
+    /// The scene called `name`. Upper and lower case do not differ.
     ///
     /// # Errors
     /// [`SceneError::Unknown`], which suggests a name and lists all names.
@@ -79,7 +79,7 @@ impl Builtin {
         SceneFile::parse(self.text, self.name).expect("a test reads all built-in scenes")
     }
 
-    /// Makes the scene with the real meshes in the folder `real_meshes`, or, if it is `None`, with generated meshes.
+    /// Makes the scene. Generated meshes replace real meshes that are not in the folder `real_meshes` (all, if `None`).
     ///
     /// # Errors
     /// If a file of `real_meshes` cannot be loaded.
@@ -93,7 +93,7 @@ impl Builtin {
     }
 }
 
-/// The folder of real meshes: the environment variable `SAHARA_DATA`, or `scenes/data`. It need not exist.
+/// The folder of real meshes: the environment variable `SAHARA_DATA`, or `scenes/data`. The folder may not exist.
 pub fn real_mesh_folder() -> PathBuf {
     std::env::var_os("SAHARA_DATA").filter(|v| !v.is_empty()).map_or_else(|| "scenes/data".into(), PathBuf::from)
 }

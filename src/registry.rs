@@ -21,7 +21,7 @@ pub use choice::{Choice, ChoiceError, RUNNER, is_named, plain_name};
 pub use entry::Entry;
 pub use keys::Key;
 
-/// The structures that a run can choose from, in the order of tables.
+/// The structures that a run can choose from, in the order of tables, and the generators of scenes.
 #[derive(Clone)]
 pub struct Registry {
     entries: Vec<Entry>,
@@ -29,7 +29,7 @@ pub struct Registry {
     generators: Vec<(&'static str, Generate)>,
 }
 
-/// Generates a scene from the text after its name: `7` of `icosphere:7`.
+/// Generates a scene from the text after the colon, such as `7` in `icosphere:7`.
 pub type Generate = fn(&str) -> anyhow::Result<Scene>;
 
 impl Registry {
@@ -67,8 +67,8 @@ impl Registry {
     /// Adds a structure under `name`, with the default configuration `config`.
     ///
     /// # Panics
-    /// If `name` is empty or `all`, or contains a character with a meaning on the command line (`:`, `,`, `=` or white
-    /// space), if the name is taken for the same triangle test, or if `config` does not serialise to a map of keys.
+    /// If `name` is empty or `all`, contains `:`, `,`, `=` or white space, or already has an entry with the same
+    /// triangle test. Also if `config` serialises to anything other than a map of keys or null.
     pub fn with<A: Accel>(self, name: &str, config: A::Config) -> Self {
         self.entered::<A>(name, config, |mesh, config| Ok(Box::new(A::build(mesh, config)?)))
     }
@@ -165,13 +165,13 @@ impl Registry {
         self.entries.iter().filter(|e| self.is_first(e)).map(|e| e.name.as_str()).collect()
     }
 
-    /// Whether the name alone selects this entry.
+    /// Whether the name selects this entry without the key `test`.
     fn is_first(&self, entry: &Entry) -> bool {
         self.entries.iter().find(|e| e.name == entry.name).is_some_and(|e| std::ptr::eq(e, entry))
     }
 }
 
-/// Parses a configuration from its map of keys. An empty map may represent null, the value of a type without fields.
+/// Parses a configuration from its map of keys. An empty map also represents null, the value of a type without fields.
 fn parse<A: Accel>(config: &Value) -> Result<A::Config, String> {
     serde_json::from_value(config.clone()).or_else(|error| match config {
         Value::Object(map) if map.is_empty() => serde_json::from_value(Value::Null).map_err(|_| error.to_string()),

@@ -22,7 +22,7 @@ sahara::conformance!(sah_kd_tight, Bvh8<MollerTrumbore>, Bvh8Config::new(Partiti
 sahara::conformance!(sah_hybrid, Bvh8<MollerTrumbore>, Bvh8Config::new(Partition::Hybrid), lowest_id);
 sahara::conformance!(sah_bvh, Bvh8<MollerTrumbore>, Bvh8Config::new(Partition::Objects), lowest_id);
 
-/// Configurations that differ in their trees or traversals, except `exit=first-leaf`, which is wrong by design.
+/// Configurations that differ in their trees or traversals. The option `exit=first-leaf` is wrong by design, so absent.
 const OURS: [&str; 36] = [
     "brute-force:test=rt-triangle",
     "median-kd:leaf=1",
@@ -109,8 +109,8 @@ fn our_trees_are_right_where_surfaces_coincide() {
     are_right(&TREES, &meshes, 12);
 }
 
-/// Checks only counts and shapes: `tests/findings.rs` lists the wrong hits of the baseline. `tests/peers.rs` tests the
-/// peers, which have their own conventions.
+/// Checks only counts and shapes, because the baseline has wrong hits, which `tests/findings.rs` lists. Leaves out
+/// structures that deviate from the contract, such as peers: `tests/peers.rs` tests them.
 #[test]
 #[ignore = "a minute"]
 fn everything_offered_counts_and_has_a_possible_shape() {
@@ -126,7 +126,7 @@ fn everything_offered_counts_and_has_a_possible_shape() {
     }
 }
 
-/// Includes peers and packets. `conformance!` checks the counting of a structure on all degenerate meshes.
+/// Includes peers and packets, on two meshes. `conformance!` runs this check on all degenerate meshes.
 #[test]
 fn counting_and_loading_change_no_hit_of_any_structure() {
     let registry = Registry::builtin();

@@ -13,7 +13,7 @@ use sha2::{Digest, Sha256};
 
 use crate::cli::command::{Folder, RIGHT, USAGE, ends};
 
-/// The file to fetch.
+/// The content of the file to fetch.
 fn mesh() -> Vec<u8> {
     (0..100_000_u32).flat_map(|i| format!("v {i} {} 0\n", i * 7 % 13).into_bytes()).collect()
 }
@@ -97,7 +97,7 @@ fn answer(own: &str, path: &str) -> Vec<u8> {
     }
 }
 
-/// Checks that a file is refused in one line with all of `parts`.
+/// Checks that a download fails with a message of one line that contains all of `parts`.
 #[track_caller]
 fn refused(file: &DataFile, client: &Client, parts: &[&str]) {
     let error = client.fetch(file, &mut |_| ()).unwrap_err().to_string();
@@ -153,7 +153,7 @@ fn what_is_there_with_other_contents_is_not_touched() {
     fs::write(&file.path, b"mine").unwrap();
     refused(&file, &client, &["other contents", "mesh.obj"]);
     assert_eq!(fs::read(&file.path).unwrap(), b"mine");
-    // A file cannot contain another file, and a folder in place of the file cannot be read.
+    // The client cannot write below a regular file, and cannot read a folder that has the name of the file.
     refused(&DataFile { path: file.path.join("x"), ..file.clone() }, &client, &["cannot write"]);
     fs::remove_file(&file.path).unwrap();
     fs::create_dir(&file.path).unwrap();

@@ -15,7 +15,7 @@ const BVH2: [&str; 2] = ["obvhs-bvh2", "obvhs-bvh2:test=moller-trumbore"];
 const CWBVH: [&str; 2] = ["obvhs-cwbvh", "obvhs-cwbvh:test=moller-trumbore"];
 const BOTH: [&str; 4] = [BVH2[0], BVH2[1], CWBVH[0], CWBVH[1]];
 
-/// One ray that some structures get wrong over every triangle test.
+/// One ray on which some structures return a wrong hit.
 pub struct Finding {
     /// The special property of the ray, and why the code of these structures misses its hit.
     pub cause: &'static str,
@@ -102,15 +102,15 @@ fn each_finding_is_still_there_and_ours_find_the_hit() {
     }
 }
 
-/// The degenerate meshes except two on which every stratum has errors: one makes the directions of rays too short, the
-/// other has boxes of all sizes.
+/// The degenerate meshes except two on which every stratum has errors. In `soup times 2^-30` the directions of rays are
+/// too short, and `exponential sequence` has boxes of all sizes.
 pub fn meshes() -> Vec<Named> {
     let mut meshes = degenerate_meshes();
     meshes.retain(|(name, _)| name != "soup times 2^-30" && name != "exponential sequence");
     meshes
 }
 
-/// The name of a structure, and the strata on which it has no error on any mesh; it has errors on all other strata.
+/// The name of a structure, and the strata on which it has no error on any mesh. It has errors on all other strata.
 pub type CleanStrata = (&'static str, &'static [Stratum]);
 
 pub fn assert_clean(choice: &Choice, meshes: &[Named], (name, clean): CleanStrata) {
@@ -131,8 +131,8 @@ fn rays_without_a_named_cause_are_answered_rightly() {
     }
 }
 
-/// Errors of the triangle test, which brute force has as well: on an edge, the sum of two rounded quotients can exceed
-/// 1, and the test reads only the sign bit, so -0.0 is outside.
+/// The triangle test causes these errors, so brute force has them too. On an edge, the sum of two rounded quotients can
+/// exceed 1. The test also reads only the sign bit of a quotient, so a point at -0.0 is outside.
 #[test]
 fn rt_triangle_misses_hits_on_edges() {
     let corners = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]].map(glam::Vec3::from_array);

@@ -1,5 +1,5 @@
-//! Golden images: every structure over the exact triangle test renders every built-in scene byte for byte as committed,
-//! except the differences of the baseline in `FINDINGS`.
+//! Golden images: the structures of this crate and the baseline, over the exact triangle test, render every built-in
+//! scene byte for byte as committed. `FINDINGS` lists the differences of the baseline.
 
 use std::path::Path;
 
@@ -12,8 +12,8 @@ use sahara::request::{is_obvhs, known_defect};
 /// these differences.
 ///
 /// In the Cornell box, rays through the picture's diagonals meet the edges between walls exactly, and hit two walls of
-/// different colours at one `t`. The structures of this crate must return the lower primitive number; obvhs returns
-/// either, which the contract allows. obvhs-bvh2 loses no hit; obvhs-cwbvh loses one, because its boxes have no margin.
+/// different colours at one `t`. The structures of this crate must return the lower primitive number. obvhs may return
+/// the other wall, which the contract allows. obvhs-cwbvh also loses one hit, because its boxes have no margin.
 const FINDINGS: [(&str, &str, usize); 2] =
     [("obvhs-bvh2:test=exact", "Cornellbox", 103), ("obvhs-cwbvh:test=exact", "Cornellbox", 49)];
 
@@ -39,7 +39,7 @@ fn draw_as_committed(choices: &[Choice]) -> Vec<(String, String, usize)> {
     let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("golden");
     let mut differing = vec![];
     for builtin in BUILTIN {
-        // A real mesh on this machine must not change the picture.
+        // `None` ignores real meshes on this machine, which would change the picture.
         let scene = builtin.scene(None).expect("built-in scenes are valid");
         let golden = builtin.golden();
         for choice in choices {
@@ -72,7 +72,7 @@ mod pictures {
         Rgb32FImage::from_fn(40, 30, |x, y| Rgb([x as f32 / 7.0, -0.1 * y as f32, 1e-9]))
     }
 
-    /// Sets width and height in the bytes of a picture to values for which no memory suffices.
+    /// Sets the width and height in the bytes of a picture to values that need too much memory.
     type Enlarge = fn(&mut [u8]);
 
     /// A picture of each format, and the function that changes the size in its bytes.
@@ -84,7 +84,7 @@ mod pictures {
             }),
             (colours().into(), ImageFormat::WebP, |bytes| {
                 let size = place(bytes, b"VP8L") + 9;
-                // WebP stores each side less one in 14 bits; the decoder misreads the largest value.
+                // WebP stores width - 1 and height - 1 in 14 bits each. The decoder misreads the largest value.
                 let side = 16_382_u32;
                 let flags = u32::from(bytes[size + 3] & 0xf0) << 24;
                 bytes[size..size + 4].copy_from_slice(&(side | side << 14 | flags).to_le_bytes());
@@ -105,7 +105,7 @@ mod pictures {
     #[test]
     fn golden_images_may_be_jpeg_webp_or_exr() {
         let folder = tempfile::tempdir().unwrap();
-        // The name does not determine the format.
+        // The extension of a file name does not determine the format.
         let (golden, out) = (folder.path().join("golden.png"), folder.path().join("out"));
         for (picture, format, _) in of_each_format() {
             picture.save_with_format(&golden, format).unwrap();

@@ -20,10 +20,10 @@ const IN_F64: [&str; 2] = ["moller-trumbore-f64", "edge-f64"];
 const SAME_WALK: [&str; 3] = ["sah-kd-wide", "sah-kd-tight", "sah-bvh"];
 const FEW_TESTS: [&str; 2] = ["moller-trumbore", "exact"];
 
-/// The triangle tests of peers, which brute force offers too.
+/// Triangle tests of peers.
 const OF_PEERS: [&str; 2] = ["bvh-triangle", "parry-triangle"];
 
-/// The structures of this crate over every other triangle test that they offer, except as `SAME_WALK` states.
+/// The structures of this crate over all their triangle tests, except `OF_PEERS`; `SAME_WALK` only over `FEW_TESTS`.
 fn ours() -> Vec<Choice> {
     let mut choices = Registry::builtin().all();
     choices.retain(|choice| {
@@ -33,7 +33,7 @@ fn ours() -> Vec<Choice> {
     choices
 }
 
-/// Describes the failure of a structure on a case; `None` if its hits are right according to `truth`.
+/// Describes the failure of a structure on a case. `None` if its hits are right according to `truth`.
 fn fault(case: &HardCase, rays: usize, truth: &mut CaseTruth, choice: &Choice) -> Option<String> {
     let test = choice.triangle_test();
     let ranked = matches!(case.rank, Rank::Moderate | Rank::Extreme);
@@ -48,8 +48,8 @@ fn fault(case: &HardCase, rays: usize, truth: &mut CaseTruth, choice: &Choice) -
     (is_wrong || !score.is_sound()).then(|| format!("{} on {}: {score:?}", choice.label, case.name))
 }
 
-/// Runs each case of rays (each property if `of_rays` is false) on the structures for which `is_run` returns true; its
-/// arguments are the indices of the case and of the structure.
+/// Runs the cases with rays, or the properties if `of_rays` is false. `is_run` selects the pairs of case and structure
+/// by the index of the case and the index of the structure.
 #[track_caller]
 fn assert_sound(of_rays: bool, is_run: fn(usize, usize) -> bool) {
     let (choices, mut cases) = (ours(), catalogue());

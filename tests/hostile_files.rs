@@ -1,6 +1,6 @@
 //! Malformed and malicious files. Each is rejected with one sentence that names the file and the place of the fault.
-//! Loading a file takes at most 64 MiB of memory plus twice its size (OBJ: sixteen times); its size includes the files
-//! to which it refers.
+//! Loading takes at most 64 MiB of memory plus twice the size of the file and of all files to which it refers. For OBJ
+//! files, the factor is sixteen.
 
 use std::fs;
 
@@ -200,7 +200,7 @@ fn each_is_refused_in_a_sentence_and_takes_little_memory() {
         assert_contains(&loaded(&files).expect_err(words[1]), &words);
     }
 
-    // Valid files have the same memory limit; tobj would take thirty times their size.
+    // Valid files have the same memory limit. The crate tobj exceeds it: it takes thirty times the size of a file.
     for (faces, triangles) in
         [("f 1 1 1\n", 1), ("f 1 1 1 1 1\n", 3), ("usemtl a\nf 1//1 1//1 1//1\nusemtl b\nf 1 1 1\n", 2)]
     {

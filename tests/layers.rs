@@ -1,5 +1,5 @@
-//! Checks that a module imports only modules of lower layers or earlier ones of its own layer, also within a crate, and
-//! that some external crates are imported in only one folder.
+//! Checks that a module imports only modules of lower layers and earlier modules of its own layer, also within a crate.
+//! Also checks that some external crates are imported in only one folder.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -103,7 +103,7 @@ fn collect(folder: &Path, module: &str, found: &mut Vec<(String, String)>) {
     }
 }
 
-/// The text without items that are compiled only for tests, and these items.
+/// Returns the text without the items that are compiled only for tests, and these items.
 fn without_test_items(text: &str) -> (String, Vec<&str>) {
     let (mut left, mut items, mut rest) = (String::new(), vec![], text);
     while let Some((before, after)) = rest.split_once("#[cfg(test)]") {
@@ -127,8 +127,8 @@ fn paths(text: &str) -> impl Iterator<Item = &str> {
     words.filter(move |word| word.contains("::") || std::mem::replace(&mut last, word) == "use")
 }
 
-/// The top-level module to which a path in `file` leads: empty if the path is a list of modules, `None` if it stays
-/// within the file's own folder or leads to an external crate.
+/// The top-level module to which a path in `file` leads. Empty if the path is a list of modules. `None` if the path
+/// stays within the top-level module of `file` or leads to an external crate.
 fn imported<'a>(file: &str, path: &'a str) -> Option<&'a str> {
     let (first, rest) = path.split_once("::")?;
     if ["crate", "sahara_core", "sahara_images"].contains(&first) {
@@ -138,7 +138,7 @@ fn imported<'a>(file: &str, path: &'a str) -> Option<&'a str> {
     if above == file.split("::").count() { path.split("::").nth(above) } else { None }
 }
 
-/// The layer of a module, and its position within the layer. This order of all modules excludes cycles.
+/// The layer of a module, and its position within the layer. Imports that follow this order have no cycles.
 fn place(module: &str) -> Option<[usize; 2]> {
     let mut places = LAYERS.iter().enumerate();
     places.find_map(|(layer, names)| Some([layer, names.iter().position(|name| *name == module)?]))

@@ -56,7 +56,7 @@ fn all_levels_return_the_same() {
     let registry = Registry::builtin();
     let levels = Level::available();
     if let [level] = &levels[..] {
-        // Nothing is compared. Write to stderr directly: the harness hides what a passing test prints.
+        // A single level cannot be compared. Write to the stream: the harness hides `eprint!` in a passing test.
         let note = format!("\nwarning: this machine or build has only the level {level}: levels are not compared\n");
         std::io::stderr().write_all(note.as_bytes()).expect("a sentence is written");
     }
@@ -83,8 +83,8 @@ fn bundles(mesh: &Mesh) -> Vec<Ray> {
     let mixed: Vec<Ray> = Stratum::ALL.into_iter().flat_map(|stratum| stratum.rays(mesh, 6, 5)).collect();
     let mut sorted = mixed.clone();
     sorted.sort_by_key(|ray| ray.direction.to_array().map(f32::is_sign_negative));
-    // Sixteen similar rays, some with intervals that end within the scene. Unless `is_equal`, the lengths of their
-    // directions differ a lot: bounds may decide the result for long directions, but not for short ones.
+    // Sixteen similar rays, some with intervals that end within the scene. If `is_equal` is false, the lengths of their
+    // directions differ a lot: rounding bounds may then decide the hits of long directions, but not of short ones.
     let neighbours = |is_equal: bool| {
         let step = move |i: u32, ray: &Ray| {
             let longer = if is_equal { 1.0 } else { (3.0 * i as f32).exp2() };
@@ -97,7 +97,7 @@ fn bundles(mesh: &Mesh) -> Vec<Ray> {
     [mixed.clone(), sorted, neighbours(true), neighbours(false)].concat()
 }
 
-/// Triangles on a coarse grid: rays hit many at one `t`, also at 0 and -0, meet their edges, or lie in their planes.
+/// Triangles on a coarse grid. Rays hit many of them at one `t`, also at 0 and -0, meet edges, or lie in planes.
 fn coarse() -> Arc<Mesh> {
     let mut random = Pcg32::seed_from_u64(8);
     let mut corner = || Vec3::from_array(std::array::from_fn(|_| (random.next_u32() % 4) as f32 - 1.0));
@@ -105,7 +105,7 @@ fn coarse() -> Arc<Mesh> {
     Arc::new(Mesh::new(positions, (0..300).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect()).unwrap())
 }
 
-/// Groups of sixteen rays that start at one grid point, in directions of one octant; some end at integer coordinates.
+/// Groups of sixteen rays from one grid point, with directions in one octant. Some rays end at integer coordinates.
 fn from_the_grid() -> Vec<Ray> {
     let mut random = Pcg32::seed_from_u64(9);
     let mut rays = vec![];

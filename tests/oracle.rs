@@ -1,4 +1,4 @@
-//! Compares the fast oracle with the slow one, on the degenerate meshes, two scenes and every stratum.
+//! Compares the fast oracle (`Oracle`) with the slow one (`nearest`), on degenerate meshes, two scenes, every stratum.
 
 use std::sync::Arc;
 

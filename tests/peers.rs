@@ -49,7 +49,7 @@ fn meshes(choice: &Choice) -> Vec<Named> {
     meshes
 }
 
-/// The clean strata of the peers whose errors are the same with every instruction set.
+/// Peers whose errors are the same with every instruction set, and their strata without an error.
 const CLEAN: [CleanStrata; 2] = {
     use Stratum::{Invalid, Lengths, NearSurface, Random, RoundedEnds, Windows};
     [
@@ -90,7 +90,7 @@ const FINDINGS: [Finding; 4] = [
     },
     Finding {
         cause: "in the far face of a box: the same, and elsewhere 1 / 0 is a large number, which makes boxes half-open",
-        // tinybvh misses such rays at the border of the mesh too, but there its own triangle test may also round.
+        // tinybvh also misses rays in far faces, but rounding of its own triangle test may be the cause.
         structures: &["bvh", "parry", "embree", "embree-robust"],
         ray: "0.375,3.875,1.0 0.0,-1.0,0.0",
         ..LOST
@@ -109,7 +109,7 @@ fn each_finding_is_still_there() {
     for name in ["bvh", "parry", "tinybvh", "embree", "embree-robust"] {
         let Some(choice) = present(name) else { continue };
         FINDINGS.iter().for_each(|finding| finding.assert_on(&choice, name));
-        // Embree without `robust` and tinybvh declare that they exclude hits at `t_min`: this ray counts as declined.
+        // `embree` and `tinybvh` declare that they exclude hits at `t_min`, so this ray counts as declined.
         let declined = match name {
             "embree" | "tinybvh" => 1,
             "embree-robust" => 0,

@@ -51,7 +51,7 @@ fn the_fuzzer_leaves_out_no_structure_of_this_crate() {
     assert_eq!(target::left_out(), Vec::<String>::new());
 }
 
-/// Cases without hits would test little.
+/// Most cases must have hits, because cases without hits test little.
 #[test]
 fn most_drawn_cases_are_meshes_that_rays_hit() {
     let mut runner = TestRunner::new(config());
@@ -78,7 +78,7 @@ fn config() -> ProptestConfig {
     ProptestConfig { cases: 400, failure_persistence, rng_seed, ..ProptestConfig::default() }
 }
 
-/// Compares all variants with the exact oracle: nearest `t`, correctly rounded, and its lowest primitive number.
+/// Checks that all variants return the correctly rounded nearest `t` and the lowest primitive number at this `t`.
 fn all_are_exact(mesh: &Arc<Mesh>, rays: &[Ray]) -> Result<(), TestCaseError> {
     let exact: Vec<Option<(f32, u32)>> =
         rays.iter().map(|ray| oracle::nearest(ray, mesh).map(|truth| truth.first())).collect();
@@ -94,8 +94,8 @@ fn all_are_exact(mesh: &Arc<Mesh>, rays: &[Ray]) -> Result<(), TestCaseError> {
 proptest! {
     #![proptest_config(config())]
 
-    /// Intervals end at hits and at multiples of 1/2; all structures must return the hits of the oracle. On this grid,
-    /// `t` is a fraction with a small denominator: it rounds to a multiple of 1/2 only if it is one.
+    /// Intervals end at hits and at multiples of 1/2. All structures must return the hits of the oracle. On this grid,
+    /// `t` is a fraction with a small denominator, so it rounds to a multiple of 1/2 only if it is this multiple.
     #[test]
     fn on_an_integer_grid_every_structure_is_exact_and_intervals_are_half_open(
         mesh in meshes(integers(), 60),
@@ -105,7 +105,7 @@ proptest! {
         let mut windowed = rays.clone();
         for ray in &rays {
             windowed.push(Ray { t_min: f32::from(ends.0) / 2.0, t_max: f32::from(ends.1) / 2.0, ..*ray });
-            // An interval can end exactly at a hit only if `t` is a float; otherwise its end is rounded to either side.
+            // Skip hits whose exact `t` is no float: an interval cannot end exactly there.
             let Some(t) = oracle::nearest(ray, &mesh).map(|truth| truth.t) else { continue };
             if t.compare(t.round()) == Some(std::cmp::Ordering::Equal) {
                 let (at, behind) = (t.round(), t.round().next_up());

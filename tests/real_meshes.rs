@@ -9,7 +9,7 @@ use sahara::geometry::{Aabb, Mesh};
 use sahara::scene::{Model, Scene, SceneError, View, load};
 use sahara::triangle::MollerTrumbore;
 
-/// The folder with the files. Without one, prints what happens to `name`: `treated` is "skipped" or "only read".
+/// The folder in `SAHARA_DATA`. Without it, prints that the test of `name` is `treated`: "skipped" or "only read".
 fn folder(name: &str, treated: &str) -> Option<PathBuf> {
     let folder = std::env::var_os("SAHARA_DATA").map(PathBuf::from);
     if folder.is_none() {
@@ -31,7 +31,7 @@ fn real(name: &str) -> Option<(Model, Mesh)> {
     Some((model, Mesh::new(positions, triangles).unwrap()))
 }
 
-/// Files, their numbers of triangles, vertices, degenerate triangles and materials, and both corners of their boxes.
+/// File; numbers of triangles, vertices, degenerate triangles and materials; least and greatest corner of the bounds.
 const MESHES: &str = "
     dragon.obj 100000 50000 0 1 -7.0467 0 -3.15129995 7.0467 9.9399004 3.15129995
     lucy.ply 100000 50002 0 1 -464.913574 -798.450562 -266.838562 464.913574 798.450562 266.838562
@@ -85,7 +85,7 @@ fn the_views_look_at_their_meshes() {
             }
             scene => scene.unwrap(),
         };
-        // The fix starts shadow rays about one unit of length off the surface, which may be behind the next wall.
+        // No fix: it would start shadow rays about one unit of length off the surface, perhaps behind the next wall.
         assert!(scene.name == name && !scene.shadow_terminator_fix);
         let tree = Bvh8::<MollerTrumbore>::build(&scene.mesh, &Bvh8Config::default()).unwrap();
         let view = scene.camera.view([128, 128]);

@@ -64,7 +64,7 @@ fn a_short_stack_is_found_by_stacked_sheets() {
     assert!(of(faulty::Fault::OverflowedStack).unwrap_err().contains("8192 stacked sheets"));
 }
 
-/// The command of a crate with these structures: the tests below run it in a separate process.
+/// Acts as the command of a crate with these structures: the tests below run this test in a separate process.
 #[test]
 fn command() {
     let Some(args) = std::env::var_os("SAHARA_THIRD_PARTY") else { return };
@@ -93,7 +93,7 @@ fn sahara(folder: &Folder, args: &str) -> (String, bool) {
     (printed, output.status.code() == Some(0))
 }
 
-/// Like [`sahara`]; it must succeed, and print all of `parts`.
+/// Like [`sahara`], but the command must succeed and print all of `parts`.
 #[track_caller]
 fn content(folder: &Folder, args: &str, parts: &[&str]) -> String {
     let (printed, right) = sahara(folder, args);
@@ -104,7 +104,7 @@ fn content(folder: &Folder, args: &str, parts: &[&str]) -> String {
 
 #[test]
 fn the_command_rejects_each_fault_for_its_own_reason() {
-    // If a fault affects one ray in `one_in`, the ray in the message must be such a ray.
+    // A fault affects one ray in `one_in`, selected by `picks`. The message must contain one of these rays.
     for (fault, rays, reason, one_in) in [
         ("drops", 100_000, "lost on ray \"", 10_000),
         ("wrong-id", 1000, "wrong-primitive on ray \"", 1),
@@ -168,7 +168,7 @@ fn each_fault_of_a_tree_is_told_from_what_its_triangle_test_rounds() {
     }
 }
 
-/// A structure with wrong hits on timed rays has no time, and the message names a ray.
+/// A structure with wrong hits on timed rays has no time, and a message names one of these rays.
 #[test]
 fn wrong_answers_are_seen_where_speed_is() {
     for (fault, is_timed) in [("none", true), ("leaf-dropped", false), ("epsilon", false)] {
@@ -231,7 +231,7 @@ fn a_study_of_another_crate_is_in_the_command_in_study_all_and_on_the_page() {
     assert_contains(&folder.read("d.json"), &["\"word\":\"staircase:64\""]);
     let csv = folder.read("d.csv");
     assert!(csv.starts_with("scene,structure,references_per_triangle\n") && csv.lines().count() == 5, "{csv}");
-    // The journal keeps cases of other settings; a job measures its case from the plan line in another process.
+    // A run with other settings adds cases to the journal. A job measures its case in a separate process.
     content(folder, "study duplication -s grid --rays 256 --dir runs", &[]);
     let plan = content(folder, "study plan duplication -s sah-kd --rays 256 --dir jobs", &[]);
     // The test harness prints the test name before the first line of the plan.

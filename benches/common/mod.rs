@@ -7,26 +7,26 @@ use sahara::geometry::Mesh;
 use sahara::registry::{Choice, Registry};
 use sahara::scene::{Scene, WorkloadKind};
 
-/// The workloads of `traverse`.
+/// The workloads of the bench target `traverse`.
 pub const KINDS: [WorkloadKind; 4] =
     [WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse, WorkloadKind::Random];
 
-/// The scenes and the batch strategies of `slices`, a part of `traverse`.
+/// The scenes and batch strategies of the benchmarks `slices` in the bench target `traverse`.
 pub const SLICED: [&str; 2] = ["dragon", "lucy"];
 pub const BATCHES: [&str; 2] = ["single", "packets"];
 
-/// Two easy scenes and the three hard ones, with their procedural meshes.
+/// Two easy and all three hard built-in scenes, with generated meshes.
 pub fn scenes() -> Vec<Scene> {
     ["sphere", "teapot", "dragon", "lucy", "sponza"].map(scene).into()
 }
 
-/// A built-in scene with its procedural mesh.
+/// A built-in scene with generated meshes.
 pub fn scene(name: &str) -> Scene {
     Builtin::find(name).and_then(|builtin| builtin.scene(None)).expect("built-in scenes are valid")
 }
 
-/// Prints how long all benches of `build` or `traverse` take at least. Prints nothing in a test, or if the command has
-/// a filter or another option.
+/// Prints the minimum duration of all benchmarks of `target`. Prints nothing in a test, or if the command line has a
+/// filter or an option.
 pub fn announce(target: &str, scenes: &[Scene]) {
     let mut arguments = std::env::args().skip(1);
     if arguments.next().as_deref() != Some("--bench") || arguments.next().is_some() {
@@ -45,8 +45,8 @@ pub fn announce(target: &str, scenes: &[Scene]) {
     );
 }
 
-/// Every structure over its first triangle test, except peers whose library is absent; brute force only on meshes of
-/// fewer than 10,000 triangles.
+/// Every structure over its default triangle test. Omits peers whose library is absent. On meshes of at least 10,000
+/// triangles, also omits brute force.
 pub fn structures(mesh: &Arc<Mesh>) -> Vec<Choice> {
     let registry = Registry::builtin();
     let names = registry.names().into_iter().filter(|&name| name != "brute-force" || mesh.len() < 10_000);

@@ -1,4 +1,4 @@
-//! `study all`: all studies of the page in one run. A killed run resumes with the case that it was measuring.
+//! `study all`: runs all studies. The same command resumes a killed run with the case that it was measuring.
 
 use std::ffi::OsString;
 use std::time::Instant;
@@ -71,7 +71,7 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
     }
     let left = match outcome {
         Status::Failed => "The same command retries what failed.",
-        // Scenes may have failed in addition to wrong hits, which take precedence.
+        // `Status::Wrong` takes precedence over `Status::Failed`, so measurements may have failed as well.
         Status::Wrong => "The same command retries anything that failed.",
         _ => "Everything is measured.",
     };
@@ -82,8 +82,8 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
     Ok(outcome)
 }
 
-/// Whether the next studies would fail as well, because the folder of journals is not writable or another run is using
-/// it.
+/// Whether later studies would fail with the same error: the folder of journals is not writable, or another run is
+/// using it.
 fn ends_all(error: &anyhow::Error) -> bool {
     let of_journal = error.downcast_ref::<JournalError>();
     matches!(of_journal, Some(JournalError::Write { .. } | JournalError::Place(_) | JournalError::Busy(_)))

@@ -23,7 +23,7 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
 fn text(suite: &Suite, form: &str) -> anyhow::Result<String> {
     let (mut output, mut command) = (vec![], super::shown(&suite.studies));
     let Ok(shell) = form.parse::<Shell>() else {
-        // The page of the command, then the pages of its subcommands.
+        // The manual page of the command, then the pages of its subcommands.
         command = command.disable_help_subcommand(true).after_long_help(STATUSES);
         command.build();
         Man::new(command.clone()).render(&mut output)?;

@@ -1,4 +1,4 @@
-//! `diff`.
+//! The command `diff`: compares two runs.
 
 use std::path::PathBuf;
 
@@ -9,7 +9,7 @@ use crate::request::{OUTPUT, STRUCTURES};
 use crate::study::Status;
 use crate::study::diff::{Comparison, Side, cautions, read, sentences, settings, tables, unlike};
 
-/// The group of options that turn a comparison into an exit status.
+/// The help heading of the options that decide the exit status.
 const GATE: &str = "Gate";
 
 #[derive(Debug, clap::Args)]

@@ -1,4 +1,4 @@
-//! Checks that every command in a document of this repository exists.
+//! Checks that the parser of the command line accepts every command in a document of this repository.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -31,13 +31,13 @@ fn commands(text: &str) -> (Vec<String>, Vec<String>) {
         let rest = text.strip_prefix("$ ").unwrap_or(text);
         let cargo = rest.strip_prefix("cargo run --release");
         let cargo = cargo.map(|rest| rest.split_once("-- ").map_or("", |(_, args)| args));
-        // `sahara = ..` is a line of a manifest, not a command.
+        // `sahara = ..` is a line of a Cargo manifest, not a command.
         let args = cargo.or_else(|| rest.strip_prefix("sahara ").filter(|rest| !rest.starts_with('=')))?;
         Some(format!("sahara {args}"))
     };
     let code = text.split("```").skip(1).step_by(2).flat_map(str::lines);
     let lines = code.map(|line| line.split("  #").next().unwrap_or(line)).map(str::trim).filter_map(own);
-    // Skip texts with placeholders, among them lines of the protocol of runners.
+    // Skip commands with placeholders, and lines of the runner protocol, which also begin with `sahara`.
     let is_command = |span: &&str| {
         span.starts_with("sahara ") && !["NAME", "THREADS", "JSON", "\n"].iter().any(|other| span.contains(other))
     };

@@ -45,20 +45,20 @@ pub(super) fn of(found: anyhow::Result<Status>) -> ExitCode {
     })
 }
 
-/// The exit code `status`; if standard output could not be written, prints that, and the code is at least 1.
+/// Returns `status`. If standard output could not be written, prints an error and returns at least 1.
 fn ended(status: u8) -> ExitCode {
     let Some(cause) = output::FAILURE.get() else { return ExitCode::from(status) };
     output::tell_error(format_args!("cannot write to standard output: {cause}"));
     ExitCode::from(status.max(1))
 }
 
-/// The status of an error: 2 if wrong hits have left a study without a result.
+/// The exit status of an error: 2 if wrong hits have left a study without a result, otherwise 1.
 fn of_error(error: &anyhow::Error) -> u8 {
     let is_wrong = error.downcast_ref::<StudyError>().is_some_and(StudyError::is_wrong_answer);
     if is_wrong { 2 } else { 1 }
 }
 
-/// Prints a message of the parser. Help and version are not errors.
+/// Prints a message of clap. Returns 0 for help and version, 1 for errors.
 pub(super) fn told(message: clap::Error) -> ExitCode {
     if let (ErrorKind::UnknownArgument, Some(ContextValue::String(option))) =
         (message.kind(), message.get(ContextKind::InvalidArg))
@@ -75,7 +75,7 @@ pub(super) fn told(message: clap::Error) -> ExitCode {
     ended(message.use_stderr().into())
 }
 
-/// The message with the user's text escaped, and without the tip to write an option after `--`: no command accepts it.
+/// Escapes the user's text in a message, and removes the tip to pass an option after `--`, which no command accepts.
 fn shown(mut message: clap::Error) -> clap::Error {
     let context: Vec<(ContextKind, ContextValue)> =
         message.context().map(|(kind, value)| (kind, value.clone())).collect();

@@ -1,6 +1,6 @@
-//! Ctrl-C and SIGTERM. At the first Ctrl-C, a measuring run stops, prints its results and keeps them; at the second, it
-//! ends at once. All other commands end at the first Ctrl-C. SIGTERM ends every command at once, because its senders
-//! (`timeout`, schedulers) do not wait.
+//! Ctrl-C and SIGTERM. At the first Ctrl-C, a run that measures stops, and prints and saves its results. At the second
+//! Ctrl-C, it ends at once. All other commands end at the first Ctrl-C. SIGTERM ends every command at once, because its
+//! senders (`timeout`, schedulers) do not wait.
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -15,7 +15,7 @@ static ASKED: AtomicBool = AtomicBool::new(false);
 /// Whether a signal is ending this process.
 static ENDING: AtomicBool = AtomicBool::new(false);
 
-/// Starts a thread that waits for SIGINT and SIGTERM. Call it first: threads that already run could receive them.
+/// Starts a thread that waits for SIGINT and SIGTERM. Call it before other threads start: they might receive them.
 pub fn watch() {
     #[cfg(target_os = "linux")]
     {
@@ -38,19 +38,19 @@ pub fn watch() {
     }
 }
 
-/// Ends the programs that this process has started, then the process by the uncaught signal. After a program that
-/// catches the signal, a shell would continue its script.
+/// Ends the programs that this process has started, then stops catching `signal` and sends it to this process. A shell
+/// that runs a script ends the script only if a signal ended the command.
 #[cfg(target_os = "linux")]
 fn end_by(signal: Signal, caught: SigSet) -> ! {
     ENDING.store(true, Ordering::SeqCst);
     crate::measure::process_group::end_started_by(std::process::id());
     let _ = caught.thread_unblock().and_then(|()| raise(signal));
-    // A signal does not end the first process of a container.
+    // The first process of a container survives the signal: exit.
     std::process::exit(128 + signal as i32);
 }
 
-/// A bit for each signal that this process was started to ignore; a shell makes background jobs ignore signals. `watch`
-/// must not block these signals: a blocked signal arrives although it is ignored.
+/// The signals that this process ignores since its start, one bit per signal. For example, shells start background jobs
+/// that ignore SIGINT. `watch` must not wait for these signals, because it would receive them anyway.
 #[cfg(target_os = "linux")]
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
@@ -58,7 +58,7 @@ fn ignored() -> u64 {
     mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0)
 }
 
-/// Ends the process after a stopped run has printed and kept its results.
+/// Ends the process after a stopped run has printed and saved its results.
 pub fn end() -> ExitCode {
     let _ = std::io::stdout().flush();
     #[cfg(target_os = "linux")]
@@ -67,8 +67,8 @@ pub fn end() -> ExitCode {
     ExitCode::from(130)
 }
 
-/// Waits forever if a signal is ending this process. The programs that it has started end first; errors about their end
-/// must not give this process another exit status.
+/// Waits forever if a signal is ending this process. The thread of [`watch`] first ends the started programs, which
+/// causes errors here. These errors must not decide the exit status.
 pub fn wait_for_end() {
     while ENDING.load(Ordering::SeqCst) {
         std::thread::park();
@@ -79,7 +79,7 @@ pub fn is_asked() -> bool {
     ASKED.load(Ordering::SeqCst)
 }
 
-/// From now on, Ctrl-C asks a run to stop if `listens`; otherwise it ends the process at once.
+/// Sets whether the first Ctrl-C stops a run (`listens` is true) or ends the process at once.
 pub fn listen(listens: bool) {
     LISTENS.store(listens, Ordering::SeqCst);
 }

@@ -1,4 +1,4 @@
-//! `list`.
+//! The command `list`: prints the names of scenes, structures and studies, and the options of a structure.
 
 use super::Suite;
 use super::terminal::Terminal;
@@ -65,7 +65,7 @@ fn names(suite: &Suite) -> Table {
         ("views", ViewKind::ALL.map(ViewKind::name).into()),
         ("studies", suite.studies.iter().map(|study| study.name).collect()),
     ];
-    // Print the names as notes, which are wrapped.
+    // Print the names as notes, because notes are wrapped and cells are not.
     let notes = lines.into_iter().map(|(what, names): (&str, Vec<&str>)| format!("{what}: {}.", names.join(", ")));
     let more = format!("More: `sahara list STRUCTURE` (its options), or: {}.", KINDS.join(", "));
     Table { title: "Names".into(), ..Table::default() }.noted(notes.chain([more]))
@@ -115,7 +115,7 @@ fn declined(entry: &Entry) -> Vec<&'static str> {
     declined
 }
 
-/// Sentences on a structure: how it deviates from the contract by design, and why it is not available.
+/// Sentences about a structure: its deliberate deviations from the contract, and the reason why it is not available.
 fn remarks(entry: &Entry) -> impl Iterator<Item = String> {
     let (name, conventions) = (&entry.name, entry.conventions.join("; "));
     let deviation = format!("{name} deviates by design from the contract of `Accel`: {conventions}.");

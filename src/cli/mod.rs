@@ -117,7 +117,7 @@ fn read_case(text: &str) -> Result<Case, String> {
 struct Session<'a> {
     suite: &'a Suite,
     terminal: &'a Terminal,
-    /// The options of processes that measure a case each; `None` if this process measures all cases.
+    /// The options of the processes that a run starts, one per case. `None` if this process measures all cases.
     processes: Option<&'a [OsString]>,
 }
 
@@ -194,14 +194,14 @@ fn command(studies: &Studies) -> clap::Command {
     command.mut_subcommand("help", |help| help.hide(true))
 }
 
-/// Adds the exit statuses to the end of the long help of a command and of its subcommands, unless one has a text there.
+/// Adds the exit statuses to the long help of a command and its subcommands. Skips a help with another text at its end.
 fn with_statuses(command: clap::Command) -> clap::Command {
     let has_end = command.get_after_help().is_some();
     let command = command.mut_subcommands(with_statuses);
     if has_end { command } else { command.after_long_help(exit_status::STATUSES) }
 }
 
-/// Runs the command line of this process with a registry and the studies of this crate, or with a whole [`Suite`].
+/// Runs the command line of this process with a [`Suite`]. A [`Registry`] is a suite with the studies of this crate.
 pub fn main(suite: impl Into<Suite>) -> ExitCode {
     interrupt::watch();
     run_with(&suite.into(), std::env::args_os(), true)
@@ -210,8 +210,8 @@ pub fn main(suite: impl Into<Suite>) -> ExitCode {
 const PANIC: &str = "the panic above ended the command: if a structure caused it, omit the structure, or find the mesh or ray with \
                      `sahara validate`; otherwise it is a bug in sahara";
 
-/// Runs `args`, whose first element is the name of the program. This process measures all cases, because `args` might
-/// not be its own arguments.
+/// Runs `args`, whose first element is the name of the program. Measures all cases in this process: separate processes
+/// would run the calling program with the option `--case`, which it may not accept.
 pub fn run(suite: &Suite, args: impl IntoIterator<Item = OsString>) -> ExitCode {
     run_with(suite, args, false)
 }
@@ -254,7 +254,7 @@ fn not_text(args: &[OsString]) -> anyhow::Error {
     anyhow::anyhow!("{} is not UTF-8 text: only names of files and folders may contain such bytes", names.join(" or "))
 }
 
-/// Measures one case of a run, for the run or for a scheduler.
+/// Measures one case, for the run that has started this process or for a scheduler.
 fn measure_case(
     &Session { suite, terminal, .. }: &Session,
     process: &Process,

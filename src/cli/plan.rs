@@ -1,4 +1,4 @@
-//! `study plan`: studies as independent jobs for the machines of a cluster.
+//! `study plan`: prints the cases of studies as independent jobs for a cluster.
 
 use std::collections::BTreeMap;
 use std::ffi::{OsStr, OsString};
@@ -47,8 +47,8 @@ pub struct Args {
 }
 
 impl Args {
-    /// The completed arguments of this command, the names of studies, and the options for the studies. clap does not
-    /// parse `rest`: this function rejects a repeated `--quick` or `--dir` there, with the message of clap.
+    /// Returns the arguments of this command with its options from `rest`, the names of studies, and the options of the
+    /// studies. clap does not parse `rest`: this function rejects a repeated `--quick` or `--dir` with clap's message.
     fn split(&self) -> anyhow::Result<(Self, Vec<OsString>, Vec<OsString>)> {
         let (mut own, mut options) = (self.clone(), vec![]);
         // clap parses options after `--scenes` as scenes, and the first option as the name if there is no name.
@@ -118,7 +118,7 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
         if !args.scenes.is_empty() && !study.names_scenes() {
             terminal.tell(&format!("{} has its own scenes and ignores --scenes", study.name));
         }
-        // Every study must accept its options before the scenes of any study are loaded.
+        // Parse the options of all studies before loading scenes, which takes seconds.
         let mut words = match (args.quick, whole) {
             (true, _) => study.preset(study.presets.quick, &args.scenes),
             (false, true) => study.preset(study.presets.full, &args.scenes),

@@ -21,7 +21,7 @@ fn bar(steps: Option<u64>, template: &str, terminal: &Terminal) -> ProgressBar {
     ProgressBar::with_draw_target(steps, target).with_style(style(template)).with_finish(ProgressFinish::AndClear)
 }
 
-/// The bar of a download. Its length `bytes` may be unknown; its position is in bytes.
+/// The progress bar of a download of `bytes` bytes (`None` if unknown). Its position counts bytes.
 #[cfg(feature = "fetch")]
 pub fn download(name: &str, bytes: Option<u64>, terminal: &Terminal) -> ProgressBar {
     bar(bytes, "{bar:24} {bytes} of {total_bytes} {wide_msg}", terminal).with_message(name.to_owned())
@@ -30,16 +30,16 @@ pub fn download(name: &str, bytes: Option<u64>, terminal: &Terminal) -> Progress
 /// Time between updates of a long step.
 const TICK: Duration = Duration::from_secs(1);
 
-/// Shows a step and its duration until it is dropped; only for work that is not timed.
+/// Shows `what` and the elapsed time until the bar is dropped. Its ticks would disturb timed work.
 pub fn spinner(what: impl Into<String>, terminal: &Terminal) -> ProgressBar {
     let bar = bar(None, "{elapsed_precise} {wide_msg}", terminal).with_message(what.into());
     bar.enable_steady_tick(TICK);
     bar
 }
 
-/// The progress of a run if stderr is a log and not a terminal: at most one line every five seconds.
+/// Prints the progress of a run if stderr is not a terminal: at most one line every five seconds.
 pub struct LogLines {
-    /// The time of the last line; `None` if stderr is a terminal, or progress is hidden.
+    /// The time of the last line. `None` if no lines are printed: stderr is a terminal, or progress is hidden.
     last: Option<Instant>,
 }
 
@@ -63,14 +63,14 @@ const STEPS: u64 = 100;
 pub struct OnTerminal<'a> {
     terminal: &'a Terminal,
     bar: ProgressBar,
-    /// The case, its work, and the work before it.
+    /// The title of the current case. `work` is the work of this case, `done` the work of all earlier cases.
     case: String,
     work: u64,
     done: u64,
     log: LogLines,
     /// Warnings that were shown.
     warned: Vec<String>,
-    /// Whether this process is a job, which measures a single case: a line names the case, also in a log.
+    /// Whether this process measures a single case for a scheduler. If so, it prints the title of the case.
     is_job: bool,
 }
 
@@ -105,7 +105,7 @@ impl Screen for OnTerminal<'_> {
         self.log(title);
         (self.case, self.work) = (title.into(), work);
         self.bar.set_message(title.to_owned());
-        // The process of the case loads the scene now.
+        // The scene is loaded next. This step is not timed, so the bar may tick.
         self.bar.enable_steady_tick(TICK);
     }
 

@@ -1,4 +1,4 @@
-//! `render`.
+//! The command `render`: renders a picture of a scene.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -100,7 +100,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     Ok(Status::Right)
 }
 
-/// Rejects a file name with another ending than `.png`.
+/// Rejects a file name with an extension other than `.png`.
 fn is_png(path: &Path) -> anyhow::Result<()> {
     let ending = path.extension().unwrap_or("png".as_ref());
     let (path, format) = (path.escaped(), ending.escaped());
@@ -111,7 +111,7 @@ fn is_png(path: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The heat scale that all structures share: the maximum over the trees. Brute force would darken all other pictures.
+/// The common heat scale: the maximum cost over all trees. Excludes brute force, which would darken all other pictures.
 fn common_scale(registry: &Registry, scene: &Scene, waiting: &ProgressBar) -> anyhow::Result<u64> {
     let size = coarse_size(scene);
     let mut scale = 1;

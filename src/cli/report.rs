@@ -1,4 +1,4 @@
-//! `report`.
+//! The command `report`: writes the results of runs as a web page, Markdown and CSV.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -83,13 +83,13 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
     Ok(Status::Right)
 }
 
-/// The folder of the paper, with the README beside it.
+/// The outputs of `--results`: the folder of the paper, and the README next to the folder.
 struct ResultsFolder {
     figures: OutputFolder,
     tables: OutputFolder,
     paper: OutputFile,
     data: OutputFile,
-    /// README.md and its text; `None` if it has no marked places.
+    /// README.md and its text. `None` if the file is missing or has no marks for generated numbers.
     readme: Option<(OutputFile, String)>,
 }
 
@@ -111,7 +111,7 @@ impl ResultsFolder {
         })
     }
 
-    /// Writes README last: its numbers come from the data.
+    /// Writes all outputs. README.md is last, because it cites numbers of the data.
     fn write(&self, mut results: Results, studies: &Studies) -> anyhow::Result<()> {
         let filled = self.readme.as_ref().map(|(_, text)| results.fill(text, studies)).transpose()?;
         self.figures.write(&results.figures)?;

@@ -55,7 +55,7 @@ impl Terminal {
         self.shown && !self.quiet && !stdout_is_taken()
     }
 
-    /// Prints text unchanged; to standard error if a result is written to standard output.
+    /// Prints text unchanged to standard output, or to standard error if an output file is standard output.
     pub fn print(&self, text: &str) {
         if stdout_is_taken() {
             // A closed standard error is not an error.
@@ -72,7 +72,7 @@ impl Terminal {
         }
     }
 
-    /// Prints a table with its notes, without empty columns, and a blank line after it.
+    /// Prints a table without its empty columns, then its notes and a blank line.
     pub fn print_table(&self, table: &Table) {
         let table = if self.verbose { table.clone() } else { table.clone().without_details() };
         let table = terminal::with_short_names(table);

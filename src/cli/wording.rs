@@ -1,4 +1,4 @@
-//! No help, message, document or comment has a phrase that the glossary replaces.
+//! Checks that no help, message, document or comment has a phrase that the glossary replaces.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ const GLOSSARY: &str = include_str!("../../papers/GLOSSARY.md");
 const AMBIGUOUS: [&str; 9] =
     ["a case", "a ray", "a job", "a second", "a triangle", "the others", "the rest", "the same", "stands in for"];
 
-/// Single words that are checked, because they are always wrong. Only a reader can judge other single words.
+/// Single words of the glossary that are checked, because they are always wrong. Other single words may be correct.
 const WORDS: [&str; 8] = ["anew", "caster", "likewise", "owes", "surely", "whatever", "whoever", "yardstick"];
 
 /// First words of a doc comment that hide its subject.
@@ -20,7 +20,7 @@ const OPENINGS: [&str; 6] = ["Likewise", "Nothing", "Of", "That", "Those", "What
 /// Terms of the field that contain a phrase of the glossary, but are correct.
 const TECHNICAL: [&str; 2] = ["box is lost", "hit is lost"];
 
-/// Claims stay as they were written before the measurement.
+/// A file that is not checked: claims stay as they were written before the measurement.
 const CLAIMS: &str = "src/study/CLAIMS.md";
 
 /// The phrases of the section "Words to avoid", without patterns such as "hold X against Y".
@@ -81,7 +81,7 @@ fn comments(source: &str) -> Vec<(usize, String)> {
     found.into_iter().map(|(line, text)| (line, prose(text))).collect()
 }
 
-/// The text of a document without the places that a run fills in.
+/// The text of a document without the marked texts that a run fills in.
 fn written(text: &str) -> String {
     let parts = text.split("<!-- sahara: ").map(|part| part.split_once("<!-- / -->").map_or(part, |(_, rest)| rest));
     parts.collect()
@@ -89,7 +89,7 @@ fn written(text: &str) -> String {
 
 /// The `phrases` that occur in `text`, in upper or lower case and across lines.
 fn found(phrases: &[String], text: &str) -> Vec<String> {
-    // A placeholder counts as a word.
+    // A placeholder such as `{what}` counts as a word.
     let plain = |c: char| if c.is_alphanumeric() || "'{}".contains(c) { c.to_ascii_lowercase() } else { ' ' };
     let text: String = text.chars().map(plain).collect();
     let text = format!(" {} ", text.split_whitespace().collect::<Vec<_>>().join(" "));
@@ -118,7 +118,7 @@ fn phrases_and_literals_are_found() {
 
 #[test]
 fn helps_fit_a_screen_and_no_text_has_a_phrase_that_the_glossary_replaces() {
-    // Texts with their places.
+    // Each text has the name of its file, and of its line if it is a comment.
     let (mut messages, mut prose, mut documents) = (vec![], vec![], vec![]);
     let mut helps_of_all = vec![];
     helps(&mut super::command(&Studies::builtin()), &mut helps_of_all);

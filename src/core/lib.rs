@@ -30,7 +30,7 @@
 #![warn(missing_docs)]
 
 pub mod accel;
-/// Tests every triangle in order.
+/// Brute force: tests every triangle in order.
 pub mod brute_force;
 pub mod build;
 pub mod bvh8;

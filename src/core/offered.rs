@@ -1,9 +1,9 @@
-//! The structures that the registry offers by name, each with every triangle test that it supports. They are compiled
-//! once, here, with the settings of this crate; otherwise every crate that uses a structure would compile it again.
+//! The structures that the registry offers by name, each with every triangle test that it supports. This module
+//! compiles them once, with the settings of this crate. Otherwise, every crate that uses them would compile them again.
 //!
 //! To add a structure of this crate, add its type to `offered_over!`, or to `offered!` if it has one triangle test.
 //! Tests then require that it works with every triangle test of `offered_over!`, returns the lowest primitive number at
-//! equal `t`, misses no hit in the ranked hard cases, and returns the same bits at every SIMD level.
+//! equal `t`, misses no hit in ranked cases of `validate/hard_cases`, and returns the same bits at every SIMD level.
 
 use std::sync::Arc;
 
@@ -33,7 +33,7 @@ pub trait Offered: Accel {
 macro_rules! offered {
     ($($structure:ty),* $(,)?) => {$(
         impl Offered for $structure {
-            // Neither generic nor inlined: no other crate compiles a copy of this function.
+            // This function is neither generic nor inlined, so no other crate compiles a copy of it.
             #[inline(never)]
             fn boxed(mesh: &Arc<Mesh>, config: &Self::Config) -> Result<Box<dyn DynAccel>, BuildError> {
                 Ok(Box::new(Self::build(mesh, config)?))
@@ -42,7 +42,7 @@ macro_rules! offered {
     )*};
 }
 
-/// Every structure of this crate with each of these triangle tests.
+/// Offers `BruteForce`, `KdTree` and `Bvh8`, each with each of the given triangle tests.
 macro_rules! offered_over {
     ($($test:ty),* $(,)?) => {
         $(offered!(BruteForce<$test>, KdTree<$test>, Bvh8<$test>);)*

@@ -10,13 +10,13 @@ use crate::output::temporary_file;
 /// Downloads files. Gives up on a server that does not respond or stalls.
 pub struct Client(ureq::Agent);
 
-/// Redirects that are followed: repositories need one or two.
+/// Maximum number of redirects. Mesh repositories need one or two.
 const REDIRECTS: u32 = 5;
 
 /// The time limit for a connection, a response or the next bytes.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// The size limit of a file whose scene file gives no size.
+/// The size limit in bytes, if the scene file gives no size for the download.
 const MOST: u64 = 8 << 30;
 
 impl Default for Client {
@@ -41,10 +41,10 @@ impl Client {
         Self(config.into())
     }
 
-    /// Downloads `file`, verifies it and moves it to its place in one step. `progress` receives the bytes so far.
+    /// Downloads `file`, verifies it and moves it to its path in one step. `progress` receives the bytes so far.
     ///
     /// # Errors
-    /// If the file exists with other contents, or the download fails or has other contents; it is then discarded.
+    /// If the file exists with other contents. If the download fails or has other contents: it is discarded.
     pub fn fetch(&self, file: &DataFile, progress: &mut dyn FnMut(u64)) -> Result<FetchOutcome, FetchError> {
         if file.is_there()? {
             return Ok(FetchOutcome::AlreadyThere);
@@ -59,7 +59,7 @@ impl Client {
         Ok(FetchOutcome::Downloaded { bytes })
     }
 
-    /// Writes what the server sends to `out`. Returns the number of bytes.
+    /// Writes the body of the response to `out`. Returns the number of bytes.
     fn download(&self, file: &DataFile, out: &mut fs::File, progress: &mut dyn FnMut(u64)) -> Result<u64, FetchError> {
         let url = || file.url.clone();
         let connection = |cause: String| FetchError::Connection { url: url(), cause };

@@ -4,12 +4,12 @@ use super::FetchError;
 use crate::measure::program::file_sha256;
 use crate::scene::format::RealMesh;
 
-/// A file of the folder of real meshes: its path and its expected contents.
+/// A file to download into the folder of real meshes: its path and its expected contents.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DataFile {
     /// The address of the download.
     pub url: String,
-    /// The finished file.
+    /// The path of the finished file.
     pub path: PathBuf,
     /// SHA-256 in hexadecimal.
     pub sha256: String,
@@ -51,7 +51,7 @@ impl DataFile {
     /// Checks that the download at `part` has the expected contents.
     ///
     /// # Errors
-    /// If the hash differs.
+    /// If the hash differs, or the file cannot be read.
     pub fn verify(&self, part: &Path) -> Result<(), FetchError> {
         let found = hash(part)?;
         if found == self.sha256 {

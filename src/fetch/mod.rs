@@ -1,7 +1,7 @@
-//! Downloads of real meshes: verified, whole or not at all.
+//! Downloads real meshes. A file is stored only if it is complete and has the expected SHA-256.
 //!
-//! The feature `fetch` is on by default. It adds an HTTP client with its own TLS and certificates, which needs no
-//! libraries of the system. Without the feature, `sahara fetch` prints what to download by hand and verifies it.
+//! The feature `fetch` is on by default. It adds an HTTP client that includes TLS and certificates and needs no system
+//! libraries. Without the feature, `sahara fetch` prints what to download by hand, and verifies existing files.
 
 #[cfg(feature = "fetch")]
 mod client;

@@ -4,8 +4,8 @@ use std::ffi::OsStr;
 use std::fmt::{self, Display, Formatter};
 use std::path::Path;
 
-/// Prints names safely. Escape sequences in a file name change the terminal, and line breaks break a table. A lossy
-/// conversion prints all bytes that are not UTF-8 alike.
+/// Prints names safely. Unescaped control characters in a file name could change the terminal or break a table. A lossy
+/// conversion would print all bytes that are not UTF-8 alike.
 pub trait Escaped {
     /// The name on one line, with `\n` or `\u{1b}` for a control character and `\xff` for a byte that is not UTF-8.
     fn escaped(&self) -> Escape<'_>;
@@ -38,8 +38,8 @@ fn is_control(c: char) -> bool {
     c.is_control() || matches!(c, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// Quotes `word` for a shell, on one line, if necessary: in single quotes; if it has control characters or bytes that
-/// are not UTF-8, as `$'a\xff'`, which bash, zsh and ksh understand.
+/// Quotes `word` for a shell if necessary, on one line and in single quotes. A word with control characters or bytes
+/// that are not UTF-8 becomes `$'a\xff'`, which bash, zsh and ksh understand.
 pub fn quoted(word: impl AsRef<OsStr>) -> String {
     let word = word.as_ref();
     let Some(text) = word.to_str().filter(|text| !text.chars().any(is_control)) else {

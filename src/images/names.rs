@@ -52,9 +52,9 @@ pub fn named<T>(known: impl IntoIterator<Item = T>, wanted: &str, name: impl Fn(
     known.into_iter().find(|one| name(one).eq_ignore_ascii_case(wanted))
 }
 
-/// The element of `known` that `wanted` probably means: either at most a third of the letters of the longer name differ
-/// (swapped neighbours are one difference: Damerau, "A technique for computer detection and correction of spelling
-/// errors", 1964), or only this element begins with `wanted`, which has three letters or more. `None` otherwise.
+/// The element of `known` that `wanted` probably means, or `None`. Either at most a third of the letters of the longer
+/// name differ, or only this element begins with `wanted` (three letters or more). Swapped neighbours are one
+/// difference: Damerau, A technique for computer detection and correction of spelling errors, 1964.
 pub fn nearest<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let wanted: String = wanted.chars().take(60).flat_map(char::to_lowercase).collect();
     let known: Vec<&str> = known.into_iter().collect();

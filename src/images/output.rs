@@ -1,10 +1,10 @@
-//! Writes files and folders completely or not at all, and writes to standard output, which its reader may close.
+//! Writes files and folders completely or not at all, and writes to standard output.
 //!
-//! Contents are first written under a temporary name beside the target, which is then renamed to the target: no reader
-//! sees partial contents, and a failure keeps the old contents.
+//! Contents are first written to a temporary file or folder beside the target. It is then renamed to the target. No
+//! reader sees partial contents, and a failure keeps the old contents.
 //!
-//! A closed standard output, as with `| head`, is not an error: the run continues and reaches its verdict. Any other
-//! failure of standard output is reported at the end, and does not change the verdict.
+//! If the reader closes standard output, as `| head` does, the run continues without an error. Any other failure of
+//! standard output is reported at the end of the run. The verdict of the run is the same in all cases.
 
 use std::collections::HashSet;
 use std::fmt::Display;
@@ -38,7 +38,7 @@ impl OutputError {
         Self::Place { path: path.into(), problem: problem.into() }
     }
 
-    /// A failed write of `path`. Drops the text of an error of `tempfile`: it names a temporary path.
+    /// The error of a failed write of `path`. The text of an error of `tempfile` is dropped: it names a temporary path.
     fn write(path: &Path, error: io::Error) -> Self {
         let cause = if error.get_ref().is_some() { error.kind().into() } else { error };
         Self::Write { path: path.into(), cause }
@@ -54,7 +54,7 @@ pub struct OutputFile {
 }
 
 impl OutputFile {
-    /// Checks before a long run that its results can be written to `path`; leaves no file behind.
+    /// Checks that results can be written to `path`, and leaves no file behind. Call it before a long run.
     pub fn check(path: &Path) -> Result<Self, OutputError> {
         let regular = match fs::metadata(path) {
             _ if path == Path::new(STDOUT) => {
@@ -73,7 +73,7 @@ impl OutputFile {
         Ok(Self { path: path.into(), regular })
     }
 
-    /// Rejects a file that is one of `inputs`, with all links followed.
+    /// Returns an error if the file is one of `inputs`. All links are followed.
     pub fn apart_from<'a>(self, inputs: impl IntoIterator<Item = &'a Path>) -> Result<Self, OutputError> {
         let is_own = |input: &Path| self.regular.is_some() && input.canonicalize().ok() == self.regular;
         if inputs.into_iter().any(is_own) {
@@ -82,7 +82,7 @@ impl OutputFile {
         Ok(self)
     }
 
-    /// Rejects two results in one file, with all links followed, and two results on standard output.
+    /// Returns an error if two of `files` are the same file or both are standard output. All links are followed.
     pub fn are_apart<'a>(files: impl IntoIterator<Item = &'a Self>) -> Result<(), OutputError> {
         let mut places = HashSet::new();
         let mut files = files.into_iter().filter(|file| file.regular.is_some() || file.path == Path::new(STDOUT));
@@ -90,8 +90,8 @@ impl OutputFile {
         Err(OutputError::place(&twice.path, "two results would go there: name another file for one of them"))
     }
 
-    /// Writes the contents. A failure of standard output is not returned: [`FAILURE`] records it until the command
-    /// ends. After any other failure, an older regular file is unchanged.
+    /// Writes the contents. An error of standard output is not returned: [`FAILURE`] records it until the command
+    /// ends. After any other error, an existing regular file is unchanged.
     pub fn write(&self, bytes: &[u8]) -> Result<(), OutputError> {
         let write = || {
             match &self.regular {
@@ -104,15 +104,15 @@ impl OutputFile {
         write().map_err(|cause| OutputError::write(&self.path, cause))
     }
 
-    /// Writes a new regular file; returns false if the path exists. Of several concurrent writers, even on machines
-    /// that share a file system, exactly one succeeds. The written file is on the disk; a failed write leaves no file.
+    /// Writes a new regular file and flushes it to the disk. Returns false if the path exists. Exactly one of several
+    /// concurrent writers succeeds, even on machines that share a file system. A failed write leaves no file.
     pub fn write_new(&self, bytes: &[u8]) -> Result<bool, OutputError> {
         let Some(regular) = &self.regular else { return Ok(false) };
         match written(regular, bytes).and_then(|file| Ok(file.persist_noclobber(regular)?)) {
             Err(cause) if cause.kind() == io::ErrorKind::AlreadyExists => return Ok(false),
             written => drop(written.map_err(|cause| OutputError::write(&self.path, cause))?),
         }
-        // Also flush the name of the file to the disk, if the system can.
+        // Also flush the file's name, an entry of its folder, to the disk. Some systems cannot: ignore errors.
         let _ = fs::File::open(folder_of(regular)).and_then(|folder| folder.sync_all());
         Ok(true)
     }
@@ -134,7 +134,7 @@ pub struct OutputFolder {
 }
 
 impl OutputFolder {
-    /// Checks that `path` may be written: it is missing, empty or has only earlier output; leaves no file behind.
+    /// Checks that `path` is missing, is empty or contains only earlier output. Leaves no file behind.
     pub fn check(path: &Path) -> Result<Self, OutputError> {
         if path.exists() && !path.is_dir() {
             return Err(OutputError::place(path, "it is a file: name a folder that does not exist yet"));
@@ -152,7 +152,7 @@ impl OutputFolder {
         Ok(folder)
     }
 
-    /// Rejects a folder that contains one of `inputs`, with all links followed.
+    /// Returns an error if the folder contains one of `inputs`. All links are followed.
     pub fn apart_from<'a>(self, inputs: impl IntoIterator<Item = &'a Path>) -> Result<Self, OutputError> {
         let is_inside = |input: &&Path| input.canonicalize().is_ok_and(|input| input.starts_with(&self.resolved));
         let Some(input) = inputs.into_iter().find(is_inside) else { return Ok(self) };
@@ -160,7 +160,7 @@ impl OutputFolder {
         Err(OutputError::place(&self.path, problem))
     }
 
-    /// Replaces the contents of the folder by `files` (relative paths with `/`); a failure keeps the old contents.
+    /// Replaces the contents of the folder with `files` (relative paths with `/`). A failure keeps the old contents.
     pub fn write(&self, files: &[(String, Vec<u8>)]) -> Result<(), OutputError> {
         self.write_in(|folder| {
             files.iter().try_for_each(|(name, bytes)| {
@@ -171,7 +171,7 @@ impl OutputFolder {
         })
     }
 
-    /// Like [`write`](Self::write), but `fill` writes the files, which may exceed memory, to the folder it gets.
+    /// Like [`write`](Self::write), but `fill` receives a folder and writes the files, which need not fit into memory.
     pub fn write_in<T>(&self, fill: impl FnOnce(&Path) -> io::Result<T>) -> Result<T, OutputError> {
         let replace = || {
             let new = temporary_folder(&self.resolved)?;
@@ -180,14 +180,14 @@ impl OutputFolder {
             names.push(MARK.into());
             fs::write(new.path().join(MARK), serde_json::to_vec_pretty(&names).expect("names are text"))?;
 
-            // Move the old folder aside, and back if the new one cannot replace it.
+            // Move the old folder aside. If the new folder cannot replace it, move it back.
             let aside = temporary_folder(&self.resolved)?;
             let old = aside.path().join("old");
             if self.resolved.exists() {
                 fs::rename(&self.resolved, &old)?;
             }
             fs::rename(new.path(), &self.resolved).inspect_err(|_| drop(fs::rename(&old, &self.resolved)))?;
-            // The temporary path no longer exists: do not remove it.
+            // The new folder was renamed: `keep` prevents `new` from removing its temporary path.
             let _ = new.keep();
             Ok(filled)
         };
@@ -208,7 +208,7 @@ fn names_below(folder: &Path, prefix: &str) -> io::Result<Vec<String>> {
     Ok(names)
 }
 
-/// The canonical path, with links followed, of a file that exists or may be created.
+/// The canonical path of a file. If the file is missing, its folder must exist.
 fn resolved(path: &Path) -> io::Result<PathBuf> {
     path.canonicalize().or_else(|missing| {
         let (Some(folder), Some(name)) = (path.parent(), path.file_name()) else { return Err(missing) };
@@ -221,17 +221,17 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().unwrap_or(path)
 }
 
-/// A temporary file beside `path`, which must have a folder; dropping the value removes the file.
+/// A temporary file in the folder of `path`. Dropping the value removes the file.
 pub fn temporary_file(path: &Path) -> io::Result<NamedTempFile> {
     temporary(0o666).tempfile_in(folder_of(path))
 }
 
-/// Like [`temporary_file`], for a folder.
+/// Like [`temporary_file`], but creates a folder.
 fn temporary_folder(path: &Path) -> io::Result<TempDir> {
     temporary(0o777).tempdir_in(folder_of(path))
 }
 
-/// Creates temporary files and folders; on Unix with the permissions `mode`, minus the process's umask.
+/// Creates temporary files and folders. On Unix, they have the permissions `mode` without the bits of the umask.
 fn temporary(#[cfg_attr(not(unix), expect(unused_variables))] mode: u32) -> Builder<'static, 'static> {
     let mut builder = Builder::new();
     builder.prefix(".sahara-");
@@ -263,7 +263,7 @@ pub fn note(written: io::Result<()>) {
     }
 }
 
-/// Treats a closed output as written.
+/// Ignores the error of a closed output.
 fn unless_gone(written: io::Result<()>) -> io::Result<()> {
     match written {
         Err(cause) if cause.kind() == io::ErrorKind::BrokenPipe => Ok(()),

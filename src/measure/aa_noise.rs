@@ -1,16 +1,16 @@
-//! The difference between two builds of the same structure.
+//! The A/A noise: the difference in time between two builds of the same structure.
 
 use super::estimate::Estimate;
 use super::interval::{Rerun, epoch_values};
 use super::summary::{Variance, mean};
 
-/// The A/A ratios of a run: one structure is built twice, and the builds are timed as two structures. Without noise the
-/// ratios are 1 (for the comparison of alternatives: Georges, Buytaert, Eeckhout, "Statistically rigorous Java
-/// performance evaluation", 2007).
+/// The A/A ratios of a run. One structure is built twice, and the two builds are timed as two structures. Without noise
+/// the ratio of their times is 1. Georges, Buytaert, Eeckhout ("Statistically rigorous Java performance evaluation",
+/// 2007) describe how to compare alternatives.
 ///
-/// Every interval already includes the spread of the ratios over the epochs. If the ratios differ from 1 by more than
-/// this spread, whole runs differ by an effect that epochs do not show. The **A/A noise** is its size: the root of the
-/// mean square of the log ratios minus their sampling variance. More cells make the estimate more precise, not larger.
+/// Every interval includes the spread of ratios over epochs. If the A/A ratios differ from 1 by more than this spread,
+/// an effect varies between runs but not between epochs. The **A/A noise** is its size. Its square is the mean over the
+/// cells of (log ratio)^2 minus the sampling variance. More cells make the estimate more precise, not larger.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AaNoise {
     /// One ratio per cell. Its interval does not include the A/A noise.
@@ -37,8 +37,8 @@ impl AaNoise {
         if squares.is_empty() {
             return Self::default();
         }
-        // Use one degree of freedom per ratio, but at least the number of epochs minus 1: one degree of freedom would
-        // widen intervals tenfold. The tests of `interval` measure the effect of this rule.
+        // Use one degree of freedom per ratio, but at least the number of epochs minus 1. A single degree of freedom
+        // would make intervals several times as wide. The tests of `interval` measure the effect of this rule.
         let epochs = cells.iter().map(Vec::len).max().unwrap_or(0);
         let freedom = squares.len().max(epochs.saturating_sub(1)).max(1) as f64;
         Self { ratios, noise: Variance { square: mean(&squares).max(0.0), freedom } }
@@ -54,12 +54,12 @@ impl AaNoise {
         self.weighted(&[1.0, -1.0])
     }
 
-    /// The variance that the noise adds to the mean of the logarithms of the ratios of `cells` independent cells.
+    /// The variance that the noise adds to the mean log ratio of `cells` independent cells.
     pub fn of_mean(&self, cells: usize) -> Variance {
         self.of_ratio().times(1.0 / libm::sqrt(cells.max(1) as f64))
     }
 
-    /// The variance that the noise adds to a weighted sum of logarithms of times of different builds. A ratio has the
+    /// The variance that the noise adds to a weighted sum of log times, each of a different build. A log ratio has the
     /// weights 1 and -1.
     pub fn weighted(&self, weights: &[f64]) -> Variance {
         let squares: f64 = weights.iter().map(|weight| weight * weight).sum();
@@ -79,7 +79,7 @@ impl AaNoise {
 mod tests {
     use super::*;
 
-    /// One cell per logarithm, with five epochs of the same A/A ratio.
+    /// One cell per element of `logs`, with five epochs of the same A/A ratio.
     fn twins(logs: &[f64]) -> AaNoise {
         AaNoise::new(&logs.iter().map(|&log| vec![vec![log; 3]; 5]).collect::<Vec<_>>())
     }
@@ -97,7 +97,7 @@ mod tests {
 
     #[test]
     fn what_epochs_explain_is_left_out() {
-        // The mean is 0.01 and its standard error 0.012: the spread of the epochs explains all of it.
+        // The mean is 0.01 and its standard error 0.012, so the spread of the epochs explains the mean.
         let epochs = [-0.02, 0.01, 0.04, 0.01].map(|log| vec![log]);
         let error = Variance::of_mean(&epochs.concat()).unwrap().square;
         let noise = AaNoise::new(&[epochs.to_vec()]);
@@ -109,7 +109,7 @@ mod tests {
         let noise = AaNoise::new(&[vec![vec![0.01, 0.03]]]);
         assert!((noise.log().unwrap() - 0.02).abs() < 1e-12);
         assert_eq!(noise.holding_one(), None);
-        // A cell of one epoch beside another cell has no interval.
+        // A cell with one epoch has no interval, even beside a cell with five epochs.
         let both = AaNoise::new(&[vec![vec![0.01, 0.03]], vec![vec![0.0; 3]; 5]]);
         assert_eq!((both.ratios.len(), both.holding_one()), (2, Some((1, 1))));
         // The variance is proportional to the sum of the squared weights.

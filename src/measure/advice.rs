@@ -6,12 +6,12 @@ use crate::plural::plural;
 /// More interruptions per second than this mean that another program uses the core.
 const INTERRUPTIONS: f64 = 20.0;
 
-/// A core whose clock rate falls below this share of its first value is throttled.
+/// A core whose clock rate falls below this fraction of its initial value is throttled.
 const CLOCK_FALL: f64 = 0.9;
 
 /// Returns one sentence for each condition that disturbs measurements. `before` describes the machine before the run.
-/// In the `seconds` of the timed part, the system took the core from the measuring thread `interruptions` times.
-/// `clock_rates` are the kHz of the core at the beginning and at the end; `None` if unknown.
+/// `seconds` is the duration of the timed part, and `interruptions` counts how often the system took the core from the
+/// measuring thread in this time. `clock_rates` are the kHz at the beginning and at the end. `None` means unknown.
 pub fn of_conditions(
     before: &Provenance,
     seconds: f64,

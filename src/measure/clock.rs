@@ -62,12 +62,12 @@ impl Clock for SystemClock {
 pub enum CpuClock {
     /// The time of the calling thread, for passes.
     Thread,
-    /// The time of the whole process, for builds: some builders start threads, whose work counts.
+    /// The time of the whole process, for builds. It includes the work of threads that a builder starts.
     Process,
 }
 
 impl CpuClock {
-    /// This clock, for work on `threads`. `None` for several threads, or if the system has no such clock: then use the
+    /// This clock, if `threads` is a single thread and the system has the clock. If the result is `None`, use the
     /// elapsed time.
     pub fn on(self, threads: &Threads) -> Option<Self> {
         (threads.count() == 1 && self.read_ns().is_some()).then_some(self)

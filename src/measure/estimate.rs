@@ -18,12 +18,12 @@ pub struct Estimate {
 pub struct Interval {
     pub low: f64,
     pub high: f64,
-    /// Degrees of freedom of Student's t; infinite if nothing varies. They determine how much wider the interval
-    /// becomes if several are judged together.
+    /// Degrees of freedom of Student's t; infinite for a constant. They determine how much wider the interval becomes
+    /// if several intervals are judged together.
     pub freedom: f64,
 }
 
-/// The form in files: one object, with `null` for an unknown end and for infinite degrees of freedom.
+/// The fields of an estimate in JSON files. `null` represents a missing interval or infinite degrees of freedom.
 #[derive(Serialize, Deserialize)]
 struct Flat {
     estimate: f64,
@@ -95,8 +95,8 @@ impl Estimate {
         Self { estimate: of(self.estimate), interval: self.interval.map(ends) }
     }
 
-    /// The estimate as one of `looks` estimates that are judged together: its interval grows until, with 95 %
-    /// probability, all `looks` intervals contain their true values (Bonferroni). Both sides grow by the same factor.
+    /// The estimate, if `looks` estimates are judged together. Its interval is widened (Bonferroni): with probability
+    /// 95 %, all `looks` intervals contain their values. Both sides grow by the same factor.
     pub fn among(self, looks: usize) -> Self {
         if looks < 2 {
             return self;
@@ -109,7 +109,7 @@ impl Estimate {
         Self { interval: self.interval.map(grown), ..self }
     }
 
-    /// Like [`among`](Self::among) for a positive ratio, whose interval grows in logarithms.
+    /// Like [`among`](Self::among), for a positive ratio: the interval grows on a logarithmic scale.
     pub fn ratio_among(self, looks: usize) -> Self {
         self.map(libm::log).among(looks).map(libm::exp)
     }

@@ -1,4 +1,4 @@
-//! Facts about the machine: load, clock rates, memory, floating-point mode. `None` if the system reports no value.
+//! Facts about the machine: load, clock rates, memory, floating-point mode. Unknown facts are `None`.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::time::Duration;
 
-/// The load average of the last minute, read at the first call: later values include the load of this process.
+/// The load average of the last minute, read at the first call, because later values include the load of this process.
 pub fn load_at_start() -> Option<f64> {
     static LOAD: OnceLock<Option<f64>> = OnceLock::new();
     *LOAD.get_or_init(|| first_number(&fs::read_to_string("/proc/loadavg").ok()?))
@@ -37,8 +37,8 @@ pub fn memory() -> Option<u64> {
     machine().into_iter().chain(groups.iter().filter_map(limit)).min()
 }
 
-/// The files with the memory limits of a process's control groups and of the groups around them; `groups` is the
-/// content of `/proc/self/cgroup`. Inside a container some of these files do not exist.
+/// The files with the memory limits of a process's control groups and their parent groups; `groups` is the content of
+/// `/proc/self/cgroup`. Inside a container some of these files do not exist.
 fn limits(groups: &str) -> Vec<PathBuf> {
     let files = |line: &str| {
         let mut fields = line.splitn(3, ':').skip(1);

@@ -28,13 +28,13 @@ impl CountingAllocator {
 unsafe impl GlobalAlloc for CountingAllocator {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         Self::add(layout.size() as isize);
-        // SAFETY: the caller fulfils the contract of `GlobalAlloc::alloc`, and `System::alloc` has the same one.
+        // SAFETY: the caller fulfils the contract of `GlobalAlloc::alloc`, and `System` has the same contract.
         unsafe { System.alloc(layout) }
     }
 
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
         Self::add(-(layout.size() as isize));
-        // SAFETY: as in `alloc`; `pointer` comes from `System`, since all methods here allocate with it.
+        // SAFETY: as in `alloc`. `pointer` comes from `System`, because all methods here allocate with `System`.
         unsafe { System.dealloc(pointer, layout) }
     }
 
@@ -51,9 +51,9 @@ unsafe impl GlobalAlloc for CountingAllocator {
     }
 }
 
-/// Runs `work`. Returns its result and the peak increase of allocated bytes on all threads; `None` if the
-/// [`CountingAllocator`] is not installed. Only one call runs at a time; other calls wait. Meanwhile each allocation
-/// takes two more atomic operations.
+/// Runs `work`. Returns its result and the peak increase of allocated bytes on all threads; the peak is `None` if the
+/// [`CountingAllocator`] is not installed. Only one call runs at a time; other calls wait. During a call, each
+/// allocation takes two more atomic operations.
 pub fn peak_bytes<R>(work: impl FnOnce() -> R) -> (R, Option<usize>) {
     static ONE: Mutex<()> = Mutex::new(());
     /// Stops the counter when it is dropped, also after a panic.

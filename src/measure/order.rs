@@ -39,7 +39,7 @@ impl RandomOrder {
     }
 }
 
-/// Noise for tests.
+/// Random numbers for tests.
 #[cfg(test)]
 impl RandomOrder {
     /// A number strictly between 0 and 1.

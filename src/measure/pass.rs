@@ -1,4 +1,4 @@
-//! One structure that traces one workload in this process, in batches as a renderer would.
+//! One structure that traces one workload in this process, in batches, as in a renderer.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -16,11 +16,11 @@ use crate::geometry::Ray;
 struct Piece<'a> {
     rays: Box<dyn Loaded + 'a>,
     count: usize,
-    /// The levels whose time includes this piece, one bit for each chosen level. 0 for a lead-in.
+    /// The [levels](super::tiles) whose time includes this piece, one bit per chosen level. 0 for an untimed lead-in.
     levels: u32,
 }
 
-/// Traces the pieces one after the other; their results begin at `first`. Returns the end of the results.
+/// Traces the pieces one after the other and stores the results from index `first` on. Returns the index after them.
 fn query_all(results: &mut QueryResults, first: usize, pieces: &[Piece]) -> usize {
     pieces.iter().fold(first, |first, piece| {
         results.query(first..first + piece.count, piece.rays.as_ref());
@@ -28,7 +28,7 @@ fn query_all(results: &mut QueryResults, first: usize, pieces: &[Piece]) -> usiz
     })
 }
 
-/// Traces the pieces on all threads. Their results become the first of `results`, in the order of the pieces.
+/// Traces the pieces on all threads and stores the results from index 0 on, in the order of the pieces.
 fn share(results: &mut QueryResults, pieces: &[&Piece], threads: &Threads) {
     fn each<T: Send>(mut rest: &mut [T], pieces: &[&Piece], query: fn(&dyn Loaded, &mut [T]), threads: &Threads) {
         let own = |piece: &&Piece| rest.split_off_mut(..piece.count).expect("there is a result for each ray");
@@ -41,8 +41,8 @@ fn share(results: &mut QueryResults, pieces: &[&Piece], threads: &Threads) {
     }
 }
 
-/// Selects `count` items for checks and counts: in order, one at a pseudo-random position of each equal part of `all`.
-/// Equal distances could select only some columns of an image. If there are at most `count` items, selects all.
+/// Divides `all` into `count` ranges of about equal length and selects a pseudo-random item of each range. Selects all
+/// items if there are at most `count`. Items at equal distances could lie in only a few columns of an image.
 pub fn spread<T: Copy>(all: &[T], count: usize) -> Vec<T> {
     if count >= all.len() {
         return all.to_vec();
@@ -54,8 +54,8 @@ pub fn spread<T: Copy>(all: &[T], count: usize) -> Vec<T> {
 
 /// A structure, a workload and a query: the unit of timing.
 ///
-/// One thread traces the pieces in the order of the workload; several threads share them. A pass begins with an untimed
-/// lead-in over the last rays of the workload. The lead-in leaves caches and branch predictors in the state of this
+/// A single thread traces the rays in the order of the workload; several threads divide them. A pass begins with an
+/// untimed lead-in over the last rays of the workload: caches and branch predictors are then in the state of this
 /// structure, not in the state of the structure timed before. On one thread, a tile that does not adjoin the tile
 /// before it has a short lead-in as well.
 pub struct Pass<'a> {
@@ -68,12 +68,12 @@ pub struct Pass<'a> {
     levels: usize,
     results: QueryResults,
     lead_in_results: QueryResults,
-    /// If a pass traces all rays: the number of last rays that the lead-in traced, and the checksum of their results.
+    /// The number of rays of the lead-in and the checksum of their results; `None` if a pass traces only a subset.
     lead_in_checksum: Option<(usize, u64)>,
-    /// Picoseconds per ray of the lead-in; `u128::MAX` without a lead-in: tiles then have no lead-in either.
+    /// Picoseconds per ray of the lead-in. Without a lead-in it is `u128::MAX`, and tiles have no lead-in either.
     lead_in_ps: u128,
-    /// `clear` alternates between two fillings: a pass that leaves a result untouched then cannot give the same
-    /// checksum twice.
+    /// Whether the last `clear` filled the results with hits. It alternates between hits and misses: a pass that does
+    /// not write a result then has two different checksums.
     filled: bool,
 }
 
@@ -83,8 +83,8 @@ pub(super) const LEAD_IN_SHARE: usize = 8;
 /// Time limit of the lead-in if only a subset of the rays is timed: slow structures need fewer rays to fill the caches.
 const LEAD_IN: Duration = Duration::from_millis(10);
 
-/// Time limit of the lead-in of a tile, which has at most [`TILE`] rays. The caches load the data of a tile in less
-/// time, so slow structures can use fewer rays.
+/// Time limit of the lead-in of a tile, which has at most [`TILE`] rays. Caches load the data of a tile within this
+/// time, so slow structures use fewer rays.
 const TILE_LEAD_IN_NS: u128 = 200_000;
 
 impl<'a> Pass<'a> {
@@ -116,8 +116,8 @@ impl<'a> Pass<'a> {
         Piece { rays: self.accel.load(Cow::Borrowed(&self.all[first..first + count])), count, levels }
     }
 
-    /// The lead-in of a tile that starts at `end`: the rays before `end`, or the last rays of the workload if there are
-    /// too few. Each piece has half of the remaining rays, so a slow structure can skip the first pieces.
+    /// The lead-in of a tile that starts at `end`: the rays before `end`, or the last rays of the workload if too few
+    /// precede `end`. Each piece has half of the remaining rays, so a slow structure can skip the first pieces.
     fn before(&self, end: usize) -> impl Iterator<Item = Piece<'a>> {
         let count = TILE.min(self.all.len());
         let mut rest = if end < count { self.all.len() - count..self.all.len() } else { end - count..end };
@@ -139,7 +139,7 @@ impl Timed for Pass<'_> {
         let own = &tiles_of[0];
         let timed: usize = own.iter().map(ExactSizeIterator::len).sum();
 
-        // Cut pieces where another level begins or ends within a tile.
+        // Cut a tile where a tile of another level begins or ends.
         let mut pieces = vec![];
         let mut end = None;
         for tile in own {
@@ -198,8 +198,8 @@ impl Timed for Pass<'_> {
     fn run(&mut self, watch: &Stopwatch) -> Vec<u64> {
         let mut ns = vec![0; self.levels];
         if self.threads.count() > 1 {
-            // Threads share the rays of a level, so each level is timed separately. The first level is last because its
-            // results must stay.
+            // Threads divide the rays of a level, so each level is timed separately. The first level runs last, because
+            // later code reads its results.
             for level in (0..self.levels).rev() {
                 let of_level = |piece: &&Piece| piece.levels >> level & 1 == 1;
                 let pieces: Vec<&Piece> = self.pieces.iter().filter(of_level).collect();

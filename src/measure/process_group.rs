@@ -31,7 +31,7 @@ pub fn set_apart(command: &mut Command) {
 #[cfg(not(target_os = "linux"))]
 pub fn set_apart(_: &mut Command) {}
 
-/// Whether a program has ended; it must still be waited for.
+/// Whether a program has ended. The caller must still wait for it.
 #[cfg(target_os = "linux")]
 fn has_ended(child: &mut Child) -> bool {
     state(child) != Ok(WaitStatus::StillAlive)
@@ -42,7 +42,6 @@ fn has_ended(child: &mut Child) -> bool {
     !matches!(child.try_wait(), Ok(None))
 }
 
-/// Pause between two checks whether a program has ended.
 const PAUSE: Duration = Duration::from_millis(1);
 
 /// Whether a program ends within `limit`. The caller must still wait for it.
@@ -57,11 +56,11 @@ pub fn ends_within(child: &mut Child, limit: Duration) -> bool {
     true
 }
 
-/// The output and exit status of a program; `None` if it took longer than `limit`: then it was killed, together with
-/// all programs that it had started.
+/// Runs a program and returns its output and exit status. If it takes longer than `limit`, kills the program and all
+/// programs that it has started, and returns `None`.
 ///
 /// # Errors
-/// If it cannot be started or waited for.
+/// If the program cannot be started or waited for, or its output cannot be read.
 pub fn output_within(command: &mut Command, limit: Duration) -> io::Result<Option<Output>> {
     set_apart(command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()));
     let mut child = command.spawn()?;
@@ -84,15 +83,16 @@ fn drain(pipe: &mut dyn Read) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Makes this process end with the thread that started it (Linux only): a leftover process would disturb the next run.
+/// Linux only: ends this process when the thread that started it ends. A leftover process would disturb the next run.
 pub fn end_with_parent() {
     #[cfg(target_os = "linux")]
     let _ = nix::sys::prctl::set_pdeathsig(Signal::SIGKILL);
 }
 
-/// Ends a program that was [set apart](set_apart), and all programs that it has started, unless it has been waited for.
+/// Kills a program that was [set apart](set_apart) and all programs that it has started. Does nothing if the program
+/// has already been waited for.
 pub fn end(child: &mut Child) {
-    // Until a program has been waited for, the system does not reuse its number.
+    // The system does not reuse the number of a process before this process has waited for it.
     #[cfg(target_os = "linux")]
     if state(child) != Err(Errno::ECHILD) {
         end_group(child.id());
@@ -100,7 +100,7 @@ pub fn end(child: &mut Child) {
     let _ = child.kill();
 }
 
-/// Kills the programs that a process has started, each with its group if it leads one.
+/// Kills the programs that a process has started. A program that leads a process group is killed with its group.
 #[cfg(target_os = "linux")]
 pub fn end_started_by(process: u32) {
     let threads = std::fs::read_dir(format!("/proc/{process}/task")).into_iter().flatten().flatten();
@@ -109,7 +109,7 @@ pub fn end_started_by(process: u32) {
     children.split_whitespace().filter_map(|number| number.parse::<u32>().ok()).for_each(end_group);
 }
 
-/// Kills a program, with its group if it leads one, and the programs that it has started.
+/// Kills a program and the programs that it has started. A program that leads a process group is killed with its group.
 #[cfg(target_os = "linux")]
 fn end_group(first: u32) {
     end_started_by(first);
@@ -117,7 +117,7 @@ fn end_group(first: u32) {
     let _ = killpg(first, Signal::SIGKILL).or_else(|_| kill(first, Signal::SIGKILL));
 }
 
-/// The state of a program; an error once it has been waited for.
+/// The state of a program; an error if the program has been waited for.
 #[cfg(target_os = "linux")]
 fn state(child: &Child) -> nix::Result<WaitStatus> {
     let looks = WaitPidFlag::WEXITED | WaitPidFlag::WNOHANG | WaitPidFlag::WNOWAIT;

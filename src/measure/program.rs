@@ -15,13 +15,13 @@ pub fn build() -> &'static str {
     BUILD.get_or_init(|| file_id(&executable()).unwrap_or_else(|_| "unknown".into()))
 }
 
-/// The file of the running program. On Linux the path remains valid after another file has taken its name.
+/// The file of the running program. On Linux the path remains valid after the file is replaced or deleted.
 pub fn executable() -> PathBuf {
     let kept = Path::new("/proc/self/exe");
     if kept.exists() { kept.into() } else { std::env::current_exe().unwrap_or_default() }
 }
 
-/// The SHA-256 of bytes: the identity of data files and corpora.
+/// The SHA-256 of bytes, in hexadecimal: it identifies data files and corpora.
 pub fn digest(bytes: &[u8]) -> String {
     format!("{:x}", Sha256::digest(bytes))
 }
@@ -29,7 +29,7 @@ pub fn digest(bytes: &[u8]) -> String {
 /// The first 16 digits of the SHA-256 of a file.
 ///
 /// # Errors
-/// If it cannot be read.
+/// If the file cannot be read.
 pub fn file_id(path: &Path) -> io::Result<String> {
     file_sha256(path).map(|digits| digits[..16].to_owned())
 }
@@ -37,7 +37,7 @@ pub fn file_id(path: &Path) -> io::Result<String> {
 /// The SHA-256 of a file, in hexadecimal.
 ///
 /// # Errors
-/// If it cannot be read.
+/// If the file cannot be read.
 pub fn file_sha256(path: &Path) -> io::Result<String> {
     let mut hasher = Sha256::new();
     io::copy(&mut File::open(path)?, &mut hasher)?;

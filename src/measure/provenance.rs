@@ -13,7 +13,7 @@ use crate::simd::Level;
 pub struct Provenance {
     pub command: String,
     pub version: String,
-    /// Commit of the build, with `+changes` if the sources differed; `unknown` outside git.
+    /// Commit of the build, with `+changes` if the sources differed from it; `unknown` outside git.
     pub commit: String,
     /// The first digits of the SHA-256 of the program; equal digits mean the same program. `unknown` if the program
     /// cannot read its file.
@@ -115,8 +115,8 @@ impl Provenance {
         })
     }
 
-    /// The instruction set that our SIMD lanes select at run time but that the build does not enable, if any: libraries
-    /// without run-time dispatch do not use it.
+    /// The instruction set that our SIMD lanes select at run time, if the build does not enable it. Libraries without
+    /// run-time dispatch use only instruction sets that the build enables.
     fn lacking(&self) -> Option<&'static str> {
         let needed = match self.simd.as_str() {
             "avx512" => "avx512f",
@@ -136,7 +136,7 @@ impl Provenance {
         };
         let Self { cpu, simd, rustc, version, commit, profile, date, .. } = self;
         let day = date.split('T').next().unwrap_or(date);
-        // Omit the commit of the compiler, which exports contain.
+        // Omit the commit of the compiler; exports contain it.
         let rustc = rustc.split(" (").next().unwrap_or(rustc);
         let lacking = self.lacking().map_or(String::new(), |feature| {
             format!(" (baselines are built without {feature}: set target-cpu=native)")

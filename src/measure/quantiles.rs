@@ -8,8 +8,8 @@ use statrs::function::beta::beta_reg;
 /// The probability that an interval, or any of the intervals judged together, does not contain its value: 5 %.
 pub const LEVEL: f64 = 0.05;
 
-/// The half-width of an interval that misses with probability `level`, in standard errors with `freedom` degrees of
-/// freedom (Student, "The probable error of a mean", 1908).
+/// The half-width of an interval that does not contain its value with probability `level`. The unit is one standard
+/// error with `freedom` degrees of freedom (Student, "The probable error of a mean", 1908).
 ///
 /// # Panics
 /// If `freedom` is less than 1, or `level` does not lie between a millionth and 1.
@@ -29,7 +29,7 @@ pub fn factor(freedom: f64, level: f64) -> f64 {
     factor
 }
 
-/// The t that is exceeded in magnitude with probability `level`. For many degrees of freedom it uses the series of
+/// The value that |t| exceeds with probability `level`. For more than 1000 degrees of freedom it uses the series of
 /// Cornish and Fisher (Abramowitz, Stegun, "Handbook of mathematical functions", 1964, 26.7.5), because `statrs` is
 /// wrong by 3e-6 at 10^5 degrees of freedom and does not return at 10^8. The relative error is below 1e-10.
 fn quantile(freedom: f64, level: f64) -> f64 {
@@ -51,9 +51,9 @@ fn quantile(freedom: f64, level: f64) -> f64 {
 /// The quantile of the beta distribution with the positive parameters `a` and `b`: the `x` for which the regularised
 /// incomplete beta function I_x(a, b) is `probability`.
 ///
-/// For `probability` 0.95 the relative error is below 1e-5 for parameters up to 10^9; for 0.5 and less, only up to
-/// 10^5, because the continued fraction of `statrs` ends after 140 terms. The function bisects: the quantile function
-/// of `statrs` is inaccurate for small quantiles, and for (2, 10^7) it does not return.
+/// The relative error is below 1e-5 for parameters up to 10^9 if `probability` is 0.95, and for parameters up to 10^5
+/// if it is at most 0.5: the continued fraction of `statrs` ends after 140 terms. The function bisects, because the
+/// quantile function of `statrs` is inaccurate for small quantiles and does not return for a = 2, b = 10^7.
 pub fn beta_quantile(probability: f64, a: f64, b: f64) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     // Bisect first in the exponent: quantiles near 0 then have the same relative precision.
@@ -115,7 +115,7 @@ mod tests {
             for (n, error) in [(10.0, 1e-12), (1e4, 1e-9), (1e5, 1e-8)] {
                 close(beta_quantile(p, 1.0, n), -libm::expm1(libm::log1p(-p) / n), error);
             }
-            // The arcsine distribution.
+            // The quantile of the arcsine distribution.
             let sine = libm::sin(std::f64::consts::FRAC_PI_2 * p);
             close(beta_quantile(p, 0.5, 0.5), sine * sine, 1e-12);
         }
@@ -123,7 +123,7 @@ mod tests {
         for n in [1e7, 1e9] {
             close(beta_quantile(0.95, 1.0, n), -libm::expm1(libm::log(0.05) / n), 1e-5);
         }
-        // Nearly normal: 1.645 standard deviations above one half.
+        // The distribution is nearly normal: the quantile is 1.645 standard deviations above one half.
         for n in [1e3, 1e5, 1e7, 1e9] {
             let deviation = 0.5 / libm::sqrt(2.0 * n + 1.0);
             close(beta_quantile(0.95, n, n), 0.5 + 1.644_853_627 * deviation, deviation / n + 1e-9);

@@ -19,7 +19,7 @@ impl QueryResults {
         }
     }
 
-    /// Overwrites all results: with hits if `otherwise` (closest hits with `t` = NaN), else with misses.
+    /// Overwrites all results with misses. If `otherwise`, overwrites them with hits (closest hits with `t` = NaN).
     pub fn fill(&mut self, otherwise: bool) {
         let nowhere = Hit { t: f32::NAN, prim: PrimId::new(0) };
         match self {

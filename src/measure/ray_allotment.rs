@@ -1,4 +1,4 @@
-//! Decides the number of rays and samples of each case before the first sample, from the cost per ray.
+//! Decides before the first sample how many rays and samples each case (one structure on one workload) gets.
 
 use super::tiles::{last_level, level_within, rays_at};
 use super::{SamplePlan, Stopwatch, Timed, median};
@@ -21,7 +21,7 @@ pub struct Allotment {
     pub runs: usize,
     /// The [level](super::tiles) of each case.
     pub levels: Vec<usize>,
-    /// Nanoseconds for a sample of a case with an unknown cost.
+    /// The time limit of a sample of a case with an unknown cost, ns.
     pub share_ns: u64,
 }
 
@@ -64,13 +64,13 @@ const PILOT: usize = 64;
 /// A pilot of this length measures the cost accurately enough.
 const LONG_PILOT_NS: u64 = 5_000_000;
 
-/// The level of the pilot: the last level with at least 64 rays; 0, all rays, if the workload has fewer.
+/// The level of the pilot: the last level with at least 64 rays, or level 0 (all rays) if the workload has fewer.
 pub fn pilot_level(rays: usize) -> usize {
     (0..=last_level(rays)).rev().find(|&level| rays_at(rays, level) >= PILOT).unwrap_or(0)
 }
 
-/// Finds, by timing `case`, the first level from `from` on at which a sample takes at most `most_ns`; the last level if
-/// all take longer.
+/// Times `case` to find the first level, `from` or later, at which a sample takes at most `most_ns`. Returns the last
+/// level if the samples of all levels take longer.
 pub fn level_by_clock(watch: &Stopwatch, case: &mut dyn Timed, from: usize, most_ns: u64) -> usize {
     let all = case.rays();
     let mut pace = |level: usize| {
@@ -79,13 +79,13 @@ pub fn level_by_clock(watch: &Stopwatch, case: &mut dyn Timed, from: usize, most
         let ns = case.run(watch)[0].max(1);
         (u128::from(ns) * 1000 / rays_at(all, level) as u128).max(1)
     };
-    // Time a pass over few rays, then, if it was too short, a pass that is long enough for a good estimate.
+    // Time a pass over few rays. If it was too short, time a pass that is long enough for a good estimate.
     let few = pilot_level(all).max(from);
     let first = pace(few);
     let rays = u128::from(LONG_PILOT_NS) * 1000 / first;
     let enough = (from..few).rev().find(|&level| rays_at(all, level) as u128 >= rays).unwrap_or(from);
     let ps = if enough < few && rays > rays_at(all, few) as u128 { pace(enough) } else { first };
-    // Add 1 / 8 for the lead-in, 1 / 4 for the next level, and 1 for the first pass, which warms up.
+    // To the pass, add 1 / 8 for the lead-in, 1 / 4 for the next level, and 1 for the first pass, which warms caches.
     let fits = |level: &usize| rays_at(all, *level) as u128 * ps * 19 / 8 / 1000 <= u128::from(most_ns);
     let last = last_level(all);
     (from..last).find(fits).unwrap_or(last.max(from))

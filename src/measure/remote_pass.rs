@@ -1,4 +1,4 @@
-//! One structure in a separate process that traces one workload.
+//! One structure that traces one workload in a separate process.
 
 use std::borrow::Cow;
 use std::cell::RefCell;
@@ -11,11 +11,11 @@ use super::{Stopwatch, Timed};
 use crate::accel::{DynAccel, Loaded, Query, Remote};
 use crate::geometry::Ray;
 
-/// The reason why a pass failed, once it has failed.
+/// The reason why a pass failed; `None` if it has not failed.
 pub type Failure = Rc<RefCell<Option<String>>>;
 
-/// Like [`Pass`](super::Pass), for a [`Remote`] structure: it receives all rays of a level at once, because each
-/// request takes time, and reports its own time. A failure is stored and does not end the run.
+/// Like [`Pass`](super::Pass), for a [`Remote`] structure. The structure receives all rays of a level at once, because
+/// each request takes time, and it measures the time itself. A failure is stored and does not end the run.
 pub struct RemotePass<'a> {
     accel: &'a dyn DynAccel,
     remote: &'a dyn Remote,
@@ -105,8 +105,8 @@ impl Timed for RemotePass<'_> {
     }
 
     fn lead_in(&mut self) {
-        // Trace the timed rays once before the first sample: the tiles of a subset lie far from the rays of the
-        // lead-in.
+        // Trace the timed rays once before the first sample to warm the caches: the tiles of a subset may lie far from
+        // the rays of the lead-in.
         if !self.is_warm && !self.has_failed() {
             self.batches[0].query(&mut self.results);
             self.is_warm = true;
@@ -119,7 +119,7 @@ impl Timed for RemotePass<'_> {
 
     fn run(&mut self, _: &Stopwatch) -> Vec<u64> {
         let mut ns = vec![0; self.batches.len()];
-        // The first level is last because its results must stay.
+        // The first level runs last, because later code reads its results.
         for (batch, ns) in self.batches.iter().zip(&mut ns).rev() {
             if self.has_failed() {
                 break;

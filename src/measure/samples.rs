@@ -8,8 +8,8 @@ pub trait Timed {
     /// Rays of the workload, at least 1.
     fn rays(&self) -> usize;
 
-    /// Selects the rays of later passes: the rays of the first of `levels`. The rays of the other levels are subsets of
-    /// them and are timed in the same pass. [`tiles`](super::tiles::tiles) selects the rays of a level. Not timed.
+    /// Selects the rays of later passes: the [`tiles`](super::tiles::tiles) of the first of `levels`. The rays of each
+    /// further level are a subset of these rays, and the same pass measures their time. Not timed.
     fn choose(&mut self, levels: &[usize], epoch: usize);
 
     /// Overwrites all results: a pass that does nothing is then detected. Called before every pass. Not timed.
@@ -50,9 +50,9 @@ pub struct SamplePlan {
 /// The samples of one case.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Samples {
-    /// Rays of a sample; fewer than the case has if it is slow.
+    /// Rays of a sample: all rays of the workload, or fewer if the case is slow.
     pub rays: usize,
-    /// The level whose rays in epoch 0 the [`checksum`](Self::checksum) covers; `None` if it covers the sampled rays.
+    /// The [`checksum`](Self::checksum) covers the rays of this level in epoch 0; if `None`, the rays of the samples.
     pub asked: Option<usize>,
     /// The checksum of the results; it is the same in all epochs.
     pub checksum: u64,
@@ -61,7 +61,7 @@ pub struct Samples {
     pub timed_checksum: u64,
     /// Time of each sample, ns, in the order of the rounds: samples of two cases with the same index are a pair.
     pub ns: Vec<u64>,
-    /// The samples of `ns`, restricted to a subset of their rays, for comparison with slower cases.
+    /// The times of the same samples on subsets of their rays, for comparison with slower cases.
     pub parts: Vec<SubsetSamples>,
     /// Whether the same rays had the same results every time.
     pub is_steady: bool,
@@ -78,9 +78,9 @@ pub struct SubsetSamples {
 }
 
 impl Samples {
-    /// Empty samples of a case with `all` rays that is timed at `level`. Each epoch draws its own tiles, so their
-    /// results cannot be compared between epochs: for comparison, each epoch also traces a sixteenth of the rays that
-    /// epoch 0 times.
+    /// Empty samples of a case with `all` rays that is timed at `level`. If the level is a subset, its rays differ
+    /// between epochs, and so do the results. To make epochs comparable, each epoch also traces a sixteenth of the rays
+    /// that epoch 0 times.
     pub fn none(all: usize, level: usize) -> Self {
         let asked = (level > 0).then(|| (level + 2).min(last_level(all)));
         Self { rays: rays_at(all, level), asked, is_steady: true, ..Self::default() }
@@ -90,8 +90,8 @@ impl Samples {
 /// Takes the samples of one epoch: `plan.runs` of every case, each case once per round, in random order.
 ///
 /// Cases with the same number in `compared` are compared with each other and follow one another within a round: a long
-/// disturbance then affects all of them. `samples` contains the number of rays of each case. A case that is not steady
-/// is not run again. `progress` receives the number of samples so far, including skipped samples.
+/// disturbance then affects all of them. `samples` contains the number of rays of each case. A case whose results
+/// change is not run again. `progress` receives the number of samples so far, including skipped samples.
 ///
 /// # Panics
 /// If `samples` or `compared` differ in length from `cases`, or no level of a case has the number of rays in `samples`.

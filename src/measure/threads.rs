@@ -31,8 +31,8 @@ impl Threads {
         Ok(Self { pool: Arc::new(OnceLock::from(pool)), ..threads })
     }
 
-    /// Like [`Threads::pinned`], but the threads start with their first work: without work, their start would only
-    /// disturb the timed thread.
+    /// Like [`Threads::pinned`], but the threads start when they receive their first work. Threads without work do not
+    /// start, because they would disturb the timed thread.
     pub fn unstarted(count: usize) -> Self {
         // Read the load before these threads add to it.
         machine::load_at_start();
@@ -52,11 +52,11 @@ impl Threads {
         })
     }
 
-    /// Checks before a long run whether the system provides this many threads: starts and ends them, unless they
-    /// already run.
+    /// Checks before a long run whether the system provides this many threads. If they do not run yet, starts and ends
+    /// them.
     ///
     /// # Errors
-    /// As [`Threads::pinned`].
+    /// If the system does not provide this many threads.
     pub fn are_given(&self) -> Result<(), String> {
         if self.pool.get().is_some() { Ok(()) } else { self.start().map(drop) }
     }
@@ -66,8 +66,8 @@ impl Threads {
         self.cores.as_deref()
     }
 
-    /// Binds the calling thread until the guard is dropped, if there is one thread: then the caller itself traces.
-    /// `None` for several threads, or if they are not bound.
+    /// Binds the calling thread until the guard is dropped, because with a single thread the caller itself traces.
+    /// `None` for several threads, or if threads are not bound.
     pub fn pin(&self) -> Option<Pin> {
         if self.count == 1 { Pin::to(*self.cores.as_ref()?.first()?) } else { None }
     }
@@ -79,7 +79,7 @@ impl Threads {
     /// Runs `work` on these threads, including all parallel iterators in it.
     ///
     /// # Panics
-    /// If they are [unstarted](Self::unstarted) and the system does not provide that many.
+    /// If the threads are [unstarted](Self::unstarted) and the system cannot start them.
     pub fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
         let start = || self.start().unwrap_or_else(|cause| panic!("{cause}"));
         self.pool.get_or_init(start).install(work)
@@ -89,7 +89,7 @@ impl Threads {
 /// The number of the calling thread in system calls. The first thread of a process has the number of the process.
 const THIS_THREAD: u32 = 0;
 
-/// Binds the calling thread to a core until it is dropped; then the thread may run on its previous cores.
+/// A guard that binds the calling thread to a core. Dropping the guard restores the previous cores of the thread.
 #[derive(Debug)]
 pub struct Pin {
     before: Vec<usize>,
@@ -105,7 +105,7 @@ impl Pin {
 
 impl Drop for Pin {
     fn drop(&mut self) {
-        // If the system no longer allows these cores, the thread stays on its core.
+        // If the system no longer allows the previous cores, the thread stays on its core.
         bind(&self.before);
     }
 }
@@ -113,14 +113,14 @@ impl Drop for Pin {
 /// The cores that the run has chosen for all of its processes.
 static CORES: OnceLock<Vec<usize>> = OnceLock::new();
 
-/// Gives these cores to all later groups of `cores.len()` threads, instead of the currently idle cores.
+/// Gives these cores to all later groups of `cores.len()` threads, instead of idle cores. Only the first call counts.
 pub fn keep_to(cores: &[usize]) {
     CORES.get_or_init(|| cores.into());
 }
 
-/// The cores for `threads` threads: the cores of [`keep_to`], or the cores that were the most idle during a tenth of a
-/// second; among equally idle cores the highest, because interrupts use the lowest. `None` if threads cannot be bound,
-/// or there are fewer cores than threads.
+/// The cores for `threads` threads: the cores given to [`keep_to`], or the cores that were the most idle during a tenth
+/// of a second. Among equally idle cores it prefers high numbers, because interrupts use low numbers. `None` if threads
+/// cannot be bound, or there are fewer cores than threads.
 fn choose(threads: usize) -> Option<Vec<usize>> {
     let mut cores = allowed(THIS_THREAD)?;
     if let Some(chosen) = CORES.get().filter(|chosen| chosen.len() == threads) {
@@ -137,8 +137,8 @@ fn choose(threads: usize) -> Option<Vec<usize>> {
     Some(cores)
 }
 
-/// Runs `work`, which starts a program. The program may use all cores of this process's first thread, because a program
-/// inherits the cores of the thread that starts it.
+/// Runs `work`, which starts a program. A program inherits the cores of the thread that starts it, so during `work` the
+/// calling thread may use all cores of the first thread of this process.
 pub fn on_all_cores<R>(work: impl FnOnce() -> R) -> R {
     let _pin = allowed(std::process::id()).zip(allowed(THIS_THREAD)).map(|(all, before)| {
         bind(&all);

@@ -1,9 +1,9 @@
 //! Selects the rays of a workload that are timed if there is no time for all of them.
 //!
-//! A workload lists the rays of its picture block by block ([`crate::scene::WorkloadKind`]): a tile of neighbouring
-//! rays is a block of pixels. A subset consists of whole tiles spread over the workload, because for scattered single
-//! rays caches are colder than for a picture. Each epoch draws its own tiles: the difference between tiles and picture
-//! is then part of the spread between epochs, and therefore of every interval.
+//! A workload lists the rays of its picture block by block ([`crate::scene::WorkloadKind`]), so a tile of consecutive
+//! rays is a block of pixels. A subset consists of whole tiles spread over the workload, because scattered single rays
+//! miss the caches more often than a picture does. Each epoch draws other tiles: the difference between tiles and
+//! picture is then part of the spread between epochs, and therefore of every interval.
 //!
 //! Level 0 has all rays. Each further level has about a quarter of the rays of the level before it. Levels are nested,
 //! so the pass of a fast structure also times the rays of a slower structure.
@@ -18,8 +18,8 @@ pub const TILE: usize = 1024;
 /// A level has fewer tiles than the level before it if at least this many remain; otherwise it has smaller tiles.
 const FEWEST: usize = 64;
 
-/// The index ranges of the rays, out of `rays`, that are timed at `level` in `epoch`: in order, none of them empty.
-/// Level 0 contains all rays.
+/// The index ranges of the rays, out of `rays`, that are timed at `level` in `epoch`. The ranges are in order, and no
+/// range is empty. Level 0 contains all rays.
 pub fn tiles(rays: usize, level: usize, epoch: usize) -> Vec<Range<usize>> {
     if level == 0 {
         return (0..rays).step_by(TILE).map(|first| first..(first + TILE).min(rays)).collect();
@@ -107,7 +107,7 @@ mod tests {
         assert_ne!(tiles(262_144, 1, 0), tiles(262_144, 1, 1));
         let mut drawn = vec![0; 256];
         (0..400).flat_map(|epoch| tiles(262_144, 1, epoch)).for_each(|tile| drawn[tile.start / TILE] += 1);
-        // A quarter of 400 epochs draws each tile; five standard deviations are 43.
+        // On average, 100 of the 400 epochs draw a tile; five standard deviations are 43.
         assert!(drawn.iter().all(|n| (57..=143).contains(n)), "{drawn:?}");
     }
 

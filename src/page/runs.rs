@@ -1,4 +1,4 @@
-//! Reads measured cases from journals and exports. The content of a file, not its name, determines its kind.
+//! Reads measured cases from journals and exports. The content of a file shows whether it is a case or an export.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -49,15 +49,15 @@ pub struct Runs<'a> {
 /// The measurements of a study and its report on them.
 pub struct StudyRun<'a> {
     pub study: &'a Study,
-    /// The dataset shown: the one with the most cases if there are several settings, builds or machines.
+    /// The dataset that the page shows: the settings, build and machine with the most cases.
     pub dataset: Dataset,
     pub others: Vec<Dataset>,
     pub report: Report,
 }
 
 impl<'a> Runs<'a> {
-    /// Reads files and folders. In a folder, it reads all `.json` files and the journals. An export is a list of cases.
-    /// If a case was measured several times, the newest measurement counts.
+    /// Reads files and folders. In a folder, it reads all `.json` files and the journals. If a case was measured
+    /// several times, the newest measurement counts.
     pub fn read(paths: &[PathBuf], studies: &'a Studies) -> Result<Self, RunError> {
         let mut runs = Self::default();
         let mut cases = vec![];
@@ -164,7 +164,7 @@ fn read(path: &Path, studies: &Studies, notes: &mut Vec<String>) -> Result<Vec<C
     Ok(cases.collect())
 }
 
-/// The files that may be runs: in the folder `path`, then in each journal in it, sorted by name.
+/// The files that may be runs: first in the folder `path`, then in each of its journals, sorted by name.
 fn folder(path: &Path, studies: &Studies) -> Result<Vec<PathBuf>, RunError> {
     let journals = studies.iter().map(|study| path.join(study.name)).filter(|journal| journal.is_dir());
     let files = std::iter::once(path.to_path_buf()).chain(journals).map(|folder| journal::files(&folder));

@@ -70,7 +70,7 @@ fn every_figure_has_a_name_of_its_own_a_caption_and_words_for_those_who_do_not_s
     assert!(pictures > 0 && pictures == page.matches("<img src=\"data:image/png;base64,").count());
     let charts = figures.iter().filter(|figure| matches!(figure.art, Art::Chart(_)));
     assert_eq!(page.matches("aria-label=\"A picture\"").count(), charts.count());
-    // A section prints its command once, without the folder of the program. Page and Markdown contain the fold.
+    // A section prints its command once, without the folder of the program. Page and Markdown have the folded block.
     assert_eq!(page.matches("<code>sahara study compare --dir runs</code>").count(), 1);
     assert!(markdown.contains("```console\nsahara study compare --dir runs\n```"));
     assert!(page.contains("<summary>More</summary>") && markdown.contains("**More**"));
@@ -94,7 +94,7 @@ fn numbers_stand_to_the_right_and_sort_by_their_value() {
 fn the_answer_goes_by_what_is_measured() {
     const HARD: [&str; 3] = ["Dragon", "Lucy", "Sponza"];
     const SAH: &str = "Would a SAH tree have been much faster on the hard scenes?";
-    // Studies with their scenes; title, verdict, count of numbers, parts of the sentences, count of parts in a bar.
+    // Studies with scenes; expected title, verdict, count of numbers, parts of sentences, count of parts in a bar.
     type Case<'a> = (&'a [(&'a str, &'a [&'a str])], &'a str, &'a str, usize, &'a [&'a str], usize);
     let tally = "0 of 24 confirmed, 1 refuted, 0 undecided, 23 not measured";
     let own = "Of all structures sah-kd is the fastest.";
@@ -179,7 +179,7 @@ fn of_two_runs_the_newest_cases_count_and_what_is_not_shown_is_said() {
     let again: Files = journal("compare", &["Cube"], &new);
     let again = again.into_iter().map(|(name, text)| (name, String::from_utf8(text).unwrap().replace("8000", "8001")));
     let again: Files = again.map(|(name, text)| (name, text.into_bytes())).collect();
-    // Files added to a journal of three scenes; the shown scenes, the hidden scenes, and a part of the only note.
+    // Files added to a journal of three scenes; expected shown scenes, hidden scenes, and part of the only note.
     type Case<'a> = (Files, &'a [&'a str], &'a [&'a str], &'a str);
     let cases: [Case; 6] = [
         (export("compare", &three, &old), &three, &[], ""),

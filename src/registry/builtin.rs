@@ -13,7 +13,7 @@ use crate::validate::HasReference;
 impl Registry {
     /// Our structures, obvhs, the peers whose features are enabled, and the generator `icosphere`.
     pub fn builtin() -> Self {
-        // `Exact` comes first: the first triangle test of a name is its default.
+        // `Exact` is added first: the default triangle test of a structure is the first one added under its name.
         let ours = Self::empty()
             .over::<Exact>()
             .over::<MollerTrumbore>()
@@ -35,7 +35,7 @@ impl Registry {
         all
     }
 
-    /// Adds brute force over the triangle test `T`, the reference for all structures over `T`.
+    /// Adds brute force over the triangle test `T`. It is the reference for all structures over `T`.
     fn brute_force<T: HasReference>(self) -> Self
     where
         BruteForce<T>: Offered<Config = BruteForceConfig>,
@@ -59,9 +59,9 @@ impl Registry {
             .offering::<Bvh8<T>>("sah-bvh", Bvh8Config::new(Partition::Objects))
     }
 
-    /// Adds the peers whose features are enabled, each over its own triangle test first, then over the tests of this
-    /// crate that it supports.
-    // Without features, this function only returns `this`.
+    /// Adds the peers whose features are enabled. The default triangle test of a peer is its own; some peers also
+    /// support tests of this crate.
+    // If no feature is enabled, this function only returns `this`.
     #[allow(clippy::let_and_return)]
     fn with_peers(self) -> Self {
         let this = self;

@@ -38,16 +38,16 @@ pub enum ChoiceError {
     Config { name: String, reason: String },
 }
 
-/// Removed values: key, value and replacement.
+/// Values that a key no longer accepts: key, value and replacement.
 const REMOVED: [(&str, &str, &str); 1] =
     [("batch", "interleaved", "batch=packets, which interleaves the rays outside packets")];
 
-/// The entry name of all runners; the configuration of each contains its command.
+/// The entry name of all runners (external programs). The configuration of a runner contains its command.
 pub const RUNNER: &str = "runner";
 
 const OWN_CLOCK: &str = " (own clock)";
 
-/// A label without ` (own clock)`, the suffix of the labels of runners.
+/// The label without the suffix ` (own clock)`, which all labels of runners have.
 pub fn plain_name(label: &str) -> &str {
     label.strip_suffix(OWN_CLOCK).unwrap_or(label)
 }
@@ -58,8 +58,8 @@ pub fn is_named(label: &str, name: &str) -> bool {
 }
 
 impl Choice {
-    /// `entry` with the values `overrides` of some keys. If `name_test`, the label includes the triangle test, because
-    /// the name alone selects another entry.
+    /// `entry` with its default configuration, in which `overrides` (key, value) replaces some values. The label
+    /// includes the triangle test if `name_test`, which is true if the name without a test selects another entry.
     pub(super) fn of(entry: &Entry, overrides: &[(&str, &str)], name_test: bool) -> Result<Self, ChoiceError> {
         let mut config = entry.config.clone();
         let keys = config.as_object_mut().expect("checked when it was registered");
@@ -91,7 +91,7 @@ impl Choice {
         let choice = Self { entry: entry.clone(), config, label };
         match choice.build(&Arc::new(empty())) {
             Err(BuildError::Config(reason)) => Err(ChoiceError::Config { name: entry.name.clone(), reason }),
-            // A structure that is unavailable or rejects the empty mesh must not end a run here; its build fails later.
+            // This build over the empty mesh only checks the configuration: ignore other errors.
             _ => Ok(choice),
         }
     }

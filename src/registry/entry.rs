@@ -8,7 +8,7 @@ use crate::geometry::Mesh;
 /// One structure over one triangle test, with its default configuration.
 #[derive(Clone)]
 pub struct Entry {
-    /// The name on the command line; entries that differ only in the triangle test share it.
+    /// The name on the command line. Entries that differ only in the triangle test have the same name.
     pub name: String,
     /// [`Accel::TRIANGLE_TEST`](crate::accel::Accel::TRIANGLE_TEST).
     pub triangle_test: &'static str,
@@ -18,17 +18,17 @@ pub struct Entry {
     pub conventions: &'static [&'static str],
     /// [`Accel::CAPABILITIES`](crate::accel::Accel::CAPABILITIES).
     pub capabilities: Capabilities,
-    /// Whether this crate registers the structure (obvhs and the peers included); false if another crate does.
+    /// Whether this crate registers the structure. Obvhs and the peers are built in; structures of users are not.
     pub is_builtin: bool,
-    /// The default configuration, by key.
+    /// The default configuration: a JSON object with one value per key.
     pub config: Value,
-    /// Checks whether a configuration can be parsed; its values may still contradict each other.
+    /// Checks that a configuration can be parsed. It does not check whether its values contradict each other.
     pub(super) read: fn(&Value) -> Result<(), String>,
     pub(super) build: Build,
 }
 
 pub(super) type BuildResult = Result<Box<dyn DynAccel>, BuildError>;
-/// Builds a structure over a mesh, with a configuration by key.
+/// Builds a structure over a mesh from its configuration, a JSON object.
 pub(super) type Build = Arc<dyn Fn(&Arc<Mesh>, &Value) -> BuildResult + Send + Sync>;
 
 impl Entry {

@@ -10,7 +10,7 @@ pub struct Key {
     pub name: String,
     /// Empty for structures that another crate registers.
     pub meaning: &'static str,
-    /// The values that it accepts.
+    /// The accepted values, as text for the user.
     pub values: String,
     pub default: String,
 }
@@ -70,7 +70,7 @@ const MEANINGS: [(&str, &str); 24] = [
 impl Entry {
     /// The keys, in the order of the configuration.
     pub fn keys(&self) -> Vec<Key> {
-        // A structure of another crate may have a key of the same name with another meaning.
+        // In a structure of another crate, a key of `MEANINGS` may have another meaning.
         let meanings = if self.is_builtin { &MEANINGS[..] } else { &[] };
         let known = |name: &str| meanings.iter().find(|(key, _)| *key == name).map_or("", |(_, meaning)| meaning);
         let key = |(name, value): (&String, &Value)| Key {
@@ -82,7 +82,7 @@ impl Entry {
         self.config.as_object().into_iter().flatten().map(key).collect()
     }
 
-    /// The values that a key accepts; words come from the parser's error message for the unknown word `?`.
+    /// The accepted values of a key. If they are words, the parser lists them in its error for the unknown word `?`.
     pub(super) fn values(&self, key: &str) -> String {
         match &self.config[key] {
             Value::Bool(_) => "true, false".into(),
@@ -98,7 +98,7 @@ impl Entry {
     }
 }
 
-/// A value as a user types it: an `f32` number has no more digits than `f32` needs.
+/// A value as a user types it. An `f32`, which JSON stores as an `f64`, is written with the digits of the `f32`.
 fn shown(value: &Value) -> String {
     match value {
         Value::String(text) => text.clone(),

@@ -27,11 +27,11 @@ pub enum Value {
 pub enum Format {
     /// Three significant digits.
     Figures,
-    /// This number of decimals.
+    /// A fixed number of decimals.
     Decimals(u8),
-    /// For a share: times 100, three significant digits, and ` %`; zero is `0`.
+    /// A fraction in percent, three significant digits: `50.0 %`. Zero is written `0`.
     Percent,
-    /// For a change: times 100, one decimal, with a sign: `+1.5%`.
+    /// A relative change in percent, one decimal: `+1.5%`.
     Change,
     /// Nanoseconds as `ns`, `us`, `ms` or `s`.
     Duration,
@@ -39,7 +39,7 @@ pub enum Format {
     Bytes,
 }
 
-/// The emphasis of a cell. Colour only repeats the text.
+/// The emphasis of a cell; renderers show it by colour or bold text.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tone {
     #[default]
@@ -53,9 +53,9 @@ pub enum Tone {
 pub struct Cell {
     pub value: Value,
     pub tone: Tone,
-    /// Measured on a subset of the rays: `~` stands before the number.
+    /// Whether the value was measured on a subset of the rays. If so, `~` precedes it.
     pub sampled: bool,
-    /// Not distinguishable from 1: `=` stands behind the number.
+    /// Whether the value is not distinguishable from 1. If so, `=` follows it.
     pub equal: bool,
     /// Printed after the value, in parentheses; may be empty.
     pub note: String,
@@ -81,7 +81,7 @@ impl From<Value> for Cell {
     }
 }
 
-/// Empty text is an unknown value; numbers that are not whole have three significant digits.
+/// Implements `From<type> for Cell`. Empty text is an unknown value; an `f64` has three significant digits.
 macro_rules! cell_from {
     ($($value:ident: $type:ty => $of:expr;)*) => {
         $(impl From<$type> for Cell {
@@ -103,7 +103,7 @@ cell_from! {
     yes: bool => if yes { "true" } else { "false" };
 }
 
-/// An unknown value is empty.
+/// `None` becomes an empty cell.
 impl<T: Into<Cell>> From<Option<T>> for Cell {
     fn from(value: Option<T>) -> Self {
         value.map_or(Self::default(), Into::into)
@@ -131,7 +131,7 @@ impl Cell {
         Self::number(bytes as f64, Format::Bytes)
     }
 
-    /// A ratio of speeds: marked if it is not distinguishable from 1.
+    /// A ratio of speeds. It is marked as `equal` if its interval contains 1, except if it is exactly 1.
     pub fn ratio(x: Estimate) -> Self {
         Self { equal: x != Estimate::exact(1.0) && x.holds(1.0), ..x.into() }
     }
@@ -174,7 +174,7 @@ impl Cell {
         format!("{before}{value}{equal}{note}")
     }
 
-    /// The sort key of a row; `None` for words.
+    /// The key for sorting the rows of a table; `None` for text and empty cells.
     pub fn sort_key(&self) -> Option<f64> {
         match self.value {
             Value::Empty | Value::Text(_) => None,

@@ -3,7 +3,7 @@
 use super::words::ended;
 use super::{Art, Block, Figure, Report, Table, Tone, wrapped};
 
-/// A report and the lines of `foot` below it: the output of `--export-markdown`.
+/// The output of `--export-markdown`: a report, and below it the lines of `foot`.
 pub fn report(report: &Report, foot: &[String]) -> String {
     let mut text = String::new();
     blocks(&report.blocks, &mut text);
@@ -44,7 +44,7 @@ fn figure(figure: &Figure, text: &mut String) {
     *text += &format!("\n{}\n\n", prose(&figure.caption));
 }
 
-/// A table under its title, with its notes.
+/// A table with its title above and its notes below.
 pub fn table(table: &Table) -> String {
     let heading = if table.title.is_empty() { String::new() } else { format!("### {}\n\n", escaped(&table.title)) };
     let notes: String = table.notes.iter().map(|note| format!("\n{}\n", escaped(note))).collect();
@@ -70,7 +70,7 @@ pub fn escaped(text: &str) -> String {
     text.chars().flat_map(marked).collect()
 }
 
-/// A sentence as Markdown: text between backticks is code, `**` is strong, and everything else is plain.
+/// A sentence as Markdown: text between backticks is code, and `**` makes text strong. Other markup is escaped.
 pub fn prose(text: &str) -> String {
     let pieces = text.split('`').collect::<Vec<_>>();
     if pieces.len().is_multiple_of(2) {

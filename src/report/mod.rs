@@ -1,5 +1,5 @@
-//! The result of a study: [`Report`], plain data, and its renderers for a terminal, Markdown and CSV. The page is the
-//! fourth renderer.
+//! The result of a study as plain data ([`Report`]), and the renderers for a terminal, Markdown and CSV.
+//! `crate::page` renders it as HTML.
 
 mod cell;
 pub mod csv;

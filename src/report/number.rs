@@ -2,7 +2,7 @@
 
 pub use crate::plural::{count, plural};
 
-/// Three significant digits, without an exponent if that stays short: `0.00123`, `1.23`, `12.3`, `1230`, `4.96e-9`.
+/// Three significant digits, and all digits before the point if there are more: `0.00123`, `12.3`, `1234`, `4.96e-9`.
 pub fn figures(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 {

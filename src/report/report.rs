@@ -5,14 +5,14 @@ use super::{Cell, Table, Tone};
 use crate::measure::Estimate;
 use crate::names::named_enum;
 
-/// The result of a study on a dataset. Renderers write it as text, as a page, as Markdown and as CSV.
+/// The result of a study. Renderers write it as text, as a web page, as Markdown and as CSV.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
     /// The findings, most important first.
     pub findings: Vec<Finding>,
     /// Tables, figures and texts in order. The terminal prints only the tables and notes that are not folded.
     pub blocks: Vec<Block>,
-    /// The verdicts on the claims, which were written before the measurement.
+    /// The verdicts on claims. A claim is a prediction that was written before the measurement.
     pub verdicts: Vec<ClaimVerdict>,
     /// Structures without times or with wrong hits. They decide the exit status.
     pub failures: Vec<Failure>,
@@ -22,13 +22,13 @@ pub struct Report {
     pub data: Table,
 }
 
-/// A sentence about the data, and the number in this sentence. The page, `papers/RESULTS.md` and README print the same
-/// sentence; claims and the marks in README refer to its key.
+/// A sentence about the data, and the number in this sentence. The page, `papers/RESULTS.md` and README print the
+/// sentence. Claims and README refer to the finding by its key.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
     /// Letters, digits and hyphens; unique among the findings of a study.
     pub key: String,
-    /// Ends with a full stop; empty if the finding is only a number that a claim refers to, or only a name.
+    /// Ends with a full stop. Empty if the finding has only a number (for a claim) or only a name.
     pub sentence: String,
     /// The number in the sentence; `None` if the sentence has no number.
     pub value: Option<Estimate>,
@@ -45,13 +45,13 @@ pub enum Block {
     Note(String),
     Table(Table),
     Figure(Box<Figure>),
-    /// A part that no run has measured, and the command that measures it.
+    /// A result that no run has measured, and the command that measures it.
     Missing(Missing),
-    /// A heading, and blocks that the reader unfolds.
+    /// A heading, and the blocks below it. The page hides the blocks until the reader unfolds them.
     Fold(String, Vec<Block>),
 }
 
-/// The verdict on one claim, which was written before the measurement.
+/// The verdict on one claim.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ClaimVerdict {
     /// The number of the prediction that contains the claim, from 1.
@@ -85,7 +85,7 @@ pub struct Failure {
     pub sentence: String,
     /// Whether the structure has no times on any workload.
     pub refused: bool,
-    /// Whether wrong hits are the reason.
+    /// Whether the failure is that the structure returned wrong hits.
     pub wrong: bool,
 }
 
@@ -99,7 +99,7 @@ pub struct Figure {
     /// Alternative text for readers who cannot see the figure.
     pub alt: String,
     pub art: Art,
-    /// The numbers in the figure; a table without columns if it has none.
+    /// The numbers in the figure; a table without columns if the figure has no numbers.
     pub data: Table,
 }
 
@@ -116,7 +116,7 @@ pub struct Overlay {
     pub heading: String,
     pub pictures: Vec<Picture>,
     pub colours: Colours,
-    /// Data for inspecting single pixels.
+    /// Data with which the reader of the page inspects single pixels.
     pub inspector: serde_json::Value,
 }
 
@@ -144,7 +144,7 @@ pub struct Picture {
     pub size: [u32; 2],
 }
 
-/// A part that no run has measured.
+/// A result that no run has measured, and the command that measures it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Missing {
     pub what: String,

@@ -16,11 +16,11 @@ pub struct Table {
     pub notes: Vec<String>,
     /// Names of columns that the terminal shows only with `--verbose`; exports have all columns.
     pub details: Vec<String>,
-    /// Whether it depends on only one scene: a run prints it as soon as that scene is measured.
+    /// Whether the table is about only one scene. A run prints such a table as soon as its scene is measured.
     pub of_scene: bool,
 }
 
-/// The heading of a column, and its cell for an item.
+/// The heading of a column, and the function that makes its cell for an item.
 pub type Column<'a, T> = (&'a str, &'a dyn Fn(&T) -> Cell);
 
 impl Table {
@@ -43,7 +43,7 @@ impl Table {
         Self { title: title.into(), columns, rows: rows.into_iter().collect(), ..Self::default() }
     }
 
-    /// A table with one row per item, without notes; the function of each column makes the cell.
+    /// A table with one row per item, without notes. The function of each column makes its cells.
     pub fn of<T>(title: impl Into<String>, items: impl IntoIterator<Item = T>, columns: &[Column<T>]) -> Self {
         let row = |item: T| columns.iter().map(|(_, of)| of(&item)).collect();
         Self::new(title, columns.iter().map(|(name, _)| *name), items.into_iter().map(row))
@@ -59,12 +59,12 @@ impl Table {
         self.rows.iter_mut().zip(cells).for_each(|(row, cell)| row.push(cell));
     }
 
-    /// The same table, in which these columns are details.
+    /// The same table, in which the columns `names` are the [`details`](Self::details).
     pub fn with_details<'a>(self, names: impl IntoIterator<Item = &'a str>) -> Self {
         Self { details: names.into_iter().map(String::from).collect(), ..self }
     }
 
-    /// The same table without details.
+    /// The same table without the columns in [`details`](Self::details).
     pub fn without_details(self) -> Self {
         let details = self.details.clone();
         self.without_columns(&details.iter().map(String::as_str).collect::<Vec<_>>())
@@ -74,7 +74,7 @@ impl Table {
         Self { notes: notes.into_iter().map(Into::into).collect(), ..self }
     }
 
-    /// The same table, which depends on only one scene.
+    /// The same table, marked as about only one scene.
     pub fn of_one_scene(self) -> Self {
         Self { of_scene: true, ..self }
     }
@@ -92,7 +92,7 @@ impl Table {
         self.with_columns(kept)
     }
 
-    /// The columns that are `kept`, and the first column.
+    /// The same table with only the columns that are `kept`. The first column always stays.
     fn with_columns(self, mut kept: Vec<bool>) -> Self {
         kept.iter_mut().take(1).for_each(|first| *first = true);
         let columns = only(self.columns, &kept);

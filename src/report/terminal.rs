@@ -23,13 +23,13 @@ pub fn summary_tables(report: &Report) -> Vec<Table> {
     shared.chain(report.verdict_table()).collect()
 }
 
-/// The text of a note, printed below the tables; `None` for other blocks.
+/// The text of a [`Block::Note`]; `None` for other blocks.
 pub fn note(block: &Block) -> Option<String> {
     if let Block::Note(words) = block { Some(words.clone()) } else { None }
 }
 
-/// The table in lines of at most the screen's width: columns that do not fit follow below, after a copy of the first
-/// column.
+/// The table as text, not wider than the screen. Columns that do not fit are printed below, again with the first column
+/// on their left.
 pub fn table(table: &Table, screen: Screen) -> String {
     let table = table.clone().without_empty_columns();
     let title = table.title.escaped();
@@ -44,11 +44,11 @@ pub fn table(table: &Table, screen: Screen) -> String {
     text
 }
 
-/// Replaces a name that the row above shows.
+/// Replaces the name of a structure if the row above shows the same name.
 const ABOVE: char = '…';
 
-/// If a label consists of the label in the row above and keys, only the keys are printed: the whole label would leave
-/// no space for numbers.
+/// Shortens the labels in the first column, to leave space for numbers: if a label is the label in the row above plus
+/// keys, `…` replaces the label of the row above.
 pub fn with_short_names(mut table: Table) -> Table {
     let names: Vec<String> = table.rows.iter().map(|row| row.first().map_or(String::new(), Cell::text)).collect();
     let mut has_short = false;
@@ -69,7 +69,7 @@ fn printed(cell: &Cell) -> String {
     cell.text().escaped().to_string()
 }
 
-/// The columns in groups that fit side by side, each with the first column.
+/// Splits the columns into groups that fit side by side. Every group begins with the first column.
 fn blocks(table: &Table, width: Option<usize>) -> Vec<Vec<usize>> {
     let widest = |i: usize| {
         let cells = table.rows.iter().map(|row| printed(&row[i]).chars().count());

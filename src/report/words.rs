@@ -1,14 +1,14 @@
-//! Words that tables, studies and pages share.
+//! Functions that write text for tables, studies and pages.
 
 use super::number::figures;
 use crate::measure::{Estimate, Interval};
 
-/// The name of a scene in keys, tables and figures: it marks a generated mesh that replaces a real one.
+/// The name of a scene in keys, tables and figures. It marks a stand-in, a generated mesh that replaces a real one.
 pub fn scene_name(scene: &str, stand_in: bool) -> String {
     if stand_in { format!("{scene} (stand-in)") } else { scene.into() }
 }
 
-/// `20.6 [19.2, 21.4]`; `20.6` for an exact number; `20.6 (one epoch)` without an interval.
+/// An estimate as text: `20.6 [19.2, 21.4]`, `20.6` if it is exact, or `20.6 (one epoch)` without an interval.
 pub fn interval(x: Estimate) -> String {
     written(x, figures)
 }
@@ -21,7 +21,7 @@ pub fn written(x: Estimate, number: impl Fn(f64) -> String) -> String {
     }
 }
 
-/// `[19.2, 21.4]`; `(one epoch)` without an interval.
+/// The interval of an estimate as text: `[19.2, 21.4]`, or `(one epoch)` without an interval.
 pub fn ends(x: Estimate, number: impl Fn(f64) -> String) -> String {
     match x.interval {
         Some(Interval { low, high, .. }) => format!("[{}, {}]", number(low), number(high)),
@@ -36,7 +36,7 @@ pub fn ended(words: &str) -> String {
 
 pub const ONE_EPOCH: &str = "(one epoch)";
 
-/// The words of `text` in lines of at most `width` characters; a longer word has its own line.
+/// The words of `text` in lines of at most `width` characters. A longer word is not split.
 pub fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = vec![];
     for word in text.split_whitespace() {
@@ -51,7 +51,7 @@ pub fn wrapped(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
-/// `A`, `A and B`, `A, B and C`.
+/// Joins words: `A`, `A and B`, `A, B and C`.
 pub fn listed<S: AsRef<str>>(words: &[S]) -> String {
     let words: Vec<&str> = words.iter().map(AsRef::as_ref).collect();
     match words.split_last() {
@@ -61,7 +61,7 @@ pub fn listed<S: AsRef<str>>(words: &[S]) -> String {
     }
 }
 
-/// Lower-case letters, digits and hyphens, from any text; different texts may give the same result.
+/// Turns any text into lower-case letters, digits and hyphens. Different texts may give the same slug.
 pub fn slug(text: &str) -> String {
     let words = text.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
     let slug = words.collect::<Vec<_>>().join("-").to_ascii_lowercase();
@@ -93,7 +93,7 @@ pub fn each_once_by<T>(items: impl IntoIterator<Item = T>, same: impl Fn(&T, &T)
     found
 }
 
-/// A command line for another machine: without the folder of the program.
+/// The command line without the folder of the program, which differs on other machines.
 pub fn command_line(command: &str) -> String {
     let (program, rest) = command.split_once(' ').unwrap_or((command, ""));
     let program = program.trim_matches('\'').rsplit(['/', '\\']).next().unwrap_or(program);

@@ -6,8 +6,8 @@ use std::time::Duration;
 
 use super::MEASURING;
 
-/// The extent of the timing. The parameters are the defaults of a study. Clap gets them as text, because it keeps a
-/// typed default once for all instances of a generic type.
+/// The timing options. The const parameters are the defaults of a study. Clap receives them as text, because it stores
+/// the value of `default_value_t` only once for all instances of a generic type.
 #[derive(Clone, Debug, clap::Args)]
 #[command(next_help_heading = MEASURING)]
 pub struct Measuring<const EPOCHS: u16 = 5, const RUNS: u16 = 3, const BUDGET: u32 = 8> {

@@ -1,5 +1,5 @@
-//! The inputs that commands share: scenes, structures, rays and views, as options and as data that another process
-//! reads.
+//! The inputs that commands share: scenes, structures, rays and views. Each input exists as command-line options and as
+//! JSON for another process.
 
 mod measuring;
 mod os_text;
@@ -21,7 +21,7 @@ pub use structures::{
 };
 pub use view::ViewArgs;
 
-// The groups of options in the help of commands.
+// The headings of the option groups in the help of commands.
 pub const SCENES: &str = "Scenes";
 pub const STRUCTURES: &str = "Structures";
 pub const RAYS: &str = "Rays";

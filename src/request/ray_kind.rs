@@ -40,15 +40,14 @@ impl RayKind {
             Self::Axis => (Stratum::AxisParallel, "axis-parallel rays through vertex coordinates"),
             Self::Grazing => (Stratum::Grazing, "rays almost in the plane of a triangle"),
             Self::Scale => (Stratum::Lengths, "rays with directions 1e-30 to 1e30 long"),
-            // From farther away, one step of an `f32` is as large as the mesh, and a traversal that loses no hit visits
-            // nearly all nodes.
+            // From farther away, the distance between two `f32` values is as large as the mesh. A traversal that loses
+            // no hit then visits nearly all nodes.
             Self::Offset => (Stratum::FarOrigins, "rays from 1e3 to 1e6 scene sizes away"),
-            // A triangle test must distinguish the triangle of the origin from other triangles in its plane.
             Self::Surface => (Stratum::FromSurface, "rays from points on triangles"),
         }
     }
 
-    /// `count` rays of this kind for `scene`.
+    /// `count` rays of this workload in `scene`.
     pub fn rays(self, scene: &Scene, count: usize, seed: u64) -> Vec<Ray> {
         if self == Self::Offset {
             return near_enough(&scene.mesh, count, seed);
@@ -63,14 +62,14 @@ impl RayKind {
     }
 }
 
-/// The first `count` rays of [`Stratum::FarOrigins`] that start less than 2e6 box sizes away: about two of three.
+/// The first `count` rays of [`Stratum::FarOrigins`] that start less than 2e6 box sizes away. About two of three do.
 fn near_enough(mesh: &Mesh, count: usize, seed: u64) -> Vec<Ray> {
     let (centre, reach) = (mesh.bounds().centre(), mesh.bounds().extent().max_element() * 2e6);
     let mut tried = 2 * count + 64;
     loop {
         let mut rays = Stratum::FarOrigins.rays(mesh, tried, seed);
         rays.retain(|ray| (ray.origin - centre).abs().max_element() < reach);
-        // A mesh of size 0 has no distance to compare with.
+        // If the box has size 0, no ray is near enough: return rays from any distance.
         if rays.len() >= count || tried > 64 * count + 64 {
             rays.extend(Stratum::FarOrigins.rays(mesh, count.saturating_sub(rays.len()), seed));
             rays.truncate(count);

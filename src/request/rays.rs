@@ -34,18 +34,18 @@ pub enum WorkloadRequest {
     },
     /// All rays of the picture that the source report draws, 512 x 512 pixels.
     Picture,
-    /// The primary rays of the same picture.
+    /// Only the primary rays of `Picture`.
     PrimaryPicture,
     /// A file of rays.
     File {
         #[serde(with = "super::os_text")]
         path: PathBuf,
-        /// The hash of its rays, see [`Workload::hash`].
+        /// The hash of the rays in the file, see [`Workload::hash`].
         hash: String,
         #[serde(default, skip_serializing_if = "Option::is_none")]
         rays: Option<usize>,
     },
-    /// `count` rays of each workload in `kinds`.
+    /// `count` rays of each of the workloads `kinds` of `study accuracy`.
     Hard { kinds: Vec<RayKind>, count: usize },
 }
 
@@ -55,9 +55,9 @@ impl WorkloadRequest {
         Self::Scene { kinds, rays: Some(rays).filter(|&rays| rays < usize::MAX) }
     }
 
-    /// Generates or reads the rays, the same for all structures. Rays that start on a surface start at the hits of
-    /// `guide`. Workloads without rays in the scene are left out. `progress` receives the name of each workload. An
-    /// error if a file cannot be read, or its rays have changed.
+    /// Generates or reads the rays; all structures trace the same rays. Secondary rays start at the hits of `guide`.
+    /// Workloads without rays in the scene are omitted. `progress` receives the name of each generated workload. An
+    /// error if the file cannot be read, or its rays do not have the planned hash.
     pub fn workloads(
         &self,
         scene: &Scene,
@@ -130,14 +130,14 @@ pub struct Rays {
 }
 
 impl Rays {
-    /// The named workloads; without names, `own`.
+    /// The workloads on the command line, or `own` if there are none.
     pub fn request(&self, own: &[WorkloadKind]) -> WorkloadRequest {
         WorkloadRequest::of_scene(each_kind(&self.workload, own), self.rays)
     }
 }
 
-/// A value of `--rays`: a number of rays, or a file of rays. A file whose name is a number or `all` is written
-/// `./NAME`.
+/// A value of `--rays`: a number of rays, `all`, or a ray file. A file with the name `100` or `all` is written `./100`
+/// or `./all`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RaySource {
     /// The maximum number of rays; `usize::MAX` for all rays.
@@ -167,10 +167,10 @@ impl ValueParserFactory for RaySource {
 }
 
 impl RaySource {
-    /// Parses `named`; an error if it is a number but not a number of rays.
+    /// Parses `named`. An error if it is a number outside the allowed range.
     pub fn of(named: &OsStr) -> Result<Self, String> {
         let Some(text) = named.to_str() else { return Ok(Self::File(named.into())) };
-        // A wrong number is not a file name.
+        // A number outside the range is an error, not a file name.
         let is_number = text.trim_start_matches(['-', '+']).bytes().all(|byte| byte.is_ascii_digit());
         match rays_or_all(text) {
             Ok(count) => Ok(Self::Count(count)),
@@ -189,7 +189,7 @@ impl RaySource {
         if let Self::Count(count) = self { *count } else { usize::MAX }
     }
 
-    /// The number of rays to generate, 0 for a file. An error for `all`, because there is no limit to generated rays.
+    /// The number of rays to generate, 0 for a file. An error for `all`, because any number can be generated.
     pub fn number(&self) -> anyhow::Result<usize> {
         match self {
             Self::Count(usize::MAX) => {
@@ -201,8 +201,8 @@ impl RaySource {
     }
 }
 
-/// The scene with its word, and the file that `source` names; `None` if the rays are to be generated. The scene is the
-/// named scene, by default the scene of the file; the rays must have been recorded for it.
+/// Reads the ray file `source` and loads its scene, which is the only one in `named`, or by default the scene that the
+/// file names. An error if the rays were recorded for another scene; `None` if `source` is a number.
 pub fn recorded(
     registry: &Registry,
     source: &RaySource,
@@ -214,7 +214,7 @@ pub fn recorded(
         [] if file.scene.is_empty() => {
             anyhow::bail!("{} names no scene: name one on the command line", path.escaped())
         }
-        // Follow only names of built-in scenes: any other text in a file must not become a path.
+        // Accept only built-in scenes: a text in a ray file must not be used as the path of another file.
         [] if Builtin::find(&file.scene).is_err() => anyhow::bail!(
             "{} has rays of {:?}, which is not a built-in scene: name the mesh or scene file that they were recorded for",
             path.escaped(),
@@ -229,8 +229,8 @@ pub fn recorded(
     Ok(Some(((name.into(), scene), file)))
 }
 
-/// Like [`recorded`], as the inputs of a study: at most `rays` of the rays are timed. `workloads` are the workloads on
-/// the command line, which must be empty.
+/// Like [`recorded`], but returns the rays as the request of a study, which times at most `rays` of them. `workloads`
+/// are the workloads on the command line. An error if there are any.
 pub fn replayed<K>(
     registry: &Registry,
     source: &RaySource,

@@ -1,4 +1,4 @@
-//! Runners, as the command line and cases name them.
+//! Runners (external programs that implement a structure) on the command line and in cases.
 
 use std::time::Duration;
 
@@ -17,11 +17,11 @@ pub struct RunnerRequest {
     pub command: String,
     /// Timeout of a reply, seconds.
     pub limit_s: f64,
-    /// The configuration, including the digest of the program: a changed program is another structure.
+    /// The configuration. It includes a digest of the program: a changed program counts as another structure.
     pub config: serde_json::Value,
 }
 
-/// The structure of a runner, `[NAME=]COMMAND`, with the timeout `limit_s`. An error if it breaks the protocol.
+/// The structure of the runner `[NAME=]COMMAND` with the timeout `limit_s`. An error if it violates the protocol.
 pub fn runner(command: &str, limit_s: f64) -> anyhow::Result<Choice> {
     let program = Program::new(command, Duration::from_secs_f64(limit_s));
     let program = program.map_err(|problem| anyhow::anyhow!("--runner {command:?}: {problem}"))?;

@@ -1,4 +1,4 @@
-//! Structures, as the command line and cases name them.
+//! Structures on the command line and in cases.
 
 use anyhow::Context;
 use serde::{Deserialize, Serialize};
@@ -9,16 +9,16 @@ use crate::registry::{Choice, Registry};
 use crate::report::words::{bare, each_once_by};
 use crate::scene::Scene;
 
-/// Tests every ray against every triangle.
+/// The name of brute force, which tests every ray against every triangle.
 pub const BRUTE_FORCE: &str = "brute-force";
 
-/// The tree of the source report.
+/// The name of the source report's tree.
 pub const REPORT_TREE: &str = "median-kd";
 
-/// The tree that the source report claims to be faster.
+/// The name of the SAH tree, which the source report claims to be faster.
 pub const SAH_TREE: &str = "sah-kd";
 
-/// Selects one structure of every name.
+/// The word that selects one structure of every name.
 pub const ALL: &str = "all";
 
 /// The role of the second build of a structure, for the A/A check.
@@ -30,15 +30,15 @@ pub const QUALITIES: [&str; 3] = ["fast", "balanced", "high"];
 /// A structure in a case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StructureRequest {
-    /// `NAME` or `NAME:key=value,..`; the label of a runner.
+    /// `NAME` or `NAME:key=value,..`; for a runner, its label.
     pub spec: String,
     /// The role of the structure in a study: [`TWIN`], or a cell of a factorial design; may be empty.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub role: String,
-    /// A program that replaces the structure.
+    /// The program of a runner; `None` for a structure of the registry.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub runner: Option<RunnerRequest>,
-    /// The reason why the structure is not built, as a clause. It then has no time.
+    /// The reason, as a clause, why the structure is not built; `None` if it is built.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub skipped: Option<String>,
 }
@@ -49,14 +49,14 @@ impl StructureRequest {
         Self { spec: spec.into(), role: role.into(), runner: None, skipped: None }
     }
 
-    /// A runner, with its label.
+    /// The request for a runner.
     pub fn of_runner(choice: &Choice, limit_s: f64) -> Self {
         let command = choice.command().unwrap_or_default().into();
         let runner = RunnerRequest { command, limit_s, config: choice.config.clone() };
         Self { runner: Some(runner), ..Self::from(choice) }
     }
 
-    /// The structure to build; an error if the name, a key or the program is unknown here.
+    /// The structure to build. An error if the registry does not know it, or its program does not start.
     pub fn choose(&self, registry: &Registry) -> anyhow::Result<Choice> {
         match &self.runner {
             Some(own) => runner(&own.command, own.limit_s),
@@ -76,12 +76,12 @@ impl From<&Choice> for StructureRequest {
     }
 }
 
-/// Whether a structure is not from this suite: it comes from another crate or is a runner.
+/// Whether the structure is not built in: another crate registered it, or it is a runner.
 pub fn is_brought(name: &str, triangle_test: &str) -> bool {
     Registry::builtin().find(name, triangle_test).is_none()
 }
 
-/// The named structures, with [`ALL`] expanded; without names, every name.
+/// The structures `named`, in which [`ALL`] is replaced by all names. All names if `named` is empty.
 pub fn specs(registry: &Registry, named: &[String]) -> Vec<String> {
     let all = [ALL.to_owned()];
     let specs = if named.is_empty() { &all } else { named }.iter();
@@ -89,12 +89,12 @@ pub fn specs(registry: &Registry, named: &[String]) -> Vec<String> {
     each.map(String::from).collect()
 }
 
-/// The distinct named structures; without names, the first structure of every name.
+/// The distinct structures `named`. If `named` is empty: every structure with its default triangle test.
 pub fn structures(registry: &Registry, named: &[String]) -> anyhow::Result<Vec<Choice>> {
     structures_at(registry, named, None)
 }
 
-/// Like [`structures`]. A structure that has a key `quality` and is named without it gets this quality.
+/// Like [`structures`]. A structure that has a key `quality` gets this quality, unless `named` sets the key.
 pub fn structures_at(registry: &Registry, named: &[String], quality: Option<&str>) -> anyhow::Result<Vec<Choice>> {
     let at = |spec: String| {
         let Some(quality) = quality else { return spec };
@@ -106,7 +106,7 @@ pub fn structures_at(registry: &Registry, named: &[String], quality: Option<&str
     Ok(each_once_by(choices.collect::<Result<Vec<_>, _>>()?, |one, other| one.label == other.label))
 }
 
-/// Rejects names that are not triangle tests of any structure; the error lists the known tests.
+/// Returns an error that lists the known triangle tests if a name in `tests` is not one of them.
 pub fn known_tests(registry: &Registry, tests: &[String]) -> anyhow::Result<()> {
     let mut known: Vec<&str> = registry.entries().iter().map(|entry| entry.triangle_test).collect();
     known.sort_unstable();
@@ -122,8 +122,8 @@ pub fn known_tests(registry: &Registry, tests: &[String]) -> anyhow::Result<()> 
     Ok(())
 }
 
-/// The structure whose hits are the origins of secondary rays: the SAH tree, or the first of a registry without it. An
-/// error if the registry is empty.
+/// The structure whose hits are the origins of secondary rays: the SAH tree, or the first structure if the registry has
+/// no SAH tree. An error if the registry is empty.
 pub fn guide(registry: &Registry) -> anyhow::Result<Choice> {
     let guide = registry.choose(SAH_TREE).ok().or_else(|| registry.all().into_iter().next());
     guide.context("no structure is registered: register one with `Registry::with`")
@@ -145,14 +145,14 @@ pub struct Structures {
 }
 
 impl Structures {
-    /// The named structures; without names, `own`; if `own` is empty, one structure of each name.
+    /// The structures on the command line. If there are none: `own`, or one of each name if `own` is empty.
     pub fn chosen(&self, registry: &Registry, own: &[&str]) -> anyhow::Result<Vec<StructureRequest>> {
         let own: Vec<String> = own.iter().map(|&name| name.into()).collect();
         let named = if self.structure.is_empty() { &own } else { &self.structure };
         Ok(structures_at(registry, named, self.quality.as_deref())?.iter().map(Into::into).collect())
     }
 
-    /// Whether to skip the structure `name` on this many triangles: brute force would take minutes and was not named.
+    /// Whether to skip the structure `name`: it is brute force, was not named, and would take minutes on the mesh.
     pub fn leaves_out(&self, name: &str, triangles: usize) -> bool {
         name == BRUTE_FORCE && is_large(triangles) && !self.names_brute_force()
     }
@@ -163,8 +163,8 @@ impl Structures {
     }
 }
 
-/// Adds a twin of one structure, for the A/A check: of the SAH tree, else of the first structure that is not slow
-/// (brute force and the tree of the source report are), else of the first structure.
+/// Adds a second build of a structure, for the A/A check: the SAH tree, or without it the first structure except brute
+/// force and the source report's tree, which are slow. If all structures are slow, it is the first one.
 pub fn with_twin(mut structures: Vec<StructureRequest>) -> Vec<StructureRequest> {
     let slow = |structure: &&StructureRequest| [BRUTE_FORCE, REPORT_TREE].contains(&structure.name());
     let sah = structures.iter().find(|structure| structure.name() == SAH_TREE);
@@ -173,8 +173,8 @@ pub fn with_twin(mut structures: Vec<StructureRequest>) -> Vec<StructureRequest>
     structures
 }
 
-/// Whether work proportional to the number of triangles is sampled or skipped, because there are so many: brute force
-/// takes at least ten milliseconds per ray.
+/// Whether a mesh is so large that work proportional to its triangles is sampled or skipped. On such a mesh, brute
+/// force takes at least ten milliseconds per ray.
 pub fn is_large(triangles: usize) -> bool {
     triangles > 1 << 22
 }
@@ -187,8 +187,8 @@ pub fn left_out(scene: &Scene) -> String {
     )
 }
 
-/// The known defect of a baseline or peer. It explains wrong hits, which are shown but do not affect the exit status.
-/// `None` for all other structures.
+/// The known defects of a baseline or peer. Wrong hits of such a structure are shown, but do not affect the exit
+/// status. `None` for all other structures.
 pub fn known_defect(structure: &str) -> Option<&'static str> {
     match structure {
         "obvhs-bvh2" | "obvhs-cwbvh" => Some(
@@ -257,7 +257,7 @@ mod tests {
         let labels = |specs: &[&str], quality| -> Vec<String> {
             let specs: Vec<String> = specs.iter().map(|&spec| spec.into()).collect();
             let chosen = structures_at(&registry, &specs, quality).unwrap();
-            // A case stores only the label of a choice.
+            // A case stores only the label, so the label must select the same configuration.
             assert!(chosen.iter().all(|choice| registry.choose(&choice.label).unwrap().config == choice.config));
             chosen.into_iter().map(|choice| choice.label).collect()
         };

@@ -78,7 +78,7 @@ impl Look {
 }
 
 impl ViewArgs {
-    /// The scene with this camera and size; an error if it cannot have this camera.
+    /// The scene with the camera and picture size of the options. An error if the camera is invalid.
     pub fn seen(&self, scene: Scene) -> anyhow::Result<Scene> {
         let mut scene = if self.inside { scene.from_inside().context("--inside")? } else { scene };
         if let Some(Look { eye, target, vertical_fov }) = self.camera {
@@ -89,7 +89,7 @@ impl ViewArgs {
         Ok(scene)
     }
 
-    /// Like [`seen`](Self::seen), with a note if a bare mesh is seen from outside.
+    /// Like [`seen`](Self::seen), but adds a note if a mesh file has the default view, which is from outside.
     pub fn of(&self, scene: Scene) -> anyhow::Result<Scene> {
         let mut scene = self.seen(scene)?;
         if scene.is_framed && self.looks_from().is_none() {
@@ -104,7 +104,7 @@ impl ViewArgs {
         *self == Self::default()
     }
 
-    /// The option of the viewpoint, if it was given.
+    /// The name of the option that sets the viewpoint; `None` if there is none.
     pub fn looks_from(&self) -> Option<&'static str> {
         match (self.inside, self.camera) {
             (true, _) => Some("--inside"),
@@ -121,7 +121,7 @@ impl ViewArgs {
         [camera, inside, size].into_iter().flatten().collect::<Vec<String>>().join(" ")
     }
 
-    /// Rejects camera options, because rays of a file ignore them.
+    /// Returns an error if there are camera options, because they have no effect on the rays of a file.
     pub fn is_unasked(&self) -> anyhow::Result<()> {
         anyhow::ensure!(self.is_default(), "the file defines the rays: omit --camera, --inside and --size");
         Ok(())

@@ -49,7 +49,7 @@ impl Program {
         (!ids.is_empty()).then(|| ids.join(" "))
     }
 
-    /// Advice for a program that cannot be started, if the text before the first `=` is not a valid name; else empty.
+    /// Advice for the user if the text before the first `=` of the command is not a valid name; otherwise empty.
     fn advice_on_name(&self) -> String {
         match self.command.split_once('=') {
             Some((text, _)) if !is_name(text) => format!(
@@ -59,7 +59,7 @@ impl Program {
         }
     }
 
-    /// Starts the program; its first reply states which queries it supports.
+    /// Starts the program and reads its first reply, which states the supported queries.
     pub(super) fn start(&self, threads: usize) -> Result<(Session, Capabilities), String> {
         let session = Session::start(&self.words, threads, self.limit);
         let mut session = session.map_err(|problem| problem + &self.advice_on_name())?;
@@ -73,7 +73,7 @@ impl Program {
     }
 }
 
-/// Whether `text` is the NAME of `NAME=COMMAND`.
+/// Whether `text` is a valid NAME in `NAME=COMMAND`.
 fn is_name(text: &str) -> bool {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
     !text.is_empty() && text.chars().all(is_plain)

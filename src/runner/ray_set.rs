@@ -1,4 +1,4 @@
-//! The rays of a runner: loading, passes and hits.
+//! Sets of rays that a runner loads and traces.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -12,18 +12,18 @@ use crate::output::OutputFile;
 use crate::scene::Workload;
 use crate::scene::files::{HitFile, RayFile, RaysId};
 
-/// The running program, and what all its ray sets share.
+/// The running program, and the data that all its ray sets share.
 pub(super) struct State {
     pub session: Session,
     /// The reason why the runner failed. A runner that has failed receives no more requests.
     pub failure: Option<String>,
-    /// For each number, whether a ray set uses it.
+    /// The element `i` states whether the number `i` is taken by a ray set.
     pub taken: Vec<bool>,
     /// The elapsed time divided by the time that the runner reported, for each pass longer than [`LONG_NS`].
     pub outside: Vec<f64>,
 }
 
-/// In shorter passes, request and reply take a notable share of the elapsed time: the clocks cannot be compared.
+/// Minimum time of a pass for [`State::outside`]. In shorter passes, request and reply take a notable part of the time.
 const LONG_NS: u64 = 1_000_000;
 
 pub(super) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {

@@ -23,14 +23,14 @@ pub(super) struct Reply {
     pub ns: u64,
 }
 
-/// The maximum length of a reply in bytes; a longer line is split, and its second part counts as unrequested output.
+/// The maximum length of a reply in bytes. The remainder of a longer line counts as output without a request.
 const LONGEST: u64 = 4096;
 
 /// How long a program may take to end after its input was closed.
 const GRACE_PERIOD: Duration = Duration::from_millis(500);
 
 impl Session {
-    /// Starts the program `words[0]` with its arguments. If `threads > 1`, it may use all cores of this process.
+    /// Starts the program `words[0]` with its arguments. If `threads > 1`, it runs on all cores of this process.
     pub fn start(words: &[String], threads: usize, limit: Duration) -> Result<Self, String> {
         let mut command = Command::new(&words[0]);
         command.args(&words[1..]).stdin(Stdio::piped()).stdout(Stdio::piped());
@@ -38,7 +38,7 @@ impl Session {
         let child = if threads > 1 { on_all_cores(|| command.spawn()) } else { command.spawn() };
         let mut child = child.map_err(|cause| format!("the program {:?} cannot be started: {cause}", words[0]))?;
         let (input, output) = (child.stdin.take(), child.stdout.take().expect("its output is a pipe"));
-        // The channel holds one line. More unrequested output fills the pipe and blocks the program.
+        // The channel holds one line. A program that writes more without a request fills the pipe and then blocks.
         let (sender, lines) = sync_channel(1);
         thread::spawn(move || {
             let mut output = BufReader::new(output);
@@ -53,8 +53,8 @@ impl Session {
         Ok(Self { child, input, lines, limit })
     }
 
-    /// Sends a line and returns the reply. If the program has ended, does not reply in time, writes a line before the
-    /// request or reports an error, it is killed, and a clause describes the error.
+    /// Sends a line and returns the reply. Fails if the program has ended, does not reply in time, writes a line before
+    /// the request, or reports an error. The program is then killed, and the error is a clause.
     pub fn request(&mut self, request: &str) -> Result<Reply, String> {
         let reply = self.exchange(request);
         if reply.is_err() {
@@ -114,7 +114,7 @@ fn text(line: &[u8]) -> String {
     text.trim_end_matches(['\r', '\n']).chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }
 
-/// The error for a reply that is not of the form `form`. A reply with another first word may be a message to the user.
+/// The error for a reply that is not of the form `form`, with advice if the reply may be a message to the user.
 pub(super) fn unexpected(request: &str, reply: &str, form: &str) -> String {
     let word = |line: &str| line.split(' ').next().map(String::from);
     let advice = if word(reply) == word(form) { "" } else { ": write messages to standard error" };

@@ -17,7 +17,7 @@ pub struct Case {
     /// Name of the study that planned it.
     pub study: String,
     pub scene: SceneRequest,
-    /// The study's axes as text: `level=7`.
+    /// The position on the axes of the study, such as `level=7`.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub labels: BTreeMap<String, String>,
     /// In the order of the tables.
@@ -49,7 +49,7 @@ pub struct Settings {
     /// Specs of structures whose triangle tests are counted over all rays, not over a sample.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub whole_counts: Vec<String>,
-    /// Whether to drop the scene unless every structure has a time.
+    /// Whether to drop the scene if a structure has no time.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub whole: bool,
     /// Spec of the structure whose hits are the origins of secondary rays.
@@ -64,14 +64,14 @@ pub struct Settings {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "against", rename_all = "kebab-case")]
 pub enum Check {
-    /// Brute force over the same triangle test, with about `tests` triangle tests per workload. Wrong hits get no time.
+    /// Brute force over the same triangle test (about `tests` tests per workload). A wrong hit removes the times.
     BruteForce {
         tests: usize,
         /// Time limit of all checks of a scene, ns. `None`: no limit.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         limit_ns: Option<u64>,
     },
-    /// The exact oracle: errors are counted, and structures with errors keep their times.
+    /// The exact oracle. Errors are counted, and structures with errors keep their times.
     Oracle,
 }
 
@@ -84,7 +84,7 @@ impl Default for Check {
     }
 }
 
-/// The usual [`Settings::slowest`]: more rays hardly improve the ratios of a slow structure, but take much of a run.
+/// The usual [`Settings::slowest`]. More rays would take much time, but hardly improve the ratios of slow structures.
 pub const SLOWEST: f64 = 4.0;
 
 impl Settings {
@@ -93,7 +93,7 @@ impl Settings {
         matches!(self.check, Check::BruteForce { limit_ns: Some(_), .. })
     }
 
-    /// One sample of all rays on one thread, checked against brute force; secondary rays start at the hits of `guide`.
+    /// One sample of all rays on one thread, checked against brute force. Secondary rays start at the hits of `guide`.
     pub fn for_guide(guide: impl Into<String>) -> Self {
         Self {
             runs: 1,
@@ -109,7 +109,7 @@ impl Settings {
         }
     }
 
-    /// The settings in `measuring`, with hits checked against brute force; an error if the registry is empty.
+    /// The settings in `measuring`, with hits checked against brute force. An error if the registry is empty.
     pub fn new<const EPOCHS: u16, const RUNS: u16, const BUDGET: u32>(
         measuring: &Measuring<EPOCHS, RUNS, BUDGET>,
         registry: &Registry,
@@ -124,7 +124,7 @@ impl Settings {
     }
 }
 
-/// Building this many triangles takes about a quarter of the fixed time of an epoch.
+/// Builds over this many triangles take about a quarter of the time of an epoch that does not depend on the mesh.
 const TRIANGLES: u64 = 12_000;
 
 impl Case {
@@ -146,21 +146,21 @@ impl Case {
 
     /// Approximate duration in an arbitrary unit.
     pub fn work(&self) -> u64 {
-        // Epoch 0 also checks and counts.
+        // Epoch 0 also checks hits and counts work.
         (4 + self.scene.triangles as u64 / TRIANGLES) * if self.epoch == 0 { 2 } else { 1 }
     }
 
-    /// Whether both are epochs of one measurement: same study, scene, labels, structures, workloads and settings.
+    /// Whether both cases belong to one measurement: same study, scene, labels, structures, workloads and settings.
     pub fn is_beside(&self, other: &Self) -> bool {
         self.identity() == other.identity()
     }
 
-    /// Whether both are the same epoch of one measurement.
+    /// Whether both cases are the same epoch of one measurement.
     pub fn is_same(&self, other: &Self) -> bool {
         self.epoch == other.epoch && self.is_beside(other)
     }
 
-    /// Whether both have the same scene and labels.
+    /// Whether both cases have the same scene and labels.
     pub fn is_of_scene(&self, other: &Self) -> bool {
         (&self.scene.hash, self.scene_title(), &self.labels) == (&other.scene.hash, other.scene_title(), &other.labels)
     }
@@ -185,7 +185,7 @@ impl Case {
         let settings = serde_json::to_value(&self.settings).expect("settings have text keys");
         let Value::Object(mut map) = settings else { unreachable!("settings are a struct") };
         map.remove("whole_counts");
-        // The default limit grows with the mesh.
+        // The default limit grows with the mesh, so it differs between scenes.
         map.remove("build_limit_s");
         let workloads = serde_json::to_value(&self.workloads).expect("a request has text keys");
         // The scenes of `replicate` form one group, although some have all rays and others only primary rays.

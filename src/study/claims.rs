@@ -7,7 +7,7 @@ use crate::report::{ClaimVerdict, Finding, Outcome};
 /// The expected range of a number.
 struct Claim {
     prediction: u8,
-    /// The key of the finding.
+    /// The key of the finding that states the number.
     key: &'static str,
     what: &'static str,
     /// The smallest and the largest expected value; infinity means no bound.
@@ -15,7 +15,7 @@ struct Claim {
     scale: Scale,
 }
 
-/// How to widen the interval of a number: all claims are judged together, so each interval is corrected for all.
+/// How to widen the interval of a number. All claims are judged together, so the correction depends on [`CLAIMS`].
 #[derive(Clone, Copy)]
 enum Scale {
     /// The number is a ratio: widen the interval of its logarithm.
@@ -26,14 +26,14 @@ enum Scale {
 }
 use Scale::{Judged, Number, Ratio};
 
-/// The number of claims: each interval is corrected for all of them.
+/// The number of claims.
 pub const CLAIMS: usize = REPLICATE.len() + SCALING.len() + ATTRIBUTION.len() + COMPARE.len();
 
 const NONE: f64 = f64::INFINITY;
 const RAYS: [f64; 2] = [-2.0, 2.0];
 const WHOLE: [f64; 2] = [20.0, NONE];
 const PLANE: [f64; 2] = [1.2, 5.0];
-// As many tests as brute force are not "more" tests.
+// The prediction is "more tests than brute force", so the number of brute force, 1, is outside the range.
 const MORE: [f64; 2] = [1.0_f64.next_up(), NONE];
 // The predictions say "well" and "badly" without numbers; this project chose these values of tau.
 const WELL: [f64; 2] = [0.7, NONE];

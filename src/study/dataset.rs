@@ -36,7 +36,7 @@ pub struct Dataset {
 pub struct SceneEpochs<'a> {
     /// The case of the first epoch.
     pub case: &'a Case,
-    /// At least one, ordered by number.
+    /// The epochs, ordered by number; at least one.
     pub epochs: Vec<&'a Epoch>,
 }
 
@@ -66,7 +66,7 @@ impl Dataset {
         scenes
     }
 
-    /// Structures without times; no duplicates.
+    /// The structures without times, without duplicates.
     pub fn failures(&self) -> Vec<Failure> {
         each_once(self.measured.iter().flat_map(|measured| measured.epoch.failures()))
     }
@@ -83,30 +83,30 @@ impl Dataset {
         distinct(all().map(|own| &own.label)).into_iter().map(sentence).collect()
     }
 
-    /// The commands that planned the cases; no duplicates.
+    /// The commands that planned the cases, without duplicates.
     pub fn commands(&self) -> Vec<&str> {
         each_once(self.measured.iter().map(|measured| measured.case.command.as_str()))
     }
 
-    /// As JSON.
+    /// The dataset as JSON.
     pub fn to_json(&self) -> Vec<u8> {
         let mut bytes = serde_json::to_vec(self).expect("a dataset has text keys");
         bytes.push(b'\n');
         bytes
     }
 
-    /// Whether this is a dataset, of any version.
+    /// Whether `value` is a dataset, of any version.
     pub fn is_dataset(value: &serde_json::Value) -> bool {
         ["schema", "provenance", "measured"].iter().all(|field| value.get(field).is_some())
     }
 
-    /// Converts the JSON `value` of the file `path`; an error if it is not a dataset of this version.
+    /// Parses the JSON `value` of the file `path`. An error if it is not a dataset of this version.
     pub fn read(path: &std::path::Path, value: serde_json::Value) -> Result<Self, JournalError> {
         Self::check_schema(path, &value)?;
         serde_json::from_value(value).map_err(|cause| JournalError::damaged(path, &cause))
     }
 
-    /// Rejects a dataset or case file of another version than [`SCHEMA`](Self::SCHEMA).
+    /// Returns an error if the version of a dataset or case file is not [`SCHEMA`](Self::SCHEMA).
     pub(super) fn check_schema(path: &std::path::Path, value: &serde_json::Value) -> Result<(), JournalError> {
         let (there, here) = (value.get("schema").and_then(serde_json::Value::as_u64).unwrap_or(0) as u32, Self::SCHEMA);
         if there == here { Ok(()) } else { Err(JournalError::Schema { path: path.into(), there, here }) }

@@ -37,7 +37,7 @@ pub fn degenerate_meshes() -> Vec<(String, Arc<Mesh>)> {
 
 const FAR: Vec3 = Vec3::new(148_376.0, 1234.0, -223_423.0);
 
-/// The mesh whose trees need the deepest stacks: a ray may cross all sheets, and so all nodes.
+/// A mesh for which traversals need a deep stack: a ray that crosses all sheets enters all nodes.
 pub fn stacked_sheets() -> Vec<(String, Arc<Mesh>)> {
     vec![("8192 stacked sheets".into(), sheets(8192))]
 }
@@ -75,7 +75,7 @@ pub(crate) fn coplanar(n: usize, u: Vec3, v: Vec3) -> Arc<Mesh> {
     }))
 }
 
-/// Points, triangles with two equal corners and triangles with corners on a line, among triangles with an area.
+/// Every second triangle has no area: it is a point, has two equal corners, or has its corners on a line.
 pub(crate) fn half_without_area(n: usize) -> Arc<Mesh> {
     let mut sampler = Sampler::new(5);
     mesh(soup_triangles(n, 5).enumerate().map(|(i, [a, b, c])| match i % 6 {
@@ -100,7 +100,7 @@ pub(crate) fn needles(n: usize) -> Arc<Mesh> {
     }))
 }
 
-/// Octahedra around the origin, each twice as large as the previous one: 2^-30 to 2^30.
+/// Octahedra around the origin. Their radii are the powers of two from 2^-30 to 2^30.
 pub(crate) fn shells() -> Arc<Mesh> {
     mesh((-30..=30).flat_map(|exponent| {
         let r = libm::scalbnf(1.0, exponent);
@@ -115,7 +115,7 @@ pub(crate) fn octahedron() -> impl Iterator<Item = [Vec3; 3]> {
     })
 }
 
-/// Triangle `k` lies at 1e-16 x 1.3^k and has about that size: a middle split separates only a few triangles.
+/// The x coordinate and the size of triangle `k` are about 1e-16 x 1.3^k. A middle split separates few triangles.
 pub(crate) fn exponential(n: usize) -> Arc<Mesh> {
     let mut at = 1e-16_f32;
     mesh((0..n).map(|_| {
@@ -124,7 +124,7 @@ pub(crate) fn exponential(n: usize) -> Arc<Mesh> {
     }))
 }
 
-/// The cube [-1, 1]^3 with `n` by `n` squares per side, corners on simple coordinates.
+/// The surface of the cube [-1, 1]^3. Each face has `n` by `n` squares of two triangles.
 pub(crate) fn box_grid(n: usize) -> Arc<Mesh> {
     let mut triangles = vec![];
     for axis in 0..3 {
@@ -149,7 +149,7 @@ pub(crate) fn box_grid(n: usize) -> Arc<Mesh> {
 pub(crate) fn same_centroid(n: usize) -> Arc<Mesh> {
     let mut sampler = Sampler::new(7);
     mesh((0..n).map(|_| {
-        // On a grid, the sum of the corners is exactly zero.
+        // Multiples of 1/1024 add without rounding, so the sum of the corners is exactly zero.
         let [a, b] = [0; 2].map(|_| (sampler.cube() * 1024.0).round() / 1024.0);
         [a, b, -a - b]
     }))
@@ -160,8 +160,8 @@ pub(crate) fn huge_and_small() -> Arc<Mesh> {
     mesh(soup_triangles(200, 8).chain([huge]))
 }
 
-/// An octahedron whose triangles are divided into four `levels` times and projected to the unit sphere. It is closed:
-/// neighbours have the same corners, bit for bit.
+/// A unit sphere, made from an octahedron by splitting every triangle into four, `levels` times. It is closed:
+/// neighbouring triangles have the same corners, bit for bit.
 fn sphere(levels: usize) -> Arc<Mesh> {
     let mut triangles: Vec<[Vec3; 3]> = octahedron().collect();
     for _ in 0..levels {
@@ -182,8 +182,8 @@ mod tests {
     use crate::geometry::Ray;
     use crate::oracle::Oracle;
 
-    /// Rays along an axis of a closed mesh with corners on a grid have a known `t`, through faces, edges and vertices,
-    /// and in the planes of sides.
+    /// Rays along -z from inside the cube meet its bottom at `t` = 2.5. They cross triangles, edges and vertices, and
+    /// some of them lie in the planes of side faces.
     #[test]
     fn rays_in_the_box_of_a_grid_hit_exactly_the_far_side() {
         let mesh = box_grid(4);
@@ -194,7 +194,7 @@ mod tests {
                 let truth =
                     oracle.nearest(&Ray::new(Vec3::new(x, y, 0.25), Vec3::new(zero, zero, -0.5))).expect("closed");
                 assert_eq!(truth.rounded(), 2.5);
-                // Inside a side, a vertex of the grid belongs to six triangles, and an edge to two.
+                // In the interior of the bottom, a vertex of the grid belongs to six triangles, and an edge to two.
                 let through = |c: f32| (c * 2.0).fract() == 0.0;
                 let inside = x.abs() < 1.0 && y.abs() < 1.0;
                 match (through(x), through(y)) {

@@ -1,29 +1,29 @@
-//! Error counts: hits compared with the exact ones, for any structure and triangle test.
+//! Counts the errors of hits by comparison with exact hits, for any structure and triangle test.
 
 use crate::geometry::Hit;
 use crate::measure::beta_quantile;
 use crate::oracle::{DepthRule, Outcome, Truth, outcome, ulp};
 
-/// Sums over rays. Rates of workloads that fail in different ways must not be added.
+/// Sums over rays. Do not add up workloads that fail for different reasons.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct ErrorCounts {
     /// Rays compared.
     pub rays: u64,
     /// Rays with an exact hit.
     pub hits: u64,
-    /// Exact hits that the structure misses.
+    /// Rays with an exact hit for which the structure returns a miss.
     pub missed: u64,
-    /// Hits of the structure without an exact hit.
+    /// Rays without an exact hit for which the structure returns a hit.
     pub false_hits: u64,
-    /// Hits at a wrong depth, by the given rule.
+    /// Hits at a depth that the `DepthRule` of the comparison rejects.
     pub wrong_depth: u64,
-    /// Hits at a primitive that is not among the nearest, at any depth.
+    /// Hits on a primitive that is not among the exactly nearest ones. Their depth may be right or wrong.
     pub wrong_primitive: u64,
-    /// Error of `t` over the hits on a right primitive; `None` if there are none.
+    /// Errors of `t`, over the hits on an exactly nearest primitive. `None` if no hit is on such a primitive.
     pub ulps: Option<Ulps>,
 }
 
-/// Errors of `t` in units in the last place of the exact `t` as an `f32`: at most 0.5 is correct rounding.
+/// Errors of `t` in units in the last place of the exact `t` as an `f32`. A correctly rounded `t` is at most 0.5 off.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Ulps {
     #[serde(deserialize_with = "infinite_if_null")]
@@ -35,26 +35,26 @@ pub struct Ulps {
     pub max: f64,
 }
 
-/// JSON has no infinite numbers: they are stored as null.
+/// Reads null as infinity, because JSON has no infinite numbers and stores them as null.
 fn infinite_if_null<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     Ok(<Option<f64> as serde::Deserialize>::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
 }
 
 impl ErrorCounts {
-    /// Misses, false hits and wrong depths; no ray has two of them.
+    /// The number of rays with an error: a missed hit, a false hit or a wrong depth.
     pub fn errors(&self) -> u64 {
         self.missed + self.false_hits + self.wrong_depth
     }
 
-    /// The share of rays with an error; `None` without rays.
+    /// The error rate: rays with an error / rays. `None` without rays.
     pub fn error_share(&self) -> Option<f64> {
         (self.rays > 0).then(|| self.errors() as f64 / self.rays as f64)
     }
 
-    /// The upper bound of the true share with 95 % confidence, at most 1; `None` without rays.
+    /// An upper bound of the true error rate, with 95 % confidence. `None` without rays.
     ///
-    /// One-sided: if the true share were the bound, at most this number of errors would occur in 5 % of the runs.
-    /// Without an error the bound is 1 - 0.05^(1 / n), about 3 / n.
+    /// The bound is one-sided: if the true error rate is equal to the bound, 5 % of the runs have no more errors than
+    /// this run. For n rays without an error, the bound is 1 - 0.05^(1 / n), about 3 / n.
     ///
     /// # References
     /// Clopper, Pearson: The use of confidence or fiducial limits illustrated in the case of the binomial. Biometrika
@@ -70,7 +70,7 @@ impl ErrorCounts {
     }
 }
 
-/// The probability that the true share exceeds its bound.
+/// The probability that the true error rate exceeds its bound.
 const LEVEL: f64 = 0.05;
 
 /// Counts the errors of `answers`, compared with the exact hits `truths`.
@@ -105,7 +105,7 @@ pub fn count_errors(truths: &[Option<Truth>], answers: &[Option<Hit>], rule: Dep
 fn summary(mut ulps: Vec<f64>) -> Option<Ulps> {
     ulps.sort_unstable_by(f64::total_cmp);
     let max = *ulps.last()?;
-    // The smallest value that is not exceeded by at least this share of the values.
+    // The smallest of the values that are at least as large as `percent` % of all values.
     let quantile = |percent: usize| ulps[(ulps.len() * percent).div_ceil(100) - 1];
     Some(Ulps { median: quantile(50), p99: quantile(99), max })
 }
@@ -120,8 +120,8 @@ mod tests {
     use crate::geometry::{Mesh, Ray};
     use crate::oracle::Oracle;
 
-    /// Two triangles, one behind the other; the truth of a ray that hits both at 1 and 1 + `gap`, and of a ray that
-    /// misses both.
+    /// The exact hits of two rays on two parallel triangles. The first ray meets the triangles at `t` = 1 and
+    /// 1 + `gap`. The second ray misses them.
     fn truths(gap: f32) -> [Option<Truth>; 2] {
         let corners = |z: f32| [Vec3::new(-1.0, -1.0, z), Vec3::new(3.0, -1.0, z), Vec3::new(-1.0, 3.0, z)];
         let positions = [corners(1.0), corners(1.0 + gap)].concat();
@@ -155,7 +155,7 @@ mod tests {
         assert_eq!(bound(0, 0), None);
         for n in [100_u64, 1_000_000, 1_000_000_000] {
             let bound = bound(0, n).unwrap();
-            // At this rate no error would occur in 5 % of the runs.
+            // If the true error rate is `bound`, 5 % of the runs have no error.
             assert!((libm::exp(n as f64 * libm::log1p(-bound)) - 0.05).abs() < 1e-9, "{n}: {bound}");
             assert!((bound * n as f64 - 2.9957).abs() < 0.05, "{n}: {bound}");
         }

@@ -1,11 +1,10 @@
-//! Validation: compares a structure with a reference, hit for hit; exact arithmetic judges the differences.
+//! Validation: compares a structure with a reference, hit for hit. Exact arithmetic judges the differences.
 //!
-//! There are three kinds of errors. A *structure error* is a hit that the traversal lost or invented: the result
-//! differs from brute force with the same triangle test. A correct structure has none, on any ray. A *triangle-test
-//! error* is caused by the triangle test: it returns a hit where exact arithmetic finds none, or at another depth; a
-//! correct traversal may return or cull such a hit. If the reference lacks the structure's test, exact arithmetic
-//! decides: differences that rounding in single precision explains are triangle-test errors; all others are *answer
-//! errors*.
+//! A *structure error* is a hit that the traversal lost or invented: the result differs from brute force with the same
+//! triangle test. A correct structure has no structure errors. A *triangle-test error* is a hit or miss that differs
+//! from the exact one because the triangle test rounds. A traversal may return or cull a false hit of the triangle
+//! test. If structure and reference have different triangle tests, rounding in single precision decides: differences
+//! that it explains are triangle-test errors, and all other wrong hits are *answer errors*.
 
 pub mod adversarial;
 mod blame;

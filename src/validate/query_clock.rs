@@ -1,4 +1,4 @@
-//! The running query of a thread and its start, visible to other threads.
+//! Records the running query of a thread and its start time, for other threads to read.
 
 use std::any::Any;
 use std::sync::Mutex;

@@ -20,11 +20,11 @@ use crate::triangle::{
     BaldwinWeber, EdgeF64, Exact, MollerTrumbore, MollerTrumboreF64, Plucker, TriangleTest, Watertight, scalar_hit,
 };
 
-/// Tests one triangle: `t` if the ray hits it within its interval.
+/// Tests one triangle. Returns `t` if the ray hits the triangle in the interval of the ray.
 pub type ScalarTest = fn(&Ray, [Vec3; 3]) -> Option<f32>;
 
-/// A triangle test with its own reference. Without one, the reference would be brute force with `exact`. The registry
-/// offers brute force, and all structures of this crate, only over tests with a reference.
+/// A triangle test for which [`Reference::of_test`] returns brute force with the same test. The registry offers brute
+/// force and the trees of this crate only over these tests.
 pub(crate) trait HasReference: TriangleTest {}
 
 type OfMesh = fn(&Arc<Mesh>) -> Result<Reference, BuildError>;
@@ -33,7 +33,7 @@ macro_rules! references {
     ($($(#[$feature:meta])? $test:ty),* $(,)?) => {
         $($(#[$feature])? impl HasReference for $test {})*
 
-        /// The reference of each test, by its name.
+        /// For each triangle test, its name and the constructor of its reference.
         const REFERENCES: &[(&str, OfMesh)] = &[$($(#[$feature])? (<$test>::NAME, Reference::brute_force::<$test>)),*];
     };
 }
@@ -53,28 +53,28 @@ references!(
     ParryTest,
 );
 
-/// Rays per task of a thread: few, because brute force takes milliseconds per ray.
+/// Rays per task of the thread pool. The number is small because brute force takes milliseconds per ray.
 const BATCH: usize = 32;
 
-/// A reference, and how strictly hits are compared with its hits.
+/// A reference structure, and the rules for comparing another structure, the tested one, with it.
 pub struct Reference {
-    /// Returns the hits.
+    /// The structure whose hits are expected.
     pub accel: Box<dyn DynAccel>,
-    /// The triangle test that structure and reference share, if the reference tests every triangle: their hits must
-    /// then be the same bits. `None` if the tests differ, or if the reference may itself have lost hits.
+    /// The triangle test of the reference, if the tested structure has the same one: its hits must then have the same
+    /// bits. `None` if the triangle tests differ, or if the reference may have lost hits.
     pub test: Option<ScalarTest>,
-    /// The precision of the structure's triangle test, if the reference does not share it: differences that its
-    /// rounding explains are not errors of the tree.
+    /// The precision of the triangle test of the tested structure. Used only if `test` is `None`: differences that
+    /// rounding in this precision explains are not errors of the structure.
     pub precision: Precision,
-    /// The structure's own triangle test, if it is known but too slow to run over all triangles. Run on the disputed
-    /// triangles, it distinguishes hits lost by the structure from hits that its test does not find.
+    /// The triangle test of the tested structure, if it is too slow for brute force. It runs only on the triangles of
+    /// differing hits, and distinguishes hits that the structure lost from hits that the test does not find.
     pub disputed: Option<ScalarTest>,
 }
 
 impl Reference {
     /// Brute force with the triangle test named `test` ([`TRIANGLE_TEST`](crate::accel::Accel::TRIANGLE_TEST)). If this
-    /// crate lacks the test, or can run it only on one triangle at a time (Embree), the reference is brute force with
-    /// `exact`; in the second case the test itself decides disputed triangles.
+    /// crate lacks the test, the reference is brute force with `exact`. Embree's tests are too slow for brute force:
+    /// the reference is also brute force with `exact`, and Embree's test judges the triangles of differing hits.
     ///
     /// # Errors
     /// If the reference cannot be built over the mesh.
@@ -91,7 +91,7 @@ impl Reference {
         }
     }
 
-    /// Brute force with a triangle test that the structure shares.
+    /// Brute force with the triangle test of the tested structure.
     pub(super) fn brute_force<T: TriangleTest>(mesh: &Arc<Mesh>) -> Result<Self, BuildError>
     where
         BruteForce<T>: Offered<Config = BruteForceConfig>,
@@ -102,7 +102,7 @@ impl Reference {
 
     #[cfg(feature = "peer-embree")]
     fn in_disputes(disputed: ScalarTest, mesh: &Arc<Mesh>) -> Result<Self, BuildError> {
-        // The structure's own test judges disputed triangles: no bound on its rounding is needed.
+        // The test itself judges the triangles of differing hits, so no bound on its rounding is needed.
         let precision = Precision::Exact;
         Ok(Self { test: None, precision, disputed: Some(disputed), ..Self::brute_force::<Exact>(mesh)? })
     }
@@ -117,8 +117,8 @@ impl Reference {
         self.test.is_some() || self.disputed.is_some()
     }
 
-    /// Uses any other structure as a reference. It may have lost hits, so exact arithmetic judges the differences.
-    /// `test` names the triangle test of the structure that is compared with it.
+    /// Uses the structure `accel` as a reference. `accel` may have lost hits, so exact arithmetic judges the
+    /// differences. `test` is the name of the triangle test of the tested structure.
     pub fn structure(accel: Box<dyn DynAccel>, test: &str) -> Self {
         let precision = if test == Exact::NAME { Precision::Exact } else { Precision::Single };
         Self { accel, test: None, precision, disputed: None }

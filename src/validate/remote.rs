@@ -9,8 +9,8 @@ use crate::measure::spread;
 /// The maximum number of rays that are traced again, in another batch.
 const AGAIN: usize = 256;
 
-/// Like [`validate_known`](super::validate_known), for a structure that takes long to receive a ray: each query runs
-/// once for all rays; the closest-hit query runs once more for some of them.
+/// Like [`validate_known`](super::validate_known), but with few calls, because each call of a runner takes long. Each
+/// query runs once for all rays. The closest-hit query runs again for at most 256 rays.
 ///
 /// # Errors
 /// If the program of the structure has failed; no ray is then checked.
@@ -38,10 +38,10 @@ pub fn validate_remote(subject: &dyn DynAccel, expected: &ExpectedHits) -> Resul
     Ok(sums)
 }
 
-/// Checks that the program of a structure, if it has one, has replied to all requests.
+/// Checks that the program of a runner has replied to all requests. Other structures always pass.
 ///
 /// # Errors
-/// If the program has failed: its hits have no meaning.
+/// If the program has failed. Its hits then have no meaning.
 pub fn has_replied(subject: &dyn DynAccel) -> Result<(), BuildError> {
     let failure = subject.remote().and_then(|remote| remote.failure());
     failure.map_or(Ok(()), |why| Err(BuildError::Remote(why)))

@@ -1,5 +1,5 @@
-//! Bounds the rounding of a triangle test in single precision. If the test of a structure is unknown, its hit is wrong
-//! only if this rounding cannot explain it.
+//! Bounds the rounding of a triangle test in single precision. If the triangle test of a structure is unknown, a hit is
+//! wrong if this rounding cannot explain it.
 
 use glam::{DVec3, Vec3};
 
@@ -8,8 +8,8 @@ use crate::geometry::{Mesh, PrimId, Ray};
 /// Half a unit in the last place of 1, the largest relative error of one operation.
 const ROUNDOFF: f64 = 1.0 / (1_u64 << 24) as f64;
 
-/// The maximum number of rounding errors in a test: a dozen operations on three coordinates, and as many again for
-/// tests that store planes or transformations instead of corners.
+/// The maximum number of rounding errors that add up in a triangle test. It covers tests that store corners and tests
+/// that store planes or transformations.
 const OPERATIONS: f64 = 32.0;
 
 /// Products of at least `LARGEST` may overflow in single precision. Determinants below `SMALLEST` may underflow or have
@@ -26,17 +26,17 @@ pub enum Precision {
     Single,
 }
 
-/// A line, a triangle, and the maximum error of a test. Let A be the largest distance of the corners and of the ray's
-/// origin from zero, L the longest edge, D the length of the direction, and r = `OPERATIONS` * `ROUNDOFF`. The error of
-/// a barycentric weight is at most r A L D / |det|, and the error of a depth at most r A L L / |det| + r |t|.
+/// The intersection of a ray with the plane of a triangle, and the maximum error of a triangle test there. Let A be the
+/// largest distance of corners and ray origin from zero, L the longest edge, D the length of the direction, and r =
+/// `OPERATIONS` * `ROUNDOFF`. A barycentric weight is off by at most r A L D / |det|, t by r A L L / |det| + r |t|.
 ///
 /// # References
 /// Higham: Accuracy and Stability of Numerical Algorithms, 2nd edition, 2002 (running error of inner products).
 pub struct Margin {
-    /// The smallest of the three weights; negative outside the triangle.
+    /// The smallest of the three barycentric weights; negative outside the triangle.
     weight: f64,
     weight_error: f64,
-    /// The parameter at which the line meets the plane.
+    /// The parameter at which the ray meets the plane.
     t: f64,
     t_error: f64,
     /// Whether all intermediate results are normal numbers.
@@ -70,20 +70,20 @@ impl Margin {
         }
     }
 
-    /// Whether a test of this precision may miss a triangle that is hit: near an edge, near an end of the ray's
-    /// interval, along the plane, or with numbers that are too large or too small.
+    /// Whether a test of this precision may miss the triangle although the ray hits it. A test may do so near an edge,
+    /// near an end of the interval, along the plane, or if numbers are too large or too small.
     pub fn may_miss(&self, ray: &Ray) -> bool {
         let (t_min, _) = ray.interval();
-        // The weights add up to 1, so the smallest is at most a third; `min` limits what rounding in `f64` adds.
+        // The weights add up to 1, so the smallest is at most 1/3. `min` removes the error of `weight` above 1/3.
         let is_inside = self.weight.min(1.0 / 3.0) > self.weight_error
             && self.t - self.t_error > f64::from(t_min)
             && self.t + self.t_error < ray.end();
         self.precision == Precision::Single && !(is_inside && self.is_in_range)
     }
 
-    /// Whether a test of this precision may return a hit at `t` though the ray misses the triangle in its interval.
+    /// Whether a test of this precision may return a hit at `t` although the ray misses the triangle in its interval.
     pub fn may_hit(&self, ray: &Ray, t: f32) -> bool {
-        // Along the plane, a test may compute any weight and depth; a triangle without area has no weights.
+        // A test may compute any weight and depth for rays along the plane and for triangles without area.
         let is_along = self.weight_error.is_nan() || self.weight_error >= 1.0;
         let is_near = self.weight >= -self.weight_error && self.may_round_to(t);
         let (t_min, t_max) = ray.interval();
@@ -103,7 +103,7 @@ impl Margin {
     }
 }
 
-/// The nearest triangle whose hit is before `limit` under any rounding in single precision, and its `t`.
+/// The nearest triangle that every test in single precision hits before `limit`, and its `t`.
 pub fn nearest_sure(mesh: &Mesh, ray: &Ray, limit: f64) -> Option<(f64, PrimId)> {
     let margins = mesh.solid().map(|index| (Margin::new(ray, mesh.corners(index), Precision::Single), index));
     let sure = margins.filter(|(margin, _)| margin.latest() < limit && !margin.may_miss(ray));
@@ -131,7 +131,7 @@ mod tests {
     use crate::triangle::{BaldwinWeber, Exact, MollerTrumbore, TriangleTest, Watertight};
     use crate::validate::{Reference, Stratum, degenerate_meshes, validate};
 
-    /// Checks that no hit of a test in single precision is an error if the test counts as unknown.
+    /// Checks that the bound explains all hits of a test in single precision, if the reference does not know the test.
     fn is_excused<T: TriangleTest>(count: usize) {
         for (name, mesh) in degenerate_meshes() {
             let subject = BruteForce::<T>::build(&mesh, &Default::default()).unwrap();
@@ -145,8 +145,8 @@ mod tests {
         }
     }
 
-    /// Plücker is left out: its error grows with the square of the distance, and a bound that covers it would also
-    /// excuse lost leaves of large, fine meshes.
+    /// Plücker's test is left out. Its error grows with the square of the distance, and a bound that covers this error
+    /// would also excuse lost leaves of large, fine meshes.
     #[test]
     fn no_test_by_edges_or_planes_rounds_beyond_the_bound() {
         is_excused::<MollerTrumbore>(40);
@@ -164,7 +164,7 @@ mod tests {
         let down = |x: f32, y: f32| Ray::new(Vec3::new(x, y, 2.0), Vec3::NEG_Z);
         for (scale, ray, is_sure) in [
             (1.0, down(0.75, 0.25), true),
-            // An edge, nearly an edge, the end of the interval, numbers too small for products.
+            // The hit is on an edge, next to an edge or at the end of the interval, or products underflow.
             (1.0, down(0.5, 0.5), false),
             (1.0, down(0.5, 0.5000001), false),
             (1.0, down(0.75, 0.25).until(2.0), false),

@@ -12,17 +12,17 @@ impl Sampler {
         Self(Pcg32::seed_from_u64(seed))
     }
 
-    /// In [0, 1), a multiple of 2^-24.
+    /// A number in [0, 1), a multiple of 2^-24.
     pub fn unit(&mut self) -> f32 {
         (self.0.next_u32() >> 8) as f32 / (1 << 24) as f32
     }
 
-    /// In [-1, 1).
+    /// A number in [-1, 1).
     pub fn signed(&mut self) -> f32 {
         self.unit() * 2.0 - 1.0
     }
 
-    /// A number below `n`; 0 if `n` is 0.
+    /// An integer below `n`; 0 if `n` is 0.
     pub fn below(&mut self, n: usize) -> usize {
         ((u64::from(self.0.next_u32()) * n as u64) >> 32) as usize
     }
@@ -46,12 +46,12 @@ impl Sampler {
         if self.coin() { 1.0 } else { -1.0 }
     }
 
-    /// In the cube [-1, 1)^3.
+    /// A point in the cube [-1, 1)^3.
     pub fn cube(&mut self) -> Vec3 {
         Vec3::new(self.signed(), self.signed(), self.signed())
     }
 
-    /// A direction, uniform on the sphere up to rounding: a normalised point of the ball, found by rejection.
+    /// A unit vector, uniform on the sphere up to rounding: a normalised point of the unit ball, found by rejection.
     pub fn direction(&mut self) -> Vec3 {
         loop {
             let p = self.cube();
@@ -68,7 +68,7 @@ impl Sampler {
         a * u + b * v + c * w
     }
 
-    /// Weights of three corners: not negative, with the sum 1 up to rounding.
+    /// Barycentric weights of three corners. They are not negative, and their sum is 1 up to rounding.
     pub fn barycentric(&mut self) -> [f32; 3] {
         let (mut u, mut v) = (self.unit(), self.unit());
         if u + v > 1.0 {

@@ -12,37 +12,37 @@ use crate::names::named_enum;
 pub struct Validation {
     /// Compared rays, including all rays of a batch that a panic or an endless loop ended.
     pub rays: u64,
-    /// Rays that the structure declines ([`Capabilities`](crate::accel::Capabilities)): they were not traced.
+    /// Rays that the structure declines ([`Capabilities`](crate::accel::Capabilities)); their hits are not checked.
     pub declined: u64,
     /// Rays with a hit of the reference.
     pub hits: u64,
-    /// Rays with another `t` than the reference, bit for bit, or with a hit instead of a miss or the reverse. With
-    /// different triangle tests: rays on which the two differ by more than 4 ulps and more than 1e-6, relatively.
+    /// Rays on which structure and reference return different hits. Ties do not count. With the same triangle test,
+    /// every bit of `t` counts. Otherwise `t` must differ by more than 4 ulps and by more than 1e-6 relatively.
     pub differing: u64,
     /// Hits lost or invented by the structure; zero in a correct structure.
     pub structure_errors: u64,
-    /// Differences that the triangle test causes: by exact arithmetic its hit is a miss or not the nearer hit.
+    /// Differences that rounding of the structure's triangle test causes.
     pub test_errors: u64,
-    /// Differences that the reference causes if it has another triangle test: the structure's hit is right.
+    /// Differences in which the structure is right and the reference wrong. Zero if the triangle test is the same.
     pub reference_errors: u64,
-    /// Wrong hits of a structure whose triangle test the reference does not share, if rounding of that test cannot
-    /// explain them.
+    /// Wrong hits that rounding of the structure's triangle test cannot explain. Zero if the reference knows this test,
+    /// because these hits are then structure errors.
     pub answer_errors: u64,
     /// Depths that [`DepthRule::STRICT`](crate::oracle::DepthRule::STRICT) rejects, but that rounding in single
-    /// precision explains; only if the reference has another triangle test.
+    /// precision explains. Zero if structure and reference share the triangle test.
     pub depth_errors: u64,
     /// Rays on which any hit and closest hit contradict each other.
     pub any_hit_errors: u64,
-    /// Rays whose hit in a batch differs from the hit on their own; such a hit gets no further check.
+    /// Rays whose hit changes if they are traced on their own instead of in a batch. These rays get no further check.
     pub unrepeatable: u64,
     /// Batches that a panic of the structure ended.
     pub panics: u64,
     /// Batches that took too long. The first one ends the comparison.
     pub hangs: u64,
-    /// Rays with the `t` of the reference at another primitive that also has it: not an error.
+    /// Rays with the `t` of the reference on another primitive that is also hit at this `t`. Not an error.
     pub ties: u64,
-    /// Ties in which the reference's primitive has the lower number and is exactly hit no later: an error only of a
-    /// structure that promises the lowest number.
+    /// Ties in which the reference's primitive has the lower number, and its exact `t` is at most the computed `t`. An
+    /// error only if the structure promises the lowest number.
     pub higher_ids: u64,
     /// At most [`Validation::WORST`] rays, worst first.
     pub worst: Vec<WorstRay>,
@@ -73,30 +73,30 @@ named_enum! {
         /// The structure panics.
         #[serde(rename = "panics")]
         Panicked = "panics",
-        /// The structure misses an exact hit.
+        /// The structure returns a miss although the ray has an exact hit.
         Lost = "lost",
-        /// The structure returns a hit behind the exact hit, or one that exact arithmetic does not confirm.
+        /// The structure misses the nearest exact hit, and returns a farther hit or one that does not exist.
         NearerLost = "nearer-lost",
-        /// A hit that the triangle test over all triangles does not return.
+        /// The structure returns a hit that its triangle test does not find. If the test is unknown, exact arithmetic
+        /// decides.
         Invented = "invented",
-        /// The right primitive at a `t` that the triangle test does not return.
+        /// The triangle test hits the returned primitive, but at another `t`.
         WrongT = "wrong-t",
-        /// The right `t`, at a primitive that is not hit there.
+        /// The returned `t` is right, but the returned primitive is not hit there.
         WrongPrimitive = "wrong-primitive",
         /// Any hit contradicts closest hit.
         AnyHitDisagrees = "any-hit-disagrees",
-        /// In a batch the ray has another hit than on its own.
+        /// The hit of the ray in a batch differs from its hit on its own.
         Unrepeatable = "unrepeatable",
-        /// `t` is wrong by more than the strict rule of depth allows, but rounding explains it. Everything else is
-        /// right.
+        /// The primitive is right. `t` is wrong by more than `DepthRule::STRICT` allows, but rounding explains this.
         Depth = "depth",
         /// An error of the triangle test, not of the structure.
         TriangleTest = "triangle-test",
         /// The reference, which has another triangle test, is wrong; the structure's hit is right.
         Reference = "reference",
-        /// The same `t`, but a lower number is also hit there: wrong only if the lowest number is promised.
+        /// The right `t`, but a primitive with a lower number has it too: wrong only if the lowest number is promised.
         HigherId = "higher-id",
-        /// The same `t` at another primitive: not an error.
+        /// The right `t` at another primitive that is also hit there: not an error.
         Tie = "tie",
     }
 }
@@ -112,7 +112,7 @@ impl Validation {
     /// The maximum number of stored rays.
     pub const WORST: usize = 10;
 
-    /// Errors of all kinds that no rounding explains; 0 for a correct structure.
+    /// All errors that no rounding explains; 0 for a correct structure.
     pub fn errors(&self) -> u64 {
         self.structure_errors + self.answer_errors + self.any_hit_errors + self.unrepeatable + self.panics + self.hangs
     }
@@ -122,7 +122,7 @@ impl Validation {
         self.worst.first().filter(|w| w.kind.is_error())
     }
 
-    /// The sum of all batches, in the order of their rays; `declined` further rays were not traced.
+    /// Adds up batches, which must be in the order of their rays. `declined` counts the rays that no batch contains.
     pub(super) fn of_batches(declined: usize, batches: impl IntoIterator<Item = Self>) -> Self {
         let mut whole = Self { declined: declined as u64, ..Self::default() };
         for mut batch in batches {
@@ -140,7 +140,7 @@ impl Validation {
         whole
     }
 
-    /// Counts a ray on which structure and reference differ. `tells_structure_errors`: whether the reference
+    /// Counts a ray on which structure and reference differ. `tells_structure_errors` is true if the reference
     /// distinguishes errors of the structure from errors of its triangle test.
     pub(super) fn note(&mut self, ray: WorstRay, tells_structure_errors: bool) {
         match ray.kind {

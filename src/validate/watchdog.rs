@@ -17,7 +17,7 @@ use crate::accel::DynAccel;
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::panics::caught;
 
-/// Default time limit of a build, or of a batch of 256 rays: far longer than either takes unless it hangs.
+/// Default time limit of a build, a ray or a batch of 256 rays. Each of them takes far less if it does not hang.
 pub const LIMIT: Duration = Duration::from_secs(120);
 
 const PAUSE: Duration = Duration::from_millis(20);
@@ -36,7 +36,7 @@ pub enum WatchError {
 /// Runs `work` on a separate thread and waits for at most `limit`.
 ///
 /// # Errors
-/// If the work panics, or takes longer than `limit`. In the second case its thread is left behind.
+/// If the work panics, or takes longer than `limit`. After the limit, the thread of the work is left behind.
 pub fn watched<R: Send + 'static>(limit: Duration, work: impl FnOnce() -> R + Send + 'static) -> Result<R, WatchError> {
     let (sender, receiver) = channel();
     thread::spawn(move || {
@@ -132,7 +132,7 @@ pub fn validate_watched(
             let call = state.clock.overdue(limit)?;
             Some((state.batch.load(Ordering::Relaxed), call))
         };
-        // Batches are taken in order: report the first of several hanging ones.
+        // If several batches hang, report the first one.
         if let Some((number, call)) = states.iter().filter_map(overdue).min_by_key(|(number, _)| *number) {
             let batch = comparison.batch(number).expect("a thread compares it");
             batches.insert(number, batch.ended(call, Kind::Hangs, format!("no result within {limit:?}")));
@@ -140,7 +140,7 @@ pub fn validate_watched(
         }
     }
     for thread in threads {
-        // Panics of the structure are caught: this one is a defect of this crate.
+        // Panics of the structure are caught, so a panic of the thread is a defect of this crate.
         thread.join().unwrap_or_else(|fault| resume_unwind(fault));
     }
     Validation::of_batches(declined, batches.into_values())

@@ -49,7 +49,7 @@ impl Chromium {
             eprintln!("skipped: no chromium on the path");
         }
         let profile = TempDir::new().unwrap();
-        // Chromium reads requests from descriptor 3 and writes to 4; the shell connects both to our pipes.
+        // Chromium reads requests from descriptor 3 and writes replies to 4. The shell connects them to our pipes.
         let mut process = Command::new("sh")
             .args(["-c", "exec \"$0\" \"$@\" 3<&0 4>&1 </dev/null >/dev/null 2>/dev/null"])
             .arg(program?)
@@ -115,7 +115,7 @@ impl Chromium {
         }
     }
 
-    /// The value of an expression.
+    /// The value of a JavaScript expression.
     pub fn evaluate(&mut self, expression: &str) -> Value {
         let request = json!({ "expression": expression, "returnByValue": true, "awaitPromise": true });
         let result = self.call("Runtime.evaluate", request);
@@ -127,7 +127,7 @@ impl Chromium {
         self.evaluate(expression).as_str().unwrap_or_else(|| panic!("{expression} is not a string")).to_owned()
     }
 
-    /// The text of an expression, once `is_wanted` accepts it.
+    /// Waits until `is_wanted` accepts the text of an expression. Returns this text.
     pub fn text_once(&mut self, expression: &str, is_wanted: impl Fn(&str) -> bool) -> String {
         let begun = Instant::now();
         loop {
@@ -149,7 +149,7 @@ impl Chromium {
         }
     }
 
-    /// Clicks within the first element of this selector, at fractions of its width and height from the top left corner.
+    /// Clicks on the first element that matches `selector`, at fractions of its width and height from the top left.
     pub fn click(&mut self, selector: &str, [across, down]: [f64; 2]) {
         let place = self.evaluate(&format!(
             "(() => {{ const e = document.querySelector('{selector}'); e.scrollIntoView({{ block: 'center' }}); \
@@ -173,7 +173,7 @@ impl Chromium {
     }
 }
 
-/// Ends the browser, and fails the test if the page had complaints.
+/// Ends the browser. Fails the test if `complaints` returns any.
 impl Drop for Chromium {
     fn drop(&mut self) {
         let _ = self.process.kill();

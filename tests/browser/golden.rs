@@ -1,4 +1,4 @@
-//! The page of compared pictures in a browser.
+//! Tests the page of `golden compare` in a browser.
 
 use std::path::PathBuf;
 use std::sync::LazyLock;
@@ -11,7 +11,7 @@ use super::{is_read_everywhere, tab_to};
 use crate::cli::command::{Folder, WRONG};
 use crate::controls::{SIZE, pictures};
 
-/// The pictures on the page in order, most of them with a planted fault, before the section "Identical".
+/// The headings of the page before "Identical", in order: first the failing pictures, then the accepted ones.
 const NAMES: [&str; 7] = ["0.png", "1.png", "2.png", "3.png", "gone.png", "4.png", "5.png"];
 
 fn page() -> PathBuf {
@@ -23,7 +23,7 @@ fn page() -> PathBuf {
             add(&format!("a/{i}.png"), &right);
             add(&format!("b/{i}.png"), other);
         }
-        // The tolerance accepts noise and a slightly brighter picture; one picture is equal, and one is missing.
+        // One picture is identical, and one is missing in `b`. The tolerance accepts `4.png` and `5.png`.
         ["a/same.png", "b/same.png", "a/gone.png"].iter().for_each(|name| add(name, &right));
         folder.ends(WRONG, "golden compare a b --max-difference 2 --page page");
         folder
@@ -31,13 +31,13 @@ fn page() -> PathBuf {
     PAGE.path("page/index.html")
 }
 
-/// The text about the selected pixel of a comparison, once its values are loaded.
+/// Waits until the values of the selected pixel of a comparison are loaded. Returns the text about this pixel.
 fn pixel(browser: &mut Chromium, number: usize) -> String {
     let text = format!("document.querySelector('#comparison-{number} .pixel').textContent");
     browser.text_once(&text, |said| said.contains("expected"))
 }
 
-/// The expression for a style property of the first comparison.
+/// The JavaScript expression for a CSS variable of the first comparison.
 fn property(name: &str) -> String {
     format!("document.querySelector('#comparison-0 .stage').style.getPropertyValue('--{name}')")
 }
@@ -50,7 +50,7 @@ fn failing_comparisons_are_first_and_all_is_reached_by_keyboard_alone() {
     assert_eq!(browser.evaluate(names), json!([&NAMES[..], &["Identical"]].concat()));
     assert_eq!(browser.text("document.querySelector('.summary strong').textContent"), "5 of 8 failing");
 
-    // The page shows the worst pixel first; it loads pixel values from a separate file.
+    // At first, the worst pixel is selected.
     let (right, others) = pictures();
     let said = |[x, y]: [u32; 2]| {
         let [expected, actual] = [&right, &others[0].1]
@@ -63,7 +63,7 @@ fn failing_comparisons_are_first_and_all_is_reached_by_keyboard_alone() {
     browser.press("ArrowUp");
     assert_eq!(pixel(&mut browser, 0), said([101, 79]));
 
-    // Zoom, the worst pixel, and blinking, which alternates between the two whole pictures.
+    // `w` selects and zooms to the worst pixel, `z` resets the zoom, and `b` alternates between the two pictures.
     assert!(browser.text(&property("zoom")).ends_with("scale(1)"));
     browser.press("w");
     assert_eq!(pixel(&mut browser, 0), said([100, 80]));
@@ -77,12 +77,12 @@ fn failing_comparisons_are_first_and_all_is_reached_by_keyboard_alone() {
     }
     browser.press("b");
     assert_eq!(browser.text(&property("cut")), "50%");
-    // The slider.
+    // The slider moves the border between the two pictures.
     tab_to(&mut browser, "#comparison-0 input");
     browser.press("ArrowLeft");
     assert_eq!(browser.text(&property("cut")), "49%");
 
-    // The next comparison, and the selection of a picture in the comparison after it.
+    // `n` moves to the next comparison. In the comparison after it, a list selects the shown picture.
     browser.press("n");
     let own = "document.activeElement.closest('section').id";
     assert_eq!(browser.text(own), "comparison-1");

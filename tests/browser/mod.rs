@@ -1,4 +1,4 @@
-//! The page of a report in a browser: Chromium, if it is installed.
+//! Tests the page of a report in Chromium. The tests are skipped if Chromium is not installed.
 
 mod chromium;
 #[cfg(feature = "page")]
@@ -12,7 +12,7 @@ use serde_json::json;
 use crate::cli::command::{Folder, command, said};
 use chromium::Chromium;
 
-/// A report on a torus, with a structure that has wrong hits in some pixels.
+/// The page of a report on a torus and a cube. Some of its structures have wrong hits in some pixels.
 fn report() -> PathBuf {
     static REPORT: LazyLock<Folder> = LazyLock::new(|| {
         let folder = Folder::new();
@@ -48,7 +48,7 @@ fn pixel(browser: &mut Chromium, figure: &str) -> [i64; 2] {
     [column, row].map(|number| number.parse().unwrap())
 }
 
-/// The rows of the inspector of a figure, cell by cell.
+/// The cells of the table in the ray inspector of a figure, by row.
 fn rows(browser: &mut Chromium, figure: &str) -> Vec<Vec<String>> {
     let rows = browser.evaluate(&format!(
         "[...document.querySelectorAll('{figure} .inspector tbody tr')].map((row) => [...row.cells].map((cell) => cell.textContent))"
@@ -56,7 +56,7 @@ fn rows(browser: &mut Chromium, figure: &str) -> Vec<Vec<String>> {
     serde_json::from_value(rows).unwrap()
 }
 
-/// The output of the inspector's command.
+/// Runs the command that the ray inspector of a figure shows. Returns its output.
 fn asked_again(browser: &mut Chromium, figure: &str) -> String {
     let line = browser.text(&format!("document.querySelector('{figure} .inspector code').textContent"));
     let [text, _] = said(&command(line.strip_prefix("sahara ").expect("a command")).output().unwrap());
@@ -93,14 +93,14 @@ fn the_ray_inspector_works_by_keyboard_alone_and_shows_what_the_command_prints()
     for row in &shown[1..] {
         assert!(row[1..4].iter().all(|count| count.parse::<u64>().is_ok()), "{row:?}");
         let [t, triangle, u, v] = [&row[4], &row[5], &row[6], &row[7]];
-        // In the output, a row below the row of the same structure is named only by its options.
+        // The command omits the name of a structure if the row above has the same structure with other options.
         let name = row[0].split_once(':').map_or(row[0].as_str(), |(_, keys)| keys);
         let is_line = |line: &&str| [name, t, triangle, u, v].iter().all(|cell| line.contains(cell));
         assert!(u.len() > 5 && printed.lines().any(|line| is_line(&line)), "{row:?} is not in {printed}");
     }
 
     browser.press("Enter");
-    // The clipboard is asynchronous.
+    // The page copies the command asynchronously.
     let text = format!("document.querySelector('{HEAT} .pixel').textContent");
     let said = browser.text_once(&text, |said| said.starts_with("Command "));
     assert!(said.contains("copied") || said.contains("selected"), "{said}");
@@ -121,7 +121,7 @@ fn a_click_asks_the_nearest_pixel_of_any_picture() {
     browser.click(&format!("{HEAT} .stage"), [0.5, 0.9]);
     assert_eq!(pixel(&mut browser, HEAT), before);
 
-    // In a picture of errors only wrong pixels are selectable: in each, exact arithmetic contradicts a structure.
+    // In a picture of errors, only pixels on which a structure is wrong can be selected.
     browser.click(&format!("{ERRORS} .stage"), [0.9, 0.9]);
     for _ in 0..5 {
         let shown = rows(&mut browser, ERRORS);

@@ -1,4 +1,4 @@
-//! Runs the command, and checks its output.
+//! Runs the command `sahara`, and checks its output.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -16,7 +16,8 @@ pub const NOT_BUILT: i32 = 5;
 /// A mesh of one square.
 pub const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
 
-/// The command with the arguments in `line`, quoted as for a shell, without real meshes or terminal settings.
+/// The command `sahara` with the arguments in `line`, quoted as for a shell. The environment variables for real meshes
+/// and for terminals are removed.
 pub fn command(line: &str) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_sahara"));
     command.args(shlex::split(line).unwrap_or_else(|| panic!("{line}"))).stdin(Stdio::null());
@@ -57,7 +58,7 @@ pub fn refused(command: &mut Command, parts: &[&str]) -> String {
     message
 }
 
-/// Like [`refused`]; the message must be a single line.
+/// Like [`refused`], but the message must be a single line.
 #[track_caller]
 pub fn refused_in_a_line(command: &mut Command, parts: &[&str]) {
     let message = refused(command, parts);
@@ -69,7 +70,6 @@ pub fn unwrapped(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// The content of a JSON file.
 #[track_caller]
 pub fn json(path: impl AsRef<Path>) -> Value {
     serde_json::from_slice(&fs::read(path).unwrap()).unwrap()

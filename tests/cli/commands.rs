@@ -1,4 +1,4 @@
-//! Common properties of all commands: error messages, names, standard output; also `list` and `--help`.
+//! Tests error messages, names and standard output of all commands; also `list` and the help texts.
 
 use super::command::{Folder, RIGHT, SQUARE, assert_contains, command, ends, said, unwrapped};
 
@@ -101,13 +101,13 @@ fn lists_name_everything() {
 
 #[test]
 fn the_first_help_fits_a_screen_and_compare_has_a_short_help_and_a_whole_one_in_groups() {
-    // On a screen of 80 columns.
+    // The lines of a help text on a screen of 80 columns.
     let help = |line: &str| {
         let [text, _] = ends(RIGHT, command(line).env("COLUMNS", "80"));
         text.lines().map(String::from).collect::<Vec<_>>()
     };
     for line in ["--help", "-h", "help"] {
-        // One of the 24 lines is for the prompt.
+        // A screen has 24 lines, and the prompt needs one of them.
         let lines = help(line);
         assert!(lines.len() < 24 && lines.iter().all(|line| line.chars().count() <= 80), "{line}: {lines:#?}");
         let examples = lines.iter().skip_while(|line| *line != "Examples:").skip(1);

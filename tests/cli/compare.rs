@@ -27,7 +27,7 @@ fn results_go_to_files_that_read_back() {
     let is_absent = Registry::builtin().all().iter().any(|choice| choice.entry.absence().is_some());
     let status = if is_absent { NOT_BUILT } else { RIGHT };
     let [printed, messages] = folder.ends(status, &format!("compare Cube {SMALL} {files}"));
-    // A warning, or the progress of a long run.
+    // Messages may contain warnings and the progress of a long run.
     let is_line_of_log = |line: &str| line.starts_with("warning: ") || line.contains(" %: ");
     assert!(messages.lines().all(is_line_of_log), "no progress bar without a terminal: {messages}");
 
@@ -67,7 +67,7 @@ fn results_go_to_files_that_read_back() {
 fn a_file_without_camera_is_compared_and_rendered() {
     let folder = Folder::new();
     folder.write("square.obj", SQUARE);
-    // A mesh with only degenerate triangles is no reason to fail.
+    // `compare` accepts a mesh with only degenerate triangles.
     folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
     for (mesh, title) in [("square", "square: 2 triangles"), ("flat", "flat: 1 triangle (1 degenerate)")] {
         let text = folder.prints(&with_field(&format!("compare {mesh}.obj {SMALL}")));
@@ -100,7 +100,7 @@ fn tables_stand_alone_and_notes_are_counted_unless_all_is_asked_for() {
     let brief = Folder::new().prints(run);
     let mut blocks: Vec<Vec<&str>> = brief.trim_end().split("\n\n").map(|block| block.lines().collect()).collect();
     let foot = blocks.pop().unwrap();
-    // The title, the header and a row for each structure.
+    // Each table has a title, a header, and a row for each of three structures.
     assert!(blocks.len() == 3 && blocks.iter().all(|table| table.len() == 2 + 3), "{brief}");
     let (count, foot) = foot.split_last().unwrap();
     assert!(foot.len() <= 5 && count.ends_with(" notes: --verbose shows them"), "{brief}");
@@ -149,7 +149,7 @@ fn rays_that_no_scene_has_are_no_result() {
     let nothing = "nothing was measured: these scenes have no rays of these workloads";
     folder.refuses_in_a_line("compare cube -w mirror --quick -s sah-kd --export-json none.json", &[nothing]);
     assert!(folder.names().is_empty());
-    // One scene with mirrors is enough.
+    // The command succeeds if at least one scene has mirrors.
     Folder::new().prints("compare cube billards -w mirror --quick -s sah-kd");
 }
 

@@ -1,4 +1,4 @@
-//! `rays corpus` from outside: the same files on every machine, readable for other programs and for this command.
+//! Tests `rays corpus`: it writes the same files on every machine, and other programs and sahara can read them.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -56,7 +56,7 @@ fn a_corpus_is_the_same_again_and_what_it_says() {
     let hash: String = truth[24..32].iter().map(|byte| format!("{byte:02x}")).collect();
     assert_eq!(hash, rays.workload.hash());
 
-    // The mesh of a corpus gives the same corpus, except camera rays. The exact hits contain the hash of the rays.
+    // A corpus of this mesh has the same rays, except camera rays. `.truth` files contain the hash of their rays.
     folder.prints("rays corpus d/cube.ply -o e --rays 40 --seed 2");
     for name in ["cube.ply", "cube-vertex.truth", "cube-offset.truth"] {
         assert!(corpus()[name] == files(&folder.path("e"))[name], "{name}");

@@ -1,4 +1,4 @@
-//! Studies of several epochs from outside: which files they keep and add, and that they measure each epoch of a scene
+//! Tests studies of several epochs: the files that they keep and add. Also tests that each epoch of a scene is measured
 //! in a separate process.
 
 use std::collections::BTreeSet;

@@ -1,4 +1,4 @@
-//! The gate, with the commands of GATE.md: a runner with prescribed times replaces a structure.
+//! Tests the gate with the script and the commands of GATE.md. A runner with prescribed times replaces the structure.
 #![cfg(unix)]
 
 use std::fs;
@@ -9,8 +9,8 @@ use super::runner::NOTHING;
 
 const DOCUMENT: &str = include_str!("../../src/study/diff/GATE.md");
 
-/// A folder with 64 rays that miss the cube and with `gate.sh`, the script of GATE.md with changes: it uses these rays,
-/// fewer epochs, the runner `only`, `options`, and as reference the runner `steady`, a program in the folder.
+/// A folder with `gate.sh`, which is the script of GATE.md with changes. It traces 64 rays that miss the cube, in fewer
+/// epochs. It measures the structure `only` with additional `options`, and the runner `steady` as the reference.
 fn gated(only: &str, options: &str) -> Folder {
     let folder = Folder::new();
     folder.write("away.txt", "9,9,9 0,0,1\n".repeat(64));
@@ -43,21 +43,21 @@ fn shell(folder: &Folder, line: &str) -> Output {
     shell.args(["-c", line]).env("RUNNER_TEMP", folder.path("")).current_dir(folder.path("")).output().unwrap()
 }
 
-/// Makes the `nth` call of the script. `base` and `branch` are the seconds per pass in even and in odd epochs. Returns
-/// the output, and the number of epochs that were measured on the branch.
+/// Makes the `nth` call of the script in GATE.md. `base` and `branch` contain the seconds per pass in even epochs and
+/// in odd epochs. Returns the output, and the number of epochs that were measured on the branch.
 fn gate(nth: usize, base: [f64; 2], branch: [f64; 2]) -> (Output, usize) {
     let command = arguments(nth);
-    // A runner must not have the name of a structure.
+    // The prefix `my-` is needed because a runner must not have the name of a structure.
     let folder = gated("my-$name", "--runner my-$name=$RUNNER_TEMP/told.sh");
-    // A runner and its twin are children of the process of their epoch. `STARTS` lists these processes: lines 1, 3, ..
-    // are the even epochs, lines 2, 4, .. the odd ones.
+    // Each epoch has a process, the parent of the runner and of its twin. The file `STARTS` lists these parents: lines
+    // 1, 3, .. are the even epochs, lines 2, 4, .. the odd ones.
     let starts = "grep -qx $PPID \"$STARTS\" 2>/dev/null || echo $PPID >> \"$STARTS\"\n\
                   n=$(grep -nx $PPID \"$STARTS\" | cut -d: -f1)\n\
                   if [ $((n % 2)) -eq 1 ]; then own=$EVEN; else own=$ODD; fi\n";
     let runner = NOTHING.replacen("#!/bin/sh\n", &format!("#!/bin/sh\n{starts}"), 1);
     folder.program("told.sh", &runner.replace("*) echo \"passed 0.001\"", "*) echo \"passed $own\""));
     let sahara = env!("CARGO_BIN_EXE_sahara");
-    // At the paths of the workflow's two builds, scripts start sahara with the seconds of their side.
+    // Scripts at the paths of the two builds start sahara. They set the seconds per pass to `base` or `branch`.
     let sides = command.split_whitespace().take(2).map(|word| word.trim_matches('"').replace("$RUNNER_TEMP/", ""));
     for (path, [even, odd]) in sides.zip([base, branch]) {
         let starts = folder.path(&(path.replace('/', "-") + ".starts"));
@@ -74,7 +74,7 @@ fn the_gate_passes_what_is_unchanged_fails_what_is_slower_and_ends_where_it_cann
     for (nth, base, branch, status, epochs, verdict) in [
         (0, [0.001; 2], [0.001; 2], RIGHT, 3, "my-sah-hybrid (own clock): right on 64 checked rays; no change"),
         (0, [0.001; 2], [0.0012; 2], REGRESSION, 3, "% slower"),
-        // Odd epochs are much slower, so even more epochs do not decide.
+        // On the branch, odd epochs are much slower than even ones, so six epochs are inconclusive as well.
         (0, [0.001; 2], [0.0004, 0.0025], RIGHT, 6, "inconclusive"),
         (1, [0.001; 2], [0.0012; 2], REGRESSION, 3, "my-mybvh (own clock): right on 64 checked rays;"),
     ] {

@@ -60,7 +60,7 @@ fn folders_of_pictures_are_compared_by_name() {
         assert_eq!(text.contains("1 accepted, 1 identical"), accepted, "{options}: {text}");
     }
 
-    // A failing picture names the number that is compared, and its limit.
+    // The message about a failing picture contains the compared number and its limit.
     for (options, sentence, limit) in [
         (
             "--max-difference 1 --allow-pixels 0.7%",
@@ -76,7 +76,7 @@ fn folders_of_pictures_are_compared_by_name() {
         assert!(limit.as_object().unwrap().iter().all(|(name, value)| own["limit"][name] == *value), "{own}");
     }
 
-    // A picture that is missing in one folder is a failure, but less severe than a difference.
+    // If the only fault is a picture that is missing in one folder, the exit status is `USAGE`.
     folder.add("expected/gone.png", picture());
     folder.add("actual/new.png", picture());
     let text = folder.compare("--max-difference 2 --export-json run.json", USAGE);
@@ -93,7 +93,7 @@ fn folders_of_pictures_are_compared_by_name() {
     // A damaged picture fails; all other pictures are compared.
     folder.write("actual/same.png", "no picture");
     assert_contains(&folder.compare("--max-difference 2", USAGE), &["same.png: cannot read", "1 failed"]);
-    // A difference determines the exit status.
+    // A difference determines the exit status, even if a picture is damaged.
     folder.compare("", WRONG);
 }
 
@@ -217,7 +217,7 @@ fn scene_files_and_meshes_have_golden_images_beside_them() {
     folder.refuses_in_a_line("golden check mine.toml -s sah-kd", &sizes);
     folder.refuses(&check("--view heat"), &["heat", "shaded, depth, normal, primitive"]);
 
-    // A picture of another program is not replaced.
+    // A file of another program is not replaced without `--force`.
     folder.write("mine.golden.png", "mine");
     folder.refuses_in_a_line("golden update mine.toml --size 32x24", &["mine.golden.png", "--force"]);
     update("--force");

@@ -1,5 +1,5 @@
-//! Mesh files from users: messages about faults and omitted parts. Generated terrain: memory of builds, and scenes that
-//! need no mesh file.
+//! Tests mesh files from users: the messages about faults and omitted content. Also tests generated terrain: the memory
+//! of builds, and scene files without a mesh file.
 
 use std::fs;
 

@@ -1,4 +1,4 @@
-//! Tables appear scene by scene, and a run interrupted by Ctrl-C shows its results; a journal resumes it.
+//! A run prints its tables scene by scene. A run that Ctrl-C interrupts prints its results; a journal resumes it.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Read};
@@ -17,7 +17,7 @@ use super::runner::NOTHING;
 
 const CASES: usize = 16;
 
-/// A comparison of some seconds, the larger scene named first.
+/// A comparison that takes some seconds. The larger scene is named first.
 fn compare(folder: &Folder, more: &str) -> Command {
     let small = "compare torus cube -s sah-kd -s sah-bvh -w primary --rays 256 --epochs 8";
     let mut command = folder.command(&format!("{small} {more}"));
@@ -25,9 +25,9 @@ fn compare(folder: &Folder, more: &str) -> Command {
     command
 }
 
-/// Starts a program with this handling of signals, independent of the handling in this process.
+/// Starts a program with the handling `way` of SIGINT and SIGTERM, independent of the handling in this process.
 fn spawn(mut command: Command, way: SigHandler) -> Child {
-    // SAFETY: setting the action of a signal is async-signal-safe, and the code allocates nothing.
+    // SAFETY: setting the action of a signal is async-signal-safe, and the closure allocates no memory.
     unsafe {
         command.pre_exec(move || {
             for caught in [Signal::SIGINT, Signal::SIGTERM] {
@@ -39,7 +39,7 @@ fn spawn(mut command: Command, way: SigHandler) -> Child {
     command.spawn().unwrap()
 }
 
-/// Interrupts a run after its first table, for the smallest scene; returns its exit status and its whole output.
+/// Interrupts a run after its first table, the table of the cube. Returns its exit status and its whole output.
 fn signalled(folder: &Folder, more: &str, way: SigHandler) -> (ExitStatus, String) {
     let mut child = spawn(compare(folder, more), way);
     let mut reader = BufReader::new(child.stdout.take().unwrap());
@@ -53,14 +53,14 @@ fn signalled(folder: &Folder, more: &str, way: SigHandler) -> (ExitStatus, Strin
     (child.wait().unwrap(), text)
 }
 
-/// The output of an interrupted run.
+/// The output of a run that SIGINT ends.
 fn interrupted(folder: &Folder, more: &str) -> String {
     let (status, text) = signalled(folder, more, SigHandler::SigDfl);
     assert_eq!(status.signal(), Some(Signal::SIGINT as i32), "{text}");
     text
 }
 
-/// The number of cases that an interrupted run reports as measured: all 8 of the first scene, fewer of the second.
+/// The number of cases that an interrupted run reports as measured: 8 of the cube, fewer than 8 of the torus.
 fn measured(text: &str) -> usize {
     let said = text.split("Interrupted: ").nth(1).unwrap_or_else(|| panic!("no line about the interruption: {text}"));
     let number = said.split(' ').next().unwrap().parse().unwrap();
@@ -68,14 +68,14 @@ fn measured(text: &str) -> usize {
     number
 }
 
-/// Processes that work in a folder.
+/// The number of processes whose working directory is `folder`.
 fn processes(folder: &Folder) -> usize {
     let folder = folder.path("").canonicalize().unwrap();
     let entries = fs::read_dir("/proc").unwrap().flatten();
     entries.filter(|entry| fs::read_link(entry.path().join("cwd")).is_ok_and(|cwd| cwd == folder)).count()
 }
 
-/// Checks that no process works in a folder. The system takes a moment to remove a killed process.
+/// Waits until no process works in a folder, because the system takes a moment to remove a killed process.
 #[track_caller]
 fn is_left(folder: &Folder) {
     let is_left = (0..500).any(|_| {
@@ -122,7 +122,7 @@ fn ends_by(signal: Signal, command: Command, message: &str) {
 #[test]
 fn a_job_ends_at_once_and_leaves_nothing() {
     let folder = Folder::new();
-    // Half a minute of samples.
+    // Without a signal, a job takes half a minute.
     let lines = plan(&folder.path(""), "attribution --scenes sphere --runs 1000 --budget 30 --epochs 2");
     for signal in [Signal::SIGINT, Signal::SIGKILL] {
         ends_by(signal, job(&lines[1]), "measuring attribution, epoch 2 of 2: Sphere\n");

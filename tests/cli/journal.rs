@@ -1,4 +1,4 @@
-//! The journals of studies and their exports.
+//! Reads the journals and exports of studies.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -34,7 +34,7 @@ pub fn answers(runs: &Path, study: &str) -> BTreeMap<String, Value> {
     answers
 }
 
-/// Epoch 0 of an export: one value per structure (except twins) and workload, with the fields of both.
+/// Epoch 0 of an export: one row per structure and workload, with the fields of each. Twins are left out.
 pub fn rows(export: impl AsRef<Path>) -> Vec<Value> {
     let mut rows = vec![];
     let export = json(export);

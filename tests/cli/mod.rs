@@ -1,4 +1,4 @@
-//! The command from outside: exit statuses, messages, files.
+//! Tests the command as a user runs it: exit statuses, messages, files.
 
 pub mod command;
 mod commands;

@@ -6,7 +6,7 @@ use std::process::Command;
 
 use super::command::{Folder, RIGHT, SQUARE, USAGE, assert_contains, command, ends};
 
-/// Bytes that are not text, an escape sequence with a line break, and their printed forms.
+/// Two file names and their printed forms: bytes that are not UTF-8, and an escape sequence with a line break.
 const NAMES: [(&[u8], &str); 2] = [(b"gr\xfcn", "gr\\xfcn"), (b"a\x1b[31m\nb", "a\\u{1b}[31m\\nb")];
 
 #[test]

@@ -1,4 +1,4 @@
-//! The exit status if the output cannot be written, and builder panics, which print no backtrace.
+//! Tests the exit status if the output cannot be written, and that a panic of a builder prints no backtrace.
 
 use std::fs::File;
 use std::process::Command;

@@ -1,4 +1,4 @@
-//! `study plan`: independent jobs that write one file each, and the study that these files form.
+//! Tests `study plan`: it prints independent jobs. Each job writes one file, and the files form the journal of a study.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -63,11 +63,11 @@ fn a_plan_is_one_command_a_case_with_a_file_of_its_own() {
     }
     assert!(files.len() == 4 && !dir.exists(), "a plan creates no files");
 
-    // A repeated study is planned once; scenes add up, as in all commands.
+    // A study that is named twice is planned once. The scenes of several `--scenes` options add up.
     assert_eq!(plan(&dir, "compare compare --scenes cube"), plan(&dir, "compare --scenes cube"));
     assert_eq!(plan(&dir, "compare --scenes torus --scenes cube"), plan(&dir, "compare --scenes torus cube"));
 
-    // Without names, all studies are planned; here in their quick form.
+    // Without names, all studies are planned.
     let lines = plan(Path::new("r"), "--quick --scenes cube");
     let files: BTreeSet<PathBuf> = lines.iter().map(|line| file(line)).collect();
     for Study { name, .. } in Studies::builtin().iter() {
@@ -78,7 +78,7 @@ fn a_plan_is_one_command_a_case_with_a_file_of_its_own() {
 
 #[test]
 fn what_cannot_be_planned_is_one_sentence() {
-    // Repeated options, at any position; one of the two may come from the preset.
+    // An option must not occur twice, at any position. The options of a preset count as occurrences.
     let twice = "cannot be used multiple times";
     for (line, parts) in [
         ("attributoin", &["attributoin"][..]),
@@ -88,12 +88,12 @@ fn what_cannot_be_planned_is_one_sentence() {
         ("--dir a compare scaling --dir=b", &["--dir", twice]),
         ("compare scaling --dir a --dir b", &["--dir", twice]),
         ("compare --rays 64 --quick --quick", &["--quick", twice]),
-        // Options that write the results of a study.
+        // A plan has no results, so it rejects options that write results.
         ("attribution --rays 64 --export-json x.json", &["--", "when all jobs are done"]),
         ("attribution --rays 64 --export-csv=x.csv", &["--", "when all jobs are done"]),
         ("attribution --rays 64 --plot x.svg", &["--", "when all jobs are done"]),
         ("attribution --scenes cube --plot x.svg", &["--plot", "when all jobs are done"]),
-        // `--fresh` has no effect on jobs: a job that finds its case measures nothing.
+        // `--fresh` is rejected, because a job that finds its case in the journal does not measure again.
         ("attribution --rays 64 --fresh", &["--fresh", "--dir"]),
     ] {
         Folder::new().refuses_in_a_line(&format!("study plan {line}"), parts);
@@ -113,7 +113,6 @@ fn jobs_in_any_order_are_the_study() {
     let folder = Folder::new();
     let [apart, one] = ["apart", "one"].map(|name| folder.path(name));
     let lines = plan(&apart, &format!("{SMALL} --scenes cube sphere"));
-    // Run the jobs in reverse order.
     for line in lines.iter().rev() {
         let log = done(line);
         assert!(log.starts_with("measuring "), "its log says what it was: {log}");
@@ -122,7 +121,7 @@ fn jobs_in_any_order_are_the_study() {
     assert_eq!(answers(&apart, "attribution").len(), 4);
     assert_eq!(answers(&apart, "attribution"), answers(&one, "attribution"));
 
-    // The files are the journal of the study: nothing remains to be measured, and nothing changes.
+    // The files are the journal of the study. The study therefore measures no case and changes no file.
     let before: Vec<Vec<u8>> = lines.iter().map(|line| fs::read(file(line)).unwrap()).collect();
     assert!(folder.prints(&format!("study {SMALL} --dir apart cube sphere")).contains("Cube"));
     assert_eq!(lines.iter().map(|line| fs::read(file(line)).unwrap()).collect::<Vec<_>>(), before);
@@ -143,7 +142,7 @@ fn a_job_measures_once_and_refuses_what_is_not_its_own() {
     folder.write("square.obj", SQUARE);
     let mesh = folder.path("square.obj").to_str().unwrap().to_owned();
     let lines = plan(&folder.path(""), &format!("{SMALL} --scenes {mesh}"));
-    // Of two jobs for one file one wins, and both succeed.
+    // Run two jobs for one file at the same time. One writes the file, and both succeed.
     let both = [0, 1].map(|_| job(&lines[0]).spawn().unwrap());
     let both = both.map(|child| child.wait_with_output().unwrap());
     assert!(both.iter().all(|output| output.status.code() == Some(RIGHT)), "{both:?}");
@@ -155,7 +154,7 @@ fn a_job_measures_once_and_refuses_what_is_not_its_own() {
     let path = file(&lines[0]);
     assert_eq!(json(&path)["case"]["study"], "attribution");
     let before = fs::read(&path).unwrap();
-    // A repeated job loads nothing.
+    // A repeated job does not load the mesh.
     let away = folder.path("away.obj");
     fs::rename(&mesh, &away).unwrap();
     let log = done(&lines[0]);
@@ -163,7 +162,7 @@ fn a_job_measures_once_and_refuses_what_is_not_its_own() {
     refused(&lines[1], &[&mesh]);
     fs::rename(&away, &mesh).unwrap();
 
-    // The scene of a job must be unchanged since the plan, and each of its threads needs a core.
+    // A job fails if its file contains another case, if its scene has changed, or if it has more threads than cores.
     let hash = &lines[1].split("\"hash\":\"").nth(1).unwrap()[..16];
     for (from, to, part) in [
         (file(&lines[1]).to_str().unwrap(), path.to_str().unwrap(), "contains another case"),
@@ -184,7 +183,7 @@ fn a_job_measures_once_and_refuses_what_is_not_its_own() {
 fn what_cannot_be_written_is_one_sentence_and_no_file() {
     let folder = Folder::new();
     let lines = plan(&folder.path("runs"), &format!("{SMALL} --scenes cube"));
-    // A file has the name of the folder.
+    // The folder cannot be created, because a file has its name.
     folder.write("runs", "x");
     refused(&lines[0], &["cannot write", "runs/attribution"]);
     fs::remove_file(folder.path("runs")).unwrap();

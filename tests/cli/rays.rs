@@ -1,4 +1,4 @@
-//! Files of rays and hits from outside: recorded rays are replayed to the bit, and damaged files are rejected.
+//! Tests files of rays and hits: recorded rays are replayed bit for bit, and wrong files are rejected.
 
 use std::fs;
 
@@ -11,7 +11,7 @@ fn a_replayed_workload_is_the_workload() {
     let common = "--runs 2 --budget 2 -s sah-kd -s brute-force";
     for kind in ["diffuse", "shadow"] {
         let printed = folder.prints(&format!("rays record torus -w {kind} -o f.rays"));
-        // The number of timed rays does not change the workload.
+        // `--rays` of `compare` limits only the number of timed rays: the workload stays the same.
         folder.prints(&format!("compare torus -w {kind} --rays 900 --export-json made.json {common}"));
         folder.prints(&format!("compare --rays f.rays --export-json replayed.json {common}"));
         let [made, replayed] = ["made.json", "replayed.json"].map(|name| rows(folder.path(name)));
@@ -39,7 +39,7 @@ fn answers_go_out_and_come_back_and_wrong_ones_are_found() {
         folder.shows(&exact, &["against brute force with exact"]);
         folder.shows(&own, &["f.hits is right on 900 rays."]);
 
-        // Remove one hit.
+        // Replace one hit with a miss.
         let mut bytes = fs::read(folder.path("f.hits")).unwrap();
         let hit = bytes[32..].chunks_exact_mut(8).find(|hit| hit[4..] != [0xff; 4]).unwrap();
         hit[4..].fill(0xff);

@@ -1,4 +1,4 @@
-//! `--runner`: correct and faulty programs.
+//! Tests `--runner` with correct and faulty programs.
 
 use std::fs;
 use std::process::Command;
@@ -10,7 +10,7 @@ use super::journal::{cases, rows};
 
 const EXAMPLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/runner/brute_force.cpp");
 
-/// A folder with the example, compiled after `change` of its source; `None` without a compiler.
+/// Applies `change` to the source of the example and compiles it in a folder. `None` without a compiler.
 fn compiled(name: &str, change: impl Fn(String) -> String) -> Option<Folder> {
     if Command::new("c++").arg("--version").output().is_err() {
         println!("skipped: there is no C++ compiler, `c++`, here");
@@ -26,7 +26,7 @@ fn compiled(name: &str, change: impl Fn(String) -> String) -> Option<Folder> {
 
 const SMALL: &str = "compare cube -s sah-kd -w primary -w shadow --rays 400 --epochs 2 --runner";
 
-/// The output and messages as a single line, and the rows of a run, which must exit with this status.
+/// Runs a command, which must exit with `status`. Returns output and messages as one line, and the rows of the export.
 #[track_caller]
 fn records(folder: &Folder, line: &str, status: i32) -> (String, Vec<Value>) {
     let text = folder.ends(status, &format!("{line} --export-json r.json")).concat();
@@ -51,12 +51,12 @@ fn the_example_of_the_document_is_timed_beside_ours() {
         for same in ["hash", "all", "query"] {
             assert_eq!(ours[same], theirs[same]);
         }
-        // Both have samples of the same rounds, and their triangle tests disagree on few rays.
+        // Structure and runner have the same number of samples, and their triangle tests disagree on few rays.
         assert!(theirs["ns"].as_array().unwrap().len() == ours["ns"].as_array().unwrap().len(), "{theirs}");
         let hits = |record: &Value| record["counts"]["hits"].as_f64().unwrap();
         assert!((hits(ours) - hits(theirs)).abs() <= 0.001 * hits(ours), "{ours} {theirs}");
     }
-    // The example misses invalid rays, as the document demands.
+    // The example returns a miss for every invalid ray, as FORMAT.md demands.
     folder.shows(
         "validate --hard rays_nan_dir rays_inf_dir --rays 50 --runner ./brute_force",
         &["brute_force is right on 100 rays"],
@@ -68,7 +68,7 @@ fn wrong_hits_of_a_program_cost_it_all_its_times_and_nobody_else() {
     let Some(folder) = compiled("loses", |text| text.replace("u >= 0 &&", "u >= 0.5 &&")) else { return };
     let (text, records) = records(&folder, &format!("{SMALL} ./loses"), WRONG);
     assert!(text.contains("loses (own clock)") && text.contains(" wrong"), "{text}");
-    // A cube casts no shadow on itself, so shadow rays are right; but a wrong hit costs a structure all its times.
+    // A cube casts no shadow on itself, so shadow rays are right. Wrong primary hits remove the times of all workloads.
     let timed: Vec<bool> = records.iter().map(|record| !record["ns"].as_array().unwrap().is_empty()).collect();
     assert_eq!(timed, [true, true, false, false], "{text}");
     assert!(records[2]["checked"]["errors"].as_u64() > Some(0), "{text}");
@@ -131,7 +131,7 @@ fn a_program_that_fails_is_not_checked_and_not_wrong() {
 
 #[test]
 fn a_slow_program_has_time_for_each_reply() {
-    // All its passes together take longer than any of the limits.
+    // All passes of the program together take longer than each of the limits.
     let slow = "--runner './nothing.sh slow' --limit 0.5 --runner-limit 1";
     nothing().shows(&format!("validate --hard flat_inplane --rays 16 {slow}"), &["is right on 16 rays"]);
 }

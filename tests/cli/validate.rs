@@ -6,14 +6,14 @@ use super::command::{Folder, RIGHT, SQUARE, WRONG, assert_contains, json, unwrap
 fn validation_tells_right_from_wrong() {
     Folder::new().prints("validate cube torus --rays 2000 -s median-kd -s sah-kd");
 
-    // obvhs' CwBvh misses every ray with a component of -0.0: this one hits the cube in the middle of a face.
+    // This ray hits a face of the cube. obvhs-cwbvh loses the hit, because a direction component is -0.0.
     let validate =
         |structures: &str| Folder::new().prints(&format!("validate cube --ray '0.5,0.25,5 -0,0,-1' -s {structures}"));
-    // A known defect of a baseline is printed with its name, and does not change the status of any command.
+    // Known defects of a baseline are printed and do not change the exit status.
     let defects = "obvhs-cwbvh: known defects (they do not change the exit status)";
     // The output contains the ray in the format of `--ray`.
     assert_contains(&validate("obvhs-cwbvh --verbose"), &[defects, "0.5,0.25,5.0 -0.0,0.0,-1.0"]);
-    // The hit of each structure is printed, right or wrong: the cube's front face is at z = 1.
+    // The command prints the hit of each structure, right or wrong. The front face of the cube is at z = 1.
     let both = validate("sah-kd -s obvhs-cwbvh");
     let row = |name: &str| -> Vec<&str> {
         let mut rows = both.split("Cube: hits").nth(1).expect("a table of hits").lines();
@@ -104,7 +104,7 @@ fn options_that_the_rays_asked_for_do_not_heed_are_refused() {
             Folder::new().refuses(&format!("validate {asked} {unheeded}"), &[option, other, "cannot be used with"]);
         }
     }
-    // These rays do not depend on the camera, so there is no advice about it.
+    // These rays do not depend on the camera, so no message advises `--inside`.
     let folder = Folder::new();
     folder.write("square.obj", SQUARE);
     for rays in ["--ray '0,0,9 0,0,-1'", "--adversarial --rays 20"] {
@@ -113,7 +113,7 @@ fn options_that_the_rays_asked_for_do_not_heed_are_refused() {
     }
 }
 
-/// Möller-Trumbore overflows on such a large triangle, and finds none of its hits.
+/// The reference, Möller-Trumbore, overflows on a triangle with coordinates of 1e30 and finds no hit.
 #[test]
 fn a_wrong_reference_is_no_error_of_a_triangle_test() {
     let folder = Folder::new();

@@ -1,6 +1,6 @@
 //! One case of the fuzzer: a mesh and rays of arbitrary floats, and all properties that must hold for them.
 //!
-//! `tests/properties.rs` and the fuzz target of this folder share this file; both draw bytes.
+//! `tests/properties.rs` and the fuzz target of this folder share this file. They draw the bytes for `Case::read`.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
@@ -17,8 +17,8 @@ use sahara::simd::Level;
 use sahara::validate::adversarial::{near_the_largest_t, rounded_ends};
 use sahara::validate::{Reference, validate};
 
-/// The structures of this crate and their variants, over every triangle test that they offer; the eight-wide trees with
-/// every batch strategy. Small leaves give deep trees even on small meshes.
+/// Structures of this crate, with some of their options. Every eight-wide tree occurs with and without packets. Small
+/// leaves give deep trees even on small meshes.
 pub const VARIANTS: [(&str, &str); 17] = [
     ("brute-force", ""),
     ("median-kd", ""),
@@ -57,7 +57,7 @@ impl Case {
     /// Checks all properties. A mesh is rejected with a sentence, or every structure is built over it. Over each
     /// triangle test, every structure returns the hits of brute force and the lowest number of a tie, even if an
     /// interval ends at the float to which an exact `t` rounds. All SIMD levels return the same bits. `exact` returns
-    /// the mathematical result, by two judges. Nothing panics.
+    /// the results of the oracle and of rational arithmetic. Nothing panics.
     ///
     /// # Errors
     /// The violated property, with the case.
@@ -91,7 +91,7 @@ impl Case {
             }
         }
 
-        // The oracle shares its sums of floats with `exact`. Rationals share nothing, but take a hundred times as long.
+        // The oracle shares code with `exact`. Rationals do not, but take a hundred times as long: test every 20th ray.
         let exact = Reference::of_test("exact", &mesh).map_err(|e| blame(e.to_string()))?;
         for (i, (ray, hit)) in rays.iter().zip(exact.accel.closest(&rays)).enumerate() {
             let truth = oracle::nearest(ray, &mesh).map(|truth| truth.first());
@@ -120,12 +120,12 @@ impl Case {
         rays
     }
 
-    /// Reads a case from any bytes; missing bytes are 0. Each case draws its floats from some of the kinds, which makes
-    /// numbers of similar size more likely.
+    /// Reads a case from any bytes; missing bytes are 0. A case uses only some of the kinds of floats that `float_of`
+    /// makes. Numbers of similar size are then more likely.
     pub fn read(bytes: &[u8]) -> Self {
         let mut bytes = Bytes { left: bytes, kinds: (0..KINDS).collect() };
         let points = 3 + bytes.byte() as usize % 29;
-        // Most meshes must be valid, or nothing is tested.
+        // A wild mesh may have invalid numbers or indices. Few meshes are wild, because an invalid mesh ends the check.
         let wild = bytes.byte() > 0xf8;
         let mixture = 1 + bytes.byte() % ((1 << (KINDS - 1)) - 1);
         bytes.kinds.retain(|kind| mixture >> kind & 1 == 1);
@@ -158,7 +158,7 @@ impl Case {
 /// The number of rays with a hit that are copied per case.
 const SEVERAL: usize = 6;
 
-/// The rays, and then the rays of the two commonest octants in groups of sixteen, which form packets.
+/// `rays`, followed by the rays of the two commonest direction octants in groups of sixteen, which form packets.
 fn in_company(rays: &[Ray]) -> Vec<Ray> {
     let mut octants: BTreeMap<[bool; 3], Vec<Ray>> = BTreeMap::new();
     for ray in rays {
@@ -247,7 +247,7 @@ impl Bytes<'_> {
         float_of(kind, bits)
     }
 
-    /// A point; with finite numbers unless it may be `wild`.
+    /// A point. Its numbers are finite if `wild` is false.
     fn point(&mut self, wild: bool) -> Vec3 {
         Vec3::from_array([0; 3].map(|_: u8| {
             let x = self.float();

@@ -1,4 +1,4 @@
-//! The grid, broken in nine ways: conformance and `validate` must reject each.
+//! The grid with one of nine faults. The conformance suite and `validate` must reject each fault.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -38,7 +38,7 @@ pub enum Fault {
     Moody,
     /// Panics in its builder.
     BuilderPanics,
-    /// Never builds.
+    /// Its builder never returns.
     BuilderHangs,
 }
 
@@ -48,7 +48,7 @@ pub struct BrokenConfig {
     pub fault: Fault,
 }
 
-/// Whether a hash of the ray selects it; the hash selects about one ray in `n`.
+/// Whether the ray is selected. A hash of origin and direction selects about one ray in `n`.
 pub fn picks(ray: &Ray, n: u32) -> bool {
     let bits = ray.origin.to_array().into_iter().chain(ray.direction.to_array()).map(f32::to_bits);
     let mixed = bits.fold(0x811c_9dc5_u32, |h, b| (h ^ b).wrapping_mul(0x9e37_79b1).rotate_left(13));

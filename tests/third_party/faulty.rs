@@ -12,13 +12,13 @@ use sahara::serde::{Deserialize, Serialize};
 pub enum Fault {
     #[default]
     None,
-    /// Some deep leaves are empty.
+    /// Some deep leaves lose their triangles.
     LeafDropped,
-    /// The far child is skipped after a hit in the near one.
+    /// The far child is skipped after a hit in the near child.
     ChildOrder,
-    /// The interval does not end at the nearest hit so far, and the last hit counts.
+    /// The interval is not shortened to the nearest hit so far, and the hit that is found last is returned.
     StaleTMax,
-    /// A slab of 0 x infinity is NaN, and the box is missed.
+    /// A box is missed if a slab distance is NaN, the product of 0 and infinity.
     ZeroTimesInfinity,
     /// The last triangle of a leaf is skipped.
     LastTriangle,

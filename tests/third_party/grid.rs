@@ -69,7 +69,7 @@ impl<T: TriangleTest> Grid<T> {
             let layer = if direction[main] > 0.0 { step } else { self.resolution - 1 - step };
             let ([a, b], [c, d]) = (plane(layer), plane(layer + 1));
             let (enter, leave) = (a.min(c).max(t_min.into()), b.max(d).min(t_max.into()));
-            // The hit lies before this layer.
+            // Stop at a layer that begins behind the nearest hit.
             if nearest.is_some_and(|(depth, _)| f64::from(depth.bound()) < enter) {
                 break;
             }
@@ -113,7 +113,7 @@ impl<T: TriangleTest> Accel for Grid<T> {
         }
         let bounds = if mesh.is_empty() { Aabb::of_points([Vec3::ZERO]) } else { mesh.bounds() };
         let (origin, size) = (bounds.min.as_dvec3(), bounds.max.as_dvec3() - bounds.min.as_dvec3());
-        // Cells of a flat box have a positive size.
+        // The maximum gives the cells of a flat box a positive size.
         let cell = (size / resolution as f64).max(DVec3::splat(size.max_element().max(1e-300) * 1e-6));
         let triangles = (0..mesh.len() as u32).map(|id| T::block(&[mesh.corners(id)])).collect();
         let cells = vec![vec![]; resolution.pow(3)];

@@ -9,7 +9,7 @@ use sahara::scene::{Model, Scene, WorkloadKind};
 use sahara::study::measurement::{Measurement, measurements};
 use sahara::study::{Dataset, Plan, PlannedScene, Presets, Settings, Study};
 
-/// `staircase:N`: N steps; every second one is wide.
+/// The scene `staircase:N`: N steps, each a triangle. Every second step is wide.
 pub fn staircase(parameters: &str) -> anyhow::Result<Scene> {
     let steps: u32 = parameters.parse()?;
     let corner = |i: u32, wide: f32, z: f32| Vec3::new(i as f32 * 0.1 + wide, i as f32 * 0.1, z);

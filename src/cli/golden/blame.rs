@@ -1,4 +1,4 @@
-//! Judges a differing pixel by exact arithmetic.
+//! Decides by exact arithmetic which of two pictures has the correct value of a pixel.
 
 use image::DynamicImage;
 
@@ -29,8 +29,8 @@ impl<'a> Judge<'a> {
         Ok(Self { scene, golden, exact, oracle: Oracle::new(&scene.mesh), word })
     }
 
-    /// A sentence with the values of a pixel in the two pictures, which says which picture exact arithmetic confirms;
-    /// and a command that traces the pixel's primary ray.
+    /// Returns a sentence and a command. The sentence states the values of a pixel in both pictures and which picture
+    /// exact arithmetic confirms. The command traces the pixel's primary ray.
     pub fn blame(
         &self,
         structure: &str,

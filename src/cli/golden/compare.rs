@@ -1,4 +1,4 @@
-//! `golden compare`.
+//! The command `golden compare`: compares pictures of any renderer.
 
 use std::io;
 use std::ops::RangeInclusive;
@@ -18,7 +18,7 @@ use crate::report::number::{count, plural};
 use crate::report::{Cell, Table, Tone};
 use crate::study::Status;
 
-/// The group of options for accepting pictures.
+/// The help heading of the options that accept differences.
 const TOLERANCE: &str = "Tolerance";
 
 /// The exit statuses of this command.
@@ -54,7 +54,7 @@ pub struct Args {
     outputs: Outputs,
 }
 
-/// A parser of numbers in `range`; for all other texts, the error is `advice`.
+/// A parser of numbers in `range`. Its error is `advice`.
 fn within(range: RangeInclusive<f64>, advice: &'static str) -> impl Fn(&str) -> Result<f64, &'static str> + Clone {
     move |text: &str| text.parse().ok().filter(|number| range.contains(number)).ok_or(advice)
 }
@@ -80,7 +80,7 @@ impl Args {
         }
     }
 
-    /// The pictures to compare. Rejects missing paths, a file with a folder, and two folders without any picture.
+    /// The pictures to compare. Rejects missing paths, a file with a folder, and folders without pictures.
     fn pairs(&self) -> anyhow::Result<Vec<Pair>> {
         let [expected, actual] = [&self.expected, &self.actual];
         if let Some(missing) = [expected, actual].into_iter().find(|path| !path.exists()) {

@@ -1,4 +1,4 @@
-//! `golden`.
+//! The command `golden`: checks, updates and compares pictures.
 
 mod blame;
 mod compare;
@@ -56,7 +56,7 @@ struct CheckedOutputs {
 }
 
 impl Outputs {
-    /// Rejects outputs that cannot be written or that contain `inputs`.
+    /// Rejects outputs that cannot be written or would overwrite `inputs`.
     fn check<'a>(&self, inputs: impl Iterator<Item = &'a Path> + Clone) -> anyhow::Result<CheckedOutputs> {
         anyhow::ensure!(self.page.is_none() || cfg!(feature = "page"), "--page: {}", crate::cli::NO_PAGE);
         let page = self.page.as_deref().map(|path| OutputFolder::check(path)?.apart_from(inputs.clone()));
@@ -66,7 +66,7 @@ impl Outputs {
 }
 
 impl CheckedOutputs {
-    /// Calls `run` with the page, if there is one, and returns the result.
+    /// Calls `run` and returns its result. `run` receives the page, or `None` without `--page`.
     fn with_page<T>(&self, title: &str, run: impl FnOnce(Option<&Page>) -> io::Result<T>) -> Result<T, OutputError> {
         match &self.page {
             Some(folder) => page::write(folder, title, |page| run(Some(page))),
@@ -74,7 +74,7 @@ impl CheckedOutputs {
         }
     }
 
-    /// Writes the JSON, and prints the path of the page.
+    /// Writes the JSON file and prints the path of the page, if the options name them.
     fn export(&self, comparisons: &[Comparison], terminal: &Terminal) -> anyhow::Result<()> {
         if let Some(json) = &self.json {
             let run = json!({ "schema": "sahara-golden-1", "comparisons": comparisons });
@@ -97,7 +97,7 @@ const VERDICTS: [(Verdict, &str, &str); 6] = [
     (Verdict::Identical, "identical", "identical"),
 ];
 
-/// The number of comparisons by verdict.
+/// The number of comparisons with each verdict, as text.
 fn tally(comparisons: &[Comparison]) -> String {
     let number = |verdict| comparisons.iter().filter(|own| own.verdict == verdict).count() as u64;
     let parts =

@@ -20,8 +20,8 @@ use crate::request::{self, BRUTE_FORCE, OUTPUT, SAH_TREE, SCENES, STRUCTURES, Vi
 use crate::scene::Scene;
 use crate::study::Status;
 
-/// The maximum of triangles times pixels for which brute force is the default; more would take minutes. Above it,
-/// the default is [`SAH_TREE`], unless the golden image is built in.
+/// If triangles times pixels exceed this number, brute force would take minutes, and the default structure is
+/// [`SAH_TREE`]. For built-in golden images, the default is always brute force.
 const WORK: u64 = 1 << 32;
 
 #[derive(Debug, clap::Args)]

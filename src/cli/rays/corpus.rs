@@ -1,4 +1,4 @@
-//! `rays corpus`: meshes, rays of all kinds and their exact hits, with which other programs can count wrong hits.
+//! `rays corpus`: writes meshes, rays and exact hits, with which other programs can count their wrong hits.
 
 #[cfg(test)]
 mod tests;
@@ -141,7 +141,7 @@ fn part(scene: &Scene, args: &Args, waiting: &ProgressBar) -> anyhow::Result<(Fi
     Ok((files, counts))
 }
 
-/// The rays of one kind and their exact hits. The file has no scene hash, because the mesh file has another hash.
+/// The rays of a workload and their exact hits. The ray file has no scene hash, which would not match the mesh file.
 fn answered(
     scene: &Scene,
     kind: RayKind,
@@ -152,10 +152,10 @@ fn answered(
     let workload = Workload { name: kind.name().into(), query: Query::Closest, rays: kind.rays(scene, count, seed) };
     RayFile::check(&workload.rays)?;
     RayFile::check_names(&scene.name, &workload.name)?;
-    // The distance of the nearest hit, with a relative error below 2^-50, and all triangles that are hit there.
+    // `t` of the nearest hit, with a relative error below 2^-50, and all triangles that are hit at this `t`.
     let exact_answer = |ray: &Ray| {
         let ids = oracle.nearest(ray)?.ids;
-        // Compute `t` with the triangle of the lowest number: the last bits may differ between the triangles.
+        // Compute `t` with the triangle of the lowest number, because the last bits depend on the triangle.
         let t = exact::hit(ray, scene.mesh.corners(ids[0])).expect("the oracle has found it");
         Some((t.approximate(), ids))
     };

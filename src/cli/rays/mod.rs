@@ -1,4 +1,4 @@
-//! `rays`: files of rays, for replaying the same rays elsewhere.
+//! The command `rays`: records, imports and prints ray files, and writes the corpus.
 
 mod corpus;
 

@@ -1,4 +1,4 @@
-//! `validate`.
+//! The command `validate`: checks hits against a reference.
 
 mod hard;
 mod hit_files;
@@ -101,7 +101,7 @@ pub struct Args {
     seed: Option<u64>,
 }
 
-/// One run of the command, except for hard cases.
+/// A run of the command without `--hard`.
 struct Run<'a> {
     registry: &'a Registry,
     args: &'a Args,
@@ -143,7 +143,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
         let (scenes, recorded) = match replay {
             Some(((_, scene), file)) => (vec![scene], Some(file.workload.rays)),
             None => {
-                // The camera only matters for the rays of the workloads.
+                // Only the rays of workloads depend on the camera.
                 let is_seen = args.ray.is_empty() && !args.adversarial;
                 let seen = |scene| if is_seen { args.from.of(scene) } else { Ok(scene) };
                 let scenes = request::scenes(registry, &args.scenes)?.into_iter().map(seen);
@@ -172,7 +172,7 @@ impl Args {
         self.rays.clone().unwrap_or(RaySource::Count(DEFAULT_RAYS))
     }
 
-    /// The structures to check: with --runner and without --structure, only the programs.
+    /// The structures to check. With `--runner` and without `--structure`, these are only the runners.
     fn structures(&self, registry: &Registry) -> anyhow::Result<Vec<Choice>> {
         let mut structures = vec![];
         if self.runner.is_empty() || !self.structure.is_empty() {
@@ -182,7 +182,7 @@ impl Args {
         Ok(structures)
     }
 
-    /// The time limit of a query; none for a runner, whose replies have a limit.
+    /// The time limit of a query. For a runner there is none, because each of its replies has a time limit.
     fn query_limit(&self, accel: &dyn DynAccel) -> Duration {
         if accel.remote().is_some() { Duration::MAX } else { self.limit.duration() }
     }
@@ -190,12 +190,12 @@ impl Args {
     fn build(&self, choice: &Choice, scene: &Scene, waiting: &ProgressBar) -> Result<Arc<dyn DynAccel>, BuildFailure> {
         waiting.set_message(format!("{}: building {}", scene.name, choice.label));
         if choice.command().is_some() {
-            // The replies of a runner have a time limit.
+            // A build needs no limit here, because each reply of a runner has a time limit.
             return Ok(Arc::from(choice.build(&scene.mesh)?));
         }
         let (own, mesh) = (choice.clone(), Arc::clone(&scene.mesh));
         let limit = self.limit.duration() * u32::try_from(1 + mesh.len() / 1_000_000).unwrap_or(u32::MAX);
-        // The registry turns a panic of the builder into an error, so a build without a result hangs.
+        // The registry turns a panic of the builder into an error. If `watched` fails, the build therefore hangs.
         let built = watched(limit, move || own.build(&mesh)).map_err(|_| BuildFailure::Hangs(limit.as_secs_f64()))?;
         Ok(Arc::from(built?))
     }

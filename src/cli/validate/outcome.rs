@@ -21,14 +21,14 @@ pub enum BuildFailure {
     Refused(#[from] BuildError),
 }
 
-/// One structure, or one file of hits, in one scene.
+/// The result of one structure, or of one file of hits, in one scene.
 pub struct Outcome {
     pub scene: String,
     pub label: String,
     pub triangle_test: String,
-    /// Whether the user provides it: a structure of another crate, a runner or a file of hits.
+    /// Whether the hits come from the user: from a structure of another crate, a runner or a file.
     pub is_brought: bool,
-    /// Whether it has a known defect, which does not change the exit status.
+    /// Whether the structure has a known defect. Its wrong hits do not change the exit status.
     pub has_known_defect: bool,
     pub found: Result<Validation, BuildFailure>,
 }
@@ -114,12 +114,12 @@ pub struct Verdicts {
     pub label: String,
     pub is_brought: bool,
     pub verdict: Verdict,
-    /// The first scene or case in which it was not checked, and the reason.
+    /// The first scene or case in which the structure was not checked, and the reason.
     pub unchecked: Option<(String, String)>,
 }
 
 impl Verdicts {
-    /// The verdict as a sentence; a second sentence names the scene in which the structure was not checked.
+    /// The verdict as a sentence. If the structure was not checked in a scene, a second sentence names the scene.
     pub fn sentence(&self) -> String {
         let Self { label, verdict, .. } = self;
         match &self.unchecked {

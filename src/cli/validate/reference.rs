@@ -18,16 +18,16 @@ use crate::validate::Reference;
 
 /// Default number of rays per scene.
 pub const DEFAULT_RAYS: usize = 10_000;
-/// Maximum number of triangle tests of one brute-force reference, which lowers the default number of rays.
+/// Maximum number of triangle tests of brute force by default. It lowers the default number of rays for large meshes.
 const TESTS: usize = 1 << 33;
 
-/// The limit for the rays of a file, which the user chose: 2^36 triangle tests, about two minutes.
+/// Binary logarithm of the maximum number of triangle tests for the rays of a file. They take about two minutes.
 const FILE_TESTS: u32 = 36;
 
 /// Rays times triangles between two messages about progress: about a second of brute force.
 const PROGRESS_TESTS: usize = 1 << 29;
 
-/// The structure of `--against`; `None`: brute force with the triangle test of the structure that is checked.
+/// The structure of `--against`. `None` is brute force with the triangle test of each checked structure.
 pub struct ReferenceChoice(Option<Choice>);
 
 impl ReferenceChoice {
@@ -43,7 +43,7 @@ impl ReferenceChoice {
         Ok(Reference::structure(choice.build(&scene.mesh).with_context(failure)?, test))
     }
 
-    /// The name of `reference` in messages about a file of hits that were computed with this triangle test.
+    /// The name of `reference` in messages about a hit file whose hits were computed with the triangle test `test`.
     pub fn name_for_file(&self, reference: &Reference, test: &str) -> String {
         match self.0 {
             Some(_) => self.to_string(),
@@ -57,7 +57,7 @@ impl ReferenceChoice {
         self.most(triangles, TESTS).min(DEFAULT_RAYS)
     }
 
-    /// The entries of a ray file to trace: all, or a sample spread evenly and a note that says so.
+    /// The entries of a ray file to trace: all entries, or an evenly spread sample with a note about it.
     pub fn sample<T: Copy>(&self, recorded: &[T], triangles: usize) -> (Vec<T>, Option<String>) {
         let sample = spread(recorded, self.most(triangles, 1 << FILE_TESTS));
         let note = (sample.len() < recorded.len()).then(|| {
@@ -94,13 +94,13 @@ pub struct References<'a> {
     pub scene: &'a Scene,
     pub rays: &'a [Ray],
     pub choice: &'a ReferenceChoice,
-    /// By triangle test. The key `None` is a structure of `--against`, for all tests except `exact`.
+    /// The references by triangle test. For a structure of `--against`, all tests except `exact` have the key `None`.
     pub known: BTreeMap<Option<&'static str>, ReferenceHits>,
 }
 
 impl References<'_> {
     pub fn get(&mut self, test: &'static str, waiting: &ProgressBar) -> anyhow::Result<&ReferenceHits> {
-        // A chosen structure is one reference for all tests except `exact`, the only test that does not round.
+        // One structure of `--against` serves all tests that round. `exact` does not round and has its own reference.
         let key = (self.choice.0.is_none() || test == Exact::NAME).then_some(test);
         if !self.known.contains_key(&key) {
             let reference = self.choice.build(self.scene, test)?;
@@ -113,7 +113,7 @@ impl References<'_> {
     }
 }
 
-/// The hits of a reference for rays of a scene. Messages about progress call it `name`.
+/// The hits of a reference for rays of a scene. Messages about progress call the reference `name`.
 pub fn closest_hits(
     reference: &Reference,
     scene: &Scene,
@@ -159,7 +159,7 @@ mod tests {
         assert_eq!(tree.sample(&recorded, 10_000_000), (recorded, None));
     }
 
-    /// Differences that the rounding of a test explains are excused; `exact` does not round.
+    /// A reference accepts differences by rounding of the triangle test, except for `exact`, which does not round.
     #[test]
     fn one_structure_for_all_tests_that_round_is_built_and_traced_once() {
         let scene = Builtin::find("cube").unwrap().scene(None).unwrap();

@@ -15,7 +15,7 @@ use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
 use crate::validate::{ExpectedHits, Stratum, validate_remote, validate_watched};
 
 impl Run<'_> {
-    /// Compares all structures with the reference, on recorded or other rays, and prints the table.
+    /// Compares all structures with the reference and prints the table. `recorded` has the rays of a ray file.
     pub fn validate(&self, scene: &Scene, recorded: Option<&[Ray]>) -> anyhow::Result<Vec<Outcome>> {
         let Self { args, terminal, .. } = self;
         let triangles = scene.mesh.len();
@@ -62,7 +62,7 @@ impl Run<'_> {
         Ok(outcomes)
     }
 
-    /// The recorded rays or the rays of `--ray`; otherwise the same number of rays of every workload or stratum.
+    /// The recorded rays or the rays of `--ray`. Otherwise the same number of rays of every workload or stratum.
     fn rays(&self, scene: &Scene, recorded: Option<&[Ray]>, notes: &mut Vec<String>) -> anyhow::Result<Vec<Ray>> {
         let Self { registry, args, reference, terminal, .. } = self;
         if let Some(recorded) = recorded {
@@ -95,7 +95,7 @@ impl Run<'_> {
     }
 }
 
-/// The reason why a structure was not built, or its worst ray, if any; no ray for a structure with a known defect.
+/// The reason why a structure was not built, or else its worst ray. Omits the ray if the structure has a known defect.
 fn fault(choice: &Choice, outcome: &Outcome) -> Option<String> {
     let fault = match &outcome.found {
         Ok(_) if outcome.has_known_defect => None,

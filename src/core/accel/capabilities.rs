@@ -2,11 +2,11 @@
 
 use crate::geometry::{Hit, Ray};
 
-/// The features that a structure supports. The structure receives no rays that need another feature; tables list these
-/// rays as declined: neither right nor wrong.
+/// The features that a structure supports. The structure receives no rays that need another feature. Tables list such
+/// rays as declined; they are neither right nor wrong.
 ///
-/// [`Accel::OBSERVED`](super::Accel::OBSERVED) declares the counts that a structure reports, and
-/// [`Accel::TRIANGLE_TEST`](super::Accel::TRIANGLE_TEST) a private triangle test.
+/// A structure declares the counts that it reports in [`Accel::OBSERVED`](super::Accel::OBSERVED), and the name of its
+/// triangle test in [`Accel::TRIANGLE_TEST`](super::Accel::TRIANGLE_TEST).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Capabilities {
     /// Whether it has a separate any-hit query. If not, the suite neither checks nor times its any-hit results.
@@ -23,14 +23,14 @@ impl Capabilities {
     /// All features of the contract of [`Accel`](super::Accel).
     pub const ALL: Self = Self { any_hit: true, t_min: true, closed_start: true, t_max: true };
 
-    /// Whether every result for `ray` is excused: the true hit `nearest` lies at `t_min`, which the structure excludes.
+    /// Whether any result for `ray` is accepted: its nearest hit is at `t_min`, and the structure excludes such hits.
     pub fn excuses(self, ray: &Ray, nearest: Option<Hit>) -> bool {
         !self.closed_start && nearest.is_some_and(|hit| hit.t == ray.interval().0)
     }
 
     /// The feature of `ray` that the structure declines, if any.
     pub fn declines(self, ray: &Ray) -> Option<&'static str> {
-        // A ray with a NaN `t_max` is bounded: a structure that ignores `t_max` may return a hit.
+        // A NaN `t_max` needs the feature: the ray hits nothing, but a structure that ignores `t_max` may return a hit.
         let (from_start, endless) = (ray.t_min <= 0.0, ray.t_max == f32::INFINITY);
         let t_max = (!self.t_max && !endless).then_some("t_max");
         if self.t_min || from_start { t_max } else { Some("t_min") }

@@ -14,7 +14,7 @@ pub struct Footprint {
 }
 
 impl Footprint {
-    /// The sum of all parts.
+    /// The sum of all fields.
     pub fn total(&self) -> usize {
         self.nodes + self.references + self.triangles + self.other
     }

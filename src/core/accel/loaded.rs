@@ -16,16 +16,16 @@ pub trait Loaded: Send + Sync {
     /// If `hits` and the batch differ in length.
     fn any_hits(&self, hits: &mut [bool]);
 
-    /// Nanoseconds of the last query, if the structure is [`Remote`] and times itself.
+    /// Nanoseconds of the last query, measured by a [`Remote`] structure; `None` for all other structures.
     fn own_ns(&self) -> Option<u64> {
         None
     }
 }
 
-/// A structure in another process, which may exit at any time. That process measures the times: [`Loaded::own_ns`] is
-/// the time of a batch's last query.
+/// A structure in another process, which may exit at any time. That process measures the times of builds
+/// ([`Remote::build_ns`]) and queries ([`Loaded::own_ns`]).
 ///
-/// After a failure, every query returns misses without meaning.
+/// After a failure, every query returns only misses, which have no meaning.
 pub trait Remote {
     /// Nanoseconds of the build, measured by the other process.
     fn build_ns(&self) -> u64;
@@ -33,6 +33,6 @@ pub trait Remote {
     /// The reason for the failure, as a clause; `None` if there was none.
     fn failure(&self) -> Option<String>;
 
-    /// The median of elapsed time divided by reported time, over the queries; `None` if all were too short to compare.
+    /// The median, over the queries, of elapsed time divided by reported time. `None` if all queries were too short.
     fn outside(&self) -> Option<f64>;
 }

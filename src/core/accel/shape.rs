@@ -41,7 +41,7 @@ impl TreeShape {
         Self { leaves: 1, empty, references, largest_leaf: references, ..Self::default() }
     }
 
-    /// Counts the nodes of a tree, depth first; without a root it has no nodes. `open` returns the content of a node.
+    /// Counts the nodes of a tree, depth first. Without a root, all counts are 0. `open` returns the content of a node.
     pub fn of<N>(root: Option<(N, Aabb)>, mut open: impl FnMut(N, &Aabb) -> Part<N>) -> Self {
         let root_area = root.as_ref().map_or(0.0, |(_, bounds)| bounds.half_area());
         let mut shape = Self::default();

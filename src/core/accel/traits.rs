@@ -58,11 +58,11 @@ pub trait Accel: Sized + Send + Sync + 'static {
     /// Build parameters. The names of their serialised fields are the keys on the command line and in exports.
     type Config: Clone + Debug + Default + Serialize + DeserializeOwned + Send + Sync + 'static;
 
-    /// Name of the triangle test; `"own"` is a private one. Structures with the same test return the same bits of `t`.
+    /// Name of the triangle test. Structures with the same test return the same bits of `t`. `"own"` is a private test.
     const TRIANGLE_TEST: &'static str = "own";
 
-    /// Deliberate deviations from the contract, one clause each; `sahara list` prints them. Also declare a deviation
-    /// that changes hits in [`CAPABILITIES`](Accel::CAPABILITIES), or it counts as an error. Do not list defects.
+    /// Deliberate deviations from the contract, one clause each; `sahara list` prints them. Deviations that change hits
+    /// also belong in [`CAPABILITIES`](Accel::CAPABILITIES): otherwise they count as errors. Do not list defects.
     const CONVENTIONS: &'static [&'static str] = &[];
 
     /// The events that the structure reports to the observer.
@@ -149,9 +149,9 @@ pub trait DynAccel: Send + Sync {
         self.any_hits(rays, &mut hits);
         hits
     }
-    /// Like `closest_hits`; adds the work to `counts`.
+    /// Like `closest_hits`; adds the steps and triangle tests to `counts`.
     fn closest_hits_counted(&self, rays: &[Ray], hits: &mut [Option<Hit>], counts: &mut Counts);
-    /// Like `any_hits`; adds the work to `counts`.
+    /// Like `any_hits`; adds the steps and triangle tests to `counts`.
     fn any_hits_counted(&self, rays: &[Ray], hits: &mut [bool], counts: &mut Counts);
     /// See [`Accel::load`].
     fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
@@ -272,7 +272,7 @@ mod tests {
     #[test]
     fn the_default_any_hit_follows_from_the_closest_hit() {
         let until = |t_max| Ray::new(Vec3::ZERO, Vec3::X).until(t_max);
-        // A `t` before `t_max` may round to it: the default trusts a structure that supports `t_max`.
+        // An exact `t` before `t_max` may round to `t_max`. The default accepts it if the structure supports `t_max`.
         assert!(AtOne::<true>.any_hit(&until(1.0), &mut ()));
         assert!(!AtOne::<false>.any_hit(&until(1.0), &mut ()) && AtOne::<false>.any_hit(&until(1.5), &mut ()));
     }

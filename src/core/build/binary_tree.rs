@@ -1,4 +1,4 @@
-//! The binary tree that every partitioning strategy builds. An eight-wide tree is collapsed from it.
+//! The binary tree from which an eight-wide tree is collapsed.
 
 use crate::geometry::Aabb;
 
@@ -13,8 +13,8 @@ pub(crate) struct BinaryTree {
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BinaryNode {
-    /// The bounds of the node's references, rounded outward. A triangle that was cut counts only with its clipped part.
-    /// Never empty in a finished tree.
+    /// The bounds of the node's references, rounded outward. A cut triangle is clipped to the node. Not empty in a
+    /// finished tree.
     pub bounds: Aabb,
     pub content: Content,
 }
@@ -23,7 +23,7 @@ pub(crate) struct BinaryNode {
 pub(crate) enum Content {
     /// The indices of the two children.
     Inner([u32; 2]),
-    /// A range of references, not empty.
+    /// A nonempty range of references.
     Leaf { first: u32, count: u32 },
 }
 

@@ -1,4 +1,4 @@
-//! Helpers for the tests of all partitioning strategies: meshes, and the invariants of every binary tree.
+//! Helpers for the tests of all tree builders: meshes, and checks of the invariants of every binary tree.
 
 use std::fmt::Debug;
 
@@ -33,12 +33,12 @@ pub fn soup(count: usize, seed: u64) -> Mesh {
     mixed(count, seed, 50, 0.1)
 }
 
-/// Like [`soup`], with more large triangles: many straddle a plane.
+/// Like [`soup`], with more large triangles: planes cut many of them.
 pub fn straddling_soup(count: usize, seed: u64) -> Mesh {
     mixed(count, seed, 10, 0.2)
 }
 
-/// Small triangles; one in `every` is large.
+/// Triangles of size `small`; one in `every` triangles is large.
 fn mixed(count: usize, seed: u64, every: usize, small: f32) -> Mesh {
     let mut rng = Pcg32::seed_from_u64(seed);
     mesh(count, |i| {
@@ -89,11 +89,11 @@ pub fn holds(bounds: &Aabb, point: DVec3) -> bool {
     bounds.min.as_dvec3().cmple(point).all() && bounds.max.as_dvec3().cmpge(point).all()
 }
 
-/// The boxes and references of all leaves. Checks the invariants of every tree, and at most `most` references per leaf.
+/// The boxes and references of all leaves. Checks the tree's invariants, and that no leaf exceeds `most` references.
 pub fn leaves(tree: &BinaryTree, most: u32) -> Vec<(Aabb, &[u32])> {
     let mut found = vec![];
     let mut next = 0;
-    // The expected next nodes, depth first.
+    // The nodes that must follow in depth-first order; the next node is on top.
     let mut stack = if tree.nodes.is_empty() { vec![] } else { vec![0] };
     for (at, node) in tree.nodes.iter().enumerate() {
         assert_eq!(stack.pop(), Some(at as u32), "nodes are in depth-first order");
@@ -118,7 +118,7 @@ pub fn leaves(tree: &BinaryTree, most: u32) -> Vec<(Aabb, &[u32])> {
     found
 }
 
-/// Checks at random points of every triangle that the point lies in a leaf with this triangle.
+/// Checks that random points of every triangle lie in leaves that reference the triangle.
 pub fn covers(tree: &BinaryTree, mesh: &Mesh, seed: u64) {
     let mut of = vec![vec![]; mesh.len()];
     for (bounds, ids) in leaves(tree, u32::MAX) {

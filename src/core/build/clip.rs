@@ -1,4 +1,4 @@
-//! The box of the part of a triangle in a cell, for "perfect" splits (Wald, Havran 2006).
+//! Computes a box around the part of a triangle that lies in a cell, for "perfect" splits (Wald, Havran 2006).
 
 use glam::{DVec3, Vec3};
 
@@ -7,24 +7,24 @@ use crate::geometry::{Aabb, round_down, round_up};
 /// Maximum number of corners after six planes have cut a triangle.
 const CORNERS: usize = 9;
 
-/// Bound on the error of a computed corner on an axis, relative to M, the triangle's largest absolute coordinate on
-/// this axis. The interpolation a + (b - a) w, w = (s - a) / (b - a), rounds five numbers up to 2 M and one up to M: 11
-/// units of 2^-53 M. At most seven interpolations follow each other: 77 units.
+/// Bound on the error of a coordinate of a computed corner, as a multiple of M, the triangle's largest absolute
+/// coordinate on the axis. The interpolation a + (b - a) w, w = (s - a) / (b - a), rounds six times: five errors are at
+/// most two units of 2^-53 M, the last one is at most one unit. At most seven interpolations in a row give 77 units.
 ///
-/// Planes are moved outward by this bound. A point that is exactly inside therefore stays inside, within the error of
-/// the corners, even if an edge with computed ends is almost parallel to a plane.
+/// Clipping moves each plane outward by this bound. A point of the triangle in the cell therefore stays in the polygon,
+/// up to the error of the corners, even if an edge with computed ends is almost parallel to a plane.
 const ERROR: f64 = 128.0 / (1u64 << 53) as f64;
 
-/// A box of the part of a triangle in `cell`. It lies in `cell` and in `known`, a box of the part in a larger cell.
+/// A box in `cell` and `known` around the part of a triangle in `cell`. `known` contains the part in a larger cell.
 ///
-/// Clips in f64 (Sutherland, Hodgman 1974) and rounds outward: the box contains the whole part. If rounding leaves no
-/// polygon, the result is the intersection of `known` and `cell`: no triangle that reaches into the cell is dropped.
+/// Clips in f64 (Sutherland, Hodgman 1974) and rounds the box outward. If rounding errors leave an empty box, the
+/// result is the intersection of `known` and `cell`, so a triangle that reaches into the cell is never dropped.
 pub(crate) fn clipped_bounds(corners: [Vec3; 3], cell: &Aabb, known: &Aabb) -> Aabb {
     Polygon::clipped(corners, cell).corner_box().in_cut(known.intersection(*cell))
 }
 
-/// [`clipped_bounds`] of the parts of `bounds` below and above a plane. `bounds` is a box of the part of the triangle
-/// in some cell; the plane meets the inside of `bounds`.
+/// Boxes of the triangle's parts below and above a plane, by [`clipped_bounds`] of both halves of `bounds`. `bounds` is
+/// a box around the triangle's part in some cell. The plane must cut the interior of `bounds`.
 pub(crate) fn cut_bounds(corners: [Vec3; 3], bounds: &Aabb, axis: usize, plane: f32) -> (Aabb, Aabb) {
     let polygon = Polygon::clipped(corners, bounds);
     let (below, above) = bounds.cut(axis, plane);
@@ -36,7 +36,7 @@ pub(crate) fn cut_bounds(corners: [Vec3; 3], bounds: &Aabb, axis: usize, plane: 
     (half(below, -1.0), half(above, 1.0))
 }
 
-/// Corners with flags: `true` if the corner is computed, and hence rounded; `false` for a corner of the triangle.
+/// A convex polygon. Each corner has a flag: `true` if it is computed and therefore rounded.
 struct Polygon {
     corners: [(DVec3, bool); CORNERS],
     len: usize,
@@ -64,7 +64,7 @@ impl Polygon {
         self.corners[..self.len].iter().copied()
     }
 
-    /// The maximum error of a corner.
+    /// The maximum error of a corner on each axis.
     fn slack_of(&self, computed: bool) -> DVec3 {
         if computed { self.slack } else { DVec3::ZERO }
     }
@@ -75,7 +75,7 @@ impl Polygon {
         corner_box
     }
 
-    /// Cuts away the part that certainly lies beyond the plane.
+    /// Keeps the part above the plane (`side` 1.0) or below it (`side` -1.0), with a margin of `slack`.
     fn keep(&mut self, axis: usize, plane: f64, side: f64) {
         let bound = plane - side * self.slack[axis];
         if self.corners().all(|(p, _)| side * (p[axis] - bound) >= 0.0) {
@@ -101,7 +101,7 @@ impl Polygon {
                 visit(p, computed);
             }
             if inside(p) != inside(q) {
-                // Both directions of an edge must give the same point: interpolate from the inner end.
+                // Interpolate from the inner end, so both directions of an edge give the same point.
                 let (a, b) = if inside(p) { (p, q) } else { (q, p) };
                 let mut crossing = a + (b - a) * ((plane - a[axis]) / (b[axis] - a[axis]));
                 crossing[axis] = plane;
@@ -125,7 +125,7 @@ impl CornerBox {
         self.max = self.max.max(p + slack);
     }
 
-    /// The box of the polygon within `cut`, rounded outward to f32; `cut` if rounding has left nothing.
+    /// The box, rounded outward to f32, intersected with `cut`. If this intersection is empty, the result is `cut`.
     fn in_cut(&self, cut: Aabb) -> Aabb {
         let tight = Aabb {
             min: Vec3::from_array(self.min.to_array().map(round_down)),
@@ -164,7 +164,7 @@ mod tests {
             }
             assert!(cell.contains(&clipped) && known.contains(&clipped));
 
-            // Points of the triangle, in f64: those in the cell must be in the box.
+            // Points of the triangle (in f64) that lie in the cell must lie in the clipped box.
             for _ in 0..20 {
                 let x = point_in(&mut rng, corners);
                 if holds(&cell, x) {
@@ -203,7 +203,7 @@ mod tests {
         assert!(touched.contains(&Aabb::of_points([Vec3::ZERO])), "{touched:?}");
     }
 
-    /// Planes close to 0 cut triangles with large coordinates: the corner error exceeds the distances of the planes.
+    /// Planes close to 0 cut triangles with large coordinates. The error of a corner exceeds the distance of planes.
     #[test]
     fn clipping_keeps_every_point_of_edges_near_planes() {
         use std::cmp::Ordering::{Equal, Greater, Less};
@@ -211,7 +211,7 @@ mod tests {
         let mut rng = rand_pcg::Pcg32::seed_from_u64(12);
         let mut cuts = 0;
         for _ in 0..100_000 {
-            // A triangle that passes near the origin; edges often have two equal components.
+            // The triangle passes near the origin. Its edges often have two equal components.
             let middle = point(&mut rng) * SMALL;
             let mut reach: [Vec3; 2] = std::array::from_fn(|_| point(&mut rng) * 1e4);
             let [a, b, flat] = std::array::from_fn(|_| (rng.next_u32() % 3) as usize);

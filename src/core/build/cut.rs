@@ -12,7 +12,7 @@ pub(crate) struct Cut {
 }
 
 impl Cut {
-    /// The sides on which a reference has a part: below, above.
+    /// Whether a reference has a part below the plane, and whether it has a part above.
     #[inline(always)]
     pub fn sides(&self, reference: &Reference) -> [bool; 2] {
         let (low, high) = (reference.min(self.axis), reference.max(self.axis));

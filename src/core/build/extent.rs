@@ -2,7 +2,7 @@ use glam::{Vec3, Vec3A};
 
 use crate::geometry::{Aabb, half_area};
 
-/// An [`Aabb`] in registers, for the inner loops of a builder.
+/// An [`Aabb`] in SIMD registers, for the inner loops of a builder.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Extent {
     pub min: Vec3A,

@@ -1,8 +1,8 @@
-//! Rules that sort the references of a node into two groups.
+//! Rules that divide the references of a node into two groups.
 
 use super::reference::Reference;
 
-/// A rule that sorts references into two groups, by the centres of their boxes on an axis.
+/// A rule that divides references into two groups, by the centres of their boxes on an axis.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Group {
     /// The first group has the references in the bins `0..=last`.
@@ -35,7 +35,7 @@ impl Bins {
     }
 }
 
-/// The lower half by centres, in whole blocks, on the axis of their largest range; and the sizes of both groups.
+/// Halves the references by centres, on the axis where the centres vary most. The first group fills whole blocks.
 pub(crate) fn median(references: &[Reference], block: usize) -> (Group, [usize; 2]) {
     let width = |axis| {
         let (min, max) = centres(references.iter(), axis);
@@ -60,10 +60,10 @@ pub(crate) fn order(references: &[Reference], axis: usize) -> Vec<u32> {
     keys.into_iter().map(|key| key as u32).collect()
 }
 
-/// Maps floats to integers of the same order; both zeros become one integer.
+/// Maps floats to integers in the same order. Both zeros give the same integer.
 #[inline(always)]
 pub(crate) fn ordered_bits(x: f32) -> u32 {
-    // Adding 0.0 turns -0.0 into 0.0. Negative floats have descending bits: flip all. Otherwise flip only the sign.
+    // Adding 0.0 turns -0.0 into 0.0. The bits of negative floats descend, so all are flipped. Others set the top bit.
     let bits = (x + 0.0).to_bits();
     if bits >> 31 == 1 { !bits } else { bits | 1 << 31 }
 }

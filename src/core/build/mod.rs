@@ -1,4 +1,4 @@
-//! The common parts of builders: clipped references, costs, the search for splits, binary trees, reinsertion.
+//! Code that the builders share: clipped references, costs, the search for splits, binary trees, reinsertion.
 
 mod axes;
 pub(crate) mod binary_tree;

@@ -1,4 +1,4 @@
-//! Performs a split.
+//! Divides the references of a node at a plane or into two groups.
 
 use rayon::prelude::*;
 
@@ -20,7 +20,7 @@ impl Part {
         Self { references, extent }
     }
 
-    /// All triangles of `mesh` with an area, not clipped.
+    /// One unclipped reference per triangle of `mesh`, without triangles of area 0.
     pub fn whole(mesh: &Mesh) -> Self {
         let ids: Vec<u32> = mesh.solid().collect();
         let references: Vec<Reference> =
@@ -39,7 +39,7 @@ impl Part {
     }
 }
 
-/// Divides references into two parts of the given sizes; `place` puts a reference into one part or both.
+/// Divides references into two parts. `counts` are the expected sizes; `place` adds a reference to one part or both.
 fn deal(
     references: Vec<Reference>,
     counts: [usize; 2],

@@ -2,12 +2,12 @@
 
 use super::sample::Sample;
 
-/// Maximum number of planes, including both ends of the range; a power of two, so a mask bounds an index.
+/// Maximum number of planes, including both ends of the range. A power of two makes `i % PLANES` a mask.
 pub(crate) const PLANES: usize = 64;
 
-/// Ascending planes: both ends of a range, and in each inner cell of an even grid the highest edge of a box, or the
-/// middle of the cell if it has no edge. A plane at an edge keeps a wall whole; a plane beside the wall would cut all
-/// triangles that end at the wall.
+/// Ascending candidate planes: one at each end of a range, and one in each inner cell of an even grid. The plane of a
+/// cell lies at the highest box edge in the cell or, without edges, in the middle of the cell. A plane in a wall does
+/// not cut the triangles that end at the wall; a plane beside the wall would cut them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Planes {
     pub axis: usize,
@@ -18,7 +18,7 @@ pub(crate) struct Planes {
 }
 
 impl Planes {
-    /// The planes at `min` and `max` and `count` planes between them; `None` if the range is empty or no grid fits it.
+    /// Planes at `min` and `max`, and `count` planes between. `None` if the range is empty or the grid overflows.
     pub fn new(axis: usize, (min, max): (f32, f32), count: usize, sample: &Sample) -> Option<Self> {
         let last = count + 1;
         assert!(last < PLANES, "{count} planes between both ends are too many");
@@ -38,7 +38,7 @@ impl Planes {
         (planes.values[0], planes.values[last]) = (min, max);
         for cell in 1..last {
             if planes.values[cell] == f32::NEG_INFINITY {
-                // If rounding moves the middle to another cell, repeat the previous plane: the cell lies above it.
+                // If rounding moves the middle to another cell, repeat the previous plane, which is below the cell.
                 let middle = min + cell as f32 / planes.scale;
                 planes.values[cell] = if planes.cell(middle) == cell { middle } else { planes.values[cell - 1] };
             }
@@ -54,7 +54,7 @@ impl Planes {
         unsafe { at.to_int_unchecked::<i32>() as usize }
     }
 
-    /// The number of bins: one below all planes, one between any two neighbours, one above all.
+    /// The number of bins: one below all planes, one between any two neighbouring planes, one above all planes.
     pub fn bins(&self) -> usize {
         self.last + 2
     }

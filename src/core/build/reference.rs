@@ -10,7 +10,8 @@ pub(crate) const PARALLEL: usize = 4096;
 /// References per task of a thread.
 pub(crate) const CHUNK: usize = 2048;
 
-/// A triangle number and the box of the triangle's part in a node. A corner is one load; the lower one has the number.
+/// A triangle number and the box of the triangle's part in a node. Each corner of the box is one SIMD load. The fourth
+/// lane of the lower corner has the triangle number.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
 pub(crate) struct Reference {
@@ -20,7 +21,7 @@ pub(crate) struct Reference {
 
 impl Reference {
     pub fn new(id: u32, Aabb { min, max }: Aabb) -> Self {
-        // Triangle numbers are below 2^30: none has the bits of a NaN, which a copy might change.
+        // Triangle numbers are below 2^30, so the float is not a NaN. A copy might change the bits of a NaN.
         Self { low: min.extend(f32::from_bits(id)).to_array(), high: max.extend(0.0).to_array() }
     }
 
@@ -59,14 +60,13 @@ impl Reference {
         self.min(axis) * 0.5 + self.max(axis) * 0.5
     }
 
-    /// The parts below and above a plane that meets the inside of the box.
+    /// The parts below and above a plane. The plane must cut the interior of the box.
     pub fn cut(&self, mesh: &Mesh, axis: usize, plane: f32) -> (Self, Self) {
         let (below, above) = cut_bounds(mesh.corners(self.id()), &self.bounds(), axis, plane);
         (Self::new(self.id(), below), Self::new(self.id(), above))
     }
 }
 
-/// The box of all references.
 pub(crate) fn bounds<'a>(references: impl IntoIterator<Item = &'a Reference>) -> Extent {
     references.into_iter().fold(Extent::EMPTY, |all, r| all.union(r.extent()))
 }

@@ -26,7 +26,7 @@ impl CostModel {
         self.block * count.div_ceil(BLOCK) as f64
     }
 
-    /// Cost of a cell that is cut at `plane` into two leaves with these counts.
+    /// Cost of a cell that is cut at `plane` into two leaves with `below` and `above` triangles.
     #[inline(always)]
     pub fn cell_split(&self, cell: &SideAreas, plane: f32, [below, above]: [usize; 2]) -> f64 {
         let [below_area, above_area] = cell.at(plane.into());

@@ -1,4 +1,4 @@
-//! Boxes of the slices of a triangle between parallel planes. Only costs use them: they are not rounded outward.
+//! Boxes of the slices of a triangle between parallel planes. Only costs use them, so they are not rounded outward.
 
 use glam::Vec3A;
 
@@ -35,7 +35,7 @@ impl<const AXIS: usize> Slicer<AXIS> {
         Self { corners: [a, b, c], inverse: [inverse(a, b), inverse(b, c), inverse(a, c)] }
     }
 
-    /// The box of the section at `x`, which must lie between the outer corners.
+    /// The box of the segment in which the plane at `x` cuts the triangle. `x` must lie between the outer corners.
     #[inline(always)]
     fn section(&self, x: f32) -> Extent {
         let [a, b, c] = self.corners;
@@ -47,7 +47,7 @@ impl<const AXIS: usize> Slicer<AXIS> {
     }
 }
 
-/// Slices the part of a triangle in the box `part`; calls `grow` for each bin `first..=last` with the box of its slice.
+/// Slices the part of a triangle in the box `part`. Calls `grow` with each bin in `first..=last` and its slice's box.
 #[inline(always)]
 pub(super) fn slice<const AXIS: usize>(
     corners: [Vec3A; 3],

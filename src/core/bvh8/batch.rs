@@ -13,10 +13,11 @@ use crate::traversal::leaf::Nearest;
 use crate::traversal::walk::{silent, single};
 use crate::triangle::{Depth, INPUTS, TriangleTest, last_bits};
 
-/// Rays per window, a part of a slice. Windows are large because few interleaved rays are active at their ends.
+/// Rays per window: slices are traced window by window. Windows are large because at their ends few interleaved rays
+/// are active.
 const WINDOW: usize = 4096;
 
-/// Some groups of a window, by ascending index. A group has sixteen rays; the last group of a window may have fewer.
+/// A subset of the groups of a window, in ascending order. A group has sixteen rays; the last one may have fewer.
 pub(super) struct Groups {
     numbers: [u8; WINDOW / RAYS],
     len: usize,
@@ -70,9 +71,9 @@ const HITS: usize = 8;
 impl HitBatch {
     const NONE: Self = Self { inputs: [[0.0; HITS]; INPUTS], rays: [0; HITS], ids: [0; HITS], len: 0 };
 
-    /// Adds a hit of ray number `i`; true if the batch is full and must be finished.
+    /// Adds a hit of ray number `i`. Returns true if the batch is full: the caller must then call `finish`.
     ///
-    /// The depth itself is not stored: reading it as a whole right after it was written in pieces stalls the processor.
+    /// The depth itself is not stored: a load of a value that was just written in pieces stalls the processor.
     #[must_use]
     #[inline(always)]
     fn push<D: Depth>(&mut self, i: usize, ray: &Ray, depth: &D, id: u32) -> bool {
@@ -86,7 +87,7 @@ impl HitBatch {
         self.len == HITS
     }
 
-    /// Passes the hits to `hit` and empties the batch.
+    /// Computes the `t` of the hits, passes each hit to `hit`, and empties the batch.
     #[inline(always)]
     fn finish<D: Depth>(&mut self, level: Level, mut hit: impl FnMut(usize, Hit)) {
         let len = std::mem::take(&mut self.len);
@@ -116,7 +117,7 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
     fn run<L: EightLanes>(self) {
         let Self { tree, rays, answers, form, level } = self;
         if ANY || !T::Depth::LATE || !L::FAST {
-            // Either `t` needs no further step, or eight such steps at once are no faster.
+            // Either the search already gives `t`, or computing eight `t` at once is no faster.
             for (answer, ray) in answers.iter_mut().zip(rays) {
                 *answer = form(silent::<ANY, L, _>(tree, ray));
             }
@@ -140,7 +141,7 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
     }
 }
 
-/// Traces the groups of a window that form packets; returns the other groups.
+/// Traces the groups of a window that form packets, and returns the other groups.
 struct InPackets<'a, const ANY: bool, T: TriangleTest, A, F> {
     tree: &'a Bvh8<T>,
     rays: &'a [Ray],
@@ -199,7 +200,7 @@ impl<T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for Interleaved<'_, T, 
     }
 }
 
-/// Whether four of the rays have the same octant: a quick test that rejects most groups that cannot form a packet.
+/// Whether rays 0, 5, 10 and 15 have the same octant. This quick test rejects most groups that cannot form a packet.
 #[inline(always)]
 fn alike(rays: &[Ray; RAYS]) -> bool {
     let signs = |i: usize| each(&rays[i].direction.to_array(), |x| x.to_bits());
@@ -218,7 +219,7 @@ pub(super) fn answer<const ANY: bool, T: TriangleTest, A, O: Observer>(
 ) {
     assert_eq!(rays.len(), answers.len(), "one result per ray");
     if O::ACTIVE {
-        // Observers receive the steps of single rays.
+        // With an observer, rays are traced one after the other.
         for (answer, ray) in answers.iter_mut().zip(rays) {
             *answer = form(single::<ANY, _, O>(tree, ray, observer));
         }
@@ -235,9 +236,8 @@ pub(super) fn answer<const ANY: bool, T: TriangleTest, A, O: Observer>(
     }
 }
 
-/// Traces the groups of a window that form no packet.
-///
-/// Interleaving hides latency but costs instructions. It pays only for closest hits in large trees (TUNING.md).
+/// Traces the groups of a window that form no packet. Interleaving hides latency but costs instructions. It pays
+/// only for closest hits in large trees (TUNING.md).
 fn answer_apart<const ANY: bool, T: TriangleTest, A>(
     level: Level,
     tree: &Bvh8<T>,

@@ -4,8 +4,8 @@
 use super::collapse::Collapse;
 
 impl Collapse<'_> {
-    /// For each octant, the lanes of the parts of `at` (at most `parts`) in visiting order, three bits each, the last
-    /// lane lowest; and the number of these bits. `lanes` yields one lane per part, in the order of `gather`.
+    /// For each octant, the lanes of the parts of `at` (at most `parts`) in visiting order: three bits per lane, the
+    /// last lane lowest. Also the number of bits. `lanes` yields one lane per part, in the order of `gather`.
     pub(super) fn orders<'b>(
         &self,
         at: u32,
@@ -28,7 +28,7 @@ impl Collapse<'_> {
         (std::array::from_fn(order), left_bits + right_bits)
     }
 
-    /// The axis on which the boxes are furthest apart, and whether `r` comes before `l` on it.
+    /// The axis on which the boxes of `l` and `r` are furthest apart, and whether `r` comes before `l` on this axis.
     fn apart(&self, l: u32, r: u32) -> (usize, bool) {
         let [l, r] = [l, r].map(|at| &self.tree.nodes[at as usize].bounds);
         let (up, down) = (r.min - l.max, l.min - r.max);
@@ -48,7 +48,7 @@ mod tests {
     use crate::build::sah_cost::CostModel;
     use crate::build::sbvh::{SbvhConfig, Splits, build};
 
-    /// A naive version: gathers the parts in the visiting order of one octant.
+    /// A naive version of `orders`: gathers the parts in the visiting order of one octant.
     fn gathered(collapse: &Collapse, at: u32, parts: usize, octant: usize, into: &mut Vec<Part>) {
         match collapse.dealt(at, parts) {
             Some([l, r]) => {

@@ -22,9 +22,9 @@ pub(super) struct Collapse<'a> {
 
 #[derive(Clone, Copy)]
 struct Best {
-    /// `cost[i]`: the cost with at most `i + 1` parts.
+    /// `cost[i]`: the cost of the subtree if it is divided into at most `i + 1` parts.
     cost: [f32; WIDTH - 1],
-    /// `left[i]`: how many of `i + 1` parts the first child gets; 0 if at most `i` parts are as cheap.
+    /// `left[i]`: how many of `i + 1` parts the first child gets, or 0 if at most `i` parts cost no more.
     /// `left[WIDTH - 1]`: how many of `WIDTH` parts the first child gets if this node becomes a wide node.
     left: [u8; WIDTH],
     /// Whether the node becomes a leaf if it is a single part.
@@ -56,7 +56,7 @@ pub(super) struct Children {
 }
 
 impl Children {
-    /// The parts in the order of their lanes, which are the last lanes of the node.
+    /// The parts in the order of their lanes. They use the last lanes of the node.
     pub fn parts(&self) -> &[Part] {
         &self.parts[..self.len]
     }
@@ -70,7 +70,7 @@ struct Chooser<'a> {
 }
 
 impl Chooser<'_> {
-    /// Computes `best` for the node `at` and, in depth-first order, all nodes below it. `ids` is a scratch buffer.
+    /// Computes `best` for the subtree at `at`: its nodes in depth-first order. `ids` is a scratch buffer.
     fn choose(&self, at: usize, best: &mut [Best], ids: &mut Vec<u32>) {
         let node = &self.tree.nodes[at];
         let area = node.bounds.half_area() / self.whole;
@@ -122,7 +122,7 @@ impl Chooser<'_> {
         best
     }
 
-    /// The cost of all triangles below a node as one leaf. Infinite for too many; may be infinite if above `limit`.
+    /// The cost of one leaf with all triangles below. Infinite for too many triangles; may be infinite above `limit`.
     fn merged(&self, area: f64, limit: f32, best: &mut Best, ids: &mut Vec<u32>) -> f32 {
         let most = (LARGEST * WIDTH) as u32;
         let [first, end] = best.references;
@@ -149,18 +149,18 @@ impl<'a> Collapse<'a> {
         if let Some(root) = tree.nodes.first() {
             let whole = Some(root.bounds.half_area()).filter(|&whole| whole > 0.0).unwrap_or(1.0);
             Chooser { tree, costs, whole }.choose(0, &mut best, &mut vec![]);
-            // Even a tree of one leaf gets a node above the leaf: rays that miss its box then test no triangle.
+            // Even a single leaf gets a node above it, so rays that miss the box of the leaf test no triangle.
             best[0].leaf = false;
         }
         Self { tree, best }
     }
 
-    /// The part of the root; `None` without triangles.
+    /// The part at the root, or `None` if the tree is empty.
     pub fn root(&self) -> Option<Part> {
         (!self.best.is_empty()).then(|| self.part(0))
     }
 
-    /// The references below a part; a triangle may occur several times.
+    /// The references below a part. A triangle may occur several times.
     pub fn references(&self, part: Part) -> &[u32] {
         let (Part::Node(at) | Part::Leaf(at)) = part;
         let [first, end] = self.best[at as usize].references;
@@ -170,7 +170,7 @@ impl<'a> Collapse<'a> {
     pub fn children(&self, at: u32) -> Children {
         let (mut found, mut len) = ([Part::Leaf(0); WIDTH], 0);
         self.gather(at, WIDTH, &mut |part| {
-            // If the node has a single part, its only child is a leaf.
+            // If the binary tree is a single leaf, the only part is the root itself: make it a leaf.
             found[len] = if part == Part::Node(at) { Part::Leaf(at) } else { part };
             len += 1;
         });
@@ -182,7 +182,7 @@ impl<'a> Collapse<'a> {
         let mut lanes = [0; WIDTH];
         (empty as u32..).zip(&places[..len]).for_each(|(lane, &place)| lanes[place] = lane);
 
-        // Empty lanes come last in each order, so the first branch of `Stack::push` is for a used lane.
+        // Empty lanes come last in each order, so `Stack::push` tests the used lanes first.
         let unused = (0..empty as u32).rev().fold(0, |order, lane| order << 3 | lane);
         let orders = self.orders(at, WIDTH, &mut lanes.iter()).0.map(|order| order << (3 * empty) | unused);
         Children { parts: places.map(|place| found[place]), len, orders }
@@ -192,7 +192,7 @@ impl<'a> Collapse<'a> {
         if self.best[at as usize].leaf { Part::Leaf(at) } else { Part::Node(at) }
     }
 
-    /// How many of at most `parts` parts of `at` each child gets; `None` if `at` is a single part.
+    /// Both children of `at`, each with its number of parts, at most `parts` in total. `None` if `at` is a single part.
     pub(super) fn dealt(&self, at: u32, parts: usize) -> Option<[(u32, usize); 2]> {
         let left = |parts: usize| (parts, self.best[at as usize].left[parts - 1] as usize);
         let (parts, left) = (1..=parts).rev().map(left).find(|&(_, left)| left > 0)?;
@@ -202,7 +202,7 @@ impl<'a> Collapse<'a> {
         }
     }
 
-    /// Visits the parts of `at`, at most `parts`, from the first child to the second.
+    /// Visits the parts of `at` (at most `parts`) in depth-first order.
     fn gather(&self, at: u32, parts: usize, visit: &mut impl FnMut(Part)) {
         match self.dealt(at, parts) {
             Some(sides) => sides.iter().for_each(|&(at, parts)| self.gather(at, parts, visit)),
@@ -223,7 +223,7 @@ mod tests {
     use crate::build::check::soup;
     use crate::build::sbvh::{SbvhConfig, Splits, build};
 
-    /// The collapse counts distinct triangles of a merged leaf only if the leaf may win. This test counts them always.
+    /// The collapse counts distinct triangles of a merged leaf only if the leaf may win. This test always counts them.
     #[test]
     fn leaves_that_are_not_counted_would_not_have_won() {
         let tree = build(&soup(3000, 44), &SbvhConfig::new(Splits::Spatial, Quality::Balanced));

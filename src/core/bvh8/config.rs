@@ -9,7 +9,7 @@ use crate::build::sbvh::{self, SbvhConfig, Splits};
 use crate::geometry::Mesh;
 use crate::triangle::TriangleTest;
 
-/// The build options of a [`Bvh8`](super::Bvh8). By default, the built-in structures differ only in the partition.
+/// The build options of a [`Bvh8`](super::Bvh8). By default, the built-in ones differ only in `partition`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bvh8Config {
@@ -17,15 +17,15 @@ pub struct Bvh8Config {
     pub partition: Partition,
     /// Build quality: slower builds give better trees.
     pub quality: Quality,
-    /// SAH cost of a block of eight triangles, relative to a node. Positive; a higher cost gives smaller leaves.
+    /// SAH cost of testing eight triangles, relative to visiting a node. Positive; a higher cost gives smaller leaves.
     pub block_cost: f32,
-    /// Maximum number of references, as a multiple of the triangles. At least 1; [`Quality::Fast`] uses at most 1.75.
+    /// Maximum number of references, per triangle on average. At least 1; [`Quality::Fast`] uses at most 1.75.
     pub duplication: f32,
-    /// How a slice of rays is traced. Must be [`Batch::Single`] unless the test is [`BATCHED`](TriangleTest::BATCHED).
+    /// How a slice of rays is traced. Must be [`Batch::Single`] if the test is not [`BATCHED`](TriangleTest::BATCHED).
     pub batch: Batch,
 }
 
-/// Partitioning strategies, by the surface area heuristic.
+/// Partitioning strategies. All use the surface area heuristic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Partition {
@@ -75,7 +75,7 @@ impl Bvh8Config {
             (Quality::Balanced, _) => 3,
             (Quality::High, _) => 8,
         };
-        // If planes cut triangles, the creation of references takes most of the build time.
+        // If planes cut triangles, most of the build time is spent on references. A fast build creates fewer.
         let duplication = if self.quality == Quality::Fast { self.duplication.min(1.75) } else { self.duplication };
         let boxes = |splits| sbvh::build(mesh, &SbvhConfig { duplication, ..SbvhConfig::new(splits, self.quality) });
         let tree = match self.partition {

@@ -1,4 +1,4 @@
-//! Common bounds of rays of one octant.
+//! Common bounds of the rays of a packet.
 
 use super::node::{Node, WIDTH};
 use super::prepared_ray::rows;
@@ -7,10 +7,10 @@ use crate::simd::{Lanes, each};
 
 /// Bounds of the parameters at which the rays of a packet cross the planes of boxes.
 ///
-/// **It rejects only boxes that every ray rejects.** A ray computes a near crossing as fl(fl(p - o) i). Subtraction and
-/// multiplication round monotonically, so the least fl(fl(p - o') i') is a lower bound, where o' and i' are ends of the
-/// ranges of o and i. The sign of the direction determines o'. An upper bound of the far crossings follows in the same
-/// way. If the lower bound exceeds the upper bound, the near crossing of each ray exceeds its far crossing.
+/// **It rejects only boxes that every ray rejects.** A ray with origin o and inverse direction i computes its crossing
+/// of a near plane p as fl(fl(p - o) i). Rounding is monotonic. Let o' and i' be ends of the ranges of o and i: the
+/// least fl(fl(p - o') i') is a lower bound of the crossings. The sign of the direction determines o'. The far
+/// crossings have a similar upper bound. If the lower bound exceeds the upper bound, every ray misses the box.
 pub(super) struct Frustum<L> {
     near_origin: [L; 3],
     far_origin: [L; 3],
@@ -51,7 +51,7 @@ impl<L: Lanes<WIDTH>> Frustum<L> {
         }
     }
 
-    /// The boxes that some ray may meet, as bits.
+    /// The boxes that at least one ray may meet, as bits.
     #[inline(always)]
     pub fn meet(&self, node: &Node) -> u32 {
         let planes = node.planes.as_flattened();

@@ -10,7 +10,7 @@ use crate::traversal::leaf::LeafBlock;
 use crate::traversal::pages;
 use crate::triangle::TriangleTest;
 
-/// One thread writes the subtree of a node with at most this many references.
+/// A subtree with at most this many references is written by one thread.
 pub(super) const PIECE: usize = 4096;
 
 pub(super) struct Layout<T: TriangleTest> {
@@ -20,7 +20,8 @@ pub(super) struct Layout<T: TriangleTest> {
 }
 
 impl<T: TriangleTest> Layout<T> {
-    /// Writes the tree of `collapse` in parallel pieces of at most `most` references; `most` does not affect its shape.
+    /// Writes the tree of `collapse` in parallel, by subtrees of at most `most` references. The tree does not depend on
+    /// `most`.
     pub fn new(mesh: &Mesh, collapse: &Collapse, limits: &Limits, most: usize) -> Result<Self, BuildError> {
         let Some(root) = collapse.root() else {
             return Ok(Self { root: Child::NOTHING, nodes: vec![], blocks: vec![] });
@@ -78,14 +79,14 @@ struct Piece<'a, T: TriangleTest> {
     collapse: &'a Collapse<'a>,
     nodes: Vec<Node>,
     blocks: Vec<LeafBlock<T>>,
-    /// Nodes on the longest path from the root.
+    /// Number of nodes on the longest path from the root.
     depth: usize,
     /// Subtrees with at most this many references are left to other threads.
     cut: usize,
     cuts: Vec<Cut>,
 }
 
-/// A subtree that is left to another thread: its place, and the number of nodes above it.
+/// A subtree that is left to another thread, the lane of its parent node, and the number of nodes above it (`depth`).
 struct Cut {
     part: Part,
     parent: usize,
@@ -127,7 +128,6 @@ impl<'a, T: TriangleTest> Piece<'a, T> {
     }
 
     fn leaf(&mut self, part: Part) -> Child {
-        // A triangle may be in several of the merged leaves.
         let mut ids = self.collapse.references(part).to_vec();
         ids.sort_unstable();
         ids.dedup();
@@ -149,7 +149,7 @@ mod tests {
 
     type Tree = Layout<MollerTrumbore>;
 
-    /// The visible content of the subtree at a child: boxes, orders and triangles, depth first.
+    /// The content of the subtree at a child, depth first: boxes, orders and triangles.
     fn seen(tree: &Tree, child: Child, into: &mut Vec<String>) {
         match child.blocks() {
             Some((first, count)) => {

@@ -12,11 +12,11 @@ pub(super) const WIDTH: usize = 8;
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
-    /// Nodes on a path.
+    /// Maximum number of nodes on a path.
     pub levels: usize,
     pub nodes: usize,
     pub blocks: usize,
-    /// Nodes of the binary tree that becomes the wide tree, and references in the binary tree.
+    /// Maximum number of nodes, and of references, in the binary tree from which the wide tree is made.
     pub binary: usize,
 }
 
@@ -25,8 +25,8 @@ impl Limits {
     pub const OF_NODES: Self =
         Self { levels: DEPTH, nodes: Child::LARGEST, blocks: Child::LARGEST, binary: u32::MAX as usize };
 
-    /// Checks before the build that the binary tree cannot have too many nodes. It has on average at most `duplication`
-    /// references per triangle, and fewer than two nodes per reference.
+    /// Checks before the build that the binary tree cannot have too many nodes. The tree has on average at most
+    /// `duplication` references per triangle, and fewer than two nodes per reference.
     pub fn admit(&self, triangles: usize, duplication: f32) -> Result<(), BuildError> {
         let most = 2.0 * f64::from(duplication) * triangles as f64;
         if most <= self.binary as f64 {
@@ -52,7 +52,7 @@ impl Limits {
     }
 }
 
-/// Eight boxes, in structure-of-arrays layout, and their contents: 256 bytes, four cache lines.
+/// Eight boxes, in structure-of-arrays layout, and their children: 256 bytes, four cache lines.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(super) struct Node {
@@ -66,7 +66,7 @@ pub(super) struct Node {
 
 const _: () = assert!(size_of::<Node>() == 256);
 
-/// The number of a node, or the first block and the number of blocks of a leaf.
+/// A child of a node: the index of a node, or the first block and the number of blocks of a leaf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(transparent)]
 pub(super) struct Child(u32);
@@ -113,7 +113,7 @@ impl Child {
         (first as usize, (self.0 & Self::BLOCKS as u32) as usize)
     }
 
-    /// This child after its part of the tree has been moved behind `nodes` nodes and `blocks` blocks.
+    /// This child after its subtree has been appended to `nodes` nodes and `blocks` blocks.
     pub fn moved(self, nodes: usize, blocks: usize) -> Self {
         match self.blocks() {
             None => Self::node(self.index() + nodes),
@@ -151,12 +151,12 @@ impl Node {
         self.children[lane] = child;
     }
 
-    /// This node after its part of the tree has been moved behind `nodes` nodes and `blocks` blocks.
+    /// This node after its subtree has been appended to `nodes` nodes and `blocks` blocks.
     pub fn moved(self, nodes: usize, blocks: usize) -> Self {
         Self { children: self.children.map(|child| child.moved(nodes, blocks)), ..self }
     }
 
-    /// The used boxes and their contents.
+    /// The boxes in used lanes, and their children.
     pub fn boxes(&self) -> impl Iterator<Item = (Aabb, Child)> + '_ {
         let corner =
             |side: usize, lane: usize| Vec3::from_array(std::array::from_fn(|axis| self.planes[axis][side][lane]));

@@ -1,13 +1,13 @@
 //! A packet of sixteen rays.
 //!
 //! **The same hits as one ray at a time.** A packet visits the children of a node in the order of the octant that its
-//! rays share. A ray participates in a visit if and only if its own box test, with its own end, passes. The test of the
-//! whole packet rejects only boxes that each ray rejects (see [`Frustum`]). So every ray visits all leaves that a
-//! single ray visits, in the same order, and perhaps some leaves behind its hit.
+//! rays share. A ray participates in a visit if and only if it meets the box before its nearest hit so far, or before
+//! the end of its interval. The test of the whole packet rejects only boxes that each ray rejects (see [`Frustum`]). So
+//! every ray visits all leaves that a single ray visits, in the same order, and perhaps some leaves behind its hit.
 //!
-//! If enough rays visit a leaf, it is searched triangle by triangle, with eight rays at once; otherwise, ray by ray. If
-//! the test of eight rays cannot decide whether a ray meets a triangle, or which of two hits is nearer, the ray
-//! searches the leaf again as a single ray. The nearest hit does not depend on the order in which hits are found.
+//! A leaf that many rays visit is searched triangle by triangle, with eight rays at once. Other leaves are searched ray
+//! by ray. If the test of eight rays cannot decide whether a ray meets a triangle, or which of two hits is nearer, the
+//! ray searches the leaf again as a single ray. The nearest hit does not depend on the order in which hits are found.
 
 use std::mem::MaybeUninit;
 
@@ -28,7 +28,7 @@ const FEW: u32 = 3;
 /// The lanes in ascending order, three bits per lane, lane 0 lowest.
 const IN_LANES: u32 = 0o76543210;
 
-/// A child to visit, the place of its box (`lane` in the node `parent`), and the rays that may visit the child.
+/// A child to visit, the `lane` of its box in the node `parent`, and the rays that may visit the child, as bits.
 #[derive(Clone, Copy)]
 struct Entry {
     child: Child,
@@ -38,7 +38,7 @@ struct Entry {
 }
 
 impl<T: TriangleTest> Bvh8<T> {
-    /// Traces sixteen rays; false if they cannot form a packet.
+    /// Traces sixteen rays as a packet. Returns false if they cannot form one.
     #[inline(always)]
     pub(super) fn intersect_packet<'a, const ANY: bool, L: EightLanes, A>(
         &'a self,
@@ -103,7 +103,7 @@ impl<T: TriangleTest> Bvh8<T> {
         }
     }
 
-    /// Searches the subtree at `child` for the rays `active`, one after the other.
+    /// Searches the subtree at `child` for the rays `active` (as bits), one after the other.
     #[inline(always)]
     fn one_by_one<'a, const ANY: bool, L: EightLanes>(
         &'a self,

@@ -6,16 +6,16 @@ use crate::triangle::{Depth, EightHits, TriangleTest};
 pub(super) const RAYS: usize = 16;
 pub(super) const HALVES: usize = RAYS / WIDTH;
 
-/// The nearest hits of sixteen rays so far, or the ends of their intervals: the data of one [`Nearest`] per ray.
+/// The data of a [`Nearest`] for each of sixteen rays: its nearest hit so far or, without a hit, the interval's end.
 pub(super) struct PacketHits<'a, T: TriangleTest> {
     /// The blocks of the tree.
     blocks: &'a [LeafBlock<T>],
     t: [[f32; WIDTH]; HALVES],
     /// Lower bounds of the `t` of the hits; infinite without a hit.
     least: [[f32; WIDTH]; HALVES],
-    /// [`NONE`] without a hit.
+    /// The numbers of the hit triangles; [`NONE`] without a hit.
     ids: [[u32; WIDTH]; HALVES],
-    /// The places of the hit triangles, 8 x block + lane; unused for the rays in `alone`.
+    /// The positions of the hit triangles, 8 x block + lane; unused for the rays in `alone`.
     places: [[u32; WIDTH]; HALVES],
     /// The depths of the hits of the rays in `alone`.
     depths: [Option<T::Depth<'a>>; RAYS],
@@ -35,7 +35,7 @@ pub(super) struct HitLanes<L: EightLanes> {
 }
 
 impl<L: EightLanes> HitLanes<L> {
-    /// Updates the `active` lanes with nearer hits of triangle `id` at `place`. Returns the undecided lanes, as bits.
+    /// Stores the hits of triangle `id` at `place` in the `active` lanes if they are nearer. Returns undecided lanes.
     #[inline(always)]
     pub fn offer<T: TriangleTest>(&mut self, active: L::Mask, found: &EightHits<L>, id: u32, place: u32) -> u32 {
         let id = L::splat_number(id);
@@ -127,7 +127,7 @@ impl<'a, T: TriangleTest> PacketHits<'a, T> {
         }
     }
 
-    /// Like [`offer`](Self::offer), for a depth with bounds and a triangle at `place`; false if the order is undecided.
+    /// Like [`offer`](Self::offer), for a depth with bounds. Returns false if the bounds leave the order undecided.
     #[inline(always)]
     pub fn offer_between(&mut self, i: usize, depth: &T::Depth<'_>, id: u32, place: u32) -> bool {
         let (half, lane) = (i / WIDTH, i % WIDTH);

@@ -1,4 +1,4 @@
-//! The state of each ray of a packet, and how a packet searches a leaf.
+//! The state of each ray of a packet, and the search of a leaf by a packet.
 
 use std::mem::MaybeUninit;
 
@@ -10,13 +10,13 @@ use crate::simd::{EightLanes, Level, each};
 use crate::traversal::leaf::{LeafBlock, NONE, Nearest, settle};
 use crate::triangle::{BETWEEN_BOUNDS, Depth, ORIGIN, TriangleTest, last_bits};
 
-/// With fewer active rays, a leaf is searched ray by ray: hardly any of these rays hits a triangle, and that search
-/// detects misses sooner. With at least this many, both halves have active rays.
+/// If fewer rays are active, a leaf is searched ray by ray: most of these rays hit no triangle, and this search detects
+/// misses sooner. If at least this many rays are active, both halves of the packet have active rays.
 const MANY: u32 = 12;
 
 pub(super) struct PacketState<'a, T: TriangleTest> {
     rays: &'a [Ray; RAYS],
-    /// The rays in the format of the triangle test, prepared at their first leaf, because many rays visit no leaf.
+    /// The rays in the format of the triangle test. A ray is prepared at its first leaf, because many visit no leaf.
     prepared: [MaybeUninit<T::Ray>; RAYS],
     ready: u16,
     nearest: PacketHits<'a, T>,
@@ -30,7 +30,7 @@ pub(super) struct PacketState<'a, T: TriangleTest> {
 type BlockCandidates<T> = (u32, <T as TriangleTest>::Values<WIDTH>);
 
 impl<'a, T: TriangleTest> PacketState<'a, T> {
-    /// The state before the first leaf of a tree with these `blocks`; also sets the ends of the rays in `packet`.
+    /// The state before the first leaf. Also sets the ends of the rays in `packet`.
     #[inline(always)]
     pub fn new<L: EightLanes>(rays: &'a [Ray; RAYS], blocks: &'a [LeafBlock<T>], packet: &mut RayPacket<L>) -> Self {
         let nearest = PacketHits::until(blocks, |i| T::last(rays[i].t_max));
@@ -82,7 +82,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         }
     }
 
-    /// For a separate search of ray `i`: the ray in the format of the test, and its nearest hit so far.
+    /// Ray `i` in the format of the test and its nearest hit so far, for a search of this ray only.
     #[inline(always)]
     pub fn single(&mut self, i: usize) -> (&T::Ray, Nearest<T::Depth<'a>>) {
         self.prepare(1 << i);
@@ -90,7 +90,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         (unsafe { self.prepared(i) }, self.nearest.get(i))
     }
 
-    /// Stores the nearest hit that a separate search has found for ray `i`.
+    /// Stores the nearest hit that a search of ray `i` only has found.
     #[inline(always)]
     pub fn put_back<const ANY: bool, L: EightLanes>(
         &mut self,
@@ -111,7 +111,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         active: u16,
         packet: &mut RayPacket<L>,
     ) {
-        // Compare the numbers of steps: one per triangle and half of the rays, or one per ray and block.
+        // Choose the search with fewer steps: one per triangle and half of the rays, or one per ray and block.
         let rays = active.count_ones();
         let triangles = || blocks.iter().map(LeafBlock::len).sum::<u32>();
         let pays = T::EIGHT && rays >= MANY && triangles() * HALVES as u32 <= rays * blocks.len() as u32;
@@ -128,8 +128,8 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         }
     }
 
-    /// Searches triangle by triangle, with half of the rays at once. It skips a triangle that all rays miss; no other
-    /// branch depends on which rays meet it. Returns the rays that must search the leaf as single rays, as bits.
+    /// Searches triangle by triangle, with half of the rays at once. A triangle that all these rays miss is skipped; no
+    /// other branch depends on the hits. Returns, as bits, the rays that must search the leaf again as single rays.
     #[inline(always)]
     fn triangle_by_triangle<L: EightLanes>(
         &mut self,
@@ -161,8 +161,8 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         left as u16
     }
 
-    /// Searches ray by ray, with the triangles of a block at once. In each block, the first stage runs for all rays
-    /// before the second, without a branch on the candidates of each ray. With `ANY`, a ray with a hit stops.
+    /// Searches ray by ray, with the triangles of a block at once. In each block, all rays run the first stage before
+    /// any ray runs the second stage. With `ANY`, a ray with a hit stops.
     #[inline(always)]
     fn ray_by_ray<const ANY: bool, L: EightLanes>(
         &mut self,
@@ -221,7 +221,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         (mut candidates, values): BlockCandidates<T>,
     ) {
         if T::ONE_STAGE {
-            // All candidates are hits: the call in `leaf::settle` is not needed.
+            // All candidates are hits, so this loop needs no call of `leaf::settle`.
             while candidates != 0 {
                 let lane = candidates.trailing_zeros() as usize % WIDTH;
                 candidates &= candidates - 1;
@@ -276,7 +276,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         }
     }
 
-    /// Moves the end of ray `i` to its nearest hit; with `ANY`, a hit finishes the ray.
+    /// Moves the end of ray `i` to its nearest hit. With `ANY`, a hit finishes the ray.
     #[inline(always)]
     fn update<const ANY: bool, L: EightLanes>(&mut self, i: usize, packet: &mut RayPacket<L>) {
         if ANY && self.nearest.has_found(i) {

@@ -7,18 +7,17 @@ use crate::traversal::line::inverses;
 
 /// A ray, prepared for box tests.
 ///
-/// **No box is lost.** Errors are relative, in units of 2^-24. Let t* >= `t_min` be an exact parameter at which the ray
-/// is in a closed box, at most one unit beyond the last parameter of interest (see
+/// **No box is lost.** Errors are relative, in units of 2^-24. Let t* be an exact parameter at which the ray is in a
+/// closed box. It is at least `t_min` and at most one unit beyond T, the `t` at which the search ends (see
 /// [`Line`](crate::traversal::line::Line)). On each axis the ray crosses the near plane at n <= t* and the far plane at
 /// f >= t*. The computed near crossing is fl(N), where N = fl(p - o) * i, p is the plane and i = fl(1 / d). The
 /// computed far crossing is fl(F), where F = fl(p - o) * g, and g is i enlarged by 16 units. Two roundings put N less
 /// than 2.1 units from n. Three roundings put F less than 3.1 units from the point 16 units beyond f. So `t_min` <= F
 /// and, if n is not negative, N <= F for the planes of any two axes. Rounding is monotonic, so fl(N) <= fl(F), even if
 /// they underflow. If n is negative, `t_min` replaces fl(N). [`after`](crate::traversal::line::after) moves `end` more
-/// than 6.9 units beyond the last parameter of interest, so fl(N) does not exceed `end`. If fl(N) overflows, `end` and
-/// fl(F) are infinite. Infinite crossings (`d` = 0) order correctly. Undefined crossings are NaN (see [`inverses`]),
-/// which leaves the interval unchanged. No multiplication is fused with an addition, so all levels visit the same boxes
-/// for the same `end`.
+/// than 6.9 units beyond T, so fl(N) does not exceed `end`. If fl(N) overflows, `end` and fl(F) are infinite. Infinite
+/// crossings (`d` = 0) order correctly. Undefined crossings are NaN (see [`inverses`]), and a NaN leaves the interval
+/// unchanged. No multiplication is fused with an addition, so all levels visit the same boxes for the same `end`.
 #[derive(Clone, Copy)]
 pub(super) struct PreparedRay {
     origin: [f32; 3],

@@ -26,7 +26,7 @@ pub(super) struct RayPacket<L> {
     pub octant: usize,
 }
 
-/// The eight numbers of each of eight rays, transposed: a row per number. Not a closure, which might not be inlined.
+/// Transposes eight rays of eight numbers: row `i` has number `i` of all rays. A closure might not be inlined.
 #[inline(always)]
 fn numbers<L: EightLanes>(rays: &[Ray]) -> [L; 8] {
     let mut rows = [L::zero(); WIDTH];
@@ -45,8 +45,8 @@ fn greatest<L: EightLanes>(lanes: L) -> f32 {
 }
 
 impl<L: EightLanes> RayPacket<L> {
-    /// Prepares the rays. Returns `None` if a ray is invalid, if their octants differ, if an inverse is not a normal
-    /// float or overflows when enlarged, or if a difference to a plane in `bounds` may overflow. The ends are unset.
+    /// Prepares the rays. `None` if a ray is invalid, if octants differ, if an inverse is not a normal float or
+    /// overflows when enlarged, or if a difference to a plane in `bounds` may overflow. The caller sets the ends.
     #[inline(always)]
     pub fn new(rays: &[Ray; RAYS], bounds: &Aabb) -> Option<Self> {
         let (low, high) = rays.split_at(WIDTH);

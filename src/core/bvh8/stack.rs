@@ -5,16 +5,16 @@ use std::mem::MaybeUninit;
 use super::node::{Child, DEPTH, Node, WIDTH};
 use crate::simd::EightLanes;
 
-/// Each node of a path leaves at most seven entries on the stack, and eight are written at once.
+/// Maximum number of entries: each node of a path leaves at most seven, and eight are written at once.
 pub(super) const SIZE: usize = DEPTH * (WIDTH - 1) + WIDTH;
 /// `SIZE` suffices for the bottom, eight entries of the last node of a path, and seven entries of each node above it.
 const _: () = assert!(1 + (DEPTH - 1) * (WIDTH - 1) + WIDTH <= SIZE);
 
-/// Children to visit, the next one on top, and the parameters at which the ray enters them; uninitialised for speed.
+/// Children to visit, the next one on top, and the parameters at which the ray enters them. Uninitialised for speed.
 ///
 /// The address matters: eight entries are written at once, and a store across the border of two pages is slow. If the
-/// first few dozen entries cross a border, a traversal takes 1.25 to 1.4 times as long (Xeon). So these entries lie in
-/// one page for a single ray, see [`OnePage`]. Several simultaneous stacks should begin at different offsets in their
+/// first few dozen entries cross a border, a traversal takes 1.25 to 1.4 times as long (Xeon). So [`OnePage`] keeps
+/// these entries of a single ray in one page. Several simultaneous stacks should begin at different offsets in their
 /// pages, because addresses at the same offset compete for the few ways of one set of the first-level cache.
 #[repr(C)]
 pub(super) struct Entries {
@@ -28,8 +28,8 @@ pub(super) struct Stack<'a, const ANY: bool> {
     len: usize,
 }
 
-/// A value that begins a quarter of a page after the start of a page. The compiler spills registers to the start of a
-/// page, and a load waits for an earlier store to the same offset of another page (4K aliasing).
+/// A value that begins a quarter of a page after the start of a page. Spilled registers lie at the start of a page. A
+/// load waits for an earlier store to the same offset of another page (4K aliasing), so the offsets must differ.
 #[repr(C, align(4096))]
 pub(super) struct OnePage<T>(pub [MaybeUninit<u8>; BEFORE], pub T);
 
@@ -79,11 +79,11 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
         self.len
     }
 
-    /// Pushes the children whose boxes the ray meets, except the first child, which is returned. The visiting order
-    /// is stored for the octant or, with `ANY`, runs from the highest lane to the lowest.
+    /// Pushes the children whose boxes the ray meets, except the first child, which is returned. The node stores a
+    /// visiting order per octant. With `ANY`, the order runs from the highest lane to the lowest.
     ///
-    /// Branches, one per place, find the first child. Unlike a table look-up, they are predicted: the processor
-    /// continues in the next node while it is still testing the boxes of this node.
+    /// The first child is found by one branch per position in the order. Unlike a table look-up, a branch is predicted,
+    /// so the processor continues in the next node while it is still testing the boxes of this node.
     ///
     /// # Safety
     /// Each node of the path is pushed once, and the path has at most [`DEPTH`] nodes.
@@ -120,7 +120,7 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
         None
     }
 
-    /// Pops the next child that the ray enters at or before `end`; with `ANY`, the next child.
+    /// Pops the next child that the ray enters at or before `end`. With `ANY`, `end` has no effect.
     #[inline(always)]
     pub fn pop(&mut self, end: f32) -> Option<Child> {
         while self.len > 0 {
@@ -153,7 +153,7 @@ impl Stack<'_, false> {
         self.len += met.count_ones() as usize;
     }
 
-    /// Pops the next child that the ray enters at or before `end`; finally [`BOTTOM`](Child::BOTTOM).
+    /// Pops the next child that the ray enters at or before `end`, or [`BOTTOM`](Child::BOTTOM) if none is left.
     ///
     /// # Safety
     /// The entries were [`reset`](Entries::reset), and the bottom has not been returned since.

@@ -161,8 +161,8 @@ impl<'a, T: TriangleTest> Stream<'a, T> {
         // Each list is rewritten in place while it is read. A slot is written to both lists, but counted in only one.
         let (mut nodes, rays) = (0, self.at_nodes);
         for k in 0..rays {
-            // SAFETY: the first `at_nodes` places of `nodes` are filled. Each slot is in one list, so `at` is the only
-            // reference to it, and no list becomes longer than `SLOTS`. Its child is a node, so the bottom of its
+            // SAFETY: the first `at_nodes` elements of `nodes` are filled. Each slot is in one list, so `at` is the
+            // only reference to it, and no list becomes longer than `SLOTS`. Its child is a node, so the bottom of its
             // stack, a leaf, has not been popped. A path has at most `DEPTH` nodes (invariants of `Bvh8`).
             unsafe {
                 let slot = self.nodes.get(k);
@@ -180,7 +180,7 @@ impl<'a, T: TriangleTest> Stream<'a, T> {
         }
         let (mut leaves, rays) = (0, self.at_leaves + rays - nodes);
         for k in 0..rays {
-            // SAFETY: as above for `leaves`. The child is a leaf: a range of `blocks` (invariants of `Bvh8`), or
+            // SAFETY: as in the loop over `nodes`. The child is a leaf: a range of `blocks` (invariants of `Bvh8`), or
             // `Child::BOTTOM`. After the bottom, the slot is freed and its stack is not used again.
             unsafe {
                 let slot = self.leaves.get(k);

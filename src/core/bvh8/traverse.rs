@@ -2,8 +2,8 @@
 //!
 //! **No hit is lost.** Let the ray hit a triangle at the exact t* in its interval. Partitions round the boxes of
 //! clipped parts outward, so some leaf has a reference to the triangle and a box that contains the hit point. The boxes
-//! of all nodes above this leaf contain the point as well. The traversal enters all these boxes (see [`PreparedRay`]),
-//! unless it has found a hit with a computed t before t*; `kdtree/traverse.rs` explains why this case is correct.
+//! of all nodes above this leaf contain the point as well. The traversal enters all these boxes (see [`PreparedRay`])
+//! or has already found a hit with a computed t before t*; `kdtree/traverse.rs` explains why this case is correct.
 //!
 //! The closest-hit query visits children from front to back, in an order stored for the octant of the direction. The
 //! any-hit query visits lanes from the highest to the lowest: leaves before nodes and large boxes before small ones,
@@ -41,7 +41,7 @@ impl<T: TriangleTest> Bvh8<T> {
         let Some((t_min, unfound)) = start::<T>(ray) else { return *nearest = Nearest::NOTHING };
         *nearest = unfound;
         if self.root.is_leaf() {
-            // A tree without triangles.
+            // The tree has no triangles.
             return;
         }
         let prepared_ray = PreparedRay::new(ray, self.farthest, t_min);
@@ -108,7 +108,7 @@ impl<T: TriangleTest> Bvh8<T> {
                 end = after(nearest.t);
                 None
             } else {
-                // SAFETY: a child that is not a leaf names one of `nodes` (invariants of `Bvh8`), entered once.
+                // SAFETY: a child that is not a leaf names one of `nodes` (invariants of `Bvh8`). It is entered once.
                 unsafe { self.enter::<ANY, L, O>(child, prepared_ray, end, stack, observer) }
             };
             match next.or_else(|| stack.pop(end)) {

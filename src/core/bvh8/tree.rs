@@ -33,7 +33,7 @@ pub struct Bvh8<T: TriangleTest> {
     pub(super) nodes: Vec<Node>,
     pub(super) blocks: Vec<LeafBlock<T>>,
     pub(super) bounds: Aabb,
-    /// See [`farthest`].
+    /// The largest magnitude of a coordinate of `bounds` on each axis.
     pub(super) farthest: Vec3A,
     pub(super) batch: Batch,
     /// Whether closest-hit queries with [`Batch::Packets`] interleave the rays that form no packet.

@@ -4,12 +4,12 @@ use std::cmp::Ordering;
 
 use smallvec::SmallVec;
 
-/// A number as the exact sum of nonzero floats, in ascending magnitude; zero is the empty sum. The bits of the terms do
-/// not overlap and, because rounding is to even, do not touch. After [`Expansion::of_integer`] they may touch; the
-/// largest term then still equals the number up to a relative error of 2^-53.
+/// A number as the exact sum of nonzero floats in ascending magnitude. The empty sum is zero. The bits of two terms do
+/// not overlap, and are not adjacent, because sums round to even. Only [`Expansion::of_integer`] may make terms with
+/// adjacent bits; the largest term then still equals the number up to a relative error of 2^-53.
 ///
 /// The operations are exact unless they overflow or underflow. Products of six differences of `f32` numbers do neither:
-/// they are below 2^780 and multiples of 2^-894. The error of a product comes from a fused multiply-add.
+/// they are below 2^780 and multiples of 2^-894. A fused multiply-add computes the error of a product.
 ///
 /// # References
 /// Shewchuk: Adaptive precision floating-point arithmetic and fast robust geometric predicates. Discrete &
@@ -38,7 +38,7 @@ impl Expansion {
         Self(terms)
     }
 
-    /// Adds a float by Shewchuk's Grow-Expansion, which here drops zero terms.
+    /// Adds a float by Shewchuk's Grow-Expansion. Drops zero terms.
     fn add(&mut self, mut x: f64) {
         let mut kept = 0;
         for i in 0..self.0.len() {
@@ -138,7 +138,7 @@ mod tests {
 
     #[test]
     fn integers_are_those_of_rationals() {
-        // The second largest term of `touching` is half of the largest one's lowest bit; `around` is near powers of 2.
+        // The second largest term of `touching` is half of the lowest bit of the largest. `around` is near powers of 2.
         let touching = (((1_i128 << 52) + 1) << 73) + (1 << 72) - 1;
         let around = (0..126).flat_map(|bits| [-1, 0, 1].map(|k| (1_i128 << bits) + k)).filter(|&x| x < 1 << 126);
         for x in around.chain([touching, (1 << 126) - 1, 0x1234_5678_9abc_def0_1234_5678_9abc]) {

@@ -1,4 +1,4 @@
-//! Intersects a line and a triangle in integers: much faster than sums of floats, but only if all used bits are close.
+//! Intersects a line and a triangle in integers. Faster than sums of floats, but the used bits must span few places.
 
 use std::cmp::Ordering;
 
@@ -9,9 +9,9 @@ use super::expansion::Expansion;
 use crate::geometry::Ray;
 use crate::simd::each;
 
-/// The number of places from the lowest to the highest used bit: p for points, d for a direction. Coordinates of points
+/// The number of bits from the lowest to the highest used bit: p for points, d for a direction. Coordinates of points
 /// are below 2^p, their differences below 2^(p + 1), components of cross products below 2^(2 p + 3). The dot product of
-/// a cross product with a direction is below 2^(2 p + d + 5), with a third difference below 2^(3 p + 6).
+/// a cross product and a direction is below 2^(2 p + d + 5). If the direction is a difference, it is below 2^(3 p + 6).
 type Places = i32;
 
 /// Whether triple products of two differences and a direction are below 2^126.
@@ -24,7 +24,7 @@ fn heights_fit(points: Places) -> bool {
     points <= 40
 }
 
-/// Like [`hit`](super::hit), for finite numbers; `None` if they do not fit into the integers.
+/// Like [`hit`](super::hit), for finite numbers. `None` if the numbers do not fit into the integers.
 pub(super) fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<Option<ExactT>> {
     let [a, b, c] = corners;
     let (points, unit, places) = integers([ray.origin, a, b, c])?;
@@ -74,7 +74,7 @@ pub(super) fn height(origin: Vec3, [a, b, c]: [Vec3; 3]) -> Option<f64> {
     Some(Expansion::of_integer(height, 3 * unit).approximate())
 }
 
-/// The vectors as multiples of a power of two, its exponent, and the used places; `None` if more than 60.
+/// The vectors as multiples of a power of two, its exponent, and the used places. `None` for more than 60 places.
 fn integers<const N: usize>(vectors: [Vec3; N]) -> Option<([[i64; 3]; N], i32, Places)> {
     let (mut lowest, mut highest) = (i32::MAX, i32::MIN);
     for x in vectors.iter().flat_map(|vector| vector.to_array()).filter(|&x| x != 0.0) {
@@ -110,7 +110,7 @@ mod tests {
     use super::super::{difference, direction, hit_by_sums, side_by_sums, tracked};
     use super::*;
 
-    /// Numbers of coarse grids, where rays often meet edges or corners, of a fine grid, and of all sizes.
+    /// Numbers on coarse grids, where rays often meet edges or corners; on a fine grid; and of all sizes.
     #[test]
     fn integers_and_unrounded_floats_give_what_sums_give() {
         const ALL_SIZES: u32 = 1 << 24;

@@ -22,7 +22,7 @@ pub struct ExactT {
     denominator: Expansion,
 }
 
-/// The parameter at which the line of `ray` meets the closed triangle; `None` if it misses or lies in the plane.
+/// The parameter at which the line of `ray` meets the closed triangle. `None` if it misses or lies in the plane.
 ///
 /// The function ignores the interval of the ray: see [`ExactT::is_within`]. If a number is not finite, the ray misses.
 /// Costs 50 nanoseconds, or a microsecond if the significant bits of the numbers span more than forty places.
@@ -71,7 +71,7 @@ fn side_of_any_size(ray: &Ray, edge: [Vec3; 2]) -> Ordering {
 #[inline(always)]
 pub fn passes_through(ray: &Ray, point: Vec3) -> bool {
     let (direction, offset) = (ray.direction.as_dvec3(), point.as_dvec3() - ray.origin.as_dvec3());
-    // Each product has a relative error below 3 * 2^-53: products that are further apart differ.
+    // Each product has a relative error below 3 * 2^-53. If the rounded products differ by more, the exact ones differ.
     let may_be_equal = |x: f64, y: f64| (x - y).abs() <= 4.0 * f64::EPSILON * x.abs();
     may_be_equal(direction.x * offset.y, direction.y * offset.x)
         && may_be_equal(direction.y * offset.z, direction.z * offset.y)
@@ -155,7 +155,7 @@ impl ExactT {
         (!t.is_nan()).then(|| self.order(t.into()))
     }
 
-    /// The order of this `t` and a float, the middle of two neighbouring floats, or infinity.
+    /// The order of this `t` and a number: a float, the middle of two neighbouring floats, or infinity.
     fn order(&self, t: f64) -> Ordering {
         if t.is_infinite() {
             return 0.0_f64.total_cmp(&t);
@@ -173,13 +173,13 @@ impl ExactT {
         self.numerator.approximate() / self.denominator.approximate()
     }
 
-    /// The nearest `f32`, ties to even; infinity if the largest finite float is exceeded by at least half an ulp.
+    /// The nearest `f32`, ties to even. Infinity if this `t` exceeds the largest finite float by at least half an ulp.
     pub fn round(&self) -> f32 {
         if self.numerator.sign().is_eq() {
             return 0.0;
         }
         let near = self.approximate() as f32;
-        // `near` is rounded twice and may be off by one float: compare exactly with the middles. Infinity is 2^128.
+        // `near` is rounded twice and may be off by one float: check the middles to its neighbours. Infinity is 2^128.
         let wide = |x: f32| if x.is_infinite() { f64::from(x.signum()) * 2.0_f64.powi(128) } else { f64::from(x) };
         let middle = |x: f32, y: f32| (wide(x) + wide(y)) / 2.0;
         let is_even = near.to_bits() & 1 == 0;

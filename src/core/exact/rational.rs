@@ -1,7 +1,7 @@
 //! A second implementation of [`hit`](super::hit()), for tests: another formula, in rational numbers.
 //!
-//! It shares no code and no library with the first one, and takes a hundred times as long. Its functions panic if an
-//! origin, a direction or a corner is not finite; only [`nearest`] accepts such rays, and returns `None`.
+//! It shares no code and no library with the first implementation, and takes a hundred times as long. Its functions
+//! panic if an origin, a direction or a corner is not finite; only [`nearest`] accepts such rays, and returns `None`.
 
 use dashu_ratio::RBig;
 use glam::Vec3;
@@ -52,7 +52,7 @@ pub fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<RBig> {
     (u >= RBig::ZERO && v >= RBig::ZERO && u + v <= RBig::ONE).then_some(t)
 }
 
-/// The `t` of the hit of `ray` in its half-open interval; a `t` that rounds to infinity is beyond the end.
+/// The `t` of the hit of `ray` in its half-open interval. A `t` that rounds to infinity is beyond the end.
 fn within(ray: &Ray, corners: [Vec3; 3]) -> Option<RBig> {
     let t = hit(ray, corners)?;
     let (t_min, t_max) = ray.interval();
@@ -65,12 +65,12 @@ fn nearest_float(t: &RBig) -> f32 {
     t.to_f32().value()
 }
 
-/// The nearest `f32` to the `t` of the hit of `ray` in its half-open interval; if that is infinite, the ray misses.
+/// The nearest `f32` to the `t` of the hit of `ray` in its half-open interval. `None` if this float is infinite.
 pub fn hit_within(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
     Some(nearest_float(&within(ray, corners)?))
 }
 
-/// Like [`hit_within`], for the nearest hit among `triangles`; the lowest number wins at equal exact `t`.
+/// Like [`hit_within`], for the nearest hit among `triangles`. At equal exact `t`, the lowest number wins.
 pub fn nearest(ray: &Ray, triangles: impl IntoIterator<Item = (u32, [Vec3; 3])>) -> Option<(f32, u32)> {
     if !ray.is_valid() {
         return None;

@@ -30,7 +30,7 @@ fn both_formulations_agree_on_a_grid_and_at_all_scales() {
             on_grid += usize::from(assert_agree(&ray(&mut rng, grid), corners));
         }
         if round % 2 == 0 {
-            // From denormals, where rounding moves the corners to a coarse grid, to numbers whose cubes overflow.
+            // Scales range from denormals, where corners round to a coarse grid, to numbers whose cubes overflow.
             let scale = f32::from_bits([1 << 10, 1 << 23, 97 << 23, 127 << 23, 157 << 23, 253 << 23][round / 2 % 6]);
             let corners = triangle(&mut rng, unit).map(|p| p * scale);
             let ray = Ray::new(point(&mut rng, unit) * scale, point(&mut rng, unit));
@@ -55,7 +55,7 @@ fn the_triangle_is_closed_and_its_plane_is_missed() {
     for (x, y) in [(-beside, 0.0), (0.0, -beside), (4.0, beside), (4.0_f32.next_up(), 0.0), (2.0, 2.0_f32.next_up())] {
         assert_eq!(down(x, y), None, "({x}, {y}) is outside");
     }
-    // In the plane, and parallel to it.
+    // One ray lies in the plane, the other is parallel to it.
     for z in [0.0, 1.0] {
         assert_eq!(hit(&Ray::new(Vec3::new(-1.0, 1.0, z), Vec3::X), corners), None);
     }
@@ -92,12 +92,12 @@ fn rounding_is_to_nearest_even() {
         assert_eq!(exact(x).compare(x.next_up()), Some(Ordering::Less));
     }
     assert_eq!(exact(0.0).round().to_bits(), 0);
-    // The compiler rounds decimal fractions: an independent reference.
+    // The compiler rounds decimal fractions, independently of this crate.
     assert_eq!(fraction(1.0, 3.0).round(), 1.0 / 3.0);
     assert_eq!(fraction(16_777_217.0, 1.0).round(), 16_777_216.0);
     assert_eq!(fraction(16_777_219.0, 1.0).round(), 16_777_220.0);
     assert_eq!(fraction(-7.0, 1000.0).round(), -0.007);
-    // Closer to a tie than `f64` can resolve.
+    // These fractions are closer to a tie than `f64` can resolve.
     let near_tie = |off: f64| ExactT { numerator: Expansion::difference(16_777_217.0, off), denominator: 1.0.into() };
     assert_eq!([-1e-20, 0.0, 1e-20].map(|off| near_tie(off).round()), [16_777_218.0, 16_777_216.0, 16_777_216.0]);
     // Half of the smallest denormal is a tie and rounds to zero; anything larger rounds up.

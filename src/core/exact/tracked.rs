@@ -1,4 +1,4 @@
-//! The side on which a line passes an edge, in `f64` arithmetic, if no operation rounds.
+//! Computes the side on which a line passes an edge, in `f64`. There is no result if an operation rounds.
 
 use std::cmp::Ordering;
 

@@ -1,7 +1,7 @@
 //! [bvh](https://github.com/svenstaro/bvh) 0.13 (crate `bvh`): a binary BVH by binned SAH, one triangle per leaf.
 //!
-//! The crate has no closest-hit query: it returns candidates, and the caller tests their triangles. The adapter passes
-//! a custom query to the crate's plain iterator: the crate's ray, with a box test that also rejects boxes behind the
+//! The crate has no closest-hit query: it returns candidates, and the caller tests their triangles. The adapter uses
+//! the crate's plain iterator. It passes the crate's ray with another box test, which also rejects boxes behind the
 //! nearest hit so far. The iterator visits the left child first, and panics on trees deeper than 32 levels. The crate's
 //! ray (with unit direction and inverse, from its constructor) is prepared before the clock starts. The builder runs on
 //! the caller's threads.
@@ -35,7 +35,7 @@ pub struct SvenstaroBvh<T: TriangleTest> {
 struct TriangleBox {
     bounds: Aabb<f32, 3>,
     index: u32,
-    /// Required by the crate.
+    /// The trait `BHShape` requires this index.
     node: usize,
 }
 
@@ -71,7 +71,7 @@ impl IntersectsAabb<f32, 3> for PrunedRay<'_> {
     }
 }
 
-/// Slack for box tests: they compare lengths, which have more roundings than `t`.
+/// Slack for box tests, which compare distances. A distance has more rounding errors than `t`.
 const SLACK: f32 = 1.0 + 8.0 * f32::EPSILON;
 
 fn point(v: Vec3) -> Point3<f32> {
@@ -158,7 +158,7 @@ impl<T: TriangleTest> Accel for SvenstaroBvh<T> {
         let bounds = |own: &Aabb<f32, 3>| {
             geometry::Aabb::of_points([own.min, own.max].map(|corner| Vec3::from(<[f32; 3]>::from(corner))))
         };
-        // Nodes store the boxes of their children: the box of the root is the union of the two.
+        // A node stores only its children's boxes, so the box of the root is the union of these two boxes.
         let root = match self.tree.nodes.first() {
             None => geometry::Aabb::EMPTY,
             Some(BvhNode::Leaf { shape_index, .. }) => bounds(&self.shapes[*shape_index].bounds),

@@ -10,7 +10,7 @@ pub(super) struct Leaves<T: TriangleTest> {
     pub ids: Vec<u32>,
 }
 
-/// A ray, its form for the triangle test, and its interval.
+/// A ray as received, the same ray prepared for the triangle test, and its interval.
 pub(super) struct Start<T: TriangleTest> {
     pub asked: Ray,
     pub ray: T::Ray,

@@ -1,13 +1,13 @@
 //! Structures of other projects: the baseline `obvhs`, and the peers, each behind its own feature (`peer-*`, or `peers`
 //! for all). The adapters do not handicap them.
 //!
-//! - **Rays** are converted once, before the clock starts ([`Accel::load`](crate::accel::Accel::load)): to the peer's
-//!   own ray, with unit or inverse direction if it stores one, and to the input of the triangle test. The structures of
-//!   this crate prepare rays inside the timed region, so the comparison favours the peers.
-//! - **Triangle tests**: a peer uses its own test, and also the tests of this crate if it accepts a closure. If its API
-//!   exposes its own test, the adapter wraps it as a test of this crate, and brute force over it can be the reference.
-//! - **Triangles without area** are left out, as for all structures.
-//! - **Conventions** that differ from the contract are declared
+//! - **Rays** of a peer are converted before the clock starts ([`Accel::load`](crate::accel::Accel::load)): to the
+//!   peer's ray type and to the input of the triangle test. The structures of this crate and obvhs prepare rays inside
+//!   the timed region, so the comparison favours the peers.
+//! - **Triangle tests**: a peer uses its own test and, if it accepts a closure, the tests of this crate. If its API
+//!   exposes its own test, the adapter wraps it as a `TriangleTest`, so brute force over it can be the reference.
+//! - **Triangles without area** are left out, as in all structures.
+//! - **Conventions** that differ from the contract of `Accel` are declared
 //!   ([`Accel::CONVENTIONS`](crate::accel::Accel::CONVENTIONS)); `sahara list` prints them, and they do not count as
 //!   errors.
 //!

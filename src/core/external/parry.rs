@@ -2,9 +2,9 @@
 //!
 //! The tree is built by the builder of parry's own mesh shape: top down, binned. The query takes the leaf test as a
 //! closure, and traverses from near to far with early termination. The closure respects `t_min`, which parry's mesh
-//! shape does not support, and culls no back faces. The ray is two vectors; the crate computes the inverse direction in
-//! the timed region, and accepts no precomputed one. parry has no query that stops at the first hit. For any hit, the
-//! adapter's leaf test reports its first hit at t = -infinity, so every remaining box lies behind the hit.
+//! shape does not support, and culls no back faces. A ray is two vectors. The crate computes the inverse direction in
+//! the timed region, because it accepts no precomputed inverse. parry has no query that stops at the first hit. For any
+//! hit, the adapter's leaf test reports its first hit at t = -infinity, so every remaining box lies behind the hit.
 
 use std::cell::Cell;
 use std::sync::Arc;
@@ -46,7 +46,7 @@ impl<T: TriangleTest> ParryBvh<T> {
     #[inline]
     fn query<const ANY: bool, O: Observer>(&self, ready: &Ready<T>, observer: &mut O) -> Option<Hit> {
         let Ready { walked, t_max, start } = ready;
-        // The closure is `Fn`, so it cannot change captured variables.
+        // The closure is `Fn`, so captured variables that change are cells.
         let (nearest, tests) = (Cell::new(start.nearest()), Cell::new(0));
         self.tree.cast_ray(walked, *t_max, |leaf, _| {
             let mut best = nearest.get();
@@ -115,7 +115,7 @@ impl<T: TriangleTest> Accel for ParryBvh<T> {
             inner: leaves - 1,
             leaves,
             references: leaves,
-            // parry counts the depth in nodes.
+            // parry counts the nodes of a path, `TreeShape` counts the edges.
             depth: self.tree.subtree_depth(0) as usize - 1,
             largest_leaf: 1,
             ..TreeShape::default()

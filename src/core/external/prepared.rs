@@ -3,12 +3,12 @@
 use crate::accel::{Accel, Loaded, Observer};
 use crate::geometry::{Hit, Ray};
 
-/// A structure whose queries take a ray in another format.
+/// A structure whose queries take a ray in its own format.
 pub(crate) trait Prepare: Accel {
-    /// A ray in that format. It does not depend on the tree.
+    /// A ray in the structure's format. It does not depend on the tree.
     type Ready: Send + Sync;
 
-    /// Converts a ray; `None` if it can hit nothing.
+    /// Converts a ray. Returns `None` if the ray can hit nothing.
     fn ready(&self, ray: &Ray) -> Option<Self::Ready>;
 
     fn closest<O: Observer>(&self, ready: &Self::Ready, observer: &mut O) -> Option<Hit>;

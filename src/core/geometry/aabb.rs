@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-/// The closed box of the points between `min` and `max`; empty if `min` exceeds `max` on any axis.
+/// The closed box of all points between `min` and `max`. It is empty if `min` exceeds `max` on any axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {
     /// The least coordinates.
@@ -27,7 +27,7 @@ impl Aabb {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
-    /// The common part of both boxes; empty if they are disjoint.
+    /// The intersection of both boxes. It is empty if they are disjoint.
     #[inline]
     pub fn intersection(self, other: Self) -> Self {
         Self { min: self.min.max(other.min), max: self.max.min(other.max) }
@@ -49,7 +49,7 @@ impl Aabb {
         self.min * 0.5 + self.max * 0.5
     }
 
-    /// Half of the surface area (Goldsmith, Salmon 1987), in `f64` to avoid overflow; a negative edge counts as 0.
+    /// Half of the surface area (Goldsmith, Salmon 1987), in `f64` to avoid overflow. A negative extent counts as 0.
     #[inline]
     pub fn half_area(&self) -> f64 {
         half_area(self.min.as_dvec3(), self.max.as_dvec3())
@@ -61,7 +61,7 @@ impl Aabb {
         self.extent().max_position()
     }
 
-    /// The parts of the box below and above the plane `axis = split`; one part is empty if the plane misses the box.
+    /// Cuts the box at the plane `axis = split` into (below, above). One of them is empty if the plane misses the box.
     #[inline]
     pub fn cut(&self, axis: usize, split: f32) -> (Self, Self) {
         let (mut below, mut above) = (*self, *self);
@@ -76,7 +76,7 @@ impl Aabb {
     }
 }
 
-/// Half of the surface area of the box between two corners; a negative edge counts as 0.
+/// Half of the surface area of the box between two corners. A negative extent counts as 0.
 #[inline(always)]
 pub(crate) fn half_area(min: DVec3, max: DVec3) -> f64 {
     let e = (max - min).max(DVec3::ZERO);

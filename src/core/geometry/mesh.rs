@@ -15,9 +15,9 @@ pub struct Mesh {
     bounds: Aabb,
 }
 
-/// The reason why [`Mesh::new`] rejects its input. Numbers start at 0.
+/// The reason why [`Mesh::new`] rejects its input. Vertex and triangle numbers start at 0.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[allow(missing_docs)] // of the fields
+#[allow(missing_docs)] // The messages explain the fields.
 pub enum MeshError {
     /// A coordinate is infinite or NaN.
     #[error("vertex {vertex} has the coordinates ({x}, {y}, {z}): every coordinate must be a finite number")]
@@ -30,7 +30,7 @@ pub enum MeshError {
     TooMany { what: &'static str, count: usize, limit: usize },
 }
 
-/// Maximum number of triangles or of vertices: a triangle number and two flag bits then fit a `u32`.
+/// Maximum number of vertices and of triangles. A triangle number and two flag bits then fit in a `u32`.
 const LIMIT: usize = 1 << 30;
 
 impl Mesh {
@@ -108,7 +108,7 @@ impl Mesh {
         &self.degenerate
     }
 
-    /// Whether the corners of triangle `index` lie on one line or in one point, decided exactly.
+    /// Whether the corners of triangle `index` lie exactly on one line or in one point.
     #[inline]
     pub fn is_degenerate(&self, index: u32) -> bool {
         self.degenerate.binary_search(&index).is_ok()
@@ -132,30 +132,30 @@ impl Mesh {
     }
 }
 
-/// Whether three points lie on one line, exactly: their projections onto all three coordinate planes are collinear.
+/// Whether three points lie exactly on one line: their projections onto all three coordinate planes are collinear.
 fn collinear([a, b, c]: [Vec3; 3]) -> bool {
     if a == b || b == c || c == a {
         return true;
     }
     [(0, 1), (1, 2), (2, 0)].into_iter().all(|(i, j)| {
-        // Twice the projected area. Each product is exact: two `f32` have 48 bits together, an `f64` has 53.
+        // Twice the projected area has six terms. Each is exact: two `f32` have 48 bits together, an `f64` has 53.
         let [(ax, ay), (bx, by), (cx, cy)] = [a, b, c].map(|p| (f64::from(p[i]), f64::from(p[j])));
         sum_is_zero([ax * by, -(ay * bx), bx * cy, -(by * cx), cx * ay, -(cy * ax)])
     })
 }
 
-/// Whether six numbers add up to 0, exactly.
+/// Whether six numbers add up to exactly 0.
 ///
 /// # References
 /// Shewchuk: Adaptive precision floating-point arithmetic and fast robust geometric predicates, 1997 (Grow-Expansion).
 fn sum_is_zero(terms: [f64; 6]) -> bool {
-    // A rounded sum above this bound on the error of its five roundings is not 0.
+    // If the rounded sum exceeds the bound on its rounding error, the exact sum is not 0.
     let size: f64 = terms.iter().map(|term| term.abs()).sum();
     if terms.iter().sum::<f64>().abs() > 8.0 * f64::EPSILON * size {
         return false;
     }
 
-    // Expand the sum into parts that do not overlap: it is 0 only if every part is 0.
+    // Write the exact sum as floats whose bits do not overlap. The sum is 0 only if all these floats are 0.
     let mut parts = [0.0; 6];
     for (count, term) in terms.into_iter().enumerate() {
         let mut rest = term;
@@ -202,7 +202,7 @@ mod tests {
         let mut rng = rand_pcg::Pcg32::seed_from_u64(3);
         let mut found = [0; 2];
         for round in 0..30_000 {
-            // Points near a line, with so few binary digits that some of them lie exactly on it.
+            // Use points near a line, with so few binary digits that some of them lie exactly on the line.
             let digits = 1 << (round % 12);
             let mut whole = || (rng.next_u32() % (2 * digits + 1)) as f32 - digits as f32;
             let (p, d) = (Vec3::new(whole(), whole(), whole()), Vec3::new(whole(), whole(), whole()));

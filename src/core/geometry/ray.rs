@@ -33,19 +33,19 @@ impl Ray {
         Self { origin, t_min: 0.0, direction, t_max: f32::INFINITY }
     }
 
-    /// The same ray, ending before `t_max`.
+    /// The same ray with another `t_max`.
     pub fn until(self, t_max: f32) -> Self {
         Self { t_max, ..self }
     }
 
-    /// The interval that queries search: `t_min` raised to at least 0, and `t_max`.
+    /// The interval that queries search: the larger of `t_min` and 0, and `t_max`.
     #[inline(always)]
     pub fn interval(&self) -> (f32, f32) {
         (if self.t_min > 0.0 { self.t_min } else { 0.0 }, self.t_max)
     }
 
-    /// The smallest exact `t` beyond the interval: `t_max`, or for an unbounded ray 2^128 - 2^103, the smallest number
-    /// that rounds to infinity.
+    /// The end of the interval for exact values of `t`, exclusive. If `t_max` is infinite, the end is 2^128 - 2^103,
+    /// the smallest number that rounds to an infinite `f32`.
     #[inline(always)]
     pub fn end(&self) -> f64 {
         f64::from(self.t_max).min(UNREPRESENTABLE)
@@ -56,12 +56,12 @@ impl Ray {
     pub fn is_valid(&self) -> bool {
         let (origin, direction) = self.vectors();
         let finite = (origin.is_finite_mask() & direction.is_finite_mask()).all();
-        // False if `t_min` or `t_max` is NaN.
+        // This is false if `t_min` or `t_max` is NaN.
         let lasts = (0.0 < self.t_max) & (self.t_min < self.t_max);
         finite & direction.cmpne(Vec3A::ZERO).any() & lasts
     }
 
-    /// The origin and the direction. Each is one load; converting a `Vec3` would load its three components separately.
+    /// The origin and the direction, loaded in one step each. Converting a `Vec3` would load each component separately.
     #[inline(always)]
     pub(crate) fn vectors(&self) -> (Vec3A, Vec3A) {
         let Self { origin: o, t_min, direction: d, t_max } = *self;
@@ -75,7 +75,7 @@ impl Ray {
     }
 }
 
-/// The index of a triangle in its mesh. Stored inverted, so it is never 0 and `Option<Hit>` takes 8 bytes.
+/// The index of a triangle in its mesh. Its bits are stored inverted and never 0, so `Option<Hit>` takes 8 bytes.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct PrimId(NonZeroU32);
 

@@ -1,4 +1,4 @@
-//! Rays as text, to trace a ray from a report again.
+//! Reads and writes rays as text. A ray from a report can be traced again.
 
 use std::fmt::{Display, Formatter};
 use std::str::FromStr;
@@ -7,9 +7,9 @@ use glam::Vec3;
 
 use super::Ray;
 
-/// `ox,oy,oz dx,dy,dz`, followed by ` [t_min,t_max]` unless the ray is the whole half-line.
+/// Writes `ox,oy,oz dx,dy,dz`. If the interval is not [0, infinity), ` [t_min,t_max]` follows.
 ///
-/// Every number is the shortest decimal that reads back to the same float; the payload of a NaN is dropped.
+/// Every number is the shortest decimal that reads back to the same float. The payload of a NaN is dropped.
 impl Display for Ray {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
         let [o, d] = [self.origin, self.direction];
@@ -26,8 +26,8 @@ impl Display for Ray {
 #[error("{0}")]
 pub struct RayTextError(String);
 
-/// Reads the format that [`Display`] writes. Blanks, commas or both separate the numbers. The interval ends with `]` or
-/// `)`; either way, `t_max` is excluded.
+/// Reads the format that [`Display`] writes. Blanks, commas or both separate the numbers. The interval may end with `]`
+/// or `)`: `t_max` is excluded in both cases.
 impl FromStr for Ray {
     type Err = RayTextError;
 
@@ -83,7 +83,7 @@ impl Ray {
 /// The numbers of a text, separated by blanks, a comma or both.
 ///
 /// # Errors
-/// The first field that is not a number; an empty string if a number is missing beside a comma.
+/// The first field that is not a number. If a number is missing beside a comma, this field is an empty string.
 pub fn numbers(text: &str) -> Result<Vec<f32>, &str> {
     if text.trim().is_empty() {
         return Ok(vec![]);

@@ -5,7 +5,7 @@ use crate::build::cells::{CellConfig, Rules};
 use crate::build::sah_cost::CostModel;
 
 /// The options of a [`KdTree`](super::KdTree): `median-kd` is [`REPORT`](Self::REPORT), `sah-kd` is [`SAH`](Self::SAH).
-/// "The report" is the student report sahara reproduces. Options without effect must keep `REPORT` or `SAH` values.
+/// "The report" is the student report sahara reproduces. Options without effect must keep a `REPORT` or `SAH` value.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KdConfig {
@@ -15,31 +15,31 @@ pub struct KdConfig {
     pub axis: AxisRule,
     /// The condition for a leaf.
     pub stop: Stop,
-    /// The way in which rays traverse the tree.
+    /// The traversal algorithm.
     pub traversal: Traversal,
-    /// `L` of [`Stop::Report`] and [`Stop::Leaf`]: a node with fewer triangles is a leaf. At least 1 (report: 100).
+    /// For [`Stop::Report`] and [`Stop::Leaf`]: a node with fewer triangles is a leaf. At least 1 (report: 100).
     pub leaf: u32,
     /// Whether a node of exactly `leaf` triangles may be split, which the report does not specify.
     pub limit: Limit,
-    /// `T` of [`Stop::Report`]: a split with at least this share of triangles on both sides is discarded. In (0, 1].
+    /// For [`Stop::Report`]: a split with at least this fraction of triangles on both sides is discarded. In (0, 1].
     pub threshold: f32,
-    /// The triangles to which the share `threshold` refers.
+    /// The triangles to which the fraction `threshold` refers.
     pub count: CountOf,
     /// The definition of the median of vertex coordinates or centroids.
     pub median: Median,
-    /// The side of a triangle with a vertex in the plane.
+    /// The children that receive a triangle with a vertex in the split plane.
     pub equal: Equal,
     /// When the traversal of a ray stops.
     pub exit: Exit,
-    /// Whether rays use a small hashed mailbox: while a triangle is in it, the ray does not test the triangle again.
+    /// Whether each ray has a small hashed mailbox. A ray does not test a triangle again while its mailbox contains it.
     pub mailbox: bool,
     /// SAH cost of an inner node. Positive; a higher cost gives larger leaves.
     pub traversal_cost: f32,
     /// SAH cost of a block of eight triangles. Positive; a higher cost gives smaller leaves.
     pub intersection_cost: f32,
-    /// Share of the cost that a split saves if it cuts off empty space, in [0, 1); Wald and Havran use 0.2.
+    /// Fraction of its cost that a split saves if it cuts off empty space, in [0, 1). Wald and Havran use 0.2.
     pub empty_bonus: f32,
-    /// Maximum number of references, as a multiple of the triangles. At least 1.
+    /// Maximum number of references, as a multiple of the number of triangles. At least 1.
     pub duplication: f32,
 }
 
@@ -53,7 +53,7 @@ pub enum Plane {
     SpatialMedian,
     /// The median of the centroids of the node's triangles.
     CentroidMedian,
-    /// The plane of least SAH cost of 32 planes per axis (Hunt, Mark, Stoll 2006); large nodes sample their triangles.
+    /// The plane of least SAH cost of 32 per axis (Hunt, Mark, Stoll 2006). Large nodes use a sample of triangles.
     SahBinned,
     /// The plane of least SAH cost among all faces of the boxes of clipped triangles.
     SahSweep,
@@ -69,20 +69,20 @@ pub enum AxisRule {
     Longest,
 }
 
-/// The rule that makes a node a leaf. Every rule also makes a leaf at depth 8 + 1.3 log2 n, if a split would exceed
-/// `duplication` and, with a median, instead of a third split in a row without progress.
+/// The rule that makes a node a leaf. Every node is also a leaf at depth 8 + 1.3 log2 n, or if its split would exceed
+/// `duplication`. With a median, a node is a leaf instead of the third split in a row without progress.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stop {
-    /// Fewer than `leaf` triangles, or a share of `threshold` on both sides of the split.
+    /// Fewer than `leaf` triangles, or at least the fraction `threshold` of them on both sides of the split.
     Report,
     /// Fewer than `leaf` triangles.
     Leaf,
-    /// The SAH cost of the split (with SAH planes: of every plane) is not below the cost of testing all triangles.
+    /// By SAH cost, the selected split is not cheaper than testing all triangles.
     Sah,
 }
 
-/// The way in which rays traverse the tree.
+/// The traversal algorithm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Traversal {
@@ -92,7 +92,7 @@ pub enum Traversal {
     PlaneIntervals,
 }
 
-/// The comparison with the leaf limit.
+/// The comparison of a node's number of triangles with `leaf`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Limit {
@@ -102,35 +102,35 @@ pub enum Limit {
     AtMost,
 }
 
-/// The triangles to which the share `threshold` refers.
+/// The triangles to which the fraction `threshold` refers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CountOf {
-    /// The triangles of the node: a split that reaches the threshold is discarded.
+    /// The triangles of the node. A split that reaches the threshold is discarded.
     Parent,
-    /// The triangles of each child: a child that reaches the threshold is not split further.
+    /// The triangles of each child. A child that reaches the threshold is not split further.
     Child,
 }
 
-/// The median of an even number of coordinates, and the coordinates that count.
+/// The median of an even number of values, and how often a shared corner counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Median {
-    /// The lower of the two middle values; a corner that triangles share counts once per triangle.
+    /// The lower of the two middle values. A corner that triangles share counts once per triangle.
     Lower,
-    /// The mean of the two middle values.
+    /// The mean of the two middle values. A corner that triangles share counts once per triangle.
     Mean,
-    /// The lower of the two middle values; a corner that triangles share counts once.
+    /// The lower of the two middle values. A corner that triangles share counts once.
     Welded,
 }
 
-/// The side of a triangle with a vertex in the plane.
+/// The children that receive a triangle with a vertex in the split plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Equal {
-    /// On both sides: only a triangle strictly below or strictly above the plane lies on a single side.
+    /// Both children. Only a triangle strictly below or strictly above the plane goes to a single child.
     Both,
-    /// Below, if no vertex is above.
+    /// The child below if no vertex is above the plane, otherwise both children.
     Below,
 }
 
@@ -138,9 +138,9 @@ pub enum Equal {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Exit {
-    /// When no nearer hit can follow: no hit is lost.
+    /// When no nearer hit can follow. No hit is lost.
     Nearest,
-    /// At the first leaf with any hit, at any distance: the literal reading of the report. It produces wrong pixels.
+    /// After the first leaf with a hit at any distance, as the report literally says. This produces wrong pixels.
     FirstLeaf,
 }
 
@@ -220,7 +220,7 @@ impl KdConfig {
         self.check_unread()
     }
 
-    /// Rejects an option without effect, unless it has its value from [`REPORT`](Self::REPORT) or [`SAH`](Self::SAH).
+    /// Rejects an option that has no effect and has neither its `REPORT` nor its `SAH` value.
     fn check_unread(&self) -> Result<(), BuildError> {
         let is_median = !matches!(self.plane, Plane::SahBinned | Plane::SahSweep);
         let asks_costs = !is_median || self.stop == Stop::Sah;

@@ -1,4 +1,4 @@
-//! Planes selected without a cost: a median or the middle of the cell. Triangles are not clipped to their cells.
+//! Selects split planes without a cost: a median or the middle of the cell. Does not clip triangles to their cells.
 
 use super::config::{AxisRule, CountOf, Equal, KdConfig, Median, Plane};
 use crate::build::cells::{Content, Context, Place};
@@ -44,7 +44,7 @@ impl Triangles {
         }
     }
 
-    /// Whether the cut is inside the cell and the sides, with these numbers of triangles, cost less than a leaf.
+    /// Whether the cut lies inside the cell and costs less than a leaf. `below` and `above` count triangles.
     fn pays(&self, context: &Context<KdConfig>, place: &Place, cut: Cut, below: usize, above: usize) -> bool {
         // Vertices may lie outside the cell, and so may their median.
         let inside = place.cell.min[cut.axis] < cut.plane && cut.plane < place.cell.max[cut.axis];
@@ -53,7 +53,7 @@ impl Triangles {
     }
 }
 
-/// The middle value; for an even number of values, the lower middle value or the mean of both.
+/// The median. For an even number of values, `rule` selects the lower middle value or the mean of both middle values.
 fn middle(mut values: Vec<f32>, rule: Median) -> f32 {
     let (middle, even) = ((values.len() - 1) / 2, values.len().is_multiple_of(2));
     let (_, &mut lower, rest) = values.select_nth_unstable_by(middle, f32::total_cmp);

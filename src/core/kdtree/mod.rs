@@ -1,5 +1,5 @@
-//! KD-trees. `median-kd`, the tree of the student report that sahara reproduces ("the report" below), and the SAH tree
-//! `sah-kd` are two configurations of one type.
+//! KD-trees. `median-kd` is the tree of the student report that sahara reproduces, and `sah-kd` is an SAH tree. They
+//! are two configurations of one type.
 
 mod config;
 mod median;

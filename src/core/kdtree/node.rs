@@ -1,12 +1,12 @@
 use crate::accel::BuildError;
 
-/// A node in 8 bytes. The child below the plane follows its parent; the parent stores the number of the child above.
+/// A node in 8 bytes. The child below the plane follows its parent. The parent stores the index of the child above.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub(super) struct Node {
-    /// Inner node: the bits of the split coordinate. Leaf: the first block or, during the build, the first reference.
+    /// Inner node: the bits of the split coordinate. Leaf: the index of the first block (in a build: first reference).
     payload: u32,
-    /// The two low bits: the axis, or 3 for a leaf. The other bits: the child above, or the number of references.
+    /// Low 2 bits: the axis, or 3 in a leaf. High 30 bits: the index of the child above, or a leaf's reference count.
     tag: u32,
 }
 
@@ -19,7 +19,7 @@ pub(super) struct Limits {
 }
 
 impl Limits {
-    /// The limits of `tag`, which has 30 bits for the number of a node or the number of references of a leaf.
+    /// The limits of `tag`, which has 30 bits for the index of a child or the number of references of a leaf.
     pub const OF_NODES: Self = Self { nodes: 1 << 30, references: (1 << 30) - 1 };
 
     pub fn check(&self, nodes: usize, references: usize) -> Result<(), BuildError> {
@@ -37,12 +37,12 @@ impl Limits {
 impl Node {
     const LEAF: u32 = 3;
 
-    /// `axis` is below 3. In a growing tree `above` may wrap; then [`Limits::check`] rejects the finished tree.
+    /// `axis` is below 3. During a build, `above` may exceed 30 bits and wrap. [`Limits::check`] then rejects the tree.
     pub fn inner(axis: usize, split: f32, above: u32) -> Self {
         Self { payload: split.to_bits(), tag: above << 2 | axis as u32 }
     }
 
-    /// A leaf. `references` may wrap in the same way.
+    /// A leaf. Like `above`, `references` may wrap during a build.
     pub fn leaf(first: u32, references: u32) -> Self {
         Self { payload: first, tag: references << 2 | Self::LEAF }
     }
@@ -89,7 +89,7 @@ mod tests {
         assert_eq!((last.is_leaf(), last.axis(), last.split(), last.above() as usize), (false, 2, -1.5, nodes - 1));
         let largest = Node::leaf(references as u32 - 1, references as u32);
         assert_eq!((largest.is_leaf(), largest.references() as usize), (true, references));
-        // The next number wraps.
+        // Numbers beyond the limits wrap.
         assert_ne!(Node::inner(2, -1.5, nodes as u32).above() as usize, nodes);
         assert_ne!(Node::leaf(0, references as u32 + 1).references() as usize, references + 1);
     }

@@ -44,7 +44,8 @@ fn configs() -> Vec<KdConfig> {
     ]
 }
 
-/// A floor of small triangles at y = 0. A ray that starts just above it crosses flat cells at -slack < `t` < 0.
+/// A floor of small triangles at y = 0. A ray just above the floor crosses flat cells at a small negative `t`, nearer
+/// to 0 than the slack of plane crossings.
 #[test]
 fn rays_that_leave_a_flat_floor_test_none_of_its_triangles() {
     let corner = |i: usize, j: usize| Vec3::new(i as f32, 0.0, j as f32);
@@ -68,7 +69,7 @@ fn rays_that_leave_a_flat_floor_test_none_of_its_triangles() {
     }
 }
 
-/// Rays hit sheets, one ulp apart, at `t` near 2^128. Some plane crossings overflow, although the hits do not.
+/// Rays hit parallel triangles, one ulp apart, at `t` near 2^128. Some plane crossings overflow, the hits do not.
 #[test]
 fn hits_near_the_largest_t_are_found() {
     fn as_brute_force<T: TriangleTest>(mesh: &Arc<Mesh>, rays: &[Ray]) -> Vec<Hit> {
@@ -166,7 +167,7 @@ fn a_bad_configuration_is_refused_in_a_sentence() {
         KdConfig { traversal_cost: -1.0, ..KdConfig::SAH },
         KdConfig { empty_bonus: 1.0, ..KdConfig::SAH },
         KdConfig { duplication: 0.5, ..KdConfig::SAH },
-        // These options have no effect.
+        // In the configurations below, the changed option has no effect.
         KdConfig { leaf: 8, ..KdConfig::SAH },
         KdConfig { threshold: 0.5, stop: Stop::Leaf, ..KdConfig::REPORT },
         KdConfig { axis: AxisRule::Longest, ..KdConfig::SAH },
@@ -180,7 +181,6 @@ fn a_bad_configuration_is_refused_in_a_sentence() {
     }
 }
 
-/// Limits that a small mesh exceeds.
 #[test]
 fn a_tree_beyond_the_limits_is_refused() {
     let mesh = soup(600, 5);
@@ -191,7 +191,7 @@ fn a_tree_beyond_the_limits_is_refused() {
         for limits in [Limits { nodes: nodes - 1, references }, Limits { nodes, references: references - 1 }] {
             assert!(matches!(plan(&mesh, &config, &limits), Err(BuildError::Mesh(_))), "{config:?}");
         }
-        // Rejected before the build.
+        // The mesh is rejected before the build.
         assert!(matches!(plan(&mesh, &config, &Limits { nodes, references: 599 }), Err(BuildError::Mesh(_))));
     }
 }

@@ -1,16 +1,15 @@
-//! One traversal for both queries, in two variants: plane intervals and child boxes.
+//! One traversal for closest hit and any hit, in two variants: plane intervals and child boxes.
 //!
-//! **No hit is lost.** Let a ray hit a triangle at the exact parameter t* in its interval, at the point p. The
-//! build clips references outward or not at all, so some leaf whose closed cell contains p has a reference to the
-//! triangle. Both variants visit every leaf whose closed cell contains a point of the ray in [t_min, nearest t]: they
-//! skip a child only if its interval, moved outward by more than the rounding of plane crossings (see [`Line`]), is
-//! empty or begins after the nearest hit so far. If a crossing overflows, plane intervals begin at a finite parameter
-//! before it, and child boxes are clipped to an interval without end. So both variants visit the leaf of p, unless they
-//! have found another hit with a computed t before t*. Then the other hit is nearer, up to the error of its triangle
-//! test, which is not an error of the traversal. The exact test has no such error: nearest t is a float that is not
-//! before the nearest exact hit so far. So the traversal reaches every hit that is nearer or equally near. The
-//! result is the nearest exact hit; among equally near hits, it is the hit with the lowest number. Only
-//! [`Exit::FirstLeaf`] may lose nearer hits: it ends at the first leaf with a hit.
+//! **No hit is lost.** Let a ray hit a triangle at the point p and the exact parameter t* in its interval. The build
+//! clips references outward or not at all, so some leaf whose closed cell contains p references the triangle. Both
+//! variants visit every leaf whose closed cell contains a point of the ray between t_min and the t of the nearest hit
+//! so far. They skip a child only if its interval is empty or begins after this t. Before this test, they move the
+//! interval outward by more than the rounding error of plane crossings (see [`Line`]). If a crossing overflows, plane
+//! intervals begin at a finite parameter before it, and child boxes are clipped to an interval without end. So both
+//! variants visit the leaf of p, or they have found another hit with a computed t before t*. In this case, the other
+//! hit is nearer, except for the error of its triangle test. The exact test has no such error: the t of the nearest hit
+//! so far is never below its exact t. So its result is the nearest exact hit and, among equally near hits, the one with
+//! the lowest number. Only [`Exit::FirstLeaf`] may lose nearer hits, because it ends at the first leaf with a hit.
 
 use std::mem::MaybeUninit;
 
@@ -26,7 +25,7 @@ use crate::traversal::line::{Line, after, before, finite_entry, open_end};
 use crate::traversal::walk::Walk;
 use crate::triangle::TriangleTest;
 
-/// The stack contains at most one node per level, and two of the lowest level, which is at most [`DEEPEST`].
+/// The stack contains at most one node per level, but two of the lowest level, which is at most [`DEEPEST`].
 const STACK: usize = 64;
 const _: () = assert!(STACK > DEEPEST as usize);
 
@@ -88,7 +87,7 @@ impl<E: Copy> Stack<E> {
 }
 
 impl Leaves {
-    /// The leaves in [`t_min`, `t_max`]; `None` if the ray misses the tree.
+    /// The leaves that the ray crosses in [`t_min`, `t_max`]. `None` if it misses the tree.
     #[inline(always)]
     fn enter<T: TriangleTest>(tree: &KdTree<T>, line: &Line, t_min: f32, t_max: f32) -> Option<Self> {
         Some(match tree.config.traversal {
@@ -104,7 +103,7 @@ impl Leaves {
         })
     }
 
-    /// The next leaf that the ray enters at or before `end`, the `t` of the nearest hit so far or the end of the ray.
+    /// The next leaf that the ray enters at or before `end`: the `t` of the nearest hit so far, or the end of the ray.
     #[inline(always)]
     fn next<T: TriangleTest, O: Observer>(
         &mut self,
@@ -121,7 +120,7 @@ impl Leaves {
     }
 }
 
-/// Finds the next leaf. Cuts the ray's interval at each plane.
+/// Finds the next leaf by cutting the ray's interval at each plane.
 #[inline(always)]
 fn by_intervals<O: Observer>(
     stack: &mut Stack<(u32, f32, f32)>,
@@ -147,8 +146,8 @@ fn by_intervals<O: Observer>(
         let t = line.crossing(axis, node.split());
         let (first, second) = if line.backward(axis) { (node.above(), at + 1) } else { (at + 1, node.above()) };
 
-        // The slack of the ends of the interval is more than twice the error of a crossing, so the crossing needs no
-        // slack here. If the crossing is NaN, both comparisons are false and both children get the whole interval.
+        // The ends of the interval are moved outward by more than twice the error of a crossing, so the crossing needs
+        // no slack here. If the crossing is NaN, both comparisons are false and both children get the whole interval.
         if t > t1 {
             at = first;
         } else if t < t0 {
@@ -162,7 +161,7 @@ fn by_intervals<O: Observer>(
     }
 }
 
-/// Finds the next leaf. Tests both child boxes of each node. `end` is a result of [`open_end`].
+/// Finds the next leaf by testing both child boxes of each node. `end` is a result of [`open_end`].
 #[inline(always)]
 fn by_boxes<O: Observer>(
     stack: &mut Stack<(u32, Aabb, f32)>,
@@ -182,7 +181,7 @@ fn by_boxes<O: Observer>(
             return Some(node);
         }
 
-        // Visit first the child that the ray enters first; if it enters both at once, the child that it leaves first.
+        // First visit the child that the ray enters first or, if it enters both at once, the child it leaves first.
         observer.inner();
         let (below, above) = cell.cut(node.axis(), node.split());
         let (in_below, in_above) = (line.clip(&below, t_min, end), line.clip(&above, t_min, end));

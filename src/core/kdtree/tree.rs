@@ -115,7 +115,7 @@ impl<C: Content> Tree<C> for Plan {
     }
 
     fn open(&mut self) {
-        // A placeholder, which `close` replaces.
+        // Push a placeholder, which `close` replaces.
         self.nodes.push(Node::leaf(0, 0));
     }
 

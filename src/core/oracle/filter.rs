@@ -1,21 +1,21 @@
-//! The filter: one ray and one triangle in `f64`, with a proven error bound.
+//! The filter of the oracle: intersects one line with one triangle in `f64`, with a proven error bound.
 //!
 //! # Proof
-//! Let `u` = 2^-53. The numbers are finite `f32`, hence exact in `f64`. Let `a`, `b`, `c` be the corners relative to
-//! the ray's origin. Each of their components is computed by one subtraction: the true value times (1 + e), |e| <= u.
+//! Let `u` = 2^-53. The inputs are finite `f32`, hence exact in `f64`. Let `a`, `b`, `c` be the corners relative to the
+//! ray's origin. Each component is computed by one subtraction, so it is the true value times (1 + e), |e| <= u.
 //!
-//! *Nothing overflows, nothing underflows.* A component of `a`, of an edge or of the direction is 0 or between 2^-149
+//! *No operation overflows or underflows.* A component of `a`, of an edge or of the direction is 0 or between 2^-149
 //! and 2^129 in magnitude. A rounded product of two components is 0 or at least 2^-298, and has 53 bits, so it is a
-//! multiple of 2^-350. The difference of two such products is therefore 0 or at least 2^-350, and times a third
-//! component 0 or at least 2^-499. All values are below 2^(129 + 129 + 129 + 3) = 2^390. The limits of `f64`, 2^-1022
-//! and 2^1024, are far away: every operation has a relative error of at most `u`. A product is 0 only if a factor is.
+//! multiple of 2^-350. The difference of two such products is therefore 0 or at least 2^-350. Its product with a third
+//! component is 0 or at least 2^-499. All values are below 2^(129 + 129 + 129 + 3) = 2^390. `f64` allows
+//! 2^-1022 to 2^1024, so every operation has a relative error of at most `u`. A product is 0 only if a factor is 0.
 //!
 //! *A triple product* `x . cross(y, z)` is the sum of six terms `x_i y_j z_k`. Rounding multiplies each term by at most
-//! eight factors (1 + e): three for the subtractions of its components, two for its products, one for the difference
-//! of two products, two for the sum of three. So the error of the computed sum is at most g P, where P is the sum of
-//! the magnitudes of the six true terms and g = 8u / (1 - 8u) (Higham 2002, section 3.1). The sum of magnitudes,
-//! computed by the same operations, is at least (1 - g) P. Hence the error is at most g / (1 - g) times the *computed*
-//! sum of magnitudes, which is less than 16 u times this sum. The multiplication by 16 u, a power of two, is exact.
+//! eight factors (1 + e): three for the subtractions of its components, two for its products, one for the difference of
+//! two products, two for the sum of three. So the error of the computed sum is at most g P, where P is the sum of the
+//! magnitudes of the six true terms and g = 8u / (1 - 8u) (Higham 2002, section 3.1). The sum of magnitudes, computed
+//! by the same operations, is at least (1 - g) P. Hence the error is at most g / (1 - g) times the *computed* sum of
+//! magnitudes, which is less than 16 u times this sum. The multiplication by 16 u, a power of two, is exact.
 //!
 //! # References
 //! Shewchuk: Adaptive precision floating-point arithmetic and fast robust geometric predicates. 1997 (the idea of the
@@ -27,13 +27,13 @@ use glam::{DVec3, Vec3};
 
 use crate::geometry::Ray;
 
-/// 16 u.
+/// 16 u, with the u of the proof above.
 const BOUND: f64 = 16.0 / (1u64 << 53) as f64;
 
 /// 8 u: more than the relative error of four roundings.
 const OUTWARD: f64 = 8.0 / (1u64 << 53) as f64;
 
-/// The filter's proof about a ray and a triangle.
+/// The result of the filter for a line and a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Proof {
     Missed,
@@ -72,14 +72,14 @@ impl TripleProduct {
         Self { value, error: BOUND * size }
     }
 
-    /// The order of the true product and zero; `None` if the error hides it.
+    /// The sign of the true product, or `None` if the error bound leaves it uncertain.
     fn sign(self) -> Option<Ordering> {
         let is_known = self.value.abs() > self.error || self.error == 0.0;
         is_known.then(|| self.value.partial_cmp(&0.0))?
     }
 }
 
-/// Classifies the whole line of `ray` by the volumes of [`exact::hit`](crate::exact::hit). All numbers must be finite.
+/// Classifies the line of `ray` by the signed volumes of [`exact::hit`](crate::exact::hit). Inputs must be finite.
 pub fn classify(ray: &Ray, corners: [Vec3; 3]) -> Proof {
     let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
     let corners = corners.map(|p| p.as_dvec3());
@@ -105,7 +105,7 @@ fn quotient(numerator: TripleProduct, denominator: TripleProduct) -> Span {
     let sign = denominator.value.signum();
     let (value, denominator) =
         (numerator.value * sign, TripleProduct { value: denominator.value * sign, ..denominator });
-    // These four bounds and the quotients have one rounding each. The bounds, multiples of 2^-700, do not underflow.
+    // The four bounds and the quotients have one rounding each. Nothing underflows: bounds are multiples of 2^-700.
     let (top_low, top_high) = (value - numerator.error, value + numerator.error);
     let (small, large) = (denominator.value - denominator.error, denominator.value + denominator.error);
     let low = top_low / if top_low < 0.0 { small } else { large };
@@ -119,7 +119,7 @@ mod tests {
     use crate::exact;
     use crate::oracle::tests::Numbers;
 
-    /// Checks the filter's proof against exact sums; returns whether there is a hit, `None` if the filter is undecided.
+    /// Checks the filter against exact sums. Returns whether the line hits, or `None` if the filter is undecided.
     fn is_confirmed(ray: &Ray, corners: [Vec3; 3]) -> Option<bool> {
         let truth = exact::hit(ray, corners);
         match classify(ray, corners) {
@@ -152,7 +152,7 @@ mod tests {
         assert!(hits > 1500, "{hits}");
     }
 
-    /// Rays at a corner or at the middle of an edge: the filter must not guess.
+    /// Aims rays at a corner or at the middle of an edge. The filter must be right or undecided.
     #[test]
     fn rays_at_edges_are_decided_right_or_not_at_all() {
         let mut undecided = 0;

@@ -1,4 +1,4 @@
-//! Exact hits of rays, to check the hits of structures; never timed.
+//! Exact hits of rays, to check the hits of structures. The oracle is never timed.
 //!
 //! [`Oracle`] is fast; [`nearest`] is its brute-force reference, which tests every triangle exactly.
 
@@ -30,12 +30,12 @@ impl Truth {
         self.t.round()
     }
 
-    /// Whether the primitive of `hit` is one of these triangles; the `t` of `hit` is ignored.
+    /// Whether the primitive of `hit` is one of `ids`. The `t` of `hit` is ignored.
     pub fn names(&self, hit: Hit) -> bool {
         self.ids.binary_search(&hit.prim.index()).is_ok()
     }
 
-    /// The rounded `t` and the lowest number: the hit that an exact triangle test must return.
+    /// The rounded `t` and the lowest triangle number: the hit that an exact triangle test must return.
     pub fn first(&self) -> (f32, u32) {
         (self.rounded(), self.ids[0])
     }
@@ -44,9 +44,9 @@ impl Truth {
 /// Finds the exact hits of rays in one mesh, in some microseconds per ray.
 ///
 /// It has three stages: a tree of boxes that loses no hit, `f64` arithmetic with a proven error bound, and exact sums
-/// of floats ([`exact`]) if that bound does not decide. It shares these sums with the triangle test
-/// [`Exact`](crate::triangle::Exact), and only the types of meshes, rays and boxes with the structures that it checks.
-/// Unit tests compare the oracle and `Exact` with `exact::rational`.
+/// of floats ([`exact`]) if this bound does not decide. The triangle test [`Exact`](crate::triangle::Exact) uses the
+/// same sums. The structures that the oracle checks share only the types of meshes, rays and boxes with it. Unit tests
+/// compare the oracle and `Exact` with `exact::rational`.
 pub struct Oracle {
     mesh: Arc<Mesh>,
     tree: tree::Tree,
@@ -60,7 +60,7 @@ impl Oracle {
 
     /// The exact nearest hit of `ray` in its half-open interval, with all closed triangles that are hit at this `t`.
     ///
-    /// `None` for an invalid ray. A ray in the plane of a triangle misses this triangle.
+    /// `None` if the ray is invalid or hits nothing. A ray in the plane of a triangle misses this triangle.
     pub fn nearest(&self, ray: &Ray) -> Option<Truth> {
         if !ray.is_valid() {
             return None;

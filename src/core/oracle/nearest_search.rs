@@ -38,7 +38,7 @@ impl<'a> NearestSearch<'a> {
         Some(Truth { t: found.t?, ids: found.ids })
     }
 
-    /// Tests triangle `id`. Returns a bound beyond which no nearer hit lies.
+    /// Tests triangle `id`. Returns an upper bound of the nearest `t`: no triangle beyond it can be the nearest.
     pub fn triangle(&mut self, id: u32) -> f64 {
         // A triangle with the same corners as the nearest one is hit at the same `t`.
         if let Some(nearest) = self.nearest.as_mut().filter(|n| n.corners == self.mesh.corners(id)) {

@@ -1,4 +1,4 @@
-//! Classifies the differences between the hits of a structure and the exact ones.
+//! Classifies the differences between the hits of a structure and the exact hits.
 
 use super::Truth;
 use crate::geometry::Hit;
@@ -15,13 +15,13 @@ pub struct DepthRule {
 }
 
 impl DepthRule {
-    /// Rejects errors that are visible in a picture: more than 1 % on a right primitive, more than 0.1 % on another.
+    /// Rejects errors that are visible in a picture: more than 1 % on a nearest primitive, 0.1 % on another.
     pub const COARSE: Self = Self { right: 1e-2, other: 1e-3, ulps: 0.0 };
 
     /// Rejects errors that are both above 4 ulps and above 1e-6 of `t`, on any primitive.
     pub const STRICT: Self = Self { right: 1e-6, other: 1e-6, ulps: 4.0 };
 
-    /// Whether `found` is within the tolerance of the exact `t`, which is at least 0; `right`: the primitive is right.
+    /// Whether `found` is within the tolerance of the exact `t` >= 0. `right`: the primitive is one of the nearest.
     pub fn allows(self, t: f64, found: f32, right: bool) -> bool {
         let allowed = (t * if right { self.right } else { self.other }).max(ulp(t) * self.ulps);
         // The comparison is false if `found` is NaN.
@@ -34,7 +34,7 @@ impl DepthRule {
 pub enum Outcome {
     /// The ray misses, and the structure returns a miss.
     Nothing,
-    /// The right primitive at the right depth.
+    /// A hit on one of the nearest primitives, at a depth within the tolerance.
     Right,
     /// The ray hits, and the structure returns a miss.
     Missed,
@@ -42,7 +42,7 @@ pub enum Outcome {
     FalseHit,
     /// A hit at a wrong depth, on any primitive.
     WrongDepth,
-    /// A hit on a primitive that is not among the nearest, but at their depth within the tolerance.
+    /// A hit at a depth within the tolerance, but on a primitive that is not among the nearest.
     WrongPrimitive,
 }
 
@@ -63,7 +63,7 @@ pub fn outcome(truth: Option<&Truth>, answer: Option<Hit>, rule: DepthRule) -> O
     }
 }
 
-/// The distance between neighbouring floats at `t`, which is not negative; at least the distance of denormals.
+/// The distance between neighbouring `f32` at `t`, and at least 2^-149. `t` must not be negative.
 pub fn ulp(t: f64) -> f64 {
     let exponent = if t > 0.0 { libm::ilogb(t).clamp(-126, 127) } else { -126 };
     libm::ldexp(1.0, exponent - 23)

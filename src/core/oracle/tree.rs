@@ -2,16 +2,16 @@
 //!
 //! # No hit is lost
 //! The box of a node is the exact box of the corners of its triangles: minima and maxima of `f32` are not rounded. A
-//! box is convex, so a point of a closed triangle is in the triangle's box, and in the box of every node above it.
+//! box is convex, so it contains all points of the closed triangles whose corners it contains.
 //!
 //! Let a ray hit a triangle at the exact `t`. For each axis, the coordinate `o + t d` is in the slab `[low, high]` of
-//! each of those boxes. If `d` is 0 or -0, then `o` is in the slab, and comparisons of floats decide this exactly.
-//! Otherwise `t` is between `(low - o) / d` and `(high - o) / d`. Each quotient is computed in `f64` with one rounding
-//! for the difference and one for the division. It is exactly 0 or in magnitude between 2^-149 / 2^128 and
-//! 2^129 / 2^-149, where nothing overflows or underflows. It is moved outward by four times the error of these two
-//! roundings. The interval of a node is the intersection of the three slabs and of `[t_min, bound]`. It contains `t` if
-//! `bound >= t`. A node is skipped only if its interval is empty. Then every hit in the node is outside the interval of
-//! the ray or behind the bound, and the bound is never less than the exact `t` of the nearest hit so far.
+//! each box that contains the triangle. If `d` is 0 or -0, then `o` is in the slab, and comparisons of floats decide
+//! this exactly. Otherwise `t` is between `(low - o) / d` and `(high - o) / d`. Each quotient is computed in `f64` with
+//! one rounding for the difference and one for the division. It neither overflows nor underflows, because it is exactly
+//! 0 or in magnitude between 2^-149 / 2^128 and 2^129 / 2^-149. It is moved outward by four times the error of these
+//! two roundings. The interval of a node is the intersection of the three slabs and of `[t_min, bound]`. It contains
+//! `t` if `bound >= t`. A node is skipped only if its interval is empty: then every hit in it is outside the
+//! interval of the ray or behind the bound. The bound is never less than the exact `t` of the nearest hit so far.
 
 use super::filter::Span;
 use crate::geometry::{Aabb, Mesh, Ray};
@@ -38,7 +38,7 @@ enum NodeKind {
 
 const LEAF: usize = 4;
 
-/// The maximum number of nodes on the stack: one per level. 2^30 triangles, halved 28 times, fit in a leaf.
+/// The capacity of the stack: at most one node per level. After 28 halvings, 2^30 triangles fit in a leaf.
 const STACK: usize = 32;
 
 impl Tree {
@@ -72,7 +72,7 @@ impl Tree {
     }
 
     /// Calls `test` for every triangle that `ray` hits in its interval up to `bound`, and for some that it misses.
-    /// `test` returns the bound for the remaining triangles, which may only decrease. `ray` must be valid.
+    /// `test` returns the bound for the remaining triangles, which must not increase. `ray` must be valid.
     pub fn visit(&self, ray: &Ray, mut bound: f64, mut test: impl FnMut(u32) -> f64) {
         let enter = |index: u32, bound: f64| Some((index, near(ray, &self.nodes.get(index as usize)?.bounds, bound)?));
         let mut stack = [(0, 0.0); STACK];
@@ -111,7 +111,7 @@ impl Tree {
     }
 }
 
-/// A lower bound of the `t` in [`t_min`, `bound`] at which `ray` is in the box; `None` if `ray` certainly misses it.
+/// A lower bound of the `t` in [`t_min`, `bound`] at which `ray` is in the box. `None` proves that no such `t` exists.
 fn near(ray: &Ray, bounds: &Aabb, bound: f64) -> Option<f64> {
     let (mut near, mut far) = (f64::from(ray.interval().0), bound);
     let Ray { origin, direction, .. } = ray;

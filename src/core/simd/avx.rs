@@ -3,7 +3,7 @@ use std::arch::x86_64::*;
 use super::avx_double::F64x8;
 use super::{Arithmetic, EightLanes, Lanes};
 
-/// 8 lanes in one AVX register, for machines with AVX2 and FMA; with `MASKS`, for machines with AVX-512 VL as well.
+/// Eight lanes in one AVX register, for machines with AVX2 and FMA. `MASKS` requires AVX-512 VL as well.
 ///
 /// The `unsafe` blocks below are sound, because the type is private to `simd`. Only [`dispatch`](super::dispatch) uses
 /// it, in functions that are compiled for these instructions and called only for a [`Level`](super::Level) that has
@@ -11,7 +11,7 @@ use super::{Arithmetic, EightLanes, Lanes};
 #[derive(Clone, Copy, Debug)]
 pub struct Avx<const MASKS: bool>(__m256);
 
-/// Operations on two vectors with one instruction.
+/// Defines operations that take one instruction on two vectors.
 macro_rules! lanewise {
     ($($name:ident: $instruction:ident),*) => {$(
         #[inline(always)]
@@ -22,7 +22,7 @@ macro_rules! lanewise {
     )*};
 }
 
-/// Functions of a few instructions.
+/// Defines functions that consist of a few instructions.
 macro_rules! instructions {
     ($(fn $name:ident($($parameter:tt)*) -> $result:ty { $($body:tt)* })*) => {$(
         #[inline(always)]
@@ -107,7 +107,7 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
 
     const FAST: bool = true;
 
-    /// Interleaves in three rounds: pairs of rows by 32 bits, pairs of pairs by 64 bits, halves by 128 bits.
+    /// Interleaves the rows in three rounds: in units of 32 bits, then of 64 bits, then of 128 bits.
     #[inline(always)]
     fn transpose([a, b, c, d, e, f, g, h]: [Self; 8]) -> [Self; 8] {
         // SAFETY: the machine has the instruction, see `Avx`.

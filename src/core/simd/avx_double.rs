@@ -19,7 +19,7 @@ impl F64x8 {
     }
 }
 
-/// Operations on two vectors with one instruction per half.
+/// Defines operations that take one instruction per register.
 macro_rules! lanewise {
     ($($name:ident: $instruction:ident),*) => {$(
         #[inline(always)]

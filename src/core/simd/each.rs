@@ -1,7 +1,7 @@
 use std::mem::MaybeUninit;
 
-/// `array::from_fn` that is always inlined. A function of the standard library that is not inlined is compiled without
-/// the instructions of a [`Level`](super::Level), and lanes pass through it in memory.
+/// Like `array::from_fn`, but always inlined. Without inlining, it would be compiled without the instructions
+/// of a [`Level`](super::Level), and lanes would pass through memory.
 #[inline(always)]
 pub fn indexed<const N: usize, B: Copy>(f: impl Fn(usize) -> B) -> [B; N] {
     let mut results = [const { MaybeUninit::uninit() }; N];
@@ -12,7 +12,7 @@ pub fn indexed<const N: usize, B: Copy>(f: impl Fn(usize) -> B) -> [B; N] {
     unsafe { std::ptr::from_ref(&results).cast::<[B; N]>().read() }
 }
 
-/// `array::map` that is always inlined.
+/// Like `array::map`, but always inlined.
 #[inline(always)]
 pub fn each<const N: usize, A, B: Copy>(values: &[A; N], f: impl Fn(&A) -> B) -> [B; N] {
     indexed(|i| f(&values[i]))

@@ -42,14 +42,14 @@ pub trait Kernel {
     /// The result.
     type Output;
 
-    /// Mark it, and functions on lanes that it calls, `#[inline(always)]`: only inlined code is compiled for the level.
+    /// Must be `#[inline(always)]`, like the functions on lanes that it calls: only inlined code is compiled for `L`.
     fn run<L: EightLanes>(self) -> Self::Output;
 }
 
 static CURRENT: AtomicU8 = AtomicU8::new(UNCHOSEN);
 const UNCHOSEN: u8 = u8::MAX;
 
-/// Whether this build has the level. Each level compiles another copy of every search, so a build for one processor has
+/// Whether this build has the level. Each level adds a compiled copy of every search, so a build for one processor has
 /// only the highest level of the processor and the portable level. The feature `all-levels` includes all levels.
 const WITH_AVX2: bool =
     cfg!(all(target_arch = "x86_64", any(feature = "all-levels", not(target_feature = "avx512vl"))));
@@ -96,7 +96,7 @@ impl Level {
         self == Self::Portable
     }
 
-    /// The level that structures use: the highest available one, unless the program selected another.
+    /// The level that structures use: the argument of [`choose`](Self::choose), by default the highest available level.
     #[inline(always)]
     pub fn current() -> Self {
         match CURRENT.load(Ordering::Relaxed) {
@@ -117,7 +117,7 @@ impl Level {
     /// Makes this the level of the whole process.
     ///
     /// # Panics
-    /// If it is not available.
+    /// If the level is not available.
     pub fn choose(self) {
         assert!(self.is_available(), "the level {self} is not available");
         CURRENT.store(self as u8, Ordering::Relaxed);
@@ -145,23 +145,23 @@ impl FromStr for Level {
 /// Runs `kernel` compiled for `level`.
 ///
 /// # Panics
-/// In debug builds, if the level is not available; levels come from [`Level::current`] and [`Level::available`].
+/// In debug builds, if the level is not available.
 #[inline(always)]
 pub fn dispatch<K: Kernel>(level: Level, kernel: K) -> K::Output {
     debug_assert!(level.is_available());
     match level {
-        // SAFETY: the machine has the instructions. `is_available` has detected them before `available` or `choose`
-        // accepted the level, and no other code makes one, except `Portable` (see `Level`).
+        // SAFETY: the machine has the instructions. `available` and `choose` accept a level only after `is_available`
+        // has detected its instructions, and no other code makes a level, except `Portable` (see `Level`).
         #[cfg(target_arch = "x86_64")]
         Level::Avx2 if WITH_AVX2 => unsafe { avx2(kernel) },
-        // SAFETY: as above.
+        // SAFETY: the machine has the instructions, as explained for `Avx2`.
         #[cfg(target_arch = "x86_64")]
         Level::Avx512 if WITH_AVX512 => unsafe { avx512(kernel) },
         _ => kernel.run::<Portable<8>>(),
     }
 }
 
-// Out of line, so each kernel has its own stack frame.
+// Not inlined, so each kernel has a separate stack frame.
 #[cfg(target_arch = "x86_64")]
 #[inline(never)]
 #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]

@@ -38,19 +38,19 @@ pub trait Arithmetic<const N: usize>: Copy {
     fn mul(self, other: Self) -> Self;
     /// Quotients.
     fn div(self, other: Self) -> Self;
-    /// The lesser; `other` if they are equal or one is NaN.
+    /// The lesser number of each lane. It is the number of `other` if both are equal or one is NaN.
     fn min(self, other: Self) -> Self;
-    /// The greater; `other` if they are equal or one is NaN.
+    /// The greater number of each lane. It is the number of `other` if both are equal or one is NaN.
     fn max(self, other: Self) -> Self;
     /// `self`, negated in the lanes where the sign bit of `other` is set.
     fn flip_sign(self, other: Self) -> Self;
-    /// Lanes where `self <= other`, as bits, lane 0 lowest; false for NaN.
+    /// Lanes where `self <= other`, as bits; lane 0 is the lowest bit. A comparison with NaN is false.
     fn le(self, other: Self) -> u32;
-    /// Lanes where `self < other`, as bits; false for NaN.
+    /// Lanes where `self < other`, as bits. A comparison with NaN is false.
     fn lt(self, other: Self) -> u32;
-    /// `self * factor + term`, rounded once or twice: only for values that no hit depends on.
+    /// `self * factor + term`, rounded once or twice, depending on the level. Only for values that no hit depends on.
     fn mul_add_loosely(self, factor: Self, term: Self) -> Self;
-    /// `self * factor - term`, rounded in the same way.
+    /// `self * factor - term`, rounded like [`mul_add_loosely`](Self::mul_add_loosely).
     fn mul_sub_loosely(self, factor: Self, term: Self) -> Self;
 }
 
@@ -74,14 +74,15 @@ pub trait EightLanes: Lanes<8> {
     /// A `u32` per lane.
     type Numbers: Copy;
 
-    /// Whether lane operations are machine instructions: then work on many lanes at once pays.
+    /// Whether lane operations are vector instructions. If not, code over many lanes is slow.
     const FAST: bool;
 
-    /// Selects the lanes where `self <= limit`, in `order`: three bits per lane, the first lane lowest. Writes their
-    /// floats to `keys` and their `values` to `chosen`. Bit `i` of the result marks the `i`-th lane of `order`.
+    /// Selects the lanes where `self <= limit`. `order` lists eight lane numbers of 3 bits, the first in the lowest
+    /// bits. In this order, writes the floats of the selected lanes to `keys` and their `values` to `chosen`. Bit `i`
+    /// of the result is set if the `i`-th lane of `order` is selected.
     ///
     /// # Safety
-    /// Eight floats may be written to `keys` and eight numbers to `chosen`, for any number of selected lanes.
+    /// `keys` and `chosen` must be valid for writes of eight elements, even if fewer lanes are selected.
     unsafe fn compress_ordered(
         self,
         limit: Self,
@@ -94,20 +95,20 @@ pub trait EightLanes: Lanes<8> {
     /// Like `compress_ordered`, but in the order of the lanes and without keys.
     ///
     /// # Safety
-    /// Eight numbers may be written to `chosen`, for any number of selected lanes.
+    /// `chosen` must be valid for writes of eight numbers, even if fewer lanes are selected.
     unsafe fn compress(self, limit: Self, values: &[u32; 8], chosen: *mut u32) -> u32;
 
-    /// Lanes where `self <= other`; false for NaN.
+    /// Lanes where `self <= other`. A comparison with NaN is false.
     fn cmp_le(self, other: Self) -> Self::Mask;
-    /// Lanes where `self < other`; false for NaN.
+    /// Lanes where `self < other`. A comparison with NaN is false.
     fn cmp_lt(self, other: Self) -> Self::Mask;
     /// The mask of the lanes whose bits are set, lane 0 lowest.
     fn mask(bits: u32) -> Self::Mask;
     /// The lanes of a mask as bits, lane 0 lowest.
     fn bits(mask: Self::Mask) -> u32;
-    /// The lanes of both masks.
+    /// The lanes that are in both masks.
     fn both(one: Self::Mask, other: Self::Mask) -> Self::Mask;
-    /// The lanes of either mask.
+    /// The lanes that are in at least one of the masks.
     fn either(one: Self::Mask, other: Self::Mask) -> Self::Mask;
     /// `self` in the lanes of `mask`, `other` elsewhere.
     fn choose(self, other: Self, mask: Self::Mask) -> Self;
@@ -120,7 +121,7 @@ pub trait EightLanes: Lanes<8> {
     fn store_numbers(numbers: Self::Numbers) -> [u32; 8];
     /// Lanes where `one <= other`.
     fn cmp_le_numbers(one: Self::Numbers, other: Self::Numbers) -> Self::Mask;
-    /// The numbers of `one` in the lanes of `mask`, and of `other` elsewhere.
+    /// The numbers of `one` in the lanes of `mask`, and the numbers of `other` elsewhere.
     fn choose_numbers(one: Self::Numbers, other: Self::Numbers, mask: Self::Mask) -> Self::Numbers;
 
     /// Lane `j` of row `i` becomes lane `i` of row `j`.
@@ -156,7 +157,7 @@ mod tests {
         }
     }
 
-    /// Compresses the lanes where `a <= b`, in `order` and in ascending order: sets, then bits of keys and values.
+    /// Compresses the lanes where `a <= b`, in `order` and in lane order. Returns two sets, the keys and both values.
     fn taken<L: EightLanes>(a: &[f32; 8], b: &[f32; 8], order: u32) -> ([u32; 2], [Vec<u32>; 3]) {
         let (a, b, values) = (L::load(a), L::load(b), std::array::from_fn(|i| 100 + i as u32));
         let (mut keys, [mut ordered, mut plain]) = ([0.0_f32; 8], [[0_u32; 8]; 2]);
@@ -169,7 +170,6 @@ mod tests {
         (sets, [first(keys.map(f32::to_bits), sets[0]), first(ordered, sets[0]), first(plain, sets[1])])
     }
 
-    /// Checks compression, masks and transposition against the portable lanes and naive code.
     fn same_compression<L: EightLanes>() {
         for seed in 0..SPECIAL.len() * SPECIAL.len() {
             let a: [f32; 8] = std::array::from_fn(|k| SPECIAL[(seed + 3 * k) % SPECIAL.len()]);

@@ -1,10 +1,10 @@
 use super::{Arithmetic, EightLanes, Lanes, each, indexed};
 
-/// Lanes as an array: the reference for other implementations, and the fallback on machines without their instructions.
+/// Lanes as an array: the reference for vector instructions, and the fallback on machines without them.
 #[derive(Clone, Copy, Debug)]
 pub struct Portable<const N: usize, S = f32>([S; N]);
 
-/// Operations on two vectors that apply a scalar operation in each lane.
+/// Defines operations on two vectors by an operation on one lane.
 macro_rules! lanewise {
     ($all:ident -> $result:ty; $($name:ident: $one:expr,)*) => {$(
         #[inline(always)]
@@ -14,7 +14,7 @@ macro_rules! lanewise {
     )*};
 }
 
-/// Functions that are always inlined.
+/// Defines functions that are always inlined.
 macro_rules! inlined {
     ($(fn $name:ident($($parameter:tt)*) -> $result:ty { $($body:tt)* })*) => {$(
         #[inline(always)]

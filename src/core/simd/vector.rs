@@ -24,7 +24,7 @@ impl<const N: usize, L: Lanes<N>> LaneVec3<N, L> {
         Self::new(L::splat(v.x), L::splat(v.y), L::splat(v.z))
     }
 
-    /// Vectors in structure-of-arrays layout.
+    /// Loads vectors in structure-of-arrays layout.
     #[inline(always)]
     pub fn load([x, y, z]: &[[f32; N]; 3]) -> Self {
         Self::new(L::load(x), L::load(y), L::load(z))
@@ -59,13 +59,13 @@ impl<const N: usize, L: Arithmetic<N>> LaneVec3<N, L> {
         self.x.mul(other.x).add(self.y.mul(other.y)).add(self.z.mul(other.z))
     }
 
-    /// Like `dot`, by [`Arithmetic::mul_add_loosely`].
+    /// Like [`dot`](Self::dot), with [`Arithmetic::mul_add_loosely`].
     #[inline(always)]
     pub fn dot_loosely(self, other: Self) -> L {
         self.z.mul_add_loosely(other.z, self.y.mul_add_loosely(other.y, self.x.mul(other.x)))
     }
 
-    /// Like `cross`, by [`Arithmetic::mul_add_loosely`].
+    /// Like [`cross`](Self::cross), with [`Arithmetic::mul_sub_loosely`].
     #[inline(always)]
     pub fn cross_loosely(self, other: Self) -> Self {
         let minor = |a: L, b: L, c: L, d: L| a.mul_sub_loosely(b, c.mul(d));

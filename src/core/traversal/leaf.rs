@@ -10,7 +10,7 @@ use crate::triangle::{BLOCK, Depth, TriangleTest};
 /// The nearest hit so far or, without a hit, the end of the interval.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Nearest<D> {
-    /// A hit must lie at or before this `t`.
+    /// A new hit must lie at or before this `t`.
     pub t: f32,
     pub hit: Option<(D, u32)>,
 }
@@ -25,7 +25,7 @@ impl<D: Depth> Nearest<D> {
         Self { t: last, hit: None }
     }
 
-    /// Keeps the hit if it is nearer by `order`, or equally near with a lower number.
+    /// Replaces the hit if the new hit is nearer by `order`, or equally near with a lower triangle number.
     #[inline(always)]
     pub fn offer(&mut self, depth: D, id: u32, order: impl FnOnce(&D, &D) -> Ordering) {
         let better = match &self.hit {
@@ -42,7 +42,7 @@ impl<D: Depth> Nearest<D> {
         self.hit.is_some()
     }
 
-    /// The nearest hit of `ray`; with `ANY` any hit, whose `t` is only a bound.
+    /// The nearest hit of `ray`. With `ANY`, it is any hit, and its `t` is only an upper bound.
     #[inline(always)]
     pub fn answer<const ANY: bool>(&self, ray: &Ray) -> Option<Hit> {
         let (depth, id) = self.hit.as_ref()?;
@@ -102,7 +102,7 @@ impl Mailbox {
     }
 }
 
-/// Searches a leaf of `count` triangles; `u32::MAX` will do without an observer. With `ANY`, stops at the first hit.
+/// Searches a leaf of `count` triangles (`u32::MAX` without an observer). With `ANY`, stops at the first hit.
 #[inline(always)]
 pub(crate) fn search<'a, const ANY: bool, L: EightLanes, T: TriangleTest, O: Observer>(
     blocks: &'a [LeafBlock<T>],
@@ -132,9 +132,9 @@ pub(crate) fn search<'a, const ANY: bool, L: EightLanes, T: TriangleTest, O: Obs
     }
 }
 
-/// Decides the candidates of a block. Candidates are rare, and an inlined function would take registers from the
-/// traversal. Candidates that need a function call are left to [`settle_closely`], because a function without calls
-/// saves no registers to the stack.
+/// Decides the candidates of a block. It is not inlined: candidates are rare, and inlined code would take registers
+/// from the traversal. If a candidate needs a function call, [`settle_closely`] decides all remaining candidates.
+/// Without other calls, this function saves no registers to the stack.
 #[inline(never)]
 pub(crate) fn settle<'a, T: TriangleTest>(
     block: &'a LeafBlock<T>,
@@ -169,10 +169,10 @@ pub(crate) fn settle<'a, T: TriangleTest>(
     }
 }
 
-/// Up to this number, candidates are decided faster one by one.
+/// Up to this number of candidates, deciding them one by one is faster than refining them together.
 const FEW: u32 = 2;
 
-/// Like [`settle`], with all stages of the test.
+/// Like [`settle`], for candidates that need the slower functions of the test.
 #[inline(never)]
 fn settle_closely<'a, T: TriangleTest>(
     block: &'a LeafBlock<T>,
@@ -203,9 +203,9 @@ fn settle_closely<'a, T: TriangleTest>(
     }
 }
 
-/// Starts a query: returns `t_min` and a [`Nearest`] without a hit; `None` if the ray can hit nothing.
+/// Starts a query: returns `t_min` and a [`Nearest`] without a hit, or `None` if the ray can hit nothing.
 ///
-/// The caller prepares the ray itself, because copying a ray that has just been written stalls the processor.
+/// The caller prepares the ray: returning a prepared ray would copy values just written, which stalls the processor.
 #[inline(always)]
 pub(crate) fn start<'a, T: TriangleTest>(ray: &Ray) -> Option<(f32, Nearest<T::Depth<'a>>)> {
     let (t_min, t_max) = ray.interval();

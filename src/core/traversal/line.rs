@@ -9,28 +9,28 @@ use crate::simd::{Lanes, each};
 ///
 /// **Slack.** The crossing of the plane `axis = s` is computed as `(s - o) * (1 / d)`. Each of the three roundings has
 /// a relative error of at most 2^-24. The crossing has a relative error of at most 3.01 * 2^-24, or an absolute error
-/// of at most 2^-148 if the product underflows. [`before`] and [`after`] move a crossing outward by 8 * 2^-24 of itself
-/// and then by 2^-126. The rounding of the product takes back at most 1.01 * 2^-24, the rounding of the sum nothing.
-/// More than twice the error of a crossing remains, so a moved crossing compares correctly with an unmoved one. The
-/// sign of a crossing is exact, because a difference of floats has the exact sign. If `d` = 0 and the ray is outside
-/// the plane, the crossing is infinite and orders correctly. A crossing is undefined in three cases: the ray lies in
-/// the plane (0 * inf), the inverse of `d` overflows or is too small for full precision, or the difference to some
-/// plane may overflow. An undefined crossing is NaN, which every user reads as "may cross anywhere".
+/// of at most 2^-148 if the product underflows. [`before`] and [`after`] move a crossing outward by 8 * 2^-24 of its
+/// value and then by 2^-126. The rounding of the product takes back at most 1.01 * 2^-24 of the value; the rounding of
+/// the sum takes back nothing. More than twice the error of a crossing remains, so a moved crossing compares correctly
+/// with an unmoved one. The sign of a crossing is exact, because a difference of floats has the exact sign. If `d` = 0
+/// and the ray is outside the plane, the crossing is infinite and compares correctly. A crossing is undefined in three
+/// cases: the ray lies in the plane (0 * inf), the inverse of `d` overflows or is too small for full precision, or the
+/// difference to some plane may overflow. An undefined crossing is NaN, which traversals treat as a crossing anywhere.
 ///
-/// **Ends of the interval.** Let t* be the exact parameter of a hit in [`t_min`, `t_max`). It may lie beyond the last
-/// float before `t_max` and be reported as `t_max`. Therefore moved crossings are compared with `t_min` and an end:
-/// first [`TriangleTest::last`](crate::triangle::TriangleTest::last), later the bound of the nearest hit. If the test
-/// is exact, t* does not exceed this end. If the test rounds t* to the nearest float, the rounded t* does not exceed
-/// the end, and t* exceeds the end by at most 2^-24 of t*. The ray enters a box that contains the hit at an exact
-/// parameter e <= t* and leaves it at f >= t*. The computed entry, moved by `before`, is at least 3.9 * 2^-24 of e
-/// before e, hence not beyond the end. The computed exit, moved by `after`, is not before f, hence not before `t_min`.
+/// **Ends of the interval.** Let t* be the exact parameter of a hit in [`t_min`, `t_max`). Traversals compare moved
+/// crossings with `t_min` and with an end: first [`TriangleTest::last`](crate::triangle::TriangleTest::last), later the
+/// bound of the nearest hit. If the test is exact, t* does not exceed this end. If the test rounds t* to the nearest
+/// float, the rounded t* does not exceed the end, and t* exceeds the end by at most 2^-24 of t*. Consider a box that
+/// contains the hit. The ray enters it at an exact parameter e <= t* and leaves it at f >= t*. The computed entry,
+/// moved by `before`, precedes e by at least 3.9 * 2^-24 of e, so it is not beyond the end. The computed exit, moved by
+/// `after`, is not before f, so it is not before `t_min`.
 ///
-/// **Overflow.** A crossing may be computed as infinity only if it is beyond the largest float, or before it by at most
-/// 2.6 * 2^-24 of it. `before` leaves infinity unchanged. Such an entry would be beyond every finite end, and beyond
-/// the computed crossings of planes that the ray meets later. Therefore [`finite_entry`] makes the entry finite, or the
-/// end is made infinite: by [`open_end`], or by `after` if the end is before the largest float by at most 7.5 * 2^-24
-/// of it. If the end stays finite, no box that the ray enters before the end has an infinite entry. An infinite exit is
-/// correct.
+/// **Overflow.** Let M be the largest float. A crossing is computed as infinity only if its exact value exceeds
+/// (1 - 2.6 * 2^-24) M. `before` leaves infinity unchanged. An infinite entry would be beyond every finite end, and
+/// beyond the computed crossings of planes that the ray meets later. Traversals therefore make the entry finite with
+/// [`finite_entry`], or they make the end infinite: with [`open_end`], or with `after`, which turns every end above
+/// (1 - 7.5 * 2^-24) M into infinity. If the end stays finite, every box that the ray enters before the end has a
+/// finite entry. An infinite exit is correct.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Line {
     origin: [f32; 3],
@@ -57,13 +57,13 @@ pub(crate) fn after(t: f32) -> f32 {
 /// [`before`] of the largest finite float: the largest finite result of `before`.
 const LATEST: f32 = f32::MAX * BEFORE - TINY;
 
-/// The crossing `t`, moved by [`before`]; [`LATEST`] if it overflowed. The result is not after the exact crossing.
+/// Returns `t`, a crossing moved by [`before`], or [`LATEST`] if it overflowed. It is not after the exact crossing.
 #[inline(always)]
 pub(crate) fn finite_entry(t: f32) -> f32 {
     if t < LATEST { t } else { LATEST }
 }
 
-/// The end `t` of an interval; infinity if a crossing that is not beyond `t` may overflow.
+/// The end `t` of an interval, or infinity if a crossing before `t` may be computed as infinity.
 #[inline(always)]
 pub(crate) fn open_end(t: f32) -> f32 {
     if t < LATEST { t } else { f32::INFINITY }
@@ -80,14 +80,14 @@ pub(crate) fn farthest(bounds: &Aabb) -> Vec3A {
     Vec3A::from(bounds.min.abs().max(bounds.max.abs()))
 }
 
-/// 1 / d for each component of the direction, for planes whose coordinates have at most the magnitudes `farthest`. NaN
-/// for an inverse that overflows or lacks full precision; all NaN if the difference to some plane may overflow.
+/// The inverse of each direction component, or NaN if it overflows or lacks full precision. `farthest` bounds the
+/// coordinates of planes: if the difference of a plane and the origin may overflow, all three inverses are NaN.
 #[inline(always)]
 pub(crate) fn inverses(ray: &Ray, farthest: Vec3A) -> [f32; 3] {
-    // Compute all three axes at once: the preparation is a large part of the cost of a ray.
+    // Compute all three axes at once, because the preparation takes much of the time of a ray.
     let (origin, direction) = ray.vectors();
     if !(origin.abs() + farthest).is_finite() {
-        // The box may also be empty.
+        // This is also the result for an empty box, whose `farthest` is infinite.
         return [f32::NAN; 3];
     }
     let inverse = direction.recip();
@@ -97,28 +97,28 @@ pub(crate) fn inverses(ray: &Ray, farthest: Vec3A) -> [f32; 3] {
 }
 
 impl Line {
-    /// Prepares the line for planes that cut the box `bounds` or are its faces.
+    /// Prepares the line for planes that cut the box `bounds`, and for the planes of its faces.
     #[inline(always)]
     pub fn new(ray: &Ray, bounds: &Aabb) -> Self {
         let backward = each(&ray.direction.to_array(), |x| x.is_sign_negative());
         Self { origin: ray.origin.to_array(), inverse: inverses(ray, farthest(bounds)), backward }
     }
 
-    /// The parameter at which the line crosses the plane; NaN if it is undefined.
+    /// The parameter at which the line crosses the plane `axis = split`, or NaN if the crossing is undefined.
     #[inline(always)]
     pub fn crossing(&self, axis: usize, split: f32) -> f32 {
         (split - self.origin[axis]) * self.inverse[axis]
     }
 
-    /// Whether the line meets the upper side of a plane first.
+    /// Whether the line meets the upper side of a plane perpendicular to `axis` first.
     #[inline(always)]
     pub fn backward(&self, axis: usize) -> bool {
         self.backward[axis]
     }
 
-    /// The part of [`t0`, `t1`] in the closed box, with slack; `None` if the line certainly misses the box in this
-    /// interval. The part may begin at infinity if a crossing overflows, so `t1` must be the result of [`open_end`] or
-    /// [`after`].
+    /// Clips [`t0`, `t1`] to the closed box, with slack. Returns `None` if the line certainly misses the box in this
+    /// interval. `t1` must be a result of [`open_end`] or [`after`], because the clipped interval begins at infinity if
+    /// a crossing overflows.
     ///
     /// A line that is parallel to two faces and between their planes enters at -inf and leaves at +inf. A line in the
     /// plane of a face crosses it at NaN, which leaves the interval unchanged.
@@ -228,7 +228,7 @@ mod tests {
             let exact = f64::from(f32::MAX) * (1.0 - f64::from(i % 100) * 0.1 * 2.0_f64.powi(-24));
             let origin = 1e29 * (i % 7) as f32;
             let split = (f64::from(origin) + exact * f64::from(d)) as f32;
-            // A difference of such floats is exact in `f64`.
+            // The difference of these two floats is exact in `f64`.
             let exact = (f64::from(split) - f64::from(origin)) / f64::from(d);
             let crossing = (split - origin) * (1.0 / d);
             infinite += u32::from(crossing == f32::INFINITY);
@@ -244,10 +244,10 @@ mod tests {
 
     #[test]
     fn undefined_crossings_keep_the_interval() {
-        // Directions too short to invert.
+        // These directions are too short to invert.
         assert_eq!(clip([-2.0, 0.5, 0.5], [1e-40, 0.0, 0.0]), Some((0.0, f32::MAX)));
         assert!(clip([0.5, 0.5, 0.5], [1e-40, 1e-42, -1e-41]).is_some());
-        // A difference that overflows; an inverse without full precision.
+        // In the first assertion, a difference overflows. In the second, the inverse lacks full precision.
         let large = Aabb { min: Vec3::splat(-3e37), max: Vec3::splat(3e37) };
         let ray = Ray::new(Vec3::new(-3.39e38, 0.0, 0.0), Vec3::new(1e38, 0.0, 0.0));
         assert_eq!(Line::new(&ray, &large).clip(&large, 0.0, f32::MAX), Some((0.0, f32::MAX)));

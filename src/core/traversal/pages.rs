@@ -1,14 +1,14 @@
 //! Memory for large arrays in huge pages, and prefetching.
 
-/// Memory for `len` values that are read at random places, in huge pages if possible. With pages of 4 KiB, a traversal
-/// of a few megabytes misses the TLB at nearly every node. Only Linux receives this advice, and it may decline.
+/// Allocates memory for `len` values that are read in random order, in huge pages if possible. With 4 KiB pages, a
+/// traversal of a few megabytes misses the TLB at nearly every node. Huge pages are requested only on Linux.
 pub(crate) fn with_capacity<T>(len: usize) -> Vec<T> {
     let values = Vec::with_capacity(len);
     advise(values.as_ptr(), len * size_of::<T>());
     values
 }
 
-/// Moves `values` to memory of [`with_capacity`].
+/// Copies `values` to memory that [`with_capacity`] allocates.
 pub(crate) fn moved<T: Copy>(values: Vec<T>) -> Vec<T> {
     let mut moved = with_capacity(values.len());
     moved.extend_from_slice(&values);

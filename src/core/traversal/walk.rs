@@ -5,7 +5,7 @@ use crate::geometry::{Hit, Ray};
 use crate::simd::{EightLanes, Kernel, Level, Portable, dispatch};
 
 pub(crate) trait Walk {
-    /// The nearest hit; with `ANY` any hit.
+    /// The nearest hit. With `ANY`, any hit, whose `t` is only an upper bound.
     fn walk<const ANY: bool, L: EightLanes, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit>;
 }
 
@@ -28,12 +28,12 @@ pub(crate) fn silent<const ANY: bool, L: EightLanes, W: Walk>(structure: &W, ray
     if L::FAST {
         structure.walk::<ANY, L, ()>(ray, &mut ())
     } else {
-        // The counting traversal is compiled anyway, and counting costs little on portable lanes.
+        // Use the counting traversal, which is compiled anyway. Counting costs little on portable lanes.
         watched::<ANY, W, Counts>(structure, ray, &mut Counts::default())
     }
 }
 
-/// Traverses with an observer: on portable lanes, so counts are the same everywhere; out of line, to compile one copy.
+/// Traverses with an observer. Portable lanes give the same counts on every machine. Not inlined, to compile one copy.
 #[inline(never)]
 fn watched<const ANY: bool, W: Walk, O: Observer>(structure: &W, ray: &Ray, observer: &mut O) -> Option<Hit> {
     structure.walk::<ANY, Portable<8>, O>(ray, observer)

@@ -5,11 +5,11 @@ use crate::simd::{LaneVec3, Lanes, indexed};
 
 /// Baldwin-Weber, in `f32`: the test transforms the ray into the space of the unit triangle.
 ///
-/// Guarantees: the least arithmetic of all tests. Not guaranteed: accuracy, because the transformation is relative to
-/// the world's origin and errors grow with the distance from it (at 1e3 scene sizes, half of the hits are lost); closed
-/// meshes may leak at edges. 48 bytes per triangle.
+/// Guarantees: the least arithmetic of all tests. Not guaranteed: accuracy and closed meshes. The transformation is
+/// relative to the world's origin, so errors grow with the distance from it: at 1e3 scene sizes, half of the hits are
+/// lost. Closed meshes may leak at edges. 48 bytes per triangle.
 ///
-/// A block stores all twelve numbers of each matrix, rounded from `f64`, because lanes may differ in the free axis.
+/// A block stores all twelve numbers of each matrix, rounded from `f64`. Which column is trivial differs per lane.
 ///
 /// # References
 /// Baldwin, Weber: Fast ray-triangle intersections by coordinate transformation. Journal of Computer Graphics
@@ -27,7 +27,7 @@ pub struct ToUnit<const N: usize> {
 
 const _: () = assert!(size_of::<ToUnit<1>>() == 48);
 
-/// The rows and translations of one triangle. If it has no area, all are zero, and no ray hits it.
+/// The rows and translations of one triangle. If the triangle has no area, all numbers are zero, and no ray hits it.
 fn to_unit(corners: [Vec3; 3]) -> [(DVec3, f64); 3] {
     let [a, b, c] = corners.map(Vec3::as_dvec3);
     let (edge1, edge2) = (b - a, c - a);
@@ -37,7 +37,7 @@ fn to_unit(corners: [Vec3; 3]) -> [(DVec3, f64); 3] {
     if det == 0.0 {
         return [(DVec3::ZERO, 0.0); 3];
     }
-    // The third basis vector is free. An axis makes one column of the matrix trivial.
+    // The third basis vector is arbitrary. An axis makes one column of the matrix trivial.
     let free = DVec3::AXES[longest];
     [edge2.cross(free), free.cross(edge1), normal].map(|row| (row / det, -row.dot(a) / det))
 }

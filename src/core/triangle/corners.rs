@@ -10,7 +10,7 @@ pub struct Corners<const N: usize>([[[f32; N]; 3]; 3]);
 const _: () = assert!(size_of::<Corners<1>>() == 36);
 
 impl<const N: usize> Corners<N> {
-    /// Stores at most `N` triangles. Unused lanes contain triangles without extent.
+    /// Stores at most `N` triangles. Unused lanes contain triangles whose corners all lie at the origin.
     ///
     /// # Panics
     /// If there are more than `N` triangles.

@@ -1,4 +1,4 @@
-/// The common part of tests whose first stage decides all hits.
+/// Defines the common items of tests whose first stage decides all hits.
 macro_rules! decided_at_once {
     () => {
         type First<const N: usize, L: $crate::simd::Lanes<N>> = L;
@@ -17,7 +17,7 @@ macro_rules! decided_at_once {
     };
 }
 
-/// `decided_at_once` for tests that use rays unchanged.
+/// Like `decided_at_once`, for tests that use rays unchanged.
 macro_rules! decided_on_rays {
     () => {
         type Ray = (glam::Vec3, glam::Vec3);
@@ -31,7 +31,7 @@ macro_rules! decided_on_rays {
     };
 }
 
-/// `decided_on_rays` for tests that use corners unchanged as well.
+/// Like `decided_on_rays`, for tests that also use corners unchanged.
 macro_rules! decided_on_corners {
     () => {
         type Block<const N: usize> = $crate::triangle::Corners<N>;
@@ -44,7 +44,7 @@ macro_rules! decided_on_corners {
     };
 }
 
-/// `decided_on_corners` for a test in `f64`: `$solve` returns the lanes whose triangle counts as hit, and all `t`.
+/// Like `decided_on_corners`, for tests in `f64`. `$solve` returns the lanes that the line hits, and `t` of all lanes.
 macro_rules! decided_in_f64 {
     ($solve:ident) => {
         decided_on_corners!();

@@ -15,17 +15,17 @@ pub const BETWEEN_BOUNDS: usize = 15;
 
 /// The position of a hit along its ray, as exactly as the triangle test knows it.
 pub trait Depth: Copy {
-    /// The order along the ray; `None` if the decision needs the ray, see
-    /// [`TriangleTest::order`](super::TriangleTest::order).
+    /// The order along the ray, or `None` if it depends on data of the ray. Then
+    /// [`TriangleTest::order`](super::TriangleTest::order) decides.
     fn order(&self, other: &Self) -> Option<Ordering>;
 
-    /// The depth of a hit at `t`; `None` if a depth contains more than `t`.
+    /// The depth of a hit at `t`, or `None` if depths of this type contain more than `t`.
     fn of(t: f32) -> Option<Self>;
 
     /// The `t` to return for a hit of `ray`: the float nearest to the depth.
     fn t(&self, ray: &Ray) -> f32;
 
-    /// Whether computing `t` takes a further step, which [`ts`](Self::ts) does faster for eight hits at once.
+    /// Whether [`t`](Self::t) takes a further computation, which [`ts`](Self::ts) does faster for eight hits at once.
     const LATE: bool = false;
 
     /// The inputs of `ts` for a hit of `ray`: corners, origin, direction, and the distance between the bounds.
@@ -34,7 +34,7 @@ pub trait Depth: Copy {
         unreachable!("a depth whose `t` is late has inputs")
     }
 
-    /// The bits of [`t`](Self::t) for up to eight hits, in the lanes `which`, from their [`inputs`](Self::inputs).
+    /// The [`t`](Self::t) of hits, from their [`inputs`](Self::inputs). `which`: the lanes that have a hit, as bits.
     #[inline(always)]
     fn ts<L: EightLanes>(_inputs: &[[f32; 8]; INPUTS], _which: u32) -> [f32; 8] {
         unreachable!("a depth whose `t` is late computes the `t` of eight hits")
@@ -52,7 +52,7 @@ pub(crate) fn last_bits<D: Depth>(level: Level, inputs: &[[f32; 8]; INPUTS], whi
     dispatch(level, LastBits::<D> { inputs, which, depth: PhantomData })
 }
 
-/// [`Depth::ts`] as a separate kernel: inlined, it would take registers from the traversal.
+/// Runs [`Depth::ts`] as a separate kernel. Inlined, it would take registers from the traversal.
 struct LastBits<'a, D> {
     inputs: &'a [[f32; 8]; INPUTS],
     which: u32,

@@ -1,15 +1,15 @@
 use crate::simd::{EightLanes, LaneVec3};
 
-/// Eight valid rays side by side.
+/// Eight valid rays, one per lane.
 #[derive(Clone, Copy)]
 pub struct EightRays<L> {
-    /// Their origins.
+    /// The origins of the rays.
     pub origin: LaneVec3<8, L>,
-    /// Their directions.
+    /// The directions of the rays.
     pub direction: LaneVec3<8, L>,
-    /// The starts of their intervals, which are not negative.
+    /// The starts of the intervals. They are not negative.
     pub t_min: L,
-    /// The ends of their intervals.
+    /// The ends of the intervals.
     pub t_max: L,
     /// An upper bound of the magnitudes of all direction components.
     pub longest: f32,
@@ -22,7 +22,7 @@ pub struct EightHits<L: EightLanes> {
     /// The rays that hit the triangle within their intervals.
     pub met: L::Mask,
     /// The rays that miss the triangle, or hit it outside their interval or beyond `to`. Rays in neither mask must be
-    /// tested individually. A test of [one stage](super::TriangleTest::ONE_STAGE) decides all and leaves this empty.
+    /// tested individually. [One-stage tests](super::TriangleTest::ONE_STAGE) leave it empty: rays outside `met` miss.
     pub missed: L::Mask,
     /// Lower bounds of `t` of the rays that hit.
     pub low: L,

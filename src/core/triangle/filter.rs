@@ -15,13 +15,13 @@ pub(super) struct FilterRay {
     scaling: Scaling,
 }
 
-/// The power of two that scales the largest component of a direction to [1, 2), or to less if it is denormal.
+/// The power of two that scales the largest direction component to [1, 2), or to less if the component is denormal.
 #[derive(Clone, Copy, Debug)]
 struct Scaling {
-    /// The factor and its inverse.
+    /// The power of two. `unscaled` is its inverse.
     scale: f32,
     unscaled: f32,
-    /// [`TINY`], or infinity if an overflow is possible: no triangle is rejected then.
+    /// [`TINY`], or infinity if an overflow is possible. Infinity rejects no triangle.
     tiny: f32,
 }
 
@@ -30,19 +30,19 @@ struct Scaling {
 #[repr(C)]
 pub struct FilterBlock<const N: usize> {
     pub(super) corners: Corners<N>,
-    /// The largest component of the two edges; infinite if an overflow is possible, negative in unused lanes.
+    /// The largest magnitude of an edge component. Infinite if an overflow is possible, negative in unused lanes.
     extents: [f32; N],
-    /// [`HEIGHT`] times N, rounded up, in the notation of [`filter_block`].
+    /// [`HEIGHT`] times the bound N of [`filter_block`] on the components of the normal, rounded up.
     areas: [f32; N],
 }
 
 /// The results of the first stage for `N` triangles, in the notation of [`filter_block`].
 #[derive(Clone, Copy, Debug)]
 pub struct Candidates<L> {
-    /// h times the sign of det.
+    /// The computed h.
     height: L,
     abs_det: L,
-    /// The minimum of u, v and |det| - u - v; NaN if one of them is NaN.
+    /// The minimum of u and v, both times the sign of det, and |det| - u - v. NaN if one of these is NaN.
     least: L,
     slack: L,
     height_error: L,
@@ -62,13 +62,13 @@ pub struct CandidateBounds<const N: usize> {
 
 /// 2^-24, the relative error of a difference, a product and a sum.
 const UNIT: f32 = f32::EPSILON / 2.0;
-/// The factor of E (|s| + 2 E) in 2 k, for the k = 40 w D E (|s| + 2 E) and D = 2 of [`filter_block`].
+/// `SLACK` E (|s| + 2 E) is 2 k, with the k = 40 w D E (|s| + 2 E) and D = 2 of [`filter_block`].
 const SLACK: f32 = 2.0 * 40.0 * 2.0 * UNIT;
-/// The error of h is at most `HEIGHT` N |s|, the error of det `DETERMINANT` `HEIGHT` N: see [`filter_block`].
+/// The error of h is at most `HEIGHT` N |s|, the error of det at most `DETERMINANT` `HEIGHT` N: see [`filter_block`].
 const HEIGHT: f32 = 10.0 * UNIT;
 const DETERMINANT: f32 = 6.0;
-/// More than all underflows together. Each loses at most 2^-150, and the underflows of u, v and det add up to less than
-/// (4 |s| + 12 E + 42) 2^-150, while TINY (1 + |s| + 2 E) is added. Not denormal: sums of denormals are slow.
+/// Covers all underflows. Each underflow loses at most 2^-150. The underflows of u, v and det add up to less than
+/// (4 |s| + 12 E + 42) 2^-150, and the slack adds TINY (1 + |s| + 2 E). Not denormal: sums of denormals are slow.
 const TINY: f32 = f32::MIN_POSITIVE;
 const _: () = assert!(TINY.is_normal());
 /// Coordinates up to `LARGE` cannot overflow: E is at most 2^41, |s| below 2^43, intermediates at most 2 E E |s|.
@@ -129,8 +129,8 @@ impl<L> Candidates<L> {
         }
     }
 
-    /// Two pairs of numbers, and two bounds. If the first number is below the second in both pairs, the line certainly
-    /// meets the triangle, at an exact `t` between the bounds.
+    /// Two pairs of numbers and two bounds per lane. If the first number is below the second in both pairs, the line
+    /// certainly meets the triangle, at an exact `t` between the bounds.
     #[inline(always)]
     pub(super) fn look<const N: usize>(&self) -> ([[L; 2]; 2], [L; 2])
     where
@@ -149,37 +149,37 @@ impl<L> Candidates<L> {
     }
 }
 
-/// The lanes whose triangle the ray may meet at a `t` up to `to`, as bits, including all hits; and the results.
+/// The lanes whose triangle the ray may meet at a `t` up to `to`, as bits, and the results. No hit is left out.
 ///
 /// **Why no hit is lost.** Let o and d be origin and direction, a the first corner, s = o - a, e and f the edges from
 /// a, det = e . (d x f), u = s . (d x f), v = d . (s x e), all exact for the `f32` input. The line meets the closed
 /// triangle if u, v and det - u - v, each times the sign of det, are not negative. Let E bound the components of e and
 /// f, D = 2 the components of d, |s| be the sum of the magnitudes of the components of s, and w = 2^-24 the relative
 /// error of a difference of inputs, a product and a sum. The components of d x f are at most 2 D E, with an error of
-/// 3.1 w 2 D E; the sum of the components of s x e is at most 2 E |s|, with an error of 4.1 w 2 E |s|. Hence the error
-/// of u and of v is 7.1 w 2 D E |s|, and of det 7.1 w 6 D E E. These three errors, the rounding of u + v, and the
-/// rounding of det - (u + v) add up to at most k = 40 w D E (|s| + 2 E), with more than 6 w D E |s| to spare for the
-/// rounding of k itself. The sign of the last sum, which adds the slack, is exact.
+/// 3.1 w 2 D E; the sum of the components of s x e is at most 2 E |s|, with an error of 4.1 w 2 E |s|. Hence the errors
+/// of u and v are at most 7.1 w 2 D E |s|, and the error of det is at most 7.1 w 6 D E E. These three errors, the
+/// rounding of u + v, and the rounding of det - (u + v) add up to at most k = 40 w D E (|s| + 2 E), with more than 6 w
+/// D E |s| to spare for the rounding of k itself. The sign of the last sum, which adds the slack, is exact.
 ///
 /// If the computed sign of det is right, a hit has u and v of at least -k, and u + v of at most |det| + k. If it is
-/// wrong, the exact |det| is at most k; |u|, |v| and |u + v| of a hit are then at most k, and their computed values at
+/// wrong, the exact |det| is at most k. Then |u|, |v| and |u + v| of a hit are at most k, and their computed values at
 /// most 2 k. So rejecting values that are outside by more than 2 k rejects no hit, and values inside by more than 2 k
-/// prove a hit. Underflow adds less than [`TINY`] (1 + |s| + 2 E). If an intermediate may overflow, the bound is
-/// infinite, and comparisons with infinity or NaN decide nothing.
+/// prove a hit. Underflow adds less than [`TINY`] (1 + |s| + 2 E). If an intermediate may overflow, the slack is
+/// infinite. Comparisons with infinity or NaN then neither reject a triangle nor prove a hit.
 ///
 /// **The bounds of `t`.** A hit is at t = h / |det|, where h is f . (s x e) times the sign of det. Let N bound |e_i
-/// f_k| + |e_k f_i| for each pair of axes: the components of e x f, without cancellation. Each term s_i e_k f_j of the
-/// computed h has a relative error of 8.1 w, each term d_i e_k f_j of det 7.1 w. So the error of h is less than 8.1 w N
-/// |s|, and of det less than 43 w N; underflow adds less than [`TINY`] (1 + E) to each. The bounds dh = 10 w N |s| and
-/// dd = 60 w N exceed these errors and their own rounding. If |det| exceeds dd, its sign is certain, and a computed h
-/// below -dh means that t is negative. A hit at a t up to T, which is at least `to` in lengths of the scaled direction,
-/// has h - T |det| <= dh + T dd. Because T |det| is at most 6 N T, this difference has an error of 7 w N T plus w of
-/// itself, which dd covers too. The code replaces dd by the slack 2 k, which is at least 160 w N. Let det' and h' be
-/// the computed values. If |det'| exceeds 16 dd, |h/det - h'/det'| <= (dh + |h'/det'| dd) / |det|. This is at most
-/// 16/15 of the same quotient over |det'|; 9/8 covers that and its rounding. The quotient and the ends of the interval
-/// round by less than 8 w t, and [`TINY`] covers the underflow when t is converted back. No relevant value underflows
-/// before: a value inside by more than 2 k has |s| > 2^-18 E, and a det beyond 16 TINY requires E > 2^-63, so the error
-/// exceeds 2^-104.
+/// f_k| + |e_k f_i| for each pair of axes, and so the components of e x f. Each term s_i e_k f_j of the computed h has
+/// a relative error of 8.1 w, each term d_i e_k f_j of det has 7.1 w. So the error of h is less than 8.1 w N |s|, and
+/// the error of det is less than 43 w N. Underflow adds less than [`TINY`] (1 + E) to each. The bounds dh = 10 w N |s|
+/// and dd = 60 w N exceed these errors and their own rounding. If |det| exceeds dd, its sign is certain, and a computed
+/// h below -dh means that t is negative. Let T be at least `to`, in lengths of the scaled direction. A hit at a t up to
+/// T has h - T |det| <= dh + T dd. Because T |det| is at most 6 N T, this difference has an error of 7 w N T plus w of
+/// itself, which dd covers too. The code uses the slack 2 k, at least 160 w N, instead of dd. Let det' and h' be the
+/// computed values. If |det'| exceeds 16 dd, |h/det - h'/det'| <= (dh + |h'/det'| dd) / |det|. This is at most 16/15
+/// times the same quotient with divisor |det'|; the code uses 9/8 to cover the rounding, too. The quotient and the ends
+/// of the interval round by less than 8 w t, and [`TINY`] covers the underflow when t is scaled back. No relevant value
+/// underflows earlier: a value inside by more than 2 k has |s| > 2^-18 E, and a det beyond 16 TINY requires E > 2^-63,
+/// so the error exceeds 2^-104.
 #[inline(always)]
 pub(super) fn filter_block<const N: usize, L: Lanes<N>>(
     ray: &FilterRay,
@@ -194,7 +194,7 @@ pub(super) fn filter_block<const N: usize, L: Lanes<N>>(
     (!signs.lt(L::zero()) & ((1_u64 << N) - 1) as u32, candidates)
 }
 
-/// Like [`filter_block`], for eight rays and one triangle of a block: the rays that miss it, and the results.
+/// Like [`filter_block`], for eight rays and one triangle. Returns the rays that miss the triangle, and the results.
 ///
 /// All directions are scaled like the longest one. The argument at [`filter_block`] only requires that no component is
 /// beyond 2, and that a component that becomes denormal has an error of at most 2^-150, so it holds for all rays.
@@ -245,15 +245,15 @@ fn filter_lanes<const N: usize, L: Lanes<N>>(
     let least = u.min(v).min(abs_det.sub(u.add(v)));
     let outside = least.add(slack);
 
-    // Compute the height even if no lane remains: a branch here would be unpredictable, and the caller has one already.
+    // Compute the height even if no lane remains: a branch would be unpredictable, and the caller branches anyway.
     let height = edge2.dot_loosely(q).flip_sign(det);
     let underflow = extent.mul_add_loosely(tiny, tiny);
     let height_error = area.mul_add_loosely(distance, underflow);
     let behind = slack.sub(abs_det).max(height.add(height_error));
     let beyond = slack.mul_add_loosely(last, height_error).add(last.mul_sub_loosely(abs_det, height));
 
-    // Each value is negative if it rejects the lane, and NaN if it cannot decide; the minimum is negative only if one
-    // of them is. The extent of unused lanes is negative.
+    // Each value is negative if it rejects the lane, and NaN if it cannot decide. The minimum is negative only if one
+    // of the values is. In unused lanes, the extent is negative.
     let signs = beyond.min(behind).min(outside).min(extent);
     let scale = scaling.scale;
     (signs, Candidates { height, height_error, abs_det, least, slack, area, underflow, scale })

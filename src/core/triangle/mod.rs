@@ -1,8 +1,7 @@
-//! Triangle tests. Structures share them: with the same test, all structures return the same bits of `t`.
+//! Triangle tests. Structures share them: for one triangle, a test gives the same bits of `t` in every structure.
 //!
-//! To add a test, write a file here that implements [`TriangleTest`], and add the test to the lists of `offered.rs` and
-//! `validate/reference.rs`, to `Registry::builtin` (which does not compile without the line in `reference.rs`), and to
-//! `triangle/tests/every.rs`.
+//! To add a test, write a file here that implements [`TriangleTest`]. Add the test to the lists of `offered.rs` and
+//! `validate/reference.rs`, to `Registry::builtin`, and to `triangle/tests/every.rs`.
 
 #[macro_use]
 pub(crate) mod decided_at_once;
@@ -40,14 +39,14 @@ pub use watertight::Watertight;
 use crate::geometry::Ray;
 use crate::simd::{EightLanes, Lanes, Portable};
 
-/// Triangles that a leaf tests at once.
+/// The number of triangles in a leaf block. A leaf tests all triangles of a block at once.
 pub(crate) const BLOCK: usize = 8;
 
 /// Decides whether and where a ray intersects a triangle.
 ///
 /// A test works in two stages: the first stage tests all lanes of a block at once, the second stage tests the remaining
 /// candidates lane by lane. Most tests decide everything in the first stage. The code of a test is generic over the
-/// number of lanes; one lane is the scalar form. All widths return the same bits.
+/// number of lanes; the scalar test has one lane. All widths return the same bits.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a triangle test",
     label = "does not implement `TriangleTest` (`sahara_core::triangle::TriangleTest`)",
@@ -58,7 +57,7 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// The name on the command line and in exports.
     const NAME: &'static str;
 
-    /// The prepared form of a ray.
+    /// A prepared ray.
     type Ray: Copy + Send + Sync;
 
     /// `N` triangles in the format of the test.
@@ -82,17 +81,17 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// If there are more than `N` triangles.
     fn block<const N: usize>(triangles: &[[Vec3; 3]]) -> Self::Block<N>;
 
-    /// The largest `t` of a hit on a valid ray with this `t_max`: the float below it, if the rounded `t` orders hits.
+    /// The largest `t` of a hit on a valid ray that ends at `t_max`. The default suits tests that round `t`.
     #[inline(always)]
     fn last(t_max: f32) -> f32 {
-        // A valid ray ends after 0: this is `next_down` without the special cases, which cost a dozen instructions.
+        // The `t_max` of a valid ray is positive, so this equals `next_down`, but saves a dozen instructions.
         f32::from_bits(t_max.to_bits().wrapping_sub(1))
     }
 
-    /// The first stage: the lanes that the ray may hit at a `t` in [`from`, `to`], as bits, and the input of
-    /// [`values`](Self::values), which has no meaning if there are no such lanes.
+    /// The first stage. Returns the lanes that the ray may hit at a `t` in [`from`, `to`], as bits, and the input of
+    /// [`values`](Self::values). If there are no such lanes, this input has no meaning.
     ///
-    /// It does not return a closure: a closure might not be inlined, and would then not be compiled for the SIMD level.
+    /// The result is not a closure: a closure might not be inlined, and would then not be compiled for the SIMD level.
     fn candidates<const N: usize, L: Lanes<N>>(
         ray: &Self::Ray,
         block: &Self::Block<N>,
@@ -103,8 +102,8 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// The values for the second stage.
     fn values<const N: usize, L: Lanes<N>>(first: Self::First<N, L>) -> Self::Values<N>;
 
-    /// The second stage: whether and where the ray hits a candidate within its interval. The hit may lie beyond the
-    /// `to` of the first stage.
+    /// The second stage: the depth at which the ray hits a candidate within the ray's interval, or `None`. The hit may
+    /// lie beyond the `to` of the first stage.
     fn decide<'a, const N: usize>(
         ray: &Self::Ray,
         block: &'a Self::Block<N>,
@@ -112,8 +111,8 @@ pub trait TriangleTest: Send + Sync + 'static {
         values: &Self::Values<N>,
     ) -> Option<Self::Depth<'a>>;
 
-    /// Like [`decide`](Self::decide), but small enough to inline: `None` if the candidate needs `decide`. The values
-    /// must come from [`values`](Self::values), not from [`look_closer`](Self::look_closer).
+    /// Like [`decide`](Self::decide), but small enough to inline. Returns `None` if the candidate needs `decide`. The
+    /// values must come from [`values`](Self::values), not from [`look_closer`](Self::look_closer).
     #[inline(always)]
     fn decide_at_once<'a, const N: usize>(
         ray: &Self::Ray,
@@ -124,8 +123,8 @@ pub trait TriangleTest: Send + Sync + 'static {
         Self::ONE_STAGE.then(|| Self::decide(ray, block, lane, values))
     }
 
-    /// Refines many candidates at once: the remaining candidates, and their values for [`decide`](Self::decide). `None`
-    /// if refining does not pay. It may drop candidates beyond `nearest`.
+    /// Refines many candidates at once. Returns the remaining candidates and their values for [`decide`](Self::decide),
+    /// or `None` if refining does not pay. It may drop candidates beyond `nearest`.
     #[inline(always)]
     fn look_closer(
         _ray: &Self::Ray,
@@ -143,23 +142,23 @@ pub trait TriangleTest: Send + Sync + 'static {
         one.order(other).unwrap_or_else(|| Self::order_closely(ray, one, other))
     }
 
-    /// The order if [`Depth::order`] returns `None`; a test with such depths must implement it.
+    /// The order of two hits if [`Depth::order`] is `None`. Tests for which it can be `None` must implement this.
     fn order_closely(_ray: &Self::Ray, _one: &Self::Depth<'_>, _other: &Self::Depth<'_>) -> Ordering {
         unreachable!("depths that need the ray to be ordered have an order of their own")
     }
 
-    /// Whether the first stage decides everything: [`decide`](Self::decide) accepts all, [`Depth::of`] returns a depth.
+    /// Whether the first stage decides all hits: `decide` accepts every candidate, and [`Depth::of`] returns a depth.
     const ONE_STAGE: bool = false;
 
-    /// Whether structures compile batch strategies, which trace several rays of a slice at once, for this test. They
-    /// take most of the compile time.
+    /// Whether structures compile batch strategies for this test, which trace several rays of a slice at once. Batch
+    /// strategies take most of the compile time.
     const BATCHED: bool = false;
 
     /// Whether the test implements [`meet_eight`](Self::meet_eight).
     const EIGHT: bool = false;
 
-    /// Tests eight rays against the triangle in `lane` of a block: the hits of the `active` rays at a `t` up to `to`,
-    /// if the first stage decides them. May return `None` if all `active` rays miss the triangle.
+    /// Runs the first stage for eight rays and the triangle in `lane` of a block. Finds hits of the `active` rays at a
+    /// `t` up to `to`. May return `None` if all `active` rays miss the triangle.
     #[inline(always)]
     fn meet_eight<const N: usize, L: EightLanes>(
         _rays: &EightRays<L>,
@@ -171,13 +170,13 @@ pub trait TriangleTest: Send + Sync + 'static {
         unreachable!("a test that has this form writes it")
     }
 
-    /// The depth of a hit of [`meet_eight`](Self::meet_eight), from bounds of `t`, if [`Depth::of`] is `None`.
+    /// The depth of a hit of [`meet_eight`](Self::meet_eight), from its bounds of `t`. Used if [`Depth::of`] is `None`.
     #[inline(always)]
     fn depth_between<const N: usize>(_block: &Self::Block<N>, _lane: usize, _low: f32, _high: f32) -> Self::Depth<'_> {
         unreachable!("a depth that takes more than a float is made by its test")
     }
 
-    /// The scalar form: the hit of one triangle at a `t` in [`from`, `to`].
+    /// The scalar test: the hit of one triangle at a `t` in [`from`, `to`].
     #[inline(always)]
     fn hit<'a>(ray: &Self::Ray, triangle: &'a Self::Block<1>, from: f32, to: f32) -> Option<Self::Depth<'a>> {
         let (candidate, first) = Self::candidates::<1, Portable<1>>(ray, triangle, from, to);

@@ -3,7 +3,7 @@ use glam::Vec3;
 use super::{EightHits, EightRays, TriangleTest};
 use crate::simd::{EightLanes, LaneVec3, Lanes};
 
-/// Möller-Trumbore in `f32`: no precomputation, two-sided, division only for `t`.
+/// Möller-Trumbore in `f32`: two-sided, with precomputed edges and a division only for `t`.
 ///
 /// Guarantees: edges and vertices belong to the triangle (all comparisons include equality); there is no epsilon; NaN
 /// never hits. Not guaranteed: closed meshes may leak at edges, because the two triangles at an edge round their
@@ -35,14 +35,14 @@ struct Solution<L> {
     t: L,
 }
 
-/// Solves each lane: `to_origin` points from the first corner to the ray's origin.
+/// Solves each lane. `to_origin` points from the first corner to the ray's origin.
 #[inline(always)]
 fn solve<const N: usize, L: Lanes<N>>(
     direction: LaneVec3<N, L>,
     to_origin: LaneVec3<N, L>,
     [edge1, edge2]: [LaneVec3<N, L>; 2],
 ) -> Solution<L> {
-    // Use Cramer's rule; if the barycentrics are positive, their numerators have the sign of the determinant.
+    // Cramer's rule: numerators times the sign of the determinant have the signs of the barycentrics.
     let p = direction.cross(edge2);
     let q = to_origin.cross(edge1);
     let det = edge1.dot(p);

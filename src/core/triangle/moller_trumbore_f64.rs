@@ -1,10 +1,10 @@
 use super::TriangleTest;
 use crate::simd::{Arithmetic, LaneVec3};
 
-/// [`MollerTrumbore`](super::MollerTrumbore) in `f64`, widened by its own rounding error; `t` is rounded to `f32`.
+/// [`MollerTrumbore`](super::MollerTrumbore) in `f64`. It widens triangles by its rounding error; `t` is an `f32`.
 ///
-/// Proved, where D, E and |s| are the sums of the magnitudes of the components of the direction d, of both edges e1 and
-/// e2 at the first corner, and of the vector from this corner to the origin, and det = e1 . (d x e2):
+/// Let D, E and |s| be sums of the magnitudes of components: D of the direction d, E of both edges e1 and e2 at the
+/// first corner, |s| of the vector from this corner to the origin. Let det = e1 . (d x e2). Proved:
 ///
 /// - The test finds a triangle that the ray hits if |det| >= 2^-46 D E E.
 /// - If it reports a hit, no barycentric is below -2^-46 D E (|s| + 2 E) / |det|, and the error of `t` is at most 2^-51
@@ -17,22 +17,22 @@ use crate::simd::{Arithmetic, LaneVec3};
 /// ratio 10,000; a missed hit on a needle of aspect ratio 10,000,000, which the ray meets along its length; a `t` that
 /// is off by 115 ulps on another needle. [`Exact`](super::Exact) has none of these errors.
 ///
-/// Cost: two to three times as much as the `f32` test in blocks.
+/// Cost: two to three times the cost of the `f32` test in blocks.
 ///
 /// # References
 /// See [`MollerTrumbore`](super::MollerTrumbore).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MollerTrumboreF64;
 
-/// The lanes whose triangle counts as hit by the line, and `t` at their planes.
+/// The lanes whose triangle the line hits, as bits, and `t` at the planes of all triangles.
 ///
-/// **Bounds.** As for the first stage of the exact test (`filter::filter_block`), with n = 2^-53 instead of 2^-24: the
-/// error of u, v and det - u - v is less than 40 n D E (|s| + 2 E), of det 43 n D E E. D and E bound the components of
-/// the direction and of the edges, here as sums instead of maxima. If the sign of det is uncertain, there is no hit:
-/// that is so if the computed |det| is at most 80 n D E E, and never if the exact one is 2^7 n D E E or more. If a
-/// computed value is at least minus the slack, the exact value is at least minus twice the slack, 80 n D E (|s| + 2 E).
-/// With sums, the error of h = f . (s x e) is 8.1 n |e| |f| |s| <= 2.1 n E E |s|, and of det 1.8 n D E E, so the error
-/// of h / det is less than 4 n E E (|s| + |t| D) / |det|.
+/// **Bounds.** The analysis of the first stage of the exact test (`filter::filter_block`) applies, with n = 2^-53
+/// instead of 2^-24. The error of u, v and det - u - v is less than 40 n D E (|s| + 2 E), the error of det less than 43
+/// n D E E. D and E bound the components of the direction and of the edges, here as sums instead of maxima. If the
+/// computed |det| is at most 80 n D E E, its sign is uncertain and the test reports no hit; an exact |det| of at least
+/// 2^7 n D E E excludes this. If a computed value is at least minus the slack, the exact value is at least minus twice
+/// the slack, 80 n D E (|s| + 2 E). With sums, the error of h = f . (s x e) is 8.1 n |e| |f| |s| <= 2.1 n E E |s|, and
+/// the error of det is 1.8 n D E E, so the error of h / det is less than 4 n E E (|s| + |t| D) / |det|.
 #[inline(always)]
 fn solve<const N: usize, L: Arithmetic<N, Scalar = f64>>(
     origin: LaneVec3<N, L>,

@@ -1,10 +1,10 @@
 use super::{Corners, TriangleTest};
 use crate::simd::{LaneVec3, Lanes, each};
 
-/// Edge test in `f32`: a ray hits if it passes all three edges on the same side, by triple products of the corners
-/// relative to its origin. `t` comes from the plane through the first corner.
+/// Edge test in `f32`: a ray hits if it passes all three edges on the same side. Triple products of the direction and
+/// two corners, relative to the ray's origin, decide the sides. `t` comes from the plane of the triangle.
 ///
-/// Guarantees: the two triangles at an edge compute the same number for it with opposite signs, so no ray passes
+/// Guarantees: the two triangles at an edge compute the same number for the edge, with opposite signs, so no ray passes
 /// between them; `t` is as accurate as the normal. Not guaranteed: rays through vertices may be lost; products of three
 /// lengths leave the range of `f32` at scales of 1e13 and above, and below 1e-12.
 ///

@@ -59,7 +59,7 @@ fn true_t(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
     judge::hit(ray, corners).filter(|t| ray.is_valid() && t.is_within(ray)).map(|t| t.round())
 }
 
-/// Difficult cases for the stages of a filter: all sizes, aimed closely, on a grid, at random.
+/// A difficult ray and triangle for a filter, in turn: any floats, an aimed ray, a sliver far away, a grid.
 fn hard(rng: &mut Pcg32, round: usize) -> (Ray, [Vec3; 3]) {
     // Use every power of two as a scale: each intermediate underflows at a different one.
     let scale = f32::from_bits((1 + rng.next_u32() % 251) << 23);

@@ -5,22 +5,22 @@ use crate::geometry::Ray;
 use crate::simd::{Lanes, each, indexed};
 
 /// Watertight, in `f32`: the test shears space such that the ray runs along the third axis, and tests edges in 2D. If
-/// an edge value is zero, or their sum is very small or very large, it recomputes them in `f64`.
+/// an edge value is zero, or if the sum of the edge values is very small or very large, it recomputes them in `f64`.
 ///
 /// Guarantees: a corner is sheared to the same point for every triangle that contains it, and the sign of an edge is
 /// exact for the sheared corners, so no ray passes between the triangles of a closed mesh, including edges and
 /// vertices. Not guaranteed: accuracy. Shearing rounds, so a ray within an ulp of an edge may go to either side (or
 /// miss a single triangle at its rim), and `t` of slivers may be off by thousands of ulps.
 ///
-/// Range: any size of scene in which differences of coordinates do not overflow. Below 1e-15 and above 1e6 units the
-/// test is slower. It may lose rays with a largest component below 3e-39 or above 8e37, and hits beyond 3e26.
+/// Range: any scene size in which coordinate differences do not overflow. Scenes below 1e-15 or above 1e6 units are
+/// slower. The test may lose rays whose largest direction component is below 3e-39 or above 8e37, and `t` above 3e26.
 ///
 /// # References
 /// Woop, Benthin, Wald: Watertight ray/triangle intersection. Journal of Computer Graphics Techniques 2(1), 2013.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Watertight;
 
-/// A ray with permuted axes; it runs along the third axis.
+/// A ray with permuted axes. The third axis is the axis of its largest direction component.
 #[derive(Clone, Copy, Debug)]
 pub struct ShearedRay {
     /// The axes in the order x, y, z of the sheared space.
@@ -71,7 +71,7 @@ impl TriangleTest for Watertight {
         let xs = sheared(ray.axes[0], x, shear[0]);
         let ys = sheared(ray.axes[1], y, shear[1]);
 
-        // Compute the edge values; in `f64` if one is zero, where products of two floats, and so the signs, are exact.
+        // Compute the edge values. If one is zero, use `f64`, where products of two floats, and so signs, are exact.
         let edges = |[ax, bx, cx]: [L; 3], [ay, by, cy]: [L; 3]| {
             [cx.mul(by).sub(cy.mul(bx)), ax.mul(cy).sub(ay.mul(cx)), bx.mul(ay).sub(by.mul(ax))]
         };

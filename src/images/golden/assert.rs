@@ -14,9 +14,9 @@ pub const UPDATE: &str = "SAHARA_GOLDEN";
 /// The folder for the pictures of failures, relative to the current directory, which is the crate's folder in tests.
 const OUT: &str = "out/golden";
 
-/// Compares `actual` with the golden image `path`: all channels, including alpha, without a conversion. For tests.
+/// Compares all channels of `actual`, including alpha, with the golden image `path`, without a conversion. For tests.
 ///
-/// If `SAHARA_GOLDEN=update` is set in the environment, it writes `actual` to `path` as PNG, and creates its folders.
+/// If `SAHARA_GOLDEN=update` is set in the environment, writes `actual` to `path` as PNG instead. Creates its folders.
 ///
 /// ```
 /// use sahara_images::golden::{Allowed, Match, assert_image};

@@ -1,4 +1,4 @@
-//! One comparison, as tables, JSON and the page show it.
+//! Compares two pictures. Tables, JSON and the HTML page show the result.
 
 use image::{DynamicImage, RgbImage};
 use serde::Serialize;
@@ -22,7 +22,7 @@ pub enum Verdict {
     Identical,
 }
 
-/// The comparison of two pictures with one name, or of one picture without a partner.
+/// The comparison of two pictures with the same name, or a picture that exists only once.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
     pub name: String,
@@ -32,10 +32,10 @@ pub struct Comparison {
     /// A command that investigates the difference.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub command: Option<String>,
-    /// The compared number and its limit; `None` if all values must be equal.
+    /// The number that the rule compares, and its limit; `None` without `measures` and for [`Match::Exact`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limit: Option<Limit>,
-    /// The measures; `None` if the pictures are equal or have different layouts.
+    /// The measures; `None` if the pictures are equal or cannot be compared.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measures: Option<Measures>,
 }
@@ -52,20 +52,20 @@ impl Comparison {
         Self { name: name.into(), verdict, said: vec![sentence.into()], command: None, limit: None, measures: None }
     }
 
-    /// See [`Measures::of_names`].
+    /// Removes the sizes of differences. Use it for pictures whose values are names, such as numbers of primitives.
     #[must_use]
     pub fn of_names(self, size: [u32; 2]) -> Self {
         let Some(measures) = self.measures.map(Measures::of_names) else { return self };
         Self { said: vec![measures.difference.sentence(size)], measures: Some(measures), ..self }
     }
 
-    /// Whether the pictures are not accepted, or one of them is missing or unreadable.
+    /// Whether the verdict is neither `Accepted` nor `Identical`.
     pub fn fails(&self) -> bool {
         self.verdict < Verdict::Accepted
     }
 }
 
-/// Compares two pictures, except the masked pixels. Equal pictures and pictures that cannot be compared have no maps.
+/// Compares the unmasked pixels of two pictures. The maps are `None` if the pictures are equal or cannot be compared.
 pub fn compare(
     name: &str,
     [expected, actual]: [&DynamicImage; 2],
@@ -108,7 +108,7 @@ pub fn compare(
 }
 
 impl Difference {
-    /// A sentence with the number of different pixels, their first place, and the largest difference and its place.
+    /// A sentence with the number of different pixels, the first one, and the largest difference with its position.
     pub fn sentence(&self, [width, height]: [u32; 2]) -> String {
         let Self { pixels, first, worst, largest, full_scale } = *self;
         let all = plural(width as usize * height as usize, "pixel");

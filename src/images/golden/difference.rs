@@ -17,7 +17,7 @@ pub struct Difference {
     pub worst: [u32; 2],
     /// The largest difference of a channel, including alpha; infinite if only one value is NaN.
     pub largest: f64,
-    /// The value of white, in the unit of `largest`: 255 or 65535; 1 for floats, which can be larger.
+    /// The value of white, in the unit of `largest`: 255, 65535, or 1 for floats. Floats can be larger than white.
     pub full_scale: f64,
 }
 
@@ -43,20 +43,20 @@ impl Difference {
     }
 }
 
-/// The number of pixels with a channel that differs by more than `difference`. The unit is 1/255 of full scale, except
-/// for floats, which are compared unscaled.
+/// The number of pixels with a channel that differs by more than `difference`. The unit of `difference` is 1/255 of
+/// full scale, or 1 for floats.
 ///
 /// # Panics
 /// If the pictures differ in layout.
 pub fn pixels_over(one: &DynamicImage, other: &DynamicImage, difference: f64) -> usize {
     let layout = Layout::of(one);
-    // Compare products: a quotient could be rounded across the limit.
+    // Multiply both sides of the comparison: a division could round a value across the limit.
     let (own, limit) = if layout.is_float() { (1.0, difference) } else { (255.0, difference * layout.full_scale()) };
     gaps(one, other).filter(|gap| gap * own > limit).count()
 }
 
-/// A picture of the difference: black for equal pixels, from dark red for a difference of 1/255 to yellow for 255/255.
-/// A smaller difference is shown as 1/255.
+/// A picture of the difference. Equal pixels are black. The colours of all other pixels range from dark red, for 1/255
+/// of full scale or less, to yellow, for full scale or more.
 ///
 /// # Panics
 /// If the pictures differ in layout.
@@ -69,7 +69,7 @@ pub fn difference_picture(one: &DynamicImage, other: &DynamicImage) -> RgbImage 
     from_pixels(layout.size, gaps(one, other).map(colour).collect())
 }
 
-/// The largest difference of a channel for each pixel.
+/// For each pixel, the largest difference of its channels.
 fn gaps<'a>(one: &'a DynamicImage, other: &'a DynamicImage) -> impl Iterator<Item = f64> + 'a {
     let layout = Layout::of(one);
     assert_eq!(layout, Layout::of(other), "pictures of one layout");

@@ -1,4 +1,4 @@
-//! Writes the pictures of a failed comparison.
+//! Checks a picture against a golden image, and writes a page if the picture is not accepted.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,8 +12,8 @@ use super::rule::{Match, NoFlip};
 use super::{GoldenError, Layout, PictureError};
 use crate::output::OutputFolder;
 
-/// Checks whether `actual` is accepted as a replacement of `expected`, which is the golden image `path`. If not, writes
-/// a page with pictures to the folder `shown`.
+/// Compares `actual` with `expected`, the golden image at `path`, by the rule `how`. If `actual` is not accepted,
+/// writes a page with pictures to the folder `shown`.
 pub fn check(
     path: &Path,
     label: &str,
@@ -24,7 +24,7 @@ pub fn check(
     remedy: &'static str,
 ) -> Result<(), GoldenError> {
     let [wanted, found] = pictures.map(Layout::of);
-    // Skip the other measures, which take long, if the picture is within the tolerance.
+    // A picture within the tolerance needs no further measures. Skip them, because FLIP and SSIM take long.
     let is_tolerance = matches!(how, Match::Tolerance { .. }) && wanted == found;
     if is_tolerance && how.limit(pictures, None, None).is_some_and(|limit| limit.is_met()) {
         return Ok(());

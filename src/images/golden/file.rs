@@ -46,19 +46,19 @@ fn in_a_line(cause: &ImageError) -> String {
     cause.to_string().lines().collect::<Vec<_>>().join(" ")
 }
 
-/// Reads a picture and keeps its channels and bits per channel, but grey below 8 bits becomes 8 bits and a palette
-/// becomes RGB, or RGBA with transparency. The content of the file, not its name, determines the format.
+/// Reads a picture and keeps its channels and bits per channel, with two exceptions: grey gets at least 8 bits, and a
+/// palette becomes RGB or RGBA. The content of the file, not its name, determines the format.
 ///
 /// # Errors
-/// If the file cannot be read, is damaged or not a picture, or has more than 512 MiB with its pixels.
+/// If the file cannot be read, is damaged, is not a picture, or takes more than 512 MiB together with its pixels.
 pub fn read(path: &Path) -> Result<DynamicImage, PictureError> {
     decode(path, &read_bytes(path)?)
 }
 
-/// The bytes of a file, up to one byte more than a picture may have.
+/// The bytes of a file, truncated to the maximum size of a picture plus one byte.
 pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, PictureError> {
     let mut bytes = vec![];
-    // With the extra byte, [`decode`] rejects the file as too large.
+    // The extra byte makes [`decode`] reject a file that is too large.
     let file = File::open(path).and_then(|file| file.take((LARGEST << 20) + 1).read_to_end(&mut bytes));
     file.map_err(|cause| PictureError::Read { path: path.into(), cause })?;
     Ok(bytes)
@@ -83,8 +83,8 @@ fn decoded(bytes: &[u8]) -> ImageResult<DynamicImage> {
     Ok(picture)
 }
 
-/// Whether the marker "end of image" follows the last scan header of a JPEG file. The decoder fills missing pixels with
-/// grey.
+/// Whether the marker "end of image" follows the last scan header of a JPEG file. The decoder does not report a
+/// truncated file: it fills missing pixels with grey.
 fn is_whole_jpeg(bytes: &[u8]) -> bool {
     let last = |mark: [u8; 2]| bytes.windows(2).rposition(|pair| pair == mark);
     let (scan, end) = (last([0xFF, 0xDA]), last([0xFF, 0xD9]));
@@ -136,7 +136,7 @@ pub(super) fn note(bytes: &[u8]) -> Option<&str> {
     str::from_utf8(chunk.strip_prefix(TEXT)?.strip_prefix(KEY)?).ok()
 }
 
-/// Bytes of the PNG signature and the first chunk; the chunk with the note follows.
+/// The number of bytes of the PNG signature and the first chunk. The chunk with the note follows them.
 const HEADER: usize = 8 + 25;
 
 /// The type of PNG text chunks, and the keyword of the note.

@@ -5,7 +5,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Extensions of pictures. Without the feature `pictures`, all pictures except PNG are errors.
+/// The extensions of pictures. Without the feature `pictures`, only PNG files can be read.
 const ENDINGS: [&str; 5] = ["png", "jpg", "jpeg", "webp", "exr"];
 
 /// A picture in one of the folders or in both.
@@ -31,7 +31,7 @@ pub fn pairs(expected: &Path, actual: &Path) -> io::Result<Vec<Pair>> {
     Ok(wanted.union(&found).map(pair).collect())
 }
 
-/// The paths of all pictures in a folder and its subfolders, relative to it.
+/// The paths of all pictures in `folder` and its subfolders, relative to `folder`.
 fn pictures(folder: &Path) -> io::Result<BTreeSet<PathBuf>> {
     let (mut found, mut left) = (BTreeSet::new(), vec![PathBuf::new()]);
     while let Some(below) = left.pop() {

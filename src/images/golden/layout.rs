@@ -22,7 +22,7 @@ impl Layout {
         Self { size, channels, bits: (color.bits_per_pixel() / u16::from(channels)) as u8 }
     }
 
-    /// The value of a white channel: 255, 65535, or 1 for floats.
+    /// The value of white in each channel: 255, 65535, or 1 for floats.
     pub fn full_scale(&self) -> f64 {
         match self.bits {
             8 => u8::MAX.into(),

@@ -31,8 +31,8 @@ impl Mask {
         self.compared.iter().filter(|compared| !**compared).count()
     }
 
-    /// Copies the excluded pixels of `expected` to `actual`, because the windows of compared pixels contain them. Both
-    /// pictures have one layout, and the mask has their size.
+    /// Copies the excluded pixels of `expected` to `actual`. Sums of differences and windows around compared pixels
+    /// then see no difference there. The pictures must have the same layout, and the mask their size.
     pub(super) fn applied(&self, expected: &DynamicImage, mut actual: DynamicImage) -> DynamicImage {
         macro_rules! of_one_kind {
             ($($kind:ident)*) => {

@@ -16,7 +16,7 @@
 
 use image::{DynamicImage, ImageBuffer, LumaA, Rgb32FImage};
 
-/// The number for a miss.
+/// The number that represents a miss in a picture of primitive numbers.
 pub const MISS: u32 = u32::MAX;
 
 /// A picture for a PNG file, with one number per pixel.
@@ -35,7 +35,7 @@ pub fn unpacked(picture: &DynamicImage) -> Option<Vec<u32>> {
     Some(halves.iter().map(|[upper, lower]| u32::from(*upper) << 16 | u32::from(*lower)).collect())
 }
 
-/// A float picture. Each pixel has the float with the bits of its number in all three channels.
+/// A float picture. The bits of each number become an `f32` in all three channels of its pixel.
 pub fn as_floats([width, height]: [u32; 2], numbers: &[u32]) -> DynamicImage {
     let values = numbers.iter().flat_map(|number| [f32::from_bits(*number); 3]).collect();
     Rgb32FImage::from_raw(width, height, values).expect("one number per pixel").into()

@@ -14,11 +14,11 @@ use crate::plural::{count, plural};
 pub enum Match {
     /// All values are equal: for deterministic renderers.
     Exact,
-    /// At most `pixels` pixels have a channel that differs by more than `difference`, in 1/255 of full scale; floats
-    /// are compared unscaled. Noise passes, a missing triangle does not.
+    /// At most `pixels` pixels have a channel that differs by more than `difference`. The unit of `difference` is 1/255
+    /// of full scale, or 1 for floats. Noise passes; a missing triangle fails.
     Tolerance { difference: f64, pixels: Allowed },
-    /// The mean of FLIP, the visible difference for a person who flips between the pictures, is at most `mean`. Not for
-    /// floats.
+    /// The mean of FLIP, the visible difference for a person who flips between the pictures, is at most `mean`. FLIP
+    /// does not support floats.
     Flip { mean: f64, pixels_per_degree: f64 },
 }
 
@@ -41,8 +41,8 @@ impl Match {
         Self::Flip { mean, pixels_per_degree: PIXELS_PER_DEGREE }
     }
 
-    /// The number that the rule compares for two pictures of one layout, with its limit; `None` if all values must be
-    /// equal. Masked pixels must already be equal: [`Mask::applied`].
+    /// The number that the rule compares, and its limit; `None` for `Exact`. The pictures must have the same layout,
+    /// and [`Mask::applied`] must have made their masked pixels equal.
     pub(super) fn limit(
         self,
         [expected, actual]: [&DynamicImage; 2],
@@ -81,7 +81,7 @@ impl Allowed {
     }
 }
 
-/// FLIP does not support floats.
+/// The error of a comparison by FLIP: the pictures have floats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("FLIP needs pictures of 8 or 16 bits per channel, and these are floats: use --max-difference instead")]
 pub struct NoFlip;

@@ -12,18 +12,18 @@ use crate::render::{ViewKind, from_pixels, normal_colour, of_colours, shade};
 use crate::scene::{Camera, Scene, View};
 use crate::triangle::{Exact, TriangleTest};
 
-/// The triangle test that renders golden images: the exact test, which decides no hit by rounding.
+/// The triangle test that renders golden images. It is exact: no hit depends on rounding.
 pub const TRIANGLE_TEST: &str = Exact::NAME;
 
 /// Width and height of a golden image of a built-in scene.
 pub const SIZE: [u32; 2] = [160, 160];
 
-/// The views of golden images: they depend only on the hits.
+/// The views of golden images. Their pixels depend only on the hits, not on the cost of finding them.
 pub const VIEWS: [ViewKind; 4] = [ViewKind::Shaded, ViewKind::Depth, ViewKind::Normal, ViewKind::Primitive];
 
 const REMEDY: &str = "create the golden images with `sahara golden update`";
 
-/// The golden image of a view of a scene, in a file or in this program.
+/// The golden image of a view of a scene: a file, or data compiled into this program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneGolden {
     pub view: ViewKind,
@@ -47,8 +47,8 @@ pub enum Update {
 }
 
 impl SceneGolden {
-    /// The golden image of a scene that the program contains: shaded, of [`SIZE`], with the content `bytes`.
-    /// [`update`](Self::update) writes it to `file` in the source tree, which may be missing at run time.
+    /// The golden image of a built-in scene: the shaded view in [`SIZE`], whose PNG file has the content `bytes`.
+    /// [`update`](Self::update) writes it to `file` in the source tree `sources`, which may be missing at run time.
     pub fn in_program(bytes: &'static [u8], sources: &Path, file: &Path) -> Self {
         let (path, shown_path) = (sources.join(file), file.into());
         Self { view: ViewKind::Shaded, size: SIZE, path, shown_path, bytes: Some(bytes), note: None }
@@ -79,7 +79,7 @@ impl SceneGolden {
         &self.shown_path
     }
 
-    /// The golden image in the form in which pictures are compared: depths as floats.
+    /// The golden image, converted for the comparison: packed depths become floats.
     ///
     /// # Errors
     /// If the golden image is missing or damaged, or its size or camera differs.
@@ -101,12 +101,12 @@ impl SceneGolden {
         }
     }
 
-    /// The picture that `accel` renders, in the form in which pictures are compared.
+    /// The picture that `accel` renders, converted for the comparison like [`expected`](Self::expected).
     pub fn drawn(&self, scene: &Scene, accel: &dyn DynAccel) -> DynamicImage {
         self.comparable(self.picture(scene, accel))
     }
 
-    /// Like [`drawn`](Self::drawn), for the pixel of `ray`.
+    /// Like [`drawn`](Self::drawn), but renders only the pixel of `ray`.
     pub fn drawn_pixel(&self, scene: &Scene, accel: &dyn DynAccel, ray: &Ray) -> DynamicImage {
         self.comparable(draw(scene, accel, self.view, [1, 1], &[*ray]))
     }
@@ -117,10 +117,10 @@ impl SceneGolden {
         scene.primary_rays(self.size, View::CENTRE, pixel..pixel + 1)[0]
     }
 
-    /// Renders `scene` with `accel` and compares the picture with the golden image. After a difference, the folder
-    /// `SCENE-STRUCTURE` in `out` contains a page.
+    /// Renders `scene` with `accel` and compares the picture with the golden image. If they differ, writes a page to
+    /// the folder `SCENE-STRUCTURE` in `out`.
     ///
-    /// A built-in scene must be loaded with its generated meshes, even if the real meshes are present.
+    /// A built-in scene must be loaded with its generated meshes, even if real meshes have been downloaded.
     ///
     /// # Errors
     /// If the golden image is missing or damaged, its size or camera differs, or the pictures differ.
@@ -134,8 +134,8 @@ impl SceneGolden {
     /// Renders the golden image and writes it if it differs from the existing file.
     ///
     /// # Errors
-    /// If the file cannot be written; without [`Overwrite::Any`], if another program wrote the existing file; for a
-    /// built-in scene, if the source tree is missing.
+    /// If the file cannot be written, if the source tree of a built-in scene is missing, or if `overwrite` is
+    /// [`Overwrite::Own`] and another program wrote the existing file.
     pub fn update(&self, scene: &Scene, accel: &dyn DynAccel, overwrite: Overwrite) -> Result<Update, GoldenError> {
         if self.bytes.is_some() && !self.path.parent().is_some_and(Path::is_dir) {
             return Err(GoldenError::NoSources);
@@ -159,8 +159,8 @@ impl SceneGolden {
         Ok(Difference::between(&old, &new).map_or(Update::New, Update::Changed))
     }
 
-    /// The values of a picture of one pixel. For a miss: infinity in the views depth and primitive, the background in
-    /// the view shaded, black in the view normal.
+    /// The values of a picture with a single pixel. A miss is infinity in the views depth and primitive, the background
+    /// colour in the view shaded, and black in the view normal.
     pub fn pixel_values(&self, pixel: &DynamicImage) -> Vec<f64> {
         match (self.view, numbers::unpacked(pixel).as_deref()) {
             (ViewKind::Primitive, Some(&[numbers::MISS])) => vec![f64::INFINITY],
@@ -174,7 +174,7 @@ impl SceneGolden {
         draw(scene, accel, self.view, self.size, &rays)
     }
 
-    /// Converts a picture to the form in which pictures are compared: packed depths become floats, other views do not
+    /// Converts a picture for the comparison: packed depths become floats, and pictures of all other views do not
     /// change.
     fn comparable(&self, picture: DynamicImage) -> DynamicImage {
         let numbers = if self.view == ViewKind::Depth { numbers::unpacked(&picture) } else { None };
@@ -182,7 +182,7 @@ impl SceneGolden {
     }
 }
 
-/// Which existing files [`SceneGolden::update`] may replace.
+/// The existing files that [`SceneGolden::update`] may replace.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Overwrite {
     /// Files that [`SceneGolden::update`] has written.
@@ -190,7 +190,7 @@ pub enum Overwrite {
     Any,
 }
 
-/// A camera in the format of `--camera`.
+/// The option `--camera` that selects `camera`.
 fn camera_note(camera: &Camera) -> String {
     let point = |point: glam::Vec3| point.to_array().map(|x| x.to_string()).join(",");
     format!("--camera '{} {} {}'", point(camera.eye()), point(camera.target()), camera.vertical_fov())

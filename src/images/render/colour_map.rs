@@ -4,8 +4,8 @@ use image::RgbImage;
 
 use super::picture::from_pixels;
 
-/// Nine equidistant colours of the map "inferno". Their lightness rises evenly, in greyscale and for colour-blind
-/// people as well.
+/// Nine equidistant colours of the map "inferno". Their lightness increases evenly, also in greyscale and for
+/// colour-blind people.
 ///
 /// # References
 /// Smith, van der Walt, Firing: the colour maps of Matplotlib 1.5, 2015 (dedicated to the public domain, CC0).
@@ -23,7 +23,7 @@ const INFERNO: [[u8; 3]; 9] = [
 
 /// The colour of `cost` on a logarithmic scale from 0 to `hottest`; higher costs get the colour of `hottest`.
 ///
-/// Costs of structures differ by factors of a hundred: a linear scale up to the worst would show the best in black.
+/// The costs of two structures can differ by a factor of a hundred. A linear scale would show the cheaper one in black.
 pub fn heat(cost: u64, hottest: u64) -> [u8; 3] {
     // The logarithm of `libm` is the same on every machine.
     ramp(match hottest {
@@ -32,7 +32,7 @@ pub fn heat(cost: u64, hottest: u64) -> [u8; 3] {
     })
 }
 
-/// The colour at the position `share` of the map, from 0 to 1.
+/// The colour of the map at `share`: 0 is its first colour, 1 its last.
 pub fn ramp(share: f64) -> [u8; 3] {
     // 255 steps between neighbouring colours.
     let steps = ((INFERNO.len() - 1) * 255) as f64;
@@ -51,7 +51,7 @@ pub fn with_bar(picture: RgbImage, hottest: u64) -> RgbImage {
     RgbImage::from_raw(width, height, rows).expect("both have one width")
 }
 
-/// The bar, `width` pixels wide, above a mark at each power of ten, from 1.
+/// The bar, `width` pixels wide. Marks below it show the powers of ten, from 1.
 fn bar(width: u32, hottest: u64) -> RgbImage {
     let black = vec![[0; 3]; width as usize];
     let (last, whole) = (f64::from(width.max(2) - 1), libm::log1p(hottest as f64));

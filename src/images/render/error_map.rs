@@ -1,4 +1,4 @@
-//! A map of the errors of a structure and its triangle test, pixel by pixel.
+//! A picture that shows the pixels at which the hits of a structure differ from the exact hits.
 
 use image::RgbImage;
 use rayon::prelude::*;
@@ -9,7 +9,7 @@ use crate::geometry::{Hit, Ray};
 use crate::oracle::{DepthRule, Oracle, Outcome, Truth, outcome};
 use crate::scene::Scene;
 
-/// The primary rays of a picture, row by row, with their exact hits; independent of the structure.
+/// The primary rays of a picture, row by row, with their exact hits.
 pub struct ExactPicture {
     pub size: [u32; 2],
     pub rays: Vec<Ray>,
@@ -17,7 +17,7 @@ pub struct ExactPicture {
 }
 
 impl ExactPicture {
-    /// Computes the exact hits, in some microseconds per pixel.
+    /// Computes the exact hits. This takes a few microseconds per pixel.
     pub fn new(scene: &Scene, size: [u32; 2]) -> Self {
         let oracle = Oracle::new(&scene.mesh);
         let rays = primary(scene, size);
@@ -25,7 +25,7 @@ impl ExactPicture {
         Self { size, rays, truths }
     }
 
-    /// Compares a structure's hit at a pixel with the exact hit, by the strict depth rule.
+    /// Compares a structure's hit at a pixel with the exact hit, by [`DepthRule::STRICT`].
     pub fn outcome(&self, pixel: usize, hit: Option<Hit>) -> Outcome {
         outcome(self.truths[pixel].as_ref(), hit, DepthRule::STRICT)
     }
@@ -51,17 +51,17 @@ pub fn error_name(outcome: Outcome) -> Option<&'static str> {
     PAINTED.iter().find(|(painted, ..)| *painted == outcome).map(|(_, name, ..)| *name)
 }
 
-/// The brightest grey of a correct hit: error colours are brighter.
+/// The grey of the nearest correct hit. All error colours are brighter.
 const BRIGHTEST: f32 = 90.0;
 
 impl ErrorMap {
-    /// Checks the hits of `accel` for the primary rays of `scene`, by the strict depth rule.
+    /// Compares the hits of `accel` for the primary rays of `scene` with the exact hits.
     pub fn new(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Self {
         let exact = ExactPicture::new(scene, size);
         Self::of(&exact, accel.closest_by_chunks(&exact.rays, 1024))
     }
 
-    /// Checks hits, one per pixel.
+    /// Compares `hits`, one per pixel, with the exact hits.
     ///
     /// # Panics
     /// If there are more or fewer hits than pixels.
@@ -94,19 +94,19 @@ impl ErrorMap {
         PAINTED.map(|(outcome, name, _, colour)| (name, self.count(outcome), colour))
     }
 
-    /// Errors in colours, enlarged, over a dim depth view of correct hits.
+    /// The picture: errors in colours, each three pixels wide and high, over a dim depth view of all other hits.
     pub fn picture(&self) -> RgbImage {
         let right = |(outcome, hit): &(Outcome, Option<Hit>)| hit.filter(|_| *outcome == Outcome::Right);
         let nearest = self.pixels.iter().filter_map(right).fold(f32::INFINITY, |near, hit| near.min(hit.t));
         let colour = |pixel: &(Outcome, Option<Hit>)| {
-            // Far hits keep a third of the brightness, which distinguishes them from misses.
+            // Even the farthest hit keeps a third of the brightness, because a miss is black.
             let light = |hit: Hit| 1.0 / 3.0 + 2.0 / 3.0 * if hit.t > nearest { nearest / hit.t } else { 1.0 };
             let grey = pixel.1.map_or(0, |hit| (BRIGHTEST * light(hit)) as u8);
             PAINTED.iter().find(|(outcome, ..)| *outcome == pixel.0).map_or([grey; 3], |(.., colour)| *colour)
         };
         let mut colours: Vec<[u8; 3]> = self.pixels.iter().map(colour).collect();
-        // A single pixel is too small to see in a large picture: draw errors three pixels wide and high, without hiding
-        // another error.
+        // A single pixel is too small to see in a large picture. An error also colours its eight neighbours, except
+        // neighbours that are errors.
         let [width, height] = self.size.map(i64::from);
         for error in self.errors() {
             let (x, y) = (error as i64 % width, error as i64 / width);
@@ -147,7 +147,7 @@ mod tests {
         assert!(picture.pixels().all(|Rgb([r, g, b])| r == g && g == b && f32::from(*r) <= BRIGHTEST));
         assert_eq!(picture.get_pixel(0, 0), &Rgb([0; 3]));
 
-        // Build the structure and compute the exact hits over different meshes.
+        // Build the structure over one mesh and compute the exact hits over another: one of the two meshes is empty.
         let empty = Arc::new(Mesh::new(vec![], vec![]).unwrap());
         let nothing = KdTree::<Exact>::build(&empty, &KdConfig::SAH).unwrap();
         let missed = ErrorMap::new(&scene, &nothing, size);

@@ -1,4 +1,4 @@
-//! The renderer of the course for which the source report was written: Phong materials, hard shadows, mirrors.
+//! Renders Phong materials, hard shadows and mirrors, as in the course for which the source report was written.
 
 use glam::Vec3;
 use rayon::prelude::*;
@@ -7,12 +7,12 @@ use crate::accel::DynAccel;
 use crate::geometry::{Hit, Ray};
 use crate::scene::{Light, Material, Scene, Surface};
 
-/// The numbers of rays of each kind in an image.
+/// The numbers of primary, mirror and shadow rays of an image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RayCounts {
     /// Closest hit, one per pixel.
     pub primary: u64,
-    /// Closest hit, one for each hit on a mirror material at a level below the recursion limit.
+    /// Closest hit, one for each hit on a mirror material, up to the recursion limit.
     pub mirror: u64,
     /// Any hit, one for each light and each hit of a primary or mirror ray.
     pub shadow: u64,
@@ -21,8 +21,8 @@ pub struct RayCounts {
 /// The number of pixels whose rays form a batch.
 const CHUNK: usize = 4096;
 
-/// The colours, in linear RGB, of primary rays traced by `accel`, built over the scene's mesh. A batch consists of the
-/// rays of one kind and one mirror level for 4,096 pixels. The colours depend on neither batches nor threads.
+/// The linear RGB colours of primary rays. `accel` must be built over the scene's mesh. A batch has the rays of 4,096
+/// pixels with the same purpose and number of reflections. The colours do not depend on batches or threads.
 pub fn shade(scene: &Scene, accel: &dyn DynAccel, rays: &[Ray]) -> Vec<Vec3> {
     rays.par_chunks(CHUNK).flat_map_iter(|chunk| trace(scene, accel, chunk.to_vec()).0).collect()
 }
@@ -39,7 +39,7 @@ pub fn count_rays(scene: &Scene, accel: &dyn DynAccel, rays: &[Ray]) -> RayCount
 
 #[derive(Default)]
 struct MirrorLevel {
-    /// The colour of each ray without its mirror ray.
+    /// The colour of each ray without the light of its mirror ray.
     colours: Vec<Vec3>,
     /// For each mirror ray of the next level, the index of its parent ray and its weight.
     mirrors: Vec<(usize, f32)>,
@@ -48,7 +48,7 @@ struct MirrorLevel {
 fn trace(scene: &Scene, accel: &dyn DynAccel, mut rays: Vec<Ray>) -> (Vec<Vec3>, RayCounts) {
     let mut counts = RayCounts { primary: rays.len() as u64, ..RayCounts::default() };
 
-    // Forward: the mirror rays of each level are the rays of the next level.
+    // Forward: trace level by level. The mirror rays of a level are the rays of the next level.
     let mut levels = vec![];
     while !rays.is_empty() {
         let follow = (levels.len() as u32) < scene.recursion_limit;
@@ -58,7 +58,7 @@ fn trace(scene: &Scene, accel: &dyn DynAccel, mut rays: Vec<Ray>) -> (Vec<Vec3>,
         rays = mirrored;
     }
 
-    // Backward: clamp every ray's colour before adding a share of it to the colour of its parent.
+    // Backward: clamp the colour of each ray, multiply it by the mirror weight, and add it to the parent's colour.
     let mut seen: Vec<Vec3> = vec![];
     for mut level in levels.into_iter().rev() {
         for ((parent, weight), colour) in level.mirrors.into_iter().zip(seen) {
@@ -70,7 +70,7 @@ fn trace(scene: &Scene, accel: &dyn DynAccel, mut rays: Vec<Ray>) -> (Vec<Vec3>,
     (seen, counts)
 }
 
-/// Shades the hits of one level and, if `follow`, returns the mirror rays that leave them.
+/// Shades the hits of one level. If `follow` is set, also returns the mirror rays that start at these hits.
 fn shade_level(
     scene: &Scene,
     accel: &dyn DynAccel,
@@ -115,7 +115,7 @@ fn reflected(material: &Material, surface: &Surface, light: &Light, eye: Vec3) -
     let distance = to_light.length();
     let to_light = to_light / distance;
     let facing = normal.dot(to_light);
-    // A light at the surface point makes `facing` NaN and gives no light.
+    // If the light is at the surface point, `facing` is NaN, and the light adds nothing.
     if facing.is_nan() || facing <= 0.0 {
         return Vec3::ZERO;
     }
@@ -126,7 +126,7 @@ fn reflected(material: &Material, surface: &Surface, light: &Light, eye: Vec3) -
     light.at(distance) * (material.diffuse * facing + material.specular * highlight)
 }
 
-/// Divides by the largest component if that exceeds 1, then clamps to 0..1.
+/// Divides the colour by its largest component if this exceeds 1, then clamps it to 0..1.
 fn balance(colour: Vec3) -> Vec3 {
     let largest = colour.max_element();
     let colour = if largest > 1.0 { colour / largest } else { colour };

@@ -1,4 +1,4 @@
-//! Pictures: the shading of the source report's course, and views of a structure's work.
+//! Renders scenes: a shaded picture, and views of depths, normals, primitives, costs and errors.
 
 mod colour_map;
 mod error_map;

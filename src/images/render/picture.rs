@@ -18,8 +18,8 @@ pub fn from_pixels([width, height]: [u32; 2], pixels: Vec<[u8; 3]>) -> RgbImage 
     RgbImage::from_raw(width, height, pixels.into_flattened()).expect("all pixels are there")
 }
 
-/// The picture of linear RGB colours: each channel times 255, rounded to the nearest; values below 0 or above 1 are
-/// clamped, NaN becomes 0. As in the course, there is no gamma curve.
+/// Converts linear RGB colours to a picture: each channel is clamped to 0..1, multiplied by 255 and rounded. NaN
+/// becomes 0. There is no gamma curve.
 ///
 /// # Panics
 /// Like [`from_pixels`].
@@ -31,7 +31,7 @@ pub(super) fn quantised(channel: f32) -> u8 {
     (channel * 255.0 + 0.5) as u8
 }
 
-/// The encoder of all PNG files. Unlike the defaults of `image`, its settings never change.
+/// The encoder of all PNG files. Its settings are fixed, because the defaults of `image` may change.
 pub fn png_encoder<W: Write>(file: W) -> PngEncoder<W> {
     PngEncoder::new_with_quality(file, CompressionType::Fast, FilterType::Adaptive)
 }

@@ -1,4 +1,4 @@
-//! Reproduces the ray counts of the source report, to test the scenes, the meshes and the rules of the course.
+//! Compares ray counts with the source report's counts. This tests the scenes, the meshes and the renderer.
 
 use super::count_rays;
 use super::picture::primary;
@@ -7,7 +7,7 @@ use crate::kdtree::{KdConfig, KdTree};
 use crate::scene::tests::of_the_report;
 use crate::triangle::Exact;
 
-/// Mirror and shadow rays in a recount with the course's renderer, and the total in the report.
+/// The numbers of mirror and shadow rays in a recount with the course's renderer, and the total in the report.
 struct Known {
     scene: &'static str,
     mirror: u64,
@@ -22,8 +22,8 @@ struct Known {
 /// Two scenes do not match the recount exactly. Whether a ray hits at an edge depends on the rounding of the triangle
 /// test. The report's test is unknown; here the test is exact. In Infinitycandy, mirrors multiply the few rays at
 /// edges. In Cornellbox, walls meet at edges, and the back wall is a mirror, which the report does not mention. With
-/// the mirror, the total here differs by 8 from the report's total, and the recount's total by 29; without it, 38,495
-/// mirror rays and their shadow rays would be missing. The bounds below are observed, not derived.
+/// the mirror, our total differs by 8 from the report's total; the recount's total differs by 29. Without the mirror,
+/// 38,495 mirror rays and their shadow rays would be missing. The bounds below are observed, not derived.
 #[rustfmt::skip]
 const KNOWN: &[Known] = &[
     Known { scene: "Cube", mirror: 0, shadow: 20_648, report: 282_793, within: 1, recount: 0 },

@@ -15,7 +15,7 @@ named_enum! {
     /// The content of a picture.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum ViewKind {
-        /// The shading of the source report's course.
+        /// Shading with materials, shadows and mirrors: see [`shade`].
         Shaded = "shaded",
         /// Reciprocal distance of the hit, from white for the nearest hit in the picture to dark grey for the farthest;
         /// misses are black.
@@ -24,14 +24,14 @@ named_enum! {
         Normal = "normal",
         /// A unique colour for each primitive, the same in every picture; misses are black.
         Primitive = "primitive",
-        /// Tests and steps of the closest-hit query, from black to pale yellow, see [`costs`].
+        /// Triangle tests and traversal steps of the closest-hit query, from black to pale yellow: see [`costs`].
         Heat = "heat",
-        /// Errors against the exact oracle, see [`ErrorMap`].
+        /// Differences from the exact hits: see [`ErrorMap`].
         Error = "error",
     }
 }
 
-/// The error of the heat view: the structure does not report triangle tests and steps.
+/// The error of the heat view: the structure does not report triangle tests and traversal steps.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the structure does not count tests and steps, which the heat view shows: choose another view or structure")]
 pub struct ViewError;
@@ -46,11 +46,11 @@ impl FromStr for ViewKind {
 
 /// Draws a view of `scene` with `size` pixels. `accel`, built over the scene's mesh, traces the rays.
 ///
-/// `hottest` is the number of tests and steps that the heat view shows brightest; other views ignore it. To compare
-/// structures, use one number for all, for example the maximum of their [`hottest`].
+/// `hottest` is the cost that the heat view shows brightest; other views ignore it. To compare structures, use one
+/// number for all, for example the maximum of their [`hottest`] costs.
 ///
 /// # Errors
-/// If the heat view is requested of a structure that does not report triangle tests and steps.
+/// If `view` is the heat view and the structure does not report triangle tests and traversal steps.
 pub fn draw(
     scene: &Scene,
     accel: &dyn DynAccel,
@@ -83,7 +83,7 @@ pub fn draw(
 /// The sum of triangle tests and traversal steps of the closest-hit query of each pixel, row by row.
 ///
 /// # Errors
-/// If the structure does not report tests and steps.
+/// If the structure does not report triangle tests and traversal steps.
 pub fn costs(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Result<Vec<u64>, ViewError> {
     if accel.observed() != Observed::ALL {
         return Err(ViewError);
@@ -91,7 +91,7 @@ pub fn costs(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Result<Vec<
     Ok(Work::of(accel, &primary(scene, size)).iter().map(Work::cost).collect())
 }
 
-/// The 99.5th percentile of the costs, at least 1: a scale for the heat view that a few extreme pixels do not darken.
+/// The scale of the heat view: the 99.5th percentile of the costs, at least 1. It ignores a few extreme pixels.
 pub fn hottest(costs: &[u64]) -> u64 {
     let mut sorted = costs.to_vec();
     sorted.sort_unstable();
@@ -106,8 +106,8 @@ pub fn size_of(scene: &Scene, longest: u32) -> [u32; 2] {
     [width, height].map(|side| (u64::from(side) * u64::from(longest) / u64::from(most)).max(1) as u32)
 }
 
-/// Width and height of the pictures of the page, and of the pictures from which `render` takes the scale of the heat
-/// view.
+/// Width and height of the pictures on the web page. `sahara render` also computes the scale of the heat view at this
+/// size.
 pub fn coarse_size(scene: &Scene) -> [u32; 2] {
     size_of(scene, 320)
 }
@@ -133,8 +133,8 @@ pub fn depth_picture(size: [u32; 2], depths: &[f32]) -> RgbImage {
     from_pixels(size, depths.iter().map(colour).collect())
 }
 
-/// A colour other than black that is unique among primitives below 2^24 - 1: multiples of an odd constant visit all
-/// colours.
+/// A colour that is not black and is unique among primitives 0 to 2^24 - 2. Multiples of an odd constant modulo 2^24
+/// are all different.
 pub fn identity(index: u32) -> [u8; 3] {
     let [_, red, green, blue] = ((index.wrapping_add(1)).wrapping_mul(0x9E_37_79) & 0xFF_FF_FF).to_be_bytes();
     [red, green, blue]
@@ -170,7 +170,7 @@ mod tests {
         assert_eq!(colours(ViewKind::Primitive, &tree).1.len(), 6 + 1);
         assert!(colours(ViewKind::Depth, &tree).1.contains(&[255; 3]));
 
-        // Brute force tests twelve triangles in one leaf for every ray.
+        // For every ray, brute force tests twelve triangles and enters one leaf: a cost of 13.
         assert_eq!(costs(&scene, &all, [4, 4]).unwrap(), [13; 16]);
         assert_eq!(colours(ViewKind::Heat, &all).1, HashSet::from([colour_map::heat(13, 14)]));
     }

@@ -1,4 +1,4 @@
-//! The work of a structure for single rays.
+//! Counts the triangle tests and traversal steps of a structure for single rays.
 
 use rayon::prelude::*;
 
@@ -14,7 +14,7 @@ pub struct Work {
 }
 
 impl Work {
-    /// The work of `accel` for each of `rays`, traced one by one.
+    /// Traces each of `rays` separately with `accel` and returns its counts and hit.
     pub fn of(accel: &dyn DynAccel, rays: &[Ray]) -> Vec<Self> {
         let work = |ray: &Ray| {
             let (mut hit, mut counts) = ([None], Counts::default());

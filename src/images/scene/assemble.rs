@@ -26,11 +26,11 @@ impl Origin<'_> {
 }
 
 impl Scene {
-    /// Reads a scene file. It uses the real meshes in the folder `real_meshes`, or only stand-ins if this is `None`.
+    /// Reads a scene file. The scene uses the real meshes in the folder `real_meshes`; with `None`, only stand-ins.
     ///
     /// # Errors
-    /// A file that cannot be read, an invalid key or value, a mesh that cannot be loaded, or a missing real mesh
-    /// without a stand-in.
+    /// If the file cannot be read, a key or value is invalid, a mesh cannot be loaded, or a real mesh without a
+    /// stand-in is missing.
     pub fn read(path: &Path, real_meshes: Option<&Path>) -> Result<Self, SceneError> {
         let text =
             std::fs::read_to_string(path).map_err(|cause| SceneError::Unreadable { file: path.into(), cause })?;
@@ -38,7 +38,7 @@ impl Scene {
         Self::from_text(&text, &path.escaped().to_string(), folder, real_meshes)
     }
 
-    /// Like [`read`](Self::read), but takes the text of a scene file. Messages call the scene file `file`. Paths in the
+    /// Like [`read`](Self::read), but takes the text of a scene file, which error messages call `file`. Paths in the
     /// text are relative to `folder`; without a folder, paths are errors.
     ///
     /// # Errors
@@ -53,7 +53,7 @@ impl Scene {
     }
 }
 
-/// Loads or generates all meshes, places them and checks the scene.
+/// Loads or generates all meshes, transforms them to world space and checks the scene.
 pub(super) fn assemble(file: &SceneFile, origin: &Origin) -> Result<Scene, SceneError> {
     let mut parts = Parts::new(file);
     for (i, object) in file.objects.iter().enumerate() {
@@ -267,7 +267,7 @@ fn load_file(path: &Path, key: &str, origin: &Origin) -> Result<Model, SceneErro
     load(path).map_err(|cause| SceneError::Load { file: origin.file.into(), key: key.into(), cause })
 }
 
-/// Drops the triangles of the materials `names`; vertices and materials stay.
+/// Removes the triangles whose material is in `names`. All vertices and materials stay in the model.
 fn without_materials(model: &mut Model, names: &[String]) {
     let dropped: Vec<bool> = model.materials.iter().map(|m| names.contains(&m.name)).collect();
     let of = |t: usize| model.material_of.get(t).map_or(0, |&m| m as usize);

@@ -63,7 +63,7 @@ impl Camera {
         self.vertical_fov
     }
 
-    /// The view of the camera on an image of `[width, height]` pixels.
+    /// The view of the camera for an image of `[width, height]` pixels.
     pub fn view(&self, size: [u32; 2]) -> View {
         let eye = self.eye.as_dvec3();
         let forward = (self.target.as_dvec3() - eye).normalize();
@@ -85,12 +85,12 @@ pub struct View {
     right: DVec3,
     up: DVec3,
     half_size: DVec2,
-    /// Width of a pixel at distance 1.
+    /// Width of a pixel at distance 1 from the eye.
     pixel: f64,
 }
 
 impl View {
-    /// The offset of the centre of a pixel.
+    /// The offset from the top left corner of a pixel to its centre.
     pub const CENTRE: Vec2 = Vec2::splat(0.5);
 
     /// The ray from the eye through the point `offset` of pixel (`x`, `y`), with a direction of unit length.

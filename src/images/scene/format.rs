@@ -13,9 +13,9 @@ use crate::scene::meshes::Terrain;
 #[serde(deny_unknown_fields)]
 pub struct SceneFile {
     pub name: String,
-    /// The source of the scene, for readers.
+    /// A note on the origin of the scene.
     pub source: Option<String>,
-    /// The number of triangles of the scene; checked if present and no real mesh replaces a generated one.
+    /// The expected number of triangles. It is not checked if a real mesh replaces a generated mesh.
     pub triangles: Option<usize>,
     /// Width and height of the image, 1 to 16384.
     #[serde(default = "default_size")]
@@ -23,7 +23,7 @@ pub struct SceneFile {
     /// Linear RGB.
     #[serde(default)]
     pub background: [f32; 3],
-    /// The level up to which mirror rays are traced, 0 to 64.
+    /// The maximum depth of mirror rays, 0 to 64.
     #[serde(default = "default_recursion_limit")]
     pub recursion_limit: u32,
     /// See [`super::Scene::shadow_terminator_fix`].
@@ -31,7 +31,7 @@ pub struct SceneFile {
     pub shadow_terminator_fix: bool,
     /// The origin of every ray, including camera rays, moves by this distance along the ray direction. The source
     /// report's course avoids self-intersection in this way, and the report's ray counts depend on it. Without this
-    /// key, origins move by the error bound of the hit point, which works at every scale: see [`super::Offset`].
+    /// key, the origin of a secondary ray moves by the error bound of its hit point: see [`super::Offset`].
     pub ray_offset: Option<f32>,
     pub camera: CameraFile,
     #[serde(default)]
@@ -101,13 +101,13 @@ pub struct ObjectFile {
     /// The name of a generator ([`super::meshes::GENERATORS`]), or a path relative to the folder of the scene file;
     /// `None` if the object has only `real` or `terrain`.
     pub mesh: Option<String>,
-    /// A generated ground instead of a mesh.
+    /// Generated ground, instead of a mesh.
     pub terrain: Option<Terrain>,
-    /// The material of the whole mesh. Without `material` and `materials` the mesh keeps its own materials, or is grey.
+    /// The material of the whole mesh. By default, the mesh keeps its own materials; a mesh without materials is grey.
     pub material: Option<String>,
-    /// Materials by part; the parts of a mesh are its own materials.
+    /// Maps the names of the mesh's own materials to names of materials in the scene file.
     pub materials: Option<BTreeMap<String, String>>,
-    /// The rotation of [`crate::geometry::Transform::new`], in degrees; `sca` is its scale, `tra` its translation.
+    /// The rotation in degrees; `sca` is the scale, `tra` the translation: see [`crate::geometry::Transform::new`].
     #[serde(default)]
     pub rot: [f32; 3],
     #[serde(default = "ones")]
@@ -124,7 +124,7 @@ pub struct ObjectFile {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RealMesh {
-    /// Name in the folder of real meshes.
+    /// The name of the file in the folder of real meshes.
     pub file: String,
     /// The address of the file; with `unpack`, the address of an archive.
     pub url: String,
@@ -136,7 +136,7 @@ pub struct RealMesh {
     pub bytes: Option<u64>,
     /// The number of triangles of the mesh in the source report, for scenes of the report.
     pub reported_triangles: Option<usize>,
-    /// With `sca` and `tra`, the placement of the real mesh, instead of the placement in [`ObjectFile`].
+    /// `rot`, `sca` and `tra` transform the real mesh. The transformation in [`ObjectFile`] applies only to its `mesh`.
     #[serde(default)]
     pub rot: [f32; 3],
     #[serde(default = "ones")]
@@ -172,7 +172,7 @@ impl SceneFile {
     /// Parses `text`, the content of `file`.
     ///
     /// # Errors
-    /// Text that is not TOML, a key that is unknown, missing or of the wrong type, a number out of range.
+    /// If the text is not TOML, if a key is unknown, missing or of the wrong type, or if a value is invalid.
     pub fn parse(text: &str, file: &str) -> Result<Self, SceneError> {
         let scene: Self = toml::from_str(text).map_err(|error| SceneError::Syntax {
             file: file.into(),

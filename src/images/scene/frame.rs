@@ -16,7 +16,7 @@ const INSIDE_FOV: f32 = 75.0;
 /// The direction from the mesh to the camera: to the right and a little up.
 const TOWARDS_CAMERA: DVec3 = DVec3::new(0.5, 0.35, 1.0);
 
-/// The largest share of the image's width or height that the box of the mesh fills.
+/// The largest fraction of the image's width or height that the box of the mesh fills.
 const FILLED: f64 = 0.95;
 
 impl Scene {
@@ -26,7 +26,7 @@ impl Scene {
     /// The shadow terminator fix is off, because it depends on the unit of length.
     ///
     /// # Errors
-    /// If the model is no valid mesh, or if `f32` cannot represent the camera and the light.
+    /// If the model is not a valid mesh, or if `f32` cannot represent the camera and the light.
     pub fn framed(name: &str, model: Model) -> Result<Self, SceneError> {
         let mesh = Mesh::new(model.positions, model.triangles)
             .map_err(|cause| SceneError::Mesh { file: name.into(), cause })?;
@@ -64,11 +64,11 @@ impl Scene {
         })
     }
 
-    /// The same scene, seen from the middle of its box along the longer horizontal side. In a [framed](Scene::framed)
-    /// scene, the light moves inside as well.
+    /// The same scene with its camera in the middle of the scene's box. The camera looks along the longer horizontal
+    /// axis of the box. In a [framed](Scene::framed) scene, the light moves into the box as well.
     ///
     /// # Errors
-    /// If the mesh is empty or has no extent along this side, or if `f32` cannot represent the camera.
+    /// If the mesh is empty or has no extent along this axis, or if `f32` cannot represent the camera.
     pub fn from_inside(mut self) -> Result<Self, CameraError> {
         let bounds = if self.mesh.is_empty() { return Err(CameraError::NoDirection) } else { self.mesh.bounds() };
         let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
@@ -99,7 +99,7 @@ fn place(bounds: Aabb) -> Option<(Camera, Light)> {
     let fits = |corner: DVec3| corner.dot(right).abs().max(corner.dot(up).abs()) / reach + corner.dot(towards);
     let sign = |i: u32| if i == 0 { -0.5 } else { 0.5 };
     let corners = (0..8).map(|i| (max - min) * DVec3::new(sign(i & 1), sign(i & 2), sign(i & 4)));
-    // A single point has no size: use a distance that suits its coordinates.
+    // If the box is a single point, use a distance in proportion to its coordinates.
     let distance = corners.map(fits).fold(f64::from(f32::MIN_POSITIVE), f64::max);
     let distance = if max == min { centre.abs().max_element().max(1.0) } else { distance };
 

@@ -10,7 +10,7 @@ use super::{Offset, Scene};
 impl Scene {
     /// SHA-256, in hexadecimal, of everything that rays, hits or pictures depend on: vertices, triangles, corner
     /// normals, materials, lights, camera, background, recursion limit, shadow terminator fix, ray offset, image size.
-    /// It ignores names, notes, warnings and the list of stand-ins.
+    /// The hash ignores names, notes, warnings and the list of stand-ins.
     pub fn hash(&self) -> String {
         // These patterns name every field of the scene. The compiler does not check this: add new fields by hand.
         let Self { mesh, normals, materials, material_of, lights, camera, background, .. } = self;
@@ -50,7 +50,7 @@ impl Scene {
     }
 }
 
-/// SHA-256 behind a buffer: without it, the calls for single words would take longer than the hashing.
+/// SHA-256 behind a buffer. Without the buffer, the calls for single words would take longer than the hashing.
 struct Hash(BufWriter<Sha256>);
 
 const SUMMED: &str = "a sum takes all bytes";
@@ -64,7 +64,7 @@ impl Hash {
         self.words(floats.iter().map(|float| float.to_bits()));
     }
 
-    /// Adds the length of a list: two lists then hash differently from their concatenation.
+    /// Hashes the length of a list, to distinguish two lists from their concatenation.
     fn count(&mut self, n: usize) {
         self.0.write_all(&(n as u64).to_le_bytes()).expect(SUMMED);
     }

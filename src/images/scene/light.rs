@@ -8,9 +8,9 @@ pub struct Light {
     pub position: Vec3,
     /// Linear RGB.
     pub colour: Vec3,
-    /// `lat` in scene files: attenuation by distance; 0 gives none.
+    /// `lat` in scene files: attenuation in proportion to the distance. With 0, there is none.
     pub linear: f32,
-    /// `qat` in scene files: attenuation by squared distance; 0 gives none.
+    /// `qat` in scene files: attenuation in proportion to the squared distance. With 0, there is none.
     pub quadratic: f32,
 }
 

@@ -1,12 +1,12 @@
-//! Surface materials of the source report's course.
+//! Surface materials.
 
 use glam::Vec3;
 
-/// A Phong-style material with the parameters that the report's scenes need. Colours are linear RGB.
+/// A Phong-style material with the parameters that the source report's scenes need. Colours are linear RGB.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     pub name: String,
-    /// `Ka`: the product of `Ka` and `Kd` is visible without any light.
+    /// `Ka`: the product of `Ka` and `Kd` is the colour without any light.
     pub ambient: Vec3,
     /// `Kd`: Lambert reflection.
     pub diffuse: Vec3,
@@ -14,7 +14,7 @@ pub struct Material {
     pub specular: Vec3,
     /// `Ns`: exponent of the highlight.
     pub shininess: f32,
-    /// `r`: weight of the mirror ray, 0 to 1; 0 casts none.
+    /// `r`: weight of the mirror ray, 0 to 1. With 0, no mirror ray is traced.
     pub mirror: f32,
 }
 

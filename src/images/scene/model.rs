@@ -20,7 +20,7 @@ pub struct Model {
     pub materials: Vec<Material>,
     /// One index into `materials` per triangle, or empty if all triangles have the first material.
     pub material_of: Vec<u32>,
-    /// Sentences about parts of a file that were left out or replaced.
+    /// One sentence for each feature of the file that was ignored or replaced.
     pub notes: Vec<String>,
 }
 
@@ -28,7 +28,7 @@ impl Model {
     /// The normal index of a triangle without normals.
     pub const FLAT: u32 = u32::MAX;
 
-    /// The indices of a placed triangle. A placement that mirrors reverses their order, which keeps the front side.
+    /// The vertex indices of a triangle in a scene. A mirroring placement reverses their order to keep the front side.
     pub fn placed([a, b, c]: [u32; 3], is_mirrored: bool) -> [u32; 3] {
         if is_mirrored { [a, c, b] } else { [a, b, c] }
     }

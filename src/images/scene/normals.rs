@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::Model;
 
-/// Unit normals in world space: three per triangle, none for a flat triangle.
+/// Unit normals in world space: three per smooth triangle, none per flat triangle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CornerNormals {
     normals: Vec<Vec3>,
@@ -12,14 +12,14 @@ pub struct CornerNormals {
 }
 
 impl CornerNormals {
-    /// The entry of a triangle without corner normals.
+    /// The indices of a triangle without corner normals.
     pub const FLAT: [u32; 3] = [Model::FLAT; 3];
 
-    /// Takes normals, and three indices into `normals` per triangle. A triangle with a normal of length zero becomes
-    /// flat.
+    /// Takes normals, and three indices into `normals` per triangle. A triangle with a normal of length zero becomes a
+    /// flat triangle.
     ///
     /// # Panics
-    /// If an entry other than [`CornerNormals::FLAT`] has an index out of range.
+    /// If an index of a triangle other than [`CornerNormals::FLAT`] is out of range.
     pub fn new(normals: Vec<Vec3>, mut indices: Vec<[u32; 3]>) -> Self {
         for corners in indices.iter_mut().filter(|c| **c != Self::FLAT) {
             if corners.iter().any(|&i| normals[i as usize] == Vec3::ZERO) {

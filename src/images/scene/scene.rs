@@ -76,7 +76,7 @@ impl Scene {
         ((b - a).cross(c - a).length() * 0.5) as f32
     }
 
-    /// Point and normals at the hit of `ray`, computed in `f64` from the ray and the corners.
+    /// The surface at the hit of `ray`, computed in `f64` from the ray and the corners of the triangle.
     pub fn surface(&self, ray: &Ray, hit: Hit) -> Surface {
         let corners = self.mesh.corners(hit.prim.index());
         let weights = barycentrics(ray, corners);
@@ -94,11 +94,11 @@ impl Scene {
         Surface { point, shading_normal, smooth }
     }
 
-    /// The any-hit ray that tests whether `light` is hidden from the surface of `prim`.
+    /// The any-hit ray that tests whether `light` is hidden from `surface`, a point on `prim`.
     ///
-    /// Its start is the surface point, moved by [`Scene::shadow_terminator_fix`] and [`Scene::offset`]. Its length is
-    /// the distance from the unmoved surface point to the light. An occluder slightly beyond the light may therefore
-    /// count, as in the course. Lights behind the surface get shadow rays as well.
+    /// Its origin is the surface point, moved by [`Scene::shadow_terminator_fix`] and [`Scene::offset`]. Its `t_max` is
+    /// the distance from the unmoved surface point to the light. The ray may therefore hit an occluder slightly beyond
+    /// the light, as in the course. Lights behind the surface get shadow rays as well.
     pub fn shadow_ray(&self, prim: PrimId, surface: &Surface, light: &Light) -> Ray {
         let mut start = surface.point;
         if surface.smooth && self.shadow_terminator_fix {

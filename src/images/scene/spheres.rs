@@ -4,8 +4,8 @@ use glam::Vec3;
 
 use super::{Camera, Light, Scene, meshes};
 
-/// Steps along an edge of the icosahedron, by level. Level 0 has 20 triangles, and each further level has four times as
-/// many, except the last: it has 16 million, because all structures over 21 million would not fit into many machines.
+/// Segments per edge of the icosahedron, by level. Level 0 has 20 triangles; each further level has four times as many.
+/// The last has 16 million instead of 21 million: the structures of 21 million exceed the memory of many machines.
 const STEPS: [u32; 11] = [1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 895];
 
 /// The finest level.

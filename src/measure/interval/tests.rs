@@ -13,7 +13,7 @@ struct Machine {
     placement: f64,
     /// The effect of a run on a structure in one cell, the same in all epochs.
     run: f64,
-    /// The maximum that an interruption adds; by default five standard deviations of an uninterrupted sample.
+    /// Maximum that an interruption adds to ln time; by default five standard deviations of uninterrupted samples.
     tail: f64,
     epochs: usize,
     rounds: usize,
@@ -56,7 +56,7 @@ impl Machine {
         log_differences(&logs[0], &logs[1])
     }
 
-    /// The values of the epochs of `runs` runs.
+    /// The epoch values of `runs` runs, in one list.
     fn values(&self, runs: usize, times: [f64; 2], random: &mut RandomOrder) -> Vec<f64> {
         (0..runs).flat_map(|_| epoch_values(&[self.ratio(times, random)]).unwrap()).collect()
     }
@@ -68,7 +68,7 @@ fn log_differences(one: &[Vec<f64>], other: &[Vec<f64>]) -> Vec<Vec<f64>> {
     one.iter().zip(other).map(of_epoch).collect()
 }
 
-/// Machines with and without placement effects, with one round and with three.
+/// Machines with and without placement effects, with one round or three rounds per epoch.
 fn machines() -> impl Iterator<Item = Machine> {
     let of = |rounds: usize| [0.0, 0.01, 0.04].map(|placement| Machine { placement, rounds, ..Machine::default() });
     [1, 3].into_iter().flat_map(of)
@@ -101,7 +101,7 @@ fn mean_of(cells: &[Vec<Vec<f64>>], noise: Variance) -> Rerun {
 
 #[test]
 fn the_estimate_of_a_second_run_lies_within_the_interval_of_the_first() {
-    // The default number of epochs of `compare`, 4, and its neighbours.
+    // By default `compare` measures 4 epochs. Test 3 and 5 epochs as well.
     for machine in [3, 4, EPOCHS].into_iter().flat_map(|epochs| machines().map(move |m| Machine { epochs, ..m })) {
         let run = |random: &mut RandomOrder| mean_of(&[machine.ratio([3.0, 1.0], random)], Variance::NONE);
         as_promised(held(PAIRS, run), &format!("{machine:?}"));
@@ -149,8 +149,8 @@ fn with_twins(machine: Machine, cells: usize, random: &mut RandomOrder) -> (Vec<
 
 #[test]
 fn effects_of_whole_runs_are_covered_with_the_aa_noise_and_not_without() {
-    // The standard error of a ratio is about 0.01 here. The run effects 0, 0.007 and 0.02 add nothing to a ratio, 0.01,
-    // and three times as much.
+    // The standard error of a log ratio is about 0.01 here. The run effects 0.007 and 0.02 add standard deviations of
+    // about 0.01 and 0.03 to it.
     for (run, cells) in [(0.0, 1), (0.007, 1), (0.0, 4), (0.0, 8), (0.007, 8), (0.02, 12)] {
         let machine = Machine { run, ..Machine::default() };
         let share = |noise: &dyn Fn(&AaNoise) -> Variance, all: bool| {
@@ -188,8 +188,8 @@ fn half_widths_are_those_of_students_t() {
     };
     let expect = |half: f64, expected: f64| assert!((half - expected).abs() < 1e-4, "{half} {expected}");
     expect(half(Rerun::of(&spread, Variance::NONE)), 2.776 * deviation * libm::sqrt(2.0 / 5.0));
-    // A change has the uncertainty of both runs: eight degrees of freedom, four if one run does not vary, and the noise
-    // of both.
+    // The interval of a change includes the variation of both runs. It has eight degrees of freedom, or four if one run
+    // does not vary. It also includes the A/A noise of both runs.
     let change = |old: &[f64], new: &[f64], noise| Rerun::change(old, new, [noise; 2]);
     let noise = Variance { square: 1e-4, freedom: 1e9 };
     expect(half(change(&spread, &spread.map(|x| x + 0.1), Variance::NONE)), 2.306 * deviation * libm::sqrt(2.0 / 5.0));

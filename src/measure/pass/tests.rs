@@ -60,10 +60,10 @@ fn a_pass_that_answers_nothing_is_unsteady() {
     }
 }
 
-/// A structure that advances a mock clock. The origin of a ray is its tracing time in nanoseconds.
+/// A structure that advances a mock clock. The x coordinate of a ray's origin is its tracing time in nanoseconds.
 struct Slow<'a>(&'a AtomicU64, Box<dyn DynAccel>);
 
-/// The clock, the number of rays, and the time that they take.
+/// A batch of rays: the clock, the number of rays, and the nanoseconds that they take.
 struct Taken<'a>(&'a AtomicU64, usize, u64);
 
 struct Now<'a>(&'a AtomicU64);

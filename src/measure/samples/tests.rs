@@ -4,7 +4,7 @@ use super::*;
 use crate::measure::level_by_clock;
 use crate::measure::tiles::level_within;
 
-/// A mock clock, and the cases in the order of their passes.
+/// A mock clock, and the names of the cases in the order of their passes.
 #[derive(Default)]
 struct Bench {
     now: Cell<u64>,
@@ -26,7 +26,7 @@ struct Mock<'a> {
     chosen: Vec<usize>,
     epoch: usize,
     checksum: u64,
-    /// The checksum of the first epoch.
+    /// The checksum in epoch 0.
     right: u64,
     /// The pass in which the checksum changes.
     fickle_at: usize,
@@ -48,7 +48,7 @@ impl Timed for Mock<'_> {
     }
 
     fn lead_in(&mut self) {
-        // Time that must not be counted.
+        // The time of the lead-in must not be counted.
         self.bench.now.update(|ns| ns + 1_000_000);
     }
 
@@ -111,8 +111,8 @@ fn only_the_pass_is_timed_in_rounds_of_changing_order() {
 
 #[test]
 fn a_case_with_changing_results_is_not_steady_and_the_others_go_on() {
-    // The checksum changes in the second of five samples; in the second sample of a subset, after two passes for its
-    // checksum; and in the second of these two passes.
+    // On all rays, the checksum changes in the second sample. On a subset, two checksum passes precede the samples: the
+    // checksum changes in the second sample (pass 4), or in the second checksum pass.
     for (runs, most_rays, fickle_at) in [(5, usize::MAX, 2), (5, 16, 4), (1, 16, 2)] {
         let bench = Bench::default();
         let fickle = Mock { fickle_at, ..bench.mock('a', 10, 64) };

@@ -34,7 +34,7 @@ pub fn page(document: &Document) -> String {
     page.expect("a test renders the template with all kinds of blocks")
 }
 
-/// JSON for a script element. `<` is escaped: no text can end the element.
+/// JSON for a script element. `<` is escaped, so no text can end the element.
 fn in_script(data: &impl Serialize) -> String {
     serde_json::to_string(data).expect("data have text keys").replace('<', "\\u003c")
 }
@@ -107,7 +107,7 @@ fn table(table: &Table) -> Value {
 
 fn figure(figure: &Figure) -> Value {
     let chart = figure.chart();
-    // Labels fill a scatter plot: it keeps its width and scrolls on narrow screens.
+    // The labels of a scatter plot need its full width: on narrow screens it scrolls instead of shrinking.
     let shrinks = |chart: &&Chart| !matches!(chart, Chart::Scatter(_));
     context! {
         id => &figure.id,

@@ -13,7 +13,7 @@ use crate::request::{BRUTE_FORCE, REPORT_TREE, SAH_TREE};
 use crate::study::measure::guarded;
 
 /// The camera rays of a scene, traced with exact arithmetic and with every structure that `compare` measured. Brute
-/// force is left out: its cost would darken all other maps.
+/// force is left out: its cost would darken the heat maps of all other structures.
 pub struct CameraRays<'a> {
     pub loaded: &'a LoadedScene,
     /// The name of the scene in figures.

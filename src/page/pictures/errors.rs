@@ -8,7 +8,7 @@ use crate::report::number::{count, plural};
 use crate::report::words::listed;
 use crate::report::{Colours, Table};
 
-/// The maps of all structures with a wrong hit; a sentence if all hits are correct; `None` without structures.
+/// The maps of all structures with a wrong hit, or a sentence if all hits are correct. `None` without structures.
 pub fn maps(camera: &CameraRays) -> Option<Result<Maps, String>> {
     let maps: Vec<(&StructureWork, ErrorMap)> = camera.structures.iter().map(|s| (s, camera.errors(s))).collect();
     let (wrong, right): (Vec<_>, Vec<_>) = maps.into_iter().partition(|(_, map)| map.errors().next().is_some());

@@ -9,7 +9,7 @@ use crate::report::number::{count, figures};
 use crate::report::plot::tick_text;
 use crate::report::{Colours, Table};
 
-/// The maps of all structures that report their work. `None` if no structure does.
+/// The maps of all structures that count triangle tests and traversal steps; `None` if no structure does.
 pub fn maps(camera: &CameraRays) -> Option<Maps> {
     let told = camera.structures.iter().filter(|own| own.observed == Observed::ALL);
     let costs = |own: &StructureWork| own.work.iter().map(Work::cost).collect();

@@ -11,7 +11,7 @@ use crate::scene::offset::barycentrics;
 /// The maximum number of values in the data of one figure; each takes about ten bytes on the page.
 const NUMBERS: usize = 75_000;
 
-/// Values per ray, without the values of each structure.
+/// Values per ray that do not depend on a structure.
 const OF_RAY: usize = 8;
 
 /// The maximum number of rays in the data of a figure with this number of structures.
@@ -19,8 +19,8 @@ pub fn most_rays(structures: usize) -> usize {
     NUMBERS / (structures + OF_RAY)
 }
 
-/// The data of `pixels`: ascending indices, counted row by row from the top left. The sentence `which` describes the
-/// selection. Each quantity is one array over all pixels, which keeps the data small.
+/// The inspector's data. `pixels` has ascending indices, counted row by row from the top left; the sentence `which`
+/// describes their selection. Each quantity is one array over all pixels, which keeps the data small.
 pub fn inspector(camera: &CameraRays, pixels: &[usize], which: &str) -> Value {
     let options: Vec<String> = camera.structures.iter().map(|s| format!("-s {}", s.label)).collect();
     let answer = |structure: &StructureWork, pixel: usize| {
@@ -34,7 +34,7 @@ pub fn inspector(camera: &CameraRays, pixels: &[usize], which: &str) -> Value {
         self::answer(camera, pixel, truth, "")
     };
     let of_structure = |structure: &StructureWork| {
-        // An array that the structure does not report is empty.
+        // The array of a quantity that the structure does not report is empty.
         let numbers = |known: bool, number: fn(&Work) -> u64| -> Vec<u64> {
             pixels.iter().filter(|_| known).map(|&pixel| number(&structure.work[pixel])).collect()
         };
@@ -79,8 +79,8 @@ fn answer(camera: &CameraRays, pixel: usize, hit: Option<Hit>, wrong: &str) -> V
     answer_of(hit, wrong)
 }
 
-/// `[t, triangle, u, v]`, or `[]` for a miss; if the result is wrong, the words `wrong` follow. `u` and `v` are the
-/// weights of the second and third corner at the point where the ray meets the plane of the triangle.
+/// `[t, triangle, u, v]`, or `[]` for a miss, followed by `wrong` if it is not empty. `u` and `v` are the weights of
+/// the second and third corner at the point where the ray meets the plane of the triangle.
 fn answer_of(hit: Option<(f32, u32, [f64; 2])>, wrong: &str) -> Value {
     let mut fields = hit.map_or(vec![], |(t, triangle, weights)| {
         // Keep only the shortest digits that parse to the same `t`.

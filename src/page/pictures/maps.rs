@@ -7,7 +7,7 @@ use crate::report::{Art, Block, Colours, Figure, Overlay, Picture, Table};
 
 /// One picture per structure of the camera rays of one scene, in the same colours.
 pub struct Maps {
-    /// The value of `--view` with which `sahara render` draws such a picture, followed by other options.
+    /// The value of `--view`, and further options, with which `sahara render` draws one of the pictures.
     pub view: String,
     pub caption: String,
     pub pictures: Vec<Picture>,

@@ -18,8 +18,8 @@ use crate::request::is_large;
 use camera_rays::CameraRays;
 use scenes::LoadedScene;
 
-/// The maximum number of scenes with heat maps and error maps: the largest scenes that are not `is_large`, because
-/// their structures are rebuilt.
+/// The maximum number of scenes with heat maps and error maps. The maps rebuild all structures, so large scenes
+/// ([`is_large`]) have no maps. Of the other scenes, the largest have maps.
 const LARGEST: usize = 3;
 
 /// A section of pictures.
@@ -28,7 +28,7 @@ struct Part {
     title: &'static str,
     /// The name of the pictures, for the note that they are missing.
     pictures: &'static str,
-    /// The text before the pictures; unused for the scenes.
+    /// The text before the pictures; unused in `SCENES`.
     introduction: &'static str,
 }
 
@@ -51,7 +51,7 @@ impl Part {
         Section { id: self.id, title: self.title, blocks, ..Section::default() }
     }
 
-    /// The introduction and the blocks of `found`, with their commands. If `found` is empty: a note instead.
+    /// The introduction and the blocks of `found`, with their commands; only a note if `found` is empty.
     fn introduced(&self, found: Vec<(Block, String)>) -> Section {
         let note = "Scenes of more than four million triangles are left out; `sahara render` draws them.";
         let first = match found.is_empty() {

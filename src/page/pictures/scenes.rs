@@ -36,7 +36,7 @@ impl LoadedScene {
     }
 }
 
-/// The picture of a scene, with four rays per pixel; `None` if the structure or the drawing fails.
+/// The picture of a scene, with four rays per pixel; `None` if the tree cannot be built or the drawing fails.
 pub fn picture(loaded: &LoadedScene, registry: &Registry) -> Option<Picture> {
     let scene = &loaded.scene;
     let accel = guide(registry).ok()?.build(&scene.mesh).ok()?;
@@ -70,7 +70,7 @@ fn caption(loaded: &[LoadedScene]) -> String {
     )
 }
 
-/// The figure of the pictures, notes on the scenes `lost`, which have no picture, and a command that draws a picture.
+/// A figure of `pictures`, a note for each scene in `lost`, which has no picture, and a command that draws a picture.
 pub fn blocks(pictures: Vec<Picture>, loaded: &[LoadedScene], lost: &[String]) -> (Vec<Block>, String) {
     let (mut blocks, mut command) = (vec![], String::new());
     if !pictures.is_empty() {

@@ -36,8 +36,8 @@ pub fn marked(text: &str) -> anyhow::Result<Vec<(String, String)>> {
     Ok(places(text)?.into_iter().map(|(key, place)| (key.to_owned(), plain(place))).collect())
 }
 
-/// The file with `of(key)` in each marked place; if it is `None`, the text stays. Paragraphs with marks are wrapped
-/// again; a text of several lines, such as a table, gets blank lines around it.
+/// The file with `of(key)` in each marked place. If `of(key)` is `None`, the text stays. Paragraphs with marks are
+/// wrapped again. A text of several lines, such as a table, gets blank lines around it.
 pub fn fill(text: &str, of: impl Fn(&str) -> Option<String>) -> anyhow::Result<String> {
     let (mut filled, mut at) = (String::new(), 0);
     for (key, place) in places(text)? {
@@ -69,7 +69,7 @@ pub fn fill(text: &str, of: impl Fn(&str) -> Option<String>) -> anyhow::Result<S
     Ok(out)
 }
 
-/// Writes the lines of a paragraph; wraps them again if a line has a mark, but does not begin with one.
+/// Writes the lines of a paragraph. They are wrapped again if a line contains a mark but does not begin with a mark.
 fn flush(paragraph: &mut Vec<&str>, out: &mut String) {
     let lines = std::mem::take(paragraph);
     if !lines.iter().any(|line| line.contains(OPEN) && !line.starts_with(OPEN)) {
@@ -89,8 +89,8 @@ fn flush(paragraph: &mut Vec<&str>, out: &mut String) {
     *out += &format!("{line}\n");
 }
 
-/// The parts of a text between which a line may break. A comment and the word before it are one part, because a line
-/// that begins with a comment is not formatted as Markdown. A code span is one part.
+/// Splits a text where a line may break. A comment stays with the word before it, because a line that begins with a
+/// comment is not formatted as Markdown. A code span is not split.
 fn words(text: &str) -> Vec<String> {
     let (mut words, mut word, mut is_code): (Vec<String>, String, bool) = (vec![], String::new(), false);
     for piece in text.split_whitespace() {

@@ -50,9 +50,9 @@ pub struct ResultsData {
     pub schema: u32,
     pub made_by: String,
     pub run: RunFacts,
-    /// By key: the name of the study or part, a full stop, and the key of the finding, as in `run.machine`.
+    /// By key, such as `run.machine`: a study, `answer`, `claims` or `run`; a full stop; the key of the finding.
     pub statements: BTreeMap<String, Statement>,
-    /// Digests (SHA-256) of the other files, by their paths relative to this one.
+    /// Digests (SHA-256) of all other files, by their paths relative to the data file.
     pub files: BTreeMap<String, String>,
 }
 
@@ -89,8 +89,8 @@ impl Results {
         Ok(Self { data, paper, figures, tables })
     }
 
-    /// README with its marked places filled in. For a key without a measurement, README and the data say that it is not
-    /// measured.
+    /// README with its marked places filled in. For a key without a measurement, README and the data file state that it
+    /// is not measured.
     pub fn fill(&mut self, readme: &str, studies: &Studies) -> anyhow::Result<String> {
         for (key, _) in marked(readme).context("README.md")? {
             if self.data.statements.contains_key(&key) {
@@ -150,7 +150,7 @@ pub struct RunFacts {
 }
 
 impl RunFacts {
-    /// Rejects runs of more than one commit or machine.
+    /// The facts of `runs`. Rejects runs of more than one commit or machine.
     pub fn new(runs: &Runs) -> anyhow::Result<Self> {
         let all = runs.provenances();
         let one = |what: &'static str, of: fn(&Provenance) -> &String| -> anyhow::Result<String> {

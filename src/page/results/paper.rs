@@ -1,4 +1,4 @@
-//! The paper: a fixed text with places for the answer and for the Markdown of the reports.
+//! The paper: a fixed text with placeholders for the answer and for the Markdown of the reports.
 
 use super::{COMMAND, FIGURES, Files, RunFacts, TABLES};
 use crate::page::document::Document;
@@ -15,7 +15,7 @@ pub const ANSWER: &str = "answer.svg";
 /// The maximum number of figures per study in the paper; the page has all figures.
 const FIGURES_SHOWN: usize = 2;
 
-/// Tables with more than `LONG` rows are separate files, unless their titles begin with words of `WHOLE`.
+/// Tables with more than `LONG` rows are separate files, except tables whose titles begin with a string of `WHOLE`.
 const LONG: usize = 8;
 const WHOLE: [&str; 2] = [CLAIMS, "Speed relative"];
 
@@ -74,8 +74,8 @@ fn answer(document: &Document) -> String {
     text
 }
 
-/// The sections of the studies, and the long tables as files. A section begins with its findings, except sentences of
-/// the answer. Of the blocks, it has texts, charts, and tables that are short and not about a single scene.
+/// The sections of the studies, and the long tables as files. A section begins with its findings, without the sentences
+/// of the answer. Texts, the first charts, and short tables about several scenes follow.
 fn results(document: &Document, runs: &Runs) -> (String, Files) {
     let (mut text, mut tables) = (String::new(), vec![]);
     for (own, run) in document.sections.iter().filter_map(|own| runs.of(own.id).map(|run| (own, run))) {
@@ -101,7 +101,7 @@ fn results(document: &Document, runs: &Runs) -> (String, Files) {
             _ => None,
         };
         let shown: Vec<Block> = own.blocks.iter().filter_map(&mut shown).collect();
-        // All commands are in the section on the method.
+        // Omit the command: the section on the method has all commands.
         text += &format!("## {}\n\n", escaped(own.title));
         let is_new = |sentence: &&str| !document.answer.sentences.iter().any(|own| own == sentence);
         text += &list(found.into_iter().filter(is_new));

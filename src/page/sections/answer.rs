@@ -12,13 +12,13 @@ use crate::study::compare::FASTEST;
 
 const QUESTION: &str = "Would a SAH tree have been much faster on the hard scenes?";
 
-/// The hard scenes, as keys of findings name them.
+/// The names of the hard scenes in the keys of findings.
 const SCENES: [&str; 3] = ["dragon", "lucy", "sponza"];
 
 /// A tree is called much faster if the interval of its speedup lies above this ratio.
 const MUCH: f64 = 2.0;
 
-/// The study of the SAH tree's speedup on the hard scenes, and the study of its factors.
+/// Two studies: the SAH tree's speedup on the hard scenes, and the factors of this speedup.
 const REPLICATE: &str = "replicate";
 const ATTRIBUTION: &str = "attribution";
 
@@ -53,7 +53,7 @@ fn banner(runs: &Runs) -> String {
         .into()
 }
 
-/// The question of the page and its answer: from `replicate` or, without its hard scenes, from `compare`.
+/// The question of the page and its answer, from `replicate`, or from `compare` if `replicate` has no hard scene.
 pub fn answer(runs: &Runs) -> (String, Answer) {
     let Some((hard, mean, sentence)) = hard(runs) else { return otherwise(runs) };
     let numbers = hard.iter().map(|own| headline(&own.title, own.ratio));
@@ -87,7 +87,7 @@ fn headline(label: &str, ratio: Estimate) -> Headline {
 }
 
 fn verdict(hard: &[Hard], mean: Option<Estimate>) -> String {
-    // Scenes are judged together, with intervals corrected for their number. The mean is a single number.
+    // The scenes are judged together, so their intervals are corrected for their number. The mean is a single number.
     let all = |is: &dyn Fn(Estimate) -> bool| hard.iter().all(|own| is(own.ratio.ratio_among(hard.len())));
     let either = |is: &dyn Fn(Estimate) -> bool| all(is) || mean.is_some_and(is);
     let verdict = match () {
@@ -105,7 +105,7 @@ fn verdict(hard: &[Hard], mean: Option<Estimate>) -> String {
     format!("{verdict}, on {}", listed(&titles))
 }
 
-/// The speedup of each scene: by factor if `attribution` measured all these scenes, otherwise as a whole.
+/// The speedup of each scene, divided into factors if `attribution` measured all these scenes.
 fn chart(runs: &Runs, hard: &[Hard]) -> Bars {
     let mut figures = runs.of(ATTRIBUTION).into_iter().flat_map(|run| run.report.figures());
     if let Some(Chart::Bars(bars)) = figures.find(|figure| figure.id == ATTRIBUTION).and_then(Figure::chart)
@@ -117,7 +117,7 @@ fn chart(runs: &Runs, hard: &[Hard]) -> Bars {
     Bars::of_products("speedup over the report's tree", vec!["SAH tree".into()], hard.iter().map(bar))
 }
 
-/// Question and answer without the hard scenes: the fastest structure, if `compare` measured several.
+/// Question and answer if no hard scene was measured: the fastest structure of `compare`, or `Not measured`.
 fn otherwise(runs: &Runs) -> (String, Answer) {
     let mut answer = Answer { banner: banner(runs), verdict: "Not measured".into(), ..Answer::default() };
     let mut title = QUESTION.to_owned();

@@ -11,8 +11,8 @@ use crate::study::{Dataset, Studies};
 
 pub use answer::tally;
 
-/// The whole report. The sections `pictures` come first. The last section lists studies without a measurement, with
-/// their commands.
+/// The whole report. The sections `pictures` come first. The last section has the provenance, and the studies without a
+/// measurement with their commands.
 pub fn document(runs: &Runs, studies: &Studies, pictures: Vec<Section>) -> Document {
     let (title, answer) = answer::answer(runs);
     let sections = pictures.into_iter().chain(runs.studies.iter().map(section)).collect();
@@ -25,7 +25,7 @@ pub fn document(runs: &Runs, studies: &Studies, pictures: Vec<Section>) -> Docum
     document
 }
 
-/// The findings of a study, its verdicts on claims, its blocks, failures and warnings.
+/// The section of a study: findings, verdicts on claims, blocks, failures, warnings, and notes on datasets not shown.
 fn section(run: &StudyRun) -> Section {
     let StudyRun { study, others, report, .. } = run;
     // A finding without a sentence, such as the name of the fastest structure, is for other parts of the page.

@@ -117,7 +117,7 @@ pub fn provenance(date: &str) -> Provenance {
     }
 }
 
-/// Epoch 0 of a scene.
+/// Epoch 0 of a scene, with two structures and invented times.
 pub fn measured(study: &str, scene: &str) -> Measured {
     let structures: [(&str, u64, &[u64]); 2] = [("median-kd", 1000, &[8000, 8100]), ("sah-kd", 5000, &[1000, 1100])];
     let case = case::example(scene, 0, &structures.map(|own| own.0));
@@ -159,7 +159,7 @@ pub fn read(folder: &Path) -> Runs<'static> {
     Runs::read(&[folder.to_path_buf()], &STUDIES).unwrap()
 }
 
-/// The runs of each study on its scenes.
+/// Runs in which each study measured the scenes beside its name.
 pub fn runs(studies: &[(&str, &[&str])]) -> Runs<'static> {
     let provenance = provenance("2026-01-02T03:04:05Z");
     let files: Vec<Files> = studies.iter().map(|(study, scenes)| journal(study, scenes, &provenance)).collect();
@@ -170,7 +170,7 @@ pub fn refused(path: PathBuf) -> RunError {
     Runs::read(&[path], &STUDIES).err().expect("it cannot be read")
 }
 
-/// A page with all possible parts, from a scene called `scene`.
+/// A page with all types of blocks and figures, from a scene called `scene`.
 pub fn whole(scene: &str) -> (Document, Runs<'static>) {
     let runs = runs(&[("compare", &[scene]), ("attribution", &[scene]), ("replicate", &[scene])]);
     let picture = |name: &str| Picture {

@@ -1,4 +1,4 @@
-//! All kinds of charts, as data.
+//! Charts as data: bars, curves and scatter plots.
 
 use crate::measure::Estimate;
 use crate::report::words::distinct;
@@ -10,16 +10,16 @@ pub const WIDTH: f64 = 900.0;
 pub enum Chart {
     Bars(Bars),
     Curves(Curves),
-    /// Always 800 units wide, because labels stand between the points.
+    /// Always 800 units wide, to leave space for labels between the points.
     Scatter(Scatter),
 }
 
-/// Speedups: groups of bars with intervals, which start at 1 on a logarithmic axis. All groups have the same axis,
-/// labels and order. A bar may consist of the factors of a product, whose lengths add up to the bar.
+/// Speedups as groups of bars with intervals. Every bar starts at 1 on a logarithmic axis. All groups have the same
+/// axis, and the same labels in the same order. A bar may be split into the factors of a product.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bars {
     pub x_title: String,
-    /// Names of the bars of every group; structures have fixed colours.
+    /// Names of the bars, the same in every group. The name determines the colour of the bar.
     pub labels: Vec<String>,
     /// Names of the factors of the bars; empty if the bars have no factors.
     pub parts: Vec<String>,
@@ -37,7 +37,7 @@ pub struct BarGroup {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Bar {
     Of(Estimate),
-    /// One factor per part, and the product.
+    /// One factor for each of [`Bars::parts`], and the product.
     Product(Vec<f64>, Estimate),
     /// The reason why there is no bar, in a word or two; may be empty.
     Missing(String),
@@ -72,7 +72,7 @@ pub struct Curves {
 /// A line through points, from left to right.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// Structures have fixed colours.
+    /// The name of the line. It determines the colour.
     pub label: String,
     /// The text after the label in the legend.
     pub note: String,
@@ -95,19 +95,19 @@ pub struct Point {
     pub y: f64,
     /// Whether only an upper bound of `y` is known: then an arrow points down from the point.
     pub is_bound: bool,
-    /// Whether no other point is better in both coordinates: such points are filled, and a line joins them.
+    /// Whether the point is on the Pareto front. Points of the front are filled, and a line joins them.
     pub is_front: bool,
     /// The text beside the point.
     pub label: String,
-    /// The meaning of the colour; structures have fixed colours.
+    /// The name of the colour: all points of a group have the same colour.
     pub group: String,
 }
 
-/// The maximum number of points that are all labelled; with more points only the front has labels.
+/// The maximum number of points that are all labelled. With more points, only the front is labelled.
 pub const LABELLED: usize = 20;
 
 impl Scatter {
-    /// The groups with a colour.
+    /// The distinct groups, in the order of their first points.
     pub fn groups(&self) -> Vec<String> {
         distinct(self.points.iter().map(|point| &point.group))
     }

@@ -1,5 +1,5 @@
-//! Charts as data: bars, curves and scatter plots. With the feature `page` they are drawn as SVG of the requested
-//! width: text keeps its size on a narrow screen.
+//! Charts as data: bars, curves and scatter plots. The feature `page` adds functions that draw them as SVG of a
+//! requested width. Text has the same size at every width.
 
 mod chart;
 #[cfg(feature = "page")]

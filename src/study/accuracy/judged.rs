@@ -81,8 +81,8 @@ impl<'a> Judged<'a> {
     }
 }
 
-/// For each point (cost, error), the point of the front that dominates it: at most as costly and at most as wrong, and
-/// better in one of the two; the cheapest, if there are several. `None` for the points of the front.
+/// For each point (cost, error), the cheapest point of the Pareto front that dominates it; `None` for a point of the
+/// front. A point dominates another point if it is not worse in either coordinate, and better in one.
 ///
 /// # References
 /// Kung, Luccio, Preparata: On finding the maxima of a set of vectors. J. ACM 22, 1975.

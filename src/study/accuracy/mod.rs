@@ -1,5 +1,5 @@
-//! `accuracy`: error and speed. Every structure with every triangle test traces the same rays; the exact oracle judges
-//! the hits, and one thread is timed.
+//! `accuracy`: error and speed. Every structure with every triangle test traces the same rays on one thread. The exact
+//! oracle judges the hits.
 
 mod figure;
 mod findings;
@@ -66,13 +66,13 @@ struct AccuracyArgs {
     seed: u64,
 }
 
-/// Time limit of all samples of a scene.
+/// The default time limit of all samples of a scene.
 const BUDGET: Seconds = Seconds::whole(40);
 
-/// The maximum number of triangles for brute force, unless structures are named.
+/// The default selection omits brute force on meshes with more triangles than this.
 const SMALL: usize = 5000;
 
-/// If there are more tables, the terminal omits the finding of each table.
+/// If the report has more findings than this, the terminal prints them only with `--verbose`.
 const HEADLINES: usize = 3;
 
 /// A structure that takes more than this multiple of the median time is timed on fewer rays.
@@ -163,7 +163,7 @@ fn report(dataset: &Dataset, _: &ArgMatches) -> Report {
     Report { findings, blocks, failures: failures(dataset, &all), data: table::data(&all), ..Report::default() }
 }
 
-/// Structures without times, and structures with wrong hits over the exact triangle test and without known defects.
+/// Structures without times. Also structures without known defects that have wrong hits over the exact triangle test.
 fn failures(dataset: &Dataset, all: &[JudgedRays]) -> Vec<Failure> {
     let mut failures = vec![];
     for judged in all.iter().flat_map(|of_kind| &of_kind.structures) {

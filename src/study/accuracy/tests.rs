@@ -49,9 +49,9 @@ fn exact_is_right_and_single_precision_is_not() {
         let tests = [exact, rounds].map(|own| own.structure.triangle_test.as_str());
         assert_eq!(tests, [Exact::NAME, MollerTrumbore::NAME]);
         assert!(exact.errors.ulps.unwrap().max <= 0.5 && rounds.error < rounds.error_bound);
-        // 400 rays without an error: 1 - 0.05^(1 / 400).
+        // The bound for no error in 400 rays is 1 - 0.05^(1 / 400).
         assert!((exact.error_bound - 0.007461).abs() < 1e-6, "{}", exact.error_bound);
-        // At any speed: the other structure has a higher bound.
+        // The other structure has a higher error bound, so it cannot dominate, even if it is faster.
         assert!(exact.dominated_by.is_none());
     }
     assert_eq!(all.len(), KNOWN.len());
@@ -76,7 +76,7 @@ fn what_is_refused_or_owes_the_truth_and_errs_fails() {
     let changes: [(Change, &[(&str, bool)]); 4] = [
         (|_| (), &[]),
         (|own| own.epoch.structures[0].rays[0].errors.as_mut().unwrap().missed = 1, &[("", true)]),
-        // A known defect, and a triangle test that is not exact.
+        // The first structure has a known defect, and the second one a triangle test that is not exact.
         (
             |own| {
                 own.epoch.structures[0].name = "bvh".into();
@@ -125,7 +125,7 @@ fn brute_force_is_left_out_of_large_meshes_unless_it_is_named() {
         let has_brute = |case: &crate::study::Case| case.structures.iter().any(|own| own.name() == BRUTE_FORCE);
         assert_eq!(plan.cases.iter().map(has_brute).collect::<Vec<_>>(), takes_part, "{words}");
         assert_eq!(plan.notes.len(), notes, "{words}");
-        // Each structure over each test, once.
+        // No structure is planned twice with the same triangle test.
         let labels = plan.cases[0].structures.iter().map(|own| &own.spec);
         assert_eq!(each_once(labels).len(), plan.cases[0].structures.len(), "{words}");
     }

@@ -1,4 +1,4 @@
-//! The cells of the factorial design: every plane with every stop rule and every traversal.
+//! The cells of the factorial design: all combinations of split plane, stop rule and traversal.
 
 use crate::names::named_enum;
 use crate::request::TWIN;
@@ -40,7 +40,7 @@ const STOPS: [Level; 3] = [
 const TRAVERSALS: [Level; 2] =
     [("child boxes", "traversal=child-boxes"), ("plane intervals", "traversal=plane-intervals")];
 
-/// The keys that all cells share. The report's rules ignore the costs; `duplication` is the default of `sah-kd`.
+/// The keys that all cells share. The report's rules do not use the costs. `duplication` is the default of `sah-kd`.
 const COMMON: &str = "traversal_cost=1.0,intersection_cost=0.7,empty_bonus=0.2,duplication=8.0";
 
 /// Trees that are built twice, for the A/A check.
@@ -87,7 +87,7 @@ impl Treatment {
         self.levels().map(|(name, _)| name).join(" / ")
     }
 
-    /// The structure on the command line, over the triangle test `test`.
+    /// The tree of the cell over the triangle test `test`, as `NAME:key=value,..`.
     pub fn spec(self, test: &str) -> String {
         format!("median-kd:test={test},{},{COMMON}", self.levels().map(|(_, keys)| keys).join(","))
     }
@@ -102,7 +102,7 @@ mod tests {
     #[test]
     fn the_corners_are_the_trees_that_they_stand_for() {
         let registry = Registry::builtin();
-        // Numbers as the tree reads them: 1 and 1.0 are equal.
+        // Convert the configuration to the type of the tree and back, which makes 1 and 1.0 equal.
         let config = |spec: &str| {
             let config: KdConfig = serde_json::from_value(registry.choose(spec).unwrap().config).unwrap();
             serde_json::to_value(config).unwrap()

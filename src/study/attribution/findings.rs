@@ -34,7 +34,7 @@ pub fn findings(results: &[Attribution]) -> Vec<Finding> {
     findings
 }
 
-/// The scene `name`: the real mesh or the stand-in.
+/// The result of the scene `name`, with its stand-in if `stand_in`, otherwise with its real mesh.
 fn form<'a>(results: &'a [Attribution<'a>], name: &str, stand_in: bool) -> Option<&'a Attribution<'a>> {
     results.iter().find(|r| r.first().scene == name && r.first().stand_in == stand_in)
 }
@@ -65,7 +65,7 @@ fn words(factor: Factor) -> &'static str {
     if factor == Factor::Plane { "split plane" } else { factor.name() }
 }
 
-/// The speedup of a scene as a product of factors, and the range of each factor over the six orders of exchange.
+/// The speedup of a scene as a product of factors, and the [range](Attribution::range) of each factor.
 pub fn split(r: &Attribution) -> Finding {
     let whole = r.whole();
     let parts = Factor::ALL.map(|factor| format!("{} {}", words(factor), figures(r.part(factor).estimate)));
@@ -81,8 +81,8 @@ pub fn split(r: &Attribution) -> Finding {
     Finding::new(format!("split-{}", slug(&r.first().scene)), sentence).with_value(whole)
 }
 
-/// How much more the SAH tree gains on Sponza than on Dragon and Lucy. Compares real meshes with each other; only if
-/// this is impossible, stand-ins with each other.
+/// How much more the SAH tree gains on Sponza than on Dragon and on Lucy. Compares real meshes. If their results are
+/// missing, compares stand-ins.
 fn gains(results: &[Attribution]) -> Vec<Finding> {
     let of = |stand_in: bool| -> Vec<Finding> {
         let whole = |name: &str| Some(form(results, name, stand_in)?.whole());
@@ -92,7 +92,7 @@ fn gains(results: &[Attribution]) -> Vec<Finding> {
     [false, true].map(of).into_iter().find(|found| !found.is_empty()).unwrap_or_default()
 }
 
-/// Kendall's tau of SAH cost and time within a family, the trees with the same traversal: the mean over the scenes.
+/// Kendall's tau of SAH cost and time among the trees with the same traversal: the mean over traversals and scenes.
 fn tau(results: &[Attribution]) -> Option<Estimate> {
     let families = results.iter().flat_map(|r| [0, 1].map(|traversal| (r, traversal)));
     let taus = families.filter_map(|(r, traversal)| {

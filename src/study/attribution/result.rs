@@ -1,4 +1,4 @@
-//! The result of each scene. Pure functions of the measurements.
+//! The result of each scene, computed from the measurements.
 
 use super::design::{CELLS, Factor, TWINS, Treatment, trees};
 use crate::measure::{AaNoise, Estimate, median};
@@ -9,15 +9,15 @@ use crate::study::{Dataset, Epoch, SceneEpochs};
 pub struct Attribution<'a> {
     /// The epochs of a scene; each has the [`trees`] of the design.
     pub epochs: Vec<&'a Epoch>,
-    /// One measurement per cell, in order.
+    /// One measurement per cell, in the order of [`Treatment::number`].
     pub trees: Vec<Measurement>,
-    /// The logarithms of the times of all trees, by epoch.
+    /// For each epoch, the logarithm of the time of each tree, including twins.
     medians: Vec<Vec<f64>>,
-    /// The noise of all scenes.
+    /// The A/A noise of all scenes together.
     pub noise: AaNoise,
 }
 
-/// One result per scene with the trees of the design.
+/// One result per scene. A scene with other trees than the design is omitted.
 pub fn results(dataset: &Dataset) -> Vec<Attribution<'_>> {
     let roles: Vec<String> = trees().map(|(_, role)| role).collect();
     let is_designed = |epoch: &&Epoch| epoch.structures.iter().map(|own| &own.role).eq(&roles);
@@ -42,7 +42,7 @@ impl<'a> Attribution<'a> {
         Self { trees: of_scene(&scene), epochs: scene.epochs, medians, noise: AaNoise::default() }
     }
 
-    /// The cells of the A/A noise: for each twin, the logarithm of its A/A ratio by epoch.
+    /// The input of [`AaNoise::new`]: for each twin, the logarithm of its A/A ratio in each epoch.
     fn twins(&self) -> [Vec<Vec<f64>>; 2] {
         let log = |i: usize| values(&self.medians, |logs| logs[TWINS[i].number()] - logs[CELLS + i]);
         [0, 1].map(|i| log(i).into_iter().map(|log| vec![log]).collect())
@@ -70,12 +70,12 @@ impl<'a> Attribution<'a> {
         self.speedup(&gain(Treatment::REPORT, Treatment::SAH))
     }
 
-    /// The part of the whole speedup that `factor` contributes; the product of the three parts is the whole.
+    /// The speedup that `factor` contributes. The product of the three contributions is the whole speedup.
     pub fn part(&self, factor: Factor) -> Estimate {
         self.speedup(&part(factor))
     }
 
-    /// The smallest and the largest gain of `factor` over the orders of exchange; they differ if factors interact.
+    /// The smallest and the largest gain of `factor` over all `ORDERS`. They differ if factors interact.
     pub fn range(&self, factor: Factor) -> [f64; 2] {
         let orders = parts_by_order(factor).map(|order| self.speedup(&order).estimate);
         [orders.iter().copied().fold(f64::INFINITY, f64::min), orders.iter().copied().fold(0.0, f64::max)]
@@ -87,7 +87,6 @@ impl<'a> Attribution<'a> {
     }
 }
 
-/// One weight per cell.
 type Weights = [f64; CELLS];
 
 /// The weights of ln(time of `from` / time of `to`).
@@ -98,14 +97,14 @@ pub fn gain(from: Treatment, to: Treatment) -> Weights {
     weights
 }
 
-/// The weights of the share of `factor` in the step from the report's tree to the SAH tree: its gain, averaged over all
-/// orders in which the three factors can be exchanged (Shapley, "A value for n-person games", 1953). The shares add up.
+/// The weights of the Shapley value of `factor`: its gain, averaged over all `ORDERS`. The values of the three factors
+/// add up to the whole gain (Shapley, "A value for n-person games", 1953).
 fn part(factor: Factor) -> Weights {
     let gains = parts_by_order(factor);
     std::array::from_fn(|cell| gains.iter().map(|gain| gain[cell] / ORDERS.len() as f64).sum())
 }
 
-/// The weights of the gain of `factor`, for each order of exchange.
+/// The weights of the gain of `factor`, for each of the `ORDERS`.
 fn parts_by_order(factor: Factor) -> [Weights; 6] {
     ORDERS.map(|order| {
         let before = order.into_iter().take_while(|&other| other != factor as usize);
@@ -117,4 +116,5 @@ fn parts_by_order(factor: Factor) -> [Weights; 6] {
     })
 }
 
+/// All orders in which the three factors can be changed, one by one, from the report's tree to the SAH tree.
 const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];

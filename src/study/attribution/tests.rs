@@ -11,7 +11,7 @@ use crate::study::case::tests::example as case;
 use crate::study::dataset::tests::dataset;
 use crate::study::epoch::{Epoch, RayCounts, tests};
 
-/// The speedup by each factor, and the additional speedup by the plane with the SAH stop rule.
+/// The speedup by each factor, and the additional speedup if the SAH plane and the SAH stop rule are combined.
 const STOP: f64 = 8.0;
 const PLANE: f64 = 1.5;
 const TRAVERSAL: f64 = 1.25;
@@ -91,7 +91,7 @@ fn the_split_is_the_one_put_in_and_multiplies_to_the_whole() {
             if noise > 0.0 {
                 return assert!(whole.holds(STOP * PLANE * TRAVERSAL * TOGETHER), "{whole:?}");
             }
-            // Without noise every figure is exact.
+            // Without noise, every number is exact.
             let [least, most] = r.range(Factor::Stop);
             for (found, truth) in [
                 (whole.estimate, 30.0),
@@ -132,7 +132,7 @@ fn claims_are_judged_by_real_meshes_where_they_are_there() {
     assert_eq!(value(&stand_ins, "tau").unwrap().estimate, 1.0);
     let outcomes: Vec<_> = stand_ins.verdicts.iter().map(|verdict| verdict.outcome.name()).collect();
     assert_eq!(outcomes[..4], ["confirmed", "confirmed", "not measured", "not measured"]);
-    // A real mesh of one scene is not compared with a stand-in.
+    // The real mesh of one scene is not compared with the stand-in of another scene.
     all.extend(real(measured("Dragon", 3, 0.0)));
     let both = report(all.clone());
     let headlines = both.tables().next().unwrap();

@@ -37,8 +37,8 @@ fn known(n: usize) -> Option<usize> {
     Some(n).filter(|&n| n > 0)
 }
 
-/// The number of rays after which build and tracing together take as long as with the structure that builds fastest,
-/// except brute force. `None` if that never happens, if a time is unknown, and for the fastest builder itself.
+/// The number of rays for which build and tracing together take as long as with the fastest builder (brute force
+/// excluded). `None` if there is no such number, if a time is unknown, or if `own` is the fastest builder.
 pub fn pays_off_after(all: &[Measurement], own: &Measurement) -> Option<f64> {
     let is_rival = |r: &&Measurement| {
         let same = r.scene == own.scene && r.workload == own.workload;
@@ -65,7 +65,7 @@ pub fn legend(first: &str) -> Vec<String> {
     ]
 }
 
-/// One row per structure and workload of a scene.
+/// One row per scene, structure and workload.
 pub fn data(all: &[Measurement]) -> Table {
     let mut table = Table::new("", [""; 0], all.iter().map(|_| vec![]));
     push_columns(&mut table, &COLUMNS.map(|(name, _)| name), &all.iter().collect::<Vec<_>>());

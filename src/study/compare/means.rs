@@ -11,8 +11,8 @@ use crate::study::measurement::{Measurement, trace_noise};
 /// Mean speeds over all scenes, one row per structure. The first columns are relative to the first of the `references`,
 /// one column per workload. Then each reference has one column for all workloads.
 ///
-/// A mean is over the cells in which structure and reference have a time. If a structure lacks cells that the reference
-/// has, its mean has a note and cannot be the best: means over different cells cannot be ranked.
+/// A mean is over the cells (scene and workload) in which structure and reference have a time. If a structure has no
+/// time in a cell of the reference, its mean gets a note and is never marked as the best.
 pub fn mean_table(all: &[Measurement], references: &[Reference]) -> Table {
     let workloads = distinct(all.iter().map(|r| &r.workload));
     let structures = distinct(all.iter().map(|r| &r.label));
@@ -21,7 +21,7 @@ pub fn mean_table(all: &[Measurement], references: &[Reference]) -> Table {
     // Makes one column of the table, with one entry per structure.
     let column = |reference: &Reference, workload: Option<&str>| -> Vec<Cell> {
         let asked = |r: &&Measurement| workload.is_none_or(|w| r.workload == w);
-        // A scene and workload counts if the reference has a time, also in the row of the reference.
+        // Count the cells in which the reference has a time.
         let has_rival = |r: &&Measurement| reference.rival(all, r).is_some();
         let related = all.iter().filter(asked).filter(has_rival);
         let cases = each_once(related.map(|r| (&r.scene, &r.workload))).len();
@@ -58,7 +58,7 @@ pub fn mean_table(all: &[Measurement], references: &[Reference]) -> Table {
     let untimed = || all.iter().filter(|r| r.mrays_per_s.is_none());
     let wrong = untimed().filter(|r| r.is_disqualified() || r.declined.is_none()).count();
     let declined = untimed().count() - wrong;
-    // A structure that is refused on a scene has no measurement there.
+    // A structure that is refused on a scene has no measurements of this scene.
     let cells = each_once(all.iter().map(|r| (&r.scene, &r.workload))).len();
     let missing = (structures.len() * cells).saturating_sub(all.len());
     let reasons = [

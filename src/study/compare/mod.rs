@@ -59,8 +59,8 @@ fn report(dataset: &Dataset, matches: &ArgMatches) -> Report {
     }
 }
 
-/// The failures. The tables show them, so most have no sentence. A sentence gives the reason of a refusal or a ray with
-/// a wrong hit, each once.
+/// The failures of the dataset. Most have no sentence, because the tables show them. The remaining sentences are each
+/// reason of a refusal, once, and one wrong hit per structure without a known defect.
 fn failures(dataset: &Dataset) -> Vec<Failure> {
     let (mut failures, mut told) = (dataset.failures(), vec![]);
     let scenes = dataset.scenes();
@@ -68,7 +68,7 @@ fn failures(dataset: &Dataset) -> Vec<Failure> {
     let mut reasons = refusals(&refused).into_iter();
     for own in &mut failures {
         if own.refused && !refused.is_empty() {
-            // There are at least as many refusals as reasons.
+            // There are at least as many refused structures as reasons, so all reasons are printed.
             own.sentence = reasons.next().unwrap_or_default();
         } else if !own.wrong || known_defect(&own.structure).is_some() || told.contains(&own.structure) {
             own.sentence.clear();
@@ -79,7 +79,7 @@ fn failures(dataset: &Dataset) -> Vec<Failure> {
     failures
 }
 
-/// Conditions that disturbed the run. If warnings differ only in their numbers, only the first is kept.
+/// Conditions that disturbed the run. If several warnings differ only in their numbers, the first one is kept.
 fn warnings(dataset: &Dataset) -> Vec<String> {
     let all = dataset.scenes().into_iter().flat_map(|scene| scene_warnings(&scene, &dataset.provenance));
     let words = |warning: &str| warning.replace(|c: char| c.is_ascii_digit() || c == '.', "");

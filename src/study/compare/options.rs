@@ -77,17 +77,17 @@ const QUICK_SAMPLES_NS: u64 = 250_000_000;
 const QUICK_CHECKS: usize = 1 << 28;
 const QUICK_CHECKS_NS: u64 = 1_000_000_000;
 
-/// A structure that is measured by default in addition to one per name: it traces slices of rays in packets.
+/// An additional structure of the default selection. It traces slices of rays in packets.
 const PACKETS: &str = "sah-hybrid:batch=packets";
 
-/// The reference structure of a gate: changes to this crate or to a user's crate do not touch its code.
+/// The reference structure of a gate. Changes to this crate or to a user's crate do not affect its code.
 const YARDSTICK: &str = "obvhs-bvh2";
 
 /// The value of `-s` that omits all structures of the suite, so only runners are measured.
 const NONE: &str = "none";
 
 impl CompareArgs {
-    /// The structures, including the reference.
+    /// The structures to measure, including the reference.
     fn chosen(&self, registry: &Registry) -> anyhow::Result<Vec<StructureRequest>> {
         let is_none = matches!(&self.structures.structure[..], [word] if word == NONE) && !self.runner.is_empty();
         let named_alone = is_none || self.only.is_some();
@@ -121,7 +121,7 @@ impl CompareArgs {
                 anyhow::bail!("--only {name} measures nothing else: omit the runner {}", other.spec);
             }
         }
-        // A run without a budget may be one side of a gate.
+        // A run without a budget may be one of the two runs that a gate compares.
         let is_gate = self.reference.is_none() && (self.only.is_some() || self.measuring.budget == Limit(None));
         if is_gate && structures.iter().all(|own| !is_obvhs(own.name()) || own.spec.contains("test=")) {
             structures.extend(registry.choose(YARDSTICK).ok().map(|choice| (&choice).into()));
@@ -265,13 +265,13 @@ mod tests {
         let plan = (STUDY.plan)(&matches, &registry).unwrap();
         let labels: Vec<&str> = plan.cases[0].structures.iter().map(|own| own.spec.as_str()).collect();
         assert!(registry.names().iter().all(|name| labels.contains(name)), "{labels:?}");
-        // One more for the twin.
+        // The count of `-s ` includes `-s all`, which accounts for the twin.
         assert_eq!(labels.len(), registry.names().len() + super::super::FULL.matches("-s ").count());
     }
 
     #[test]
     fn a_gate_measures_its_structure_and_the_yardstick() {
-        // Without the twin, which has the label of its structure.
+        // The twin has the same spec as its structure, so it is removed.
         let distinct = |words: &[&str]| each_once_by(specs(&[&["cube"], words].concat()), String::eq);
         assert_eq!(distinct(&["--only", "sah-bvh"]), ["sah-bvh", "obvhs-bvh2"]);
         assert_eq!(distinct(&["-s", "sah-kd", "--budget", "none"]), ["sah-kd", "obvhs-bvh2"]);

@@ -12,7 +12,7 @@ use crate::triangle::{EdgeF64, Exact, MollerTrumboreF64, TriangleTest};
 /// The key of the finding whose name is the label of the fastest structure.
 pub const FASTEST: &str = "fastest";
 
-/// The triangle tests in double precision or exact. All others round to single precision.
+/// The triangle tests that are exact or in double precision. All other tests round to single precision.
 const PRECISE: [&str; 3] = [Exact::NAME, MollerTrumboreF64::NAME, EdgeF64::NAME];
 
 /// A scene and a workload.
@@ -67,8 +67,8 @@ impl<'a> Ranking<'a> {
         Some(Self { all, noise, reference, cells, ranked })
     }
 
-    /// The fastest structure with precise hits, the fastest in single precision, the cost of precise hits, the speed of
-    /// each structure that the user brings, and the name of the fastest.
+    /// The fastest structure with a `PRECISE` test, the fastest in single precision, the cost of a precise test, the
+    /// speed of each structure that the user brings, and the name of the fastest structure.
     pub fn findings(&self) -> Vec<Finding> {
         let is_precise = |row: &&Ranked| PRECISE.contains(&row.example.triangle_test.as_str());
         let (precise, single): (Vec<&Ranked>, Vec<&Ranked>) = self.ranked.iter().partition(is_precise);
@@ -85,12 +85,12 @@ impl<'a> Ranking<'a> {
         let mut found: Vec<Finding> = firsts.map(|(i, own)| if i > 0 { own.detail() } else { own }).collect();
         found.extend(self.cost(&precise, &single).map(Finding::detail));
         found.extend(self.ranked.iter().filter(|row| !errs(row)).filter_map(|row| self.speed_finding(row)));
-        // The page names the fastest structure with precise hits or, without one, the fastest in single precision.
+        // The page names the fastest structure with a precise test. Without one, the fastest in single precision.
         found.extend(fastest.into_iter().next());
         found
     }
 
-    /// The speed of a structure from another crate or of a runner; `None` for the structures of this crate.
+    /// The speed of a structure that the user brings; `None` for all other structures and for the reference.
     fn speed_finding(&self, row: &Ranked) -> Option<Finding> {
         let value = row.speed.filter(|value| {
             *value != Estimate::exact(1.0) && is_brought(&row.example.structure, &row.example.triangle_test)
@@ -106,8 +106,8 @@ impl<'a> Ranking<'a> {
         speed(self.cells.iter().map(pair).collect::<Option<Vec<_>>>()?, &self.noise)
     }
 
-    /// Two findings about the fastest of `rows`, which are sorted: a sentence with its speed, and its label for the
-    /// page.
+    /// Two findings about the first row, which is the fastest: a sentence with its speed, and its label for the page.
+    /// The findings also name the structures that are not distinguishable from the fastest.
     fn first(&self, key: &str, words: &str, rows: &[&Ranked]) -> Option<(Finding, Finding)> {
         let (first, others) = rows.split_first()?;
         let value = first.speed?;
@@ -144,8 +144,8 @@ impl<'a> Ranking<'a> {
         Some((Finding::new(key, sentence).with_value(value), Finding::named(FASTEST, names)))
     }
 
-    /// Time with a precise triangle test / time in single precision, for each structure with equal configuration: the
-    /// smallest and the largest ratio.
+    /// Time with a precise triangle test / time in single precision, for structures that differ only in the triangle
+    /// test. The finding states the smallest and the largest ratio.
     fn cost(&self, precise: &[&Ranked<'a>], single: &[&Ranked<'a>]) -> Option<Finding> {
         let kind = |row: &Ranked<'a>| (&row.example.structure, &row.example.config);
         let cost = |right: &&Ranked<'a>| {
@@ -214,7 +214,7 @@ mod tests {
         // The two structures of this ratio have the same keys: packets are not compared with single rays.
         assert!(told[2].contains("exact") && told[2].contains("1.25"), "{told:?}");
         assert_eq!(findings.last().and_then(|finding| finding.name.as_deref()), Some("fast"));
-        // A structure with a wrong hit in any cell is not the fastest without wrong hits.
+        // A structure with a wrong hit in any cell is excluded from the structures without wrong hits.
         let mut erring = all.clone();
         erring.iter_mut().filter(|r| r.label == "fast" && r.scene == "c").for_each(|r| {
             (r.mrays_per_s, r.wrong_hits, r.checked_rays) = (None, 2, 9);

@@ -7,7 +7,7 @@ use crate::study::measurement::{Measurement, is_native_obvhs};
 
 /// The speed of the first of each pair relative to the second: the geometric mean over the pairs, with its
 /// [interval](mod@crate::measure::interval). The mean uses all epochs of each pair, the interval only the epochs that
-/// all pairs have. `None` if one of them has no time, or their samples are not from the same rounds.
+/// all pairs have. `None` if a measurement has no time, or the samples of a pair are not from the same rounds.
 pub fn speed<'a>(
     pairs: impl IntoIterator<Item = (&'a Measurement, &'a Measurement)>,
     noise: &AaNoise,
@@ -31,8 +31,8 @@ pub enum Reference {
 }
 
 impl Reference {
-    /// The structure `named`. Without a name, the report's tree and obvhs if they are measured; if neither is, the
-    /// first structure.
+    /// The structure `named`. If it is `None`: the report's tree, if measured, and obvhs, if measured. If neither is
+    /// measured: the first structure.
     pub fn of(all: &[Measurement], named: Option<&str>) -> Vec<Self> {
         if let Some(spec) = named {
             let known = all.iter().map(|own| own.label.as_str()).find(|label| is_named(label, spec));
@@ -65,7 +65,7 @@ impl Reference {
         }
     }
 
-    /// The measurement of the reference in the cell of `of`. `None` if it has no time.
+    /// The measurement of the reference on the scene and workload of `of`. `None` if it has no time.
     pub fn rival<'a>(&self, all: &'a [Measurement], of: &Measurement) -> Option<&'a Measurement> {
         let is = |own: &&Measurement| match self {
             Self::Structure(label) => own.label == *label,
@@ -86,8 +86,7 @@ impl Reference {
         timed.filter_map(|own| Some((own, self.rival(all, own)?))).collect()
     }
 
-    /// The geometric mean of the speed of the first of each pair relative to the second; a structure relative to itself
-    /// has no interval. `noise` is the A/A noise of the run.
+    /// Like [`speed`], but exactly 1 if every pair is a structure and itself. `noise` is the A/A noise of the run.
     pub fn ratio(pairs: &[(&Measurement, &Measurement)], noise: &AaNoise) -> Option<Estimate> {
         let is_itself = !pairs.is_empty() && pairs.iter().all(|(own, other)| own.label == other.label);
         if is_itself { Some(Estimate::exact(1.0)) } else { speed(pairs.iter().copied(), noise) }

@@ -38,8 +38,8 @@ pub fn checked(all: &[Measurement]) -> Option<Finding> {
     (sums[1] > 0).then(|| Finding::new("checked", sentence))
 }
 
-/// Kendall's tau of SAH cost and time over couples of different families: the mean over the built-in scenes, which the
-/// claim is about. `None` if a built-in scene is missing.
+/// Kendall's tau of SAH cost and time, over pairs of structures of different families. The mean is over the built-in
+/// scenes, because the claim is about them. `None` if a built-in scene is missing.
 pub fn tau(all: &[Measurement]) -> Option<Finding> {
     if !BUILTIN.iter().all(|builtin| all.iter().any(|r| r.scene == builtin.name)) {
         return None;
@@ -56,7 +56,7 @@ pub fn tau(all: &[Measurement]) -> Option<Finding> {
     Some(Finding::number("tau", mean_of_scenes(taus)?))
 }
 
-/// The family of a structure: structures with the same type of cells and nodes.
+/// The family of a structure. Structures of one family have the same type of cells and nodes.
 fn family(structure: &str) -> &str {
     match structure {
         REPORT_TREE | SAH_TREE => "binary kd-tree",
@@ -70,10 +70,10 @@ pub fn refused<'a>(scene: &SceneEpochs<'a>) -> Vec<&'a Structure> {
     scene.epochs[0].structures.iter().filter(|own| own.refused.is_some() && !own.is_twin()).collect()
 }
 
-/// The number of scenes that a page shows unfolded; the figures of all others are folded.
+/// The number of scenes with figures that a page shows unfolded. The figures of all other scenes are folded.
 const OPEN: usize = 3;
 
-/// All blocks. The terminal prints the tables of scenes, with all columns if `wide`, then the means.
+/// All blocks of the report. The terminal prints the tables of scenes, with all columns if `wide`, then the means.
 pub fn blocks(dataset: &Dataset, references: &[Reference], wide: bool) -> Vec<Block> {
     let shown = if wide { references } else { &references[references.len().saturating_sub(1)..] };
     let (mut blocks, mut scenes, mut all_refused) = (vec![], vec![], vec![]);
@@ -114,13 +114,13 @@ pub fn blocks(dataset: &Dataset, references: &[Reference], wide: bool) -> Vec<Bl
     blocks
 }
 
-/// Speed as a multiple of the report's tree, by workload.
+/// Speed relative to the report's tree (without it: to brute force or the first structure), by workload.
 fn bars(all: &[Measurement]) -> Figure {
     let noise = trace_noise(all);
     let mut labels = distinct(all.iter().map(|r| &r.label));
     let units = [REPORT_TREE, BRUTE_FORCE].map(String::from);
     let unit = units.into_iter().find(|unit| labels.contains(unit)).unwrap_or_else(|| labels[0].clone());
-    // Brute force is so slow that its bar would hide the differences between all other structures.
+    // Omit brute force: it is so slow that its bar would hide the differences between all other structures.
     labels.retain(|label| unit == BRUTE_FORCE || label != BRUTE_FORCE);
     let workloads = distinct(all.iter().map(|r| &r.workload));
     let reference = Reference::Structure(unit.clone());

@@ -1,4 +1,4 @@
-//! One scene as a table for people.
+//! The table of one scene, and its notes.
 
 use super::details;
 use super::reference::Reference;
@@ -51,14 +51,14 @@ pub fn refusals(refused: &[&Structure]) -> Vec<String> {
     distinct(refused.iter().filter_map(|own| own.refused.as_ref())).iter().map(reason).collect()
 }
 
-/// A scene whose structures are all refused.
+/// The table of a scene whose structures are all refused.
 pub fn nothing_measured(scene: &str, refused: &[&Structure]) -> Table {
     let title = format!("{scene}: no structure could be measured");
     Table::of(title, refused, &[("structure", &|own| (&own.label).into())]).of_one_scene()
 }
 
-/// One scene, one row per structure, refused ones last, with a column of ratios for each of the `references`; with all
-/// columns if `wide`.
+/// The table of one scene. Each structure has a row, and refused structures are last. Each of the `references` has a
+/// column of ratios. If `wide`, the table has all columns.
 pub fn scene_table(all: &[Measurement], references: &[Reference], refused: &[&Structure], wide: bool) -> Table {
     let Some(first) = all.first() else { return Table::default() };
     let degenerate = match first.degenerate {
@@ -80,7 +80,7 @@ pub fn scene_table(all: &[Measurement], references: &[Reference], refused: &[&St
     let noise = trace_noise(all);
     for reference in references {
         let mean = |label: &String| {
-            // Without a time on some workload there is no mean, unless the structure declines these rays.
+            // There is no mean if a workload has no time. Workloads that the structure declines do not count.
             let own: Vec<&Measurement> = all.iter().filter(|r| r.label == *label).collect();
             let timed: Vec<&Measurement> = own.iter().copied().filter(|r| r.declined.is_none()).collect();
             let pairs = reference.pairs(all, timed.iter().copied());
@@ -111,13 +111,13 @@ pub fn scene_table(all: &[Measurement], references: &[Reference], refused: &[&St
     table.noted(notes).without_empty_columns().of_one_scene().explained()
 }
 
-/// A footnote about the A/A ratios, if there are any.
+/// A footnote about the A/A noise, if a structure has a twin.
 pub(super) fn control(all: &[Measurement]) -> Option<String> {
     let (twins, label) = (trace_noise(all), &all.iter().find(|r| r.twin_samples_ns.is_some())?.label);
     let noise = libm::exp(twins.log()?) - 1.0;
     let holding = twins.holding_one();
     let holding = holding.map_or(String::new(), |(n, all)| format!("; {n} of {all} intervals of the ratio contain 1"));
-    // The scatter of the epochs may hide the noise: that does not prove that there is none.
+    // 0 does not prove that there is no noise: the variation of the epochs may hide it.
     let noise = match noise {
         0.0 => "none beyond the variation of the epochs".into(),
         _ => format!("{}%", figures(noise * 100.0)),
@@ -125,7 +125,7 @@ pub(super) fn control(all: &[Measurement]) -> Option<String> {
     Some(format!("A/A noise ({label} built twice and compared with itself): {noise}{holding}."))
 }
 
-/// A footnote for each baseline with wrong hits from a known defect.
+/// A footnote for each structure with wrong hits from a known defect.
 fn defects(all: &[Measurement]) -> Vec<String> {
     let note = |label: &String| {
         let wrong = || all.iter().filter(|r| r.label == *label && r.is_disqualified());
@@ -140,7 +140,7 @@ fn defects(all: &[Measurement]) -> Vec<String> {
 }
 
 /// A footnote for each triangle test whose number of hits differs from the exact one by more than 1 %. The checks do
-/// not show this: they compare a structure with its own triangle test.
+/// not show this: they compare a structure with brute force over its own triangle test.
 fn unfit_tests(all: &[Measurement]) -> Vec<String> {
     let exact = |of: &Measurement| {
         let same = |r: &&Measurement| r.workload_hash == of.workload_hash && r.counts.rays == of.counts.rays;

@@ -1,4 +1,4 @@
-//! Speed against memory, and build times.
+//! The figure of speed against memory. Its table also has the build times.
 
 use crate::report::plot::{Chart, Point, Scatter};
 use crate::report::words::distinct;

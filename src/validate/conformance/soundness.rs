@@ -10,14 +10,14 @@ use crate::geometry::{Hit, Ray};
 use crate::validate::compare::same;
 use crate::validate::{Stratum, WatchError, watched};
 
-/// The results of both queries.
+/// The results of the closest-hit query and of the any-hit query, one per ray.
 #[derive(Clone)]
 struct Hits {
     closest: Vec<Option<Hit>>,
     any: Vec<bool>,
 }
 
-/// Hits with and without counting, hits of loaded rays, and the counts of both queries.
+/// Hits of plain queries, of queries on loaded rays and of counting queries; the counts of closest hit and any hit.
 struct Traced {
     plain: Hits,
     loaded: Hits,
@@ -25,7 +25,7 @@ struct Traced {
     counts: [Counts; 2],
 }
 
-/// Runs every query within a time limit; any hit only if the structure supports it.
+/// Runs all queries within a time limit, without the any-hit query if the structure does not support it.
 fn trace(accel: &Arc<dyn DynAccel>, rays: &[Ray], limit: Duration) -> Result<Traced, WatchError> {
     let (accel, rays) = (Arc::clone(accel), rays.to_vec());
     watched(limit, move || {
@@ -48,12 +48,12 @@ fn trace(accel: &Arc<dyn DynAccel>, rays: &[Ray], limit: Duration) -> Result<Tra
     })
 }
 
-/// Checks that queries with counts find the same `t`, and the same primitive if the structure promises the lowest at
-/// equal `t`; that counts declared unobserved stay zero; and that a ray has the same hit, bit for bit, whether it is
-/// loaded or not.
+/// Checks that counting and loading rays change no hit, bit for bit. A counting query may return another primitive at
+/// the same `t` if the structure does not promise the lowest one. Also checks that undeclared counts are zero, and that
+/// declared counts are above zero if a ray hits.
 ///
 /// # Errors
-/// One line per failing mesh.
+/// One line per violation, or one line if a build or a query fails or hangs.
 pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(), String> {
     let mut lines = vec![];
     for (name, mesh) in meshes {
@@ -73,7 +73,7 @@ pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(),
                 }
             };
 
-            // The choice among several primitives at one `t` is free, unless the lowest is promised.
+            // At equal `t`, a structure that does not promise the lowest primitive may return any of them.
             let number = |h: Hit| if subject.lowest_id { h.prim.index() } else { 0 };
             let answer = |hit: Option<Hit>| hit.map(|h| (h.t.to_bits(), number(h)));
             let agree = |a: Option<Hit>, b: Option<Hit>| answer(a) == answer(b);
@@ -109,10 +109,10 @@ pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(),
     outcome(lines)
 }
 
-/// Checks that the shape is possible: it references every triangle with an area, and the structure takes memory.
+/// Checks that the shape is possible. For example, it has at least one reference per triangle with an area.
 ///
 /// # Errors
-/// One line per failing mesh.
+/// One line per violation, or one line if a build or a query fails or hangs.
 pub fn shapes(subject: &Subject, meshes: &[Named]) -> Result<(), String> {
     let mut lines = vec![];
     for (name, mesh) in meshes {

@@ -14,24 +14,25 @@ use crate::validate::compare::same;
 use crate::validate::conformance::Subject;
 use crate::validate::has_replied;
 
-/// The results of a structure on a case. One process sends them to another as JSON.
+/// The results of a structure on a case. One process sends these results to another as JSON.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Answers {
-    /// One per ray; empty for a property.
+    /// The closest hits, one per ray. Empty for a property.
     #[serde(serialize_with = "hits_as_bytes", deserialize_with = "hits_of_bytes")]
     pub hits: Vec<Option<Hit>>,
-    /// Build time, measured by the caller of the builder, ns.
+    /// Duration of the call of the builder, ns. 0 for a property.
     pub build_ns: u64,
     /// Rays on which any hit contradicts closest hit.
     pub any_hit_errors: u64,
-    /// Rays whose hit on their own differs from the hit in a batch, among at most 500 rays traced again.
+    /// Rays whose hit changes if they are traced on their own instead of in a batch. At most 500 rays are traced again.
     pub unrepeatable: u64,
-    /// Time per ray of the case / time per ordinary ray, if the case has ordinary rays; median of interleaved passes.
+    /// Time per ray of the case / time per ray of `Set::ordinary`, the median over several passes. `None` if the case
+    /// has no ordinary rays.
     pub slowness: Option<f64>,
     pub property: Option<Property>,
 }
 
-/// Encodes the bits: JSON has no infinite numbers and no NaN.
+/// Encodes the bits of the hits, because JSON has no infinite numbers and no NaN.
 fn hits_as_bytes<S: Serializer>(hits: &[Option<Hit>], serializer: S) -> Result<S::Ok, S::Error> {
     hits_to_bytes(hits).serialize(serializer)
 }
@@ -40,10 +41,10 @@ fn hits_of_bytes<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Optio
     Ok(hits_from_bytes(&Vec::deserialize(deserializer)?))
 }
 
-/// Builds `subject` over the mesh of `case` and traces at most `rays` of its rays.
+/// Builds `subject` over the mesh of `case` and traces at most `rays` rays, or checks the property of `case`.
 ///
 /// # Errors
-/// If the structure cannot be built, or its program fails.
+/// If the structure declines a ray, or its external program fails. In a case with rays, also if the build fails.
 pub fn run(case: &HardCase, subject: &Subject, rays: usize, clock: &dyn Clock) -> Result<Answers, BuildError> {
     match case.content {
         Content::Rays { rays: most, make, .. } => {
@@ -89,10 +90,9 @@ fn traced(accel: &dyn DynAccel, set: &Set, clock: &dyn Clock) -> Answers {
     Answers { hits, any_hit_errors, unrepeatable, slowness: slowness(accel, set, clock), ..Answers::default() }
 }
 
-/// Number of passes over the case's rays and over its ordinary rays.
+/// The number of passes over the rays of the case. Passes over its ordinary rays alternate with them.
 const PASSES: usize = 15;
 
-/// Time per ray of the case / time per ordinary ray.
 fn slowness(accel: &dyn DynAccel, set: &Set, clock: &dyn Clock) -> Option<f64> {
     if set.ordinary.is_empty() {
         return None;

@@ -1,4 +1,4 @@
-//! A case, and the macro of the catalogue.
+//! The type of a hard case, and the macro that makes the catalogue.
 
 use super::set::Set;
 use crate::accel::BuildError;
@@ -7,7 +7,7 @@ use crate::validate::conformance::Subject;
 /// One entry of the catalogue.
 #[derive(Clone, Copy)]
 pub struct HardCase {
-    /// From 1, ascending in the catalogue.
+    /// Starts at 1 and ascends in the catalogue. Two cases have the number 23.
     pub number: u32,
     /// The name on the command line.
     pub name: &'static str,
@@ -15,25 +15,24 @@ pub struct HardCase {
     pub content: Content,
     /// The reason why systems fail here, in one sentence.
     pub reason: &'static str,
-    /// The source of the reason: a paper of `papers/`, a project's source or thread, or a measurement.
+    /// The source of the reason: a paper in `papers/`, source code or a discussion of a project, or a measurement.
     pub source: &'static str,
 }
 
-/// The totals that include a case.
-///
-/// The survey of ray tracers behind the catalogue measured the cases up to number 71 and ranked 59 of them. Not ranked
-/// are the empty scene, vertices that are not finite, ends of intervals, origins on a surface, and invalid rays. Ten of
-/// the 59 are extreme: scales up to 1e-20 or from 1e15, directions of such lengths, and origins 1e8 away.
+/// Whether a case belongs to the two totals that `validate --hard` prints: 59 valid cases, and 49 moderate ones.
+/// A survey of ray tracers measured the cases up to number 71 and ranked 59 of them. It left out the empty scene,
+/// vertices that are not finite, ends of intervals, origins on a surface, and invalid rays. Ten of the 59 are extreme:
+/// scales up to 1e-20 or from 1e15, directions of these lengths, and origins 1e8 away.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Rank {
-    /// Valid input of sizes that a careful user may have: in both totals, of 59 and of 49 cases.
+    /// Valid input of moderate sizes. Belongs to the total of 59 cases and to the total of 49.
     Moderate,
-    /// Valid input of sizes at which `f32` products leave their range: in the total of 59 cases.
+    /// Valid input of sizes at which `f32` products leave their range. Belongs only to the total of 59 cases.
     Extreme,
-    /// In no total: the input is not valid, no ray can hit, or systems differ in what an interval includes.
+    /// Belongs to no total: the input is invalid, no ray can hit, or systems differ in the ends of intervals.
     Unranked,
-    /// Not measured by the survey: in no total, which keeps totals comparable.
+    /// Belongs to no total, because the survey did not measure the case.
     Added,
 }
 
@@ -52,17 +51,17 @@ impl HardCase {
 pub enum Content {
     /// The closest hits of rays over one mesh.
     Rays {
-        /// Default number of rays.
+        /// Default and maximum number of rays.
         rays: usize,
         expected: Expected,
-        /// Mesh and rays, the same bits on every machine. The first rays do not depend on the number of rays.
+        /// Makes mesh and rays, with the same bits on every machine. A smaller number gives the first of these rays.
         make: fn(usize) -> Set,
     },
-    /// The check of a property of hits, with the number of rays. An error if the structure cannot be built.
+    /// Checks a property of hits with about this number of rays. Fails if the structure cannot be built.
     Property(fn(&Subject, usize) -> Result<Property, BuildError>),
 }
 
-/// The right hits, as far as they are known without the oracle.
+/// The right hits of the rays of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Expected {
     /// Every ray hits something.
@@ -87,7 +86,7 @@ pub struct Property {
 }
 
 impl Property {
-    /// Adds a comparison; `sentence` is called for the first failure only.
+    /// Adds a comparison that succeeded if `holds`. Calls `sentence` only for the first failure.
     pub(super) fn note(&mut self, holds: bool, sentence: impl FnOnce() -> String) {
         self.checked += 1;
         self.broken += u64::from(!holds);
@@ -97,8 +96,8 @@ impl Property {
     }
 }
 
-/// The table of the cases, `CASES`. A row contains rank, number and name; the expected hits, the number of rays (10,000
-/// if omitted) and the generator of mesh and rays, or the check of a property; the reason; the source.
+/// Makes the table `CASES`. A row is `RANK NUMBER "NAME", EXPECTED x RAYS => GENERATOR, "REASON", "SOURCE";`. Without
+/// `x RAYS`, a case has 10,000 rays. If `EXPECTED` is `Property`, the check of the property replaces the generator.
 macro_rules! cases {
     ($($rank:ident $number:literal $name:literal, $expected:ident $(($of:literal))? $(x $rays:literal)? => $make:expr,
         $reason:literal, $source:expr;)*) => {

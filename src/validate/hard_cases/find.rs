@@ -1,4 +1,4 @@
-//! Cases by name.
+//! Finds cases by name or number.
 
 use super::case::HardCase;
 use super::catalogue::CASES;
@@ -16,7 +16,7 @@ pub fn catalogue() -> Vec<&'static HardCase> {
     CASES.iter().collect()
 }
 
-/// The first case of [`find_all`].
+/// The first case that [`find_all`] returns.
 ///
 /// # Errors
 /// Like [`find_all`].
@@ -24,7 +24,7 @@ pub fn find(name: &str) -> Result<&'static HardCase, UnknownCase> {
     Ok(find_all(name)?[0])
 }
 
-/// The case called `name`, in upper or lower case, or all cases with that number: number 23 is two cases.
+/// The case with this name, in upper or lower case, or all cases with this number. Two cases have the number 23.
 ///
 /// # Errors
 /// If no case matches. The error contains the three most similar names.

@@ -1,4 +1,4 @@
-//! The meshes of the cases.
+//! The meshes of the hard cases.
 
 use std::sync::Arc;
 
@@ -24,7 +24,7 @@ pub(super) fn joined(one: &Mesh, other: &Mesh) -> Arc<Mesh> {
     indexed([one.positions(), other.positions()].concat(), one.triangles().iter().copied().chain(moved_on).collect())
 }
 
-/// A rotation with no simple numbers: three perpendicular unit vectors up to rounding.
+/// Rotates `p`. The matrix is orthogonal up to rounding, and none of its numbers is simple.
 pub(super) fn tilted(p: Vec3) -> Vec3 {
     const AXES: [Vec3; 3] = [
         Vec3::new(0.754_406_5, -0.304_113_5, 0.581_715_7),
@@ -34,7 +34,7 @@ pub(super) fn tilted(p: Vec3) -> Vec3 {
     AXES[0] * p.x + AXES[1] * p.y + AXES[2] * p.z
 }
 
-/// A closed sphere of meridians and parallels, radius 1: neighbours have the same corners bit for bit.
+/// A closed sphere of radius 1, divided by meridians and parallels. Neighbours share corners bit for bit.
 pub(super) fn sphere() -> Arc<Mesh> {
     let model = meshes::uv_sphere(50, 50);
     indexed(model.positions, model.triangles)
@@ -76,7 +76,7 @@ pub(super) fn sheet(n: u32) -> Arc<Mesh> {
     indexed(points, triangles.collect())
 }
 
-/// The cube [-1, 1]^3 with a grid of 16 by 16 squares per side, corners at multiples of an eighth, all fronts outward.
+/// The surface of the cube [-1, 1]^3, 16 by 16 squares per face. Corners are multiples of 1/8; normals point outward.
 pub(super) fn cube() -> Arc<Mesh> {
     let grid = box_grid(16);
     let outward = |&[i, j, k]: &[u32; 3]| {
@@ -101,7 +101,7 @@ pub(super) fn hair() -> Arc<Mesh> {
     }))
 }
 
-/// 800 triangles that share the vertex zero.
+/// 800 triangles that share the vertex at zero.
 pub(super) fn fan() -> Arc<Mesh> {
     let fan = meshes::fan(800);
     indexed(fan.positions, fan.triangles)
@@ -121,7 +121,7 @@ pub(super) fn ulp_copies() -> Arc<Mesh> {
     mesh((0..500).map(|_| TRIANGLE.map(|p| Vec3::from_array(p.to_array().map(&mut shift)))))
 }
 
-/// Needles along a line: most have no area, every fourth is a sliver with an area.
+/// Triangles along the x axis. Every fourth is a sliver. All other triangles have no area: they lie on the axis.
 pub(super) fn line() -> Arc<Mesh> {
     let on_line = |i: usize, step: f32| Vec3::new(i as f32 * 0.125 + step, 0.0, 0.0);
     mesh((0..400).map(|i| {
@@ -133,7 +133,7 @@ pub(super) fn line() -> Arc<Mesh> {
 pub(super) fn mostly_centred() -> Arc<Mesh> {
     let mut sampler = Sampler::new(26);
     let alike = (0..1400).map(|_| {
-        // On a grid, the centroid is zero exactly.
+        // Multiples of 1/64 add without rounding, so the centroid is exactly zero.
         let [a, b] = [0; 2].map(|_| (sampler.cube() * 64.0).round() / 64.0);
         [a, b, -a - b]
     });
@@ -156,7 +156,7 @@ pub(super) fn largest_numbers() -> Arc<Mesh> {
     }))
 }
 
-/// A triangle at each power of two on the x axis, across this axis and as large as its distance from zero.
+/// Triangles perpendicular to the x axis, at the powers of two from 2^-60 to 2^60. Sizes are proportional to x.
 pub(super) fn deep_chain() -> Arc<Mesh> {
     mesh((-60..=60).map(|exponent| {
         let at = libm::scalbnf(1.0, exponent);

@@ -1,4 +1,4 @@
-//! Changed scenes whose hits follow from the original hits.
+//! Compares the hits in a scene with the hits in changed copies of it.
 
 use glam::Vec3;
 
@@ -12,17 +12,17 @@ use crate::validate::conformance::Subject;
 use crate::validate::degenerate::mesh;
 use crate::validate::{Sampler, has_replied};
 
-/// A change of a scene that keeps every `t`, or multiplies it by a power of two.
+/// A change of a scene that keeps every `t`, or multiplies every `t` by a power of two.
 struct Change {
     name: &'static str,
-    /// Whether every product rounds as before: then every test must return the same bits. Otherwise only the exact test
-    /// must.
+    /// Whether every product rounds as before the change. If so, every triangle test must return the expected bits of
+    /// `t`. If not, only the exact test must.
     same_rounding: bool,
     triangles: fn(&[[Vec3; 3]]) -> Vec<[Vec3; 3]>,
     /// The new position of a point of the scene or of a ray's origin.
     point: fn(Vec3) -> Vec3,
     direction: fn(Vec3) -> Vec3,
-    /// The factor of `t`.
+    /// The new `t` divided by the old one.
     factor: f32,
 }
 
@@ -36,7 +36,7 @@ const SAME: Change = Change {
     factor: 1.0,
 };
 
-/// All changes are exact: coordinates of the scene are multiples of 2^-10 below 8.
+/// The coordinates of the scene are multiples of 2^-10 below 8, so all changes are exact.
 const CHANGES: [Change; 7] = [
     Change {
         name: "in another order",
@@ -99,8 +99,8 @@ pub(super) fn metamorphic(subject: &Subject, rays: usize) -> Result<Property, Bu
     Ok(property)
 }
 
-/// Rays straight down through inner corners of a sheet, in the planes of many boxes. A structure that hits the sheet
-/// with an almost equal direction must also hit it straight down, under any rounding of its triangle test.
+/// Traces rays straight down to inner vertices of a sheet. The rays lie in the planes of many boxes. A structure that
+/// hits the sheet with the direction (1e-30, 1e-30, -1) must also hit it with (0, 0, -1), however its test rounds.
 pub(super) fn straight_down(subject: &Subject, rays: usize) -> Result<Property, BuildError> {
     let accel = (subject.build)(&sheet(32))?;
     let (mut sampler, mut property) = (Sampler::new(77), Property::default());

@@ -10,12 +10,12 @@ use crate::validate::conformance::Subject;
 use crate::validate::degenerate::{exponential, huge_and_small, needles, soup};
 use crate::validate::{Reference, Sampler, Stratum, Validation, has_replied, validate};
 
-/// The number of rays for each of `among` strata and meshes, at least 4.
+/// Divides `rays` by `among`, but returns at least 4.
 pub(super) fn shared(rays: usize, among: usize) -> usize {
     rays.div_ceil(among).max(4)
 }
 
-/// The structure and the reference for its triangle test.
+/// Builds the structure, and the reference for its triangle test.
 fn with_reference(subject: &Subject, mesh: &Arc<Mesh>) -> Result<(Box<dyn DynAccel>, Reference), BuildError> {
     Ok(((subject.build)(mesh)?, Reference::of_test(subject.triangle_test, mesh)?))
 }
@@ -35,7 +35,7 @@ pub(super) fn sizes(subject: &Subject, rays: usize) -> Result<Property, BuildErr
     validated(subject, &meshes, rays, |found| (found.errors(), "a hit is wrong"))
 }
 
-/// Compares all strata on some meshes with brute force, and counts one kind of error.
+/// Compares `subject` with brute force on all strata and `meshes`. `errors` selects the errors that break the property.
 fn validated(
     subject: &Subject,
     meshes: &[Arc<Mesh>],
@@ -61,10 +61,10 @@ fn validated(
     Ok(property)
 }
 
-/// The maximum number of rays per line, more than these scenes need: it stops a structure that does not advance.
+/// The maximum number of rays per line. No scene here needs as many. It stops a structure that does not advance.
 const CROSSINGS: usize = 4096;
 
-/// `ray`, and a ray that continues behind each hit of `accel` on the same line.
+/// `ray`, and for each hit of `accel` on its line a copy of `ray` that starts behind this hit.
 fn continued(accel: &dyn DynAccel, ray: Ray) -> Vec<Ray> {
     let mut rays = vec![ray];
     while let Some(hit) = accel.closest(&rays[rays.len() - 1..])[0] {

@@ -1,4 +1,4 @@
-//! The rays of cases that need more than a line in the catalogue.
+//! Generators of rays that take more than a line in the catalogue.
 
 use glam::Vec3;
 
@@ -15,7 +15,7 @@ pub(super) fn inside(sampler: &mut Sampler) -> Vec3 {
     sampler.direction() * (0.5 * sampler.unit())
 }
 
-/// Rays from inside a sphere, at most half its radius from the centre. Moving the sphere rounds it but keeps it closed.
+/// Rays from inside a sphere, at most half its radius from the centre. The moved sphere is rounded, but closed.
 pub(super) fn in_sphere(count: usize, centre: Vec3, radius: f32) -> Set {
     let mesh = moved(&sphere(), |p| centre + p * radius);
     Set::new(mesh, count, 2, |_, sampler| Ray::new(centre + inside(sampler) * radius, sampler.direction()))
@@ -39,7 +39,7 @@ fn on_grid(sampler: &mut Sampler) -> f32 {
     sampler.below(17) as f32 / 8.0 - 1.0
 }
 
-/// A ray along an axis from outside the cube, which it meets at t = 2. The zeros of a negative direction are -0.0.
+/// A ray along an axis that meets the cube at t = 2. The zero components of a negative direction are -0.0.
 pub(super) fn face_plane(_: &Mesh, sampler: &mut Sampler) -> Ray {
     let (axis, sign) = (sampler.below(3), sampler.sign());
     let mut origin = [on_grid(sampler), on_grid(sampler), -3.0 * sign];
@@ -47,7 +47,7 @@ pub(super) fn face_plane(_: &Mesh, sampler: &mut Sampler) -> Ray {
     Ray::new(Vec3::from_array(origin), Vec3::AXES[axis] * sign)
 }
 
-/// A diagonal ray through a grid point of the cube, from four steps away; one component is zero if `flat`.
+/// A diagonal ray that reaches a grid point of the cube at t = 4. If `flat`, one component of its direction is zero.
 pub(super) fn diagonal(sampler: &mut Sampler, flat: bool) -> Ray {
     let through = Vec3::new(on_grid(sampler), on_grid(sampler), on_grid(sampler));
     let mut direction = Vec3::new(sampler.sign(), sampler.sign(), sampler.sign());
@@ -57,7 +57,7 @@ pub(super) fn diagonal(sampler: &mut Sampler, flat: bool) -> Ray {
     Ray::new(through - direction * 4.0, direction)
 }
 
-/// A point at `height` over the sheet.
+/// A point at `height` above the sheet.
 pub(super) fn at_height(sampler: &mut Sampler, height: f32) -> Vec3 {
     Vec3::new(sampler.signed(), sampler.signed(), height)
 }
@@ -67,7 +67,7 @@ pub(super) fn in_plane(_: &Mesh, sampler: &mut Sampler) -> Ray {
     Ray::new(at_height(sampler, 0.0), Vec3::new(direction.x, direction.y, 0.0))
 }
 
-/// A ray at this slope to a tilted sheet, whose vertices rounding moves slightly out of the plane.
+/// A ray to a tilted sheet, at this slope. Rounding moves the vertices of the sheet slightly out of its plane.
 pub(super) fn at_slope(sampler: &mut Sampler, slope: f32) -> Ray {
     let direction = sampler.direction();
     let flat = Vec3::new(direction.x, direction.y, 0.0).normalize_or(Vec3::X);
@@ -84,7 +84,7 @@ pub(super) fn overlapping(count: usize) -> Set {
     })
 }
 
-/// A random half of the rays starts in the plane x = 0.5.
+/// A ray from a random point, which lies in the plane x = 0.5 with probability 1/2.
 pub(super) fn from_split_plane(_: &Mesh, sampler: &mut Sampler) -> Ray {
     let x = if sampler.coin() { 0.5 } else { 0.5 + 2.0 * sampler.signed() };
     Ray::new(Vec3::new(x, sampler.signed(), sampler.signed()), sampler.direction())
@@ -100,7 +100,7 @@ pub(super) fn long(count: usize, length: f32) -> Set {
     Set::new(star(), count, 11, |_, sampler| Ray::new(inside(sampler), sampler.direction() * length))
 }
 
-/// Rays onto a field of strips, from above.
+/// Rays from above onto a field of strips. `placed` moves strips and rays.
 pub(super) fn slivers(count: usize, placed: fn(Vec3) -> Vec3) -> Set {
     Set::new(moved(&strips(), placed), count, 12, |_, sampler| {
         let target = Vec3::new(1000.0 * sampler.unit(), sampler.unit(), 0.0);
@@ -109,12 +109,12 @@ pub(super) fn slivers(count: usize, placed: fn(Vec3) -> Vec3) -> Set {
     })
 }
 
-/// A point that sees the backs of the fan.
+/// A point below the fan, from which the back of each triangle is visible.
 pub(super) fn below(sampler: &mut Sampler) -> Vec3 {
     Vec3::new(sampler.signed(), sampler.signed(), -3.0 - 2.0 * sampler.unit())
 }
 
-/// A ray to a point well inside the triangle that the mesh copies.
+/// A ray to a point well inside `TRIANGLE`. The mesh consists of copies of this triangle.
 pub(super) fn to_copies(_: &Mesh, sampler: &mut Sampler) -> Ray {
     let ([a, b, c], [u, v, w]) = (TRIANGLE, sampler.barycentric().map(|weight| 0.2 + 0.4 * weight));
     let origin = Vec3::new(sampler.signed(), sampler.signed(), 4.0 * sampler.sign());
@@ -126,16 +126,16 @@ pub(super) fn to_line(_: &Mesh, sampler: &mut Sampler) -> Ray {
     ray_to(target + Vec3::new(sampler.signed(), sampler.sign(), sampler.signed()), target)
 }
 
-/// A ray from around the mesh to one of its triangles.
+/// A ray from a sphere around the mesh to one of its triangles.
 pub(super) fn to_surface(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     let (centre, reach) = (mesh.bounds().centre(), mesh.bounds().extent().max_element());
     ray_to(centre + sampler.direction() * reach, on_surface(mesh, sampler))
 }
 
-/// A triangle with integer corners: eighths of its edges are exact.
+/// A triangle with integer corners. The points at eighths of its edges are exact floats.
 pub(super) const SIMPLE: [Vec3; 3] = [Vec3::ZERO, Vec3::new(8.0, 0.0, 4.0), Vec3::new(0.0, 8.0, -4.0)];
 
-/// A ray to a corner or an eighth of an edge, from a simple point in front: the difference is exact, so t is 1.
+/// A ray from a point in front of the triangle to a point at an eighth of an edge. The direction is exact, so t is 1.
 pub(super) fn exactly_on_the_rim(_: &Mesh, sampler: &mut Sampler) -> Ray {
     let [a, b, c] = SIMPLE;
     let normal = (b - a).cross(c - a);
@@ -176,8 +176,8 @@ pub(super) fn stadium(count: usize) -> Set {
     })
 }
 
-/// A ray from just outside one triangle of the sequence, through all smaller ones. It hits this triangle first. If
-/// products of three of its lengths overflow, a test in `f32` may hit a smaller triangle instead.
+/// A ray that hits a random triangle of the sequence first, and then all smaller triangles. If products of three
+/// lengths of the first triangle overflow, a test in `f32` may return a smaller triangle instead.
 pub(super) fn through_smaller(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     let [corner, ..] = mesh.corners(sampler.below(300) as u32);
     let side = |sampler: &mut Sampler| 0.05 + 0.2 * sampler.unit();
@@ -223,7 +223,7 @@ pub(super) fn off_a_sphere(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     Ray::new(origin, if direction.dot(origin) < 0.0 { -direction } else { direction })
 }
 
-/// Rays through the star, each made invalid. The original, valid rays serve as ordinary rays.
+/// Rays through the star that `spoil` makes invalid. The original, valid rays serve as ordinary rays.
 pub(super) fn spoilt(count: usize, spoil: fn(&mut Sampler, &mut Ray)) -> Set {
     let mut ordinary = vec![];
     let set = Set::new(star(), count, 60, |_, sampler| {
@@ -247,7 +247,7 @@ pub(super) fn spoil_interval(sampler: &mut Sampler, ray: &mut Ray) {
     }
 }
 
-/// Products of three lengths of this star underflow; products of two do not.
+/// Rays in a star so small that products of three of its lengths underflow, but products of two do not.
 pub(super) fn in_tiny_star(count: usize) -> Set {
     let scale = libm::scalbnf(1.0, -47);
     Set::new(star_times(scale), count, 60, |mesh, sampler| {
@@ -263,7 +263,7 @@ pub(super) fn from_the_largest(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     Ray::new(Vec3::new(side, target.y, target.z), Vec3::new(-0.3 * side, drift.y, drift.z))
 }
 
-/// One triangle, the ray that first showed the failure, and rays towards or next to points of its edges.
+/// One triangle. The first ray is `first`, which revealed the failure. `towards` makes all other rays from edge points.
 pub(super) fn along_edges(
     count: usize,
     seed: u64,
@@ -281,13 +281,13 @@ pub(super) fn along_edges(
     set
 }
 
-/// A ray towards a point of a needle through zero, from near its middle.
+/// A ray to `target`, a point of a needle that passes through zero. The ray starts near zero.
 pub(super) fn along_needle(sampler: &mut Sampler, target: Vec3) -> Ray {
     let origin = sampler.cube() * 100.0;
     Ray::new(origin, (target - origin) / 64.0)
 }
 
-/// A ray with a hit whose exact t is below `t_max` and rounds to it.
+/// A ray with a hit whose exact t is below `t_max` and rounds to `t_max`.
 pub(super) fn before_the_end(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     loop {
         let corners = triangle(mesh, sampler);

@@ -1,4 +1,4 @@
-//! Compares hits with the exact ones.
+//! Scores the hits of a structure on a case by comparison with the exact hits.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ use crate::validate::{ErrorCounts, ExpectedHits, Reference, Validation, count_er
 
 /// The mesh, rays and exact hits of one case, computed once for all structures.
 pub struct CaseTruth {
-    /// `None` for a property.
+    /// Mesh, rays and exact hits; `None` for a property.
     set: Option<(Set, Vec<Option<Truth>>)>,
     /// The references, by the name of the triangle test.
     references: BTreeMap<&'static str, Reference>,
@@ -38,18 +38,18 @@ pub enum Failure {
     Panic,
     /// Its process ended in another way.
     Crash,
-    /// It cannot be built over the mesh, with the reason.
+    /// It cannot be built over the mesh. Contains the reason.
     Refused(String),
-    /// It declines these rays, with the reason. Neither right nor wrong.
+    /// It declines a ray of the case. Contains the reason. The result is neither right nor wrong.
     Declined(String),
 }
 
 /// The numbers of one structure on the rays of one case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RayScore {
-    /// Errors compared with the exact hits, by the strict rule of depth.
+    /// Errors by comparison with the exact hits and [`DepthRule::STRICT`].
     pub judged: ErrorCounts,
-    /// Wrong depths by the coarse rule: visible in a picture.
+    /// Wrong depths by [`DepthRule::COARSE`], which are visible in a picture.
     pub coarse_depth: u64,
     /// Comparison with brute force: errors of the structure, and rounding errors of its triangle test.
     pub validation: Validation,
@@ -57,10 +57,10 @@ pub struct RayScore {
     pub knows_structure_errors: bool,
     /// Rays on which any hit contradicts closest hit, or a batch contradicts a single ray.
     pub contradictions: u64,
-    /// Hits whose `t` is not the nearest `f32` of the exact `t`, or whose primitive is not the nearest one with the
-    /// lowest number. An exact test must have none.
+    /// Missed and false hits, and hits whose `t` is not the correctly rounded exact `t` or whose primitive is not the
+    /// lowest of the exactly nearest ones. An exact test must have none.
     pub inexact: u64,
-    /// Time per ray of the case / time per ordinary ray.
+    /// See [`Answers::slowness`].
     pub slowness: Option<f64>,
     pub build_ns: u64,
 }
@@ -127,7 +127,7 @@ impl CaseTruth {
 }
 
 impl Score {
-    /// The numbers of a case with rays.
+    /// The numbers of a case with rays; `None` for a property or a failure.
     pub fn rays(&self) -> Option<&RayScore> {
         match self {
             Self::Rays(score) => Some(score),
@@ -135,7 +135,7 @@ impl Score {
         }
     }
 
-    /// Whether there is no miss, false hit, wrong depth (strict), structure error or contradiction.
+    /// Whether the structure is sound and all its hits are right by [`DepthRule::STRICT`].
     pub fn is_clean(&self) -> bool {
         match self {
             Self::Rays(score) => score.judged.errors() == 0 && score.is_sound(),
@@ -144,7 +144,7 @@ impl Score {
         }
     }
 
-    /// Whether the structure itself, rather than its triangle test, causes no error.
+    /// Whether the structure causes no error. Errors of its triangle test are allowed, and it may decline the case.
     pub fn is_sound(&self) -> bool {
         match self {
             Self::Rays(score) => score.is_sound(),
@@ -155,7 +155,7 @@ impl Score {
 }
 
 impl RayScore {
-    /// Whether the structure lost and invented no hit, under any rounding of its test, and contradicts itself nowhere.
+    /// Whether the structure neither lost nor invented a hit, and its queries never contradict each other.
     fn is_sound(&self) -> bool {
         self.validation.errors() == 0 && self.contradictions == 0
     }

@@ -12,7 +12,7 @@ use crate::validate::Sampler;
 pub struct Set {
     pub mesh: Arc<Mesh>,
     pub rays: Vec<Ray>,
-    /// Ordinary rays over the same mesh, if the time of invalid rays is compared with them; otherwise empty.
+    /// Valid rays over the same mesh, with which the time of invalid `rays` is compared. Empty if `rays` are valid.
     pub ordinary: Vec<Ray>,
 }
 

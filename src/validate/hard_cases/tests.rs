@@ -1,4 +1,4 @@
-//! Checks that the catalogue is complete, and that its generators do what their names claim.
+//! Checks the numbers, names, rays and expected hits of the catalogue.
 
 use std::collections::BTreeSet;
 
@@ -21,7 +21,7 @@ fn sets(count: usize) -> impl Iterator<Item = (&'static HardCase, Expected, Set)
 #[test]
 fn there_are_92_numbers_and_every_case_has_a_name_of_its_own() {
     let cases = catalogue();
-    // Number 23 has two scales.
+    // Two cases have the number 23.
     let numbers = (1..=92).flat_map(|number| vec![number; if number == 23 { 2 } else { 1 }]);
     assert!(cases.iter().map(|case| case.number).eq(numbers));
     let ranked = |rank: Rank| cases.iter().filter(|case| case.rank == rank).count();
@@ -54,7 +54,7 @@ fn bits(rays: &[Ray]) -> Vec<u32> {
     rays.iter().flat_map(of_ray).collect()
 }
 
-/// The hash covers all meshes and rays: if it changes, all published numbers change their meaning.
+/// The hash covers all meshes and the first rays. If it changes, results cannot be compared with published ones.
 #[test]
 fn every_machine_makes_the_same_cases() {
     assert!(set_of("nonfinite_verts", FEW).mesh.positions().iter().any(|p| p.abs().max_element() == f32::MAX));
@@ -104,8 +104,8 @@ fn what_must_be_hit_is_and_what_must_be_missed_is_not() {
     assert_eq!((hit, missed), (49, 10));
 }
 
-/// Rational arithmetic shares no code with the oracle and the exact test. It checks all triangles of small meshes, and
-/// the first triangle hit of other meshes.
+/// Rational arithmetic shares no code with the oracle and the exact test. In small meshes it checks all triangles, in
+/// other meshes only the triangle that the oracle returns.
 #[test]
 fn rational_arithmetic_finds_the_same_truths() {
     let (mut whole, mut hits) = (0, 0);

@@ -1,4 +1,4 @@
-//! Runs a hard case in a separate process: a structure that panics or never returns does not end the whole run.
+//! Runs hard cases in child processes: a structure that panics or never returns does not end the whole run.
 
 use std::io;
 use std::process::{Command, Output};
@@ -14,7 +14,7 @@ use crate::simd::Level;
 use crate::study::Status;
 use crate::validate::hard_cases::{Answers, Failure, HardCase, find, run};
 
-/// The hidden command of a child.
+/// The hidden command that a child process runs.
 pub const COMMAND: &str = "hard-answer";
 
 #[derive(Debug, clap::Args)]
@@ -35,7 +35,7 @@ pub struct Args {
 
 const PANICKED: i32 = 101;
 
-/// The child's side: writes the results of the structure to standard output.
+/// Runs in the child: writes the results of the structure to standard output.
 pub fn run_child(registry: &Registry, args: &Args) -> anyhow::Result<Status> {
     end_with_parent();
     let case = find(&args.name)?;
@@ -53,8 +53,8 @@ pub fn run_child(registry: &Registry, args: &Args) -> anyhow::Result<Status> {
     Ok(Status::Right)
 }
 
-/// The parent's side: runs a case with at most `rays` rays in a child. A structure has a time limit for the whole case;
-/// a runner has a time limit for each reply. The outer result is an error if no child can be started.
+/// Runs in the parent: starts a child that traces at most `rays` rays of a case. A structure has a time limit for the
+/// whole case; a runner has a time limit for each reply. The outer result is an error if no child can be started.
 pub fn answers(
     case: &HardCase,
     choice: &Choice,

@@ -1,4 +1,4 @@
-//! `validate --hard`.
+//! `validate --hard`: runs structures on hard cases.
 
 mod child;
 mod record;
@@ -79,7 +79,7 @@ fn verdicts(cases: &[&HardCase], column: &Column) -> Verdicts {
     }
 }
 
-/// The reason why a structure was not checked on a case.
+/// The reason why a structure refused a case.
 fn refusal(score: &Score) -> Option<&str> {
     match score {
         Score::Failed(Failure::Refused(why)) => Some(why),
@@ -87,8 +87,8 @@ fn refusal(score: &Score) -> Option<&str> {
     }
 }
 
-/// The exit status of a score. Wrong hits of a structure with a known defect do not count. A runner that refuses a case
-/// was not checked. A structure in Rust must build over every mesh, so its refusal is an error.
+/// The exit status of a score. Wrong hits of a structure with a known defect do not count. A runner may refuse a case.
+/// The refusal of a structure in Rust counts as wrong, because it must build over every mesh.
 fn status(choice: &Choice, score: &Score, strict: bool) -> Status {
     let is_inexact = choice.triangle_test() == Exact::NAME && score.rays().is_some_and(|rays| rays.inexact > 0);
     let rounds = strict && verdict(score).rounded > 0;
@@ -117,7 +117,7 @@ fn choices(registry: &Registry, structures: Vec<Choice>, tests: &[String]) -> an
             choices.push(registry.choose(&format!("{}{separator}test={test}", choice.label))?);
         }
     }
-    // Repeated tests, or a structure given with and without its test, lead to equal choices.
+    // Remove equal choices. They come from repeated tests, or from a structure given with and without its test.
     Ok(each_once_by(choices, |one, other| one.label == other.label))
 }
 

@@ -1,4 +1,4 @@
-//! Scores as verdicts and as data.
+//! Converts scores of hard cases to JSON and to verdicts.
 
 use serde_json::{Value, json};
 
@@ -7,7 +7,7 @@ use crate::study::Verdict;
 use crate::validate::hard_cases::{Failure, HardCase, Score};
 use crate::validate::{ErrorCounts, Kind};
 
-/// One structure on one case. Unknown numbers are null.
+/// The result of one structure on one case as JSON. Unknown numbers are null.
 pub fn record(case: &HardCase, choice: &Choice, score: &Score) -> Value {
     let rays = score.rays();
     let judged = |number: fn(&ErrorCounts) -> u64| rays.map(|rays| number(&rays.judged));
@@ -18,7 +18,7 @@ pub fn record(case: &HardCase, choice: &Choice, score: &Score) -> Value {
         "structure": choice.entry.name,
         "label": choice.label,
         "triangle_test": choice.triangle_test(),
-        // `answered`, `hang`, `panic`, `crash`, `refused` or `declined`.
+        // One of `answered`, `hang`, `panic`, `crash`, `refused` and `declined`.
         "outcome": match score {
             Score::Failed(failure) => failure.name(),
             _ => "answered",
@@ -48,7 +48,7 @@ pub fn record(case: &HardCase, choice: &Choice, score: &Score) -> Value {
     })
 }
 
-/// The verdict of a score on a structure. Each check of a property counts as a ray.
+/// The verdict on a structure that follows from its score. Each check of a property counts as a ray.
 pub fn verdict(score: &Score) -> Verdict {
     let failed = |fault| Verdict { rays: 1, wrong: 1, rounded: 0, fault };
     match score {

@@ -1,4 +1,4 @@
-//! Scores as tables, with a row per case and a column per structure.
+//! Tables of scores of hard cases, with a row per case and a column per structure.
 
 use crate::registry::Choice;
 use crate::report::number::{count, figures, plural};
@@ -41,7 +41,7 @@ pub fn tables(cases: &[&HardCase], columns: &[Column]) -> Vec<Table> {
     ]
 }
 
-/// The summary: the cases in which a structure fails, with the reasons; the totals.
+/// The tables of the summary: the cases in which a structure fails, with the reasons, and the totals.
 pub fn summary(cases: &[&HardCase], columns: &[Column]) -> Vec<Table> {
     let is_failed = |(i, _): &(usize, &&HardCase)| {
         columns.iter().any(|column| known_defect(&column.choice.entry.name).is_none() && !column.scores[*i].is_sound())
@@ -123,7 +123,7 @@ fn percent(events: u64, of: u64) -> String {
     figures(100.0 * events as f64 / of.max(1) as f64)
 }
 
-/// Sums over the ranked cases that were run.
+/// The totals of each structure, over the moderate and extreme cases and over the moderate cases.
 fn totals(cases: &[&HardCase], columns: &[Column]) -> Table {
     const GROUPS: [(&[Rank], &str); 2] = [(&[Rank::Moderate, Rank::Extreme], "valid"), (&[Rank::Moderate], "moderate")];
     let size = |ranks: &[Rank]| cases.iter().filter(|case| ranks.contains(&case.rank)).count();

@@ -1,5 +1,5 @@
-//! In large nodes, the SAH over a few planes per axis, for a sample of the references; in small nodes, over all planes.
-//! This takes a fraction of the time and memory of sorted events in all nodes; the trees cost nearly the same.
+//! Evaluates the SAH in large nodes at a few planes per axis, for a sample of the references, and in small nodes at all
+//! planes. The trees cost nearly as little as with all planes in all nodes, in a fraction of the time and memory.
 
 use super::config::CellConfig;
 use super::grow::{Content, Context, Place};
@@ -13,7 +13,7 @@ use crate::build::sah_cost::SideAreas;
 use crate::build::sample::Sample;
 use crate::geometry::Aabb;
 
-/// The references of a node in ascending order of triangles; `Fine`, for small nodes, adds their sorted events.
+/// The references of a node in ascending order of triangle numbers. `Fine`, for small nodes, adds their sorted events.
 pub(crate) enum Binned {
     Coarse(Part),
     Fine(Events),
@@ -33,7 +33,7 @@ impl Counts {
             let first = planes.first_bin(r.min(planes.axis));
             let last = planes.last_bin(r.max(planes.axis));
             if first > last {
-                // Only a flat reference begins above the bin in which it ends: it lies in the plane between them.
+                // A flat reference in a plane begins in the bin above the plane and ends in the bin below it.
                 counts.flat[last] += 1;
             } else {
                 counts.begin[first] += 1;
@@ -149,7 +149,7 @@ impl Content for Binned {
         let sample = Sample::new(&part.references, context.config.sample);
         let mut found = cheapest(context, part, &sample, place);
         if sample.len() < part.references.len() {
-            // A sample only estimates the numbers of references: count them.
+            // The sample only estimates the counts: search again without it if the exact counts exceed the budget.
             let affords = |cut: Cut| {
                 let [below, above] = cut.counts(&part.references);
                 place.affords(below, above)

@@ -9,7 +9,7 @@ pub(crate) struct CellConfig {
     pub exact: u32,
     /// Planes per axis that larger nodes try, in 2..=62.
     pub candidates: u32,
-    /// A larger node uses a sample of at most this many references. At least 16.
+    /// Maximum number of references in the sample of a larger node; at least 16.
     pub sample: u32,
 }
 
@@ -17,8 +17,8 @@ impl CellConfig {
     /// The value of `exact` with which every node tries every plane.
     pub const ALL_PLANES: u32 = u32::MAX;
 
-    /// The configuration for a wide tree. Except in fast builds, a step is cheap: three are one wide step. Only small
-    /// nodes try all planes, or none do: in a large node, the cheapest plane often cuts off empty space.
+    /// The configuration for a wide tree. Except in fast builds, a step is cheap, because three steps become one wide
+    /// step. Large nodes do not try all planes, because their cheapest plane often cuts off only empty space.
     pub fn new(quality: Quality) -> Self {
         let (exact, candidates, sample, step) = match quality {
             Quality::Fast => (0, 12, 512, 1.0),

@@ -1,4 +1,4 @@
-//! Grows a KD-tree: one recursion for all plane rules.
+//! Grows a KD-tree. A plane rule ([`Content`]) chooses the cuts.
 
 use rayon::join;
 
@@ -25,7 +25,7 @@ pub(crate) struct Rules {
     pub pays: bool,
     /// Maximum number of references of all leaves, as a multiple of the root's references.
     pub duplication: f32,
-    /// Whether a cut with all triangles on one side and fewer on the other is progress.
+    /// Whether a cut is progress if one side has all triangles and the other side has fewer.
     pub one_side_is_progress: bool,
 }
 
@@ -36,9 +36,9 @@ impl Rules {
     }
 }
 
-/// The triangles of a node, in the form that a plane rule uses.
+/// The triangles of a node, in the data structure of a plane rule, which chooses how to cut the node.
 pub(crate) trait Content: Sized + Send {
-    /// The configuration of the rule.
+    /// The configuration of the plane rule.
     type Config: Sync;
 
     fn len(&self) -> usize;
@@ -46,10 +46,10 @@ pub(crate) trait Content: Sized + Send {
     /// The triangle numbers in ascending order.
     fn ids(&self) -> impl Iterator<Item = u32>;
 
-    /// The cut, or `None` if a leaf is better.
+    /// The chosen cut, or `None` if a leaf is better.
     fn choose(&self, context: &Context<Self::Config>, place: &Place) -> Option<Cut>;
 
-    /// The contents below and above. If the rule discards the cut after all, the error returns the content.
+    /// The contents below and above the cut. If the rule discards the cut, the error returns the undivided content.
     fn divide(self, context: &Context<Self::Config>, place: &Place, cut: Cut) -> Result<(Self, Self), Self>;
 
     /// Whether this content, the result of a division, may be divided further.
@@ -71,7 +71,7 @@ pub(crate) struct Place {
 
 /// A tree that grows depth first.
 pub(crate) trait Tree<C>: Default + Send {
-    /// Whether leaves without triangles are omitted, together with their parents.
+    /// Whether empty leaves are omitted. The other child then replaces the parent.
     const SKIPS_EMPTY: bool;
 
     fn len(&self) -> usize;
@@ -81,7 +81,7 @@ pub(crate) trait Tree<C>: Default + Send {
     /// Appends an inner node without its children.
     fn open(&mut self);
 
-    /// Adds the cut and the children to the node `inner`; the nodes from `second` on are the second child's subtree.
+    /// Adds the cut and the children to the node `inner`. The first child is the next node; the second is `second`.
     fn close(&mut self, inner: usize, cut: Cut, second: usize);
 
     fn append(&mut self, other: Self);
@@ -130,7 +130,7 @@ fn subdivide<C: Content, T: Tree<C>>(
         Err(content) => return tree.leaf(content),
     };
 
-    // Give each side its share of the budget of references.
+    // Divide the budget in proportion to the numbers of references.
     let (below_cell, above_cell) = place.cell.cut(cut.axis, cut.plane);
     let stalled = if context.rules.is_progress(count, below.len(), above.len()) { 0 } else { place.stalled + 1 };
     let share = place.budget / (below.len() + above.len()).max(1) as f64;
@@ -164,7 +164,7 @@ fn subdivide<C: Content, T: Tree<C>>(
     tree.close(inner, cut, second);
 }
 
-/// The cut and both sides, or an error with the content if the node stays a leaf.
+/// The cut and the contents of both sides, or an error with the undivided content if the node becomes a leaf.
 fn try_divide<C: Content>(
     context: &Context<C::Config>,
     content: C,
@@ -196,21 +196,21 @@ impl Place {
         !context.rules.discards(below + above - count, count) && self.affords(below, above)
     }
 
-    /// Whether sides of these sizes are progress, or at most the second split in a row without progress.
+    /// Whether this split makes progress, or is at most the second consecutive split without progress.
     pub fn progresses<C>(&self, context: &Context<C>, count: usize, below: usize, above: usize) -> bool {
         context.rules.is_progress(count, below, above) || self.stalled < 2
     }
 }
 
 impl Rules {
-    /// Whether neither side has all triangles of the node. With `one_side_is_progress`, one side may have all of them
-    /// if the other has fewer: a plane in the middle of a cell then still makes the cell smaller.
+    /// Whether neither side has all triangles of the node. With `one_side_is_progress`, one side may have all triangles
+    /// if the other side has fewer, because a plane inside the cell still makes the cell smaller.
     fn is_progress(&self, count: usize, below: usize, above: usize) -> bool {
         let most = if self.one_side_is_progress { below.min(above) } else { below.max(above) };
         most < count
     }
 
-    /// Whether a cut with `both` of `count` triangles on both sides reaches the threshold.
+    /// Whether a cut is discarded because `both` of its `count` triangles lie on both sides.
     pub fn discards(&self, both: usize, count: usize) -> bool {
         self.threshold.is_some_and(|share| both as f64 >= f64::from(share) * count as f64)
     }

@@ -1,4 +1,4 @@
-//! The cells of KD-trees: space cut by planes, chosen by the surface area heuristic or by a rule of the caller.
+//! Divides space into the cells of a KD-tree. The surface area heuristic or a rule of the caller chooses the planes.
 
 mod binned;
 mod config;

@@ -1,4 +1,4 @@
-//! The exact SAH plane by a sweep over events. They are sorted once and stay sorted in children: O(n log n) per tree.
+//! Finds the cheapest SAH plane by a sweep over sorted events. Children keep the order: O(n log n) per tree.
 //!
 //! # References
 //! Wald, Havran: On building fast kd-trees for ray tracing, and on doing that in O(N log N). IEEE Symposium on
@@ -124,7 +124,7 @@ impl Events {
         best
     }
 
-    /// The references on the side `here` (0: below, 1: above) in its cell `cell`, given the `sides` of all references.
+    /// The references on the side `here` (0: below, 1: above), clipped to `cell`. `sides` has an entry per reference.
     fn part(&self, context: &Context<CellConfig>, sides: &[[bool; 2]], here: usize, cell: &Aabb) -> Self {
         let count = sides.iter().filter(|side| side[here]).count();
         let mut references = Vec::with_capacity(count);
@@ -157,7 +157,7 @@ impl Events {
     }
 }
 
-/// Appends the events of `references`, whose numbers begin at `first`.
+/// Appends the events of `references` on an axis. The first reference has the number `first`.
 fn push_events(references: &[Reference], first: u32, axis: usize, events: &mut Vec<Event>) {
     for (name, reference) in (first..).zip(references) {
         let (lo, hi) = (reference.min(axis), reference.max(axis));

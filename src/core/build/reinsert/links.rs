@@ -9,10 +9,10 @@ use crate::build::extent::Extent;
 
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Maximum length of a path that a move creates. Without this limit, nested boxes become a chain, the cheapest tree.
+/// Maximum length of a path that a move creates. Without this limit, nested boxes form a chain, the cheapest tree.
 pub(super) const DEEPEST: u32 = 80;
 
-/// A node with links to children and parent: the data of a search in one cache line.
+/// A node with links to its children and its parent. One cache line has all data that a search reads.
 #[derive(Clone, Copy)]
 #[repr(align(64))]
 pub(super) struct Link {
@@ -23,7 +23,7 @@ pub(super) struct Link {
     pub children: [u32; 2],
     /// `NONE` for the root.
     pub parent: u32,
-    /// Edges to the deepest leaf below.
+    /// Number of edges to the deepest leaf below.
     pub height: u32,
 }
 
@@ -64,7 +64,7 @@ impl Links {
             Link { extent, area: extent.half_area(), children, parent: NONE, height: 0 }
         };
         let mut links = Self(tree.nodes.par_iter().map(link).collect());
-        // Children come after their parents.
+        // Children have larger indices than their parents, so this order visits children first.
         for at in (0..tree.nodes.len() as u32).rev() {
             if links[at].is_leaf() {
                 continue;
@@ -106,7 +106,7 @@ impl Links {
         self[new].parent = parent;
     }
 
-    /// Recomputes boxes and heights from `at` upward until they no longer change; returns the growth of areas.
+    /// Recomputes boxes and heights from `at` upward until they no longer change; returns the total change of area.
     fn refit(&mut self, mut at: u32) -> f64 {
         let mut growth = 0.0;
         while at != NONE {
@@ -124,7 +124,7 @@ impl Links {
         growth
     }
 
-    /// Makes `at` the sibling of `target`, if that is still possible and still saves area.
+    /// Makes `at` the sibling of `target`. Changes nothing if this is impossible after earlier moves or saves no area.
     pub fn relocate(&mut self, at: u32, target: u32) {
         let (parent, sibling) = (self[at].parent, self.sibling(at));
         let grand = self[parent].parent;
@@ -158,7 +158,7 @@ impl Links {
         self.refit(grand);
     }
 
-    /// `tree` with the current links, its nodes and references in depth-first order.
+    /// The tree with the current links, in depth-first order. Its leaves are the leaves of `tree`.
     pub fn write(&self, tree: &BinaryTree) -> BinaryTree {
         let mut order = Vec::with_capacity(tree.nodes.len());
         let mut number = vec![0; tree.nodes.len()];

@@ -1,11 +1,11 @@
-//! Moves subtrees of a finished tree to cheaper places.
+//! Moves subtrees of a finished tree to reduce the total area of its nodes.
 //!
 //! # References
 //! Bittner, Hapala, Havran: Fast Insertion-Based Optimization of Bounding Volume Hierarchies, Computer Graphics Forum
 //! 2013. Meister, Bittner: Parallel Reinsertion for Bounding Volume Hierarchy Optimization, Computer Graphics Forum
-//! 2018. Three departures: the moves of a batch are made one after the other, each only if it still saves area, so the
-//! result does not depend on the number of threads; the number of nodes per pass; and all passes use the order of the
-//! boxes before the first pass.
+//! 2018. Differences from the paper: the moves of a batch are made one after the other, and a move that no longer saves
+//! area is skipped, so the result does not depend on the number of threads. The number of nodes per pass differs. All
+//! passes use the order of the box areas before the first pass.
 
 mod links;
 mod search;
@@ -16,14 +16,14 @@ use crate::build::binary_tree::BinaryTree;
 use links::Links;
 use search::Search;
 
-/// Nodes in the first batch, whose moves are searched in parallel. A later batch is as large as all earlier ones
-/// together: near the root many moves conflict; further down few do, and small batches would keep threads waiting.
+/// Nodes in the first batch. Moves of a batch are searched in parallel. A later batch is as large as all earlier ones
+/// together: near the root, many moves conflict; further down, few conflict, and large batches keep all threads busy.
 const BATCH: usize = 64;
 
-/// The first pass processes this share of the nodes, those with the largest boxes; pass k the first 1/k of this share.
+/// Share of the nodes that the first pass processes: the largest boxes. Pass k processes the first 1/k of these nodes.
 const SHARE: f64 = 0.4;
 
-/// Moves the nodes with the largest boxes to better places, the largest first. Leaves keep their boxes and references.
+/// Moves the nodes with the largest boxes to cheaper positions, largest first. Leaves keep their boxes and references.
 pub(crate) fn reinsert(tree: BinaryTree, passes: u32) -> BinaryTree {
     if tree.nodes.len() < 2 || passes == 0 {
         return tree;
@@ -35,7 +35,7 @@ pub(crate) fn reinsert(tree: BinaryTree, passes: u32) -> BinaryTree {
         let mut done = 0;
         while done < looked_at {
             let end = looked_at.min(done + done.max(BATCH));
-            // Search in the order of the tree: neighbours read the same cache lines.
+            // Search in the order of the tree, because neighbours read the same cache lines.
             let mut batch: Vec<(u32, usize)> = order[done..end].iter().copied().zip(done..end).collect();
             batch.par_sort_unstable();
             let search = |open: &mut Vec<_>, &(at, rank): &(u32, usize)| {
@@ -53,9 +53,9 @@ pub(crate) fn reinsert(tree: BinaryTree, passes: u32) -> BinaryTree {
     links.write(&tree)
 }
 
-/// The `count` nodes below the root with the largest boxes, the largest first.
+/// The `count` nodes with the largest boxes except the root, the largest first.
 fn largest(links: &Links, count: usize) -> Vec<u32> {
-    // Shares of the root's area fit an `f32` at any scale. They are not negative, so their bits have the same order.
+    // Ratios to the root's area fit an `f32` at any scale. They are not negative, so their bits have the same order.
     let whole = Some(links[0].area).filter(|&whole| whole > 0.0).unwrap_or(1.0);
     let key = |at: u32| {
         let share = (links[at].area / whole) as f32;
@@ -87,7 +87,7 @@ mod tests {
 
     #[test]
     fn moves_save_area_and_leave_the_leaves_as_they_were() {
-        // A regular room may gain nothing.
+        // Reinsertion may leave a regular room unchanged.
         for (mesh, irregular) in [(soup(4000, 21), true), (room(12), false)] {
             for splits in [Splits::Spatial, Splits::SpatialAndObject, Splits::Object] {
                 let before = binary(&mesh, splits);

@@ -1,26 +1,26 @@
-//! Searches for a better place for a node.
+//! Searches for the best new sibling of a node.
 
 use super::links::{Link, Links, NONE};
 use crate::build::extent::Extent;
 
-/// Maximum number of places that a search visits.
+/// Maximum number of nodes that a search visits, without the path to the root.
 const VISITS: usize = 512;
 
-/// The search for a better place for one node: on the path to the root, and in the subtrees of the path's siblings.
+/// The search for a new sibling of one node: on its path to the root, and in the subtrees of the siblings of this path.
 pub(super) struct Search<'a> {
     links: &'a Links,
     own: Extent,
     own_area: f64,
-    /// The largest saving of area so far; `target` is its place.
+    /// The largest saving of area so far, with `target` as the sibling.
     best: f64,
     target: Option<u32>,
-    /// Nodes whose subtrees may contain better places, and the area that is saved above each node.
+    /// Nodes whose subtrees may contain a better sibling, each with the area that the move saves above it.
     open: &'a mut Vec<(u32, f64)>,
     visits: usize,
 }
 
 impl<'a> Search<'a> {
-    /// The best new sibling of `at` among the visited nodes; `None` if none saves area. `open` is only a buffer.
+    /// The best new sibling of `at` among the visited nodes, or `None` if no move saves area. `open` is a buffer.
     pub fn best(links: &'a Links, at: u32, open: &'a mut Vec<(u32, f64)>) -> Option<u32> {
         let Link { extent: own, area: own_area, parent, .. } = links[at];
         if parent == NONE || links[parent].parent == NONE {
@@ -30,7 +30,7 @@ impl<'a> Search<'a> {
         Self { links, own, own_area, best: 0.0, target: None, open, visits: 0 }.climb(at, parent)
     }
 
-    /// Climbs from `at` and searches the siblings of the path; `saved` is the area saved so far by removing `at`.
+    /// Climbs from `at` to the root and searches the subtrees beside the path.
     fn climb(mut self, at: u32, parent: u32) -> Option<u32> {
         let links = self.links;
         let mut saved = links[parent].area;
@@ -45,7 +45,7 @@ impl<'a> Search<'a> {
             if links[path].parent == NONE {
                 return self.target;
             }
-            // Offer a place beside `path`, whose box without `at` is `rest`. `saved` includes the removed parent.
+            // Offer `path` as the sibling. Its box without `at` is `rest`. `saved` includes the removed parent.
             if path != parent {
                 saved += links[path].area - rest.half_area();
                 self.offer(path, saved - rest.union(self.own).half_area());
@@ -53,7 +53,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Visits `place` and its subtree; `saved` is the area that is saved above `place`.
+    /// Searches the subtree at `place`. `saved` is the area that the move saves above `place`.
     fn descend(&mut self, place: u32, saved: f64) {
         self.open.push((place, saved));
         while let Some((place, saved)) = self.open.pop() {

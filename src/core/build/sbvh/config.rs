@@ -5,8 +5,8 @@ use crate::build::sah_cost::CostModel;
 /// this share of the root's area. The paper uses 1e-5; a larger share builds faster.
 pub(super) const ALPHA: f32 = 1e-3;
 
-/// Extra cost of an object split that competes with a spatial split: this multiple of the cost of testing the smaller
-/// side's triangles in the overlap of both sides. 0 in the paper; values from 2 to 10 give equally fast trees.
+/// An object split that competes with a spatial split costs extra: this factor times the cost of testing the smaller
+/// side's triangles in the overlap of both boxes. 0 in the paper; values from 2 to 10 give equally fast trees.
 pub(super) const OVERLAP_COST: f32 = 3.0;
 
 /// Maximum number of references of a leaf.
@@ -16,30 +16,30 @@ pub(super) const LEAF: usize = 64;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SbvhConfig {
     pub splits: Splits,
-    /// Candidate planes and bins per axis, in 2..=62; more candidates find cheaper splits and take longer.
+    /// Number of candidate planes, and of bins, per axis; in 2..=62. More find cheaper splits and take longer.
     pub candidates: u32,
-    /// Nodes with at most this many references try every object split; larger ones try `candidates`.
+    /// Nodes with at most this many references try every object split; larger nodes use bins.
     pub exact: u32,
-    /// Nodes with at most this many references clip triangles to the slabs of a spatial split; larger nodes cut boxes.
+    /// Nodes with at most this many references clip triangles to find spatial splits; larger nodes cut only boxes.
     pub sliced: u32,
     /// Nodes with at least this many references refine the search around the best plane of a spatial split.
     pub refined: u32,
-    /// A larger node uses a sample of at most this many references. At least 16.
+    /// Maximum number of references in the sample that a larger node searches for a split. At least 16.
     pub sample: u32,
-    /// Cost of a binary step, in blocks of triangles; positive. A step of an eight-wide tree is about three of them.
+    /// Cost of a binary step, relative to a block test. Positive. An eight-wide step replaces about three binary steps.
     pub node_cost: f32,
-    /// Maximum number of references of the tree, as a multiple of the triangles. At least 1.
+    /// Maximum number of references of the tree, as a multiple of the number of triangles. At least 1.
     pub duplication: f32,
 }
 
 /// The splits that a builder may use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Splits {
-    /// By planes: leaves are disjoint, except if no plane can divide the references of a large leaf.
+    /// Spatial splits. Leaves are disjoint, except if no plane can divide the references of a large leaf.
     Spatial,
-    /// By planes or into groups, whichever is cheaper.
+    /// Spatial or object splits, whichever is cheaper.
     SpatialAndObject,
-    /// Into groups: every triangle is in one leaf.
+    /// Object splits. Every triangle is in one leaf.
     Object,
 }
 
@@ -51,7 +51,7 @@ impl SbvhConfig {
             Quality::Balanced => (20, 16, 0, 16, 16384),
             Quality::High => (20, 16, 4096, 16, 16384),
         };
-        // If only planes split, making references takes most of the time: a fast build makes fewer, and larger leaves.
+        // With only spatial splits, cutting references takes most of the time. A higher cost leads to larger leaves.
         let node_cost = match quality {
             Quality::Fast if spatial => 1.5,
             Quality::Fast => 0.4,

@@ -1,4 +1,4 @@
-//! Grows the tree.
+//! Builds the tree from the root down.
 
 use super::config::{ALPHA, LEAF, OVERLAP_COST, SbvhConfig, Splits};
 use super::object::cheapest_group;
@@ -26,10 +26,10 @@ enum Split {
     Set(Group),
 }
 
-/// The tree over the triangles of `mesh` with an area. It does not depend on the number of threads.
+/// The tree over all triangles of `mesh` with non-zero area. It does not depend on the number of threads.
 ///
-/// Takes O(n log n) time and memory: a path has at most 18 + 2 log2 n levels of chosen splits, then halvings, and all
-/// leaves together have at most `config.duplication` references per triangle.
+/// Takes O(n log n) time and memory. A path has at most 18 + 2 log2 n levels of chosen splits; nodes below are halved.
+/// All leaves together have at most `config.duplication` references per triangle.
 pub(crate) fn build(mesh: &Mesh, config: &SbvhConfig) -> BinaryTree {
     let context = Context::new(mesh, config);
     let root = Part::whole(mesh);
@@ -41,7 +41,7 @@ pub(crate) fn build(mesh: &Mesh, config: &SbvhConfig) -> BinaryTree {
     tree
 }
 
-/// Appends the tree over `part`, its root first; returns its cost.
+/// Appends the tree over `part` to `tree`, root first. Returns the cost of this tree.
 fn grow(context: &Context, part: Part, place: Place, tree: &mut BinaryTree, slots: &mut Slots) -> f64 {
     let Part { references, extent } = part;
     let (area, count) = (extent.half_area(), references.len());
@@ -57,7 +57,7 @@ fn grow(context: &Context, part: Part, place: Place, tree: &mut BinaryTree, slot
         Split::Set(group) => by_group(references, group, counts),
     };
 
-    // Give each side its share of the budget of references.
+    // Divide the budget of references in proportion to the sizes of both sides.
     let share = place.budget / (below.references.len() + above.references.len()) as f64;
     let child = |part: &Part| Place { depth: place.depth + 1, budget: share * part.references.len() as f64 };
     let (below_place, above_place) = (child(&below), child(&above));
@@ -94,7 +94,7 @@ fn choose(
     if count <= BLOCK && !context.is_large(area) {
         return None;
     }
-    // Split a single block even if that costs more: `merge` undoes the split unless a split further down pays.
+    // Always split a block in a large box. If the finished subtree costs more than a leaf, `merge` undoes the split.
     let leaf_cost = if count <= BLOCK { f64::INFINITY } else { context.unsplit_cost(area, count) };
     let full = count > LEAF;
     if place.depth < context.depth
@@ -138,11 +138,11 @@ fn cheapest(
     }
 }
 
-/// The extra cost of an object split of `count` references that competes with the best spatial split. In the heuristic,
-/// a ray visits every box that it meets. But a ray with a hit in the nearer box can skip the farther box, unless the
-/// boxes overlap. The overlap therefore costs extra, with the triangles of the smaller side. There is no extra cost if
-/// the plane adds more than a sixteenth of the references, as in nested shells: the budget would lack them further
-/// down. There is none in small nodes either: references that a plane adds there need additional blocks.
+/// The extra cost of an object split of `count` references that competes with the best spatial split. If the boxes of
+/// an object split are disjoint, a ray with a hit in the nearer box skips the farther box. In an overlap, a ray visits
+/// both boxes, so the triangles of the smaller side cost extra there. The extra cost is 0 if the spatial split adds
+/// more than a sixteenth of the references, as in nested shells: these references would be missing in the budget
+/// further down. The extra cost is 0 in small nodes, because references that are added there need additional blocks.
 fn overlap_cost(context: &Context, count: usize, object: &Offer<Split>, spatial: &Offer<Split>) -> f64 {
     if count < 4 * BLOCK || spatial.counts.iter().sum::<usize>() > count + count / 16 {
         return 0.0;

@@ -49,7 +49,7 @@ fn binned(context: &Context, sample: &Sample, area: f64, axis: usize) -> Option<
     best
 }
 
-/// Tries every split in the order of centres.
+/// Tries every split of the references in ascending order of their centres.
 fn sorted(context: &Context, references: &[Reference], area: f64, axis: usize) -> Option<Offer<Group>> {
     let order = order(references, axis);
     let mut above = vec![Extent::EMPTY; order.len()];

@@ -6,7 +6,7 @@ use crate::build::sah_cost::CostModel;
 use crate::geometry::Mesh;
 use crate::triangle::BLOCK;
 
-/// A box is large above this share of the root's half area. Few are large, so splitting their blocks costs little.
+/// A box is large if its half area exceeds this share of the root's. Few boxes are large, so splitting them is cheap.
 const LARGE: f64 = 1.0 / 2048.0;
 
 /// The inputs of every step of a build.
@@ -15,7 +15,7 @@ pub(super) struct Context<'a> {
     pub config: &'a SbvhConfig,
     pub costs: CostModel,
     pub root_area: f64,
-    /// Levels of splits that the heuristic chooses; below them nodes are halved, so every build terminates.
+    /// Number of levels on which the heuristic chooses splits. Nodes below are halved, so every build terminates.
     pub depth: u32,
 }
 
@@ -31,8 +31,8 @@ impl<'a> Context<'a> {
         area > LARGE * self.root_area
     }
 
-    /// The cost of a leaf, to compare with its splits. For a single block in a large box, such as a floor and a wall,
-    /// it includes a step, because a split would add no wide node, only a child to the wide node above.
+    /// The cost of a leaf, to compare with the cost of a split. A block in a large box, such as a floor and a wall,
+    /// also costs a step. This cancels the step of its split, which adds a child to the wide node above but no node.
     pub fn unsplit_cost(&self, area: f64, count: usize) -> f64 {
         let leaf = self.costs.box_leaf(area, count);
         if count <= BLOCK && self.is_large(area) { self.costs.box_node(area, leaf) } else { leaf }
@@ -43,9 +43,9 @@ impl<'a> Context<'a> {
 pub(super) struct Offer<T> {
     pub cost: f64,
     pub split: T,
-    /// The boxes of both sides; of the sampled references if the search uses a sample.
+    /// The boxes of both sides. If the search uses a sample, they contain only the sampled references.
     pub sides: [Extent; 2],
-    /// The numbers of references on both sides.
+    /// The numbers of references on both sides, possibly estimated from a sample.
     pub counts: [usize; 2],
 }
 

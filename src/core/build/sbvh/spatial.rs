@@ -15,11 +15,11 @@ use crate::geometry::{Aabb, Mesh};
 /// Bins and planes in ascending order: slot `2 i` is bin `i`, slot `2 i + 1` is plane `i`.
 const SLOTS: usize = 2 * PLANES + 2;
 
-/// For each slot, the references that begin in it and those that end in it: their number and the union of their boxes.
+/// For each slot, the number of references that begin or end in it, and the unions of their boxes.
 ///
-/// The references with a part below a plane are those that begin below it. The box of all these parts is the union of
-/// the whole boxes, cut off at the plane. So a reference updates only the slots in which it begins and ends. A sliced
-/// triangle instead grows every bin that it reaches by its slice in this bin, in `begin_extents` and in `end_extents`.
+/// A reference has a part below a plane if it begins below the plane. The box of these parts is the union of the whole
+/// boxes, cut off at the plane. A reference therefore updates only the slot in which it begins and the slot in which it
+/// ends. A sliced triangle instead grows `begin_extents` and `end_extents` of every bin that it reaches, by its slice.
 pub(super) struct Slots {
     begin: [u32; SLOTS],
     end: [u32; SLOTS],
@@ -47,7 +47,7 @@ impl Slots {
     fn add<const AXIS: usize, const SLICED: bool>(&mut self, mesh: &Mesh, sample: &Sample, planes: &Planes) {
         for r in sample.iter() {
             let (first, last) = (planes.first_bin(r.min(AXIS)), planes.last_bin(r.max(AXIS)));
-            // Only a flat reference begins above the bin in which it ends: it lies in the plane between them.
+            // If `first > last`, the reference lies in the plane between these bins: `begin` and `end` are its slot.
             let (begin, end) = (first + first.min(last), last + last.max(first));
             self.begin[begin] += 1;
             self.end[end] += 1;
@@ -66,7 +66,7 @@ impl Slots {
 
     /// The cheapest plane for `node`, and its index among the planes.
     fn sweep(&mut self, context: &Context, planes: &Planes, node: &Node) -> Option<Offer<(Cut, usize)>> {
-        // From the top, collect the boxes of the references that end above each boundary between slots.
+        // From the last slot down, collect the boxes of the references that end in later slots.
         let slots = 2 * planes.bins() - 1;
         let mut above = Extent::EMPTY;
         for slot in (1..slots).rev() {
@@ -74,7 +74,7 @@ impl Slots {
             self.above[slot - 1] = above;
         }
 
-        // Every boundary is a candidate: a plane, with the references that lie in it above or below.
+        // Each plane has two candidates: references in the plane go above (even `slot`) or below (odd `slot`).
         let mut best: Option<Offer<(Cut, usize)>> = None;
         let mut below = Extent::EMPTY;
         let (mut begun, mut ended) = (0, 0);

@@ -65,7 +65,7 @@ fn references_and_depth_stay_bounded() {
                 leaves.iter().for_each(|(_, ids)| ids.iter().for_each(|&id| seen[id as usize] = true));
                 assert!(mesh.solid().all(|id| seen[id as usize]), "{name} {config:?}");
 
-                // No path is longer than 16 + 2 (log2 n + 1) levels of chosen splits and the halvings below.
+                // A path has at most 16 + 2 (log2 n + 1) levels of chosen splits, and then halvings.
                 let log2 = (count as f64).log2().ceil() + 1.0;
                 let halvings = (f64::from(duplication) * count as f64).log2();
                 let most = 16.0 + 2.0 * log2 + halvings;
@@ -98,7 +98,7 @@ fn a_floor_and_a_wall_are_separate_leaves_and_tiles_of_a_floor_are_not() {
     });
     for config in configs() {
         let tree = build(&scene, &config);
-        // Exempt: spatial splits only, whose blocks mix all triangles, and fast builds, in which a step costs more.
+        // Not checked: spatial splits only, where blocks mix all triangles; and fast builds, where a step costs more.
         let groups = config.splits != Splits::Spatial && config.exact > 0;
         for (_, ids) in leaves(&tree, 64).iter().filter(|_| groups) {
             let has = |part: [u32; 2]| part.iter().any(|id| ids.contains(id));
@@ -161,7 +161,7 @@ fn least_cut(context: &Context, mesh: &Mesh, Part { references, extent }: &Part)
     least
 }
 
-/// The naive sweep over centres.
+/// The naive search for a grouping: every centre on every axis.
 fn least_group(context: &Context, Part { references, extent }: &Part) -> f64 {
     let mut least = f64::INFINITY;
     for axis in 0..3 {
@@ -187,7 +187,7 @@ fn no_cut_and_no_grouping_by_centres_is_cheaper_than_the_one_that_is_chosen() {
             let context = Context::new(&mesh, &config);
             let found = cheapest_cut(&context, &part.references, part.extent, f64::INFINITY, &mut Slots::new());
             let (found, least) = (found.unwrap().cost, least_cut(&context, &mesh, &part));
-            // Slices are cut in f32; clipped triangles in f64, rounded outward.
+            // Slices are computed in f32. Clipped triangles are computed in f64 and rounded outward.
             let slack = if config.sliced == 0 { 0.0 } else { 1e-5 * least };
             assert!((found - least).abs() <= slack, "{found} instead of {least}");
         }

@@ -12,7 +12,7 @@ pub const VARIABLE: &str = "SAHARA_EMBREE";
 /// File names of the library on the system's search path.
 const NAMES: [&str; 4] = ["libembree4.so.4", "libembree4.so", "libembree4.4.dylib", "embree4.dll"];
 
-/// An object of Embree.
+/// A pointer to an object of Embree.
 pub type Handle = *mut c_void;
 
 /// A callback for errors. It receives the pointer registered with it, an error code and a message.
@@ -22,7 +22,7 @@ pub type OnError = unsafe extern "C" fn(*mut c_void, c_int, *const c_char);
 /// happened. It returns false to refuse the change.
 pub type OnMemory = unsafe extern "C" fn(*mut c_void, isize, bool) -> bool;
 
-/// The options of a query: the first fields of `RTCIntersectArguments` and `RTCOccludedArguments`, and zeros.
+/// The options of a query: the first fields of `RTCIntersectArguments` and `RTCOccludedArguments`, then zeros.
 #[repr(C)]
 pub struct Arguments {
     pub flags: c_uint,
@@ -30,7 +30,7 @@ pub struct Arguments {
     pub rest: [usize; 5],
 }
 
-/// Kinds of geometry, buffers and formats, as numbered in Embree's headers.
+/// Types of geometry, buffers and formats, as numbered in Embree's headers.
 pub const TRIANGLES: c_int = 0;
 pub const INDICES: c_int = 0;
 pub const VERTICES: c_int = 1;
@@ -110,7 +110,7 @@ fn load() -> Result<(Library, Api), String> {
         let place = named.as_ref().map_or(NAMES[0].into(), |path| path.display().to_string());
         format!("{place} is not Embree 4: {what}; set {VARIABLE} to the path of libembree4")
     };
-    // SAFETY: a library with these symbols is Embree. Before its version is known, only functions are called whose
+    // SAFETY: a library with these symbols is Embree. Before the version check, the calls use only functions whose
     // types have not changed since Embree 3.
     let (api, version) = unsafe {
         let api = Api::find(&library).map_err(|error| other(&error.to_string()))?;

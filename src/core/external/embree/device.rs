@@ -23,8 +23,8 @@ pub struct Scene {
     device: Handle,
     /// The scene, committed.
     pub(super) handle: Handle,
-    /// Embree stores a pointer to this. The content of an `Arc` stays in place and may be shared; a pointer into a
-    /// `Box` becomes invalid when the box is moved.
+    /// Embree stores a pointer to the monitor. This pointer stays valid when the `Arc` is moved. Moving a `Box` would
+    /// invalidate it.
     monitor: Arc<Monitor>,
 }
 

@@ -1,10 +1,10 @@
-//! [Embree](https://github.com/RenderKit/embree) 4: the library that renderers use, loaded at run time from the path in
+//! [Embree](https://github.com/RenderKit/embree) 4: a library for renderers, loaded at run time from the path in
 //! `SAHARA_EMBREE` or from the system's search path.
 //!
-//! Its flag ROBUST changes both the triangle test and the box test, so there are two structures: `embree` and
-//! `embree-robust`. Its triangle test runs only inside a scene: to decide a disputed hit, [`alone`] builds a scene of
-//! one triangle. Rays and packets of eight or sixteen are converted to Embree's format before the clock starts: 48, 384
-//! and 768 bytes, all that Embree reads. Each query gets a copy on the stack; a closest-hit query adds an empty hit.
+//! Embree's flag ROBUST changes the triangle test and the box test, so there are two structures: `embree` and
+//! `embree-robust`. Its triangle test runs only inside a scene, so [`alone`] builds a scene of one triangle to decide a
+//! disputed hit. Single rays and packets of eight or sixteen rays are converted to Embree's format before the clock
+//! starts: 48, 384 and 768 bytes. Each query copies them to the stack; a closest-hit query adds an empty hit.
 //! Builds use the caller's number of threads. The adapter cannot see the tree and reports one leaf.
 //!
 //! # References
@@ -78,7 +78,7 @@ pub enum Lanes {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Rays {
-    /// No coherence.
+    /// Any directions.
     #[default]
     Incoherent = 0,
     /// Similar directions.

@@ -92,8 +92,8 @@ impl<const LANES: usize> Packet<LANES> {
             instances: [[NONE; LANES]; 2],
         };
         let (api, valid, rays) = (scene.api, self.valid.as_ptr(), (&raw mut query).cast());
-        // SAFETY: `Scene::new` has committed the scene; mask and rays have the alignment that Embree requires, and are
-        // at least as large as the types of Embree 4 (asserted at their types).
+        // SAFETY: `Scene::new` has committed the scene; `valid` and `query` have the alignment that Embree requires,
+        // and are at least as large as the types of Embree 4 (asserted at their types).
         unsafe {
             match LANES {
                 1 if self.valid[0] == 0 => {}

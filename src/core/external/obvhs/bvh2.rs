@@ -15,7 +15,7 @@ use crate::accel::{Observer, Part, TreeShape};
 
 const _: () = assert!(size_of::<Bvh2Node>() == 32);
 
-/// Built by PLOC with reinsertion; nodes of 32 bytes (feature `small_bvh2_node`, the faster of the two node sizes).
+/// The builder is PLOC with reinsertion. A node has 32 bytes (feature `small_bvh2_node`, the faster of two node sizes).
 ///
 /// # References
 /// Meister, Bittner: Parallel locally-ordered clustering for bounding volume hierarchy construction, 2018; Parallel
@@ -38,7 +38,7 @@ impl Tree for Bvh2 {
         })
     }
 
-    /// The steps of the traversal of obvhs, without its assertions and with an observer. A test compares the hits.
+    /// Takes the steps of obvhs' traversal, without assertions and with an observer. A test compares the hits.
     ///
     /// # Safety
     /// As for [`Tree::walk`].
@@ -79,7 +79,7 @@ unsafe fn descend<const ANY: bool, O: Observer>(
     observer: &mut O,
 ) -> Option<RayHit> {
     let mut hit = RayHit::none();
-    // Searches a leaf; returns whether the traversal is finished, which only `ANY` allows.
+    // Searches a leaf. Returns true if the traversal is finished: with `ANY`, at the first hit.
     let mut leaf = |node: &Bvh2Node, ray: &mut PreparedRay, hit: &mut RayHit, observer: &mut O| {
         observer.leaf(node.prim_count);
         for index in node.first_index..node.first_index + node.prim_count {
@@ -112,7 +112,7 @@ unsafe fn descend<const ANY: bool, O: Observer>(
             mem::swap(&mut near, &mut far);
         }
 
-        // Leaves are searched immediately: a far leaf even before the subtree of a near inner node.
+        // Leaves are searched immediately, so a far leaf is searched before the subtree of a near inner node.
         let mut enters = |node: &Bvh2Node, t: f32, ray: &mut PreparedRay, observer: &mut O| {
             let meets = t < ray.tmax;
             if meets && node.is_leaf() {

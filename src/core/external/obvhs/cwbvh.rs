@@ -28,7 +28,7 @@ impl Tree for CwBvh {
         (&mut self.nodes, &mut self.primitive_indices)
     }
 
-    /// A child encodes a leaf, by its first triangle and one bit per triangle, or the index of a node.
+    /// A child encodes a leaf or a node. A leaf is encoded by its first triangle and one bit per triangle.
     fn leads_inside(&self, triangles: usize) -> bool {
         self.nodes.iter().all(|node| {
             (0..8).filter(|&child| !node.is_child_empty(child)).all(|child| {
@@ -43,8 +43,8 @@ impl Tree for CwBvh {
         })
     }
 
-    /// The traversal of obvhs by its own macro, as its documentation recommends, without bounds checks of nodes. The
-    /// observer counts inner nodes and triangles: a leaf is a part of its parent, not a node.
+    /// Traverses with the macro of obvhs, as its documentation recommends, but without bounds checks of nodes. The
+    /// observer counts inner nodes and triangles but no leaves, because a leaf is stored in its parent.
     ///
     /// # Safety
     /// As for [`Tree::walk`].
@@ -110,7 +110,7 @@ enum Place {
     Leaf(u32),
 }
 
-/// The tree for the macro of obvhs.
+/// The tree that the macro `traverse!` of obvhs receives.
 struct UncheckedTree<'a> {
     nodes: UncheckedNodes<'a>,
 }

@@ -10,7 +10,7 @@ use crate::simd::Lanes;
 use crate::triangle::decided_at_once::decided_at_once;
 use crate::triangle::{Depth, TriangleTest};
 
-/// A triangle test in the format of obvhs: it returns infinity for a miss or a `t` before the start of the interval.
+/// A triangle test in the format of obvhs. It returns infinity for a miss and for a hit before the interval.
 pub trait LeafTest: Send + Sync + 'static {
     /// The name of the triangle test.
     const NAME: &'static str;
@@ -25,7 +25,7 @@ pub trait LeafTest: Send + Sync + 'static {
     /// Prepares a ray.
     fn prepare(ray: &Ray) -> Self::Ray;
 
-    /// The `tmax` for obvhs if a ray has the exclusive end `t_max`. obvhs rejects a rounded `t` equal to its `tmax`.
+    /// The `tmax` of obvhs' ray for a ray with the exclusive end `t_max`. obvhs rejects a rounded `t` equal to `tmax`.
     #[inline(always)]
     fn end(t_max: f32) -> f32 {
         t_max
@@ -35,7 +35,7 @@ pub trait LeafTest: Send + Sync + 'static {
     fn test(triangle: &Self::Triangle, ray: &PreparedRay, prepared: &Self::Ray) -> f32;
 }
 
-/// The triangle test `T` of this crate.
+/// The triangle test `T` of this crate as a [`LeafTest`].
 pub struct Over<T>(PhantomData<T>);
 
 impl<T: TriangleTest> LeafTest for Over<T> {
@@ -89,8 +89,8 @@ impl LeafTest for Native {
 /// The triangle test of obvhs: Möller-Trumbore on precomputed edges and normal, 64 bytes per triangle.
 ///
 /// The wrapper makes brute force over this test a reference for the BVHs that use it. The test reads signs from the
-/// sign bit of rounded quotients. Therefore it misses hits exactly on an edge if a barycentric coordinate is -0.0: on
-/// edges seen from the back, and on the third edge also from the front.
+/// sign bit of rounded quotients. Therefore it misses hits exactly on an edge if a barycentric coordinate is -0.0. This
+/// happens on every edge seen from the back, and on the third edge also from the front.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RtTest;
 

@@ -10,7 +10,7 @@ use crate::accel::Footprint;
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::traversal::pages;
 
-/// Triangles in the order of a tree, prepared for the test `T`.
+/// Triangles in the order of the leaves of a tree, prepared for the test `T`.
 pub(super) struct Leaves<T: LeafTest> {
     pub triangles: Vec<T::Triangle>,
     /// The number of each triangle in the mesh.

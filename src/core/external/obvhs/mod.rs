@@ -1,17 +1,17 @@
 //! The baseline: the BVHs of the crate `obvhs`. The adapter does not handicap them.
 //!
-//! Each BVH is offered over the triangle tests of this crate and over obvhs' own [`RtTest`], which is its fastest
-//! configuration. Triangles are stored in the order of the leaves, so a traversal needs no lookup in an index array;
-//! only the final hit is mapped to its triangle in the mesh. The ray is prepared once, with obvhs' own inverse
-//! direction, in the timed region like the rays of the structures of this crate.
+//! Each BVH is offered with the triangle tests of this crate and with obvhs' own [`RtTest`], the fastest of these
+//! configurations. Triangles are stored in the order of the leaves, so a traversal needs no lookup in an index array;
+//! only the final hit is mapped to its triangle in the mesh. Each ray is prepared once, inside the timed region, like
+//! the rays of the structures of this crate; obvhs computes the inverse direction.
 //!
 //! The adapter gives these trees the same advantages as the trees of this crate: arrays on large pages, triangles
 //! converted on all threads, no bounds checks. The traversals are obvhs' own without its checks: the links are checked
 //! once, when the tree is built.
 //!
-//! Known defects of obvhs 0.4.0, which validation shows: `CwBvh` misses every ray with a direction component of -0.0
-//! and loses hits with t < 1e-4; both BVHs lose axis-parallel rays close to a box face, and rays with short directions;
-//! the build takes quadratic time on coincident triangles.
+//! Known defects of obvhs 0.4.0, which `sahara validate` shows: `CwBvh` misses every ray with a direction component of
+//! -0.0 and loses hits with t < 1e-4; both BVHs lose axis-parallel rays close to a box face, and rays with short
+//! directions; the build takes quadratic time on coincident triangles.
 
 mod bvh2;
 mod cwbvh;
@@ -101,10 +101,10 @@ pub trait Tree: Send + Sync + Sized + 'static {
     /// The nodes, and the index of the triangle at each position.
     fn arrays(&mut self) -> (&mut Vec<Self::Node>, &mut Vec<u32>);
 
-    /// Whether all links lead to nodes, and all leaves contain positions below `triangles`. Traversals require it.
+    /// Whether all links lead to nodes, and all leaves contain positions below `triangles`. Traversals require this.
     fn leads_inside(&self, triangles: usize) -> bool;
 
-    /// The nearest hit; with `ANY` the first one found. `test` returns the `t` at a position, infinity for a miss.
+    /// The nearest hit; with `ANY`, the first hit found. `test` returns the `t` at a position, infinity for a miss.
     ///
     /// # Safety
     /// [`Tree::leads_inside`] must return true for the number of triangles that `test` accepts: the traversal follows

@@ -10,7 +10,7 @@ fn soup(triangles: usize) -> Arc<Mesh> {
     Arc::new(straddling_soup(triangles, 3))
 }
 
-/// Rays in all directions, along the axes with both zeros, and with intervals that begin or end among the triangles.
+/// Rays in all directions, along the axes (zeros of both signs), and with intervals that begin or end in the scene.
 fn rays(count: usize) -> Vec<Ray> {
     let mut random = Pcg32::seed_from_u64(4);
     let mut ray = |i: usize| {

@@ -1,10 +1,10 @@
 //! [tinybvh](https://github.com/jbikker/tinybvh) 1.6.8 from the crate `tinybvh-rs` 0.1: `BVH8_CPU`, its fastest layout,
 //! built by its best builder, with spatial splits (SBVH).
 //!
-//! A C++ compiler compiles it for the instructions of this machine. Only the builders are called through the crate;
-//! both queries call the linked C++ library ([`query`]). The ray (unit direction, inverse) is prepared before the clock
-//! starts; each query copies it to the stack, into the larger ray type of C++. tinybvh takes triangles as corners of 16
-//! bytes, and builds large scenes on its own threads.
+//! A C++ compiler compiles tinybvh for the instructions of this machine. Only the builders are called through the
+//! crate; both queries call the linked C++ library ([`query`]). The ray (unit direction and its inverse) is prepared
+//! before the clock starts; each query copies it to the stack, into the larger ray type of C++. tinybvh takes triangles
+//! as corners of 16 bytes, and builds large scenes on its own threads.
 //!
 //! # References
 //! Fuetterling, Lojewski, Pfreundt, Ebert: Accelerated single ray tracing for wide vector units. HPG 2017.
@@ -64,12 +64,12 @@ impl Prepare for TinyBvh {
         }
         let (t_min, t_max) = ray.interval();
         let length = ray.direction.length();
-        // tinybvh has no `t_min`: the ray starts at the start of its interval.
+        // tinybvh has no `t_min`, so its ray starts at the point at `t_min`.
         let origin = if t_min > 0.0 { ray.at(t_min) } else { ray.origin };
         let unit = ray.direction * (1.0 / length);
         let inverse = Vec3::from_array(unit.to_array().map(inverse));
         let end = ((t_max - t_min) * length).min(FAR);
-        // A check of tinybvh ends the process if this sum, in this order, is NaN. If `unit` or `origin * inverse`
+        // tinybvh ends the process if `checked`, summed in this order, is NaN. If `unit` or `origin * inverse`
         // overflows, rays no longer miss the empty children of a node, and tinybvh reads outside its arrays.
         let checked = unit.x + unit.y + unit.z + end + origin.x + origin.y + origin.z;
         if checked.is_nan() || !unit.is_finite() || !(origin * inverse).is_finite() {
@@ -105,8 +105,8 @@ impl Prepare for TinyBvh {
 /// The size of the stacks of tinybvh's traversal and conversion, which do not check for overflow.
 const STACK: usize = 256;
 
-/// The shape, and a bound of stack entries: per node of a path, the traversal leaves all children except one on the
-/// stack, the conversion two words per inner child except one word; the traversal writes eight more.
+/// The shape and a bound of stack entries. A node of a path with n children, m of them inner, leaves n - 1 entries
+/// of the traversal or 2 m - 1 entries of the conversion on the stack. The traversal writes eight more entries.
 fn shape(nodes: &[mbvh::Node]) -> (TreeShape, usize) {
     let (mut shape, mut most) = (TreeShape::default(), 0);
     let mut stack = vec![(0, 0, 0)];
@@ -171,7 +171,7 @@ impl Accel for TinyBvh {
 
     prepared_queries!();
 
-    /// Computed from the sizes of nodes and of leaves, which contain the triangles.
+    /// `nodes` includes the leaves, which contain the triangles.
     fn footprint(&self) -> Footprint {
         let nodes = self.shape.inner * NODE_BYTES + self.shape.leaves * LEAF_BYTES;
         Footprint { nodes, references: size_of_val(&self.ids[..]), ..Footprint::default() }

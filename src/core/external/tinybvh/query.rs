@@ -9,7 +9,7 @@ use std::mem;
 
 use tinybvh_rs::bvh8_cpu;
 
-/// `tinybvh::Ray` without its last 64 bytes, the custom data: all that a query reads and writes.
+/// `tinybvh::Ray` without its last 64 bytes, the custom data. A query reads and writes no other bytes.
 #[repr(C, align(64))]
 #[derive(Clone, Copy)]
 pub struct RayHead {
@@ -81,7 +81,7 @@ impl Tree {
     #[inline]
     pub fn any(&self, ray: &RayHead) -> bool {
         let whole = FullRay { head: *ray, custom: [0; 8] };
-        // SAFETY: the object lives as long as `self`; the ray is as in `closest`, and this query only reads it.
+        // SAFETY: the object lives as long as `self`; the ray has the layout of its C++ type, and is only read.
         unsafe { is_occluded(self.object, &raw const whole) }
     }
 }

@@ -27,8 +27,8 @@ const UNIT: f64 = f64::EPSILON / 2.0;
 /// components of e and f, D the components of d, and |s| be the sum of the magnitudes of the components of s.
 /// Differences of inputs, products and sums have a relative error of n. The errors are 3.1 n 2 D E for the components
 /// of d x f, 4.1 n 2 E |s| for the sum of the components of s x e, 7.1 n 2 D E |s| for u and v, 7.1 n 6 D E E for det,
-/// 9.2 n (4 D E |s| + 6 D E E) for w, and 8.1 n 2 E E |s| for h. The constants below exceed them by more than the
-/// rounding of the bounds. `f32` inputs neither overflow nor underflow: products of three differences and a direction
+/// 9.2 n (4 D E |s| + 6 D E E) for w, and 8.1 n 2 E E |s| for h. The code uses larger constants, to cover the rounding
+/// of the bounds as well. `f32` inputs cause no overflow or underflow: products of three differences and a direction
 /// are below 2^520 and, if not zero, at least 2^-596.
 #[inline(always)]
 pub(super) fn look(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
@@ -64,7 +64,7 @@ pub(super) fn look(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     Bounds::Hit { low: low.store()[0], high: high.store()[0] }
 }
 
-/// Like [`look`], for a line exactly through a corner and certainly not along the plane; `None` for other lines.
+/// Like [`look`] if the line passes exactly through a corner and is certainly not parallel to the plane, else `None`.
 #[inline(always)]
 pub(super) fn look_at_corners(ray: &Ray, corners: [Vec3; 3]) -> Option<Bounds> {
     let corner = corners.into_iter().find(|&corner| exact::passes_through(ray, corner))?;
@@ -72,7 +72,7 @@ pub(super) fn look_at_corners(ray: &Ray, corners: [Vec3; 3]) -> Option<Bounds> {
     (det.abs() > error).then(|| at_height(corner, ray, ray.direction.abs().max_position()))
 }
 
-/// The determinant of a line and a triangle, and a bound of its error, in the notation of [`place`].
+/// The determinant d . (e x f), in the notation of [`look`], and a bound of its error.
 #[inline(always)]
 fn determinant(ray: &Ray, corners: [Vec3; 3]) -> (f64, f64) {
     let direction = ray.direction.as_dvec3();
@@ -82,9 +82,9 @@ fn determinant(ray: &Ray, corners: [Vec3; 3]) -> (f64, f64) {
     (direction.dot(edge1.cross(edge2)), 48.0 * UNIT * extent * extent * direction.abs().max_element())
 }
 
-/// Bounds of the `t` at which the line has the coordinate of the point on this axis. The line must not be perpendicular
-/// to the axis. The difference of two floats has the right sign, and is zero if and only if they are equal; the
-/// difference and the division each have a relative error of at most 2^-53.
+/// Bounds of the `t` at which the line crosses the plane through `point` perpendicular to `axis`. The line must not be
+/// parallel to this plane. The difference of two floats has the right sign, and is zero if and only if they are equal.
+/// The difference and the division each have a relative error of at most 2^-53.
 #[inline(always)]
 fn at_height(point: Vec3, ray: &Ray, axis: usize) -> Bounds {
     let t = (f64::from(point[axis]) - f64::from(ray.origin[axis])) / f64::from(ray.direction[axis]);
@@ -92,8 +92,8 @@ fn at_height(point: Vec3, ray: &Ray, axis: usize) -> Bounds {
     Bounds::Hit { low: t - error, high: t + error }
 }
 
-/// Whether the line misses the triangle: whether u, v or w, given with their errors, has the opposite sign of det,
-/// their sum. The sign of det must be certain. Notation as at [`look`].
+/// Whether the line misses the triangle: whether u, v or w of [`look`] has the opposite sign of det, their sum. Each of
+/// u, v and w comes with its error bound. The sign of det must be certain.
 #[inline(always)]
 fn passes_by(ray: &Ray, [a, b, c]: [Vec3; 3], det: f64, [u, v, w]: [(f64, f64); 3]) -> bool {
     let sign = det.total_cmp(&0.0);
@@ -104,11 +104,11 @@ fn passes_by(ray: &Ray, [a, b, c]: [Vec3; 3], det: f64, [u, v, w]: [(f64, f64); 
     is_opposite(u, a, c) || is_opposite(v, b, a) || is_opposite(w, c, b)
 }
 
-/// Like [`look`], for one line and triangle per lane that are known to meet: the lanes for which bounds of the exact
-/// `t` are known, as bits, and the bounds.
+/// Like [`look`], for one line and one triangle per lane, which are known to meet. Returns the lanes with valid bounds
+/// of the exact `t`, as bits, and the bounds.
 ///
-/// **Bounds.** In the notation of [`look`], the error of the components of the normal e x f is 4.1 n 2 E E, so the
-/// error of h = s . (e x f) is 8.1 n 2 E E |s|, and of det = -d . (e x f) 7.1 n 6 D E E.
+/// **Bounds.** In the notation of [`look`], the components of the normal e x f have an error of 4.1 n 2 E E. So the
+/// error of h = s . (e x f) is 8.1 n 2 E E |s|, and the error of det = -d . (e x f) is 7.1 n 6 D E E.
 #[inline(always)]
 pub(super) fn place<const N: usize, L: Lanes<N>>(
     origin: LaneVec3<N, L>,
@@ -129,7 +129,7 @@ pub(super) fn place<const N: usize, L: Lanes<N>>(
     (times(det_error, 1024.0).le(det.flip_sign(det)), low, high)
 }
 
-/// Like [`place`], for an axis-aligned triangle, such as a floor; `None` for other triangles and for parallel lines.
+/// Like [`place`], for a triangle in an axis-aligned plane. `None` for other triangles and for parallel lines.
 #[inline(always)]
 pub(super) fn place_in_axis_plane(ray: &Ray, [a, b, c]: &[Vec3; 3]) -> Option<Bounds> {
     let across = a.cmpeq(*b) & a.cmpeq(*c) & ray.direction.cmpne(Vec3::ZERO);
@@ -137,12 +137,12 @@ pub(super) fn place_in_axis_plane(ray: &Ray, [a, b, c]: &[Vec3; 3]) -> Option<Bo
     Some(at_height(*a, ray, axis))
 }
 
-/// Bounds of the exact `t` of lines that are known to meet their triangles, from the `width` of the filter's bounds.
+/// Bounds of the exact `t` of lines that are known to meet their triangles, from the `width` of filter bounds.
 ///
-/// **Bounds.** In the notation of the filter, but with units of 2^-53 instead of 2^-24, the error of the height is less
-/// than 8.1 units of N |s|, and of the determinant less than 7.1 units of 3 D N. The filter's bounds allow 10 units of
-/// N |s| and, for its scaled direction, 10 units of 6 N. So 2^-29 of half their width covers both errors; the other
-/// half covers the filter's own rounding. 2^-50 of `t` covers the division and later operations.
+/// **Bounds.** In the notation of `filter_block`, but with units of 2^-53 instead of 2^-24, the error of the height is
+/// less than 8.1 units of N |s|, and the error of the determinant is less than 7.1 units of 3 D N. The first stage
+/// allows 10 units of N |s| and, for its scaled direction, 10 units of 6 N. So 2^-29 of half of `width` covers both
+/// errors. The other half covers the rounding of the first stage. 2^-50 of `t` covers the later operations.
 #[inline(always)]
 pub(super) fn pass_plane<const N: usize, L: Lanes<N>>(
     origin: LaneVec3<N, L>,
@@ -159,8 +159,8 @@ pub(super) fn pass_plane<const N: usize, L: Lanes<N>>(
     (t.sub(error), t.add(error))
 }
 
-/// Like [`place`] for one line and triangle, with the height of [`exact::height`], whose relative error is below 2^-49:
-/// the width of the bounds comes from the determinant. If the origin lies in the plane, both bounds are zero.
+/// Like [`place`], for one line and one triangle, with the height of [`exact::height`]: its relative error is below
+/// 2^-49, so the determinant dominates the width of the bounds. If the origin lies in the plane, both bounds are zero.
 pub(super) fn place_closely(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     let (det, det_error) = determinant(ray, corners);
     if det.abs() < 1024.0 * det_error || det == 0.0 {
@@ -172,7 +172,7 @@ pub(super) fn place_closely(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     Bounds::Hit { low: low.store()[0], high: high.store()[0] }
 }
 
-/// Bounds of h/d: |h/d - h'/d'| <= (dh + |h'/d'| dd) / (|d'| - dd), with dd <= 2^-10 |d'|, and 2^-50 for rounding.
+/// Bounds h/d: |h/d - h'/d'| <= (dh + |h'/d'| dd) / (|d'| - dd). Requires dd <= 2^-10 |d'|. Rounding adds 2^-50 |t|.
 #[inline(always)]
 fn divide<const N: usize, D: Arithmetic<N, Scalar = f64>>(height: D, height_error: D, det: D, det_error: D) -> (D, D) {
     let abs = |x: D| x.flip_sign(x);

@@ -10,24 +10,24 @@ use crate::simd::{EightLanes, LaneVec3, indexed};
 use crate::triangle::corners::Place;
 use crate::triangle::{BETWEEN_BOUNDS, DIRECTION, Depth, INPUTS, ORIGIN};
 
-/// The exact position of a hit along its ray: bounds of its `t` in `f32`, and the triangle if the bounds do not decide.
+/// The exact position of a hit along its ray: bounds of `t` in `f32`, and the triangle in case the bounds overlap.
 #[derive(Clone, Copy, Debug)]
 pub struct ExactDepth<'a> {
     low: f32,
     high: f32,
-    /// The distance between the bounds if the filter gave them; infinite otherwise.
+    /// The distance between the bounds if they come from the first stage, otherwise infinity.
     width: f32,
     triangle: Place<'a>,
 }
 
 impl<'a> ExactDepth<'a> {
-    /// A hit at an exact `t` in [`low`, `high`], from the filter.
+    /// A hit at an exact `t` in [`low`, `high`], bounds of the first stage.
     #[inline(always)]
     pub(super) fn new(triangle: Place<'a>, low: f32, high: f32) -> Self {
         Self { low, high, width: high - low, triangle }
     }
 
-    /// The same hit, whose bounds are not the filter's: their width does not bound the error of `f64`.
+    /// Marks bounds that are not from the first stage: [`pass_plane`] cannot bound its error by their width.
     #[inline(always)]
     pub(super) fn looked_up(self) -> Self {
         Self { width: f32::INFINITY, ..self }
@@ -75,8 +75,8 @@ impl<'a> ExactDepth<'a> {
     }
 }
 
-/// A quick test whether two triangles lie in one plane: a line then meets both at the same `t`. It recognises equal
-/// corners (one triangle in several leaves, or a sheet with two sides) and a common axis-aligned plane.
+/// Whether two triangles have the same corners or lie in one axis-aligned plane. A line meets both at the same `t`.
+/// Equal corners occur if several leaves contain a triangle, and in sheets with two sides.
 #[inline(always)]
 fn surely_coplanar(a: &[Vec3; 3], b: &[Vec3; 3]) -> bool {
     let first = a[0];
@@ -116,7 +116,7 @@ impl Depth for ExactDepth<'_> {
         }
     }
 
-    /// Correctly rounded.
+    /// The exact `t`, correctly rounded.
     #[inline(always)]
     fn t(&self, ray: &Ray) -> f32 {
         let corners = self.triangle.corners();

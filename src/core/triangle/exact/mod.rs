@@ -18,15 +18,15 @@ use crate::simd::{Arithmetic, EightLanes, Kernel, LaneVec3, Lanes, Level, Portab
 use enclosure::{Bounds, look, look_at_corners, place, place_closely, place_in_axis_plane};
 
 /// Exact results at the cost of a filter: an `f32` stage, then `f64` with an error bound for undecided cases, then
-/// integers or exact sums of floats for the remaining ones. Each decision is made only when needed: bounds of `t` order
-/// the hits, the bounds are narrowed if they overlap, and one `t` per ray is computed to the last bit.
+/// integers or exact sums of floats for the remaining cases. Each decision is made only when needed: bounds of `t`
+/// order the hits, overlapping bounds are narrowed, and only one `t` per ray is computed to the last bit.
 ///
-/// Guarantees: a ray hits a triangle if and only if it exactly meets the closed triangle; hits are ordered by their
-/// exact `t`, at equal `t` by number; the returned `t` is the exact `t`, correctly rounded (a `t` just before `t_max`
-/// may therefore be returned as `t_max`). In a structure that loses no hit, the result for every ray is the
-/// mathematical one. Not guaranteed: speed, if many rays pass exactly through edges or start in planes of triangles.
-/// Each such triangle costs 50 nanoseconds, or a microsecond if the significant bits of the coordinates span more than
-/// forty binary places. Results may be wrong if the processor is set to treat denormal numbers as zero.
+/// Guarantees: a ray hits a triangle if and only if it exactly meets the closed triangle. Hits are ordered by their
+/// exact `t`, and by number if their `t` is equal. The returned `t` is the exact `t`, correctly rounded, so a `t` just
+/// before `t_max` may be returned as `t_max`. In a structure that loses no hit, every result is mathematically correct.
+/// Not guaranteed: speed, if many rays pass exactly through edges or start in planes of triangles. Each such triangle
+/// costs 50 nanoseconds, or a microsecond if the significant bits of the coordinates span more than forty binary
+/// places. Results may be wrong if the processor is set to treat denormal numbers as zero.
 ///
 /// # References
 /// Filters before exact arithmetic: Fortune, Van Wyk: Efficient exact arithmetic for computational geometry. SoCG 1993.
@@ -91,7 +91,7 @@ impl TriangleTest for Exact {
         bounds: &CandidateBounds<N>,
     ) -> Option<ExactDepth<'a>> {
         if let Some(decided) = Self::decide_at_once(ray, block, lane, bounds) {
-            // The bounds may come from `look_closer`: mark them as not the filter's.
+            // The bounds may come from `look_closer` instead of the filter: mark them with `looked_up`.
             return decided.map(ExactDepth::looked_up);
         }
         let (low, high) = in_f64(&ray.ray, block.corners.place(lane), bounds.sure >> lane & 1 == 1)?;
@@ -115,7 +115,7 @@ impl TriangleTest for Exact {
         if high < start || end <= low {
             return Some(None);
         }
-        // Rays that start in an axis-aligned floor or wall get here for each of its triangles that their lines meet.
+        // This is a frequent case for rays that start in an axis-aligned floor or wall.
         let bounds = place_in_axis_plane(&ray.ray, &block.corners.place(lane).corners())?;
         let inside = within(&ray.ray, bounds)?;
         Some(inside.map(|(low, high)| ExactDepth::new(block.corners.place(lane), low, high).looked_up()))
@@ -141,7 +141,7 @@ impl TriangleTest for Exact {
         active: L::Mask,
     ) -> Option<EightHits<L>> {
         let (rejected, candidates) = filter_eight(rays, block, lane, to);
-        // Return early: often all rays miss a triangle of a leaf, and the bounds need not be computed.
+        // Return early: often all rays miss a triangle of a leaf. Then the bounds need not be computed.
         if L::bits(active) & !L::bits(rejected) == 0 {
             return None;
         }
@@ -160,14 +160,14 @@ impl TriangleTest for Exact {
 
     #[inline(always)]
     fn order_closely(ray: &ExactRay, one: &ExactDepth, other: &ExactDepth) -> Ordering {
-        // Copy the depths: otherwise they would be in memory even if they are ordered without this call.
+        // Copy the depths. Otherwise they would be in memory even if the caller orders them without this function.
         let (one, other) = (*one, *other);
         one.order_closely(&other, &ray.ray)
     }
 }
 
-/// Decides a triangle that `f32` leaves undecided, in `f64` or exactly: bounds of the exact `t`, or `None` for a miss.
-/// `met`: the line is known to meet the triangle. Not inlined, because it is rare.
+/// Decides a triangle that `f32` leaves undecided, in `f64` or exactly. Returns bounds of the exact `t`, or `None` for
+/// a miss. `met`: whether the line is known to meet the triangle. Not inlined, because it is rarely called.
 #[inline(never)]
 fn in_f64(ray: &Ray, triangle: Place, met: bool) -> Option<(f32, f32)> {
     let corners = triangle.corners();
@@ -184,7 +184,7 @@ fn in_f64(ray: &Ray, triangle: Place, met: bool) -> Option<(f32, f32)> {
         .unwrap_or_else(|| exactly(ray, corners))
 }
 
-/// The bounds of a hit in `f32` if it lies in the interval of `ray`, `Some(None)` for a miss, `None` if undecided.
+/// The `f32` bounds of a hit in the interval of `ray`. `Some(None)` if there is no such hit, `None` if undecided.
 #[inline(always)]
 fn within(ray: &Ray, bounds: Bounds) -> Option<Option<(f32, f32)>> {
     let (start, end) = (f64::from(ray.interval().0), ray.end());
@@ -196,7 +196,7 @@ fn within(ray: &Ray, bounds: Bounds) -> Option<Option<(f32, f32)>> {
     }
 }
 
-/// Refines candidates in `f64` if more than two are undecided: the remaining candidates and their bounds, else `None`.
+/// Refines candidates in `f64`: returns the remaining ones and their bounds, or `None` if at most two are undecided.
 struct Crowd<'a> {
     ray: &'a Ray,
     block: &'a FilterBlock<8>,

@@ -1,8 +1,8 @@
-//! Checks triangle tests that let no ray pass between the triangles of a closed mesh.
+//! Checks that some triangle tests let no ray pass between the triangles of a closed mesh.
 
 use super::*;
 
-/// Rays through the edge of two triangles, or through a vertex of six, hit one of them. Some rays run along an axis.
+/// A ray through an edge of two triangles, or through a vertex of six, hits one of them. Some rays run along an axis.
 /// `scale` multiplies everything except the direction.
 fn closed_at<T: TriangleTest>(scale: f32, rounds: usize, vertices: bool) {
     let mut rng = Pcg32::seed_from_u64(8);

@@ -1,11 +1,11 @@
-//! Checks that eight rays tested together have the hits of each ray on its own.
+//! Checks that eight rays tested together hit the same triangles as eight rays tested separately.
 
 use std::marker::PhantomData;
 
 use super::*;
 use crate::simd::{EightLanes, Kernel, LaneVec3, Level, dispatch, each};
 
-/// Eight rays, triangles, and the end of the search. The result: the number of hits, and how many of them are decided.
+/// Eight rays, triangles, and the end of the search. `run` counts all hits, and those `meet_eight` decides.
 struct Eight<'a, T>(&'a [Ray; 8], &'a [[Vec3; 3]], f32, PhantomData<T>);
 
 impl<T: TriangleTest> Kernel for Eight<'_, T> {
@@ -62,7 +62,7 @@ fn eight<L: EightLanes>(rays: &[Ray; 8]) -> EightRays<L> {
     }
 }
 
-/// The counts for random rays, aimed rays and rays of similar direction, some with short intervals.
+/// The sums of the counts of [`Eight`], for random, aimed and nearly parallel rays, some with short intervals.
 fn tell<T: TriangleTest>() -> [usize; 2] {
     let mut rng = Pcg32::seed_from_u64(12);
     let mut sums = [0; 2];

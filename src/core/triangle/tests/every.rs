@@ -1,11 +1,11 @@
-//! Properties of every triangle test, except `exact_on_a_grid`, which only some tests have.
+//! Checks properties that every triangle test has, and `exact_on_a_grid`, which only some tests have.
 
 use std::marker::PhantomData;
 
 use super::*;
 use crate::simd::{EightLanes, Kernel, Level, dispatch};
 
-/// All widths return the bits of the scalar form, and unused lanes hit nothing.
+/// All widths return the bits of the scalar test, and unused lanes hit nothing.
 fn all_widths_agree<T: TriangleTest>() {
     fn check<T: TriangleTest, const N: usize, L: Lanes<N>>(ray: &Ray, triangles: &[[Vec3; 3]]) -> usize {
         let (t_min, t_max) = ray.interval();
@@ -77,7 +77,7 @@ fn right_away_from_edges<T: TriangleTest>() {
     assert!(hits > 500, "{hits}");
 }
 
-/// If all arithmetic is exact, the result is exact.
+/// On a grid of small integers, all arithmetic is exact, so the result must be exact.
 fn exact_on_a_grid<T: TriangleTest>() {
     let mut rng = Pcg32::seed_from_u64(1);
     let mut hits = 0;
@@ -90,7 +90,7 @@ fn exact_on_a_grid<T: TriangleTest>() {
     assert!(hits > 1_000, "the grid must produce hits, or the test proves nothing: {hits}");
 }
 
-/// For any numbers, the test does not panic, and returns no `t` outside the interval except one rounded to its end.
+/// For any numbers, the test does not panic. A returned `t` is inside the interval, or rounded to its end.
 fn survives_all_numbers<T: TriangleTest>() {
     let mut rng = Pcg32::seed_from_u64(4);
     for _ in 0..30_000 {
@@ -104,7 +104,7 @@ fn survives_all_numbers<T: TriangleTest>() {
     }
 }
 
-/// If the exact `t` is a float, an interval that begins there contains the hit; an interval that ends there does not.
+/// If the exact `t` is a float, an interval that begins at `t` contains the hit; an interval that ends at `t` does not.
 fn intervals_are_half_open<T: TriangleTest>() {
     let mut rng = Pcg32::seed_from_u64(13);
     let mut hits = 0;

@@ -3,7 +3,7 @@
 use super::*;
 use crate::simd::{Level, Portable};
 
-/// In a scene of 1e-15, the products of three lengths underflow before the products of two.
+/// In a scene of size 1e-15, products of three lengths underflow, but products of two lengths do not.
 #[test]
 fn hits_where_only_the_height_underflows_are_found() {
     let unit = libm::exp2f(-51.0);
@@ -36,7 +36,7 @@ fn the_exact_test_agrees_with_the_judges_everywhere() {
         let ray = windowed(&mut rng, ray, corners);
         let found = scalar_hit::<Exact>(&ray, corners);
         assert_eq!(found.map(f32::to_bits), true_t(&ray, corners).map(f32::to_bits), "{ray:?} {corners:?}");
-        // The test itself uses the sums of the first judge. The second judge shares nothing with it, but is slower.
+        // `true_t` uses the same exact sums as `Exact`. Rationals share no code with it, but are slower.
         if round % 31 == 0 && ray.is_valid() {
             let second = rational::hit_within(&ray, corners);
             assert_eq!(found.map(f32::to_bits), second.map(f32::to_bits), "{ray:?} {corners:?}");
@@ -46,7 +46,7 @@ fn the_exact_test_agrees_with_the_judges_everywhere() {
     assert!(hits > 30_000, "{hits}");
 }
 
-/// A narrow or axis-aligned triangle, where the bounds of the height are tightest, and a ray at it or beside it.
+/// A narrow or axis-aligned triangle, for which the bounds of the height are tightest, and a ray at it or beside it.
 pub(super) fn narrow(rng: &mut Pcg32) -> (Ray, [Vec3; 3]) {
     let mut corners = triangle(rng, unit);
     let width = libm::exp2f(-((rng.next_u32() % 24) as f32));

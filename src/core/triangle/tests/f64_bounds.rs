@@ -4,12 +4,12 @@ use dashu_ratio::RBig;
 
 use super::*;
 
-/// Sums of the magnitudes of the components of a ray and a triangle.
+/// The sizes of vectors of a ray and a triangle. A size is the sum of the magnitudes of the components.
 struct Sizes {
     direction: f64,
-    /// From the origin to each corner.
+    /// The vectors from the origin to each corner.
     corners: [f64; 3],
-    /// From a corner to the next one.
+    /// The vectors from each corner to the next one.
     edges: [f64; 3],
 }
 
@@ -25,17 +25,17 @@ impl Sizes {
     }
 }
 
-/// The documented bounds of a test; `outside` and `t` are multiplied by the determinant.
+/// The documented bounds of a test. `outside` and `t` are not yet divided by the determinant.
 struct Bounds {
     /// The test must find a triangle that is hit if the determinant is larger than this.
     found: f64,
-    /// How far below zero a barycentric of a reported hit may be: of the first, the second and the third corner.
+    /// How far below zero the barycentrics of a reported hit may be, at the first, second and third corner.
     outside: [f64; 3],
     /// The maximum error of `t` before it is rounded.
     t: f64,
 }
 
-/// As documented at [`MollerTrumboreF64`].
+/// The bounds that [`MollerTrumboreF64`] documents.
 fn of_moller_trumbore(sizes: &Sizes, t: f64) -> Bounds {
     let (d, s) = (sizes.direction, sizes.corners[0]);
     let e = sizes.edges[0] + sizes.edges[2];
@@ -43,7 +43,7 @@ fn of_moller_trumbore(sizes: &Sizes, t: f64) -> Bounds {
     Bounds { found: unit * e, outside: [unit * (s + 2.0 * e); 3], t: libm::exp2(-51.0) * e * e * (s + t.abs() * d) }
 }
 
-/// As documented at [`EdgeF64`].
+/// The bounds that [`EdgeF64`] documents.
 fn of_edges(sizes: &Sizes, t: f64) -> Bounds {
     let [a, b, c] = sizes.corners;
     let [ab, bc, ca] = sizes.edges;
@@ -68,7 +68,7 @@ struct Freedom {
     hits: u32,
     lost: u32,
     invented: u32,
-    /// `t` with an error of more than an ulp.
+    /// The hits whose `t` has an error of more than an ulp.
     off: u32,
 }
 
@@ -96,7 +96,7 @@ fn check<T: TriangleTest>(ray: &Ray, corners: [Vec3; 3], bounds: fn(&Sizes, f64)
             freedom.off += u32::from(error > ulp(t));
         }
         None if is_hit => {
-            // Near the ends of the interval, the rounded `t` decides.
+            // Near an end of the interval, the rounded `t` decides whether the hit is inside.
             let at_an_end = t <= off || t + off >= f64::from(f32::MAX);
             assert!(determinant < sure || at_an_end, "{}: a sure hit is lost: {ray:?} {corners:?}", T::NAME);
             freedom.lost += 1;

@@ -5,7 +5,7 @@ use super::*;
 use crate::exact::ExactT;
 use crate::simd::{EightLanes, Kernel, Level, dispatch};
 
-/// The result of the first stage for one triangle, in lane 3 of 8: whether it is a candidate; bounds of `t` if sure.
+/// Runs the first stage for one triangle, in lane 3 of 8: whether it is a candidate, and the bounds of a certain hit.
 struct Look<'a>(&'a Ray, [Vec3; 3], f32);
 
 impl Kernel for Look<'_> {
@@ -21,7 +21,7 @@ impl Kernel for Look<'_> {
     }
 }
 
-/// Aims at or beside a triangle from a few times its size away, in scenes without overflow and underflow.
+/// A triangle, and a ray aimed at or beside it from a few times its size away, without overflow and underflow.
 fn near(rng: &mut Pcg32) -> (Ray, [Vec3; 3]) {
     let scale = libm::exp2f((rng.next_u32() % 80) as f32 - 50.0);
     let corners = triangle(rng, unit).map(|p| p * scale);
@@ -35,7 +35,7 @@ fn near(rng: &mut Pcg32) -> (Ray, [Vec3; 3]) {
 fn the_first_stage_loses_no_hit_is_right_when_sure_and_leaves_little() {
     let mut rng = Pcg32::seed_from_u64(6);
     let (mut hits, mut sure, mut narrow, mut cut) = (0, 0, 0, 0);
-    // Counts for ordinary unbounded rays.
+    // Count the ordinary rays from `near` that are not bounded.
     let (mut misses, mut kept, mut met, mut unsure) = (0, 0, 0, 0);
     for round in 0..400_000 {
         let (ray, corners) = match round % 3 {
@@ -50,7 +50,7 @@ fn the_first_stage_loses_no_hit_is_right_when_sure_and_leaves_little() {
         let within = |low: f32, high: f32, t: &ExactT| {
             t.compare(low) != Some(std::cmp::Ordering::Less) && t.compare(high) != Some(std::cmp::Ordering::Greater)
         };
-        // The end is before, at or after the hit, or far away.
+        // The search ends before, at or after the hit, or far away.
         let t = truth.as_ref().map_or(1.0, ExactT::round);
         let to = [f32::INFINITY, t * 0.99, t.next_down(), t, t.next_up()][rng.next_u32() as usize % 5].max(0.0);
         for level in Level::available() {

@@ -40,11 +40,11 @@ pub fn flip(one: &DynamicImage, other: &DynamicImage, pixels_per_degree: f64) ->
 
 /// One-dimensional weights of the filters.
 struct Filters {
-    /// Contrast sensitivity: lightness, red to green, and blue to yellow as two Gaussians with their shares.
+    /// Contrast sensitivity: one Gaussian each for lightness and red-green, two weighted Gaussians for blue-yellow.
     lightness: Vec<f64>,
     red_green: Vec<f64>,
     blue_yellow: [(f64, Vec<f64>); 2],
-    /// Features: a Gaussian and its first and second derivatives.
+    /// Feature detection: a Gaussian and its first and second derivatives.
     smooth: Vec<f64>,
     edge: Vec<f64>,
     point: Vec<f64>,
@@ -52,12 +52,12 @@ struct Filters {
 
 impl Filters {
     fn new(pixels_per_degree: f64) -> Self {
-        // A term `a sqrt(π/b) exp(-π² x²/b)` of the paper, x in degrees, is a Gaussian with this standard deviation in
-        // pixels. The widest Gaussian determines the window of all terms.
+        // The term `a sqrt(π/b) exp(-π² x²/b)` of the paper, x in degrees, is a Gaussian. `deviation` is its standard
+        // deviation in pixels. The widest Gaussian determines the window of all terms.
         let deviation = |b: f64| (b / (2.0 * PI * PI)).sqrt() * pixels_per_degree;
         let reach = (3.0 * deviation(0.04)).ceil() as usize;
         let term = |b| gaussian(reach, deviation(b));
-        // The share of a term is its sum over the window, divided by the sum of both terms.
+        // The weight of a blue-yellow Gaussian is its sum over the window, divided by the sum of both Gaussians.
         let sum = |a: f64, b: f64| {
             let weights = offsets(reach).map(|x| libm::exp(-x * x / (2.0 * deviation(b) * deviation(b))));
             let across: f64 = weights.sum();
@@ -191,8 +191,8 @@ fn hyab(one: DVec3, other: DVec3) -> f64 {
     gap.x.abs() + (gap.y * gap.y + gap.z * gap.z).sqrt()
 }
 
-/// Maps `distance`, a HyAB distance raised to the power 0.7, to 0..1. The largest one is between green and blue; values
-/// up to 40 % of it get 95 % of the range.
+/// Maps `distance`, a HyAB distance to the power 0.7, to 0..1. The largest distance is between green and blue.
+/// Distances from 0 to 40 % of it are mapped to 0..0.95.
 fn spread(distance: f64) -> f64 {
     let most = libm::pow(hyab(lab(DVec3::Y), lab(DVec3::Z)), 0.7);
     let bend = 0.4 * most;

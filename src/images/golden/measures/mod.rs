@@ -1,4 +1,4 @@
-//! Measures of the difference of two pictures of one layout, as used for renderers.
+//! Measures of the difference of two pictures of one layout: mean, PSNR, SSIM and FLIP.
 
 mod flip;
 mod plane;
@@ -29,7 +29,7 @@ pub struct Measures {
     pub mean: f64,
     /// The peak signal-to-noise ratio in dB.
     pub psnr: f64,
-    /// Structural similarity: mean over the pixels whose window is inside the picture; `None` if no window is.
+    /// The mean structural similarity of the compared pixels whose window is inside the picture.
     pub ssim: Option<f64>,
     /// `None` for floats.
     pub flip: Option<Flip>,
@@ -39,7 +39,7 @@ pub struct Measures {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Flip {
     pub mean: f64,
-    /// The 95th percentile of the pixels.
+    /// The 95th percentile over the pixels.
     pub percentile_95: f64,
     pub largest: f64,
 }
@@ -74,8 +74,8 @@ impl FlipMap {
 }
 
 impl Measures {
-    /// The measures of two pictures that differ, but have equal masked pixels. `tolerance` is the limit of
-    /// `pixels_over`.
+    /// The measures of two different pictures. Their masked pixels must be equal. `pixels_over` counts the pixels that
+    /// differ by more than `tolerance`.
     pub fn new(
         [one, other]: [&DynamicImage; 2],
         difference: Difference,
@@ -105,8 +105,8 @@ impl Measures {
         }
     }
 
-    /// The measures of pictures whose values are names, such as numbers of primitives: the number of different pixels,
-    /// without sizes of differences.
+    /// The measures of pictures whose values are names, such as numbers of primitives. Only the numbers of pixels stay,
+    /// because the size of a difference between names has no meaning.
     #[must_use]
     pub fn of_names(self) -> Self {
         let difference = Difference { worst: self.difference.first, largest: f64::NAN, ..self.difference };

@@ -1,4 +1,4 @@
-//! Separable convolution, which all measures with a window use.
+//! Separable convolution, for the measures with a window: FLIP and SSIM.
 
 use std::ops::Range;
 
@@ -13,11 +13,11 @@ pub struct Plane {
 /// Rows per band.
 const BAND: usize = 64;
 
-/// A number for each pixel of a picture, computed in parallel for bands of rows. `of` receives the indices of the rows
-/// of a band and of `reach` rows on each side (beyond the edge, the outermost row again), and returns the numbers of
-/// all pixels in these rows.
+/// A number for each pixel of a picture, computed in parallel for bands of rows. `of` receives the row indices of a
+/// band and of `reach` rows above and below it, and returns one number per pixel of these rows. Beyond the edge of the
+/// picture, the index of the outermost row is repeated.
 ///
-/// The temporary memory of a thread is proportional to a band. The numbers do not depend on the bands.
+/// The temporary memory of a thread is proportional to the size of a band. The numbers do not depend on the bands.
 pub fn in_bands(size: [u32; 2], reach: usize, of: impl Fn(&[usize]) -> Vec<f64> + Sync) -> Vec<f32> {
     let [width, height] = size.map(|side| side as usize);
     let bands: Vec<Range<usize>> = (0..height).step_by(BAND).map(|top| top..height.min(top + BAND)).collect();

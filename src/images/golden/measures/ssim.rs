@@ -9,7 +9,7 @@ use image::DynamicImage;
 use super::plane::{Plane, gaussian, in_bands};
 use crate::golden::layout::Layout;
 
-/// Pixels of the Gaussian window on each side of its centre, and its standard deviation.
+/// The Gaussian window: the number of pixels on each side of its centre, and its standard deviation.
 const REACH: usize = 5;
 const SIGMA: f64 = 1.5;
 
@@ -17,8 +17,8 @@ const SIGMA: f64 = 1.5;
 const C1: f64 = 1e-4;
 const C2: f64 = 9e-4;
 
-/// The mean of SSIM over all channels, including alpha, and all pixels that are `compared` and whose window is inside
-/// the pictures; `None` if there is no such pixel, or the mean is not finite. Full scale of floats is 1.
+/// The mean SSIM of all channels, including alpha. A pixel counts if it is `compared` and its window is inside the
+/// pictures. The result is `None` if no pixel counts or the mean is not finite. Full scale of floats is 1.
 pub fn ssim(one: &DynamicImage, other: &DynamicImage, compared: impl Fn(usize) -> bool) -> Option<f64> {
     let layout = Layout::of(one);
     let [width, height] = layout.size.map(|side| side as usize);

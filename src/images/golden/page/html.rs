@@ -7,7 +7,7 @@ use super::Entry;
 use crate::golden::measures::Measures;
 use crate::plural::count;
 
-/// The measures that are finite, as text with their names.
+/// The name and the text of each finite measure.
 fn numbers(measures: &Measures) -> Vec<(&'static str, String)> {
     let Measures { compared, masked, difference, pixels_over, mean, psnr, ssim, flip } = measures;
     let whole = |pixels: usize| count(pixels as u64);
@@ -36,7 +36,7 @@ fn value(entry: Entry) -> Value {
     context! { numbers => numbers, ..Value::from(Serde(entry)) }
 }
 
-/// The HTML of the page, with the comparisons sorted by verdict, failing ones first, then by number.
+/// The HTML of the page. The comparisons are sorted by verdict, failing ones first, then by number.
 pub fn page(title: &str, mut entries: Vec<Entry>) -> String {
     entries.sort_by_key(|entry| (entry.comparison.verdict, entry.number));
     let mut environment = Environment::new();

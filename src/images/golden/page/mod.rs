@@ -48,8 +48,8 @@ struct Map {
     file: String,
 }
 
-/// Writes a page and its pictures into a folder; `fill` adds comparisons. Without the feature `page`, it writes no
-/// HTML.
+/// Writes a page and its pictures into a folder; `fill` adds the comparisons. Without the feature `page`, the folder
+/// contains no HTML.
 ///
 /// # Errors
 /// If the page or its pictures cannot be written.
@@ -71,13 +71,13 @@ pub fn write<T>(
     })
 }
 
-/// The file of a page in this folder; without the feature `page`, the folder.
+/// The HTML file of the page in `folder`, or `folder` itself without the feature `page`.
 pub fn index(folder: &Path) -> PathBuf {
     if cfg!(feature = "page") { folder.join(INDEX) } else { folder.into() }
 }
 
 impl Page<'_> {
-    /// Adds a comparison with its pictures. Of two equal pictures, it shows only the expected one.
+    /// Adds a comparison with its pictures. If the pictures are equal, the page shows only the expected picture.
     pub fn add(&self, number: usize, comparison: &Comparison, sides: Sides, maps: Option<&Maps>) -> io::Result<()> {
         let first = sides.expected.or(sides.actual);
         let size = first.map_or([1, 1], |picture| [picture.width(), picture.height()]);

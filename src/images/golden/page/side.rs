@@ -1,4 +1,4 @@
-//! One picture of a comparison: its form for a browser, and the values of its pixels.
+//! Converts a picture of a comparison to a PNG picture, and its values to a script for the page.
 
 use image::DynamicImage;
 use serde_json::json;
@@ -7,7 +7,7 @@ use crate::golden::Layout;
 use crate::golden::numbers::{MISS, unpacked};
 use crate::render::{ViewKind, depth_picture, from_pixels, identity};
 
-/// The pictures of a comparison that exist.
+/// The pictures of a comparison; `None` if a picture is missing.
 #[derive(Clone, Copy)]
 pub struct Sides<'a> {
     pub expected: Option<&'a DynamicImage>,
@@ -15,7 +15,7 @@ pub struct Sides<'a> {
     pub values: Values,
 }
 
-/// The kind of values in a picture.
+/// The meaning of the values in a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Values {
     /// The channels of colours.
@@ -36,7 +36,7 @@ impl From<ViewKind> for Values {
     }
 }
 
-/// The picture as PNG can store it: depths and primitives as colours, other floats with 8 bits.
+/// Converts the picture for PNG: depths and primitives become colours, and other floats become 8-bit values.
 pub fn shown(picture: &DynamicImage, values: Values) -> DynamicImage {
     let layout = Layout::of(picture);
     match (values, picture) {
@@ -52,14 +52,14 @@ pub fn shown(picture: &DynamicImage, values: Values) -> DynamicImage {
     }
 }
 
-/// A script that passes the values of all pixels to the page. A local page cannot read them from its pictures.
+/// A script that passes the values of all pixels to the page. Browsers do not let a local page read its pictures.
 pub fn values(number: usize, sides: Sides) -> String {
     let of = |picture: Option<&DynamicImage>| picture.map(|picture| numbers(picture, sides.values));
     let data = json!({ "expected": of(sides.expected), "actual": of(sides.actual) });
     format!("saharaValues({number}, {data});\n")
 }
 
-/// The values in little-endian order and base 64, with their type, channels and size.
+/// The JSON of a picture: type, channels, size, and the values as little-endian bytes in base 64.
 fn numbers(picture: &DynamicImage, values: Values) -> serde_json::Value {
     let Layout { size, channels, bits } = Layout::of(picture);
     let of = |kind: &str, channels: u8, bytes: &[u8]| json!({ "type": kind, "channels": channels, "size": size, "base64": base64::encode(bytes) });

@@ -1,11 +1,11 @@
-//! The common parts of ray, hit and truth files: the header of 32 bytes, and functions that read numbers.
+//! The header of 32 bytes that begins ray, hit and truth files, and functions that read numbers from these files.
 
 use sha2::{Digest, Sha256};
 
 use crate::accel::Query;
 use crate::scene::Workload;
 
-/// The identity of a set of rays, as in the headers of its ray, hit and truth files.
+/// The identity of a set of rays. The headers of its ray, hit and truth files contain it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RaysId {
     /// The query of all rays.
@@ -64,12 +64,12 @@ pub(super) fn rays_hash(rays: &[u8]) -> [u8; 8] {
     Sha256::digest(rays)[..8].try_into().expect("eight bytes")
 }
 
-/// The `u32` at byte `at`. Panics if the bytes end before its last byte.
+/// The `u32` at byte `at`. Panics if there are fewer than four bytes from `at`.
 pub(super) fn number(bytes: &[u8], at: usize) -> u32 {
     u32::from_le_bytes(bytes[at..at + 4].try_into().expect("four bytes"))
 }
 
-/// The bytes from `at` to the end. An error if they are not `count` items of `size` bytes.
+/// The bytes from `at` to the end. Returns an error if their number is not `count` times `size`.
 pub(super) fn body(bytes: &[u8], at: usize, count: u64, size: u64) -> Result<&[u8], String> {
     let length = bytes.len();
     let short = || format!("the file is truncated: it has {length} bytes, but the first item begins at byte {at}");

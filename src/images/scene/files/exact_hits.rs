@@ -1,10 +1,10 @@
-//! Truth files.
+//! Writes truth files: the exact hits of a workload.
 
 use super::bytes::RaysId;
 use crate::accel::Query;
 use crate::scene::Workload;
 
-/// `t` and the numbers, ascending, of all triangles that the ray hits at `t` (at least one); `None` for a miss.
+/// An exact hit: `t`, and the ascending numbers of all triangles at this `t` (at least one). A miss is `None`.
 pub type ExactHit = Option<(f64, Vec<u32>)>;
 
 /// The bytes of a truth file: the exact closest hits of all rays of `workload`, in the order of the rays.

@@ -1,4 +1,4 @@
-//! Hit files.
+//! Reads and writes hit files.
 
 use std::path::Path;
 

@@ -32,7 +32,7 @@ pub enum FileError {
     Write(#[from] OutputError),
 }
 
-/// Parses a file. If it does not begin with `magic`, only its first bytes are read, because it may be large or endless.
+/// Parses a file. Reads only its first bytes if they are not `magic`, because such a file may be large or endless.
 fn read<F>(path: &Path, magic: &[u8; 8], parse: fn(&[u8]) -> Result<F, String>) -> Result<F, FileError> {
     let bytes = || {
         let (mut file, mut bytes) = (File::open(path)?, vec![]);

@@ -1,4 +1,4 @@
-//! Ray files.
+//! Reads and writes ray files.
 
 use std::path::Path;
 

@@ -59,7 +59,7 @@ pub fn subdivide(points: &[DVec3], faces: &[Vec<u32>]) -> (Vec<DVec3>, Vec<[u32;
         }
     }
 
-    // Place the new points. An inner vertex has as many edges as faces.
+    // Compute the new points. An inner vertex has as many neighbours as faces.
     let vertex_point = |(p, a): (&DVec3, &Around)| {
         if a.boundary {
             return *p * 0.75 + a.boundary_neighbours * 0.125;

@@ -25,15 +25,15 @@ pub fn two_cities() -> Model {
     joined(city(32, 1, 0.0).chain(city(31, 2, 0.03)))
 }
 
-/// 10 x 10 x 10 closed cubes side by side, 12,000 triangles. Every side between two cubes exists twice, with opposite
-/// fronts.
+/// 10 x 10 x 10 closed cubes side by side, 12,000 triangles. Neighbouring cubes have coincident sides that face in
+/// opposite directions.
 pub fn shared_faces() -> Model {
     let cube = |i: u32| boxed(Vec3::new((i % 10) as f32, (i / 10 % 10) as f32, (i / 100) as f32), Vec3::splat(0.5));
     joined((0..1000).map(cube))
 }
 
-/// A floor of 40 x 40 slabs side by side, 19,202 triangles. All tops lie in one plane. All undersides lie in another,
-/// which also contains a ground of two triangles.
+/// A floor of 40 x 40 slabs side by side, 19,202 triangles. All top sides lie in one plane. All bottom sides lie in the
+/// plane of a ground of two triangles.
 pub fn tiled_floor() -> Model {
     const SIDE: u32 = 40;
     let (half, thick) = (1.0 / SIDE as f32, 0.01);

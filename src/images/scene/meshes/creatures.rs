@@ -1,4 +1,4 @@
-//! Three small creatures made for this project: few triangles, smooth normals, two materials.
+//! Three animals made for this project, with few triangles, smooth normals and two materials.
 
 use glam::{Vec3, vec4};
 
@@ -19,7 +19,7 @@ struct Design {
     eye: (Vec3, f32),
 }
 
-/// A crouching rabbit of 1532 triangles that looks to +z; all its pieces are closed.
+/// A crouching rabbit of 1532 triangles that looks to +z. Its body and its eyes are closed surfaces.
 pub fn rabbit() -> Model {
     let v = Vec3::new;
     let mut sdf = Sdf::plain();
@@ -51,7 +51,7 @@ pub fn rabbit() -> Model {
     design.model(&sdf)
 }
 
-/// A sitting fox of 1374 triangles that looks to +z, with its tail to one side; all its pieces are closed.
+/// A sitting fox of 1374 triangles that looks to +z, its tail to one side. Its body and its eyes are closed surfaces.
 pub fn fox() -> Model {
     let v = Vec3::new;
     let mut sdf = Sdf::plain();
@@ -84,7 +84,7 @@ pub fn fox() -> Model {
     design.model(&sdf)
 }
 
-/// A young elephant of 1572 triangles that looks to +z; all its pieces are closed.
+/// A young elephant of 1572 triangles that looks to +z. Its body and its eyes are closed surfaces.
 pub fn elephant() -> Model {
     let v = Vec3::new;
     let mut sdf = Sdf::plain();

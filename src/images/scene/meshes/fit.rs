@@ -5,8 +5,8 @@ use glam::DVec3;
 use crate::geometry::Aabb;
 use crate::scene::Model;
 
-/// Scales and moves `model` along each axis: its box becomes `bounds` to the last bit. The vertex normals are
-/// transformed by the inverse transpose and become the corner normals.
+/// Scales and moves `model` along each axis until its box equals `bounds` to the last bit. The vertex normals are
+/// transformed by the inverse transpose and become corner normals.
 pub fn fit(model: &mut Model, bounds: Aabb) {
     let from = Aabb::of_points(model.positions.iter().copied());
     let (low, high) = (from.min.as_dvec3(), from.max.as_dvec3());

@@ -1,4 +1,4 @@
-//! Mesh generators; their meshes are the same bit for bit on every machine.
+//! Mesh generators. Their meshes have the same bits on every machine.
 
 mod catmull_clark;
 mod coincident;
@@ -66,7 +66,7 @@ pub fn by_name(name: &str) -> Option<Model> {
     GENERATORS.iter().find(|g| g.name == name).map(|g| (g.make)())
 }
 
-/// A smooth model with normals as in the course's mesh files.
+/// A smooth model. Its normals are computed as in the mesh files of the source report's course.
 fn smooth(points: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Model {
     Model {
         normals: normals::of_the_course(&points, &triangles),

@@ -2,7 +2,7 @@
 
 use glam::{IVec3, Vec3};
 
-/// The 24 pseudo-random bits of a cell, as a number in [0, 1).
+/// A pseudo-random number in [0, 1) for a cell, with 24 bits.
 pub fn cell(x: i32, y: i32, z: i32, salt: u32) -> f32 {
     let mut h = salt.wrapping_mul(0x9E37_79B9);
     for v in [x, y, z] {

@@ -2,14 +2,13 @@
 
 use glam::{DVec3, Vec3};
 
-/// Steps per unit: the program that wrote the course's files stored normal components as 16-bit integers.
+/// Steps per unit. The program that wrote the mesh files of the source report stored normals as 16-bit integers.
 const STEPS: f64 = 32767.0;
 
-/// One normal per vertex, as in the course's mesh files: the mean of the triangle normals, weighted by the angles at
-/// the vertex, truncated to multiples of 1/32767 and rounded to six decimals. Triangles without area have no weight.
-///
-/// The course's teapot file has these multiples. Mirror rays depend on the normals: with exact normals, ray counts
-/// differ from the report's by up to 140.
+/// One normal per vertex, as in the mesh files of the source report's course: the mean of the triangle normals,
+/// weighted by the angles at the vertex, truncated to multiples of 1/32767 and rounded to six decimals. Triangles
+/// without area have no weight. The normals in the course's teapot file are such multiples. Mirror rays depend on the
+/// normals: with exact normals, ray counts differ from the report's by up to 140.
 pub(super) fn of_the_course(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
     let mut sums = vec![DVec3::ZERO; points.len()];
     for triangle in triangles {

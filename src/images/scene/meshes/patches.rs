@@ -13,7 +13,7 @@ pub enum Finish {
     Smooth,
 }
 
-/// A building under construction.
+/// A model to which patches are added, and the material of the next patch.
 #[derive(Default)]
 pub struct Patches {
     pub model: Model,
@@ -21,7 +21,7 @@ pub struct Patches {
 }
 
 impl Patches {
-    /// Sets the material of all later parts. Materials with the same name are the same material.
+    /// Sets the material of all patches that are added later. Materials with the same name are the same material.
     pub fn of(&mut self, material: &Material) {
         let known = self.model.materials.iter().position(|m| m.name == material.name);
         self.material = known.unwrap_or(self.model.materials.len()) as u32;
@@ -76,7 +76,7 @@ impl Patches {
         }
     }
 
-    /// Adds a surface of revolution about the vertical through `foot`; `profile`: (radius, height) from the bottom up.
+    /// Adds a surface of revolution about the vertical through `foot`. `profile` has (radius, height), bottom up.
     pub fn lathe(&mut self, foot: Vec3, profile: &[[f32; 2]], sides: usize) {
         self.patch([sides, profile.len() - 1], true, Finish::Smooth, |column, row| {
             let [radius, height] = profile[row];
@@ -85,7 +85,7 @@ impl Patches {
         });
     }
 
-    /// Adds a straight moulding along the right axis of `frame`; `profile`: (height, depth) from the bottom up.
+    /// Adds a straight moulding along the right axis of `frame`. `profile` has (height, depth) from the bottom up.
     pub fn moulding(&mut self, frame: &Frame, [from, to]: [f32; 2], profile: &[[f32; 2]]) {
         for (&[y0, z0], &[y1, z1]) in profile.iter().zip(&profile[1..]) {
             self.quad([frame.at(from, y0, z0), frame.at(to, y0, z0), frame.at(to, y1, z1), frame.at(from, y1, z1)]);

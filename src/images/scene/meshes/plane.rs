@@ -24,8 +24,8 @@ pub fn cube() -> Model {
     flat(cube_corners(), sides.into_iter().flat_map(halves).collect())
 }
 
-/// The cube without its side z = 1, facing inward: 10 triangles in the parts `floor`, `ceiling`, `back`, `right` and
-/// `left`.
+/// The cube without its side z = 1, facing inward: 10 triangles with the materials `floor`, `ceiling`, `back`, `right`
+/// and `left`.
 pub fn cornellbox() -> Model {
     let sides = [
         ("floor", [1, 0, 4, 5]),

@@ -1,4 +1,4 @@
-//! The Utah teapot of the report's scene.
+//! The Utah teapot, as in the source report's scene.
 
 use std::collections::HashMap;
 
@@ -20,7 +20,7 @@ const STEPS: usize = 4;
 ///
 /// Newell's 32 patches are evaluated on a grid of 4 x 4 squares each and welded into four shells (body with rim and
 /// bottom, handle, spout, lid). One Catmull-Clark step gives 2016 quadrilaterals. Each quadrilateral is cut along its
-/// longer diagonal. All vertices agree with the course's file to the last digit of the file.
+/// longer diagonal. All vertices agree with the mesh file of the report's course to the last digit in the file.
 ///
 /// One control point differs from the published data: see `PUBLISHED`.
 pub fn teapot() -> Model {
@@ -35,7 +35,7 @@ pub fn teapot() -> Model {
 /// of x, which makes a small dent in the rim.
 const PUBLISHED: (usize, f64, f64) = (16, -0.784, -0.874);
 
-/// Patches and points of the data file. Patches number their points from 1.
+/// Patches and points of the data file. A patch lists the numbers of its points, counted from 1.
 fn published() -> (Vec<[usize; 16]>, Vec<DVec3>) {
     let (mut patches, mut points) = (Vec::new(), Vec::new());
     for line in PATCHES.lines().filter(|l| !l.starts_with(['#', 'p'])) {
@@ -48,8 +48,8 @@ fn published() -> (Vec<[usize; 16]>, Vec<DVec3>) {
     (patches, points)
 }
 
-/// The grids of all patches as one surface per shell. At a pole, one side of each patch is a single point, and the
-/// faces are triangles.
+/// Evaluates all patches and welds their grids into one surface per shell. At a pole, one side of a patch is a single
+/// point, so the faces there are triangles.
 fn welded_patches() -> (Vec<DVec3>, Vec<Vec<u32>>) {
     let (patches, mut controls) = published();
     let (number, published, used) = PUBLISHED;
@@ -102,7 +102,7 @@ fn evaluate(controls: &[DVec3; 16], row: usize, column: usize) -> DVec3 {
     (0..16).map(|i| controls[i] * (down[i / 4] * across[i % 4])).sum()
 }
 
-/// Rotates z up to y up and fills the box of the report's mesh: a scale of 7.7634375 along all axes.
+/// Rotates from z up to y up, and maps the points to the box of the report's mesh: the scale is 7.7634375 on all axes.
 fn into_bounds(points: &[DVec3]) -> Vec<DVec3> {
     let turned: Vec<DVec3> = points.iter().map(|p| DVec3::new(p.x, p.z, -p.y)).collect();
     let low = turned.iter().copied().fold(DVec3::INFINITY, DVec3::min);
@@ -135,7 +135,7 @@ mod tests {
         }
     }
 
-    /// The course's file may not be distributed, so this test runs only if the file exists.
+    /// The mesh file of the report's course may not be distributed, so this test runs only if the file exists.
     #[test]
     fn vertices_triangles_and_normals_are_those_of_the_report() {
         let folder = std::env::var_os("SAHARA_DATA").unwrap_or_default();

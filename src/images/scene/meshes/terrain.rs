@@ -13,9 +13,9 @@ const HEIGHT: f32 = 0.2;
 /// Number of hills of the first octave along one side.
 const HILLS: f32 = 4.0;
 
-/// Ground over the square with corners (+-1, +-1) in x and z, facing up, in rows of square cells. Rows start at z = -1;
-/// the last row may be incomplete. With the same `seed`, more triangles show the same hills in more detail: the
-/// narrowest hills are at least two cells wide.
+/// Ground that faces up, in rows of square cells over the square from -1 to 1 in x and z. The rows start at z = -1; the
+/// last row may be incomplete or missing. With the same `seed`, more triangles show the same hills in more detail:
+/// smaller hills are added if they are at least two cells wide.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Terrain {

@@ -81,9 +81,9 @@ const KNOWN: &[Known] = &[
 /// Checks that normals have unit length and point to the front of the triangles.
 fn assert_normals(name: &str, model: &Model) {
     assert!(model.normal_indices.is_empty() || model.normal_indices.len() == model.triangles.len(), "{name}");
-    // Truncation to multiples of 1/32767 makes a normal slightly shorter than 1.
+    // Some generators truncate normals to multiples of 1/32767, which makes them slightly shorter than 1.
     assert!(model.normals.iter().all(|n| (0.9999..1.000_001).contains(&n.length())), "{name}");
-    // In meshes from signed distances, a vertex normal may point behind a triangle at a sharp bend.
+    // In meshes made from signed distance fields, a vertex normal may point behind a triangle at a sharp bend.
     let is_coarse = ["rabbit", "fox", "elephant", "dragon", "lucy"].contains(&name);
     for (corners, normals) in model.triangles.iter().zip(&model.normal_indices) {
         let [a, b, c] = corners.map(|i| model.positions[i as usize]);

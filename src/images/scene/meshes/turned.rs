@@ -24,8 +24,8 @@ pub fn torus() -> Model {
 }
 
 /// A smooth sphere of radius 1 with poles on the y axis: `segments * (bands + 1)` vertices, `2 * segments * bands`
-/// triangles. Each pole consists of `segments` vertices at one point, so `2 * segments` of the triangles have no
-/// area. The sphere of the course for which the source report was written has such poles too.
+/// triangles. Each pole consists of `segments` vertices at one point, so `2 * segments` of the triangles have no area.
+/// The sphere in the source report's course has the same poles.
 ///
 /// # Panics
 /// If `segments` is below 3 or `bands` is below 2.

@@ -1,5 +1,5 @@
-//! Moves the origins of secondary rays off the surface: far enough not to hit this surface again, and not so far that
-//! the ray misses another surface.
+//! Moves the origins of secondary rays off the surface: far enough that the ray does not hit this surface again, but
+//! not so far that it misses another surface.
 
 mod surface_point;
 
@@ -19,7 +19,7 @@ pub enum Offset {
     /// Moves every origin, including the eye, by this distance along the ray direction. The source report's course uses
     /// 0.01. A grazing ray stays near its surface and may hit it again.
     Direction(f32),
-    /// Moves the origin along the normal by the error bound of the point; camera rays do not move.
+    /// Moves the origin along the normal by the error bound of the point. The origins of camera rays do not move.
     ///
     /// For a point from [`SurfacePoint::on_triangle`], at any scale and position, the origin lies on the side of the
     /// triangle's plane to which the ray leaves, so the ray does not hit the triangle again. The origin moves by at
@@ -55,13 +55,13 @@ impl Offset {
     }
 }
 
-/// The course's offset, computed in `f32`. The parameter `t` of the ray counts from the moved origin.
+/// The ray of [`Offset::Direction`], computed in `f32`. The parameter `t` of the ray counts from the moved origin.
 fn moved_along(origin: Vec3, direction: Vec3, distance: f32) -> Ray {
     let direction = direction.normalize();
     Ray::new(origin + direction * distance, direction)
 }
 
-/// Normalises in `f64`, because squares of `f32` values neither overflow nor underflow there.
+/// Normalises in `f64`, in which squares of `f32` values neither overflow nor underflow.
 fn unit(direction: Vec3) -> Vec3 {
     direction.as_dvec3().normalize_or_zero().as_vec3()
 }

@@ -20,14 +20,14 @@ const GAMMA_7: f32 = {
 };
 
 impl SurfacePoint {
-    /// The point of the triangle with these barycentric weights. They are clamped to [0, 1] and divided by their sum.
+    /// The point with the barycentric coordinates `weights`, which are clamped to [0, 1] and divided by their sum.
     ///
     /// The point is a weighted mean of the corners: even with wrong weights it lies in the triangle, except for the
     /// rounding of the mean. The error of `origin + t * direction`, in contrast, grows with the length of the ray.
     ///
-    /// `error` is pbrt's bound, gamma(7) times the sum of the magnitudes of the terms. It suffices for weights and a
-    /// sum in `f32`. Here the sum is computed in `f64` and rounded once. The rest of the bound is a margin for triangle
-    /// tests that round the differences between corners and ray origin.
+    /// `error` is pbrt's bound: gamma(7) times the sum of the magnitudes of the terms. It suffices if the weights and
+    /// the sum are computed in `f32`. Here they are computed in `f64`, and only the sum is rounded. The bound therefore
+    /// has a margin for triangle tests that round the differences between corners and ray origin.
     ///
     /// # References
     /// Pharr, Jakob, Humphreys: Physically Based Rendering, 4th edition, 2023, section 6.8.
@@ -41,8 +41,8 @@ impl SurfacePoint {
         Self { position: point.as_vec3(), error: magnitude.as_vec3() * GAMMA_7, normal: normal.as_vec3() }
     }
 
-    /// The point, moved to the side of the triangle to which `direction` points: along the normal by the extent of the
-    /// error box, then, because this sum is rounded, by one float along each axis on which the normal is not 0.
+    /// The point, moved to the side of the triangle to which `direction` points. It moves along the normal by the
+    /// extent of the error box. This sum is rounded, so it then moves by one float on each axis with a nonzero normal.
     pub(super) fn moved_out(&self, direction: Vec3) -> Vec3 {
         let is_behind = self.normal.as_dvec3().dot(direction.as_dvec3()) < 0.0;
         let normal = if is_behind { -self.normal } else { self.normal };
@@ -56,7 +56,7 @@ impl SurfacePoint {
 }
 
 /// The barycentric weights of the point where the line of the ray meets the plane of the corners, by Cramer's rule in
-/// `f64`. Some are outside [0, 1] if the line misses the triangle. All are equal if the determinant is 0.
+/// `f64`. If the line misses the triangle, some weights are outside [0, 1]. If the determinant is 0, all are 1/3.
 pub fn barycentrics(ray: &Ray, corners: [Vec3; 3]) -> DVec3 {
     let [a, b, c] = corners.map(Vec3::as_dvec3);
     let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());

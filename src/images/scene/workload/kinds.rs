@@ -42,22 +42,22 @@ macro_rules! kinds {
 }
 
 kinds! {
-    /// From the eye through the middle of each pixel, in tiles of four by four pixels within blocks of 32 by 32 pixels.
-    /// Secondary rays have the order of their primary rays.
+    /// Rays from the eye through the middle of each pixel, in tiles of four by four pixels within blocks of 32 by 32
+    /// pixels. Secondary rays have the order of their primary rays.
     Primary, "primary", Closest, primary::centres;
-    /// From the eye through the top left corner of each pixel. On regular meshes, these rays hit edges and vertices.
+    /// Rays from the eye through the top left corner of each pixel. On regular meshes, they hit edges and vertices.
     Corners, "corners", Closest, primary::corners;
-    /// From each primary hit to each light, any hit. The rays of one light are consecutive.
+    /// Rays from each primary hit to each light, any hit. The rays of one light are consecutive.
     Shadow, "shadow", Any, bounces::shadow;
-    /// From each primary hit, on any material, in the direction reflected about the shading normal.
+    /// Rays from each primary hit, on any material, in the direction reflected about the shading normal.
     Mirror, "mirror", Closest, bounces::mirror;
-    /// From each primary hit in a random direction, cosine-distributed about the shading normal.
+    /// Rays from each primary hit in a random direction, cosine-distributed about the shading normal.
     Diffuse, "diffuse", Closest, bounces::diffuse;
     /// Ambient occlusion: like [`WorkloadKind::Diffuse`], but any hit, with a tenth of the box's diagonal as `t_max`.
     Ambient, "ambient", Any, bounces::ambient;
     /// Lines through two random points of the sphere around the scene's box.
     Random, "random", Closest, lines::random;
-    /// Rays along both directions of each axis, on a lattice. Every fourth row and column lies at a vertex coordinate.
+    /// Rays in both directions of each axis, on a lattice. Every fourth row and column lies at a vertex coordinate.
     Axis, "axis", Closest, lines::axis;
     /// The closest-hit rays of the whole picture: the primary ray of each pixel, then its mirror rays.
     Image, "image", Closest, picture::closest;

@@ -6,7 +6,7 @@ use super::source::Source;
 use crate::geometry::Ray;
 use crate::scene::Scene;
 
-/// One ray per pixel, from a random point of the sphere around the scene's box towards another random point of it.
+/// One ray per pixel, from one random point towards another, both on the sphere around the scene's box.
 pub fn random(source: &mut Source) -> Vec<Ray> {
     let Some((centre, radius)) = sphere(source.scene) else { return vec![] };
     let mut ray = || loop {
@@ -20,8 +20,8 @@ pub fn random(source: &mut Source) -> Vec<Ray> {
 
 /// About one ray per pixel, parallel to an axis: a square lattice of rays for each direction of each axis.
 ///
-/// Most rays pass through the middle of a lattice cell. Every fourth row and column is moved to a vertex coordinate, to
-/// make rays pass through vertices, along edges and in the planes of triangles.
+/// Most rays pass through the middle of a lattice cell. Every fourth row and column is moved to a vertex coordinate:
+/// its rays are likely to pass through vertices, along edges and in the planes of triangles.
 pub fn axis(source: &mut Source) -> Vec<Ray> {
     let scene = source.scene;
     let Some((centre, radius)) = sphere(scene) else { return vec![] };

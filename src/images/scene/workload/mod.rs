@@ -20,8 +20,8 @@ use crate::geometry::Ray;
 pub use kinds::WorkloadKind;
 pub use source::Sampling;
 
-/// Named rays with one query. Their bits are the same on every machine, and for every structure that finds the origins
-/// of secondary rays with the same triangle test.
+/// Named rays with one query. Their bits are the same on every machine. They depend on the triangle test of the
+/// structure that finds the origins of secondary rays, but on no other property of this structure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Workload {
     /// [`WorkloadKind::name`], or the name in a ray file.
@@ -34,8 +34,8 @@ pub struct Workload {
 impl Workload {
     /// Makes the rays. `accel` is built over the scene's mesh and finds the hits at which secondary rays start.
     ///
-    /// A workload may be empty: without lights it has no shadow rays, without primary hits no secondary rays, and for
-    /// an empty mesh no random or axis-parallel rays.
+    /// A workload may be empty: shadow rays need a light, secondary rays need a primary hit, and random and
+    /// axis-parallel rays need a mesh with triangles.
     pub fn new(scene: &Scene, kind: WorkloadKind, sampling: &Sampling, accel: &dyn DynAccel) -> Self {
         let mut source = Source { scene, sampling, accel, sampler: Sampler::new(kind.name(), sampling.seed) };
         let rays = kind.rays(&mut source);

@@ -36,7 +36,7 @@ impl Sampling {
 
 pub(super) struct Source<'a> {
     pub scene: &'a Scene,
-    /// The size of the picture. [`Workload::new`](super::Workload::new) applies the limit to the rays that are made.
+    /// Gives the size of the picture. [`Workload::new`](super::Workload::new) applies the limit to the finished rays.
     pub sampling: &'a Sampling,
     /// The structure that finds the hits at which secondary rays start.
     pub accel: &'a dyn DynAccel,

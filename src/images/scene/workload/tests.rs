@@ -101,7 +101,7 @@ fn bounces_off_a_framed_convex_mesh_hit_nothing_at_any_size_and_place() {
     for (radius, centre) in [(1.0, 0.0), (1e-6, 0.0), (1e6, 0.0), (1.0, 1e3), (10.0, 1e5)] {
         assert_eq!(hidden(None, radius, centre), 0, "r = {radius} at {centre}");
     }
-    // Half of the rays that start at the computed point hit their own triangle.
+    // About half of the rays that start at the rounded point hit the triangle that they leave.
     assert!(hidden(Some(Offset::Direction(0.0)), 10.0, 1e5) > 300);
 }
 

@@ -15,10 +15,10 @@ use super::canvas::{Area, DrawResult, TEXT, text, text_style, widest, width_of};
 use super::palette::{Colour, FAINT, INK, MIDDLE};
 use crate::report::number::count;
 
-/// A logarithmic axis with the numbers at its labels.
+/// A logarithmic axis with the numbers that label it.
 pub type LogAxis = WithKeyPoints<LogCoord<f64>>;
 
-/// Numbers between two powers of ten that an axis labels, dense to sparse.
+/// The multiples of a power of ten that label an axis, from dense to sparse.
 const FACTORS: [&[f64]; 4] = [&[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0], &[1.0, 2.0, 5.0], &[1.0, 3.0], &[1.0]];
 
 /// A horizontal logarithmic axis of this length, with as many round numbers as fit side by side.
@@ -35,7 +35,7 @@ pub fn upward(ends: [f64; 2], length: i32) -> LogAxis {
 fn log_axis([low, high]: [f64; 2], length: i32, room: impl Fn(f64) -> i32) -> LogAxis {
     let per_decade = f64::from(length) / libm::log10(high / low);
     let exponents = libm::floor(libm::log10(low)) as i32..=libm::floor(libm::log10(high)) as i32;
-    // Try numbers in all decades, from dense to sparse, then only every second power of ten, every third, and so on.
+    // Try `FACTORS` in every decade, from dense to sparse. Then try every second power of ten, every third, and so on.
     let between = FACTORS.into_iter().map(|factors| (1, factors));
     let powers = (2..20).map(|step| (step, FACTORS[3]));
     let ticks = |(step, factors): (i32, &[f64])| -> Vec<f64> {
@@ -54,7 +54,7 @@ fn log_axis([low, high]: [f64; 2], length: i32, room: impl Fn(f64) -> i32) -> Lo
     (low..high).log_scale().with_key_points(ticks)
 }
 
-/// The range of positive `values`, at least a factor of two, with margins that are fractions of its log width.
+/// The range of positive `values`, widened to at least a factor of two, plus margins in fractions of its log width.
 pub fn padded(values: impl Iterator<Item = f64>, [below, above]: [f64; 2]) -> [f64; 2] {
     let (low, high) = values.fold((f64::INFINITY, 0.0), |(low, high), v| (v.min(low), v.max(high)));
     if low > high {
@@ -64,11 +64,11 @@ pub fn padded(values: impl Iterator<Item = f64>, [below, above]: [f64; 2]) -> [f
     [low / libm::pow(high / low, below), high * libm::pow(high / low, above)]
 }
 
-/// Height of the area below a horizontal axis: with a title, and without.
+/// Height of the area below a horizontal axis with a title, and without one.
 pub const BOTTOM: i32 = 96;
 pub const BOTTOM_WITHOUT_TITLE: i32 = 52;
 
-/// Space between an axis and its labels.
+/// Space around axes, labels and legends.
 pub const GAP: i32 = 20;
 
 pub type Axes<'a, Y = LogAxis> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<LogAxis, Y>>;
@@ -83,7 +83,7 @@ pub struct AxisLabels<'a, V = f64> {
     pub right: i32,
 }
 
-/// Two axes in `area`.
+/// Draws two axes in `area`.
 pub fn axes<'a, Y>(area: &Area<'a>, x: LogAxis, y: Y, labels: &AxisLabels<Y::ValueType>) -> DrawResult<Axes<'a, Y>>
 where
     Y: Ranged<ValueType: Debug, FormatOption = DefaultFormatting>,
@@ -102,7 +102,7 @@ where
     Ok(chart)
 }
 
-/// Two logarithmic axes in `area` with these titles and ends.
+/// Draws two logarithmic axes in `area` with these titles and ends.
 pub fn log_log<'a>(
     area: &Area<'a>,
     [x_title, y_title]: [&str; 2],
@@ -111,7 +111,7 @@ pub fn log_log<'a>(
     let (width, height) = area.dim_in_pixel();
     let y = upward(y_ends, height as i32 - GAP - BOTTOM);
     let texts: Vec<String> = y.bold_points().iter().map(|tick| tick_text(*tick)).collect();
-    // The title beside the labels is rotated: it is as wide as text is high.
+    // The title of the vertical axis is rotated, so it needs only the height of a line of text.
     let left = widest(&texts) + GAP + TEXT;
     // A number at the end of the axis extends beyond it by half its width.
     let right = 3 * GAP;
@@ -162,7 +162,7 @@ mod tests {
             (90.0, 6000.0, 400, &["100", "200", "500", "1,000", "2,000", "5,000"][..]),
             (140.0, 410.0, 400, &["150", "200", "300", "400"]),
             (1e-5, 0.6, 400, &["1e-5", "1e-4", "0.001", "0.01", "0.1"]),
-            // Thinned evenly if they would touch.
+            // Only every third power of ten fits.
             (1.0, 1e12, 200, &["1", "1,000", "1e6", "1e9", "1e12"]),
         ] {
             let axis = upward([low, high], length);

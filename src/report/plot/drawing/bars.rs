@@ -1,4 +1,4 @@
-//! Draws bars.
+//! Draws bar charts.
 
 use plotters::coord::combinators::{BindKeyPoints, WithKeyPoints};
 use plotters::coord::types::RangedCoordi32;
@@ -14,7 +14,7 @@ use crate::report::number::figures;
 use crate::report::plot::chart::{Bar, BarGroup, Bars};
 
 impl Bar {
-    /// The ends of the bar. Factors below 1 reduce the whole: they are to the left of 1.
+    /// The ends of the bar on the axis. Factors below 1 extend to the left of 1, factors above 1 to the right.
     fn reach(&self) -> [f64; 2] {
         let mut reach = self.value().map_or([1.0; 2], |value| [value.estimate.min(1.0), value.estimate.max(1.0)]);
         if let Self::Product(factors, _) = self {
@@ -41,7 +41,7 @@ struct Layout {
     bar: i32,
     row: i32,
     step: i32,
-    /// Groups side by side, and the width of each.
+    /// Number of groups side by side, and the width of a group.
     columns: usize,
     column: i32,
     /// Height of the heading of a group, and of a whole group.
@@ -51,13 +51,13 @@ struct Layout {
 }
 
 impl Layout {
-    /// The middle of a row, from the top of the rows.
+    /// The vertical middle of a row, in pixels below the top of the first row.
     fn middle(&self, row: usize) -> i32 {
         (row as i32 + 1) * self.step - self.row / 2
     }
 }
 
-/// The colour of a part, and of text on it.
+/// The colour of a factor of a product, and the colour of text on it.
 fn part_colours(part: usize) -> [Colour; 2] {
     let part = part % PARTS.len();
     [PARTS[part].light, if part == PARTS.len() - 1 { INK.light } else { PAPER.light }]
@@ -91,7 +91,7 @@ impl Bars {
         let across: Vec<i32> = (1..layout.columns as i32).map(|i| layout.left + i * layout.column).collect();
         let down: Vec<i32> = (1..=layout.height / layout.group).map(|i| i * layout.group).collect();
         for (i, (group, cell)) in self.groups.iter().zip(area.split_by_breakpoints(across, down)).enumerate() {
-            // Labels stand to the left of the first group in a row.
+            // Only the first group of a row has labels on its left.
             let left = if i % layout.columns == 0 { layout.left } else { 0 };
             self.draw_group(whole, group, &layout, &cell, left)?;
         }
@@ -138,7 +138,7 @@ impl Bars {
                     chart.value(row, *value, bar.reach()[1], 0)?;
                 }
                 Bar::Product(factors, product) => {
-                    // Draw the interval of the product below the factors: it must contain their product.
+                    // Draw the interval of the product below the bars of its factors.
                     chart.value(row, *product, bar.reach()[1], layout.bar / 2 + 10)?;
                     chart.factors(row, factors)?;
                 }
@@ -147,7 +147,7 @@ impl Bars {
         Ok(())
     }
 
-    /// Ends of the axis. They include the intervals, unless these are so wide that they would hide everything else.
+    /// The ends of the axis. They include all bars; intervals extend each end by at most the factor `room`.
     fn ends(&self) -> [f64; 2] {
         let bars = || self.groups.iter().flat_map(|group| &group.bars);
         let reach = bars().map(Bar::reach);
@@ -159,7 +159,7 @@ impl Bars {
     }
 }
 
-/// The axes of a group. Its vertical values are pixels from the top of the rows.
+/// The axes of a group. Vertical coordinates are pixels below the top of the first row.
 struct BarChart<'a, 's> {
     whole: &'a Area<'s>,
     layout: &'a Layout,
@@ -197,8 +197,8 @@ impl BarChart<'_, '_> {
         Ok(())
     }
 
-    /// Draws the interval of a value, `below` pixels below the middle of its row, and the number to the right of the
-    /// interval and of `end`, the end of the bar.
+    /// Draws the interval of a value, `below` pixels below the middle of its row. Then writes the value to the right of
+    /// the interval and of the bar, which ends at `end`.
     fn value(&self, row: usize, value: Estimate, end: f64, below: i32) -> DrawResult {
         let (axis, middle) = (self.axes.x_range(), self.layout.middle(row));
         let high = value.high().unwrap_or(value.estimate);
@@ -209,8 +209,8 @@ impl BarChart<'_, '_> {
         text(self.whole, &figures(value.estimate), (x + 14, y), INK.light, HPos::Left)
     }
 
-    /// Draws an interval as an error bar, with a light border that makes it visible on a bar. An end beyond the axis
-    /// has no mark, because the interval continues.
+    /// Draws an interval as an error bar, with a light border that makes it visible on a bar. An end outside the axis
+    /// has no cap.
     fn whisker(&self, ends: [f64; 2], y: i32) -> DrawResult {
         let axis = self.axes.x_range();
         let stem = ends.map(|end| self.place(end.clamp(axis.start, axis.end), y));

@@ -1,6 +1,6 @@
 //! The drawing primitives of all charts: areas of an SVG file, and text in one font.
 //!
-//! Lengths are pixels, two per unit of the requested width: pictures stay sharp at a smaller size.
+//! Lengths are pixels of the SVG's view box, two per unit of the requested width.
 
 use std::io;
 use std::sync::Once;
@@ -18,17 +18,16 @@ pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 pub type DrawResult<T = ()> = Result<T, DrawingAreaErrorKind<io::Error>>;
 
-/// A place in pixels, from the top left corner of the drawing.
+/// A point in pixels, relative to the top left corner of the drawing.
 pub type Place = (i32, i32);
 
-/// Size of text, from the top of the highest letter to the bottom of the lowest.
+/// Height of a line of text, from the top of the highest letter to the bottom of the lowest.
 pub const TEXT: i32 = 32;
 
-/// The font name in an SVG. A viewer chooses its own font; text is measured with the font in this program.
+/// The font name in an SVG. The viewer chooses a font; this program measures text with its embedded font.
 const FONT: &str = "sans-serif";
 
-/// Registers the font in this program, for the same picture on every system. Ubuntu Light is under the Ubuntu Font
-/// Licence.
+/// Registers the embedded font, which gives the same layout on every system. Ubuntu Light has the Ubuntu Font Licence.
 pub fn register() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {
@@ -41,7 +40,7 @@ pub fn text_style(colour: Colour) -> TextStyle<'static> {
     TextStyle { color: colour.to_backend_color(), ..(FONT, TEXT).into_font().into() }
 }
 
-/// Width of a line of text; slightly more than needed, because the viewer of an SVG has its own font.
+/// Width of a line of text plus 6 %, because the font of the viewer may be wider.
 pub fn width_of(text: &str) -> i32 {
     register();
     let (width, _) = (FONT, TEXT).into_font().box_size(text).expect("the font is registered");
@@ -52,7 +51,8 @@ pub fn widest<'a>(texts: impl IntoIterator<Item = &'a String>) -> i32 {
     texts.into_iter().map(|text| width_of(text)).max().unwrap_or(0)
 }
 
-/// Draws a line of text: its left end, middle or right end, as `side` selects, is at `place`, at half its height.
+/// Draws a line of text, vertically centred at `place`. `side` selects whether its left end, middle or right end is at
+/// `place` horizontally.
 pub fn text(area: &Area, text: &str, place: Place, colour: Colour, side: HPos) -> DrawResult {
     area.draw_text(text, &text_style(colour).pos(Pos::new(side, VPos::Center)), place)
 }

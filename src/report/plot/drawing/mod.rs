@@ -19,7 +19,6 @@ use axes::{legend, legend_height, log_log, padded};
 use canvas::{Area, DrawResult, register};
 use palette::{PAPER, colours};
 
-/// Drawing into memory with a registered font cannot fail.
 const DRAWN: &str = "drawing into memory cannot fail, and the font is registered";
 
 impl Chart {
@@ -46,7 +45,7 @@ impl Chart {
         area.present()
     }
 
-    /// The text of an SVG file, `width` units wide (scatter plots: 800). A unit is two units of the file's view box.
+    /// The text of an SVG file, `width` units wide (scatter plots: 800). The view box has two pixels per unit.
     pub fn svg(&self, width: f64) -> String {
         let mut text = String::new();
         self.draw(&SVGBackend::with_string(&mut text, self.size(width)).into_drawing_area()).expect(DRAWN);

@@ -6,13 +6,13 @@ use plotters::style::RGBColor;
 
 use crate::measure::checksum;
 
-/// A colour of a drawing, by its value on white paper; a page in dark mode replaces it.
+/// A colour of a drawing. Drawings contain light-mode colours; the page replaces them in dark mode.
 pub type Colour = RGBColor;
 
-/// A colour by its role: its name, its value on white paper, and its value on dark paper.
+/// A named colour with its values in light and in dark mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Role {
-    /// Name of the custom property of style sheets.
+    /// Name of the CSS custom property, without `--`.
     pub name: &'static str,
     pub light: Colour,
     pub dark: Colour,
@@ -56,7 +56,7 @@ pub const SERIES: [Role; 24] = [
     role("s23", [6, 90, 107], [118, 226, 248]),
 ];
 
-/// Colours of the parts of a whole: shades, dark to pale, of a colour that no structure has.
+/// Colours of the factors of a bar: shades of one colour that no structure has, dark to pale in light mode.
 pub const PARTS: [Role; 3] = [
     role("p0", [44, 62, 84], [204, 216, 230]),
     role("p1", [98, 124, 152], [134, 154, 176]),
@@ -67,7 +67,7 @@ pub fn roles() -> impl Iterator<Item = Role> {
     [PAPER, INK, MIDDLE, FAINT].into_iter().chain(SERIES).chain(PARTS)
 }
 
-/// The structures with a fixed colour, the same in every chart.
+/// The structures with fixed colours: structure `i` has the colour `SERIES[i]`.
 const STRUCTURES: [&str; 14] = [
     "brute-force",
     "median-kd",
@@ -85,14 +85,14 @@ const STRUCTURES: [&str; 14] = [
     "tinybvh",
 ];
 
-/// Like [`roles_of`], on white paper.
+/// The light-mode colours of [`roles_of`].
 pub fn colours(labels: &[String]) -> Vec<Colour> {
     roles_of(labels).into_iter().map(|role| role.light).collect()
 }
 
-/// A colour for each label. The bare name of a structure has the fixed colour of the structure; any other label, such
-/// as a label with keys, has one of the remaining colours. The text of the label determines the colour, so it is the
-/// same in every chart, unless two texts of one chart collide.
+/// A colour for each label. The names in `STRUCTURES` have fixed colours. For any other label, such as a name with
+/// keys, its hash selects one of the remaining colours. A label therefore has the same colour in every chart, except
+/// if the hashes of two labels of a chart collide.
 pub fn roles_of(labels: &[String]) -> Vec<Role> {
     let own = |label: &str| STRUCTURES.iter().position(|structure| *structure == label);
     let others = labels.iter().map(String::as_str).filter(|label| own(label).is_none());
@@ -101,8 +101,8 @@ pub fn roles_of(labels: &[String]) -> Vec<Role> {
     labels.iter().map(role).collect()
 }
 
-/// A number below `n` for each of `texts`: the hash of the text, or the next free number if it is taken. Numbers repeat
-/// only if there are more than `n` texts. The order of the texts does not matter.
+/// Assigns a number below `n` to each text: its hash modulo `n`, or the next free number if this one is taken. With
+/// more than `n` texts, numbers repeat. The order of the texts does not matter.
 fn spread<'a>(texts: impl Iterator<Item = &'a str>, n: usize) -> BTreeMap<&'a str, usize> {
     let mut given: BTreeMap<&str, usize> = BTreeMap::new();
     for text in texts.collect::<BTreeSet<_>>() {
@@ -123,7 +123,7 @@ pub fn hex(colour: Colour) -> String {
 mod tests {
     use super::*;
 
-    /// Contrast by WCAG 2.2.
+    /// The contrast ratio of WCAG 2.2.
     fn contrast(a: Colour, b: Colour) -> f64 {
         let part = |c: u8| {
             let c = f64::from(c) / 255.0;

@@ -1,4 +1,4 @@
-//! Draws points and their labels: no label covers another label or a point.
+//! Draws scatter plots. Labels avoid the points and each other.
 
 use plotters::element::{Circle, Polygon, Rectangle};
 use plotters::style::Color;
@@ -13,7 +13,7 @@ const RADIUS: i32 = 10;
 
 const ARROW: i32 = 44;
 
-/// A point with its place in the drawing.
+/// A point with its position and colour in the drawing.
 struct Dot<'a> {
     point: &'a Point,
     place: Place,
@@ -21,7 +21,7 @@ struct Dot<'a> {
 }
 
 impl Scatter {
-    /// Names of the colours in the legend; empty if the labels of the points are these names.
+    /// The names in the legend. Empty if every label equals its group: the labels then explain the colours.
     fn names(&self) -> Vec<String> {
         let is_said = self.points.iter().all(|point| point.label == point.group);
         if is_said { vec![] } else { self.groups() }
@@ -34,7 +34,7 @@ impl Scatter {
 
     pub fn draw(&self, whole: &Area) -> DrawResult {
         let area = legend(whole, &self.names(), &colours(&self.groups()))?;
-        // Leave space on the right for a label, below for the arrows of bounds.
+        // Leave space on the right for a label, and below for the arrows of bounds.
         let x_ends = padded(self.points.iter().map(|point| point.x), [0.1, 0.2]);
         let y_ends = padded(self.points.iter().map(|point| point.y), [0.15, 0.1]);
         let axes = log_log(&area, [&self.x_title, &self.y_title], [x_ends, y_ends])?;
@@ -47,17 +47,17 @@ impl Scatter {
         let front = front(&dots, x.end);
         line(whole, &front, MIDDLE.light, 4)?;
         let obstacles: Vec<Corners> = dots.iter().map(Dot::corners).collect();
-        // Among too many points a reader could not match labels to points.
+        // If there are many points, label only the front: a reader could not match more labels to points.
         let is_shown = |dot: &&Dot| dots.len() <= LABELLED || dot.point.is_front;
         let labelled: Vec<&Dot> = dots.iter().filter(is_shown).collect();
         draw_labels(whole, &labelled, &obstacles, [(x.start + 12, y.start), (x.end - 4, y.end - 8)])?;
-        // Draw the front last, on top.
+        // Draw the points of the front last, on top of all other points.
         dots.iter().rev().try_for_each(|dot| dot.draw(whole))
     }
 }
 
 impl Dot<'_> {
-    /// The area of the point and its arrow, which no label may cover.
+    /// The box of the point and its arrow, which labels avoid.
     fn corners(&self) -> Corners {
         let ((x, y), around) = (self.place, RADIUS + 4);
         let below = if self.point.is_bound { ARROW + 4 } else { around };
@@ -120,12 +120,12 @@ fn is_inside(a: &Corners, b: &Corners) -> bool {
 /// Distance between a point and its label.
 const LABEL_GAP: i32 = 22;
 
-/// Places labels of these widths inside `frame`, in order: beside the point if there is space, otherwise as near as
-/// possible. They avoid each other and the obstacles unless no candidate place is free.
+/// The boxes of the labels of `points` (position, label width), placed in order. Each label takes the first free
+/// candidate box inside `frame`. If none is free, the label is to the right of its point and may cover a label.
 pub fn place(points: &[(Place, i32)], height: i32, obstacles: &[Corners], frame: Corners) -> Vec<Corners> {
     let mut taken = obstacles.to_vec();
     for &((x, y), width) in points {
-        // Try places to the right and left of the point, near and further away, then higher and lower by half lines.
+        // Candidates are right and left of the point, near and further away, then higher and lower by half lines.
         let steps = (0..40).flat_map(|i| [-i, i]).map(|i| i * height / 2);
         let lefts =
             [x + LABEL_GAP, x - LABEL_GAP - width, x + LABEL_GAP + 60, x - LABEL_GAP - 60 - width, x - width / 2];

@@ -23,7 +23,7 @@ fn the_drawing_holds_its_texts_and_the_colours_of_its_groups() {
     for text in ["ns per ray", "error", "fast", "exact", "slow", "tree", "0.001", "1,000"] {
         assert!(svg.contains(&format!("\n{text}\n")), "{text} is not in {svg}");
     }
-    // Names beside the points are not repeated below the axes.
+    // If the labels equal the groups, there is no legend.
     let mut named = scatter();
     named.points.iter_mut().for_each(|point| point.group.clone_from(&point.label));
     assert_eq!(Chart::Scatter(named).svg(900.0).matches("\nslow\n").count(), 1);
@@ -51,13 +51,12 @@ fn there_is_room_for_the_name_of_each_line() {
 
 #[test]
 fn long_names_leave_bars_their_room() {
-    // The axis must include the interval: an axis that ends before it begins would panic.
     let value = Estimate::between(2.0, 1.8, 2.2);
     for (bar, parts) in [(Bar::Of(value), vec![]), (Bar::Product(vec![2.0], value), vec!["plane".to_owned()])] {
         let of =
             |label: &str| Chart::Bars(Bars::of_products("times", parts.clone(), [(label.to_owned(), bar.clone())]));
         let (short, long) = (of("a"), of("sah-hybrid:test=moller-trumbore,batch=packets,quality=high"));
-        // On a narrow screen names stand above their bars, which makes the drawing higher.
+        // In a narrow drawing, long names are above their bars, which makes the drawing higher.
         assert!(long.size(360.0).1 > short.size(360.0).1);
         assert_eq!(long.size(1600.0), short.size(1600.0));
         assert!(long.svg(360.0).contains("packets"));

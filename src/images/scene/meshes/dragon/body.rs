@@ -29,7 +29,7 @@ const SPINE: [Vec4; 22] = [
     vec4(1.26, 2.44, 0.17, 0.18),
 ];
 
-/// Curve pieces from one point of the centre line to the next.
+/// The number of tube pieces from one point of [`SPINE`] to the next.
 const PIECES: usize = 6;
 
 const AROUND: f32 = 16.0;
@@ -45,7 +45,7 @@ pub fn model(sdf: &mut Sdf) -> Frame {
     frames[frames.len() - 1]
 }
 
-/// The body: cones whose distance is reduced by the height of the scales at the nearest surface point.
+/// Adds the body, a chain of cones. The height of the scales is subtracted from the distance to a cone.
 fn scaly_tube(sdf: &mut Sdf, tube: &Tube, frames: &[Frame]) {
     sdf.group(Blend { displacement: 0.15, ..Blend::smooth(0.0) });
     let mut rows = 0.0;
@@ -70,7 +70,7 @@ fn scaly_tube(sdf: &mut Sdf, tube: &Tube, frames: &[Frame]) {
     }
 }
 
-/// Height of the scales, from 0 to 1, at `row` along the body, in direction (`x`, `y`) from the axis; +y is the back.
+/// Height of the scales, 0 to 1, at `row` along the body. (`x`, `y`) is the direction from the axis; +y is the back.
 fn scales(row: f32, x: f32, y: f32) -> f32 {
     let turn = (libm::atan2(f64::from(x), f64::from(y)) / std::f64::consts::TAU) as f32;
     let belly = ((turn.abs() - 0.36) / 0.03).clamp(0.0, 1.0);

@@ -26,7 +26,7 @@ fn skull(sdf: &mut Sdf, head: &Frame) {
 }
 
 fn jaws(sdf: &mut Sdf, head: &Frame) {
-    // The lower jaw hangs open; the palate is hollowed out above it.
+    // The lower jaw hangs open. Above it, the mouth is hollow.
     sdf.group(Blend { displacement: 0.4, ..Blend::smooth(0.04) });
     sdf.cone(head.at(0.0, -0.10, 0.02), 0.12, head.at(0.0, -0.36, 0.36), 0.062);
     sdf.group(Blend::subtract(0.03)).cone(head.at(0.0, -0.12, 0.16), 0.075, head.at(0.0, -0.19, 0.58), 0.125);

@@ -64,7 +64,7 @@ fn pleat(phase: f32) -> f32 {
     sine(phase).abs()
 }
 
-/// Height of the folds: long pleats that fan out downwards; they are shallow at the hips and at the bent knee.
+/// Height of the folds: long pleats that fan out downwards. They are shallow at the hips and at the bent knee.
 fn folds(p: Vec3, turn: f32) -> f32 {
     let drop = 1.0 - smoothstep(2.0, 12.0, p.y);
     let wander = noise::smooth(Vec3::new(turn * 1.3, p.y * 0.16, 0.0), 3);
@@ -103,7 +103,7 @@ fn legs(sdf: &mut Sdf) {
     }
 }
 
-/// The part of the gown that falls over the belt, with a waving hem, and the belt.
+/// Adds the belt, and the cloth that falls over the belt and has a waving hem.
 fn overfold(sdf: &mut Sdf) {
     sdf.group(Blend::smooth(0.05)).primitive(Vec3::new(0.0, 11.0, 0.0), 3.2, |p| {
         let flare = 0.10 + 0.09 * (12.6 - p.y).max(0.0);

@@ -1,4 +1,4 @@
-//! A winged, draped figure with a torch. It replaces the scanned Lucy, which may not be copied.
+//! A winged, draped figure with a torch. It replaces the scanned statue Lucy, which may not be copied.
 
 mod figure;
 mod gown;

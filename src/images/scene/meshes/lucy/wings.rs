@@ -26,7 +26,7 @@ const ARM: [[f32; 3]; 6] = [
 const TIPS: [[f32; 2]; 9] =
     [[0.9, 10.9], [1.6, 9.6], [2.4, 8.4], [3.2, 7.5], [4.1, 6.9], [5.0, 6.9], [5.8, 7.8], [6.4, 9.4], [6.85, 11.4]];
 
-/// The point `front` in front of the wing's surface, which sweeps back from the body and bends forward at the tip.
+/// A point of the wing, moved forward by `front`. The wing sweeps back from the body and bends forward at the tip.
 fn place(side: f32, out: f32, up: f32, front: f32) -> Vec3 {
     let back = 1.05 + 0.62 * out - 0.028 * out * out + 0.05 * (15.0 - up).max(0.0) * 0.6;
     Vec3::new(side * out, up, front - back)

@@ -1,4 +1,4 @@
-//! Samples a signed distance function on a cubic grid, and changes cells that the surface would cross more than once.
+//! Samples a signed distance function on a cubic grid, and changes cells that the surface crosses in several pieces.
 
 use glam::{UVec3, Vec3};
 use rayon::prelude::*;

@@ -26,7 +26,7 @@ const FAR: f32 = 1e9;
 struct Primitive {
     centre: Vec3,
     radius: f32,
-    /// Signed distance to the surface, negative inside. It may be too small, but its slope must not exceed about 1.
+    /// Signed distance to the surface, negative inside. It may be too small, but its gradient must not exceed about 1.
     distance: Field,
 }
 
@@ -37,7 +37,7 @@ pub struct Blend {
     pub smoothing: f32,
     /// Subtracts the group instead of adding it.
     pub subtract: bool,
-    /// Share of the displacement that applies to the group.
+    /// Factor of the displacement for the group: 0 for none, 1 for all.
     pub displacement: f32,
 }
 
@@ -47,7 +47,7 @@ impl Blend {
         Self { smoothing, subtract: false, displacement: 1.0 }
     }
 
-    /// A union without displacement: eyes, teeth, claws.
+    /// A union without displacement, for example for eyes, teeth and claws.
     pub fn undisplaced(smoothing: f32) -> Self {
         Self { displacement: 0.0, ..Self::smooth(smoothing) }
     }
@@ -66,7 +66,7 @@ struct Group {
 /// A solid: a list of groups that are joined in order. The primitives of a group are joined by a plain union.
 pub struct Sdf {
     groups: Vec<Group>,
-    /// Height added to the surface near a point, before it is multiplied by [`Blend::displacement`].
+    /// Height added to the surface near a point, multiplied by [`Blend::displacement`].
     displacement: Field,
     /// Largest magnitude of the displacement.
     highest: f32,
@@ -115,7 +115,7 @@ impl Sdf {
         active
     }
 
-    /// Signed distance without displacement, and the share of the displacement at `p`.
+    /// At `p`, the signed distance without displacement, and the factor of the displacement.
     fn undisplaced_distance(&self, active: &Active, p: Vec3) -> (f32, f32) {
         let (mut distance, mut displaced) = (FAR, 1.0);
         for members in active.chunk_by(|a, b| a.0 == b.0) {
@@ -158,7 +158,7 @@ impl Sdf {
     }
 }
 
-/// The smooth minimum of two distances with width `k`, and the share of the second distance in it.
+/// The smooth minimum of two distances with width `k`, and the weight of the second distance in it, 0 to 1.
 fn smooth_minimum(a: f32, b: f32, k: f32) -> (f32, f32) {
     if k <= 0.0 || (a - b).abs() >= k {
         return if b < a { (b, 1.0) } else { (a, 0.0) };

@@ -1,4 +1,4 @@
-//! Primitives: ellipsoids, round cones and tubes along splines; and frames in which primitives are placed.
+//! Primitives (ellipsoids, round cones, tubes along splines), and frames that place and rotate primitives.
 
 use glam::{Vec3, Vec4};
 
@@ -35,14 +35,14 @@ impl Frame {
     }
 }
 
-/// The solid of two spheres and the cone tangent to both.
+/// The convex hull of two spheres: a cone with round ends.
 #[derive(Clone, Copy, Debug)]
 pub struct RoundCone {
     pub a: Vec3,
     pub b: Vec3,
     pub radius_a: f32,
     pub radius_b: f32,
-    /// Unit vector from `a` to `b`, and their distance; both are 0 if one sphere contains the other.
+    /// Unit vector from `a` to `b`, and the distance of `a` and `b`. Both are 0 if one sphere contains the other.
     axis: Vec3,
     length: f32,
     /// Sine and cosine of half the opening angle.
@@ -70,7 +70,7 @@ impl RoundCone {
         let along = q.dot(self.axis);
         let off = (q.length_squared() - along * along).max(0.0).sqrt();
 
-        // Foot of the perpendicular from `p` on the side of the cone: from 0 at `a` to `length * cosine` at `b`.
+        // Position of the perpendicular from `p` along the cone's side: 0 at `a`, `length * cosine` at `b`.
         let foot = along * self.cosine - off * self.sine;
         if foot <= 0.0 {
             q.length() - self.radius_a
@@ -82,7 +82,7 @@ impl RoundCone {
     }
 }
 
-/// Points of a tube along a smooth curve; each point is x, y, z and radius.
+/// The points of a tube along a smooth curve. A point has x, y, z and the radius.
 pub struct Tube(pub Vec<Vec4>);
 
 impl Tube {
@@ -106,7 +106,7 @@ impl Tube {
         (self.centre((i + 1).min(self.pieces())) - self.centre(i.saturating_sub(1))).normalize()
     }
 
-    /// One frame per point; frames do not twist about the tube. The frame at point `start` has its up axis near `up`.
+    /// One frame per point. Frames do not twist about the tube. The frame at point `start` has its up axis near `up`.
     pub fn frames(&self, start: usize, up: Vec3) -> Vec<Frame> {
         let frame = |i: usize, up: Vec3| Frame::looking(self.centre(i), self.tangent(i), up);
         let mut frames = vec![frame(start, up); self.0.len()];
@@ -140,7 +140,7 @@ pub fn cosine(angle: f32) -> f32 {
     libm::cos(f64::from(angle)) as f32
 }
 
-/// Distance to an intersection with a rounded edge; `u` and `v` are the distances to surfaces `radius` further inside.
+/// Distance to the intersection of two solids, with a rounded edge. `u`, `v`: distance of each solid plus `radius`.
 pub fn rounded_intersection(u: f32, v: f32, radius: f32) -> f32 {
     let (out_u, out_v) = (u.max(0.0), v.max(0.0));
     (out_u * out_u + out_v * out_v).sqrt() + u.max(v).min(0.0) - radius

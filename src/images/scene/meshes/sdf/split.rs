@@ -15,7 +15,7 @@ pub fn split_to(model: &mut Model, count: usize) {
     }
 }
 
-/// Splits at most `limit` edges, the longest first, at most one per triangle. Vertex numbers break ties.
+/// Splits at most `limit` edges, the longest first, and at most one edge per triangle. Vertex numbers break ties.
 fn split_longest(model: &mut Model, limit: usize) {
     // Find both triangles of every edge: sorting makes the two half-edges neighbours.
     let mut halves = Vec::with_capacity(3 * model.triangles.len());

@@ -35,8 +35,8 @@ impl Sdf {
         largest_piece(Model { positions, triangles, normals, ..Model::default() })
     }
 
-    /// Moves the vertices of `model` onto the surface and takes the normals of the surface: for meshes so coarse that
-    /// normals computed from triangles are bad.
+    /// Moves the vertices of `model` onto the surface, and replaces the normals by normals of the surface. For a coarse
+    /// mesh, normals of the surface are better than normals computed from triangles.
     pub fn settle(&self, model: &mut Model, step: f32) {
         let settled = |&start: &Vec3| {
             let active = self.near(start, 2.0 * step);

@@ -9,7 +9,7 @@ use crate::scene::meshes::{
 /// Half the thickness of the arcade walls.
 const HALF_WALL: f32 = 26.0;
 
-/// One arch in its wall, in the coordinates of the side.
+/// One arch in its wall, in the coordinates of the frame that [`build`] receives.
 struct Arch {
     middle: f32,
     /// Half the width of the bay; `radius` is half the width of the opening.
@@ -18,11 +18,11 @@ struct Arch {
     /// The heights at which the arch begins and the wall above it ends.
     heights: [f32; 2],
     half_wall: f32,
-    /// Pieces of the half circle.
+    /// The number of segments of the half circle.
     pieces: usize,
 }
 
-/// Builds `bays` bays of width `bay`. They begin at the origin of `frame`, which looks into the court.
+/// Builds `bays` bays of width `bay`, from the origin of `frame` to the right. `frame` looks into the court.
 pub fn build(patches: &mut Patches, frame: &Frame, bays: usize, bay: f32) {
     let length = bays as f32 * bay;
     let lower = Column { height: 306.0, radius: 29.0, sides: 20, leaves: 8, shaft: ("column_a", [0.95, 0.90, 0.82]) };
@@ -76,7 +76,7 @@ impl Arch {
             let [u, y] = self.on_circle(column, self.radius);
             frame.at(u, y, if row == 0 { -w } else { w })
         });
-        // Mouldings around the arch, on the side of the court.
+        // Mouldings around the arch, on the wall that faces the court.
         let size = self.radius / 72.0;
         let bands =
             [[0.0, 0.0], [0.0, 5.0], [6.0, 7.0], [8.0, 4.0], [14.0, 4.0], [16.0, 8.0], [21.0, 9.0], [23.0, 0.0]];

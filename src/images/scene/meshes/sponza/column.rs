@@ -69,7 +69,7 @@ impl Column {
         patches.block(frame, [-1.42 * r, top + 0.12 * r, -1.42 * r], [1.42 * r, self.height, 1.42 * r]);
     }
 
-    /// An acanthus leaf: a tongue that rises from the bell, widens, and curls over at the tip.
+    /// An acanthus leaf: it rises from the body of the capital, widens, and curls over at the tip.
     fn leaf(&self, patches: &mut Patches, foot: Vec3, number: usize) {
         let (sine, cosine) = turn(number, 2 * self.leaves);
         let (out, side) = (Vec3::new(sine, 0.0, cosine), Vec3::new(cosine, 0.0, -sine));
@@ -86,7 +86,7 @@ impl Column {
         patches.patch([columns, profile.len() - 1], false, Finish::Smooth, |column, row| {
             let [radius, up, wide] = profile[row];
             let across = 2.0 * column as f32 / columns as f32 - 1.0;
-            // The rib stands out, and the margins are lobed.
+            // The leaf bulges along its middle, and its margins are lobed.
             let lobe = if row % 2 == 1 { 1.0 } else { 0.8 };
             let bulge = 0.06 * (1.0 - across * across) - 0.03 * (column % 2) as f32;
             foot + (out * (radius + bulge) + side * (across * spread * wide * lobe) + Vec3::Y * up) * self.radius

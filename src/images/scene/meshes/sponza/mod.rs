@@ -28,14 +28,14 @@ const EAVES: f32 = 900.0;
 /// Column spacing of the lower storey; it is half as large in the upper storey.
 const BAY: f32 = 208.0;
 
-/// A building of 174,838 triangles with an open court, 3721 long (x), 1555 high and 2288 wide; the court's floor is at
-/// y = 0. Flat stone is flat-shaded, turned and curved stone has smooth normals. Not closed.
+/// A building of 174,838 triangles around an open court. Its box is 3721 x 1555 x 2288 units; the court's floor is at y
+/// = 0. Flat stone is flat-shaded; turned and curved stone has smooth normals. The mesh is not closed.
 pub fn sponza() -> Model {
     let mut patches = Patches::default();
     let [half_length, half_width, middle] = COURT;
     let side = |x: f32, z: f32, ahead: Vec3| Frame::looking(Vec3::new(x, 0.0, z), ahead, Vec3::Y);
 
-    // The frames of the sides: the right axis runs along the arcade, the ahead axis into the court.
+    // The frames of the court's sides: the right axis runs along the arcade, the ahead axis points into the court.
     let long_bays = (2.0 * half_length / BAY) as usize;
     let sides = [
         (side(-half_length, middle - half_width, Vec3::Z), long_bays),

@@ -7,7 +7,7 @@ use crate::scene::meshes::patches::{Finish, Patches, turn};
 
 const VAULT: usize = 10;
 
-/// The walks of both storeys behind an arcade of `bays` bays.
+/// The walks of the two storeys behind an arcade of `bays` bays, each `bay` wide.
 pub fn walk(patches: &mut Patches, frame: &Frame, bays: usize, bay: f32) {
     let length = bays as f32 * bay;
     for i in 0..bays {
@@ -76,7 +76,7 @@ pub fn grounds(patches: &mut Patches) {
     let [half_length, half_width, middle] = COURT;
     let v = Vec3::new;
 
-    // Rows of large slabs.
+    // The floor of the court and of the walks: 16 rows of three large slabs.
     patches.of(&material("floor", [0.86, 0.80, 0.72]));
     let bays = 16;
     let (from, to) = (-half_length - WALK, half_length + WALK);
@@ -104,7 +104,7 @@ pub fn grounds(patches: &mut Patches) {
 /// One slope of a roof: both ends of its eaves, and the vector from the eaves to the ridge.
 type Slope = [Vec3; 3];
 
-/// Roofs around the court. Their tiles bring the building to `triangles` triangles, which must fit on the roofs.
+/// Roofs around the court, with tiles until the building has `triangles` triangles. Panics if this is impossible.
 pub fn roofs(patches: &mut Patches, triangles: usize) {
     let [half_length, half_width, middle] = COURT;
     let v = Vec3::new;
@@ -149,7 +149,7 @@ pub fn roofs(patches: &mut Patches, triangles: usize) {
 const ROWS: usize = 11;
 const TILE: f32 = 44.0;
 
-/// A half-round tile. Its lower end is lifted, because it lies on the next tile.
+/// A half-round tile. Its lower end is raised, because it lies on the tile of the row below.
 fn tile(patches: &mut Patches, [from, to, up]: &Slope, [column, columns]: [usize; 2], row: usize, sides: usize) {
     let along = (to - from) / columns as f32;
     let step = up / ROWS as f32;
