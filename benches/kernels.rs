@@ -92,10 +92,10 @@ impl Observer for Silent {}
 fn observer(criterion: &mut Criterion) {
     let scene = Builtin::find("teapot").and_then(|b| b.scene(None)).expect("built-in scenes are valid");
     let tree = <KdTree<MollerTrumbore> as Accel>::build(&Arc::clone(&scene.mesh), &KdConfig::SAH).expect("it builds");
-    let caster =
+    let ray_source =
         Registry::builtin().choose("sah-kd").expect("a registered name").build(&scene.mesh).expect("it builds");
     let sampling = Sampling { limit: 16_384, ..Sampling::of(&scene) };
-    let rays = Workload::new(&scene, WorkloadKind::Primary, &sampling, &*caster).rays;
+    let rays = Workload::new(&scene, WorkloadKind::Primary, &sampling, &*ray_source).rays;
     let mut group = criterion.benchmark_group("kernels/observer");
     group.throughput(Throughput::Elements(rays.len() as u64));
     let mut hits = vec![None; rays.len()];

@@ -12,10 +12,10 @@ use sahara::scene::{Sampling, Scene, Workload};
 
 /// The workloads of a scene, with all rays of the picture as in `sahara compare`. Omits empty workloads.
 fn workloads(scene: &Scene) -> Vec<Workload> {
-    let caster =
+    let ray_source =
         Registry::builtin().choose("sah-kd").expect("a registered name").build(&scene.mesh).expect("it builds");
     let sampling = Sampling { seed: 1, ..Sampling::of(scene) };
-    let workloads = common::KINDS.iter().map(|&kind| Workload::new(scene, kind, &sampling, &*caster));
+    let workloads = common::KINDS.iter().map(|&kind| Workload::new(scene, kind, &sampling, &*ray_source));
     workloads.filter(|workload| !workload.rays.is_empty()).collect()
 }
 

@@ -17,17 +17,18 @@ const LABORIOUS: [&str; 3] = ["duplicates_20000", "fan_apex", "far_1e8"];
 const IN_F64: [&str; 2] = ["moller-trumbore-f64", "edge-f64"];
 
 /// Structures with the traversal of `sah-hybrid`; they run only over the triangle tests in `FEW_TESTS`.
-const SAME_WALK: [&str; 3] = ["sah-kd-wide", "sah-kd-tight", "sah-bvh"];
+const SAME_TRAVERSAL: [&str; 3] = ["sah-kd-wide", "sah-kd-tight", "sah-bvh"];
 const FEW_TESTS: [&str; 2] = ["moller-trumbore", "exact"];
 
 /// Triangle tests of peers.
 const OF_PEERS: [&str; 2] = ["bvh-triangle", "parry-triangle"];
 
-/// The structures of this crate over all their triangle tests, except `OF_PEERS`; `SAME_WALK` only over `FEW_TESTS`.
+/// The structures of this crate over all their triangle tests, except `OF_PEERS`; `SAME_TRAVERSAL` only over `FEW_TESTS`.
 fn ours() -> Vec<Choice> {
     let mut choices = Registry::builtin().all();
     choices.retain(|choice| {
-        let repeats = SAME_WALK.contains(&choice.entry.name.as_str()) && !FEW_TESTS.contains(&choice.triangle_test());
+        let repeats =
+            SAME_TRAVERSAL.contains(&choice.entry.name.as_str()) && !FEW_TESTS.contains(&choice.triangle_test());
         !repeats && known_defect(&choice.entry.name).is_none() && !OF_PEERS.contains(&choice.triangle_test())
     });
     choices

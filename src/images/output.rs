@@ -28,14 +28,14 @@ const MARK: &str = "sahara-files.json";
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
     #[error("cannot write {}: {problem}", path.escaped())]
-    Place { path: PathBuf, problem: String },
+    Target { path: PathBuf, problem: String },
     #[error("cannot write {}: {cause}: choose an existing, writable folder with free space", path.escaped())]
     Write { path: PathBuf, cause: io::Error },
 }
 
 impl OutputError {
     fn place(path: &Path, problem: impl Into<String>) -> Self {
-        Self::Place { path: path.into(), problem: problem.into() }
+        Self::Target { path: path.into(), problem: problem.into() }
     }
 
     /// The error of a failed write of `path`. The text of an error of `tempfile` is dropped: it names a temporary path.

@@ -68,7 +68,7 @@ impl AaNoise {
 
     /// The number of ratios whose interval contains 1, and the number of ratios with an interval; `None` if no ratio
     /// has an interval.
-    pub fn holding_one(&self) -> Option<(usize, usize)> {
+    pub fn containing_one(&self) -> Option<(usize, usize)> {
         let known = self.ratios.iter().filter(|ratio| ratio.interval.is_some());
         let holding = known.clone().filter(|ratio| ratio.holds(1.0)).count();
         Some((holding, known.count())).filter(|&(_, known)| known > 0)
@@ -92,7 +92,7 @@ mod tests {
         let many = twins(&[0.01, -0.03, 0.02].repeat(20));
         assert!((many.log().unwrap() - one.log().unwrap()).abs() < 1e-12);
         assert_eq!((one.of_ratio().freedom, many.of_ratio().freedom), (4.0, 60.0));
-        assert_eq!((one.holding_one(), twins(&[0.0]).holding_one()), (Some((0, 3)), Some((1, 1))));
+        assert_eq!((one.containing_one(), twins(&[0.0]).containing_one()), (Some((0, 3)), Some((1, 1))));
     }
 
     #[test]
@@ -108,10 +108,10 @@ mod tests {
     fn one_epoch_has_noise_and_no_intervals() {
         let noise = AaNoise::new(&[vec![vec![0.01, 0.03]]]);
         assert!((noise.log().unwrap() - 0.02).abs() < 1e-12);
-        assert_eq!(noise.holding_one(), None);
+        assert_eq!(noise.containing_one(), None);
         // A cell with one epoch has no interval, even beside a cell with five epochs.
         let both = AaNoise::new(&[vec![vec![0.01, 0.03]], vec![vec![0.0; 3]; 5]]);
-        assert_eq!((both.ratios.len(), both.holding_one()), (2, Some((1, 1))));
+        assert_eq!((both.ratios.len(), both.containing_one()), (2, Some((1, 1))));
         // The variance is proportional to the sum of the squared weights.
         let noise = twins(&[0.02; 4]);
         let squares = [noise.of_ratio(), noise.of_mean(4), noise.weighted(&[2.0])].map(|variance| variance.square);

@@ -20,7 +20,7 @@ use nix::{
 
 /// Makes the program that `command` starts the leader of its own process group.
 #[cfg(target_os = "linux")]
-pub fn set_apart(command: &mut Command) {
+pub fn lead_process_group(command: &mut Command) {
     command.process_group(0);
     // This process blocks the signals that it waits for, and a program inherits the mask: unblock them.
     // SAFETY: between fork and exec only async-signal-safe calls are sound. The closure only calls `pthread_sigmask`
@@ -29,7 +29,7 @@ pub fn set_apart(command: &mut Command) {
 }
 
 #[cfg(not(target_os = "linux"))]
-pub fn set_apart(_: &mut Command) {}
+pub fn lead_process_group(_: &mut Command) {}
 
 /// Whether a program has ended. The caller must still wait for it.
 #[cfg(target_os = "linux")]
@@ -62,7 +62,7 @@ pub fn ends_within(child: &mut Child, limit: Duration) -> bool {
 /// # Errors
 /// If the program cannot be started or waited for, or its output cannot be read.
 pub fn output_within(command: &mut Command, limit: Duration) -> io::Result<Option<Output>> {
-    set_apart(command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()));
+    lead_process_group(command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()));
     let mut child = command.spawn()?;
 
     // Read both pipes concurrently: a full pipe would block the program.
@@ -89,7 +89,7 @@ pub fn end_with_parent() {
     let _ = nix::sys::prctl::set_pdeathsig(Signal::SIGKILL);
 }
 
-/// Kills a program that was [set apart](set_apart) and all programs that it has started. Does nothing if the program
+/// Kills a program that was [set apart](lead_process_group) and all programs that it has started. Does nothing if the program
 /// has already been waited for.
 pub fn end(child: &mut Child) {
     // The system does not reuse the number of a process before this process has waited for it.
@@ -136,7 +136,7 @@ mod tests {
         let caught = SigSet::from_iter([Signal::SIGUSR1]);
         let start = move || {
             let mut command = Command::new("sleep");
-            set_apart(command.arg("20"));
+            lead_process_group(command.arg("20"));
             caught.thread_block().unwrap();
             command.spawn().unwrap()
         };

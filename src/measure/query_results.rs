@@ -19,12 +19,12 @@ impl QueryResults {
         }
     }
 
-    /// Overwrites all results with misses. If `otherwise`, overwrites them with hits (closest hits with `t` = NaN).
-    pub fn fill(&mut self, otherwise: bool) {
+    /// Overwrites all results with misses. If `as_hits`, overwrites them with hits (closest hits with `t` = NaN).
+    pub fn fill(&mut self, as_hits: bool) {
         let nowhere = Hit { t: f32::NAN, prim: PrimId::new(0) };
         match self {
-            Self::Closest(hits) => hits.fill(otherwise.then_some(nowhere)),
-            Self::Any(hits) => hits.fill(otherwise),
+            Self::Closest(hits) => hits.fill(as_hits.then_some(nowhere)),
+            Self::Any(hits) => hits.fill(as_hits),
         }
     }
 

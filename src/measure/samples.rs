@@ -53,7 +53,7 @@ pub struct Samples {
     /// Rays of a sample: all rays of the workload, or fewer if the case is slow.
     pub rays: usize,
     /// The [`checksum`](Self::checksum) covers the rays of this level in epoch 0; if `None`, the rays of the samples.
-    pub asked: Option<usize>,
+    pub checksum_level: Option<usize>,
     /// The checksum of the results; it is the same in all epochs.
     pub checksum: u64,
     /// The checksum of the results on the rays of the samples; these rays differ between epochs unless all rays are
@@ -82,8 +82,8 @@ impl Samples {
     /// between epochs, and so do the results. To make epochs comparable, each epoch also traces a sixteenth of the rays
     /// that epoch 0 times.
     pub fn none(all: usize, level: usize) -> Self {
-        let asked = (level > 0).then(|| (level + 2).min(last_level(all)));
-        Self { rays: rays_at(all, level), asked, is_steady: true, ..Self::default() }
+        let checksum_level = (level > 0).then(|| (level + 2).min(last_level(all)));
+        Self { rays: rays_at(all, level), checksum_level, is_steady: true, ..Self::default() }
     }
 }
 
@@ -110,7 +110,7 @@ pub fn take(
         let level_of = |rays: usize| level_of(case.rays(), rays).expect("the rays of a level");
         let mut levels = vec![level_of(samples.rays)];
         levels.extend(samples.parts.iter().map(|part| level_of(part.rays)));
-        if let Some(level) = samples.asked {
+        if let Some(level) = samples.checksum_level {
             samples.checksum = checksum_at(&watch, case.as_mut(), level);
             samples.is_steady = plan.epoch > 0 || samples.checksum == checksum_at(&watch, case.as_mut(), level);
         }
@@ -132,7 +132,7 @@ pub fn take(
                 let checksum = case.checksum();
                 samples.is_steady = *checksums[i].get_or_insert(checksum) == checksum && !case.contradicts_itself();
                 samples.timed_checksum = checksum;
-                if samples.asked.is_none() {
+                if samples.checksum_level.is_none() {
                     samples.checksum = checksum;
                 }
                 samples.ns.push(ns[0]);

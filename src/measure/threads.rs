@@ -57,7 +57,7 @@ impl Threads {
     ///
     /// # Errors
     /// If the system does not provide this many threads.
-    pub fn are_given(&self) -> Result<(), String> {
+    pub fn check_available(&self) -> Result<(), String> {
         if self.pool.get().is_some() { Ok(()) } else { self.start().map(drop) }
     }
 

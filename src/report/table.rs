@@ -107,7 +107,7 @@ impl Table {
     }
 
     /// Whether a cell outside the first column is not empty.
-    pub fn says_something(&self) -> bool {
+    pub fn has_values(&self) -> bool {
         self.rows.iter().flat_map(|row| row.iter().skip(1)).any(|cell| !cell.is_empty())
     }
 }
@@ -148,7 +148,7 @@ pub(super) mod tests {
             rows: vec![vec!["a".into(), Cell::empty()]],
             ..example()
         };
-        assert!(!names.says_something() && example().says_something());
+        assert!(!names.has_values() && example().has_values());
         assert_eq!(names.without_empty_columns().columns, ["structure"]);
     }
 }

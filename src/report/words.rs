@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_there_twice_counts_once_at_its_first_place() {
+    fn duplicates_are_removed_in_order() {
         assert_eq!(each_once([3, 1, 3, 2, 1]), [3, 1, 2]);
         assert_eq!(each_once_by(["b", "a", "B"], |one, other| one.eq_ignore_ascii_case(other)), ["b", "a"]);
     }

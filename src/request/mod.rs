@@ -16,7 +16,7 @@ pub use rays::{RaySource, Rays, WORKLOADS, WorkloadRequest, each_kind, rays_or_a
 pub use runners::{RUNNER_LIMIT, RunnerRequest, runner, runners};
 pub use scenes::{SceneRequest, Scenes, named_notes, output, scene, scene_files, scenes, stand_in, words};
 pub use structures::{
-    ALL, BRUTE_FORCE, QUALITIES, REPORT_TREE, SAH_TREE, StructureRequest, Structures, TWIN, guide, is_brought,
+    ALL, BRUTE_FORCE, QUALITIES, REPORT_TREE, SAH_TREE, StructureRequest, Structures, TWIN, guide, is_external,
     is_large, is_obvhs, known_defect, known_tests, left_out, specs, structures, structures_at, with_twin,
 };
 pub use view::ViewArgs;

@@ -77,7 +77,7 @@ impl From<&Choice> for StructureRequest {
 }
 
 /// Whether the structure is not built in: another crate registered it, or it is a runner.
-pub fn is_brought(name: &str, triangle_test: &str) -> bool {
+pub fn is_external(name: &str, triangle_test: &str) -> bool {
     Registry::builtin().find(name, triangle_test).is_none()
 }
 

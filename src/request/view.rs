@@ -122,7 +122,7 @@ impl ViewArgs {
     }
 
     /// Returns an error if there are camera options, because they have no effect on the rays of a file.
-    pub fn is_unasked(&self) -> anyhow::Result<()> {
+    pub fn reject_unused(&self) -> anyhow::Result<()> {
         anyhow::ensure!(self.is_default(), "the file defines the rays: omit --camera, --inside and --size");
         Ok(())
     }

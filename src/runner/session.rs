@@ -34,7 +34,7 @@ impl Session {
     pub fn start(words: &[String], threads: usize, limit: Duration) -> Result<Self, String> {
         let mut command = Command::new(&words[0]);
         command.args(&words[1..]).stdin(Stdio::piped()).stdout(Stdio::piped());
-        process_group::set_apart(&mut command);
+        process_group::lead_process_group(&mut command);
         let child = if threads > 1 { on_all_cores(|| command.spawn()) } else { command.spawn() };
         let mut child = child.map_err(|cause| format!("the program {:?} cannot be started: {cause}", words[0]))?;
         let (input, output) = (child.stdin.take(), child.stdout.take().expect("its output is a pipe"));

@@ -10,7 +10,7 @@ use crate::measure::Provenance;
 use crate::registry::plain_name;
 use crate::report::Failure;
 use crate::report::words::{distinct, each_once};
-use crate::request::is_brought;
+use crate::request::is_external;
 
 /// A case with its results.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -73,7 +73,7 @@ impl Dataset {
 
     /// One sentence about each structure that a user brings: a structure of another crate, or a runner.
     pub fn verdicts(&self) -> Vec<String> {
-        let is_own = |own: &&Structure| !own.is_twin() && is_brought(&own.name, &own.triangle_test);
+        let is_own = |own: &&Structure| !own.is_twin() && is_external(&own.name, &own.triangle_test);
         let all = || self.measured.iter().flat_map(|own| &own.epoch.structures).filter(is_own);
         let sentence = |label: String| {
             let own = all().filter(|own| own.label == label).flat_map(|own| &own.rays);

@@ -56,7 +56,7 @@ pub fn run(study: &Study, matches: &ArgMatches, plan: &Plan, run: &mut Run) -> a
     let journal = Journal::open(&folder, provenance.clone(), run.fresh, &plan.cases)?;
     let missing: Vec<&Case> = plan.cases.iter().filter(|case| journal.get(case).is_none()).collect();
     if !missing.is_empty() {
-        threads.are_given().map_err(StudyError::Threads)?;
+        threads.check_available().map_err(StudyError::Threads)?;
     }
     run.screen.begin(missing.iter().map(|case| case.work()).sum());
     run.screen.warn(&plan.warnings);

@@ -57,7 +57,7 @@ pub fn measure_apart(
     command.arg(format!("--{LISTEN}"));
     let cores = cores.map(|cores| cores.iter().map(ToString::to_string).collect::<Vec<_>>().join(","));
     command.args(cores.map(|cores| format!("--{CORES}={cores}")));
-    process_group::set_apart(&mut command);
+    process_group::lead_process_group(&mut command);
     // Runners put temporary files into a folder that is removed with everything that a killed process leaves there.
     let has_programs = case.structures.iter().any(|own| own.runner.is_some());
     let scratch = if has_programs { tempfile::Builder::new().prefix("sahara-").tempdir().ok() } else { None };

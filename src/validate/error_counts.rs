@@ -86,7 +86,7 @@ pub fn count_errors(truths: &[Option<Truth>], answers: &[Option<Hit>], rule: Dep
             Outcome::Missed => counts.missed += 1,
             Outcome::FalseHit => counts.false_hits += 1,
             Outcome::WrongDepth => counts.wrong_depth += 1,
-            Outcome::Nothing | Outcome::Right | Outcome::WrongPrimitive => {}
+            Outcome::RightMiss | Outcome::Right | Outcome::WrongPrimitive => {}
         }
         counts.hits += u64::from(truth.is_some());
         if let (Some(truth), Some(hit)) = (truth, answer) {

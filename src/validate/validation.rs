@@ -140,9 +140,9 @@ impl Validation {
         whole
     }
 
-    /// Counts a ray on which structure and reference differ. `tells_structure_errors` is true if the reference
+    /// Counts a ray on which structure and reference differ. `knows_structure_errors` is true if the reference
     /// distinguishes errors of the structure from errors of its triangle test.
-    pub(super) fn note(&mut self, ray: WorstRay, tells_structure_errors: bool) {
+    pub(super) fn note(&mut self, ray: WorstRay, knows_structure_errors: bool) {
         match ray.kind {
             Kind::Tie => self.ties += 1,
             Kind::HigherId => {
@@ -152,7 +152,7 @@ impl Validation {
             Kind::TriangleTest => self.test_errors += 1,
             Kind::Reference => self.reference_errors += 1,
             Kind::Depth => self.depth_errors += 1,
-            _ if tells_structure_errors => self.structure_errors += 1,
+            _ if knows_structure_errors => self.structure_errors += 1,
             _ => self.answer_errors += 1,
         }
         self.differing += u64::from(!matches!(ray.kind, Kind::Tie | Kind::HigherId));

@@ -7,7 +7,7 @@ use sahara::golden::write;
 use serde_json::json;
 
 use super::chromium::Chromium;
-use super::{is_read_everywhere, tab_to};
+use super::{assert_readable_everywhere, tab_to};
 use crate::cli::command::{Folder, WRONG};
 use crate::controls::{SIZE, pictures};
 
@@ -95,7 +95,7 @@ fn failing_comparisons_are_first_and_all_is_reached_by_keyboard_alone() {
 
 #[test]
 fn the_pointer_shows_values_and_the_page_is_read_in_light_and_dark_on_a_desk_and_on_a_telephone() {
-    is_read_everywhere(page, |browser| {
+    assert_readable_everywhere(page, |browser| {
         browser.click("#comparison-2 .stage", [0.25, 0.75]);
         let said = pixel(browser, 2);
         let [column, row] = [SIZE[0] / 4, SIZE[1] * 3 / 4];

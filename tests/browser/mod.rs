@@ -57,7 +57,7 @@ fn rows(browser: &mut Chromium, figure: &str) -> Vec<Vec<String>> {
 }
 
 /// Runs the command that the ray inspector of a figure shows. Returns its output.
-fn asked_again(browser: &mut Chromium, figure: &str) -> String {
+fn inspector_output(browser: &mut Chromium, figure: &str) -> String {
     let line = browser.text(&format!("document.querySelector('{figure} .inspector code').textContent"));
     let [text, _] = said(&command(line.strip_prefix("sahara ").expect("a command")).output().unwrap());
     text
@@ -89,7 +89,7 @@ fn the_ray_inspector_works_by_keyboard_alone_and_shows_what_the_command_prints()
     let shown = rows(&mut browser, HEAT);
     assert_eq!(shown[0][0], "exact arithmetic");
     assert_eq!(shown.len(), 5, "{shown:?}");
-    let printed = asked_again(&mut browser, HEAT);
+    let printed = inspector_output(&mut browser, HEAT);
     for row in &shown[1..] {
         assert!(row[1..4].iter().all(|count| count.parse::<u64>().is_ok()), "{row:?}");
         let [t, triangle, u, v] = [&row[4], &row[5], &row[6], &row[7]];
@@ -140,7 +140,7 @@ const PALE: &str = include_str!("pale.js");
 const WIDE: &str = include_str!("wide.js");
 
 /// Opens a page at desktop and phone width, in light and dark mode: `look` and both scripts must find no fault.
-fn is_read_everywhere(page: impl Fn() -> PathBuf, look: impl Fn(&mut Chromium)) {
+fn assert_readable_everywhere(page: impl Fn() -> PathBuf, look: impl Fn(&mut Chromium)) {
     let Some(mut browser) = Chromium::launch() else { return };
     for (width, dark) in [(1400, false), (1400, true), (400, false), (400, true)] {
         browser.open(&page(), width, dark);
@@ -154,7 +154,7 @@ fn is_read_everywhere(page: impl Fn() -> PathBuf, look: impl Fn(&mut Chromium)) 
 
 #[test]
 fn the_page_is_read_in_light_and_dark_on_a_desk_and_on_a_telephone() {
-    is_read_everywhere(report, |browser| {
+    assert_readable_everywhere(report, |browser| {
         assert!(browser.evaluate("document.querySelectorAll('.table th').length").as_u64() > Some(10));
     });
 }

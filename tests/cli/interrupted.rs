@@ -25,13 +25,13 @@ fn compare(folder: &Folder, more: &str) -> Command {
     command
 }
 
-/// Starts a program with the handling `way` of SIGINT and SIGTERM, independent of the handling in this process.
-fn spawn(mut command: Command, way: SigHandler) -> Child {
+/// Starts a program with the handling `handler` of SIGINT and SIGTERM, independent of the handling in this process.
+fn spawn(mut command: Command, handler: SigHandler) -> Child {
     // SAFETY: setting the action of a signal is async-signal-safe, and the closure allocates no memory.
     unsafe {
         command.pre_exec(move || {
             for caught in [Signal::SIGINT, Signal::SIGTERM] {
-                signal::signal(caught, way)?;
+                signal::signal(caught, handler)?;
             }
             Ok(())
         });
@@ -40,8 +40,8 @@ fn spawn(mut command: Command, way: SigHandler) -> Child {
 }
 
 /// Interrupts a run after its first table, the table of the cube. Returns its exit status and its whole output.
-fn signalled(folder: &Folder, more: &str, way: SigHandler) -> (ExitStatus, String) {
-    let mut child = spawn(compare(folder, more), way);
+fn signalled(folder: &Folder, more: &str, handler: SigHandler) -> (ExitStatus, String) {
+    let mut child = spawn(compare(folder, more), handler);
     let mut reader = BufReader::new(child.stdout.take().unwrap());
     let mut text = String::new();
     while !text.ends_with("\n\n") {
@@ -77,7 +77,7 @@ fn processes(folder: &Folder) -> usize {
 
 /// Waits until no process works in a folder, because the system takes a moment to remove a killed process.
 #[track_caller]
-fn is_left(folder: &Folder) {
+fn wait_until_no_process(folder: &Folder) {
     let is_left = (0..500).any(|_| {
         thread::sleep(Duration::from_millis(10));
         processes(folder) == 0
@@ -141,9 +141,9 @@ fn what_a_runner_has_started_ends_with_the_run_and_one_that_does_not_answer_with
     let folder = Folder::new();
     folder.program("nothing.sh", NOTHING);
     interrupted(&folder, "--runner './nothing.sh leaves'");
-    is_left(&folder);
+    wait_until_no_process(&folder);
     for signal in [Signal::SIGINT, Signal::SIGTERM] {
         ends_by(signal, compare(&folder, "--runner \"sh -c 'echo here >&2; sleep 600; exit'\""), "here\n");
-        is_left(&folder);
+        wait_until_no_process(&folder);
     }
 }

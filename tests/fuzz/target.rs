@@ -71,7 +71,7 @@ impl Case {
         let blame = |what: String| format!("{what}\n{self:?}");
 
         let rays = self.with_rounded_ends(&mesh);
-        let company = in_company(&rays);
+        let company = with_packets(&rays);
         let tests = registry.entries().iter().filter(|e| e.name == "sah-kd").map(|e| e.triangle_test);
         for test in tests {
             let reference = Reference::of_test(test, &mesh).map_err(|e| blame(e.to_string()))?;
@@ -159,7 +159,7 @@ impl Case {
 const SEVERAL: usize = 6;
 
 /// `rays`, followed by the rays of the two commonest direction octants in groups of sixteen, which form packets.
-fn in_company(rays: &[Ray]) -> Vec<Ray> {
+fn with_packets(rays: &[Ray]) -> Vec<Ray> {
     let mut octants: BTreeMap<[bool; 3], Vec<Ray>> = BTreeMap::new();
     for ray in rays {
         octants.entry(ray.direction.to_array().map(f32::is_sign_negative)).or_default().push(*ray);

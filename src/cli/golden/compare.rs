@@ -12,7 +12,7 @@ use crate::cli::progress::spinner;
 use crate::cli::terminal::Terminal;
 use crate::escaped::Escaped as _;
 use crate::golden::measures::PIXELS_PER_DEGREE;
-use crate::golden::page::{Page, Sides, Values};
+use crate::golden::page::{Page, PicturePair, Values};
 use crate::golden::{self, Allowed, Comparison, Mask, Match, Pair, Verdict, pairs, read};
 use crate::report::number::{count, plural};
 use crate::report::{Cell, Table, Tone};
@@ -174,7 +174,7 @@ fn compare(
         (None, _, None) => (only(Verdict::Additional, [found, wanted]), None),
     };
     if let Some(page) = page {
-        page.add(number, &comparison, Sides { expected, actual, values: Values::Colours }, maps.as_ref())?;
+        page.add(number, &comparison, PicturePair { expected, actual, values: Values::Colours }, maps.as_ref())?;
     }
     Ok(comparison)
 }

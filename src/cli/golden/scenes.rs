@@ -10,7 +10,7 @@ use super::{Outputs, tally};
 use crate::builtin::Builtin;
 use crate::cli::terminal::Terminal;
 use crate::escaped::{Escaped as _, quoted, stem};
-use crate::golden::page::{Page, Sides};
+use crate::golden::page::{Page, PicturePair};
 use crate::golden::{Comparison, Match, Overwrite, SIZE, SceneGolden, TRIANGLE_TEST, Update, VIEWS, compare};
 use crate::names::find;
 use crate::registry::{Choice, Registry};
@@ -179,7 +179,7 @@ fn check_scene(
         let (mut comparison, maps) =
             compare(&format!("{} with {}", scene.name, choice.label), pictures, Match::Exact, None);
         if golden.view == ViewKind::Primitive {
-            comparison = comparison.of_names(golden.size);
+            comparison = comparison.without_sizes(golden.size);
         }
         if comparison.fails() {
             let is_known = known_defect(&choice.entry.name).is_some();
@@ -205,7 +205,7 @@ fn check_scene(
             right.push(choice.label.as_str());
         }
         if let Some(page) = page {
-            let sides = Sides { expected: Some(&expected), actual: Some(&actual), values: golden.view.into() };
+            let sides = PicturePair { expected: Some(&expected), actual: Some(&actual), values: golden.view.into() };
             page.add(comparisons.len(), &comparison, sides, maps.as_ref())?;
         }
         comparisons.push(comparison);

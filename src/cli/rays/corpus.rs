@@ -131,7 +131,7 @@ fn part(scene: &Scene, args: &Args, waiting: &ProgressBar) -> anyhow::Result<(Fi
         let name = kind.name();
         let rays = args.rays as usize;
         waiting.set_message(format!("{}: computing exact hits of {}: {name}", scene.name, plural(rays, "ray")));
-        let (file, truth) = answered(scene, kind, rays, args.seed, &oracle)
+        let (file, truth) = rays_with_exact_hits(scene, kind, rays, args.seed, &oracle)
             .map_err(|problem| anyhow::anyhow!("{} has no {name} rays: {problem}: scale the mesh", scene.name))?;
         counts[0] += truth.len();
         counts[1] += truth.iter().flatten().count();
@@ -142,7 +142,7 @@ fn part(scene: &Scene, args: &Args, waiting: &ProgressBar) -> anyhow::Result<(Fi
 }
 
 /// The rays of a workload and their exact hits. The ray file has no scene hash, which would not match the mesh file.
-fn answered(
+fn rays_with_exact_hits(
     scene: &Scene,
     kind: RayKind,
     count: usize,

@@ -93,7 +93,7 @@ impl Run<'_> {
             scene: scene.name.clone(),
             label: name,
             triangle_test: test.into(),
-            is_brought: true,
+            is_external: true,
             has_known_defect: false,
             found: Ok(found),
         };

@@ -126,7 +126,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let waiting = spinner("loading scenes", terminal);
     let replay = recorded(registry, &args.source(), &args.scenes)?;
     if replay.is_some() {
-        args.from.is_unasked()?;
+        args.from.reject_unused()?;
     }
     anyhow::ensure!(
         replay.is_none() || args.seed.is_none() && !args.adversarial,

@@ -27,7 +27,7 @@ pub struct Outcome {
     pub label: String,
     pub triangle_test: String,
     /// Whether the hits come from the user: from a structure of another crate, a runner or a file.
-    pub is_brought: bool,
+    pub is_external: bool,
     /// Whether the structure has a known defect. Its wrong hits do not change the exit status.
     pub has_known_defect: bool,
     pub found: Result<Validation, BuildFailure>,
@@ -39,7 +39,7 @@ impl Outcome {
             scene: scene.into(),
             label: plain_name(&choice.label).into(),
             triangle_test: choice.triangle_test().into(),
-            is_brought: !choice.entry.is_builtin,
+            is_external: !choice.entry.is_builtin,
             has_known_defect: known_defect(&choice.entry.name).is_some(),
             found,
         }
@@ -110,15 +110,15 @@ impl Outcome {
 }
 
 /// The verdict on a structure over all scenes or hard cases.
-pub struct Verdicts {
+pub struct StructureVerdict {
     pub label: String,
-    pub is_brought: bool,
+    pub is_external: bool,
     pub verdict: Verdict,
     /// The first scene or case in which the structure was not checked, and the reason.
     pub unchecked: Option<(String, String)>,
 }
 
-impl Verdicts {
+impl StructureVerdict {
     /// The verdict as a sentence. If the structure was not checked in a scene, a second sentence names the scene.
     pub fn sentence(&self) -> String {
         let Self { label, verdict, .. } = self;
@@ -131,8 +131,8 @@ impl Verdicts {
 }
 
 /// One verdict per structure, over all scenes.
-pub fn verdicts(outcomes: &[Outcome]) -> Vec<Verdicts> {
-    let mut all: Vec<Verdicts> = vec![];
+pub fn verdicts(outcomes: &[Outcome]) -> Vec<StructureVerdict> {
+    let mut all: Vec<StructureVerdict> = vec![];
     for outcome in outcomes {
         let verdict = outcome.verdict();
         let unchecked = match &outcome.found {
@@ -143,8 +143,8 @@ pub fn verdicts(outcomes: &[Outcome]) -> Vec<Verdicts> {
             own.verdict = own.verdict.and(verdict);
             own.unchecked = own.unchecked.take().or(unchecked);
         } else {
-            let (label, is_brought) = (outcome.label.clone(), outcome.is_brought);
-            all.push(Verdicts { label, is_brought, verdict, unchecked });
+            let (label, is_external) = (outcome.label.clone(), outcome.is_external);
+            all.push(StructureVerdict { label, is_external, verdict, unchecked });
         }
     }
     all
@@ -153,14 +153,15 @@ pub fn verdicts(outcomes: &[Outcome]) -> Vec<Verdicts> {
 /// Prints a sentence about each structure that the user provides, and writes the run as JSON, which `study/SCHEMA.md`
 /// describes. `results` are ordered by scene or case, then by structure.
 pub fn finish(
-    verdicts: &[Verdicts],
+    verdicts: &[StructureVerdict],
     results: &[Value],
     json: Option<OutputFile>,
     terminal: &Terminal,
 ) -> anyhow::Result<()> {
-    terminal.print_lines(verdicts.iter().filter(|own| own.is_brought).map(Verdicts::sentence));
+    terminal.print_lines(verdicts.iter().filter(|own| own.is_external).map(StructureVerdict::sentence));
     let Some(file) = json else { return Ok(()) };
-    let verdict = |own: &Verdicts| json!({ "label": own.label, "verdict": own.verdict, "sentence": own.sentence() });
+    let verdict =
+        |own: &StructureVerdict| json!({ "label": own.label, "verdict": own.verdict, "sentence": own.sentence() });
     let run = json!({
         // Version 3 has verdicts, and is the same for every mode of `validate`.
         "schema": 3,

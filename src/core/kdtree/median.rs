@@ -1,7 +1,7 @@
 //! Selects split planes without a cost: a median or the middle of the cell. Does not clip triangles to their cells.
 
 use super::config::{AxisRule, CountOf, Equal, KdConfig, Median, Plane};
-use crate::build::cells::{Content, Context, Place};
+use crate::build::cells::{Content, Context, NodeState};
 use crate::build::cut::Cut;
 use crate::build::sah_cost::SideAreas;
 
@@ -16,9 +16,9 @@ impl Triangles {
         Self { ids: context.mesh.solid().collect(), matches: 0 }
     }
 
-    fn plane(&self, context: &Context<KdConfig>, place: &Place, axis: usize) -> f32 {
+    fn plane(&self, context: &Context<KdConfig>, state: &NodeState, axis: usize) -> f32 {
         match context.config.plane {
-            Plane::SpatialMedian => place.cell.min[axis] * 0.5 + place.cell.max[axis] * 0.5,
+            Plane::SpatialMedian => state.cell.min[axis] * 0.5 + state.cell.max[axis] * 0.5,
             Plane::CentroidMedian => middle(self.centroids(context, axis), context.config.median),
             _ => middle(self.coordinates(context, axis), context.config.median),
         }
@@ -45,10 +45,10 @@ impl Triangles {
     }
 
     /// Whether the cut lies inside the cell and costs less than a leaf. `below` and `above` count triangles.
-    fn pays(&self, context: &Context<KdConfig>, place: &Place, cut: Cut, below: usize, above: usize) -> bool {
+    fn pays(&self, context: &Context<KdConfig>, state: &NodeState, cut: Cut, below: usize, above: usize) -> bool {
         // Vertices may lie outside the cell, and so may their median.
-        let inside = place.cell.min[cut.axis] < cut.plane && cut.plane < place.cell.max[cut.axis];
-        let (model, areas) = (context.config.costs(), SideAreas::new(&place.cell, cut.axis));
+        let inside = state.cell.min[cut.axis] < cut.plane && cut.plane < state.cell.max[cut.axis];
+        let (model, areas) = (context.config.costs(), SideAreas::new(&state.cell, cut.axis));
         inside && model.cell_split(&areas, cut.plane, [below, above]) < model.leaf(self.ids.len())
     }
 }
@@ -74,15 +74,15 @@ impl Content for Triangles {
         self.ids.iter().copied()
     }
 
-    fn choose(&self, context: &Context<KdConfig>, place: &Place) -> Option<Cut> {
+    fn choose(&self, context: &Context<KdConfig>, state: &NodeState) -> Option<Cut> {
         let axis = match context.config.axis {
-            AxisRule::Cyclic => (place.depth % 3) as usize,
-            AxisRule::Longest => place.cell.longest_axis(),
+            AxisRule::Cyclic => (state.depth % 3) as usize,
+            AxisRule::Longest => state.cell.longest_axis(),
         };
-        Some(Cut { axis, plane: self.plane(context, place, axis), flat_below: true })
+        Some(Cut { axis, plane: self.plane(context, state, axis), flat_below: true })
     }
 
-    fn divide(self, context: &Context<KdConfig>, place: &Place, cut: Cut) -> Result<(Self, Self), Self> {
+    fn divide(self, context: &Context<KdConfig>, state: &NodeState, cut: Cut) -> Result<(Self, Self), Self> {
         let (mut below, mut above, mut matches) = (vec![], vec![], 0);
         for &id in &self.ids {
             let corners = context.mesh.corners(id).map(|p| p[cut.axis]);
@@ -102,8 +102,8 @@ impl Content for Triangles {
 
         let discarded = context.config.count == CountOf::Parent && context.rules.discards(matches, self.ids.len());
         let (b, a) = (below.len(), above.len());
-        let dear = context.rules.pays && !self.pays(context, place, cut, b, a);
-        if discarded || dear || !place.affords(b, a) || !place.progresses(context, self.ids.len(), b, a) {
+        let dear = context.rules.pays && !self.pays(context, state, cut, b, a);
+        if discarded || dear || !state.affords(b, a) || !state.progresses(context, self.ids.len(), b, a) {
             return Err(self);
         }
         Ok((Self { ids: below, matches }, Self { ids: above, matches }))

@@ -197,7 +197,7 @@ fn a_tree_beyond_the_limits_is_refused() {
 }
 
 #[test]
-fn it_lives_in_the_pages_of_the_wide_tree() {
+fn nodes_and_blocks_use_huge_pages() {
     let tree = Tree::build(&soup(20_000, 9), &KdConfig::SAH).unwrap();
     pages::assert_large(&tree.nodes);
     pages::assert_large(&tree.blocks);

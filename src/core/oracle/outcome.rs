@@ -33,7 +33,7 @@ impl DepthRule {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Outcome {
     /// The ray misses, and the structure returns a miss.
-    Nothing,
+    RightMiss,
     /// A hit on one of the nearest primitives, at a depth within the tolerance.
     Right,
     /// The ray hits, and the structure returns a miss.
@@ -49,7 +49,7 @@ pub enum Outcome {
 /// The outcome of a ray whose exact hit is `truth` if the structure returns `answer`.
 pub fn outcome(truth: Option<&Truth>, answer: Option<Hit>, rule: DepthRule) -> Outcome {
     match (truth, answer) {
-        (None, None) => Outcome::Nothing,
+        (None, None) => Outcome::RightMiss,
         (Some(_), None) => Outcome::Missed,
         (None, Some(_)) => Outcome::FalseHit,
         (Some(truth), Some(hit)) => {
@@ -91,7 +91,7 @@ mod tests {
     fn every_answer_has_its_outcome_and_the_rules_draw_their_lines_where_they_say() {
         let [hit, none] = &truths();
         let of = |truth: &Option<Truth>, answer, rule| outcome(truth.as_ref(), answer, rule);
-        assert_eq!(of(none, None, DepthRule::STRICT), Outcome::Nothing);
+        assert_eq!(of(none, None, DepthRule::STRICT), Outcome::RightMiss);
         assert_eq!(of(none, Some(Hit::new(1.0, 0)), DepthRule::STRICT), Outcome::FalseHit);
         assert_eq!(of(hit, None, DepthRule::STRICT), Outcome::Missed);
         for (t, id, coarse, strict) in [

@@ -31,13 +31,13 @@ pub trait Depth: Copy {
     /// The inputs of `ts` for a hit of `ray`: corners, origin, direction, and the distance between the bounds.
     #[inline(always)]
     fn inputs(&self, _ray: &Ray) -> [f32; INPUTS] {
-        unreachable!("a depth whose `t` is late has inputs")
+        unreachable!("a depth with `LATE` implements `inputs`")
     }
 
     /// The [`t`](Self::t) of hits, from their [`inputs`](Self::inputs). `which`: the lanes that have a hit, as bits.
     #[inline(always)]
     fn ts<L: EightLanes>(_inputs: &[[f32; 8]; INPUTS], _which: u32) -> [f32; 8] {
-        unreachable!("a depth whose `t` is late computes the `t` of eight hits")
+        unreachable!("a depth with `LATE` implements `ts`")
     }
 
     /// An upper bound of `t`, as a float. A traversal can skip everything beyond it.

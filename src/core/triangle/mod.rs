@@ -144,7 +144,7 @@ pub trait TriangleTest: Send + Sync + 'static {
 
     /// The order of two hits if [`Depth::order`] is `None`. Tests for which it can be `None` must implement this.
     fn order_closely(_ray: &Self::Ray, _one: &Self::Depth<'_>, _other: &Self::Depth<'_>) -> Ordering {
-        unreachable!("depths that need the ray to be ordered have an order of their own")
+        unreachable!("a test whose depths may be unordered implements `order_closely`")
     }
 
     /// Whether the first stage decides all hits: `decide` accepts every candidate, and [`Depth::of`] returns a depth.
@@ -167,13 +167,13 @@ pub trait TriangleTest: Send + Sync + 'static {
         _to: L,
         _active: L::Mask,
     ) -> Option<EightHits<L>> {
-        unreachable!("a test that has this form writes it")
+        unreachable!("a test with `EIGHT` implements `meet_eight`")
     }
 
     /// The depth of a hit of [`meet_eight`](Self::meet_eight), from its bounds of `t`. Used if [`Depth::of`] is `None`.
     #[inline(always)]
     fn depth_between<const N: usize>(_block: &Self::Block<N>, _lane: usize, _low: f32, _high: f32) -> Self::Depth<'_> {
-        unreachable!("a depth that takes more than a float is made by its test")
+        unreachable!("a test whose `Depth::of` is `None` implements `depth_between`")
     }
 
     /// The scalar test: the hit of one triangle at a `t` in [`from`, `to`].

@@ -54,8 +54,8 @@ impl Comparison {
 
     /// Removes the sizes of differences. Use it for pictures whose values are names, such as numbers of primitives.
     #[must_use]
-    pub fn of_names(self, size: [u32; 2]) -> Self {
-        let Some(measures) = self.measures.map(Measures::of_names) else { return self };
+    pub fn without_sizes(self, size: [u32; 2]) -> Self {
+        let Some(measures) = self.measures.map(Measures::without_sizes) else { return self };
         Self { said: vec![measures.difference.sentence(size)], measures: Some(measures), ..self }
     }
 

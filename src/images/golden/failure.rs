@@ -7,7 +7,7 @@ use image::DynamicImage;
 
 use super::comparison::{Verdict, compare};
 use super::measures::Measures;
-use super::page::{self, Sides, Values};
+use super::page::{self, PicturePair, Values};
 use super::rule::{Match, NoFlip};
 use super::{GoldenError, Layout, PictureError};
 use crate::output::OutputFolder;
@@ -44,7 +44,12 @@ pub fn check(
         let folder = shown.parent().unwrap_or(shown);
         fs::create_dir_all(folder).map_err(|cause| PictureError::Directory { path: folder.into(), cause })?;
         Ok(page::write(&OutputFolder::check(shown)?, label, |page| {
-            page.add(0, &comparison, Sides { expected: Some(expected), actual: Some(actual), values }, maps.as_ref())
+            page.add(
+                0,
+                &comparison,
+                PicturePair { expected: Some(expected), actual: Some(actual), values },
+                maps.as_ref(),
+            )
         })?)
     };
     // If the pictures cannot be written, the error still contains the difference.

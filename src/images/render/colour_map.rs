@@ -36,11 +36,13 @@ pub fn heat(cost: u64, hottest: u64) -> [u8; 3] {
 pub fn ramp(share: f64) -> [u8; 3] {
     // 255 steps between neighbouring colours.
     let steps = ((INFERNO.len() - 1) * 255) as f64;
-    let place = libm::round(share * steps) as usize;
-    let (index, part) = (place / 255, (place % 255) as u32);
+    let step = libm::round(share * steps) as usize;
+    let (index, fraction) = (step / 255, (step % 255) as u32);
     let below = INFERNO[index];
     let above = INFERNO[(index + 1).min(INFERNO.len() - 1)];
-    std::array::from_fn(|c| ((u32::from(below[c]) * (255 - part) + u32::from(above[c]) * part + 127) / 255) as u8)
+    std::array::from_fn(|c| {
+        ((u32::from(below[c]) * (255 - fraction) + u32::from(above[c]) * fraction + 127) / 255) as u8
+    })
 }
 
 /// Adds a bar with the colours of all costs from 0 to `hottest` below the picture.

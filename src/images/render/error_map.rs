@@ -85,7 +85,7 @@ impl ErrorMap {
     /// A sentence with the meaning of each colour and its number of pixels.
     pub fn legend(&self) -> String {
         let painted = PAINTED.map(|(outcome, name, colour, _)| format!("{name} {} ({colour})", self.count(outcome)));
-        let right = self.count(Outcome::Right) + self.count(Outcome::Nothing);
+        let right = self.count(Outcome::Right) + self.count(Outcome::RightMiss);
         format!("{}, correct {right} (grey, brighter where nearer); errors are three pixels wide", painted.join(", "))
     }
 
@@ -143,7 +143,7 @@ mod tests {
         let map = ErrorMap::new(&scene, &tree, size);
         let (hits, picture) = (map.count(Outcome::Right), map.picture());
         assert!(hits > 0 && hits < 24 * 24, "{}", map.legend());
-        assert_eq!(hits + map.count(Outcome::Nothing), 24 * 24);
+        assert_eq!(hits + map.count(Outcome::RightMiss), 24 * 24);
         assert!(picture.pixels().all(|Rgb([r, g, b])| r == g && g == b && f32::from(*r) <= BRIGHTEST));
         assert_eq!(picture.get_pixel(0, 0), &Rgb([0; 3]));
 

@@ -10,7 +10,7 @@ use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
 use crate::triangle::{Exact, MollerTrumbore};
 
 #[test]
-fn rays_are_cast_for_what_a_scene_needs_and_no_more() {
+fn only_needed_rays_are_traced() {
     let mut scene = of_the_report("infinitycandy");
     let all = BruteForce::<MollerTrumbore>::build(&scene.mesh, &Default::default()).unwrap();
     let mut count = |change: &dyn Fn(&mut Scene)| {

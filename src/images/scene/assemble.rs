@@ -55,7 +55,7 @@ impl Scene {
 
 /// Loads or generates all meshes, transforms them to world space and checks the scene.
 pub(super) fn assemble(file: &SceneFile, origin: &Origin) -> Result<Scene, SceneError> {
-    let mut parts = Parts::new(file);
+    let mut parts = SceneBuilder::new(file);
     for (i, object) in file.objects.iter().enumerate() {
         parts.add(object, &format!("objects[{i}]"), origin)?;
     }
@@ -95,7 +95,7 @@ pub(super) fn assemble(file: &SceneFile, origin: &Origin) -> Result<Scene, Scene
 }
 
 #[derive(Default)]
-struct Parts {
+struct SceneBuilder {
     /// The objects that were already added, in world space, with unit normals.
     all: Model,
     stand_ins: Vec<String>,
@@ -103,7 +103,7 @@ struct Parts {
     replaced: bool,
 }
 
-impl Parts {
+impl SceneBuilder {
     fn new(file: &SceneFile) -> Self {
         let materials = file.materials.iter().map(|(name, m)| m.material(name)).collect();
         let textures: Vec<&str> =

@@ -206,7 +206,7 @@ impl SceneFile {
             }
             numbers(&[material.Ns], 0.0, &format!("materials.{name}.Ns"))?;
             let is_share = (0.0..=1.0).contains(&material.r);
-            demand(is_share, &format!("materials.{name}.r"), "give a share, from 0 to 1")?;
+            demand(is_share, &format!("materials.{name}.r"), "give a number from 0 to 1")?;
         }
         for (i, object) in self.objects.iter().enumerate() {
             let placements =

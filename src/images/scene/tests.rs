@@ -73,7 +73,7 @@ fn errors_name_the_file_the_location_and_a_remedy() {
     for r in ["1.5", "-0.1", "nan"] {
         let material = format!("[materials.M]\nKa = [0, 0, 0]\nKd = [0, 0, 0]\nKs = [0, 0, 0]\nr = {r}\n");
         let message = message(&format!("{PLAIN}\n{material}"));
-        assert!(message.starts_with("test.toml, `materials.M.r`: give a share, from 0 to 1"), "{message}");
+        assert!(message.starts_with("test.toml, `materials.M.r`: give a number from 0 to 1"), "{message}");
     }
     let missing = Scene::read(std::path::Path::new("no/such.toml"), None).unwrap_err().to_string();
     assert!(missing.starts_with("no/such.toml: cannot read the scene"), "{missing}");

@@ -77,7 +77,7 @@ fn machines() -> impl Iterator<Item = Machine> {
 const PAIRS: u64 = 2500;
 
 /// The percentage of pairs in which the interval contains the number; `pair` makes an interval and a number.
-fn share_held(pairs: u64, pair: impl Fn(&mut RandomOrder) -> (Estimate, f64)) -> f64 {
+fn coverage_of(pairs: u64, pair: impl Fn(&mut RandomOrder) -> (Estimate, f64)) -> f64 {
     let holds = |seed: &u64| {
         let (first, second) = pair(&mut RandomOrder::new(*seed));
         first.holds(second)
@@ -87,7 +87,7 @@ fn share_held(pairs: u64, pair: impl Fn(&mut RandomOrder) -> (Estimate, f64)) ->
 
 /// The percentage of pairs of runs in which the second estimate lies within the first interval.
 fn held(pairs: u64, run: impl Fn(&mut RandomOrder) -> Rerun) -> f64 {
-    share_held(pairs, |random| (run(random).plain(), run(random).plain().estimate))
+    coverage_of(pairs, |random| (run(random).plain(), run(random).plain().estimate))
 }
 
 #[track_caller]
@@ -123,7 +123,7 @@ fn several_rounds_filter_interruptions_and_one_does_not() {
 #[test]
 fn changes_lie_within_their_intervals() {
     let machine = Machine { placement: 0.02, ..Machine::default() };
-    let changes = share_held(PAIRS, |random| {
+    let changes = coverage_of(PAIRS, |random| {
         let (old, new) = (machine.values(1, [1.0, 1.0], random), machine.values(2, [1.1, 1.0], random));
         (Rerun::change(&old, &new, [Variance::NONE; 2]).unwrap().plain(), libm::log(1.1))
     });

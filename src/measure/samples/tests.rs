@@ -110,7 +110,7 @@ fn only_the_pass_is_timed_in_rounds_of_changing_order() {
 }
 
 #[test]
-fn a_case_with_changing_results_is_not_steady_and_the_others_go_on() {
+fn a_case_with_changing_results_is_not_steady_and_other_cases_continue() {
     // On all rays, the checksum changes in the second sample. On a subset, two checksum passes precede the samples: the
     // checksum changes in the second sample (pass 4), or in the second checksum pass.
     for (runs, most_rays, fickle_at) in [(5, usize::MAX, 2), (5, 16, 4), (1, 16, 2)] {
@@ -143,7 +143,7 @@ fn another_epoch_has_the_checksum_of_the_first_unless_its_results_differ() {
         let checksum = |right: u64, epoch: usize| {
             let mut cases: [Box<dyn Timed + '_>; 1] = [Box::new(Mock { right, ..bench.mock('a', 10, whole) })];
             let samples = bench.take(&mut cases, &SamplePlan { most_rays: 16_384, epoch, ..PLAN });
-            assert_eq!((samples[0].rays, samples[0].asked, samples[0].ns.len()), (rays, asked, 5));
+            assert_eq!((samples[0].rays, samples[0].checksum_level, samples[0].ns.len()), (rays, asked, 5));
             samples[0].checksum
         };
         assert_eq!([(7, 0), (7, 1), (8, 2)].map(|(right, epoch)| checksum(right, epoch)), [7, 7, 8]);

@@ -11,9 +11,9 @@ use crate::report::{Colours, Table};
 
 /// The maps of all structures that count triangle tests and traversal steps; `None` if no structure does.
 pub fn maps(camera: &CameraRays) -> Option<Maps> {
-    let told = camera.structures.iter().filter(|own| own.observed == Observed::ALL);
+    let counting = camera.structures.iter().filter(|own| own.observed == Observed::ALL);
     let costs = |own: &StructureWork| own.work.iter().map(Work::cost).collect();
-    let costs: Vec<(&str, Vec<u64>)> = told.map(|own| (own.label.as_str(), costs(own))).collect();
+    let costs: Vec<(&str, Vec<u64>)> = counting.map(|own| (own.label.as_str(), costs(own))).collect();
     let mean = |costs: &[u64]| costs.iter().sum::<u64>() as f64 / costs.len() as f64;
     // All structures share one scale: equal cost has equal brightness.
     let scale = costs.iter().map(|(_, costs)| hottest(costs)).max()?;

@@ -168,8 +168,8 @@ fn failures(dataset: &Dataset, all: &[JudgedRays]) -> Vec<Failure> {
     let mut failures = vec![];
     for judged in all.iter().flat_map(|of_kind| &of_kind.structures) {
         let own = judged.structure;
-        let owes = own.triangle_test == Exact::NAME && known_defect(&own.name).is_none();
-        if owes && judged.errors.errors() + judged.errors.wrong_primitive > 0 {
+        let must_be_exact = own.triangle_test == Exact::NAME && known_defect(&own.name).is_none();
+        if must_be_exact && judged.errors.errors() + judged.errors.wrong_primitive > 0 {
             // No sentence: the tables already show this failure.
             failures.push(Failure { structure: own.name.clone(), wrong: true, ..Failure::default() });
         }

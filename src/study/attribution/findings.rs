@@ -13,7 +13,7 @@ use crate::study::kendall::{kendall, mean_of_scenes};
 pub const HARD: [&str; 3] = ["Dragon", "Lucy", "Sponza"];
 
 pub fn findings(results: &[Attribution]) -> Vec<Finding> {
-    let best = |name: &str| form(results, name, false).or_else(|| form(results, name, true));
+    let best = |name: &str| result_of(results, name, false).or_else(|| result_of(results, name, true));
     // Claims are about primary rays.
     let is_claimed = |r: &&Attribution| r.first().workload == WorkloadKind::Primary.name();
     let hard: Vec<&Attribution> = HARD.iter().filter_map(|name| best(name)).filter(is_claimed).collect();
@@ -35,7 +35,7 @@ pub fn findings(results: &[Attribution]) -> Vec<Finding> {
 }
 
 /// The result of the scene `name`, with its stand-in if `stand_in`, otherwise with its real mesh.
-fn form<'a>(results: &'a [Attribution<'a>], name: &str, stand_in: bool) -> Option<&'a Attribution<'a>> {
+fn result_of<'a>(results: &'a [Attribution<'a>], name: &str, stand_in: bool) -> Option<&'a Attribution<'a>> {
     results.iter().find(|r| r.first().scene == name && r.first().stand_in == stand_in)
 }
 
@@ -85,7 +85,7 @@ pub fn split(r: &Attribution) -> Finding {
 /// missing, compares stand-ins.
 fn gains(results: &[Attribution]) -> Vec<Finding> {
     let of = |stand_in: bool| -> Vec<Finding> {
-        let whole = |name: &str| Some(form(results, name, stand_in)?.whole());
+        let whole = |name: &str| Some(result_of(results, name, stand_in)?.whole());
         let gain = |name| Some(Finding::number(format!("gain-{}", slug(name)), whole("Sponza")?.over(whole(name)?)));
         ["Dragon", "Lucy"].into_iter().filter_map(gain).collect()
     };

@@ -5,7 +5,7 @@ use crate::measure::{AaNoise, Estimate};
 use crate::report::Finding;
 use crate::report::number::plural;
 use crate::report::words::{each_once, interval, listed, slug};
-use crate::request::is_brought;
+use crate::request::is_external;
 use crate::study::measurement::{Measurement, trace_noise};
 use crate::triangle::{EdgeF64, Exact, MollerTrumboreF64, TriangleTest};
 
@@ -93,7 +93,7 @@ impl<'a> Ranking<'a> {
     /// The speed of a structure that the user brings; `None` for all other structures and for the reference.
     fn speed_finding(&self, row: &Ranked) -> Option<Finding> {
         let value = row.speed.filter(|value| {
-            *value != Estimate::exact(1.0) && is_brought(&row.example.structure, &row.example.triangle_test)
+            *value != Estimate::exact(1.0) && is_external(&row.example.structure, &row.example.triangle_test)
         })?;
         let (label, times, reference) = (row.label, interval(value), self.reference.words());
         let sentence = format!("{label} traces {times} times as many rays per second as {reference}.");

@@ -91,7 +91,7 @@ pub fn blocks(dataset: &Dataset, references: &[Reference], wide: bool) -> Vec<Bl
     let mut notes = refusals(&all_refused);
     if let Some(first) = all.first() {
         let means = (scenes.len() > 1).then(|| mean_table(&all, shown));
-        blocks.extend(means.filter(Table::says_something).map(Block::from));
+        blocks.extend(means.filter(Table::has_values).map(Block::from));
         let columns = if wide { details::legend(&first.workload) } else { vec![] };
         notes.splice(0..0, legend(&all, shown).into_iter().chain(columns));
     }

@@ -115,7 +115,7 @@ pub fn scene_table(all: &[Measurement], references: &[Reference], refused: &[&St
 pub(super) fn control(all: &[Measurement]) -> Option<String> {
     let (twins, label) = (trace_noise(all), &all.iter().find(|r| r.twin_samples_ns.is_some())?.label);
     let noise = libm::exp(twins.log()?) - 1.0;
-    let holding = twins.holding_one();
+    let holding = twins.containing_one();
     let holding = holding.map_or(String::new(), |(n, all)| format!("; {n} of {all} intervals of the ratio contain 1"));
     // 0 does not prove that there is no noise: the variation of the epochs may hide it.
     let noise = match noise {

@@ -28,7 +28,7 @@ const SAME_SCENE: &str = "the hash covers the mesh, camera, lights and picture s
                           and --size";
 const SAME_BUILD: &str = "build both in the same way";
 const SAME_RAYS: &str = "measure both with --budget none, which times all rays";
-const YARDSTICK: &str = "a gate needs a reference that both runs time in the same rounds: name such a structure with --reference, or \
+const GATE_REFERENCE: &str = "a gate needs a reference that both runs time in the same rounds: name such a structure with --reference, or \
                          measure both with --budget none, which includes obvhs-bvh2";
 
 fn differ(what: &str, old: &str, new: &str, advice: &'static str) -> Result<(), Unlike> {
@@ -81,7 +81,7 @@ pub fn unlike(old: &Side, new: &Side, gate: bool) -> Result<(), Unlike> {
             let labels = each_once(timed.map(|own| own.label.as_str()));
             if labels.is_empty() { "missing".to_owned() } else { labels.join(" and ") }
         });
-        return Err(Unlike { what: "the reference".into(), old, new, advice: YARDSTICK });
+        return Err(Unlike { what: "the reference".into(), old, new, advice: GATE_REFERENCE });
     }
     Ok(())
 }

@@ -133,8 +133,8 @@ fn none(case: &TimedRays, cases: &[TimedRays]) -> Samples {
     fewer.sort_unstable_by(|a, b| b.cmp(a));
     fewer.dedup();
     // Compute the checksum over a fixed set of rays, whichever rays are timed.
-    let asked = if case.is_by_clock { Some(pilot_level(case.all)) } else { own.asked };
-    Samples { asked, parts: fewer.into_iter().map(|rays| SubsetSamples { rays, ns: vec![] }).collect(), ..own }
+    let checksum_level = if case.is_by_clock { Some(pilot_level(case.all)) } else { own.checksum_level };
+    Samples { checksum_level, parts: fewer.into_iter().map(|rays| SubsetSamples { rays, ns: vec![] }).collect(), ..own }
 }
 
 #[cfg(test)]
@@ -163,6 +163,6 @@ mod tests {
         // The last level has no next one.
         assert_eq!(parts(&[(0, 0, false), (0, 5, true)]), [vec![64], vec![]]);
         let program = TimedRays { workload: 0, all: 65_536, level: 1, is_by_clock: true };
-        assert_eq!(none(&program, &[]).asked, Some(5));
+        assert_eq!(none(&program, &[]).checksum_level, Some(5));
     }
 }

@@ -13,7 +13,7 @@ pub fn tables(all: &[Replicated], main: &[Replicated], hard: &[Replicated]) -> V
     let hard = table("Hard scenes: seconds for the primary rays, without construction", hard, &SECONDS).noted([note]);
     let t_primes = table("t' = seconds / (rays x triangles)", all, &T_PRIMES);
     let all = [rays(all), easy, t_primes, settings(main), hard];
-    all.into_iter().filter(Table::says_something).map(Table::explained).collect()
+    all.into_iter().filter(Table::has_values).map(Table::explained).collect()
 }
 
 fn rays(all: &[Replicated]) -> Table {

@@ -62,14 +62,14 @@ pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(),
         for stratum in Stratum::ALL {
             let mut rays = stratum.rays(mesh, count, SEED);
             rays.retain(|ray| accel.capabilities().declines(ray).is_none());
-            let place = format!("{} on {name:?}, {} rays", subject.name, stratum.name());
+            let context = format!("{} on {name:?}, {} rays", subject.name, stratum.name());
             let traced = match trace(&accel, &rays, subject.limit) {
                 Ok(traced) => traced,
                 Err(ended) => {
                     // Find the first ray that also fails on its own.
                     let alone = rays.iter().find(|ray| trace(&accel, &[**ray], subject.limit).is_err());
                     let which = alone.map_or("all rays".into(), |ray| format!("ray \"{ray}\""));
-                    return Err(format!("{place}: tracing {which} with counts failed: {ended}"));
+                    return Err(format!("{context}: tracing {which} with counts failed: {ended}"));
                 }
             };
 
@@ -84,7 +84,7 @@ pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(),
             };
             let counting = differ(&traced.counted, &agree).map(|i| ("counting", i));
             for (what, i) in counting.into_iter().chain(differ(&traced.loaded, &same).map(|i| ("loading", i))) {
-                lines.push(format!("{place}: {what} changes the hit of ray \"{}\"", rays[i]));
+                lines.push(format!("{context}: {what} changes the hit of ray \"{}\"", rays[i]));
             }
 
             let hit = plain.closest.iter().any(Option::is_some);
@@ -102,7 +102,7 @@ pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(),
                     (c.empty_leaves > c.leaves, "counts more empty leaves than leaves"),
                 ];
                 let wrong = wrong.into_iter().filter(|(is_wrong, _)| *is_wrong);
-                lines.extend(wrong.map(|(_, what)| format!("{place}: the {which}-hit query {what}: {c:?}")));
+                lines.extend(wrong.map(|(_, what)| format!("{context}: the {which}-hit query {what}: {c:?}")));
             }
         }
     }

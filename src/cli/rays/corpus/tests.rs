@@ -49,7 +49,7 @@ fn the_python_of_the_document_counts_the_errors_that_we_count() {
     let tree = KdTree::<MollerTrumbore>::build(&scene.mesh, &KdConfig::SAH).unwrap();
     let mut wrong = 0;
     for kind in [RayKind::Vertex, RayKind::Edge] {
-        let answered = answered(&scene, kind, 2000, 3, &oracle).unwrap();
+        let answered = rays_with_exact_hits(&scene, kind, 2000, 3, &oracle).unwrap();
         let workload = &answered.0.workload;
         let found = tree.closest(&workload.rays);
         let truths: Vec<_> = workload.rays.iter().map(|ray| oracle.nearest(ray)).collect();
@@ -69,7 +69,7 @@ fn the_python_of_the_document_counts_the_errors_that_we_count() {
     }
     assert!(wrong > 0, "without wrong hits, a program that finds no errors would pass");
 
-    let other = answered(&scene, RayKind::Uniform, 10, 3, &oracle).unwrap();
+    let other = rays_with_exact_hits(&scene, RayKind::Uniform, 10, 3, &oracle).unwrap();
     let refused = judge(&other, &folder.path().join("f.hits"));
     assert!(String::from_utf8_lossy(&refused.stderr).contains("the hits belong to other rays"));
 }

@@ -10,7 +10,7 @@ use std::thread;
 use anyhow::Context;
 
 use super::Args;
-use super::outcome::{Verdicts, finish};
+use super::outcome::{StructureVerdict, finish};
 use crate::cli::progress::{LogLines, spinner};
 use crate::cli::terminal::Terminal;
 use crate::output::OutputFile;
@@ -62,18 +62,18 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
     let tables = tables(&cases, &columns);
     tables.iter().filter(|table| !table.rows.is_empty()).for_each(|table| terminal.print_table(table));
     terminal.print_notes(LEGEND);
-    let verdicts: Vec<Verdicts> = columns.iter().map(|column| verdicts(&cases, column)).collect();
+    let verdicts: Vec<StructureVerdict> = columns.iter().map(|column| verdicts(&cases, column)).collect();
     finish(&verdicts, &records, json, terminal)?;
     let all = columns.iter().flat_map(|own| own.scores.iter().map(|score| status(own.choice, score, args.strict)));
     Ok(all.fold(Status::Right, Status::and))
 }
 
 /// The verdict on a structure over all cases.
-fn verdicts(cases: &[&HardCase], column: &Column) -> Verdicts {
+fn verdicts(cases: &[&HardCase], column: &Column) -> StructureVerdict {
     let unchecked = |(case, score): (&&HardCase, &Score)| Some((case.name.to_owned(), refusal(score)?.to_owned()));
-    Verdicts {
+    StructureVerdict {
         label: plain_name(&column.choice.label).into(),
-        is_brought: !column.choice.entry.is_builtin,
+        is_external: !column.choice.entry.is_builtin,
         verdict: column.scores.iter().map(verdict).fold(Verdict::default(), Verdict::and),
         unchecked: cases.iter().zip(&column.scores).find_map(unchecked),
     }

@@ -33,7 +33,7 @@ pub fn tables(cases: &[&HardCase], columns: &[Column]) -> Vec<Table> {
     };
     let slowness = |_: &HardCase, score: &Score| Some(format!("{} x", figures(score.rays()?.slowness?)).into());
     vec![
-        outcomes(cases, columns, "Answers", |case| !is_property(case)),
+        outcomes(cases, columns, "Outcomes", |case| !is_property(case)),
         table(cases, columns, "Error of t in ulps on the correct primitive: median/p99/max", ulps),
         table(cases, columns, "Time of invalid rays relative to valid rays on the same mesh", slowness),
         outcomes(cases, columns, "Properties: failures", is_property),

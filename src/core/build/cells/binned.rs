@@ -2,7 +2,7 @@
 //! planes. The trees cost nearly as little as with all planes in all nodes, in a fraction of the time and memory.
 
 use super::config::CellConfig;
-use super::grow::{Content, Context, Place};
+use super::grow::{Content, Context, NodeState};
 use super::sweep::{Events, PARALLEL};
 use crate::build::axes::on_axes;
 use crate::build::cut::Cut;
@@ -73,8 +73,8 @@ impl Binned {
 }
 
 /// The cost and the cut of the cheapest plane within the budget; `sample` estimates the numbers of references.
-fn cheapest(context: &Context<CellConfig>, part: &Part, sample: &Sample, place: &Place) -> Option<(f64, Cut)> {
-    let found = on_axes(sample.len() >= PARALLEL, |axis| along(context, part, sample, place, axis));
+fn cheapest(context: &Context<CellConfig>, part: &Part, sample: &Sample, state: &NodeState) -> Option<(f64, Cut)> {
+    let found = on_axes(sample.len() >= PARALLEL, |axis| along(context, part, sample, state, axis));
     found.into_iter().flatten().reduce(|a, b| if b.0 < a.0 { b } else { a })
 }
 
@@ -82,10 +82,10 @@ fn along(
     context: &Context<CellConfig>,
     part: &Part,
     sample: &Sample,
-    place: &Place,
+    state: &NodeState,
     axis: usize,
 ) -> Option<(f64, Cut)> {
-    let (model, cell) = (&context.config.costs, &place.cell);
+    let (model, cell) = (&context.config.costs, &state.cell);
     let bounds = Aabb::from(part.extent);
     let range = (bounds.min[axis], bounds.max[axis]);
     let (areas, min, max) = (SideAreas::new(cell, axis), cell.min[axis], cell.max[axis]);
@@ -97,7 +97,7 @@ fn along(
             let least = usize::from(range.0 < plane && plane < range.1);
             let [below, above] = [below, above].map(|count| sample.scaled(count).max(least));
             let cost = model.cell_split(&areas, plane, [below, above]);
-            if best.is_none_or(|(least, _)| cost < least) && place.affords(below, above) {
+            if best.is_none_or(|(least, _)| cost < least) && state.affords(below, above) {
                 best = Some((cost, Cut { axis, plane, flat_below }));
             }
         }
@@ -141,21 +141,21 @@ impl Content for Binned {
         self.references().iter().map(|r| r.id())
     }
 
-    fn choose(&self, context: &Context<CellConfig>, place: &Place) -> Option<Cut> {
+    fn choose(&self, context: &Context<CellConfig>, state: &NodeState) -> Option<Cut> {
         let part = match self {
             Self::Coarse(part) => part,
-            Self::Fine(events) => return events.choose(context, place),
+            Self::Fine(events) => return events.choose(context, state),
         };
         let sample = Sample::new(&part.references, context.config.sample);
-        let mut found = cheapest(context, part, &sample, place);
+        let mut found = cheapest(context, part, &sample, state);
         if sample.len() < part.references.len() {
             // The sample only estimates the counts: search again without it if the exact counts exceed the budget.
             let affords = |cut: Cut| {
                 let [below, above] = cut.counts(&part.references);
-                place.affords(below, above)
+                state.affords(below, above)
             };
             if !found.is_some_and(|(_, cut)| affords(cut)) {
-                found = cheapest(context, part, &Sample::all(&part.references), place);
+                found = cheapest(context, part, &Sample::all(&part.references), state);
             }
         }
         let (cost, cut) = found?;
@@ -163,16 +163,16 @@ impl Content for Binned {
         (!context.rules.pays || cost < leaf).then_some(cut)
     }
 
-    fn divide(self, context: &Context<CellConfig>, place: &Place, cut: Cut) -> Result<(Self, Self), Self> {
+    fn divide(self, context: &Context<CellConfig>, state: &NodeState, cut: Cut) -> Result<(Self, Self), Self> {
         let part = match self {
             Self::Coarse(part) => part,
             Self::Fine(events) => {
-                let (below, above) = events.divide(context, place, cut).map_err(Self::Fine)?;
+                let (below, above) = events.divide(context, state, cut).map_err(Self::Fine)?;
                 return Ok((Self::Fine(below), Self::Fine(above)));
             }
         };
         let counts = cut.counts(&part.references);
-        if !place.accepts(context, part.references.len(), counts) {
+        if !state.accepts(context, part.references.len(), counts) {
             return Err(Self::Coarse(part));
         }
         let [below, above] = at_plane(context.mesh, part.references, cut, counts);
@@ -199,7 +199,7 @@ mod tests {
             let context = Context::new(&mesh, Rules::sah(8.0), &config);
             let Binned::Coarse(part) = Binned::all(&context) else { panic!("no node is exact") };
             let (model, cell) = (&config.costs, mesh.bounds());
-            let (all, root) = (Sample::all(&part.references), Place::root(&context, mesh.len()));
+            let (all, root) = (Sample::all(&part.references), NodeState::root(&context, mesh.len()));
             for axis in 0..3 {
                 let (cost, _) = along(&context, &part, &all, &root, axis).unwrap();
                 let bounds = Aabb::from(part.extent);
@@ -236,7 +236,7 @@ mod tests {
         });
         let config = CellConfig { sample: 512, ..CellConfig::new(Quality::Fast) };
         let context = Context::new(&needles, Rules::sah(1.5), &config);
-        let (all, root) = (Binned::all(&context), Place::root(&context, needles.len()));
+        let (all, root) = (Binned::all(&context), NodeState::root(&context, needles.len()));
         let cut = all.choose(&context, &root).expect("there are planes between the needles");
         assert_eq!(cut.axis, 1);
         assert!(all.divide(&context, &root, cut).is_ok());

@@ -47,10 +47,10 @@ pub(crate) trait Content: Sized + Send {
     fn ids(&self) -> impl Iterator<Item = u32>;
 
     /// The chosen cut, or `None` if a leaf is better.
-    fn choose(&self, context: &Context<Self::Config>, place: &Place) -> Option<Cut>;
+    fn choose(&self, context: &Context<Self::Config>, state: &NodeState) -> Option<Cut>;
 
     /// The contents below and above the cut. If the rule discards the cut, the error returns the undivided content.
-    fn divide(self, context: &Context<Self::Config>, place: &Place, cut: Cut) -> Result<(Self, Self), Self>;
+    fn divide(self, context: &Context<Self::Config>, state: &NodeState, cut: Cut) -> Result<(Self, Self), Self>;
 
     /// Whether this content, the result of a division, may be divided further.
     fn may_divide(&self, _context: &Context<Self::Config>) -> bool {
@@ -60,7 +60,7 @@ pub(crate) trait Content: Sized + Send {
 
 /// The position of a node in the tree.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Place {
+pub(crate) struct NodeState {
     pub cell: Aabb,
     pub depth: u32,
     /// The number of consecutive splits above this node without progress (see [`Rules::is_progress`]).
@@ -110,9 +110,9 @@ const _: () = assert!(DEEPEST == 49);
 /// Grows the tree over `content` in the box of the mesh. The result does not depend on the number of threads.
 pub(crate) fn grow<C: Content, T: Tree<C>>(context: &Context<C::Config>, content: C) -> T {
     let mut tree = T::default();
-    let place = Place::root(context, content.len());
+    let state = NodeState::root(context, content.len());
     if !T::SKIPS_EMPTY || content.len() > 0 {
-        subdivide(context, content, place, true, &mut tree);
+        subdivide(context, content, state, true, &mut tree);
     }
     tree
 }
@@ -120,21 +120,21 @@ pub(crate) fn grow<C: Content, T: Tree<C>>(context: &Context<C::Config>, content
 fn subdivide<C: Content, T: Tree<C>>(
     context: &Context<C::Config>,
     content: C,
-    place: Place,
+    state: NodeState,
     may_divide: bool,
     tree: &mut T,
 ) {
     let count = content.len();
-    let (cut, below, above) = match try_divide(context, content, &place, may_divide) {
+    let (cut, below, above) = match try_divide(context, content, &state, may_divide) {
         Ok(parts) => parts,
         Err(content) => return tree.leaf(content),
     };
 
     // Divide the budget in proportion to the numbers of references.
-    let (below_cell, above_cell) = place.cell.cut(cut.axis, cut.plane);
-    let stalled = if context.rules.is_progress(count, below.len(), above.len()) { 0 } else { place.stalled + 1 };
-    let share = place.budget / (below.len() + above.len()).max(1) as f64;
-    let child = |cell, len: usize| Place { cell, depth: place.depth + 1, stalled, budget: share * len as f64 };
+    let (below_cell, above_cell) = state.cell.cut(cut.axis, cut.plane);
+    let stalled = if context.rules.is_progress(count, below.len(), above.len()) { 0 } else { state.stalled + 1 };
+    let share = state.budget / (below.len() + above.len()).max(1) as f64;
+    let child = |cell, len: usize| NodeState { cell, depth: state.depth + 1, stalled, budget: share * len as f64 };
     let (below_place, above_place) = (child(below_cell, below.len()), child(above_cell, above.len()));
     let (below_may, above_may) = (below.may_divide(context), above.may_divide(context));
     if T::SKIPS_EMPTY && above.len() == 0 {
@@ -168,19 +168,19 @@ fn subdivide<C: Content, T: Tree<C>>(
 fn try_divide<C: Content>(
     context: &Context<C::Config>,
     content: C,
-    place: &Place,
+    state: &NodeState,
     may_divide: bool,
 ) -> Result<(Cut, C, C), C> {
     let count = content.len();
-    if count == 0 || count <= context.rules.leaf || !may_divide || place.depth >= context.depth_cap {
+    if count == 0 || count <= context.rules.leaf || !may_divide || state.depth >= context.depth_cap {
         return Err(content);
     }
-    let Some(cut) = content.choose(context, place) else { return Err(content) };
-    let (below, above) = content.divide(context, place, cut)?;
+    let Some(cut) = content.choose(context, state) else { return Err(content) };
+    let (below, above) = content.divide(context, state, cut)?;
     Ok((cut, below, above))
 }
 
-impl Place {
+impl NodeState {
     pub fn root<C>(context: &Context<C>, count: usize) -> Self {
         let budget = f64::from(context.rules.duplication) * count as f64;
         Self { cell: context.mesh.bounds(), depth: 0, stalled: 0, budget }

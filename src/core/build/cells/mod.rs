@@ -10,5 +10,5 @@ mod tight;
 
 pub(crate) use binned::Binned;
 pub(crate) use config::CellConfig;
-pub(crate) use grow::{Content, Context, DEEPEST, Place, Rules, Tree, grow};
+pub(crate) use grow::{Content, Context, DEEPEST, NodeState, Rules, Tree, grow};
 pub(crate) use tight::build;

@@ -10,7 +10,7 @@
 use rayon::prelude::*;
 
 use super::config::CellConfig;
-use super::grow::{Content, Context, Place};
+use super::grow::{Content, Context, NodeState};
 use crate::build::axes::on_axes;
 use crate::build::clip::clipped_bounds;
 use crate::build::cut::Cut;
@@ -197,21 +197,21 @@ impl Content for Events {
         self.references.iter().map(|r| r.id())
     }
 
-    fn choose(&self, context: &Context<CellConfig>, place: &Place) -> Option<Cut> {
+    fn choose(&self, context: &Context<CellConfig>, state: &NodeState) -> Option<Cut> {
         let model = &context.config.costs;
-        let found = on_axes(self.len() >= PARALLEL, |axis| self.sweep(model, &place.cell, axis));
+        let found = on_axes(self.len() >= PARALLEL, |axis| self.sweep(model, &state.cell, axis));
         let (cost, cut) = found.into_iter().flatten().reduce(|a, b| if b.0 < a.0 { b } else { a })?;
         (!context.rules.pays || cost < model.leaf(self.len())).then_some(cut)
     }
 
-    fn divide(self, context: &Context<CellConfig>, place: &Place, cut: Cut) -> Result<(Self, Self), Self> {
+    fn divide(self, context: &Context<CellConfig>, state: &NodeState, cut: Cut) -> Result<(Self, Self), Self> {
         let counts = cut.counts(&self.references);
-        if !place.accepts(context, self.len(), counts) {
+        if !state.accepts(context, self.len(), counts) {
             return Err(self);
         }
 
         let sides: Vec<[bool; 2]> = self.references.iter().map(|r| cut.sides(r)).collect();
-        let (below, above) = place.cell.cut(cut.axis, cut.plane);
+        let (below, above) = state.cell.cut(cut.axis, cut.plane);
         let part = |here, cell| self.part(context, &sides, here, cell);
         Ok(if self.len() < PARALLEL {
             (part(0, &below), part(1, &above))

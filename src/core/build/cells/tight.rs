@@ -18,15 +18,15 @@ pub(crate) fn build(mesh: &Mesh, config: &CellConfig, duplication: f32) -> Binar
 }
 
 impl BinaryTree {
-    fn deal(&mut self, part: Part) {
+    fn push_leaves(&mut self, part: Part) {
         let (first, count) = (self.references.len() as u32, part.references.len());
         if count > MOST {
             let inner = self.nodes.len();
             self.push(Aabb::EMPTY, Content::Inner([0; 2]));
             let [below, above] = halves(part.references);
-            self.deal(below);
+            self.push_leaves(below);
             let second = self.nodes.len();
-            self.deal(above);
+            self.push_leaves(above);
             self.join(inner, second);
         } else {
             self.references.extend(part.references.iter().map(|r| r.id()));
@@ -55,7 +55,7 @@ impl Tree<Binned> for BinaryTree {
     }
 
     fn leaf(&mut self, content: Binned) {
-        self.deal(content.into_part());
+        self.push_leaves(content.into_part());
     }
 
     fn open(&mut self) {

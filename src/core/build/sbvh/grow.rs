@@ -14,7 +14,7 @@ use crate::geometry::Mesh;
 use crate::triangle::BLOCK;
 
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct Limits {
     depth: u32,
     /// The maximum number of references of all leaves below this node.
     budget: f64,
@@ -36,17 +36,17 @@ pub(crate) fn build(mesh: &Mesh, config: &SbvhConfig) -> BinaryTree {
     let mut tree = BinaryTree::default();
     if !root.references.is_empty() {
         let budget = f64::from(config.duplication) * root.references.len() as f64;
-        grow(&context, root, Place { depth: 0, budget }, &mut tree, &mut Slots::new());
+        grow(&context, root, Limits { depth: 0, budget }, &mut tree, &mut Slots::new());
     }
     tree
 }
 
 /// Appends the tree over `part` to `tree`, root first. Returns the cost of this tree.
-fn grow(context: &Context, part: Part, place: Place, tree: &mut BinaryTree, slots: &mut Slots) -> f64 {
+fn grow(context: &Context, part: Part, limits: Limits, tree: &mut BinaryTree, slots: &mut Slots) -> f64 {
     let Part { references, extent } = part;
     let (area, count) = (extent.half_area(), references.len());
     let (own, first) = (tree.nodes.len(), tree.references.len());
-    let Some((split, counts)) = choose(context, &references, extent, place, slots) else {
+    let Some((split, counts)) = choose(context, &references, extent, limits, slots) else {
         tree.references.extend(references.iter().map(|r| r.id()));
         let content = Content::Leaf { first: first as u32, count: count as u32 };
         tree.nodes.push(BinaryNode { bounds: extent.into(), content });
@@ -58,8 +58,8 @@ fn grow(context: &Context, part: Part, place: Place, tree: &mut BinaryTree, slot
     };
 
     // Divide the budget of references in proportion to the sizes of both sides.
-    let share = place.budget / (below.references.len() + above.references.len()) as f64;
-    let child = |part: &Part| Place { depth: place.depth + 1, budget: share * part.references.len() as f64 };
+    let share = limits.budget / (below.references.len() + above.references.len()) as f64;
+    let child = |part: &Part| Limits { depth: limits.depth + 1, budget: share * part.references.len() as f64 };
     let (below_place, above_place) = (child(&below), child(&above));
 
     tree.nodes.push(BinaryNode { bounds: extent.into(), content: Content::Inner([0; 2]) });
@@ -87,7 +87,7 @@ fn choose(
     context: &Context,
     references: &[Reference],
     extent: Extent,
-    place: Place,
+    limits: Limits,
     slots: &mut Slots,
 ) -> Option<(Split, [usize; 2])> {
     let (area, count) = (extent.half_area(), references.len());
@@ -97,8 +97,8 @@ fn choose(
     // Always split a block in a large box. If the finished subtree costs more than a leaf, `merge` undoes the split.
     let leaf_cost = if count <= BLOCK { f64::INFINITY } else { context.unsplit_cost(area, count) };
     let full = count > LEAF;
-    if place.depth < context.depth
-        && let Some(offer) = cheapest(context, references, extent, place.budget, slots)
+    if limits.depth < context.depth
+        && let Some(offer) = cheapest(context, references, extent, limits.budget, slots)
         && (offer.cost < leaf_cost || full)
     {
         return Some((offer.split, offer.counts));

@@ -25,7 +25,7 @@ pub fn flip(one: &DynamicImage, other: &DynamicImage, pixels_per_degree: f64) ->
     let filters = Filters::new(pixels_per_degree);
     let over = |background: f64| {
         in_bands(layout.size, filters.reach(), |rows| {
-            let [one, other] = [one, other].map(|picture| Seen::new(picture, &layout, rows, background, &filters));
+            let [one, other] = [one, other].map(|picture| Perceived::new(picture, &layout, rows, background, &filters));
             (0..one.lab.len()).map(|i| one.differs(&other, i)).collect()
         })
     };
@@ -96,13 +96,13 @@ fn balanced(weights: Vec<f64>) -> Vec<f64> {
 }
 
 /// The perceived values of some rows: colours, and the strengths of edges and points.
-struct Seen {
+struct Perceived {
     lab: Vec<DVec3>,
     edges: Vec<f64>,
     points: Vec<f64>,
 }
 
-impl Seen {
+impl Perceived {
     fn new(picture: &DynamicImage, layout: &Layout, rows: &[usize], background: f64, filters: &Filters) -> Self {
         let (width, bytes) = (layout.size[0] as usize, layout.bytes_per_pixel());
         let pixels =

@@ -108,7 +108,7 @@ impl Measures {
     /// The measures of pictures whose values are names, such as numbers of primitives. Only the numbers of pixels stay,
     /// because the size of a difference between names has no meaning.
     #[must_use]
-    pub fn of_names(self) -> Self {
+    pub fn without_sizes(self) -> Self {
         let difference = Difference { worst: self.difference.first, largest: f64::NAN, ..self.difference };
         Self { difference, mean: f64::NAN, psnr: f64::NAN, ssim: None, flip: None, ..self }
     }

@@ -67,7 +67,7 @@ const KNOWN_FLIP: [[Known; 2]; 4] = [
 ];
 
 #[test]
-fn flip_is_that_of_its_authors() {
+fn flip_matches_its_authors_program() {
     let base = base().into();
     for (i, (other, known)) in pictures().iter().zip(KNOWN_FLIP).enumerate() {
         for (pixels_per_degree, known) in known {

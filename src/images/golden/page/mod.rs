@@ -17,7 +17,7 @@ use crate::output::{OutputError, OutputFolder};
 use crate::render::{from_pixels, ramp_colour};
 use side::{shown, values};
 
-pub use side::{Sides, Values};
+pub use side::{PicturePair, Values};
 
 const INDEX: &str = "index.html";
 
@@ -78,7 +78,13 @@ pub fn index(folder: &Path) -> PathBuf {
 
 impl Page<'_> {
     /// Adds a comparison with its pictures. If the pictures are equal, the page shows only the expected picture.
-    pub fn add(&self, number: usize, comparison: &Comparison, sides: Sides, maps: Option<&Maps>) -> io::Result<()> {
+    pub fn add(
+        &self,
+        number: usize,
+        comparison: &Comparison,
+        sides: PicturePair,
+        maps: Option<&Maps>,
+    ) -> io::Result<()> {
         let first = sides.expected.or(sides.actual);
         let size = first.map_or([1, 1], |picture| [picture.width(), picture.height()]);
         let mut files: Vec<Map> = vec![];

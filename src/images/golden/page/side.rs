@@ -9,7 +9,7 @@ use crate::render::{ViewKind, depth_picture, from_pixels, identity};
 
 /// The pictures of a comparison; `None` if a picture is missing.
 #[derive(Clone, Copy)]
-pub struct Sides<'a> {
+pub struct PicturePair<'a> {
     pub expected: Option<&'a DynamicImage>,
     pub actual: Option<&'a DynamicImage>,
     pub values: Values,
@@ -53,7 +53,7 @@ pub fn shown(picture: &DynamicImage, values: Values) -> DynamicImage {
 }
 
 /// A script that passes the values of all pixels to the page. Browsers do not let a local page read its pictures.
-pub fn values(number: usize, sides: Sides) -> String {
+pub fn values(number: usize, sides: PicturePair) -> String {
     let of = |picture: Option<&DynamicImage>| picture.map(|picture| numbers(picture, sides.values));
     let data = json!({ "expected": of(sides.expected), "actual": of(sides.actual) });
     format!("saharaValues({number}, {data});\n")

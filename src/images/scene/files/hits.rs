@@ -20,7 +20,7 @@ pub struct HitFile {
 const MAGIC: &[u8; 8] = b"SAHAHITS";
 
 /// Marks a miss: no primitive has this number.
-const NOTHING: u32 = u32::MAX;
+const MISS: u32 = u32::MAX;
 
 impl HitFile {
     /// The hits of all rays of `workload`.
@@ -73,14 +73,14 @@ impl HitFile {
 
 /// Eight bytes per hit: the bits of `t` and the number of the primitive, little-endian.
 pub fn hits_to_bytes(hits: &[Option<Hit>]) -> Vec<u8> {
-    let numbers = |hit: &Option<Hit>| hit.map_or([0, NOTHING], |hit| [hit.t.to_bits(), hit.prim.index()]);
+    let numbers = |hit: &Option<Hit>| hit.map_or([0, MISS], |hit| [hit.t.to_bits(), hit.prim.index()]);
     hits.iter().flat_map(numbers).flat_map(u32::to_le_bytes).collect()
 }
 
 /// The inverse of [`hits_to_bytes`].
 pub fn hits_from_bytes(bytes: &[u8]) -> Vec<Option<Hit>> {
     let hit = |bytes: &[u8]| match number(bytes, 4) {
-        NOTHING => None,
+        MISS => None,
         prim => Some(Hit::new(f32::from_bits(number(bytes, 0)), prim)),
     };
     bytes.chunks_exact(8).map(hit).collect()

@@ -69,7 +69,7 @@ pub fn by_name(name: &str) -> Option<Model> {
 /// A smooth model. Its normals are computed as in the mesh files of the source report's course.
 fn smooth(points: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Model {
     Model {
-        normals: normals::of_the_course(&points, &triangles),
+        normals: normals::by_angle_quantised(&points, &triangles),
         positions: points.into_iter().map(|p| p.as_vec3()).collect(),
         normal_indices: triangles.clone(),
         triangles,

@@ -9,7 +9,7 @@ const STEPS: f64 = 32767.0;
 /// weighted by the angles at the vertex, truncated to multiples of 1/32767 and rounded to six decimals. Triangles
 /// without area have no weight. The normals in the course's teapot file are such multiples. Mirror rays depend on the
 /// normals: with exact normals, ray counts differ from the report's by up to 140.
-pub(super) fn of_the_course(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
+pub(super) fn by_angle_quantised(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
     let mut sums = vec![DVec3::ZERO; points.len()];
     for triangle in triangles {
         let [a, b, c] = triangle.map(|i| points[i as usize]);

@@ -31,8 +31,8 @@ pub fn upward(ends: [f64; 2], length: i32) -> LogAxis {
     log_axis(ends, length, |_| 48)
 }
 
-/// A logarithmic axis with as many round numbers as fit; each takes `room` pixels.
-fn log_axis([low, high]: [f64; 2], length: i32, room: impl Fn(f64) -> i32) -> LogAxis {
+/// A logarithmic axis with as many round numbers as fit; each takes `space` pixels.
+fn log_axis([low, high]: [f64; 2], length: i32, space: impl Fn(f64) -> i32) -> LogAxis {
     let per_decade = f64::from(length) / libm::log10(high / low);
     let exponents = libm::floor(libm::log10(low)) as i32..=libm::floor(libm::log10(high)) as i32;
     // Try `FACTORS` in every decade, from dense to sparse. Then try every second power of ten, every third, and so on.
@@ -47,7 +47,7 @@ fn log_axis([low, high]: [f64; 2], length: i32, room: impl Fn(f64) -> i32) -> Lo
     let fit = |ticks: &Vec<f64>| {
         ticks.windows(2).all(|pair| {
             let gap = per_decade * libm::log10(pair[1] / pair[0]);
-            gap >= 0.5 * f64::from(room(pair[0]) + room(pair[1]))
+            gap >= 0.5 * f64::from(space(pair[0]) + space(pair[1]))
         })
     };
     let ticks = between.chain(powers).map(ticks).find(fit).unwrap_or_default();

@@ -147,15 +147,15 @@ impl Bars {
         Ok(())
     }
 
-    /// The ends of the axis. They include all bars; intervals extend each end by at most the factor `room`.
+    /// The ends of the axis. They include all bars; intervals extend each end by at most the factor `margin`.
     fn ends(&self) -> [f64; 2] {
         let bars = || self.groups.iter().flat_map(|group| &group.bars);
         let reach = bars().map(Bar::reach);
         let [low, high] = reach.fold([1.0f64, 1.5f64], |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
-        let room = libm::sqrt(high / low).max(1.5);
+        let margin = libm::sqrt(high / low).max(1.5);
         let intervals = bars().filter_map(|bar| bar.value()?.interval);
         let held = intervals.fold([low, high], |[low, high], i| [low.min(i.low), high.max(i.high)]);
-        [held[0].max(low / room), held[1].min(high * room)]
+        [held[0].max(low / margin), held[1].min(high * margin)]
     }
 }
 

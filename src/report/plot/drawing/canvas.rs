@@ -32,7 +32,7 @@ pub fn register() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {
         let registered = register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT);
-        assert!(registered.is_ok(), "the font that comes with the program is a font");
+        assert!(registered.is_ok(), "the embedded font is valid");
     });
 }
 

@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn labels_keep_their_colour_in_every_chart_and_never_have_that_of_another_structure() {
+    fn labels_keep_their_colour_in_every_chart_and_never_have_the_colour_of_another_structure() {
         let of = |labels: &[&str]| roles_of(&labels.iter().map(|label| (*label).to_owned()).collect::<Vec<_>>());
         let names = ["grid", "sah-kd:leaf=4", "sah-kd", "sah-kd:leaf=2", "median-kd", "grid:cell=2", "embree"];
         let many = of(&names);

@@ -109,7 +109,7 @@ fn draw_labels(area: &Area, dots: &[&Dot], obstacles: &[Corners], frame: Corners
 /// The top left and the bottom right corner of a box.
 pub type Corners = [Place; 2];
 
-fn meet(a: &Corners, b: &Corners) -> bool {
+fn overlap(a: &Corners, b: &Corners) -> bool {
     a[0].0 < b[1].0 && b[0].0 < a[1].0 && a[0].1 < b[1].1 && b[0].1 < a[1].1
 }
 
@@ -131,7 +131,7 @@ pub fn place(points: &[(Place, i32)], height: i32, obstacles: &[Corners], frame:
             [x + LABEL_GAP, x - LABEL_GAP - width, x + LABEL_GAP + 60, x - LABEL_GAP - 60 - width, x - width / 2];
         let corners = |left: i32, step: i32| [(left, y + step - height / 2), (left + width, y + step + height / 2)];
         let mut places = steps.flat_map(|step| lefts.map(|left| corners(left, step)));
-        let is_free = |place: &Corners| is_inside(place, &frame) && !taken.iter().any(|other| meet(place, other));
+        let is_free = |place: &Corners| is_inside(place, &frame) && !taken.iter().any(|other| overlap(place, other));
         let free = places.find(is_free).unwrap_or(corners(lefts[0], 0));
         taken.push(free);
     }
@@ -151,7 +151,7 @@ mod tests {
         let placed = place(&points, 30, &obstacles, FRAME);
         for (i, label) in placed.iter().enumerate() {
             assert!(is_inside(label, &FRAME));
-            assert!(placed[..i].iter().chain(&obstacles).all(|other| !meet(label, other)), "{i}: {label:?}");
+            assert!(placed[..i].iter().chain(&obstacles).all(|other| !overlap(label, other)), "{i}: {label:?}");
         }
     }
 }

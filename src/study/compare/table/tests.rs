@@ -161,7 +161,7 @@ fn a_mean_over_fewer_scenes_names_its_count_and_is_not_ranked() {
     // A cell in which the reference has no time does not count.
     all[0].mrays_per_s = None;
     assert_eq!(cell(&mean_table(&all), "sah-bvh", "primary"), "9.00 (1 of 2)");
-    assert!(!mean_table(&all[..1]).says_something());
+    assert!(!mean_table(&all[..1]).has_values());
 }
 
 #[test]
