@@ -86,7 +86,7 @@ impl Reference {
         timed.filter_map(|own| Some((own, self.rival(all, own)?))).collect()
     }
 
-    /// Like [`speed`], but exactly 1 if every pair is a structure and itself. `noise` is the A/A noise of the run.
+    /// Like `speed`, but exactly 1 if every pair is a structure and itself. `noise` is the A/A noise of the run.
     pub fn ratio(pairs: &[(&Measurement, &Measurement)], noise: &AaNoise) -> Option<Estimate> {
         let is_itself = !pairs.is_empty() && pairs.iter().all(|(own, other)| own.label == other.label);
         if is_itself { Some(Estimate::exact(1.0)) } else { speed(pairs.iter().copied(), noise) }
