@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use rayon::prelude::*;
 use sahara::accel::Capabilities;
 use sahara::brute_force::BruteForce;
 use sahara::builtin::{BUILTIN, Builtin, Difficulty};
@@ -78,9 +79,7 @@ pub fn passes(outcome: Result<(), String>) {
 #[track_caller]
 fn are_right(specs: &[&str], meshes: &[Named], count: usize) {
     let registry = Registry::builtin();
-    for spec in specs {
-        passes(answers(&subject(&registry.choose(spec).unwrap(), true), meshes, count));
-    }
+    specs.par_iter().for_each(|spec| passes(answers(&subject(&registry.choose(spec).unwrap(), true), meshes, count)));
 }
 
 /// Besides the degenerate meshes, tests the built-in scenes, which have realistic sizes.

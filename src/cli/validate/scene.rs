@@ -62,7 +62,7 @@ impl Run<'_> {
         Ok(outcomes)
     }
 
-    /// The recorded rays or the rays of `--ray`. Otherwise the same number of rays of every workload or stratum.
+    /// The recorded rays or the rays of `--ray`. Otherwise generated rays, equally many per workload or stratum.
     fn rays(&self, scene: &Scene, recorded: Option<&[Ray]>, notes: &mut Vec<String>) -> anyhow::Result<Vec<Ray>> {
         let Self { registry, args, reference, terminal, .. } = self;
         if let Some(recorded) = recorded {
@@ -95,7 +95,7 @@ impl Run<'_> {
     }
 }
 
-/// The reason why a structure was not built, or else its worst ray. Omits the ray if the structure has a known defect.
+/// The reason why a structure gave no result, or else its worst ray. Omits the ray if the structure has a known defect.
 fn fault(choice: &Choice, outcome: &Outcome) -> Option<String> {
     let fault = match &outcome.found {
         Ok(_) if outcome.has_known_defect => None,

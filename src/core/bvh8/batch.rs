@@ -73,7 +73,7 @@ impl HitBatch {
 
     /// Adds a hit of ray number `i`. Returns true if the batch is full: the caller must then call `finish`.
     ///
-    /// The depth itself is not stored: a load of a value that was just written in pieces stalls the processor.
+    /// Stores the inputs of the depth: a copy of the depth would load fields that were just written, which stalls.
     #[must_use]
     #[inline(always)]
     fn push<D: Depth>(&mut self, i: usize, ray: &Ray, depth: &D, id: u32) -> bool {

@@ -102,7 +102,8 @@ impl Mailbox {
     }
 }
 
-/// Searches a leaf of `count` triangles (`u32::MAX` without an observer). With `ANY`, stops at the first hit.
+/// Searches the blocks of a leaf. Observers receive its number of triangles, `count`. With `ANY`, stops at the first
+/// hit.
 #[inline(always)]
 pub(crate) fn search<'a, const ANY: bool, L: EightLanes, T: TriangleTest, O: Observer>(
     blocks: &'a [LeafBlock<T>],
@@ -133,8 +134,8 @@ pub(crate) fn search<'a, const ANY: bool, L: EightLanes, T: TriangleTest, O: Obs
 }
 
 /// Decides the candidates of a block. It is not inlined: candidates are rare, and inlined code would take registers
-/// from the traversal. If a candidate needs a function call, [`settle_closely`] decides all remaining candidates.
-/// Without other calls, this function saves no registers to the stack.
+/// from the traversal. If the fast filter cannot decide a candidate, [`settle_closely`] decides it and all later ones.
+/// This tail call is the only call, so no register is saved to the stack.
 #[inline(never)]
 pub(crate) fn settle<'a, T: TriangleTest>(
     block: &'a LeafBlock<T>,

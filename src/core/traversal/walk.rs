@@ -5,7 +5,7 @@ use crate::geometry::{Hit, Ray};
 use crate::simd::{EightLanes, Kernel, Level, Portable, dispatch};
 
 pub(crate) trait Walk {
-    /// The nearest hit. With `ANY`, any hit, whose `t` is only an upper bound.
+    /// The nearest hit. With `ANY`, any hit; the returned `t` is only an upper bound of its exact `t`.
     fn walk<const ANY: bool, L: EightLanes, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit>;
 }
 

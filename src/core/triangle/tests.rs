@@ -61,7 +61,7 @@ fn true_t(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
 
 /// A difficult ray and triangle for a filter, in turn: any floats, an aimed ray, a sliver far away, a grid.
 fn hard(rng: &mut Pcg32, round: usize) -> (Ray, [Vec3; 3]) {
-    // Use every power of two as a scale: each intermediate underflows at a different one.
+    // A random power of two as the scale, because each intermediate result underflows at a different scale.
     let scale = f32::from_bits((1 + rng.next_u32() % 251) << 23);
     match round % 4 {
         0 => (ray(rng, any), triangle(rng, any)),

@@ -105,8 +105,9 @@ impl Prepare for TinyBvh {
 /// The size of the stacks of tinybvh's traversal and conversion, which do not check for overflow.
 const STACK: usize = 256;
 
-/// The shape and a bound of stack entries. A node of a path with n children, m of them inner, leaves n - 1 entries
-/// of the traversal or 2 m - 1 entries of the conversion on the stack. The traversal writes eight more entries.
+/// The shape of the tree, and an upper bound on the entries of tinybvh's stacks. Below a node with n children, m of
+/// them inner, the traversal keeps n - 1 entries, and the conversion fewer than 2 m. The traversal writes eight at
+/// once.
 fn shape(nodes: &[mbvh::Node]) -> (TreeShape, usize) {
     let (mut shape, mut most) = (TreeShape::default(), 0);
     let mut stack = vec![(0, 0, 0)];
