@@ -23,14 +23,14 @@ pub struct Run<'a> {
     pub keep_journal: Option<bool>,
     /// Whether to measure all cases again, even if the journal has them.
     pub fresh: bool,
-    /// The options for the process of each case. `None`: this process measures all cases.
+    /// Options for the processes that measure one case each. `None`: this process measures all cases.
     pub processes: Option<&'a [OsString]>,
     pub screen: &'a mut dyn Screen,
 }
 
 /// The result of a run.
 pub struct RunOutcome {
-    /// `None` if the run was interrupted, or no scene could be measured: then no export is written.
+    /// `None` if the run was interrupted or no scene could be measured. No export is then written.
     pub dataset: Option<Dataset>,
     pub report: Report,
     /// Tables that were not printed during the run.
@@ -40,7 +40,7 @@ pub struct RunOutcome {
     /// Lines below the tables: failures, findings, provenance and verdicts.
     pub foot: Vec<String>,
     pub status: Status,
-    /// The errors that ended scenes; all other scenes are measured.
+    /// The errors of scenes that failed. All other scenes are measured.
     pub failures: Vec<StudyError>,
 }
 
@@ -89,9 +89,9 @@ struct Engine<'a> {
     journal: Journal,
     provenance: Provenance,
     threads: Threads,
-    /// The last scene that this process measured, with its word. It is kept, because loading a scene may take seconds.
+    /// The last scene that this process measured, and its name on the command line. Loading it again may take seconds.
     loaded: Option<(OsString, Scene)>,
-    /// The errors that ended scenes.
+    /// The errors of scenes that failed.
     failures: Vec<StudyError>,
     /// Cases whose scene gets no further epoch, because it failed or its time is up.
     ended: Vec<Case>,
@@ -152,7 +152,7 @@ impl Engine<'_> {
         Ok(false)
     }
 
-    /// Returns `case`; structures that epoch 0 could not build in time are marked as skipped.
+    /// A copy of `case` that skips the structures that epoch 0 could not build in time.
     fn with_skipped(&self, case: &Case) -> Case {
         let first = self.journal.get(&Case { epoch: 0, ..case.clone() }).filter(|_| case.epoch > 0);
         let structures = first.map_or(&case.structures, |file| &file.case.structures).clone();
@@ -189,7 +189,7 @@ impl Engine<'_> {
         Dataset::new(of_all(&all), measured)
     }
 
-    /// Prints the tables of one scene, as far as it is measured.
+    /// Prints the tables of the scene of `case` from the epochs measured so far.
     fn print_scene(&self, case: &Case, is_whole: bool, screen: &mut dyn Screen) -> anyhow::Result<()> {
         let measured = self.joined(|other| other.is_of_scene(case)).measured;
         if measured.is_empty() {
@@ -218,7 +218,7 @@ impl Engine<'_> {
         screen.warn(&report.warnings);
         let (mut tables, mut notes, mut foot) = (vec![], vec![], vec![]);
         if is_reported || !dataset.measured.is_empty() {
-            // Exclude interrupted and failed scenes: means over scenes use only the epochs that all scenes have.
+            // Exclude failed and interrupted scenes, which lack epochs: means use only the epochs that all scenes have.
             let lacks = |case: &Case| {
                 self.plan.cases.iter().any(|other| other.is_of_scene(case) && self.journal.get(other).is_none())
             };

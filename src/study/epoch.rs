@@ -48,16 +48,16 @@ pub struct Structure {
     /// The whole configuration.
     pub config: Value,
     pub triangle_test: String,
-    /// The reason why it has no times, as a clause; `rays` is then empty.
+    /// The reason why the structure has no times, as a clause; `rays` is then empty.
     pub refused: Option<String>,
     /// Whether wrong hits are the reason for `refused`.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub wrong: bool,
-    /// Build time, ns; for a runner, the time that it reports. A short build is repeated: the median of up to three.
+    /// Build time, ns; if it is short, the median of up to three builds. A runner measures its build time itself.
     pub build_ns: u64,
-    /// Peak memory of the build beyond the memory in use before it, bytes; only in epoch 0. `None` if not counted.
+    /// Peak memory of the build minus the memory in use before it, bytes. Only epoch 0 counts it; `None` if unknown.
     pub build_peak_bytes: Option<usize>,
-    /// Elapsed time of a runner's passes, as a multiple of the time that it reports; `None` for all other structures.
+    /// Only for a runner: elapsed time / reported time, the median over its queries. `None` if all were too short.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub outside: Option<f64>,
     pub shape: Shape,
@@ -93,11 +93,11 @@ pub struct Rays {
     pub all: usize,
     /// Rays of a sample; fewer than `all` if the structure is slow or the budget is short.
     pub rays: usize,
-    /// Checksum of the hits on rays that all epochs trace: the whole workload, or some tiles of epoch 0.
+    /// Checksum of the hits on rays that every epoch traces: the whole workload, or a fixed subset.
     pub checksum: u64,
-    /// Time of each sample, ns, by round: samples of two structures with the same index are a pair.
+    /// Time of each sample, ns. Samples of two structures with the same index are of the same round.
     pub ns: Vec<u64>,
-    /// The samples of `ns`, restricted to the subsets of rays on which slower structures are timed.
+    /// The times of the same samples on subsets of their rays. Slower structures are timed on these subsets.
     pub parts: Vec<SubsetSamples>,
     /// The reason why there is no time, as a clause.
     pub untimed: Option<String>,
@@ -116,17 +116,17 @@ pub struct Rays {
     /// Error counts against the exact oracle; only in epoch 0 and with [`Check::Oracle`](super::Check::Oracle).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub errors: Option<ErrorCounts>,
-    /// Only together with `errors`: the longest time of a ray that is traced on its own, ns.
+    /// The time of the slowest ray, ns, if each ray is traced separately. Measured only together with `errors`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slowest_ns: Option<u64>,
 }
 
-/// The result of the last check. Before the timing, brute force checks a sample of the rays. After the timing, another
+/// The result of the latest check. Before the timing, brute force checks a sample of rays. After the timing, another
 /// tree checks all timed rays; brute force and exact arithmetic judge the rays on which structure and tree differ.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Checked {
     pub rays: usize,
-    /// Rays with a wrong hit, which no rounding explains.
+    /// Rays with a wrong hit: rounding cannot explain the result.
     pub errors: usize,
     /// Rays whose hit differs only by the rounding of the triangle test.
     #[serde(default, skip_serializing_if = "is_zero")]
@@ -159,17 +159,17 @@ impl Checked {
     }
 }
 
-/// Counts over `rays` evenly spread rays of the workload; `None` if not counted. They are the same on every machine.
+/// Counts over evenly spread rays of a workload, equal on every machine. `None`: the structure does not count it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RayCounts {
     /// Counted rays.
     pub rays: usize,
     pub hits: usize,
-    /// Checksum of the bits of `t` of all hits and of the misses; equal for all structures over the exact test.
+    /// Checksum of all results: the bits of `t`, or a miss. Equal for all structures over the exact test.
     pub distances: u64,
     /// Triangles tested.
     pub tests: Option<u64>,
-    /// Blocks of triangles tested at once.
+    /// Blocks tested; a block is a group of triangles that are tested at once.
     pub blocks: Option<u64>,
     /// Inner nodes and leaves entered.
     pub steps: Option<u64>,
@@ -190,12 +190,12 @@ impl From<&dyn DynAccel> for Shape {
 }
 
 impl Structure {
-    /// Whether hits that change between epochs refuse only this structure; otherwise they end the whole scene.
+    /// Whether the structure is a runner or has known defects. Its wrong hits then exclude only itself, not the scene.
     pub fn may_err(&self) -> bool {
         self.name == RUNNER || known_defect(&self.name).is_some()
     }
 
-    /// Whether it is a twin: the second build of another structure, for the A/A check.
+    /// Whether it is a twin: a second build of a structure of this epoch, for the A/A check.
     pub fn is_twin(&self) -> bool {
         self.role == TWIN
     }
@@ -216,7 +216,7 @@ impl Rays {
 }
 
 impl RayCounts {
-    /// `n`, one of these counts, per ray.
+    /// Divides `n`, one of these counts, by the number of counted rays.
     pub fn per_ray(&self, n: Option<u64>) -> Option<f64> {
         Some(n? as f64 / self.rays.max(1) as f64)
     }
@@ -250,7 +250,7 @@ impl Epoch {
         timed.map(|rays| rays.rays).min().unwrap_or(0)
     }
 
-    /// Whether no structure is refused and none has rays: then the scene has no rays of these workloads.
+    /// Whether the scene has no rays of the workloads: no structure is refused, but none has rays.
     pub fn has_no_rays(&self) -> bool {
         let is_idle = |structure: &Structure| structure.refused.is_none() && structure.rays.is_empty();
         self.structures.iter().all(is_idle)
@@ -274,9 +274,9 @@ impl Epoch {
         each_once(failures)
     }
 
-    /// Checks that every structure has a time on every workload, and that all structures return the same `t`, bit for
-    /// bit, which requires a common triangle test. The error names the first structure without a time, or the first two
-    /// that differ.
+    /// Checks that every structure has a time on every workload, and that all structures return the same bits of `t`.
+    /// All structures must have the same triangle test. The error names the first structure without a time, or the
+    /// first two structures that differ.
     pub fn check_complete(&self) -> Result<(), StudyError> {
         if let Some(failure) = self.failures().into_iter().next() {
             return Err(StudyError::Missing { failure: failure.sentence, wrong: failure.wrong });
@@ -343,8 +343,8 @@ pub(crate) mod tests {
         }
     }
 
-    /// An epoch with one entry per structure: label, build time, and the time of every round of 1000 primary rays, ns.
-    /// A repeated label makes a twin.
+    /// An epoch of `structures`: for each, the label, the build time in ns, and the time of each round of 1000 primary
+    /// rays in ns. A repeated label makes a twin.
     pub fn example(scene: &str, triangles: usize, epoch: usize, structures: &[(&str, u64, &[u64])]) -> Epoch {
         let structure = |(place, &(label, build_ns, ns)): (usize, &(&str, u64, &[u64]))| Structure {
             label: label.into(),

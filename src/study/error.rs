@@ -51,7 +51,7 @@ fn workload(rays: &str) -> String {
     if rays.is_empty() { String::new() } else { format!(", {rays} rays") }
 }
 
-/// Advice to name at most `most` structures, as many as fit into memory; empty if none fits.
+/// Advice to name at most `most` structures, which fit into memory together; empty if `most` is 0.
 fn fewer(most: usize) -> String {
     if most == 0 { String::new() } else { format!("at most {}, or ", plural(most, "structure")) }
 }

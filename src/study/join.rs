@@ -1,7 +1,7 @@
-//! Joins the separately measured epochs of a scene into one measurement. A pure function of the measurements.
+//! Joins the separately measured epochs of a scene into one measurement.
 //!
-//! Only epoch 0 checks and counts: its results hold for all epochs, and a scene without epoch 0 is left out. Epochs
-//! belong to one measurement if they agree in structures, rays, hits, number of timed rays and number of samples.
+//! Only epoch 0 checks hits and counts work. Its results hold for all epochs, so a scene without epoch 0 is left out.
+//! Epochs belong to one measurement if they agree in structures, rays, hits, numbers of timed rays and of samples.
 
 use super::epoch::Rays;
 use super::error::ANSWERS;
@@ -12,17 +12,17 @@ use crate::report::words::listed;
 /// Cases for a report, and the reasons why other cases are left out.
 #[derive(Debug, Default)]
 pub struct JoinedEpochs {
-    /// In the order of the input.
+    /// The joined cases, in the order of the input.
     pub measured: Vec<Measured>,
-    /// The errors that end scenes: their cases are left out.
+    /// One error per scene whose epochs cannot be joined; its cases are left out.
     pub failures: Vec<StudyError>,
-    /// Scenes without epoch 0, one sentence each: their cases are left out.
+    /// One sentence per scene without epoch 0; its cases are left out.
     pub unchecked: Vec<String>,
-    /// Planned epochs that are missing, one sentence each.
+    /// One sentence per scene that lacks planned epochs.
     pub missing: Vec<String>,
 }
 
-/// Joins the epochs of each scene. With [`whole`](super::case::Settings::whole), all its structures must have times.
+/// Joins the epochs of each scene. With [`whole`](super::case::Settings::whole), every structure must have all times.
 pub fn join(measured: Vec<Measured>) -> JoinedEpochs {
     let mut scenes: Vec<Vec<(usize, Measured)>> = vec![];
     for own in measured.into_iter().enumerate() {
@@ -61,14 +61,14 @@ pub fn join(measured: Vec<Measured>) -> JoinedEpochs {
     joined
 }
 
-/// `Dragon: epochs 1 and 2 are not measured`.
+/// A clause such as `Dragon: epochs 1 and 2 are not measured`.
 fn lacks(title: &str, missing: &[usize]) -> String {
     let numbers: Vec<String> = missing.iter().map(ToString::to_string).collect();
     let (epochs, are) = if missing.len() == 1 { ("epoch", "is") } else { ("epochs", "are") };
     format!("{title}: {epochs} {} {are} not measured", listed(&numbers))
 }
 
-/// Makes the epochs of a scene consistent; an error if they are not of one measurement. Epoch 0 comes first.
+/// Makes the epochs of a scene, from epoch 0 on, consistent. An error if they do not belong to one measurement.
 fn one(epochs: &mut [&mut Epoch]) -> Result<(), StudyError> {
     let title = epochs[0].title();
     for place in 0..epochs[0].structures.len() {
@@ -116,7 +116,7 @@ fn one(epochs: &mut [&mut Epoch]) -> Result<(), StudyError> {
             if let Some(other) = differing(|a, b| a.rays == b.rays).filter(|_| structure.name != RUNNER) {
                 return apart(other, &first.workload, "the number of timed rays");
             }
-            // Keep the largest subset that all epochs timed: a runner's clock chooses the number of rays per epoch.
+            // A runner's clock chooses the number of rays of each epoch. Keep the largest number that all epochs timed.
             let common = common_sizes(epochs, place, kind);
             let Some(&largest) = common.first() else {
                 refuse(epochs, place, UNSTEADY);
@@ -133,10 +133,10 @@ fn one(epochs: &mut [&mut Epoch]) -> Result<(), StudyError> {
     Ok(())
 }
 
-/// Reason to refuse a runner or a structure with known defects. Hits of its packets may depend on the other rays.
+/// Reason to refuse a runner, or a structure with known defects, whose hits change between epochs.
 const CHANGED: &str = "after a rebuild it returns other hits than before: its times are not comparable";
 
-/// Reason to refuse a runner if no number of rays is timed in all of its epochs.
+/// Reason to refuse a runner if its epochs have no number of timed rays in common.
 const UNSTEADY: &str = "its speed differs by more than a factor of sixteen between epochs (by its own clock), so no \
                         rays are timed in all of them";
 
@@ -149,7 +149,7 @@ fn refuse(epochs: &mut [&mut Epoch], place: usize, reason: &str) {
     }
 }
 
-/// The numbers of rays on which a structure is timed in all epochs, the largest first.
+/// The numbers of rays on which all epochs time a structure, the largest first.
 fn common_sizes(epochs: &[&mut Epoch], place: usize, kind: usize) -> Vec<usize> {
     let sizes = |epoch: &&mut Epoch| -> Vec<usize> {
         let rays = &epoch.structures[place].rays[kind];

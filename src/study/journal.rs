@@ -3,8 +3,8 @@
 //!
 //! Each file contains the case, its provenance and its results. It is written atomically and never changed. A file name
 //! that begins with a dot marks an unfinished write and is ignored. The name of a case file contains the case's key and
-//! a digest of settings, build and machine, so cases of any settings fit into one folder. Any process may read at any
-//! time, and any number of planned jobs may write; only one run at a time may measure the missing cases.
+//! a digest of settings, build and machine, so one folder can contain cases of different settings. Any process may read
+//! at any time. Any number of jobs of `study plan` may write. Only one run at a time may measure the missing cases.
 
 mod case_file;
 mod error;
@@ -20,14 +20,14 @@ pub use case_file::CaseFile;
 pub use error::JournalError;
 pub use newest::{datasets, newest, of_all};
 
-/// A folder of cases, and the cases that one build measured on one machine.
+/// The case files of a folder. It returns only cases that this build has measured on this machine.
 #[derive(Debug)]
 pub struct Journal {
     folder: PathBuf,
-    /// Provenance of this process. Cases of another build or machine do not count.
+    /// Provenance of this process.
     provenance: Provenance,
     files: Vec<CaseFile>,
-    /// Number of leading `files` to ignore: with `fresh`, those present when the journal was opened; otherwise 0.
+    /// Number of leading `files` to ignore: 0, or with `fresh` the number of files found when the journal was opened.
     ignored: usize,
     /// The folder, locked while a run measures into it. The system unlocks it when the process ends for any reason.
     _lock: Option<File>,
@@ -35,9 +35,9 @@ pub struct Journal {
 
 impl Journal {
     /// Opens the journal in `folder` to measure the missing cases of `cases`, and creates the folder if it is missing.
-    /// With `fresh`, existing cases are measured again: their files stay, and the newest file counts. Only one run at a
-    /// time may measure, because two would measure the same cases and disturb each other's times: an error if cases are
-    /// missing and another run is measuring.
+    /// With `fresh`, existing cases are measured again: their files stay, and the newest file counts. An error if cases
+    /// are missing while another run is measuring, because two runs would measure the same cases and disturb each
+    /// other's times.
     pub fn open(folder: &Path, provenance: Provenance, fresh: bool, cases: &[Case]) -> Result<Self, JournalError> {
         fs::create_dir_all(folder).map_err(|cause| JournalError::Write { path: folder.into(), cause })?;
         // Take the lock before reading the cases: they then include everything that an earlier run wrote.
@@ -54,7 +54,7 @@ impl Journal {
         }
     }
 
-    /// The newest file of the case, of this build and machine.
+    /// The newest file of the case from this build and machine.
     pub fn get(&self, case: &Case) -> Option<&CaseFile> {
         let machine = self.provenance.machine();
         let own = self.files[self.ignored..].iter();

@@ -11,7 +11,7 @@ use crate::report::{Cell, Table};
 use crate::request::is_obvhs;
 
 /// One structure on one workload of one scene; see [`Epoch`](super::Epoch) for the fields that it copies. An unknown
-/// value is `None`; numbers of rays and of hits are 0 instead.
+/// value is `None`. Unknown numbers of rays and hits are 0.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Measurement {
     pub scene: String,
@@ -40,12 +40,12 @@ pub struct Measurement {
     pub counts: RayCounts,
     /// Checksum of the hits on the rays that all epochs trace; `None` without a time.
     pub hit_checksum: Option<u64>,
-    /// Build time, ns, the median over the epochs.
+    /// Median build time over the epochs, ns.
     pub build_ns: u64,
     /// The build time of each epoch, ns.
     pub build_samples_ns: Vec<u64>,
     pub build_peak_bytes: Option<usize>,
-    /// Time of a sample, ns, the median; `None` without a time.
+    /// Median time of a sample, ns; `None` without a time.
     pub trace_ns: Option<f64>,
     /// The number of epochs. All epochs have the same number of samples; `samples_ns` lists them epoch by epoch.
     pub epochs: usize,
@@ -58,7 +58,7 @@ pub struct Measurement {
     pub declined: Option<String>,
     /// Rays checked in epoch 0; see [`Checked`](super::epoch::Checked).
     pub checked_rays: usize,
-    /// Rays with a wrong hit, which no rounding explains.
+    /// Rays with a wrong hit that no rounding explains.
     pub wrong_hits: usize,
 }
 
@@ -118,8 +118,8 @@ pub fn is_native_obvhs(own: &Measurement) -> bool {
     is_obvhs(&own.structure) && !own.label.contains("test=")
 }
 
-/// The measurements of all scenes, in the order of scenes, structures and workloads. A twin has no measurement of its
-/// own: its samples are in the measurement of its structure. A refused structure has no measurement.
+/// The measurements of all scenes, in the order of scenes, structures and workloads. A twin has no separate
+/// measurement: its samples are in the measurement of its structure. A refused structure has no measurement.
 pub fn measurements(dataset: &Dataset) -> Vec<Measurement> {
     dataset.scenes().iter().flat_map(of_scene).collect()
 }
@@ -157,7 +157,7 @@ fn measurement(scene: &SceneEpochs, place: usize, twin: Option<usize>, workload:
     let samples_ns = samples(scene, place, workload);
     let trace_ns = median(&samples_ns);
     let timed = trace_ns.is_some();
-    // The clock of a runner may give the runner and its twin different numbers of rays: ignore the twin then.
+    // A runner and its twin may be timed on different numbers of rays: ignore the twin then.
     let twin = twin.filter(|&twin| timed && rays(scene, twin, workload).all(|own| own.rays == first.rays));
     let twin_samples = twin.map(|twin| samples(scene, twin, workload)).filter(|samples| !samples.is_empty());
     let (checked_rays, wrong_hits) = first.checked.as_ref().map_or((0, 0), |own| (own.rays, own.errors));
@@ -213,7 +213,7 @@ pub fn trace_noise(measurements: &[Measurement]) -> AaNoise {
     AaNoise::new(&measurements.iter().filter_map(Measurement::speed_against_twin).collect::<Vec<_>>())
 }
 
-/// The A/A noise of build times, with one cell per scene.
+/// The A/A noise of build times, from one structure and its twin on each scene.
 pub fn build_noise(measurements: &[Measurement]) -> AaNoise {
     let of = |own: &Measurement| {
         let log = |ns: &u64| libm::log((*ns).max(1) as f64);
@@ -239,7 +239,7 @@ impl Measurement {
         self.wrong_hits > 0
     }
 
-    /// The time of every sample on `rays` rays, ns: the whole sample or a subset of it; `None` if it was not timed.
+    /// The times on `rays` rays, ns: of whole samples or of a subset. `None` if no subset of this size was timed.
     fn samples_of(&self, rays: usize) -> Option<Vec<f64>> {
         if rays == self.rays {
             return Some(self.samples_ns.clone());
@@ -248,26 +248,26 @@ impl Measurement {
         Some(part.ns.iter().map(|&ns| ns.max(1) as f64).collect())
     }
 
-    /// Median time per ray, ns, over `rays` rays: the whole sample or a subset of it; `None` if it was not timed.
+    /// Median time per ray, ns, over `rays` rays: a whole sample or a subset. `None` if none of this size was timed.
     pub fn ns_per_ray_of(&self, rays: usize) -> Option<f64> {
         Some(median(&self.samples_of(rays)?)? / rays as f64)
     }
 
-    /// ln(time of `other` / time of this), by epoch and round. Both times are on the same rays: the smaller of the two
-    /// samples. `None` if one has no time, or if epochs, workload or rounds differ.
+    /// ln(time of `other` / time of `self`), by epoch and round. Both times are on the rays of the smaller sample.
+    /// `None` if one has no time, or if epochs, workload or rounds differ.
     pub fn speed_against(&self, other: &Self) -> Option<Vec<Vec<f64>>> {
         let alike = self.epochs == other.epochs && self.workload_hash == other.workload_hash;
         let rays = self.rays.min(other.rays);
         if alike { self.ratios(&other.samples_of(rays)?, &self.samples_of(rays)?) } else { None }
     }
 
-    /// ln(time of the twin / time of this), by epoch and round. `None` without a twin.
+    /// ln(time of the twin / time of `self`), by epoch and round. `None` without a twin.
     pub fn speed_against_twin(&self) -> Option<Vec<Vec<f64>>> {
         self.ratios(self.twin_samples_ns.as_ref()?, &self.samples_ns)
     }
 
-    /// ln(`numerator` / `denominator`) by epoch and round. `None` if the numbers of samples differ or are no multiple
-    /// of the epochs, or a time is 0.
+    /// ln(`numerator` / `denominator`) by epoch and round. `None` if the numbers of samples differ, if they are not a
+    /// multiple of the number of epochs, or if a time is 0.
     fn ratios(&self, numerator: &[f64], denominator: &[f64]) -> Option<Vec<Vec<f64>>> {
         let is_whole = !denominator.is_empty() && self.epochs > 0 && denominator.len().is_multiple_of(self.epochs);
         let is_positive = numerator.iter().chain(denominator).all(|&time| time > 0.0);

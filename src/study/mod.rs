@@ -53,7 +53,7 @@ pub struct Study {
     pub name: &'static str,
     /// The help text and the title in reports: one line.
     pub question: &'static str,
-    /// Arguments of `study all`.
+    /// The arguments with which `study all` runs the study.
     pub presets: Presets,
     /// The options of the study. The only positional arguments are scenes.
     pub options: fn() -> Command,
@@ -87,8 +87,8 @@ impl Study {
         (self.options)().get_positionals().next().is_some()
     }
 
-    /// The arguments in `preset`, one of the [presets](Self::presets). `scenes`, unless empty, replace its scenes.
-    /// A study that accepts no scenes ignores `scenes`.
+    /// The arguments in `preset`, one of the [presets](Self::presets). If `scenes` is not empty, it replaces the scenes
+    /// in `preset`. A study that accepts no scenes ignores `scenes`.
     pub fn preset(&self, preset: &str, scenes: &[OsString]) -> Vec<OsString> {
         let scenes = if self.names_scenes() { scenes } else { &[] };
         let options = preset.split_whitespace().skip_while(|word| !scenes.is_empty() && !word.starts_with('-'));

@@ -21,7 +21,7 @@ pub struct Plan {
     pub warnings: Vec<String>,
     /// Files that the study reads: no output may replace them.
     pub inputs: Vec<PathBuf>,
-    /// Time limit of a scene: an epoch that would probably exceed it is not started.
+    /// Time limit of a scene. An epoch that would probably exceed it is not started. `None`: no limit.
     pub limit: Option<Duration>,
     /// Whether the journal is kept in the folder `runs` by default.
     pub keep_journal: bool,
@@ -29,7 +29,7 @@ pub struct Plan {
 
 /// One scene of a plan.
 pub struct PlannedScene {
-    /// Epoch 0 of the scene. The plan sets the study.
+    /// Epoch 0 of the scene. [`Plan::by_epoch`] sets its study and adds the other epochs.
     pub case: Case,
 }
 

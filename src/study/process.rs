@@ -5,8 +5,8 @@
 //!
 //! A run or the scheduler of a cluster starts this program with `--case JSON --out FILE`. The process measures the case
 //! and writes the file. With `--listen` it reports its progress to a run: one marked line of JSON per message on
-//! standard output. After each stage it waits for a reply, so the run is idle while the process takes times. All other
-//! lines come from structures; the run copies them to standard error.
+//! standard output. At each stage it waits until the run has replied, so the run is idle while the process takes times.
+//! All other lines are output of structures; the run copies them to standard error.
 
 use std::ffi::OsString;
 use std::io::{self, BufRead, BufReader, Write};
@@ -41,8 +41,8 @@ enum Message<'a> {
 /// The prefix of a message line.
 const MARK: &str = "\u{1e}case ";
 
-/// Starts a process that measures a case and writes the file `out`. It receives the `options` of this process, such as
-/// the instruction level. Its threads are bound to `cores`, if these are known.
+/// Starts a process that measures a case and writes the file `out`. The new process receives the `options` of this
+/// process, such as the instruction level. Its threads are bound to `cores`, if the cores are known.
 pub fn measure_apart(
     options: &[OsString],
     case: &Case,
@@ -58,7 +58,7 @@ pub fn measure_apart(
     let cores = cores.map(|cores| cores.iter().map(ToString::to_string).collect::<Vec<_>>().join(","));
     command.args(cores.map(|cores| format!("--{CORES}={cores}")));
     process_group::lead_process_group(&mut command);
-    // Runners put temporary files into a folder that is removed with everything that a killed process leaves there.
+    // Runners write temporary files. Put them into a folder that is removed even if the process is killed.
     let has_programs = case.structures.iter().any(|own| own.runner.is_some());
     let scratch = if has_programs { tempfile::Builder::new().prefix("sahara-").tempdir().ok() } else { None };
     command.envs(scratch.iter().flat_map(|folder| ["TMPDIR", "TMP", "TEMP"].map(|name| (name, folder.path()))));
@@ -81,7 +81,7 @@ pub fn measure_apart(
                 return Err(StudyError::Reported { sentence, of_one_scene, wrong_answer });
             }
         }
-        // If the process has already ended, its last message or exit status is the error.
+        // Ignore an error: if the process has already ended, its last message or exit status is reported.
         let _ = writeln!(input);
     }
     // Poll, and lock only briefly: another thread needs the lock to end the process.
@@ -123,7 +123,7 @@ impl Guard {
 
 impl Drop for Guard {
     fn drop(&mut self) {
-        // The process has ended, or the run no longer listens to it.
+        // Kill the process if it has not ended: this run no longer listens to it.
         let mut child = locked(&self.0);
         process_group::end(&mut child);
         let _ = child.wait();
@@ -138,9 +138,9 @@ pub fn end() {
     }
 }
 
-/// Measures a case and writes the file `out`. If the file already has this case, keeps the file and returns the reason
-/// as a clause; otherwise returns `None`. An error if the file cannot be written or has other content, if there are
-/// fewer cores than threads and no user sees warnings, or if the measurement fails; the file is then unchanged.
+/// Measures a case, writes the file `out` and returns `None`. If the file already contains the case, keeps the file and
+/// returns a message. An error if the file cannot be written or has other content, if the measurement fails, or if
+/// there are fewer cores than threads and no user sees warnings. After an error the file is unchanged.
 pub fn measure_into(
     case: &Case,
     out: &Path,
@@ -173,8 +173,8 @@ pub fn measure_into(
     check_same().map(|()| Some("was written by another process in the meantime: its case is kept."))
 }
 
-/// Measures a case like [`measure_into`], and reports the progress and a failure to the listening run. This process
-/// ends when the run ends: a killed run leaves no process that disturbs the next run. An error if no run listens.
+/// Measures a case like [`measure_into`], and reports the progress and any failure to the listening run. This process
+/// ends when the run ends, because it would disturb the next run. An error if no run listens.
 pub fn measure_for_run(case: &Case, out: &Path, registry: &Registry, watch: &BuildWatch) -> io::Result<()> {
     process_group::end_with_parent();
     let Err(error) = measure_into(case, out, registry, watch, &mut ListeningRun) else { return Ok(()) };
@@ -211,7 +211,7 @@ fn say(message: &Message) -> io::Result<()> {
 }
 
 /// Watches the builds of `case`, which a process with the arguments `args` measures. If a build takes too long, the
-/// process starts itself again without that structure, because nothing can interrupt a builder from within.
+/// process starts itself again without that structure, because no code in it can interrupt a builder.
 pub fn build_watch(case: &Case, args: Vec<OsString>) -> BuildWatch {
     let Some(limit) = case.settings.build_limit_s else { return BuildWatch::default() };
     let case = case.clone();

@@ -21,13 +21,13 @@ pub enum Stage<'a> {
 
 /// Shows the progress of a run. It is never called inside a timed region. By default it shows nothing.
 pub trait Screen {
-    /// The run starts; its total work in an arbitrary unit.
+    /// The run starts. The argument is its total work in an arbitrary unit.
     fn begin(&mut self, _: u64) {}
-    /// The next case starts; its title and its work.
+    /// The next case starts, with this title and work.
     fn case(&mut self, _title: &str, _work: u64) {}
     /// The case enters a stage.
     fn stage(&mut self, _: &Stage) {}
-    /// The case is measured.
+    /// The case has ended: it is measured, or it has failed.
     fn done(&mut self) {}
     /// Whether the run must stop.
     fn is_interrupted(&self) -> bool {

@@ -1,4 +1,4 @@
-//! Runs with failing scenes, interrupted runs, and runs that lack an epoch.
+//! Tests a run in which scenes fail, and the presets of all studies.
 
 use clap::Command;
 
@@ -66,7 +66,7 @@ fn outcome(folder: &std::path::Path, screen: &mut RecordingScreen) -> RunOutcome
 #[test]
 fn scenes_that_fail_are_told_and_cut_no_mean() {
     let folder = tempfile::tempdir().unwrap();
-    // Epoch 1 of c has other hits. Epoch 1 of b fails, because the scene does not exist.
+    // Epoch 1 of c has other hits than epoch 0. Epoch 1 of b cannot be measured, because the scene does not exist.
     let other = |case: &Case, epoch: &mut Epoch| {
         if (case.scene.name.as_str(), case.epoch) == ("c", 1) {
             epoch.structures[0].rays[0].checksum = 2;
@@ -81,7 +81,7 @@ fn scenes_that_fail_are_told_and_cut_no_mean() {
         "{told:?}"
     );
     assert_eq!(outcome.status, Status::Wrong, "wrong answers weigh more than what cannot be measured");
-    // The measured part of b is shown, but no mean includes b.
+    // The table of b shows its only epoch. No mean includes b.
     assert_eq!(screen.titles, ["a", "b (1 of 2 epochs)"]);
     let titles: Vec<&str> = outcome.tables.iter().map(|table| table.title.as_str()).collect();
     assert!(titles == ["mean of a"] && outcome.dataset.is_some(), "{titles:?}");

@@ -1,4 +1,4 @@
-//! Whether a structure is right: the summary for users.
+//! Summarises for users whether a structure is right.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,7 +12,7 @@ pub struct Verdict {
     pub rays: u64,
     /// Rays with a wrong hit that no rounding explains.
     pub wrong: u64,
-    /// Rays with a hit that differs from the exact one by the rounding of the triangle test.
+    /// Rays with a hit that differs from the exact hit only by the rounding of the triangle test.
     #[serde(default)]
     pub rounded: u64,
     /// The worst kind of wrong hit.
@@ -64,7 +64,7 @@ impl Verdict {
     }
 }
 
-/// A description of this kind of wrong hits, and its cause.
+/// The words for a kind of wrong hits: the behaviour of the structure, and the cause.
 fn fault(kind: Kind) -> (&'static str, &'static str) {
     const TREE: &str = "the tree is wrong";
     const EITHER: &str = "the tree or its triangle test is wrong";

@@ -1,4 +1,4 @@
-//! Adversarial rays for any mesh, likely to expose errors of traversals: seeded strata, the same on every machine.
+//! Adversarial rays, which are likely to expose errors of traversals. A seed gives the same rays on every machine.
 
 use glam::Vec3;
 
@@ -9,18 +9,18 @@ use crate::names::named_enum;
 use crate::triangle::{MollerTrumbore, scalar_hit};
 
 named_enum! {
-    /// A kind of adversarial rays. Strata are never pooled, because each exposes other errors.
+    /// A group of adversarial rays. Each stratum exposes different errors, so results of strata are never pooled.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum Stratum {
-        /// Random lines through the box: every structure handles them.
+        /// Random rays towards points in the box of the mesh. Every structure should handle them.
         Random = "random",
         /// Through a vertex.
         Vertices = "vertices",
         /// Through a point of an edge.
         Edges = "edges",
-        /// Axis-parallel, with zeros of both signs, often through coordinates of vertices.
+        /// Axis-parallel directions with zeros of both signs. Origins often share two coordinates with vertices.
         AxisParallel = "axis-parallel",
-        /// In the plane of a face of the box of the mesh, or of the box of a triangle.
+        /// In the plane of a face of a box: the box of the mesh or of a triangle.
         FacePlanes = "face-planes",
         /// From a vertex.
         FromVertices = "from-vertices",
@@ -31,22 +31,22 @@ named_enum! {
         FromSplits = "from-splits",
         /// Nearly in the plane of a triangle.
         Grazing = "grazing",
-        /// Along diagonals: components of equal size, but one may be +0.0 or -0.0.
+        /// Along diagonals: all components have the same magnitude, or one is +0.0 or -0.0.
         Diagonals = "diagonals",
         /// Two components nearly zero: 1e-9, 1e-30 or denormal.
         NearlyAxis = "nearly-axis",
         /// Directions 1e-30 to 1e30 long.
         Lengths = "lengths",
-        /// From 1e3 to 1e8 box sizes away.
+        /// Origins at a distance of 1e3 to 1e8 box sizes.
         FarOrigins = "far-origins",
-        /// From very near a triangle: small `t`.
+        /// From a point very near a triangle: hits have small `t`.
         NearSurface = "near-surface",
-        /// Intervals that begin or end at a hit, an ulp beside it, or around it.
+        /// Intervals that begin or end at the `t` of a hit or an ulp beside it, or that contain it.
         Windows = "windows",
         /// NaN, infinity, zero directions, empty intervals: no ray may hit.
         Invalid = "invalid",
-        /// Intervals that end or begin at the float to which the exact `t` of a hit rounds, half of them near the
-        /// largest float.
+        /// Intervals that end or begin at the float to which the exact `t` of a hit rounds. For half of the rays,
+        /// this float is near the largest float.
         RoundedEnds = "rounded-ends",
     }
 }
@@ -155,7 +155,7 @@ impl<'a> Generator<'a> {
         self.bounds.centre() + self.sampler.cube() * (self.size * reach)
     }
 
-    /// A coordinate at which a builder may split, on a grid of eighths of the box or from a triangle.
+    /// A coordinate at which a builder may split: eighths of the box, or middle, centroid or corner of a triangle.
     fn split(&mut self, axis: usize) -> f32 {
         let (low, high) = (self.bounds.min[axis], self.bounds.max[axis]);
         let [a, b, c] = self.corners().map(|p| p[axis]);
@@ -186,7 +186,7 @@ impl<'a> Generator<'a> {
         Ray::new(origin, self.any_direction(origin))
     }
 
-    /// A ray through a vertex, an edge point or a split, along `direction`, from outside or inside the box.
+    /// A ray along `direction` through a vertex, a point of an edge, or a point from `on_splits`.
     fn through(&mut self, direction: Vec3) -> Ray {
         let target = match self.sampler.below(3) {
             0 => self.vertex(),
@@ -194,7 +194,6 @@ impl<'a> Generator<'a> {
             _ => self.on_splits(),
         };
         let away = self.sampler.pick(&[0.0, 0.25, 1.0, 2.0, 10.0]);
-        // Equal components get equal steps: with simple coordinates, the ray stays in the plane of its target.
         Ray::new(target - direction * (self.size * away), direction)
     }
 
@@ -224,7 +223,7 @@ impl<'a> Generator<'a> {
         let direction = self.sampler.direction();
         let direction = self.axis_of(direction);
         let mut ray = self.through(direction);
-        // For half of the rays, mix the coordinates of several vertices: the ray then follows edges of boxes.
+        // For half of the rays, mix the coordinates of several vertices: the ray may then run along an edge of a box.
         if self.sampler.coin() {
             let axis = direction.abs().max_position();
             for other in [(axis + 1) % 3, (axis + 2) % 3] {
@@ -275,7 +274,7 @@ impl<'a> Generator<'a> {
         Ray::new(target - direction * self.sampler.pick(&[0.0, 1.0, 4.0]), direction)
     }
 
-    /// Uses the `t` of Möller-Trumbore at the target triangle; other tests agree within their rounding.
+    /// The interval depends on the `t` that Möller-Trumbore computes. Other triangle tests agree within their rounding.
     fn window(&mut self) -> Ray {
         let corners = self.corners();
         let ray = self.towards(|own| own.sampler.point_of(corners));
@@ -308,7 +307,7 @@ impl<'a> Generator<'a> {
         ray
     }
 
-    /// Some origins are far away: the direction that moves the hit to the largest `t` is then not denormal.
+    /// Half of the directions are so short that the hit is near the largest `t`. Far origins then avoid denormals.
     fn rounded_end(&mut self) -> Ray {
         let corners = self.corners();
         let (target, away) = (self.sampler.point_of(corners), self.sampler.pick(&[1.0, 30.0, 1e3]));
@@ -322,14 +321,14 @@ impl<'a> Generator<'a> {
     }
 }
 
-/// `ray` with two intervals: up to the float to which `t` rounds, and from that float on. If `t` is below that float, a
-/// hit at `t` belongs to the first interval and not to the second.
+/// Two copies of `ray`: the interval of the first ends at the float to which `t` rounds, and the interval of the second
+/// begins there. If `t` is below that float, a hit at `t` belongs only to the first interval.
 pub fn rounded_ends(ray: &Ray, t: &ExactT) -> [Ray; 2] {
     let end = t.round();
     [ray.until(end), Ray { t_min: end, ..*ray }]
 }
 
-/// `ray` with a direction so short that its hit at `t` moves to the largest float, up to the rounding of the direction.
+/// `ray` with a shorter direction. Its hit at `t` moves to the largest float, up to the rounding of the direction.
 pub fn near_the_largest_t(ray: &Ray, t: f64) -> Ray {
     Ray { direction: (ray.direction.as_dvec3() * (t / f64::from(f32::MAX))).as_vec3(), ..*ray }
 }

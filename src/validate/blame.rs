@@ -23,7 +23,7 @@ pub(super) struct Dispute<'a> {
 }
 
 impl Dispute<'_> {
-    /// Judges the hit of the structure; `None` if both agree.
+    /// Judges the hit of the structure; `None` if structure and reference agree.
     pub fn blame(&self) -> Option<Blame> {
         match (self.reference.test, self.expected, self.found) {
             (_, None, None) => None,
@@ -40,12 +40,12 @@ impl Dispute<'_> {
         }
     }
 
-    /// Corrects the verdict `other` of `other_test`: the structure's own test, run on the disputed triangles, decides.
+    /// Corrects `other`, the verdict of `other_test`: runs `own`, the structure's test, on the disputed triangles.
     fn own_test(&self, own: ScalarTest, other: Blame) -> Blame {
         let of = |hit: Option<Hit>| hit.and_then(|hit| own(self.ray, self.corners(hit.prim)?));
         let by_the_test = |sentence: &str| (Kind::TriangleTest, format!("{}, but {sentence}", other.1));
         match (other.0, self.found) {
-            // The traversal is right if its own test misses the triangle, or hits it no nearer than the returned hit.
+            // The traversal is right if the test misses the triangle, or hits it no nearer than the returned hit.
             (Kind::Lost | Kind::NearerLost, found) => match (of(self.expected), found) {
                 (None, _) => by_the_test("the structure's own triangle test misses it"),
                 (Some(t), Some(f)) if t >= f.t => {
@@ -53,7 +53,7 @@ impl Dispute<'_> {
                 }
                 _ => other,
             },
-            // The structure may return what its test returns, right or wrong.
+            // The structure may return a wrong hit if its test returns this hit.
             (Kind::WrongT | Kind::Invented, Some(f)) => match of(self.found) {
                 Some(t) if DepthRule::COARSE.allows(t.into(), f.t, true) => {
                     by_the_test("the structure's own triangle test gives the same result")
@@ -94,7 +94,7 @@ impl Dispute<'_> {
         }
     }
 
-    /// The verdict if brute force has a hit, but the structure a farther one or none: an error if the hit is real.
+    /// The verdict if the structure misses or hits behind `expected`. Exact arithmetic decides if this is an error.
     fn lost(&self, expected: Hit) -> Blame {
         let Some(nearer) = self.true_hit(expected) else {
             let sentence = format!("by exact arithmetic the ray does not hit {:?} in its interval", expected.prim);
@@ -103,7 +103,7 @@ impl Dispute<'_> {
         let sure = exactly(expected.prim, nearer.round());
         let Some(f) = self.found else { return (Kind::Lost, sure) };
         if nearer.compare(f.t).is_some_and(Ordering::is_ge) {
-            // The traversal may cull hits behind the computed one.
+            // The traversal may skip hits behind the computed `t`.
             let sentence =
                 format!("{sure}, which is not before the computed t of {:?}: the traversal may skip it", f.prim);
             return (Kind::TriangleTest, sentence);
@@ -115,7 +115,7 @@ impl Dispute<'_> {
         }
     }
 
-    /// The verdict for two primitives at the same computed `t`. The lower number must win if it had to be visited.
+    /// The verdict on two primitives at equal computed `t`. The lower number must win if its exact `t` is not larger.
     fn tie(&self, expected: Hit, found: Hit) -> Blame {
         let lower = self.true_hit(expected).filter(|t| t.compare(found.t).is_some_and(Ordering::is_le));
         if lower.is_some() && expected.prim.index() < found.prim.index() {
@@ -125,20 +125,20 @@ impl Dispute<'_> {
         (Kind::Tie, "both primitives have this computed t".into())
     }
 
-    /// The nearest of the two returned hits that exact arithmetic confirms, with its exact t.
+    /// The nearer of the returned hits that exact arithmetic confirms, with its exact `t`.
     fn nearest(&self) -> Option<(ExactT, PrimId)> {
         let truths = [self.expected, self.found].map(|hit| Some((self.true_hit(hit?)?, hit?.prim)));
         truths.into_iter().flatten().min_by(|(a, _), (b, _)| a.cmp(b))
     }
 
-    /// The verdict if structure and reference have different tests. Exact arithmetic judges structure and test
-    /// together; the test is to blame for differences that rounding in its precision explains.
+    /// The verdict if structure and reference have different tests. Exact arithmetic judges the structure together with
+    /// its test. Differences that rounding in the precision of the test explains are errors of the test.
     fn other_test(&self) -> Option<Blame> {
         let (truth, found) = (self.nearest(), self.found);
         if let Some(blame) = found.and_then(|hit| self.no_hit(hit, truth.as_ref())) {
             return Some(blame);
         }
-        // A nearer hit is lost if its `t` is below the found `t` under any rounding.
+        // To lose a nearer hit is an error if no rounding can hide the hit or move it behind the found `t`.
         let limit = found.map_or(f64::INFINITY, |hit| hit.t.into());
         let is_found = |t: &ExactT, prim| {
             found.is_some_and(|f| f.prim == prim || DepthRule::STRICT.allows(t.approximate(), f.t, false))
@@ -149,8 +149,8 @@ impl Dispute<'_> {
             if margin.latest() < limit && !margin.may_miss(self.ray) {
                 return Some((kind, exactly(*prim, t.round())));
             }
-            // Rounding may hide the nearest triangle or move it behind a farther one. But no hit may lie behind a
-            // triangle that no rounding can hide.
+            // Rounding may hide the nearest triangle or move it behind a farther one. But every test hits the triangle
+            // that `nearest_sure` finds, so a farther hit or a miss is wrong.
             if self.reference.precision == Precision::Single
                 && let Some((t, prim)) = nearest_sure(self.mesh, self.ray, limit)
             {
@@ -160,7 +160,7 @@ impl Dispute<'_> {
         self.rounded(truth)
     }
 
-    /// The reason why no test of this precision returns this hit; `None` if one may return it.
+    /// The reason why no test of this precision returns this hit; `None` if a test may return it.
     fn no_hit(&self, found: Hit, truth: Option<&(ExactT, PrimId)>) -> Option<Blame> {
         let prim = found.prim;
         let is_there =
@@ -215,7 +215,7 @@ impl Dispute<'_> {
         Margin::new(self.ray, self.mesh.corners(prim.index()), self.reference.precision)
     }
 
-    /// The exact `t` of the primitive of a hit, if the ray meets it in its interval.
+    /// The exact `t` at the primitive of `hit`, if the ray hits the primitive in the interval of the ray.
     fn true_hit(&self, hit: Hit) -> Option<ExactT> {
         let corners = self.corners(hit.prim).filter(|_| self.ray.is_valid())?;
         exact::hit(self.ray, corners).filter(|t| t.is_within(self.ray))
@@ -232,12 +232,12 @@ fn outside(ray: &Ray, found: Hit) -> String {
     format!(", and t = {:?} is not in [{t_min:?}, {t_max:?}){rule}", found.t)
 }
 
-/// An exact hit as a clause.
+/// Formats an exact hit as a clause.
 fn exactly(prim: PrimId, t: f32) -> String {
     format!("by exact arithmetic the ray hits {prim:?} at t = {t:?}")
 }
 
-/// An exact hit as a clause, and its distance from the hit that was found.
+/// Formats an exact hit as a clause, with its distance in ulps from the `found` one.
 fn exactly_but_off(prim: PrimId, t: f32, found: f32) -> String {
     format!("{}, {} ulps away", exactly(prim, t), t.to_bits().abs_diff(found.to_bits()))
 }

@@ -44,8 +44,8 @@ impl ExpectedHits<'_> {
         WorstRay { index: index as u64, ray: self.rays[index], expected: self.hits[index], found, kind, verdict }
     }
 
-    /// The sums of a batch that a panic or an endless loop (`kind`) has ended. The reported ray is the ray that caused
-    /// it, or the first ray of the batch if only the whole batch does.
+    /// The sums of a batch that a panic or an endless loop (`kind`) has ended. Reports the ray that caused it, or the
+    /// first ray of the batch if no single ray caused it.
     pub(super) fn ended(&self, call: Call, kind: Kind, why: String) -> Validation {
         let rays = self.rays.len();
         let (index, verdict) = match call {
@@ -75,7 +75,7 @@ impl ExpectedHits<'_> {
     }
 }
 
-/// Compares `subject` with `reference` on every ray. There are three checks: the closest hit equals the reference's;
+/// Compares `subject` with `reference` on every ray. There are three checks: the closest hit is the reference's hit;
 /// the any-hit result agrees with the closest hit; the ray has the same hits on its own and in a batch. Batches are
 /// loaded with [`Accel::load`](crate::accel::Accel::load), as for timing.
 ///
@@ -105,8 +105,8 @@ pub(super) fn admitted(subject: &dyn DynAccel, rays: &[Ray], expected: &[Option<
     known.filter(|(ray, _)| capabilities.declines(ray).is_none()).unzip()
 }
 
-/// Compares `found`, closest hits from elsewhere, with the hits of the reference. This is only the first check of
-/// [`validate`]; the other two checks need the structure.
+/// Compares the closest hits `found` with the hits of the reference. This is only the first check of [`validate`]; the
+/// other two checks need the structure.
 ///
 /// # Panics
 /// If there is not one hit per ray.
@@ -125,19 +125,19 @@ pub fn validate_hits(expected: &ExpectedHits, found: &[Option<Hit>]) -> Validati
 }
 
 /// The indices of the rays on which `found` differs from the expected hits, each with the kind of the difference. The
-/// expected hits come from another tree over the triangle test of the reference; the kinds presume that this tree is
-/// right. If the reference has another test, differences that `DepthRule::STRICT` allows are omitted.
+/// kinds presume that the expected hits are right. If structure and reference have different triangle tests,
+/// differences that `DepthRule::STRICT` allows are omitted.
 pub fn differences(expected: &ExpectedHits, found: &[Option<Hit>]) -> Vec<(usize, Kind)> {
     let differs = |index: usize| Some((index, expected.dispute(index, found[index]).blame()?.0));
     (0..expected.rays.len()).into_par_iter().filter_map(differs).collect()
 }
 
-/// Compares `found`, any-hit results from elsewhere, with the closest hits of the reference. The exact oracle judges
-/// the differences.
+/// Compares the any-hit results `found` with the closest hits of the reference. The exact oracle judges the
+/// differences.
 ///
 /// If structure and reference share the triangle test, a hit that the reference lacks is `Invented`, even if the oracle
-/// has a hit there. If rounding may explain a result, the structure `subject` also traces this ray with the closest-hit
-/// query: a triangle test rounds the same way in both queries, so they must agree.
+/// has a hit there. If rounding may explain a result, the structure (`subject`) also traces the ray with the
+/// closest-hit query. A triangle test rounds the same way in both queries, so the queries must agree.
 ///
 /// # Panics
 /// If there is not one result per ray.
@@ -168,8 +168,8 @@ pub fn validate_any_hits(expected: &ExpectedHits, found: &[bool], subject: Optio
         if rounds && kind == Kind::TriangleTest { excused.push(ray) } else { sums.note(ray, shares_test) }
     }
 
-    // Rounding excuses these results only if the closest-hit query rounds the same way: otherwise the two queries
-    // disagree.
+    // A test rounds the same way in both queries. If the closest-hit query returns another result, the two queries
+    // disagree, and rounding is no excuse.
     let rays: Vec<Ray> = excused.iter().map(|own| own.ray).collect();
     let closest = subject.filter(|_| !rays.is_empty()).map_or(vec![], |subject| subject.closest(&rays));
     for (place, mut own) in excused.into_iter().enumerate() {

@@ -1,5 +1,5 @@
-//! Changes of time, each with the finding of its interval. Times are relative to the times of the references in the
-//! same rounds, so they are comparable between days and machines.
+//! Computes the changes in time between two runs and classifies them by their intervals. Times are relative to the
+//! times of the reference structures in the same rounds, so runs of different days and machines are comparable.
 
 use std::slice::from_ref;
 
@@ -8,7 +8,7 @@ use crate::measure::{AaNoise, Estimate, Rerun, Variance, cut_to_shared_epochs, e
 use crate::report::words::{distinct, each_once};
 use crate::study::measurement::{Measurement, trace_noise};
 
-/// The changes of the structures and of their cells. `looks` is the number of times that a gate may compare the runs.
+/// The mean change of each structure, and its change in each cell. A gate may compare the runs up to `looks` times.
 pub(super) fn all(
     old: &[Measurement],
     new: &[Measurement],
@@ -22,7 +22,7 @@ pub(super) fn all(
     let (mut structures, mut cells): (Vec<Change>, Vec<Change>) = (vec![], vec![]);
     let mut labels = each_once(pairs.iter().map(|(_, new)| new.label.as_str()));
     labels.retain(|label| !references.iter().any(|one| one == label));
-    // The intervals of structures are corrected for their number and for the looks; cells decide nothing.
+    // The intervals of structures are corrected for the numbers of structures and looks.
     let looks = looks * labels.len();
     for label in labels {
         let of = |cell: Option<&Measurement>, cells, checked_rays, time| Change {
@@ -41,7 +41,7 @@ pub(super) fn all(
             let time = times.as_ref().and_then(|(old, new)| change(from_ref(old), from_ref(new)));
             cells.push(of(Some(before), usize::from(time.is_some()), after.checked_rays, time));
             checked_rays += after.checked_rays;
-            // A time is missing only if the old run has one.
+            // A time is missing if the old run has it and the new run lacks it.
             missing |= !before.samples_ns.is_empty() && after.samples_ns.is_empty();
             let (old, new) = times.unzip();
             old_times.extend(old);
@@ -59,13 +59,13 @@ pub(super) fn all(
     (structures, cells)
 }
 
-/// The geometric mean over cells of new / old; both are relative to the mean of `references` references.
+/// The geometric mean of new time / old time over cells. The log times are relative to `references` references.
 fn change(old: &[Vec<Vec<f64>>], new: &[Vec<Vec<f64>>], noises: &[AaNoise; 2], references: usize) -> Option<Estimate> {
     let noises = [&noises[0], &noises[1]].map(|noise| weighted(noise, references, old.len()));
     Some(Rerun::change(&epoch_values(old)?, &epoch_values(new)?, noises)?.ratio())
 }
 
-/// With a threshold, a regression is at or above it and significantly slower; a pass is significantly below it.
+/// The [`Finding`] of a change in time. `threshold` is the logarithm of the smallest ratio that may be a regression.
 pub(super) fn finding(time: Option<Estimate>, threshold: Option<f64>) -> Finding {
     let Some(time) = time.filter(|time| time.interval.is_some()) else { return Finding::Unknown };
     let limit = threshold.map_or(f64::INFINITY, libm::exp);
@@ -78,15 +78,15 @@ pub(super) fn finding(time: Option<Estimate>, threshold: Option<f64>) -> Finding
     }
 }
 
-/// The variance that the A/A noise of a run adds to a mean, over `cells` cells, of times relative to `references`
-/// references. The noise of the cells is independent.
+/// The variance that the A/A noise of a run adds to the mean log time over `cells` cells. Each time is relative to the
+/// mean of `references` references. The noise of the cells is independent.
 fn weighted(noise: &AaNoise, references: usize, cells: usize) -> Variance {
     let mut weights = vec![-1.0 / references.max(1) as f64; references];
     weights.push(1.0);
     noise.weighted(&weights).times(1.0 / libm::sqrt(cells.max(1) as f64))
 }
 
-/// Labels of the structures that normalise both runs.
+/// Labels of the reference structures that both runs time.
 pub(super) fn references(pairs: &[(&Measurement, &Measurement)]) -> Vec<String> {
     let is_timed =
         |(old, new): &&(&Measurement, &Measurement)| !old.samples_ns.is_empty() && !new.samples_ns.is_empty();
@@ -94,9 +94,9 @@ pub(super) fn references(pairs: &[(&Measurement, &Measurement)]) -> Vec<String> 
     distinct(timed.filter(|old| has_reference_role(old)).map(|old| &old.label))
 }
 
-/// ln(time of `own` / geometric mean of the references' times), by epoch and round; ln(time) without a reference. A
-/// reference counts only if it has a time in the same cell of `others`, so both runs are divided by the same
-/// structures. `None` without a time.
+/// ln(time of `own` / geometric mean of the times of the references), by epoch and round. The mean includes only
+/// references that both runs time in this cell; `None` if there are none. If `references` is empty, the result is
+/// ln(time per ray). `None` also if `own` or `other`, the same cell of the other run, has no time.
 fn relative(
     own: &Measurement,
     all: &[Measurement],
@@ -112,7 +112,7 @@ fn relative(
     if rivals.is_empty() {
         return references.is_empty().then(|| absolute(own));
     }
-    // Speed of each reference relative to `own`.
+    // ln(time of `own` / time of the reference), for each reference.
     let logs = rivals.iter().map(|rival| rival.speed_against(own)).collect::<Option<Vec<_>>>()?;
     let mut sum = logs.into_iter().reduce(|sum, logs| {
         sum.iter().zip(&logs).map(|(a, b)| a.iter().zip(b).map(|(a, b)| a + b).collect()).collect()

@@ -1,10 +1,10 @@
-//! Keys of structures and of settings that differ.
+//! Finds configuration keys and settings that differ between runs.
 
 use serde_json::{Map, Value};
 
-/// Keys that differ: name, old and new value.
+/// Configuration keys that differ: name, old value and new value.
 pub fn other_keys(old: &Value, new: &Value) -> Vec<(String, String, String)> {
-    // Leave out the command and digests of a runner: comparing two builds of it is the purpose.
+    // Ignore the command of a runner and the digests of its files: two builds of a runner are comparable.
     let keys = |value: &Value| {
         let mut map = value.as_object().cloned().unwrap_or_default();
         map.retain(|key, _| key != "build" && key != "command");
@@ -13,7 +13,7 @@ pub fn other_keys(old: &Value, new: &Value) -> Vec<(String, String, String)> {
     differences(&keys(old), &keys(new))
 }
 
-/// Values that differ: name, old and new value.
+/// Values that differ: name, old value and new value.
 pub fn differences(old: &Map<String, Value>, new: &Map<String, Value>) -> Vec<(String, String, String)> {
     let text = |value: Option<&Value>| match value {
         None => "absent".to_owned(),

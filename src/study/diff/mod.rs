@@ -1,13 +1,13 @@
 //! Compares two runs of the same study: changes in speed and in hits. All functions except [`read`](fn@read) are pure.
 //!
 //! Times of two runs at different moments on a shared machine are not comparable. So `diff` compares ratios to
-//! references: by default the structures of obvhs, whose code is the same in both runs and which are measured in the
-//! same rounds as all other structures. It can even compare runs of two machines; it then warns that the machine may
-//! cause a change. A gate requires one machine.
+//! references, by default the structures of obvhs. Their code is the same in both runs, and they are measured in the
+//! same rounds as all other structures. `diff` can even compare runs of two machines, with a warning that the machine
+//! may cause a change. A gate requires one machine.
 //!
-//! The change of a structure is the geometric mean, over its cells, of new / old, where both are times relative to the
-//! references. Its [interval](fn@crate::measure::Rerun::change) decides the finding. The interval is corrected for the
-//! number of structures and of looks. Tables show the change of each cell, but it decides nothing.
+//! A cell is one workload of one scene. The change of a structure is the geometric mean, over its cells, of new time /
+//! old time, both relative to the references. The [interval](fn@crate::measure::Rerun::change) of the change decides
+//! the finding. It is corrected for the number of structures, and for how often a gate looks at the growing runs.
 //!
 #![doc = include_str!("GATE.md")]
 
@@ -44,7 +44,7 @@ pub struct Side {
 const REFERENCE: &str = "reference";
 
 impl Side {
-    /// `reference` names the reference structure. By default, all obvhs structures with the triangle test of obvhs are.
+    /// `reference` names the reference structure. `None`: all obvhs structures with the obvhs triangle test.
     pub fn new(dataset: &Dataset, reference: Option<&str>) -> Self {
         Self::of(dataset.provenance.clone(), measurements(dataset), reference)
     }
@@ -67,19 +67,19 @@ fn has_reference_role(own: &Measurement) -> bool {
     own.role == REFERENCE
 }
 
-/// Two runs side by side.
+/// The differences between two runs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
     /// Labels of the reference structures that normalise both runs. If there are none, the times are not normalised.
     pub references: Vec<String>,
     /// The smallest slowdown that counts as a regression, in percent; `None` if `diff` only prints changes.
     pub threshold_percent: Option<f64>,
-    /// The maximum number of looks at the growing data; the intervals are corrected for it.
+    /// How often a gate may compare the growing runs, at most. The intervals are corrected for this number.
     pub looks: usize,
-    /// One per structure that is not a reference. A structure without a comparable time in any cell is left out, unless
-    /// it had a time in the old run and lost it.
+    /// One change per structure that is not a reference. A structure is included if it has comparable times in a cell,
+    /// or if the new run lacks a time that the old run has.
     pub structures: Vec<Change>,
-    /// One per cell of each structure that is not a reference.
+    /// One change per cell of each structure that is not a reference.
     pub cells: Vec<Change>,
     /// Cells in which the hits of the new run are wrong, or differ from the hits of the old run.
     pub wrong: Vec<Wrong>,
@@ -88,9 +88,9 @@ pub struct Comparison {
     pub settings: Vec<String>,
     /// The processor and SIMD level of each run; `None` if they are equal.
     pub machines: Option<[String; 2]>,
-    /// Structures and cells that only the old run has.
+    /// Cells that only the old run has, such as `mybvh on the primary rays of Cube`.
     pub only_old: Vec<String>,
-    /// Structures and cells that only the new run has.
+    /// Cells that only the new run has.
     pub only_new: Vec<String>,
 }
 
@@ -111,22 +111,22 @@ pub struct Change {
     pub finding: Finding,
 }
 
-/// The outcome that follows from an estimate and its interval.
+/// The classification of a change by its estimate and interval. The threshold is a ratio: 1.1 for 10 %.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Finding {
     /// The interval lies below 1.
     Faster,
-    /// The interval contains 1. With a threshold, the interval lies below the threshold.
+    /// The interval contains 1. With a threshold, the interval also lies below the threshold.
     NoDifference,
-    /// The interval lies above 1. With a threshold, the interval lies below the threshold.
+    /// The interval lies above 1. With a threshold, the interval also lies below the threshold.
     Slower,
-    /// The estimate is at least the threshold, and the interval lies above 1.
+    /// Only with a threshold: the estimate is at least the threshold, and the interval lies above 1.
     Regression,
-    /// Only with a threshold: no regression, but the interval does not lie below the threshold. More epochs or a
-    /// quieter machine would decide.
+    /// Only with a threshold: the interval reaches the threshold, but there is no regression. More epochs or a quieter
+    /// machine would decide.
     Inconclusive,
-    /// One of the runs has no time, or it has a single epoch and therefore no interval.
+    /// One of the runs has no time, or only one epoch and therefore no interval.
     Unknown,
 }
 
@@ -141,9 +141,9 @@ pub struct Wrong {
 }
 
 impl Comparison {
-    /// Compares two runs that are not [unlike]. With a threshold, a slowdown of at least `threshold_percent` is a
-    /// regression. `looks` is the maximum number of comparisons while the new run grows; each of them may raise a false
-    /// alarm.
+    /// Compares two runs that [`unlike`](fn@unlike) accepts. With a threshold, a slowdown of at least
+    /// `threshold_percent` is a regression. `looks` is the maximum number of comparisons while the runs grow. Because
+    /// each comparison may raise a false alarm, `looks` widens the intervals.
     pub fn new(old: &Side, new: &Side, threshold_percent: Option<f64>, looks: usize) -> Self {
         let machines = other_machine(&old.provenance, &new.provenance);
         let (old, new) = (&old.all[..], &new.all[..]);
@@ -192,9 +192,9 @@ fn pairs<'a>(old: &'a [Measurement], new: &'a [Measurement]) -> Vec<(&'a Measure
     old.iter().filter_map(|own| Some((own, counterpart(own, old, new)?))).collect()
 }
 
-/// The counterpart in `others` of the measurement `own` of `run`: the structure with the same label in the same cell.
-/// If none exists because its keys have changed, the only structure of the same name without a counterpart; `None` if
-/// several qualify in either run.
+/// The measurement in `others` that corresponds to `own`, a measurement of `run`: the same label in the same cell. If
+/// no label matches, because changed keys change the label, the name of the structure must match; each run must then
+/// have exactly one unmatched measurement with this name in this cell. Otherwise `None`.
 fn counterpart<'a>(own: &Measurement, run: &[Measurement], others: &'a [Measurement]) -> Option<&'a Measurement> {
     fn cell(own: &Measurement) -> (&str, bool, &str, &str) {
         (&own.scene, own.stand_in, &own.workload, &own.role)
@@ -234,8 +234,8 @@ fn cell_title(record: &Measurement) -> String {
 fn wrong(old: &Measurement, new: &Measurement) -> Option<Wrong> {
     let rate = |r: &Measurement| r.wrong_hits as f64 / r.checked_rays.max(1) as f64;
     let (errors, checked) = (new.wrong_hits, new.checked_rays);
-    // The number of checked rays depends on time. So errors count as new only if their rate has more than doubled, and
-    // errors of a structure with known defects do not count.
+    // The runs may check different numbers of rays, so compare error rates. Errors count if the old run has none, or if
+    // the rate has more than doubled. Errors of a structure with known defects do not count.
     let known = known_defect(&new.structure).is_some();
     let more = errors > 0 && !known && (old.wrong_hits == 0 || rate(new) > 2.0 * rate(old));
     let is_changed = || old.hit_checksum.zip(new.hit_checksum).is_some_and(|(old, new)| old != new);
@@ -244,7 +244,7 @@ fn wrong(old: &Measurement, new: &Measurement) -> Option<Wrong> {
             let before = format!("{} of {}", old.wrong_hits, old.checked_rays);
             format!("{errors} of {checked} rays have a wrong hit; in the old run {before}")
         }
-        // Another triangle test has other hits; each run checks its hits against its own test.
+        // Do not compare hits of different triangle tests. Each run has checked its hits against its triangle test.
         () if old.triangle_test != new.triangle_test => return None,
         () if old.counts.rays == new.counts.rays && old.counts.hits != new.counts.hits => {
             format!("{} of {} rays hit; in the old run {}", new.counts.hits, new.counts.rays, old.counts.hits)

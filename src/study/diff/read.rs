@@ -1,4 +1,4 @@
-//! One side of a comparison: an export, or a folder of journals.
+//! Reads one of the compared runs: an export, or a folder of journals.
 
 use std::path::Path;
 
@@ -8,8 +8,8 @@ use crate::escaped::Escaped as _;
 use crate::study::Dataset;
 use crate::study::journal::{CaseFile, JournalError, files, newest};
 
-/// Reads an export, or the newest dataset in a folder of journals; only `compare` counts if the folder has cases of it.
-/// An error without measurements.
+/// Reads an export, or the newest dataset in a folder of journals. If the folder has cases of `compare`, cases of other
+/// studies are ignored. An error if there are no measurements.
 pub fn read(path: &Path) -> anyhow::Result<Dataset> {
     let found = if path.is_dir() { of_folder(path)? } else { Some(of_export(path)?) };
     let found = found.filter(|own| !own.measured.is_empty());

@@ -1,4 +1,4 @@
-//! A comparison of runs for people.
+//! Formats a comparison of two runs as tables and sentences.
 
 use super::{Change, Comparison, Finding};
 use crate::measure::Estimate;
@@ -6,12 +6,12 @@ use crate::report::number::{count, figures, plural};
 use crate::report::words::{each_once, listed};
 use crate::report::{Cell, Format, Table, Tone};
 
-/// One table of the structures, one of their cells.
+/// A table of the structures and a table of their cells.
 pub fn tables(comparison: &Comparison) -> Vec<Table> {
     [structures(comparison), cells(comparison)].map(Table::explained).into()
 }
 
-/// Facts that affect the reading of the tables: wrong hits, missing references, other machines or settings.
+/// Warnings to readers of the tables: wrong hits, missing references, different machines or settings.
 pub fn cautions(comparison: &Comparison) -> Vec<String> {
     let wrong = comparison.wrong.iter().map(|wrong| format!("Wrong: {}: {}.", wrong.case, wrong.what));
     let mut cautions: Vec<String> = wrong.collect();
@@ -21,7 +21,7 @@ pub fn cautions(comparison: &Comparison) -> Vec<String> {
             .into()
     }));
     cautions.extend(comparison.machines.as_ref().map(|[old, new]| {
-        // The SIMD level stands in parentheses.
+        // A machine is `processor (SIMD level)`.
         let cpu = |machine: &String| machine.rsplit_once(" (").map(|(cpu, _)| cpu.to_owned());
         let two = if cpu(old) == cpu(new) { "Two instruction sets" } else { "Two machines" };
         format!("{two}, {old} and {new}: they, rather than the code, may cause a change.")
@@ -32,7 +32,7 @@ pub fn cautions(comparison: &Comparison) -> Vec<String> {
     cautions
 }
 
-/// One sentence of a gate per structure: whether it is right, and how its time has changed.
+/// One sentence per structure: whether its hits are right, and how its time has changed. Empty without a threshold.
 pub fn sentences(comparison: &Comparison) -> Vec<String> {
     let Some(threshold) = comparison.threshold_percent else { return vec![] };
     let sentence = |change: &Change| {
@@ -58,7 +58,7 @@ pub fn sentences(comparison: &Comparison) -> Vec<String> {
     comparison.structures.iter().map(sentence).collect()
 }
 
-/// `9.0 % slower [7.7, 10.4]`, or `4.1 % less time [2.0, 6.1]`.
+/// Formats a ratio of times as `9.0 % slower [7.7, 10.4]` or `4.1 % less time [2.0, 6.1]`.
 fn slower(time: Estimate) -> String {
     let (of, word): (fn(f64) -> f64, _) =
         if time.estimate < 1.0 { (|x| 100.0 * (1.0 - x), "less time") } else { (|x| 100.0 * (x - 1.0), "slower") };

@@ -7,7 +7,7 @@ use crate::study::measurement::tests::example;
 
 const EPOCHS: usize = 5;
 
-/// A measurement with samples of `ns` in every round, plus a difference per epoch.
+/// A measurement with three samples per epoch: `ns` times the factor of the epoch, which is close to 1.
 fn record(label: &str, workload: &str, ns: f64) -> Measurement {
     let epoch = |e: usize| 1.0 + 0.002 * (e as f64 - 2.0);
     let samples_ns: Vec<f64> = (0..EPOCHS).flat_map(|e| [ns * epoch(e); 3]).collect();
@@ -18,7 +18,7 @@ fn side(all: Vec<Measurement>) -> Side {
     Side::of(Provenance::capture(1), all, None)
 }
 
-/// A run on a machine that is slower by `slow`, with a SAH tree that is slower by `sah`.
+/// A run in which every structure takes `slow` times as long, and `sah-kd` also `sah` times as long.
 fn run(slow: f64, sah: f64) -> Vec<Measurement> {
     let times = [("median-kd", 9e6), ("sah-kd", 2e6 * sah), ("obvhs-bvh2", 2e6), ("obvhs-cwbvh", 1e6)];
     let of = |workload| times.map(|(label, ns)| record(label, workload, ns * slow));
@@ -106,7 +106,7 @@ fn answers_that_changed_are_wrong() {
         ("3 of 100 rays have a wrong hit; in the old run 0 of 100", &|r| r.wrong_hits = 3),
         ("19 of 1000 rays hit; in the old run 20", &|r| r.counts.hits = 19),
         ("some hits have another t or primitive than in the old run", &|r| r.hit_checksum = Some(0)),
-        // Another number of timed or counted rays gives other hits; an unknown checksum is no change.
+        // Different numbers of counted or timed rays, or an unknown checksum, are not wrong hits.
         ("", &|r| (r.counts.rays, r.counts.hits) = (500, 9)),
         ("", &|r| (r.rays, r.hit_checksum) = (250, Some(0))),
         ("", &|r| r.hit_checksum = None),
@@ -226,13 +226,13 @@ fn the_aa_noise_of_both_runs_widens_the_interval() {
     for (i, by) in [(0, 0.03), (1, -0.03), (4, 0.03), (5, -0.03)] {
         old[i].twin_samples_ns = Some(old[i].samples_ns.iter().map(|ns| twin(ns, by)).collect());
     }
-    // Each A/A ratio has a noise of 0.03. A structure relative to the mean of two references has 3 / 4 of its variance,
+    // The noise of an A/A ratio is 0.03. A structure relative to the mean of two references has 3/4 of this variance,
     // and two cells halve the variance. For two structures judged together, t is 3.495 with four degrees of freedom.
     let alone = 2.0 * 3.495 * 0.03 * libm::sqrt(0.75 / 2.0);
     assert!(before < 1e-9 && (width(&old) / alone - 1.0).abs() < 1e-3, "{before} {} {alone}", width(&old));
 }
 
-/// A run with only noise of one percent: `structures` structures and a reference, in eight epochs.
+/// `structures` structures and a reference in eight epochs. Their times differ only by noise of 1 %.
 fn noise(structures: usize, seed: u64) -> Vec<Measurement> {
     let mut random = crate::measure::RandomOrder::new(seed);
     let mut record = |label: &str| {
@@ -254,7 +254,7 @@ fn twelve_structures_and_several_looks_do_not_make_a_false_alarm() {
         };
         (0..400).filter(alarm).count() as f64 / 4.0
     };
-    // Uncorrected, each of twelve structures is wrong in 5 % of runs: with a shared reference, about a quarter fail.
+    // Without correction, each of twelve structures raises an alarm in 5 % of runs: about a quarter of runs fail.
     assert!(alarms(1) <= 7.0, "{} %", alarms(1));
     assert!(alarms(10) <= 2.0, "{} %", alarms(10));
     let comparison = compare(&noise(12, 1), &noise(12, 2), Some(5.0), 10);

@@ -1,4 +1,4 @@
-//! Runs that cannot be compared.
+//! Rejects runs that cannot be compared.
 
 use super::keys::{differences, other_keys};
 use super::{Side, cell_title, has_reference_role, pairs};
@@ -35,10 +35,10 @@ fn differ(what: &str, old: &str, new: &str, advice: &'static str) -> Result<(), 
     if old == new { Ok(()) } else { Err(Unlike { what: what.into(), old: old.into(), new: new.into(), advice }) }
 }
 
-/// Rejects runs that are not comparable. They may differ in code, date and settings, and in keys and triangle tests of
-/// structures that are not references; their machines may differ without `gate`, if both time a common reference. The
-/// error names the first other difference, such as another machine, build, scene or selection of rays. A gate also
-/// needs a common reference and equal numbers of timed rays.
+/// Rejects runs that are not comparable. Runs may differ in code, date and settings, and in keys and triangle tests of
+/// structures that are not references. Without `gate`, the machines may differ if both runs time a common reference.
+/// With `gate`, a common reference and equal numbers of timed rays are required. The error names the first difference
+/// that is not allowed.
 pub fn unlike(old: &Side, new: &Side, gate: bool) -> Result<(), Unlike> {
     let pairs = pairs(&old.all, &new.all);
     let are_timed = |old: &Measurement, new: &Measurement| old.trace_ns.is_some() && new.trace_ns.is_some();
@@ -93,8 +93,8 @@ fn other_machine(old: &Provenance, new: &Provenance, advice: &'static str) -> Re
     differ("the set of target features", &old.target_features, &new.target_features, SAME_BUILD)
 }
 
-/// Rejects cases, to be measured on `here`, that a gate could not compare with the run `old`. The error names the first
-/// difference: in machine, instructions or compiler flags; in a scene, its rays or the number of timed rays.
+/// Rejects planned cases that a gate could not compare with the run `old`. `here` is the provenance of this process.
+/// The error names the first difference in machine, compiler flags, version of obvhs, scene, rays, seed or budget.
 pub fn unlike_plan(old: &Dataset, cases: &[Case], here: &Provenance) -> Result<(), Unlike> {
     other_machine(&old.provenance, here, SAME_MACHINE)?;
     differ("the version of obvhs, the reference,", &old.provenance.obvhs, &here.obvhs, SAME_BUILD)?;

@@ -8,7 +8,7 @@ fn epochs(scene: &str, numbers: &[usize]) -> Vec<Epoch> {
     numbers.iter().map(|&n| example(scene, 10, n, &[("x", 50, &[1000; 3]), ("y", 10, &[500; 3])])).collect()
 }
 
-/// The result of joining these epochs, each with its case of three planned epochs, and the reasons for omitted ones.
+/// Joins `epochs` of cases with three planned epochs. Returns the joined epochs and all other results.
 fn joined_as(epochs: Vec<Epoch>, whole: bool) -> (Vec<Epoch>, JoinedEpochs) {
     let measured = |epoch: Epoch| {
         let mut case = case(&epoch.scene, epoch.epoch, &[]);
@@ -68,10 +68,10 @@ fn structures_over_the_exact_test_that_answer_otherwise_are_a_wrong_answer() {
     type Change = ([&'static str; 2], fn(&mut Structure), bool);
     let changes: [Change; 6] = [
         (["exact", "exact"], |_| (), true),
-        // A test that rounds.
+        // Tests that round are not compared.
         (["exact", "moller-trumbore"], |_| (), false),
         (["moller-trumbore", "moller-trumbore"], |_| (), false),
-        // A known defect, wrong hits that were found before, and a count over other rays.
+        // Known defects, wrong hits found earlier and different numbers of counted rays are not compared.
         (["exact", "exact"], |own| own.name = "obvhs-bvh2".into(), false),
         (["exact", "exact"], |own| own.rays[0].untimed = Some("3 wrong hits on 9 rays".into()), false),
         (["exact", "exact"], |own| own.rays[0].counts.as_mut().unwrap().rays = 10, false),
@@ -166,7 +166,7 @@ fn a_program_whose_clock_chose_otherwise_is_timed_on_the_rays_that_all_epochs_ha
     }
     let (cases, _) = joined(vec![program(0, &[400, 100]), program(1, &[25, 6])]);
     assert!(cases.iter().all(|epoch| epoch.structures[0].refused.as_deref() == Some(UNSTEADY)));
-    // Another checksum means other hits, on any number of rays.
+    // Different checksums mean that the hits have changed, even if the numbers of rays agree.
     let mut other = program(1, &[400, 100]);
     other.structures[0].rays[0].checksum = 2;
     let (cases, _) = joined(vec![program(0, &[400, 100]), other]);

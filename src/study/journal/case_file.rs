@@ -36,7 +36,7 @@ impl CaseFile {
         Ok(Self { path: path.into(), ..file })
     }
 
-    /// Whether this is a case, of any version.
+    /// Whether `value` is a case, of any version of the format.
     pub fn is_case(value: &Value) -> bool {
         ["schema", "provenance", "case"].iter().all(|field| value.get(field).is_some())
     }
@@ -52,7 +52,7 @@ impl CaseFile {
     /// Panics if the epoch cannot be read back.
     pub fn write(file: &OutputFile, provenance: &Provenance, case: &Case, epoch: &Epoch) -> Result<bool, JournalError> {
         let value = json!({ "schema": Dataset::SCHEMA, "provenance": provenance, "case": case, "epoch": epoch });
-        // Infinite numbers and NaN become null, and would make the case unreadable.
+        // JSON has no infinity and no NaN: both become null, and the case could not be read back.
         let read = Self::deserialize(&value);
         assert!(read.is_ok(), "the case does not read back ({:?}): {value}", read.err());
         file.write_new(format!("{value}\n").as_bytes()).map_err(|error| unwritable(&file.path, error))

@@ -7,8 +7,8 @@ use crate::report::number::plural;
 use crate::report::words::{each_once, listed};
 use crate::study::{Dataset, JoinedEpochs, Measured, join};
 
-/// One dataset per group, sorted by number of cases, then by date, both descending. The newest file of a case counts.
-/// The notes of a dataset report replaced files, missing epochs and epochs that do not join.
+/// One dataset per study, settings, build and machine, sorted by number of cases, then by date, both descending. Only
+/// the newest file of a case counts. Notes report replaced files, missing epochs and scenes whose epochs do not join.
 pub fn datasets(files: Vec<CaseFile>) -> Vec<Dataset> {
     let mut datasets: Vec<Dataset> = groups(files).iter().map(|group| dataset(group)).collect();
     datasets.retain(|dataset| !dataset.measured.is_empty());
@@ -16,7 +16,7 @@ pub fn datasets(files: Vec<CaseFile>) -> Vec<Dataset> {
     datasets
 }
 
-/// The dataset of the group that was measured last, with a note if there are other groups.
+/// The dataset that was measured last. If `files` have other settings, builds or machines as well, a note says so.
 pub fn newest(files: Vec<CaseFile>) -> Option<Dataset> {
     let groups = groups(files);
     let date = |group: &&Vec<CaseFile>| group.iter().map(|file| file.provenance.date.clone()).max();
@@ -61,7 +61,7 @@ fn dataset(files: &[CaseFile]) -> Dataset {
         own.max_by(|a, b| a.provenance.date.cmp(&b.provenance.date)).is_some_and(|last| last.case.is_beside(&file.case))
     };
     let mut kept: Vec<&CaseFile> = newest.iter().copied().filter(|file| last(file)).collect();
-    // The files may come from many machines in any order: sort them, small scenes first.
+    // The files may be in any order: sort them, small scenes first.
     kept.sort_by_key(|file| (file.epoch.triangles, file.case.scene_title(), file.case.epoch));
     let measured = kept.iter().map(|file| Measured { case: file.case.clone(), epoch: file.epoch.clone() });
     let JoinedEpochs { measured, failures, unchecked, missing } = join(measured.collect());
@@ -84,11 +84,11 @@ fn dataset(files: &[CaseFile]) -> Dataset {
     dataset
 }
 
-/// The provenance of the oldest file, with the hosts of all files and with the load and cores of the file that has the
-/// highest load per core. Without files, the provenance of this process.
+/// The provenance of the oldest file, but with the hosts of all files, and with the load and cores of the file that has
+/// the highest load per core. Without files, the provenance of this process.
 pub fn of_all(all: &[&Provenance]) -> Provenance {
     let Some(oldest) = all.iter().min_by_key(|one| &one.date) else { return Provenance::capture(1) };
-    // The load before a job includes the load that an earlier job on the same host has caused: subtract it.
+    // The recorded load includes the threads of an earlier job on the same host: subtract them.
     let is_on = |one: &Provenance, host: &str| one.host.split(", ").any(|own| own == host);
     let follows = |one: &Provenance| all.iter().any(|other| is_on(other, &one.host) && other.date < one.date);
     let made = |one: &Provenance| if follows(one) { one.threads as f64 } else { 0.0 };

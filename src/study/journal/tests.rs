@@ -16,7 +16,7 @@ fn open(path: &Path) -> Result<Journal, JournalError> {
     Journal::open(path, provenance(), false, &[])
 }
 
-/// Writes an epoch of a scene with this date into the journal.
+/// Adds a file of `case` with this date to the journal. Returns its path.
 fn measure(journal: &mut Journal, case: &Case, date: &str) -> PathBuf {
     let provenance = Provenance { date: date.into(), ..journal.provenance.clone() };
     let path = journal.place(case);
@@ -109,7 +109,7 @@ fn cases_of_equal_settings_are_a_dataset_and_what_was_measured_again_counts_once
     let folder = tempfile::tempdir().unwrap();
     let path = journal(&folder, 2);
     let mut journal = open(&path).unwrap();
-    // A sphere of the same group, and later the cube again with other settings.
+    // A sphere with the same settings, and later the cube with other settings.
     measure(&mut journal, &case("Sphere", 0, &["x"]), "2026-01-01");
     let mut later = case("Cube", 0, &["x", "y"]);
     later.settings.runs = 9;
@@ -126,7 +126,7 @@ fn cases_of_equal_settings_are_a_dataset_and_what_was_measured_again_counts_once
     assert_eq!(scenes(&last), ["Cube9"]);
     assert!(last.notes.iter().any(|note| note.starts_with("1 group of cases with other settings")), "{:?}", last.notes);
 
-    // The same case again replaces the older one; the hosts are named.
+    // If a case is measured again, the newer file counts. A note names the hosts.
     let mut elsewhere = open(&path).unwrap();
     elsewhere.provenance.host = "n2".into();
     measure(&mut elsewhere, &later, "2026-03-01");

@@ -7,7 +7,7 @@ use std::time::Duration;
 /// Watches builds in a separate thread. Without a limit there is no thread.
 #[derive(Default)]
 pub struct BuildWatch {
-    /// Sends the index of each structure that is being built to the waiting thread, and `None` after a build.
+    /// Sends the index of a structure to the thread before its build, and `None` after the build.
     sender: Option<Sender<Option<usize>>>,
 }
 
@@ -26,7 +26,7 @@ impl BuildWatch {
         Self { sender: Some(sender) }
     }
 
-    /// Runs `build`, the build of structure number `structure`.
+    /// Runs `build`, which builds the structure with the index `structure`.
     pub fn during<R>(&self, structure: usize, build: impl FnOnce() -> R) -> R {
         // The thread receives as long as `self` lives, so sending cannot fail.
         let tell = |what| {

@@ -9,9 +9,9 @@ use crate::scene::Scene;
 pub struct Built {
     pub choice: Choice,
     pub accel: Box<dyn DynAccel>,
-    /// Build time, ns; for a runner, the time that it reports. If the build is repeated, the median.
+    /// Build time, ns; the median if the build is repeated. A runner measures its build time itself.
     pub build_ns: u64,
-    /// Peak memory in bytes, of the first build whose peak is known; `None` if no peak is known.
+    /// Peak memory, bytes, of the first build with a known peak. `None` if no build has one.
     pub peak_bytes: Option<usize>,
 }
 
@@ -24,14 +24,14 @@ impl Built {
         Self::repeated(|_| Self::once(choice, scene, threads, clock))
     }
 
-    /// Like [`new`](Self::new), and counts the peak memory: that slows a build by less than build times vary.
+    /// Like [`new`](Self::new), but counts the peak memory. Counting slows a build by less than build times vary.
     pub fn counted(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, BuildError> {
         Self::repeated(|known_peak| {
             let once = || Self::once(choice, scene, threads, clock);
             // Count until a peak is known: another thread that frees memory during a build may hide its peak.
             let (built, peak) = if known_peak.is_none() { peak_bytes(once) } else { (once(), None) };
             let built = built?;
-            // The counter misses memory of C++ and of other processes: a peak below the structure's size is wrong.
+            // The counter misses memory of C++ and of other processes. Ignore a peak below the size of the structure.
             let is_seen = |peak: &usize| built.accel.remote().is_none() && *peak >= built.accel.footprint().total();
             Ok(Self { peak_bytes: known_peak.or(peak.filter(is_seen)), ..built })
         })
@@ -51,7 +51,7 @@ impl Built {
 
     fn once(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, BuildError> {
         let mesh = Arc::clone(&scene.mesh);
-        // As for rays, a single thread uses processor time, which excludes the time of other processes on its core.
+        // For a single thread, use processor time: it excludes the time of other processes on the core.
         let own = CpuClock::Process.on(threads);
         let clock = own.as_ref().map_or(clock, |clock| clock as &dyn Clock);
         let start = clock.now_ns();

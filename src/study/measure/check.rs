@@ -12,7 +12,7 @@ use crate::study::epoch::Checked;
 use crate::study::{Stage, StudyError};
 use crate::validate::{ExpectedHits, Reference, Validation, validate_any_hits, validate_hits, validate_known};
 
-/// The feature of a workload that a structure does not support, if any: the structure then has no time on it.
+/// The feature of the workload that the structure does not support; `None` if it supports the workload.
 pub fn declined(accel: &dyn DynAccel, workload: &Workload) -> Option<&'static str> {
     let can = accel.capabilities();
     if workload.query == Query::Any && !can.any_hit {
@@ -21,11 +21,11 @@ pub fn declined(accel: &dyn DynAccel, workload: &Workload) -> Option<&'static st
     workload.rays.iter().find_map(|ray| can.declines(ray))
 }
 
-/// The maximum number of checked rays of a workload, and the number that is checked at any cost.
+/// Bounds of the number of checked rays of a workload. A time limit may reduce the number below `FEWEST`.
 const MOST: usize = 1 << 13;
 const FEWEST: usize = 1 << 6;
 
-/// The number of checked rays. It depends on no clock and no structure, so every run checks the same rays.
+/// The number of checked rays without a time limit. It depends on no clock: every run checks the same rays.
 fn affordable(rays: usize, triangles: usize, tests: usize) -> usize {
     if rays <= FEWEST {
         return rays;
@@ -40,7 +40,7 @@ struct Known {
     answers: Vec<Vec<Option<Hit>>>,
 }
 
-/// The reference and the limits of all checks.
+/// The inputs and the limits of all checks.
 pub struct Checks<'a> {
     pub scene: &'a Scene,
     pub workloads: &'a [Workload],
@@ -51,7 +51,7 @@ pub struct Checks<'a> {
     pub clock: &'a dyn Clock,
 }
 
-/// Rays for estimating the time of brute force per ray.
+/// The number of rays for estimating the time of brute force per ray.
 const PILOT: usize = 8;
 
 impl Checks<'_> {
@@ -81,8 +81,8 @@ impl Checks<'_> {
         Ok(checks)
     }
 
-    /// The checked rays of each workload: as many as the triangle tests allow and, with a time limit, the estimated
-    /// time of brute force.
+    /// The checked rays of each workload. `tests` limits their number. With a time limit, the estimated time of brute
+    /// force also limits it.
     fn batches(&self, reference: &Reference, structures: usize) -> Vec<Vec<Ray>> {
         let rays = |workload: &Workload| {
             let mut count = affordable(workload.rays.len(), self.scene.mesh.len(), self.tests);
@@ -101,7 +101,7 @@ impl Checks<'_> {
     /// Checks one structure on all workloads; `None` if it panicked.
     fn of(&self, built: &Built, known: &Known, batches: &[Vec<Ray>]) -> Option<Vec<Checked>> {
         let Known { reference, answers } = known;
-        // Brute force is compared with itself on a few rays, which show whether its hits are repeatable.
+        // If the structure is brute force itself, a few rays suffice to show that its hits are repeatable.
         let most = if built.choice.entry.name == BRUTE_FORCE { FEWEST } else { MOST };
         let of_batch = |((rays, answers), workload): ((&Vec<Ray>, &Vec<Option<Hit>>), &Workload)| {
             let step = rays.len().div_ceil(most).max(1);
@@ -119,7 +119,7 @@ impl Checks<'_> {
     }
 }
 
-/// Like [`validate_known`], for a runner. Its queries are slow, so only the timed query is sent, and only once.
+/// Like [`validate_known`], for a runner. Queries of a runner are slow, so only the timed query is checked.
 fn validate_remote(accel: &dyn DynAccel, expected: &ExpectedHits, query: Query) -> Validation {
     match query {
         Query::Closest => validate_hits(expected, &accel.closest(expected.rays)),

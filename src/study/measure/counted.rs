@@ -16,7 +16,7 @@ const FEW: usize = 512;
 const FEWEST: usize = 32;
 const FEW_TESTS: u64 = 1 << 20;
 
-/// Counts over as many evenly spread `rays` as are affordable. Every run counts the same rays.
+/// Counts over evenly spread `rays`, as many as `RAYS` and `TESTS` allow. Every run counts the same rays.
 pub fn affordable(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> RayCounts {
     let counted = |count: usize| all(accel, &spread(rays, count), query);
     let pilot = counted(64);
@@ -24,7 +24,7 @@ pub fn affordable(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> RayCounts
     if affordable >= RAYS { counted(RAYS) } else { counted(1 << affordable.max(64).ilog2()) }
 }
 
-/// Counts over a few evenly spread `rays`, which show the cost of a ray at negligible cost.
+/// Counts over a few evenly spread `rays`: a quick estimate of the cost of a ray.
 pub fn few(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> RayCounts {
     let counted = |count: usize| all(accel, &spread(rays, count), query);
     let first = counted(FEWEST);
@@ -32,7 +32,7 @@ pub fn few(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> RayCounts {
     if affordable >= FEW as u64 { counted(FEW) } else { first }
 }
 
-/// Traces all `rays` with `query` and counts.
+/// Traces all `rays` with `query` and counts the work.
 pub fn all(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> RayCounts {
     let mut counts = Counts::default();
     let distances: Vec<Option<u32>> = match query {

@@ -17,7 +17,7 @@ pub struct Environment {
 }
 
 impl Environment {
-    /// Observes this thread, which runs on the core number `core`, during `work`.
+    /// Runs `work` and records the conditions of this thread, which runs on core `core`.
     pub fn during<R>(clock: &dyn Clock, core: usize, work: impl FnOnce() -> R) -> (R, Self) {
         let (interruptions, clock_rate) = (machine::interruptions(), machine::clock_rate(core));
         let start_ns = clock.now_ns();
@@ -31,7 +31,7 @@ impl Environment {
         (result, environment)
     }
 
-    /// Combines the conditions of `epochs`, which are in order; `process` is 0.
+    /// Combines the conditions of `epochs`, which are in order. The process id of the result is 0.
     pub fn of_all<'a>(epochs: impl IntoIterator<Item = &'a Self>) -> Self {
         let sum = |all: Self, own: &Self| Self {
             process: 0,

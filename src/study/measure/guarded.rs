@@ -14,7 +14,7 @@ pub fn guarded<R>(ask: impl FnOnce() -> R) -> Option<R> {
     caught(ask).ok()
 }
 
-/// A pass that survives a panic of its structure: afterwards it does nothing and reports the panic.
+/// A pass that survives a panic of its structure. After the panic it traces no rays and reports a failure.
 pub struct Guarded<'a> {
     pass: Pass<'a>,
     levels: usize,
@@ -22,7 +22,7 @@ pub struct Guarded<'a> {
 }
 
 impl<'a> Guarded<'a> {
-    /// The guarded pass, and the failure, which is set when the pass panics.
+    /// Guards `pass`. If it panics, the returned `Failure` receives the reason.
     pub fn new(pass: Pass<'a>) -> (Self, Failure) {
         let failure = Failure::default();
         (Self { pass, levels: 1, failure: Rc::clone(&failure) }, failure)
@@ -32,7 +32,7 @@ impl<'a> Guarded<'a> {
         self.failure.borrow().is_some()
     }
 
-    /// Runs `ask` on the pass; `None` from its first panic on.
+    /// Runs `ask` on the pass. `None` if the pass panics or has panicked before.
     fn ask<R>(&mut self, ask: impl FnOnce(&mut Pass<'a>) -> R) -> Option<R> {
         let given = if self.has_panicked() { None } else { guarded(|| ask(&mut self.pass)) };
         if given.is_none() {

@@ -21,10 +21,10 @@ pub struct Judge<'a> {
 /// The minimum number of judged rays.
 const FEWEST: usize = 64;
 
-/// Rays per task of a thread.
+/// Rays per task of the thread pool.
 const CHUNK: usize = 1024;
 
-/// The minimum time for judging one structure on one workload.
+/// The minimum time budget for judging one structure on one workload.
 const SHORT_NS: u64 = 2_000_000_000;
 
 impl<'a> Judge<'a> {
@@ -34,9 +34,9 @@ impl<'a> Judge<'a> {
         Self { rays, truths }
     }
 
-    /// Counts the errors of `accel`, on all threads. Judges as many evenly spread rays, at `ps` picoseconds per ray, as
-    /// fit into the share of one of `pairs` pairs in half of `budget_ns`, or into 2 s if that is longer; at least 64.
-    /// No clock determines the number, so every run judges the same rays.
+    /// Counts the errors of `accel` on evenly spread rays, on all threads. Half of `budget_ns` is divided equally among
+    /// `pairs` pairs of structure and workload, but a pair gets at least 2 s. The rays that fit into this time at `ps`
+    /// picoseconds per ray are judged, at least 64. The number depends on no clock: every run judges the same rays.
     pub fn errors(&self, accel: &dyn DynAccel, ps: u64, budget_ns: u64, pairs: usize) -> ErrorCounts {
         let share_ns = (budget_ns / 2 / pairs.max(1) as u64).max(SHORT_NS);
         let all = self.rays.len();
@@ -50,10 +50,10 @@ impl<'a> Judge<'a> {
     }
 }
 
-/// How often each ray is traced: a disturbance rarely slows the same ray every time.
+/// How often each ray is traced. The minimum counts: a disturbance rarely slows the same ray every time.
 const PASSES: usize = 3;
 
-/// The longest time of any of `rays` traced on its own, ns: the maximum over the rays of the minimum over the passes.
+/// The time of the slowest of `rays`, ns. Each ray is traced separately; its time is the minimum over the passes.
 pub fn slowest(accel: &dyn DynAccel, rays: &[Ray], clock: &dyn Clock) -> u64 {
     let mut least = vec![u64::MAX; rays.len()];
     for _ in 0..PASSES {
@@ -81,8 +81,8 @@ mod tests {
         assert_eq!(rays, RayKind::Uniform.rays(&scene, 400, 1));
         let judge = Judge::new(&rays, &Oracle::new(&scene.mesh));
         let judged = |ps, budget_ns, pairs| judge.errors(accel.as_ref(), ps, budget_ns, pairs).rays;
-        // Within two seconds: rays that take almost no time, ten milliseconds each, or forever. Then shares of a larger
-        // budget.
+        // A pair gets 2 s, the minimum, and a ray takes 1 ps, 10 ms or forever. Then a ray takes 10 ms, and one, two or
+        // nine pairs divide 3 s, half of the budget.
         assert_eq!([1, 10_000_000_000, u64::MAX].map(|ps| judged(ps, 0, 1)), [400, 200, 64]);
         assert_eq!([1, 2, 9].map(|pairs| judged(10_000_000_000, 6_000_000_000, pairs)), [300, 200, 200]);
     }

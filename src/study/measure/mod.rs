@@ -37,10 +37,10 @@ pub use environment::Environment;
 pub use guarded::{PANICKED, guarded};
 pub use prepared::Prepared;
 
-/// Builds all structures, checks and counts them if this is epoch 0, and takes their samples. Epochs are independent of
-/// each other; [`join`](super::join) checks what they must have in common. A structure that cannot be built, panics or
-/// changes its hits is refused, a structure with wrong hits gets no time, and all other structures continue. An error
-/// if the structures do not fit into memory, or the ray source of secondary rays cannot be built.
+/// Builds all structures and takes their samples; in epoch 0, also checks hits and counts work. [`join`](super::join)
+/// checks that the epochs agree. A structure is refused if it cannot be built, panics or changes its hits; a structure
+/// with wrong hits gets no time; all other structures are measured. An error if the structures do not fit into memory,
+/// or if the ray source, at whose hits secondary rays start, cannot be built.
 pub fn measure(
     case: &Case,
     prepared: &Prepared,
@@ -92,7 +92,7 @@ struct Bench<'a> {
     built: Vec<Option<Built>>,
     /// Checksums of the hits on the timed rays of this epoch.
     checksums: Vec<(Pair, u64)>,
-    /// Blocks of memory between the structures.
+    /// Random blocks of memory between the structures, so their addresses differ between epochs.
     _blocks: Vec<Vec<u8>>,
 }
 
@@ -152,7 +152,7 @@ impl<'a> Bench<'a> {
         Ok(Self { case, prepared, clock, workloads, structures, built, checksums: vec![], _blocks: blocks })
     }
 
-    /// Checks all structures against brute force; structures with wrong hits are not timed.
+    /// Checks all structures against brute force. A structure is not timed on a workload with wrong hits.
     fn check(
         &mut self,
         tests: usize,
@@ -173,7 +173,7 @@ impl<'a> Bench<'a> {
         Ok(())
     }
 
-    /// Checks the hits on all timed rays; structures with wrong hits lose their times.
+    /// Checks the hits on all timed rays. A structure with wrong hits loses its times on the workload.
     fn check_timed(&mut self, tests: usize, progress: &mut dyn FnMut(Stage)) -> Result<(), StudyError> {
         let Prepared { scene, .. } = self.prepared;
         let mut checks = TimedCheck::new(scene, &self.workloads, self.case.epochs, tests);
@@ -193,7 +193,7 @@ impl<'a> Bench<'a> {
     }
 
     /// Counts the errors of all structures against the exact oracle. A structure that declines some of the rays is
-    /// refused: its error rate would cover other rays.
+    /// refused, because its error rate would cover fewer rays.
     fn judge(&mut self, progress: &mut dyn FnMut(Stage)) {
         progress(Stage::Rays("exact results for all".into()));
         let oracle = Oracle::new(&self.prepared.scene.mesh);
@@ -217,8 +217,8 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// Takes all samples. The numbers of rays and samples depend on all requested pairs, including failed and wrong
-    /// ones, so an epoch with a failed structure, or without checks, uses the same numbers.
+    /// Takes all samples. The numbers of rays and samples are chosen as if no structure had failed or had wrong hits.
+    /// So they are equal in all epochs, although a structure may fail in one epoch and only epoch 0 checks hits.
     fn sample(&mut self, progress: &mut dyn FnMut(Stage)) -> Environment {
         let (clock, settings) = (self.clock, &self.case.settings);
         let plan = SamplePlan {
@@ -273,7 +273,7 @@ impl<'a> Bench<'a> {
         environment
     }
 
-    /// Counts the work per ray, including for structures with wrong hits.
+    /// Counts the work per ray, also of structures with wrong hits.
     fn count(&mut self) {
         let settings = &self.case.settings;
         let mut pairs = Pair::all(self.structures.len(), self.workloads.len());
@@ -282,7 +282,7 @@ impl<'a> Bench<'a> {
             let counts = |rays: &Rays| rays.untimed.is_none() || rays.wrong;
             structure.refused.is_none() && structure.rays.get(pair.workload).is_some_and(counts)
         });
-        // A quick run also counts fewer rays.
+        // A quick run counts fewer rays.
         let count = if settings.is_quick() { counted::few } else { counted::affordable };
         let (built, workloads) = (&self.built, &self.workloads);
         let counted = |pair: &Pair| {
@@ -302,7 +302,7 @@ impl<'a> Bench<'a> {
     }
 }
 
-/// Returns the result of a query. Refuses the structure if it panicked (`None`) or its program failed.
+/// Returns `result`. If it is `None` (a panic) or the runner has failed, refuses the structure and returns `None`.
 fn refuse_unless<T>(structure: &mut Structure, built: &Built, result: Option<T>) -> Option<T> {
     let panicked = result.is_none().then(|| PANICKED.into());
     let Some(reason) = built.accel.remote().and_then(Remote::failure).or(panicked) else { return result };

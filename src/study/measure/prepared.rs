@@ -10,15 +10,15 @@ use crate::study::{Case, Stage, StudyError};
 /// A case with everything that it names, loaded before the measuring.
 pub struct Prepared {
     pub scene: Scene,
-    /// In the order of the case.
+    /// One per structure of the case, in order.
     pub choices: Vec<Choice>,
     pub guide: Choice,
     pub threads: Threads,
 }
 
 impl Prepared {
-    /// Resolves the names in the case. `scene` is the scene, if it is already loaded. An error if something does not
-    /// exist, or the scene has changed since the plan.
+    /// Resolves the names in the case. `scene` is the scene, if it is already loaded. An error if a name is unknown,
+    /// the scene has changed since the plan, or the threads are not available.
     pub fn new(case: &Case, registry: &Registry, scene: Option<Scene>) -> anyhow::Result<Self> {
         let scene = scene.map_or_else(|| case.scene.load(registry), Ok)?;
         let choices = case.structures.iter().map(|own| own.choose(registry)).collect::<anyhow::Result<_>>()?;
@@ -27,10 +27,10 @@ impl Prepared {
     }
 }
 
-/// Builds every structure of the case that is not skipped; epoch 0 also counts the peak memory of builds. Returns, for
-/// each choice, the structure or the reason why it is refused, and the blocks of memory, which must live as long.
-///
-/// Each epoch builds in a random order and between random blocks of memory, so addresses differ between epochs.
+/// Builds every structure of the case that is not skipped. Epoch 0 also counts the peak memory of builds. Each epoch
+/// builds in a random order and allocates blocks of random sizes between the structures, so addresses differ between
+/// epochs. Returns, for each choice, the structure or the reason for its refusal. Also returns the blocks, which must
+/// live as long as the structures.
 pub fn build_all(
     case: &Case,
     prepared: &Prepared,

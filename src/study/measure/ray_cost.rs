@@ -12,21 +12,21 @@ use crate::measure::median;
 use crate::request::BRUTE_FORCE;
 use crate::scene::Workload;
 
-/// Nanoseconds per ray, per inner node or leaf entered and per block of triangles tested: a regression over all
-/// families of structures (papers/TUNING.md), rounded. With them, the default run of `compare` takes as long as with a
-/// clock, and times nine in ten cells on as many rays. Predictions are wrong by a factor of about 1.5; the possible
-/// numbers of rays differ by factors of four.
+/// Nanoseconds per ray, per inner node or leaf entered, and per block of triangles tested: rounded from a regression
+/// over all families of structures (papers/TUNING.md). A prediction is wrong by a factor of about 1.5, but the possible
+/// numbers of rays differ by factors of four. If a clock chose the numbers instead, the default run of `compare` would
+/// take as long, and nine in ten cells would have the same number of rays.
 const RAY_NS: f64 = 20.0;
 const STEP_NS: f64 = 15.0;
 const BLOCK_NS: f64 = 8.0;
 
-/// The slowdown by debug assertions.
+/// The slowdown of an unoptimised build.
 const UNOPTIMISED: f64 = if cfg!(debug_assertions) { 12.0 } else { 1.0 };
 
-/// Steps per ray if no structure counts them: about as many as in a tree over a hundred thousand triangles.
+/// Assumed steps per ray if no structure counts them: about as many as in a tree over a hundred thousand triangles.
 const STEPS: f64 = 12.0;
 
-/// Picoseconds per ray of each case. If unknown: the median of the workload's other structures except brute force.
+/// Picoseconds per ray of each case. An unknown cost is the median on the same workload, without brute force.
 pub fn picoseconds(cases: &[Pair], built: &[Option<&Built>], workloads: &[Workload]) -> Vec<u64> {
     let predicted: Vec<Option<f64>> = cases.par_iter().map(|case| predicted(case, built, workloads)).collect();
     let is_brute = |case: &Pair| built[case.structure].is_some_and(|built| built.choice.entry.name == BRUTE_FORCE);

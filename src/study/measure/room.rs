@@ -9,9 +9,9 @@ use crate::study::StudyError;
 /// Approximate bytes per triangle of a structure: 50 to 110 in finished trees, twice as many during a build.
 const BYTES: u64 = 100;
 
-/// Rejects a case that does not fit into memory: all structures of an epoch exist at once, because samples alternate.
+/// Rejects a case that does not fit into memory. All structures of an epoch exist at once, because samples alternate.
 pub fn fits(choices: &[Choice], scene: &Scene) -> Result<(), StudyError> {
-    // A twin has the label of its structure. The user names structures without twins.
+    // A twin has the label of its structure. The advice in the error does not count twins.
     let twins = choices.len() - distinct(choices.iter().map(|choice| &choice.label)).len();
     fits_into(memory(), [choices.len(), twins], scene.mesh.len(), &scene.name)
 }

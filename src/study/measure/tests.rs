@@ -1,4 +1,4 @@
-//! Structures with planted faults, measured.
+//! Measures structures with planted faults.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -29,7 +29,7 @@ pub struct Flawed {
 pub enum Flaw {
     #[default]
     None,
-    /// Loses the hits of about every second ray, always the same ones.
+    /// Loses the hits of about half of the rays, always of the same rays.
     Lossy,
     /// Loses all hits once [`HAS_TURNED`] is set.
     Turning,

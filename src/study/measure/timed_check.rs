@@ -1,5 +1,5 @@
 //! Checks the hits on all timed rays. Another tree traces the same rays; brute force and exact arithmetic judge the
-//! rays on which the two differ.
+//! rays on which structure and tree differ.
 
 use std::borrow::Cow;
 
@@ -36,11 +36,12 @@ pub struct TimedCheck<'a> {
 struct TreeHits {
     name: &'static str,
     triangle_test: &'static str,
-    /// A structure over the tree's triangle test must return the same bits, any other one must agree within rounding.
+    /// The tree. Structures with its triangle test must return the same bits; all others must agree within rounding.
     tree: Reference,
-    /// Judges differences: brute force over the structure's triangle test, or over `exact` if the suite lacks it.
+    /// Judges differences: brute force over the structure's triangle test, or over `exact` if the suite lacks that
+    /// test.
     judge: Reference,
-    /// By workload and ray; `None` if not needed so far.
+    /// The hits of the tree by workload and ray. The outer `Option` is `None` until the ray is traced.
     hits: Vec<Vec<Option<Option<Hit>>>>,
 }
 
@@ -49,10 +50,9 @@ impl<'a> TimedCheck<'a> {
         Self { scene, workloads, epochs, tests, references: vec![] }
     }
 
-    /// Checks the hits on all timed rays, `rays` of them per epoch; `None` if the structure panics.
-    ///
-    /// If structure and tree share a triangle test, their hits must be the same bits. It then suffices to compare
-    /// checksums in epoch 0, because later epochs must repeat the hits. An error if no tree can be built over the mesh.
+    /// Checks the hits on all timed rays, `rays` per epoch. `None` if the structure panics. An error if no tree can be
+    /// built over the mesh. If structure and tree have the same triangle test, their hits must have the same bits. It
+    /// then suffices that `checksum`, over the hits in epoch 0, is right: later epochs must repeat the hits.
     pub fn check(
         &mut self,
         built: &Built,
@@ -82,7 +82,7 @@ impl<'a> TimedCheck<'a> {
         Ok(guarded(|| self.judged(built, &self.references[place], &chosen, &expected, &found)))
     }
 
-    /// The index of a tree over the same triangle test, or over `exact`, that has another name than the structure.
+    /// The index of the tree that checks `built`: another structure with the same triangle test, or else with `exact`.
     fn reference(&mut self, built: &Built) -> Result<usize, BuildError> {
         let own_test = built.choice.triangle_test();
         let name = if built.choice.entry.name == "sah-bvh" { "sah-hybrid" } else { "sah-bvh" };
@@ -165,7 +165,7 @@ impl TreeHits {
     }
 }
 
-/// The hits of a structure, which receives the rays as in the timing; a runner receives all of them at once.
+/// The hits of a structure. It receives the rays in batches, as in the timing; a runner receives all rays at once.
 fn traced(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> QueryResults {
     let chunk = if accel.remote().is_some() { rays.len().max(1) } else { TILE };
     let mut results = QueryResults::misses(query, rays.len());

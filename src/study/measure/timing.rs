@@ -18,7 +18,7 @@ const SLACK: u64 = 8;
 /// The reason why the samples of a case are invalid.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SampleFailure {
-    /// The structure panicked, or the runner failed: a clause.
+    /// The structure panicked, or the runner failed. Contains the reason as a clause.
     #[error("{0}")]
     Ended(String),
     #[error("it returns other hits when it traces the same rays again: the structure is not deterministic")]
@@ -35,15 +35,15 @@ pub struct Timing<'a> {
     pub workloads: &'a [Workload],
     pub threads: &'a Threads,
     pub clock: &'a dyn Clock,
-    /// Whether the clock may reduce the rays of every case, as it does for runners, if a prediction is far off.
+    /// Whether measured times reduce the rays of cases whose prediction is far off. Runners always use measured times.
     pub by_clock: bool,
 }
 
 impl Timing<'_> {
-    /// The number of rays and of samples of each case, from the cost of its rays. Failed builds and declined workloads
-    /// are included, so a failure in one epoch does not change the numbers of any other case.
+    /// The number of rays and of samples of each case, from the predicted cost of its rays. Failed builds and declined
+    /// workloads are included, so a failure in one epoch does not change the numbers of any other case.
     pub fn allot(&self, plan: &SamplePlan) -> Allotment {
-        // Twins have the same label and are timed on the same number of rays.
+        // A twin has the label of its structure. Cases with one label are timed on the same number of rays.
         let label = |case: &Pair| (case.workload, &self.choices[case.structure].label);
         let group =
             |case: &Pair| self.cases.iter().position(|other| label(other) == label(case)).expect("it is among them");
@@ -53,11 +53,11 @@ impl Timing<'_> {
         allot(&self.cases.iter().zip(costs).map(cost).collect::<Vec<_>>(), plan)
     }
 
-    /// Takes interleaved samples on the allotted rays of the cases that are timed. The samples of any two structures on
-    /// a workload are on the same rays, or one has subsets on the rays of the other.
+    /// Takes interleaved samples of the cases that are timed, on their allotted rays. If two structures on a workload
+    /// are timed on different numbers of rays, the faster one also has times on the rays of the slower one.
     ///
-    /// A runner's cost per ray is unknown: its clock chooses the number of rays, which may differ between epochs. So
-    /// all structures on the workload are also timed on its next level, to give the epochs a common number of rays.
+    /// A runner's cost per ray is unknown, so its measured time chooses its number of rays. Epochs may differ by a
+    /// factor of four: all structures on the workload are therefore also timed on a quarter of the runner's rays.
     pub fn take(
         &self,
         allotment: &Allotment,
@@ -89,7 +89,7 @@ impl Timing<'_> {
         let is_remote = |built: &Built| built.accel.remote().is_some();
         let is_by_clock = |i: usize| built(i).is_some_and(|built| self.by_clock || is_remote(built));
         for (&i, pass) in timed.iter().zip(&mut passes).filter(|(i, _)| is_by_clock(**i)) {
-            // Keep a prediction unless it is far off, so all epochs agree.
+            // A runner must fit into its share of the budget. Other cases get fewer rays if the prediction is far off.
             let most_ns = if built(i).is_some_and(is_remote) { *share_ns } else { SLACK * share_ns };
             levels[i] = level_by_clock(&Stopwatch::new(clock), pass.as_mut(), levels[i], most_ns);
         }
@@ -132,7 +132,7 @@ fn none(case: &TimedRays, cases: &[TimedRays]) -> Samples {
     fewer.retain(|&rays| rays < own.rays);
     fewer.sort_unstable_by(|a, b| b.cmp(a));
     fewer.dedup();
-    // Compute the checksum over a fixed set of rays, whichever rays are timed.
+    // If a clock chooses the timed rays, compute the checksum over a set of rays that is the same in all epochs.
     let checksum_level = if case.is_by_clock { Some(pilot_level(case.all)) } else { own.checksum_level };
     Samples { checksum_level, parts: fewer.into_iter().map(|rays| SubsetSamples { rays, ns: vec![] }).collect(), ..own }
 }

@@ -9,14 +9,14 @@ use crate::report::words::{interval, listed, slug};
 use crate::study::claims::CLAIMS;
 use crate::study::kendall::Order;
 
-/// The speedup by the SAH tree, the agreement of the ray counts with the report's, and the numbers of the claims.
+/// The speedup by the SAH tree, the agreement of the ray counts with the report, and the values that claims judge.
 pub fn findings(main: &[Replicated], hard: &[Replicated]) -> Vec<Finding> {
     let mut findings: Vec<Finding> = [faster(hard), rays(main)].into_iter().flatten().collect();
     let number =
         |key: &str, own: &Replicated, value| Finding::number(format!("{key}-{}", slug(own.report.scene)), value);
     findings.extend(hard.iter().map(|own| number("hard", own, own.faster())));
     let difference = |own: &Replicated| Estimate::exact(own.total() as f64 - own.report.rays as f64);
-    // The creatures of Starters must not be copied: this project made its own, with other rays.
+    // The creatures of Starters must not be copied: this project uses different creatures, so the ray counts differ.
     let theirs = main.iter().filter(|own| own.report.scene != "Starters");
     findings.extend(theirs.map(|own| number("rays", own, difference(own))));
     findings.extend(t_prime(main).map(|factor| Finding::number("t-prime", factor)));
@@ -44,7 +44,7 @@ fn faster(hard: &[Replicated]) -> Option<Finding> {
     Some(Finding::new("hard", sentence).with_value(mean))
 }
 
-/// The largest difference in ray counts that decisions at edges explain.
+/// The largest difference in ray counts that different hits at triangle edges explain.
 const CLOSE: u64 = 2;
 
 fn rays(main: &[Replicated]) -> Option<Finding> {
@@ -61,7 +61,7 @@ fn rays(main: &[Replicated]) -> Option<Finding> {
     (!main.is_empty()).then(|| Finding::new("rays", sentence))
 }
 
-/// Largest `t'` of brute force / smallest `t'`, over all scenes.
+/// Largest `t'` of brute force / smallest `t'`, over the scenes of [`MAIN`]. `None` if a scene is missing.
 fn t_prime(main: &[Replicated]) -> Option<Estimate> {
     let all: Vec<Estimate> = main.iter().filter_map(|own| own.t_prime(BRUTE)).collect();
     let by_size = |one: &&Estimate, other: &&Estimate| one.estimate.total_cmp(&other.estimate);
@@ -72,7 +72,7 @@ fn t_prime(main: &[Replicated]) -> Option<Estimate> {
 /// The scenes in the expected order, largest improvement first. The first two are not compared with each other.
 const ORDER: &str = "Torus Sphere Teapot Metallic Cornellbox Starters Billards Infinitycandy Cube";
 
-/// How well the improvements have the expected order. `None` unless all scenes are measured.
+/// The agreement of the improvements with the expected order. `None` if a scene is missing.
 fn order(main: &[Replicated]) -> Option<Finding> {
     let improvement = |name: &str| main.iter().find(|own| own.report.scene == name)?.improvement();
     let names: Vec<&str> = ORDER.split(' ').collect();

@@ -1,7 +1,7 @@
 //! `replicate`: reproduces the source report's tables and tests its conclusion.
 //!
-//! The report times all rays of a picture, without construction, on another machine: only ratios of seconds can be
-//! compared with it. `t'` is seconds / (rays x triangles).
+//! The report times all rays of a picture, without the build, on another machine. Only ratios of its seconds can be
+//! compared with ratios measured here. `t'` is seconds / (rays x triangles).
 
 mod findings;
 mod original;

@@ -8,13 +8,13 @@ pub struct Row {
     pub triangles: usize,
     /// All rays of the picture; on a hard scene only the primary rays.
     pub rays: u64,
-    /// Seconds with the tree (L = 100, T = 0.7), without its construction.
+    /// Seconds with the tree, without the build. L is 100 and T is 0.7 ([`SweepRow`]).
     pub tree_s: f64,
-    /// Seconds with every ray tested against every triangle, and the improvement as printed; for Teapot, 23.776 would
-    /// be right. `None` on a hard scene.
+    /// Seconds with brute force, and the improvement (brute force / tree) as printed. `None` on a hard scene. The
+    /// printed improvement of Teapot is wrong: it should be 23.776.
     pub brute_s: Option<f64>,
     pub improvement: Option<f64>,
-    /// Seconds of the construction. `None` unless the scene is hard.
+    /// Seconds of the build; only on a hard scene.
     pub build_s: Option<f64>,
 }
 
@@ -50,13 +50,13 @@ pub const HARD: [Row; 3] = [
 pub struct SweepRow {
     /// L: a node with fewer triangles is a leaf.
     pub leaf: u32,
-    /// T: a split is discarded if at least this share of the triangles would be in both children.
+    /// T: a split is discarded if at least this fraction of the triangles would be in both children.
     pub threshold: f32,
     pub seconds: [f64; 9],
 }
 
-/// The report's sweep. In print, its columns Teapot and Torus are swapped; here they are correct. The row 100 / 0.7 is
-/// the setting of the main table, but has other seconds: both are single runs.
+/// The report's sweep over settings. Its columns Teapot and Torus are swapped in print and corrected here. The row 100
+/// / 0.7 is the setting of the main table, but its seconds differ, because both are single runs.
 pub const SWEEP: [SweepRow; 6] = [
     sweep(25, 0.4, [0.527, 1.405, 2.734, 6.897, 138.3193, 54.305, 65.218, 57.408, 50.229]),
     sweep(50, 0.5, [0.543, 1.319, 3.157, 7.730, 132.452, 45.076, 61.802, 54.773, 46.709]),
@@ -66,10 +66,10 @@ pub const SWEEP: [SweepRow; 6] = [
     sweep(150, 0.9, [0.522, 1.3248, 2.697, 7.637, 101.9409, 52.054, 61.10, 61.996, 61.777]),
 ];
 
-/// The setting of the main table, and the default of the structure.
+/// The setting of the main table. It is the default of the structure [`REPORT_TREE`].
 pub const DEFAULT: SweepRow = SWEEP[4];
 
-/// The scene with all triangles in one place, and the setting for which more tests than brute force are expected.
+/// The scene whose triangles the tree hardly separates, and the setting expected to need more tests than brute force.
 pub const CROWDED: (&str, SweepRow) = ("Infinitycandy", SWEEP[2]);
 
 const fn sweep(leaf: u32, threshold: f32, seconds: [f64; 9]) -> SweepRow {
@@ -77,7 +77,7 @@ const fn sweep(leaf: u32, threshold: f32, seconds: [f64; 9]) -> SweepRow {
 }
 
 impl SweepRow {
-    /// `100 / 0.7`: the name in tables and roles.
+    /// The name in tables and the role of the structure, such as `100 / 0.7`.
     pub fn role(&self) -> String {
         format!("{} / {}", self.leaf, self.threshold)
     }

@@ -8,7 +8,7 @@ use crate::study::epoch::{Rays, Structure};
 use crate::study::epoch_medians::{epoch_medians, ratio, values};
 use crate::study::{Dataset, Epoch};
 
-/// Roles of structures. The settings of the sweep have their own [roles](original::SweepRow::role).
+/// Roles of structures. Each setting of the sweep has a separate [role](original::SweepRow::role).
 pub const BRUTE: &str = "brute force";
 pub const SAH: &str = "sah";
 /// The report's tree on a hard scene. On an easy scene the tree has the role of its setting in the sweep.
@@ -34,7 +34,7 @@ pub fn mean(hard: &[Replicated]) -> Option<Estimate> {
     let ratios = |other: &str| hard.iter().map(|own| own.log_ratios(other)).collect::<Vec<_>>();
     let noise = AaNoise::new(&ratios(TWIN)).of_mean(hard.len());
     let mut ratios = ratios(SAH);
-    // After an interrupted run some scenes lack an epoch.
+    // After an interrupted run, some scenes lack an epoch: use only the epochs that all scenes have.
     cut_to_shared_epochs(&mut ratios);
     Some(Rerun::of(&epoch_values(&ratios)?, noise)?.ratio())
 }
@@ -67,8 +67,8 @@ impl Replicated<'_> {
         epoch.structures.iter().find(|own| own.role == role)
     }
 
-    /// ln(seconds) for all rays, by epoch and role. Each workload is extrapolated from the rays on which all of these
-    /// structures were timed.
+    /// ln(seconds) for all rays, by epoch and role. Each workload is extrapolated from the rays on which the structures
+    /// of all `roles` were timed.
     fn medians(&self, roles: &[&str]) -> Vec<Vec<f64>> {
         let of_epoch = |epoch: &&Epoch| {
             let in_role =
@@ -79,7 +79,7 @@ impl Replicated<'_> {
         epoch_medians(self.epochs.iter().map(of_epoch).collect())
     }
 
-    /// ln(time of the report's tree / time of another structure), by epoch.
+    /// ln(time of the report's tree / time of the structure with the role `other`), by epoch.
     fn log_ratios(&self, other: &str) -> Vec<Vec<f64>> {
         let logs = values(&self.medians(&[TREE, other]), |logs| logs[0] - logs[1]);
         logs.into_iter().map(|log| vec![log]).collect()
@@ -89,7 +89,7 @@ impl Replicated<'_> {
         AaNoise::new(&[self.log_ratios(TWIN)])
     }
 
-    /// Seconds with the structure `one` / seconds with the structure `other`.
+    /// Seconds with the structure in the role `one` / seconds with the structure in the role `other`.
     fn ratio(&self, one: &str, other: &str) -> Estimate {
         ratio(&self.medians(&[one, other]), |logs| logs[0] - logs[1], self.noise().of_ratio())
     }
@@ -135,7 +135,7 @@ impl Replicated<'_> {
     }
 }
 
-/// ln(seconds) of a structure for all rays, by round, extrapolated from the rays on which all of `beside` were timed.
+/// ln(seconds) of a structure for all rays, by round. Extrapolates from the rays on which all of `beside` were timed.
 fn log_seconds(structure: &Structure, beside: &[&Structure]) -> Vec<f64> {
     let seconds = |(kind, rays): (usize, &Rays)| {
         let common = beside.iter().map(|other| other.rays[kind].rays).min().unwrap_or(rays.rays);

@@ -1,4 +1,4 @@
-//! The study as tables.
+//! The tables of the study.
 
 use super::original::SWEEP;
 use super::replication::{BRUTE, Replicated, SAH, TREE};

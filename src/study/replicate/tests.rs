@@ -8,8 +8,8 @@ use crate::study::epoch::Rays;
 use crate::study::epoch::tests::{example, rays};
 use crate::study::{Measured, case};
 
-/// Epochs of a scene of 100 triangles. The structures in these roles take the given nanoseconds for each of 1000
-/// closest-hit rays and of 500 shadow rays; one of the rounds is slow.
+/// Epochs of a scene of 100 triangles with 1000 closest-hit rays and 500 shadow rays. The structure in each role takes
+/// the given nanoseconds per ray. One of the rounds is slow.
 fn scene(name: &str, epochs: usize, roles: &[(&str, u64)]) -> Vec<Measured> {
     let one = |number: usize| {
         let ns: Vec<Vec<u64>> = roles.iter().map(|(_, t)| [1000, 1300, 1000].map(|round| round * t).into()).collect();
@@ -30,7 +30,7 @@ fn hard(name: &str, epochs: usize, [tree, sah, twin]: [u64; 3]) -> Vec<Measured>
     scene(name, epochs, &[(TREE, tree), (SAH, sah), (TWIN, twin)])
 }
 
-/// An easy scene in which brute force takes `improvement` x as long as the report's tree.
+/// An easy scene in which brute force takes `improvement` times as long as the report's tree.
 fn main(name: &str, improvement: u64) -> Vec<Measured> {
     let roles: Vec<String> = SWEEP.iter().map(|row| row.role()).collect();
     let mut times = vec![(BRUTE, 300 * improvement), (SAH, 10)];
@@ -65,7 +65,7 @@ fn the_conclusion_is_the_mean_of_the_hard_scenes() {
     assert!(report.tables().chain([&report.data]).all(|t| t.rows.iter().all(|row| row.len() == t.columns.len())));
     assert!(of(&[]).blocks.len() == 1 && of(&[]).findings.is_empty(), "nothing is measured");
 
-    // Only the epochs that all hard scenes have count.
+    // The mean uses only epochs that exist for all hard scenes.
     let cut = of(&[hard("Dragon", 2, [800, 100, 800]), hard("Lucy", 1, [200, 100, 200])]);
     let mean = value(&cut, "hard").unwrap();
     assert!((mean.estimate - 4.0).abs() < 1e-9 && mean.interval.is_none(), "{mean:?}");
@@ -83,7 +83,7 @@ fn what_is_said_of_the_hard_scenes_is_what_was_found() {
         assert!(sentence.starts_with(&format!("The SAH tree traces primary rays {told}")), "{sentence}");
     }
     // Twins with different times widen the interval. This run and a rerun each add the noise of one A/A ratio; with
-    // three epochs, t is 4.303.
+    // three epochs, Student's t is 4.303.
     let width = |twin: u64| {
         let faster = value(&of(&[hard("Sponza", 3, [800, 100, twin])]), "hard-sponza").unwrap();
         libm::log(faster.high().unwrap() / faster.low().unwrap())
@@ -122,11 +122,11 @@ fn claims_about_all_scenes_are_judged_with_all_scenes() {
         }
     }
     let report = of(&scenes);
-    // Two workloads, 1500 rays and 100 triangles.
+    // The tests of two workloads, divided by 1500 rays and 100 triangles.
     let exact = |x: f64| Some(Estimate::exact(x));
     assert_eq!((value(&report, "crowded"), value(&report, "crowded-50")), (exact(1.0), exact(2.4)));
     assert!((value(&report, "t-prime").unwrap().estimate - 45.0).abs() < 1e-9);
-    // In eight of 35 couples, those with Cube, the order is reversed.
+    // Of the 35 pairs of scenes, the eight pairs with Cube are reversed.
     let order = value(&report, "order").unwrap();
     assert!((order.estimate - (1.0 - 16.0 / 35.0)).abs() < 1e-12, "{order:?}");
     let told = &report.finding("order").unwrap().sentence;

@@ -5,7 +5,7 @@ use crate::report::words::each_once;
 use crate::study::Dataset;
 use crate::study::measurement::{Measurement, build_noise, measurements, of_scene, trace_noise};
 
-/// Labels of a case: the family of its mesh, and the level of an icosphere.
+/// Names of the labels of a case: the family of its mesh, and the level of an icosphere.
 pub const FAMILY: &str = "family";
 pub const LEVEL: &str = "level";
 
@@ -22,14 +22,14 @@ pub const LEVEL_8: usize = 20 << 16;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Growth {
     pub family: &'static str,
-    /// The name, with the keys that differ from their defaults.
+    /// The name of the structure, with the keys that differ from their defaults.
     pub label: String,
     pub workload: String,
     /// Ordered by number of triangles.
     pub points: Vec<Point>,
-    /// The exponent of the time per ray. Every exponent is `None` with fewer than three meshes in the fit.
+    /// The exponent of the time per ray. Every exponent is `None` if the fit has fewer than three meshes.
     pub time: Option<Estimate>,
-    /// The same exponent over the meshes of at most [`LEVEL_8`] triangles, which the claims are about.
+    /// Like `time`, but over the meshes of at most [`LEVEL_8`] triangles. The claims are about these meshes.
     pub time_to_level_8: Option<Estimate>,
     /// The exponent of the build time.
     pub build: Option<Estimate>,
@@ -61,7 +61,7 @@ impl Point {
         self.measurement.triangles
     }
 
-    /// Whether it is part of the fit: the structure has more than one leaf.
+    /// Whether the fit includes this point: the structure has more than one leaf.
     pub fn is_fitted(&self) -> bool {
         self.measurement.shape.leaves > 1
     }
@@ -71,7 +71,7 @@ impl Point {
     }
 }
 
-/// The growth of every structure. The intervals predict another run.
+/// The growth of every structure, by family and workload. The intervals predict a rerun.
 pub fn growths(dataset: &Dataset) -> Vec<Growth> {
     let all = measurements(dataset);
     let noises = [trace_noise(&all), build_noise(&all)];
@@ -120,8 +120,8 @@ fn growth(family: &'static str, points: Vec<Point>, [trace, build]: &[AaNoise; 2
     }
 }
 
-/// The slope over ln(triangles) of the logarithms that `value` returns by epoch. `noise` returns the variance that the
-/// A/A noise adds to a sum with these weights. `None` if a value is unknown, or with fewer than three meshes.
+/// The slope over ln(triangles) of the logarithms that `value` returns by epoch. `noise` receives the weights of a sum
+/// and returns the variance that the A/A noise adds. `None` if a value is unknown or there are fewer than three meshes.
 fn power(
     points: &[&Point],
     value: &dyn Fn(&Measurement) -> Option<Vec<f64>>,
@@ -130,13 +130,13 @@ fn power(
     let values: Vec<Vec<f64>> = points.iter().map(|point| value(&point.measurement)).collect::<Option<_>>()?;
     let places: Vec<f64> = points.iter().map(|point| libm::log(point.triangles() as f64)).collect();
     let weights = slope_weights(&places).filter(|weights| weights.len() > 2)?;
-    // Use only the first epochs, which all meshes have.
+    // Use only the epochs that all meshes have.
     let epochs = values.iter().map(Vec::len).min()?;
     let slope = |e: usize| weights.iter().zip(&values).map(|(weight, logs)| weight * logs[e]).sum();
     Rerun::of(&(0..epochs).map(slope).collect::<Vec<f64>>(), noise(&weights))
 }
 
-/// The weights for which the slope over `x` is the weighted sum of the heights. `None` if all `x` are equal.
+/// The weights `w` for which the sum of `w * y` is the least-squares slope over `x`. `None` if all `x` are equal.
 fn slope_weights(x: &[f64]) -> Option<Vec<f64>> {
     let mean = x.iter().sum::<f64>() / x.len() as f64;
     let squares: f64 = x.iter().map(|x| (x - mean) * (x - mean)).sum();

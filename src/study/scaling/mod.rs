@@ -1,8 +1,8 @@
 //! `scaling`: how do time, build and memory grow with the number of triangles?
 //!
-//! The icospheres have 20 triangles or more and the same view: only the subdivision of the surface changes. The named
-//! meshes differ in more than their size, so their exponent is less meaningful. Powers are fitted to logarithms of
-//! times, over the meshes on which the structure has more than one leaf: a single leaf is brute force.
+//! The icospheres have 20 triangles or more and the same view: only the subdivision of the surface changes. Other
+//! meshes differ in more than their size, so their exponent is less meaningful. Powers are fitted to logarithms. The
+//! fit omits meshes on which the structure is a single leaf, because a single leaf is brute force.
 
 mod growth;
 mod section;
@@ -36,7 +36,7 @@ pub const STUDY: Study = Study {
 const STRUCTURES: [&str; 7] =
     ["median-kd", "sah-kd", "sah-kd-wide", "sah-hybrid", "sah-bvh", "obvhs-bvh2", "obvhs-cwbvh"];
 
-/// The default of `--finest`, which the claims need. The default structures then take about 1 GB together.
+/// The default of `--finest`. The claims need level 8. All default structures together then take about 1 GB.
 const FINEST_BY_DEFAULT: u32 = 8;
 
 #[derive(Clone, Debug, clap::Args)]
@@ -62,7 +62,7 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     let structures = with_twin(args.structures.chosen(registry, &STRUCTURES)?);
     let workloads = args.rays.request(&[WorkloadKind::Primary, WorkloadKind::Random]);
     let settings = Settings { slowest: Some(SLOWEST), ..Settings::new(&args.measuring, registry)? };
-    // Read the meshes before the spheres, because they may be missing.
+    // Read the meshes before the spheres, because a mesh file may be missing.
     let meshes = args.scenes.read(registry, &["dragon", "lucy", "sponza"])?;
     let spheres = Scenes { scenes: (0..=args.finest).map(|level| format!("icosphere:{level}").into()).collect() };
     let spheres = spheres.read(registry, &[])?;

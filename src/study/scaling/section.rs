@@ -82,7 +82,7 @@ pub fn blocks(growths: &[Growth]) -> Vec<Block> {
     let mut blocks = vec![Block::Text(text.into())];
     let spheres = groups.iter().filter(|group| group[0].family == SPHERES);
     blocks.extend(spheres.clone().map(|group| Block::figure(figure(group, &TIME))));
-    // Builds and memory do not depend on rays.
+    // Build time and memory do not depend on the workload: draw them once.
     let quantities = if first[0].family == MESHES { &[][..] } else { &[BUILD, MEMORY] };
     blocks.extend(quantities.iter().map(|quantity| Block::figure(figure(first, quantity))));
     let families: Vec<&[Growth]> = growths.chunk_by(|a, b| a.family == b.family).collect();
@@ -128,7 +128,7 @@ fn figure(group: &[Growth], quantity: &Quantity) -> Figure {
     }
 }
 
-/// Every point with its growth.
+/// Every point, with the growth that contains it.
 fn all_points(growths: &[Growth]) -> impl Iterator<Item = (&Growth, &Point)> {
     growths.iter().flat_map(|growth| growth.points.iter().map(move |point| (growth, point)))
 }

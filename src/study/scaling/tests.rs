@@ -16,7 +16,7 @@ fn measured(family: &str, n: usize, epoch: usize, build_ns: u64, ns: &[u64]) -> 
 
 const TRIANGLES: [usize; 4] = [100, 400, 1600, 6400];
 
-/// Four meshes, two epochs of three rounds: 2 us x n^b per ray, builds of 1 ms x n^c; `wobble` varies both by epoch.
+/// Two epochs on meshes of n triangles. A ray takes 2 us x n^b and a build 1 ms x n^c; `wobble` varies both by epoch.
 fn spheres(b: f64, c: f64, wobble: f64) -> Vec<Measured> {
     let mut all = vec![];
     for (i, n) in TRIANGLES.into_iter().enumerate() {
@@ -30,7 +30,7 @@ fn spheres(b: f64, c: f64, wobble: f64) -> Vec<Measured> {
     all
 }
 
-/// Two epochs of a sphere with `triangles` triangles and this time.
+/// Two epochs of a sphere with `triangles` triangles. A build and a sample take about `ns`.
 fn finest_of(triangles: usize, ns: u64) -> impl Iterator<Item = Measured> {
     (0..2).map(move |epoch| measured(SPHERES, triangles, epoch, ns, &[ns + epoch as u64; 3]))
 }
@@ -48,7 +48,7 @@ fn a_power_is_found_where_there_is_one() {
     // Noise widens the interval.
     let noisy = one(spheres(0.25, 1.1, 0.1)).time.unwrap();
     assert!(noisy.holds(0.25) && noisy.high().unwrap() - noisy.low().unwrap() > 0.01, "{noisy:?}");
-    // 100 bytes per triangle, and counts that do not grow.
+    // Memory is 100 bytes per triangle, and counts do not grow.
     assert!((bytes.estimate - 1.0).abs() < 1e-9);
     assert!(growth.tests.unwrap().estimate.abs() < 1e-9);
     assert!((growth.points[0].bytes_per_triangle() - 100.0).abs() < 1e-9);
@@ -101,7 +101,7 @@ fn a_single_leaf_takes_no_part() {
     let growth = one(measured.clone());
     assert!((growth.time.unwrap().estimate - 0.25).abs() < 1e-3);
     assert_eq!(growth.points.iter().filter(|point| point.is_fitted()).count(), 3);
-    // Two meshes are too few.
+    // Two fitted meshes are too few for an exponent.
     measured.retain(|own| own.epoch.triangles != 400);
     let growth = one(measured);
     assert_eq!((growth.time, growth.points.len()), (None, 3));

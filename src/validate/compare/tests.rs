@@ -40,7 +40,7 @@ impl Accel for Broken {
 
 type Damage = fn(u32, Option<Hit>) -> Option<Hit>;
 
-/// Compares a damaged structure on random rays through a soup. `share`: the reference has the same triangle test.
+/// Compares a damaged structure on rays through a triangle soup. `share`: the reference has the same triangle test.
 fn damaged(damage: Damage, any: fn(bool) -> bool, share: bool) -> Validation {
     let mesh = soup();
     let mut reference = Reference::brute_force::<MollerTrumbore>(&mesh).unwrap();
@@ -67,7 +67,7 @@ fn damage_is_found_and_told_apart_whoever_judges() {
     for (name, damage, kind) in rows {
         for share in [true, false] {
             let v = damaged(damage, |any| any, share);
-            // Rounding of another test may explain an ulp.
+            // With different tests, rounding may explain an ulp.
             let kind = kind.filter(|_| share || name != "an ulp");
             let wrong = if share { v.structure_errors } else { v.answer_errors };
             assert_eq!(v.worst_error().map(|worst| worst.kind), kind, "{name}");
@@ -93,7 +93,7 @@ fn depths_are_judged_by_a_bound_of_rounding() {
     let worst = &v.worst[0];
     assert!(worst.kind == Kind::Depth && worst.verdict.contains("ulps away"), "{worst}");
     assert_eq!(v.worst_error(), None);
-    // With the same test they must return the same bits.
+    // With the same test, `t` must have the same bits.
     let v = damaged(near, |any| any, true);
     assert_eq!((v.depth_errors, v.structure_errors), (0, v.differing));
 
@@ -130,7 +130,7 @@ fn a_farther_hit_is_a_lost_nearer_one() {
     assert!(answers.answer_errors > 500 && answers.structure_errors == 0);
     let kinds = |v: &Validation| v.worst.iter().all(|w| w.kind == Kind::Lost);
     assert!(kinds(&v) && kinds(&answers), "lost outright comes before lost behind another");
-    // Keep rays that hit the second half: on these, an error is a lost nearer hit on the first half.
+    // Keep rays that hit the second half: an error on such a ray is a lost nearer hit on the first half.
     let only = |v: &Validation| v.structure_errors + v.answer_errors;
     let both: Vec<Ray> = rays.into_iter().filter(|ray| half.closest_hit(ray, &mut ()).is_some()).collect();
     let reference = Reference::brute_force::<MollerTrumbore>(&mesh).unwrap();

@@ -14,11 +14,11 @@ pub use soundness::{counting, shapes};
 
 /// A structure under test.
 pub struct Subject {
-    /// Its name in failures.
+    /// The name in failures.
     pub name: String,
     /// See [`Accel::TRIANGLE_TEST`].
     pub triangle_test: &'static str,
-    /// Whether it promises the lowest number among primitives at equal `t`.
+    /// Whether the structure promises the lowest number among primitives at equal `t`.
     pub lowest_id: bool,
     /// Time limit of a build or a query before it counts as hanging.
     pub limit: Duration,
@@ -43,7 +43,7 @@ pub type Named = (String, Arc<Mesh>);
 const SEED: u64 = 2003;
 
 impl Subject {
-    /// The structures that `build` returns; `triangle_test` as in [`Accel::TRIANGLE_TEST`].
+    /// A subject with the structures that `build` returns. See [`Accel::TRIANGLE_TEST`] for `triangle_test`.
     pub fn new(
         name: &str,
         triangle_test: &'static str,
@@ -52,7 +52,7 @@ impl Subject {
         Self { name: name.into(), triangle_test, lowest_id: false, limit: LIMIT, build: Arc::new(build) }
     }
 
-    /// The structure `A` with one configuration.
+    /// A subject with the structure `A` and one configuration.
     pub fn of<A: Accel>(name: &str, config: A::Config) -> Self {
         Self::new(name, A::TRIANGLE_TEST, move |mesh| Ok(Box::new(A::build(mesh, &config)?)))
     }
@@ -66,7 +66,7 @@ impl Subject {
     }
 }
 
-/// Compares `count` rays of every stratum on every mesh, and returns all comparisons. It stops after a hang.
+/// Compares the subject with a reference on `count` rays of every stratum, on every mesh. It stops after a hang.
 ///
 /// # Errors
 /// If a mesh does not build.
@@ -91,13 +91,12 @@ pub fn findings(subject: &Subject, meshes: &[Named], count: usize) -> Result<Vec
 }
 
 /// Checks that hits are right: no structure error on any mesh and stratum, any hit agrees with closest hit, single rays
-/// agree with batches, nothing panics or hangs, and the lowest primitive wins if that is promised. Declined rays are
-/// not traced.
+/// agree with batches, nothing panics or hangs, and the lowest primitive wins if `lowest_id` is set.
 ///
-/// A structure whose triangle test this crate lacks fails only if rounding in single precision cannot explain its hits.
+/// If this crate lacks the structure's triangle test, hits that rounding in single precision explains count as right.
 ///
 /// # Errors
-/// One line per failing mesh and stratum, with the worst ray.
+/// One line per failing mesh and stratum, with the worst ray. Also if a mesh does not build or every ray is declined.
 pub fn answers(subject: &Subject, meshes: &[Named], count: usize) -> Result<(), String> {
     let wrong = |finding: &Finding| {
         let v = &finding.validation;
@@ -114,7 +113,7 @@ pub fn answers(subject: &Subject, meshes: &[Named], count: usize) -> Result<(), 
 }
 
 impl Finding {
-    /// The failure, and the worst ray in a form that can be traced again.
+    /// The failure in one line. It contains the worst ray as text that [`Ray`](crate::geometry::Ray) parses.
     pub fn line(&self, subject: &str) -> String {
         let v = &self.validation;
         let worst = v.worst.first().map_or("no ray".into(), ToString::to_string);

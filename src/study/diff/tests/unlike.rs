@@ -39,7 +39,7 @@ fn runs_that_differ_in_more_than_their_code_are_unlike() {
         let refused = with(edit).unwrap_err();
         assert!(refused.contains(part), "{part:?} is not in {refused:?}");
     }
-    // Two builds of a program are comparable. Without a gate, different numbers of timed rays are comparable, too.
+    // Two builds of a runner are comparable. Without a gate, runs with different numbers of timed rays are comparable.
     let build = |side: &mut Side| side.all[0].config = serde_json::json!({ "leaf": 8, "threshold": 0.7, "build": "x" });
     assert_eq!(with(&build), Ok(()));
     assert_eq!(unlike(&old, &edited(1.0, 1.0, &|side| side.all[1].rays = 250), false), Ok(()));
@@ -94,11 +94,11 @@ fn on_two_machines_ratios_to_obvhs_are_compared_and_nothing_else() {
     let has_note = |comparison: &Comparison, part: &str| cautions(comparison).iter().any(|n| n.contains(part));
     assert!(has_note(&comparison, "Two machines, ") && has_note(&comparison, "Other (avx2)"));
     assert_eq!(compare(&old.all, &run(3.0, 1.1), None, 1).machines, None);
-    // Another SIMD level on one machine is not another machine.
+    // If only the SIMD level differs, the caution names two instruction sets.
     let lanes = edited(1.0, 1.1, &|side| side.provenance.simd = "others".into());
     assert!(has_note(&Comparison::new(&old, &lanes, None, 1), "Two instruction sets, "));
 
-    // Between two machines, other rays and times without a reference are rejected, too.
+    // Runs of two machines are rejected if their rays or versions of obvhs differ, or if no reference is timed.
     let refused = |edit: &Edit| unlike(&old, &elsewhere(edit), false).unwrap_err().to_string();
     assert!(refused(&|side| side.all[0].workload_hash = "ff".into()).contains("the primary rays of Cube"));
     assert!(refused(&|side| side.provenance.obvhs = "0.5.0".into()).contains("the version of obvhs"));
