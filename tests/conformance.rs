@@ -74,7 +74,6 @@ pub fn passes(outcome: Result<(), String>) {
 }
 
 /// Checks that the hits of `specs` are right, with `count` rays of each stratum on each mesh.
-#[track_caller]
 fn are_right(specs: &[&str], meshes: &[Named], count: usize) {
     let registry = Registry::builtin();
     let check = |spec: &&str| passes(answers(&subject(&registry.choose(spec).unwrap(), true), meshes, count));

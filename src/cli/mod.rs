@@ -117,7 +117,7 @@ fn read_case(text: &str) -> Result<Case, String> {
 struct Session<'a> {
     suite: &'a Suite,
     terminal: &'a Terminal,
-    /// The options of the processes that a run starts, one per case. `None` if this process measures all cases.
+    /// The options of the process that a run starts for each case. `None` if this process measures all cases.
     processes: Option<&'a [OsString]>,
 }
 

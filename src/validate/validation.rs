@@ -41,8 +41,8 @@ pub struct Validation {
     pub hangs: u64,
     /// Rays with the `t` of the reference on another primitive that is also hit at this `t`. Not an error.
     pub ties: u64,
-    /// Ties in which the reference's primitive has the lower number, and its exact `t` is at most the computed `t`. An
-    /// error only if the structure promises the lowest number.
+    /// Ties in which the reference's primitive has the lower number, and in exact arithmetic is hit at or before the
+    /// returned `t`. An error only if the structure promises the lowest number.
     pub higher_ids: u64,
     /// At most [`Validation::WORST`] rays, worst first.
     pub worst: Vec<WorstRay>,

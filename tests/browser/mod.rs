@@ -116,7 +116,7 @@ fn a_click_asks_the_nearest_pixel_of_any_picture() {
         let off = [column as f64 - 320.0 * across, row as f64 - 320.0 * down];
         assert!(off.iter().all(|off| off.abs() < 8.0), "{column}, {row}");
     }
-    // Moving the border between two structures keeps the pixel.
+    // A click on the border between two structures, which is in the middle, selects no pixel.
     let before = pixel(&mut browser, HEAT);
     browser.click(&format!("{HEAT} .stage"), [0.5, 0.9]);
     assert_eq!(pixel(&mut browser, HEAT), before);

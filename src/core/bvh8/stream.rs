@@ -124,7 +124,8 @@ impl<'a, T: TriangleTest> Stream<'a, T> {
         // SAFETY: `freed` is above 0 and counts the slots in `free`, which `new` has borrowed for the lifetime of the
         // stream. Every field of the slot is written before the slot is put into a list, except the entries above the
         // top of its stack, which `left` excludes. A slot is counted in one list at a time, so no list becomes longer
-        // than `SLOTS`. A root that is not a leaf is a node (invariants of `Bvh8`), and the first node of every path.
+        // than `SLOTS`. A root that is not a leaf is a node (invariants of `Bvh8`). It begins every path, as `push_all`
+        // needs.
         unsafe {
             let slot = self.free.get(self.freed - 1);
             Entries::reset(&raw mut (*slot).entries);

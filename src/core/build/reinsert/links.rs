@@ -9,7 +9,8 @@ use crate::build::extent::Extent;
 
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Maximum length of a path that a move creates. Without this limit, nested boxes form a chain, the cheapest tree.
+/// Maximum length of a path that a move creates. Without a limit, moves turn nested boxes into a chain, which is
+/// cheapest.
 pub(super) const DEEPEST: u32 = 80;
 
 /// A node with links to its children and its parent. One cache line has all data that a search reads.

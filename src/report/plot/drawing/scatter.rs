@@ -125,7 +125,7 @@ const LABEL_GAP: i32 = 22;
 pub fn place(points: &[(Place, i32)], height: i32, obstacles: &[Corners], frame: Corners) -> Vec<Corners> {
     let mut taken = obstacles.to_vec();
     for &((x, y), width) in points {
-        // Candidates are right and left of the point, near and further away, then higher and lower by half lines.
+        // Five candidates at the height of the point, then the same five higher and lower by half lines.
         let steps = (0..40).flat_map(|i| [-i, i]).map(|i| i * height / 2);
         let lefts =
             [x + LABEL_GAP, x - LABEL_GAP - width, x + LABEL_GAP + 60, x - LABEL_GAP - 60 - width, x - width / 2];
