@@ -54,7 +54,7 @@ fn ended(status: u8) -> ExitCode {
 
 /// The exit status of an error: 2 if wrong hits have left a study without a result, otherwise 1.
 fn of_error(error: &anyhow::Error) -> u8 {
-    let is_wrong = error.downcast_ref::<StudyError>().is_some_and(StudyError::is_wrong_answer);
+    let is_wrong = error.downcast_ref::<StudyError>().is_some_and(StudyError::is_wrong_hit);
     if is_wrong { 2 } else { 1 }
 }
 

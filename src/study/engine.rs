@@ -239,7 +239,7 @@ impl Engine<'_> {
             notes.extend(of_whole.sentences().map(String::from));
             notes.retain(|note| !foot.contains(note));
         }
-        let failed = |error: &StudyError| if error.is_wrong_answer() { Status::Wrong } else { Status::Failed };
+        let failed = |error: &StudyError| if error.is_wrong_hit() { Status::Wrong } else { Status::Failed };
         let status = self.failures.iter().map(failed).fold(Status::of(&report.failures), Status::and);
         let failures = std::mem::take(&mut self.failures);
         Ok(RunOutcome { dataset: is_reported.then_some(dataset), report, tables, notes, foot, status, failures })

@@ -72,7 +72,7 @@ impl StudyError {
     }
 
     /// Whether wrong hits of a structure are the cause.
-    pub fn is_wrong_answer(&self) -> bool {
+    pub fn is_wrong_hit(&self) -> bool {
         matches!(
             self,
             Self::Apart { what: ANSWERS, .. }

@@ -7,12 +7,12 @@ use crate::measure::{Estimate, Rerun, Variance};
 
 /// Kendall's tau-b of points `(x, y)` (Kendall, "The treatment of ties in ranking problems", 1945): 1 for the same
 /// order, -1 for the opposite. Couples i > j count if `compared(i, j)`. `None` if x or y is equal in each couple.
-pub fn kendall(pairs: &[(f64, f64)], compared: impl Fn(usize, usize) -> bool) -> Option<f64> {
+pub fn kendall(points: &[(f64, f64)], compared: impl Fn(usize, usize) -> bool) -> Option<f64> {
     let (mut same, mut x_differ, mut y_differ) = (0.0, 0.0, 0.0);
-    for i in 0..pairs.len() {
+    for i in 0..points.len() {
         for j in (0..i).filter(|&j| compared(i, j)) {
             let sign = |d: f64| f64::from(i8::from(d > 0.0) - i8::from(d < 0.0));
-            let (x, y): (f64, f64) = (sign(pairs[i].0 - pairs[j].0), sign(pairs[i].1 - pairs[j].1));
+            let (x, y): (f64, f64) = (sign(points[i].0 - points[j].0), sign(points[i].1 - points[j].1));
             same += x * y;
             x_differ += x * x;
             y_differ += y * y;

@@ -182,7 +182,7 @@ pub fn measure_for_run(case: &Case, out: &Path, registry: &Registry, watch: &Bui
     say(&Message::Failed {
         sentence: format!("{error:#}"),
         of_one_scene: known.is_none_or(StudyError::is_of_one_scene),
-        wrong_answer: known.is_some_and(StudyError::is_wrong_answer),
+        wrong_answer: known.is_some_and(StudyError::is_wrong_hit),
     })
 }
 
@@ -257,6 +257,6 @@ mod tests {
         let error = measure_apart(&options, &case, &out.path().join("a.json"), None, &mut |_| ()).unwrap_err();
         let sentence = error.to_string();
         assert!(sentence.contains("Cube epoch 0") && sentence.contains("without a reply"), "{sentence}");
-        assert!(error.is_of_one_scene() && !error.is_wrong_answer());
+        assert!(error.is_of_one_scene() && !error.is_wrong_hit());
     }
 }

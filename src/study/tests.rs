@@ -64,7 +64,7 @@ fn outcome(folder: &std::path::Path, screen: &mut RecordingScreen) -> RunOutcome
 }
 
 #[test]
-fn scenes_that_fail_are_told_and_cut_no_mean() {
+fn failing_scenes_are_reported_and_left_out_of_means() {
     let folder = tempfile::tempdir().unwrap();
     // Epoch 1 of c has other hits than epoch 0. Epoch 1 of b cannot be measured, because the scene does not exist.
     let other = |case: &Case, epoch: &mut Epoch| {
@@ -80,7 +80,7 @@ fn scenes_that_fail_are_told_and_cut_no_mean() {
         told.len() == 2 && told[0].contains("b epoch 1") && told[1].contains("x on c, primary rays: epochs 0 and 1"),
         "{told:?}"
     );
-    assert_eq!(outcome.status, Status::Wrong, "wrong answers weigh more than what cannot be measured");
+    assert_eq!(outcome.status, Status::Wrong, "wrong hits take precedence over failed measurements");
     // The table of b shows its only epoch. No mean includes b.
     assert_eq!(screen.titles, ["a", "b (1 of 2 epochs)"]);
     let titles: Vec<&str> = outcome.tables.iter().map(|table| table.title.as_str()).collect();

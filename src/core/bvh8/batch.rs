@@ -231,14 +231,14 @@ pub(super) fn answer<const ANY: bool, T: TriangleTest, A, O: Observer>(
         for (rays, answers) in rays.chunks(WINDOW).zip(answers.chunks_mut(WINDOW)) {
             let form = &form;
             let which = dispatch(level, InPackets::<ANY, T, A, _> { tree, rays, answers, form, level });
-            answer_apart::<ANY, T, A>(level, tree, rays, &which, answers, form);
+            trace_single_rays::<ANY, T, A>(level, tree, rays, &which, answers, form);
         }
     }
 }
 
 /// Traces the groups of a window that form no packet. Interleaving hides latency but costs instructions. It pays
 /// only for closest hits in large trees (TUNING.md).
-fn answer_apart<const ANY: bool, T: TriangleTest, A>(
+fn trace_single_rays<const ANY: bool, T: TriangleTest, A>(
     level: Level,
     tree: &Bvh8<T>,
     rays: &[Ray],

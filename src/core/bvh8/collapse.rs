@@ -74,7 +74,7 @@ impl Chooser<'_> {
     fn choose(&self, at: usize, best: &mut [Best], ids: &mut Vec<u32>) {
         let node = &self.tree.nodes[at];
         let area = node.bounds.half_area() / self.whole;
-        let (own, below) = best.split_first_mut().expect("a node is one of those below it");
+        let (own, below) = best.split_first_mut().expect("`best` starts with the node itself");
         *own = match node.content {
             Content::Leaf { first, count } => Best {
                 cost: [self.as_leaf(area, count); WIDTH - 1],

@@ -132,7 +132,7 @@ impl<'a, T: TriangleTest> Piece<'a, T> {
         ids.sort_unstable();
         ids.dedup();
         let (first, blocks) = (self.blocks.len(), ids.len().div_ceil(WIDTH));
-        assert!(blocks <= Child::BLOCKS, "every partition deals out what is more than a leaf takes");
+        assert!(blocks <= Child::BLOCKS, "no leaf exceeds the maximum number of blocks");
         LeafBlock::fill(self.mesh, &ids, &mut self.blocks);
         Child::leaf(first, blocks)
     }

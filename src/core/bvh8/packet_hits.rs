@@ -101,7 +101,7 @@ impl<'a, T: TriangleTest> PacketHits<'a, T> {
             return depth;
         }
         if self.alone >> i & 1 == 1 {
-            return self.depths[i].expect("what is found has a depth");
+            return self.depths[i].expect("a hit has a depth");
         }
         let place = self.places[half][lane] as usize;
         let triangles = &self.blocks[place / WIDTH].triangles;

@@ -47,20 +47,20 @@ impl<const N: usize> Corners<N> {
     }
 
     #[inline(always)]
-    pub(super) fn place(&self, lane: usize) -> Place<'_> {
+    pub(super) fn place(&self, lane: usize) -> LaneCorners<'_> {
         assert!(lane < N);
-        Place { coordinates: self.0.as_flattened().as_flattened(), lane }
+        LaneCorners { coordinates: self.0.as_flattened().as_flattened(), lane }
     }
 }
 
 /// One triangle of a block; its corners are read only on demand.
 #[derive(Clone, Copy, Debug)]
-pub struct Place<'a> {
+pub struct LaneCorners<'a> {
     coordinates: &'a [f32],
     lane: usize,
 }
 
-impl Place<'_> {
+impl LaneCorners<'_> {
     /// The coordinates of the three corners, one after the other.
     #[inline(always)]
     pub(super) fn coordinates(&self) -> [f32; 9] {

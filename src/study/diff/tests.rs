@@ -75,7 +75,7 @@ fn times_are_relative_to_the_references() {
 }
 
 #[test]
-fn what_an_interval_says() {
+fn intervals_decide_the_finding() {
     let interval = |low, high| Some(Estimate::between((low + high) / 2.0, low, high));
     let limit = Some(libm::log(1.05));
     let cases = [
@@ -98,7 +98,7 @@ fn what_an_interval_says() {
 }
 
 #[test]
-fn answers_that_changed_are_wrong() {
+fn changed_hits_are_wrong() {
     let old = run(1.0, 1.0);
     type Edit = dyn Fn(&mut Measurement);
     let changes: [(&str, &Edit); 7] = [
@@ -277,7 +277,7 @@ fn scenes_with_other_numbers_of_epochs_have_a_mean_over_the_first_of_each() {
 }
 
 #[test]
-fn of_one_epoch_nothing_is_found() {
+fn one_epoch_gives_no_finding() {
     let one = |run: Vec<Measurement>| -> Vec<Measurement> {
         run.into_iter().map(|r| Measurement { epochs: 1, samples_ns: r.samples_ns[..1].to_vec(), ..r }).collect()
     };

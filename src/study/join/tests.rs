@@ -60,7 +60,7 @@ fn what_the_first_epoch_found_wrong_has_no_time_anywhere() {
     assert_eq!(cases[0].structures[1], given[0].structures[1]);
     // A study that requires all structures leaves the scene out.
     let (cases, JoinedEpochs { failures, .. }) = joined_as(given, true);
-    assert!(cases.is_empty() && failures[0].is_wrong_answer(), "{failures:?}");
+    assert!(cases.is_empty() && failures[0].is_wrong_hit(), "{failures:?}");
 }
 
 #[test]
@@ -86,7 +86,7 @@ fn structures_over_the_exact_test_that_answer_otherwise_are_a_wrong_answer() {
         change(other);
         let failures = joined(given).1.failures;
         let is_named = |error: &StudyError| error.to_string().starts_with("x and y, with the same triangle test");
-        assert!(failures.iter().all(|error| error.is_wrong_answer() && is_named(error)), "{i}: {failures:?}");
+        assert!(failures.iter().all(|error| error.is_wrong_hit() && is_named(error)), "{i}: {failures:?}");
         assert_eq!(failures.len(), usize::from(is_wrong), "{i}: {failures:?}");
     }
 }
@@ -106,7 +106,7 @@ fn epochs_that_differ_in_what_they_must_not_are_named() {
     let answers = failure(|epoch| epoch.structures[1].rays[0].checksum = 2);
     let sentence = answers.to_string();
     assert!(sentence.contains("y on a, primary rays") && sentence.contains("epochs 0 and 1"), "{sentence}");
-    assert!(sentence.contains("the hits") && answers.is_wrong_answer(), "{sentence}");
+    assert!(sentence.contains("the hits") && answers.is_wrong_hit(), "{sentence}");
     // Other differences are not wrong hits.
     for (other, what) in [
         (failure(|epoch| epoch.structures[1].rays[0].hash = "12".into()), "differ in the rays"),
@@ -114,7 +114,7 @@ fn epochs_that_differ_in_what_they_must_not_are_named() {
         (failure(|epoch| epoch.structures[1].rays[0].ns.truncate(2)), "the number of samples"),
         (failure(|epoch| epoch.structures[1].label = "z".into()), "the structures"),
     ] {
-        assert!(other.to_string().contains(what) && !other.is_wrong_answer(), "{other}");
+        assert!(other.to_string().contains(what) && !other.is_wrong_hit(), "{other}");
     }
 }
 

@@ -10,8 +10,8 @@ pub const PANICKED: &str =
     "its traversal panicked on these rays: omit the structure, or find the ray with `sahara validate`";
 
 /// The result of a query; `None` if the structure panicked.
-pub fn guarded<R>(ask: impl FnOnce() -> R) -> Option<R> {
-    caught(ask).ok()
+pub fn guarded<R>(query: impl FnOnce() -> R) -> Option<R> {
+    caught(query).ok()
 }
 
 /// A pass that survives a panic of its structure. After the panic it traces no rays and reports a failure.
@@ -32,9 +32,9 @@ impl<'a> Guarded<'a> {
         self.failure.borrow().is_some()
     }
 
-    /// Runs `ask` on the pass. `None` if the pass panics or has panicked before.
-    fn ask<R>(&mut self, ask: impl FnOnce(&mut Pass<'a>) -> R) -> Option<R> {
-        let given = if self.has_panicked() { None } else { guarded(|| ask(&mut self.pass)) };
+    /// Runs `query` on the pass. `None` if the pass panics or has panicked before.
+    fn query<R>(&mut self, query: impl FnOnce(&mut Pass<'a>) -> R) -> Option<R> {
+        let given = if self.has_panicked() { None } else { guarded(|| query(&mut self.pass)) };
         if given.is_none() {
             *self.failure.borrow_mut() = Some(PANICKED.into());
         }
@@ -49,7 +49,7 @@ impl Timed for Guarded<'_> {
 
     fn choose(&mut self, levels: &[usize], epoch: usize) {
         self.levels = levels.len();
-        self.ask(|pass| pass.choose(levels, epoch));
+        self.query(|pass| pass.choose(levels, epoch));
     }
 
     fn clear(&mut self) {
@@ -57,11 +57,11 @@ impl Timed for Guarded<'_> {
     }
 
     fn lead_in(&mut self) {
-        self.ask(Pass::lead_in);
+        self.query(Pass::lead_in);
     }
 
     fn run(&mut self, watch: &Stopwatch) -> Vec<u64> {
-        self.ask(|pass| pass.run(watch)).unwrap_or_else(|| vec![0; self.levels])
+        self.query(|pass| pass.run(watch)).unwrap_or_else(|| vec![0; self.levels])
     }
 
     fn checksum(&self) -> u64 {

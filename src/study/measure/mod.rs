@@ -7,11 +7,11 @@ mod counted;
 mod environment;
 mod guarded;
 mod judge;
+mod memory;
 mod pair;
 mod prepared;
 mod ray_cost;
 mod rays;
-mod room;
 mod timed_check;
 mod timing;
 
@@ -106,7 +106,7 @@ impl<'a> Bench<'a> {
         progress: &mut dyn FnMut(Stage),
     ) -> Result<Self, StudyError> {
         let Prepared { scene, choices, threads, .. } = prepared;
-        room::fits(choices, scene)?;
+        memory::fits(choices, scene)?;
         let (all_built, blocks) = build_all(case, prepared, clock, watch, progress);
         let mut structures: Vec<Structure> = vec![];
         let mut built: Vec<Option<Built>> = vec![];
@@ -249,7 +249,7 @@ impl<'a> Bench<'a> {
         let (taken, environment) =
             Environment::during(clock, core, || timing.take(&allotment, &is_timed, &plan, &mut told));
 
-        let asks_alone = settings.check == Check::Oracle && self.case.epoch == 0;
+        let times_single_rays = settings.check == Check::Oracle && self.case.epoch == 0;
         for (pair, samples) in pairs.iter().zip(taken) {
             let structure = &mut self.structures[pair.structure];
             let samples = match samples {
@@ -262,7 +262,7 @@ impl<'a> Bench<'a> {
             };
             structure.outside = built[pair.structure].and_then(|built| built.accel.remote()?.outside());
             let rays = &mut structure.rays[pair.workload];
-            if let Some(built) = built[pair.structure].filter(|_| asks_alone) {
+            if let Some(built) = built[pair.structure].filter(|_| times_single_rays) {
                 let alone = spread(&self.workloads[pair.workload].rays, samples.rays);
                 rays.slowest_ns = Some(slowest(built.accel.as_ref(), &alone, clock));
             }

@@ -79,7 +79,7 @@ mod tests {
         let brute = UNOPTIMISED * (RAY_NS + STEP_NS + 288.0 * BLOCK_NS) * 1000.0;
         assert_eq!(costs[0], brute as u64);
         assert!(costs[1] < costs[0] / 4 && costs[2..].iter().all(|&cost| cost < costs[1]), "{costs:?}");
-        assert_eq!(picoseconds(&cases, &built, &workloads), costs, "no clock takes part");
+        assert_eq!(picoseconds(&cases, &built, &workloads), costs, "costs do not depend on a clock");
         assert!(picoseconds(&[], &built, &workloads).is_empty());
 
         // A failed build has the median cost of the two other trees, which keep their costs.

@@ -186,7 +186,7 @@ fn a_structure_with_other_answers_in_the_next_round_is_refused_and_the_others_go
 }
 
 #[test]
-fn what_cannot_be_built_in_one_epoch_costs_nobody_else_a_measurement() {
+fn a_failed_build_does_not_change_other_measurements() {
     // Brute force is slow compared with the median of three structures, but not with the median of two.
     let case = case("torus", &["sah-kd", "brute-force", "flawed"], &[WorkloadKind::Primary]);
     let epochs = [0, 1].map(|epoch| {

@@ -70,7 +70,7 @@ impl Timing<'_> {
         let timed: Vec<usize> = (0..all.len()).filter(|&i| is_timed(&all[i])).collect();
         let pass = |&i: &usize| {
             let workload = &self.workloads[all[i].workload];
-            let accel = self.built[all[i].structure].expect("what is timed is built").accel.as_ref();
+            let accel = self.built[all[i].structure].expect("a timed structure is built").accel.as_ref();
             if let Some(remote) = accel.remote() {
                 let (pass, failure) = RemotePass::new(accel, remote, &workload.rays, workload.query);
                 return (Box::new(pass) as Box<dyn Timed>, failure);
@@ -98,7 +98,7 @@ impl Timing<'_> {
             TimedRays { workload, all, level: levels[i], is_by_clock: is_by_clock(i) }
         };
         let cases: Vec<TimedRays> = all.iter().enumerate().map(of).collect();
-        let mut samples: Vec<Samples> = timed.iter().map(|&i| none(&cases[i], &cases)).collect();
+        let mut samples: Vec<Samples> = timed.iter().map(|&i| empty_samples(&cases[i], &cases)).collect();
         let compared: Vec<usize> = timed.iter().map(|&i| all[i].workload).collect();
         take(clock, &mut passes, &compared, &SamplePlan { runs: *runs, ..*plan }, &mut samples, progress);
         let taken = |(samples, failure): (Samples, &Failure)| match failure.borrow().clone() {
@@ -120,7 +120,7 @@ struct TimedRays {
 }
 
 /// Empty samples of `case`: for its rays, and for the rays of each slower case of its workload.
-fn none(case: &TimedRays, cases: &[TimedRays]) -> Samples {
+fn empty_samples(case: &TimedRays, cases: &[TimedRays]) -> Samples {
     let own = Samples::none(case.all, case.level);
     let mut fewer = vec![];
     for other in cases.iter().filter(|other| other.workload == case.workload) {
@@ -147,7 +147,7 @@ mod tests {
             .iter()
             .map(|&(workload, level, is_by_clock)| TimedRays { workload, all: 65_536, level, is_by_clock })
             .collect();
-        cases.iter().map(|case| none(case, &cases).parts.iter().map(|part| part.rays).collect()).collect()
+        cases.iter().map(|case| empty_samples(case, &cases).parts.iter().map(|part| part.rays).collect()).collect()
     }
 
     #[test]
@@ -163,6 +163,6 @@ mod tests {
         // The last level has no next one.
         assert_eq!(parts(&[(0, 0, false), (0, 5, true)]), [vec![64], vec![]]);
         let program = TimedRays { workload: 0, all: 65_536, level: 1, is_by_clock: true };
-        assert_eq!(none(&program, &[]).checksum_level, Some(5));
+        assert_eq!(empty_samples(&program, &[]).checksum_level, Some(5));
     }
 }

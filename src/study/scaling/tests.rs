@@ -63,7 +63,7 @@ fn the_report_has_the_sentence_three_figures_and_a_row_for_every_point() {
     assert!(sentence.ends_with("] with sah-kd (100 to 6,400 triangles)."), "{sentence}");
     let figures = own.blocks.iter().filter(|block| matches!(block, crate::report::Block::Figure(_)));
     assert_eq!((figures.count(), own.tables().count(), own.data.rows.len()), (3, 1, TRIANGLES.len()));
-    assert!(own.verdicts.is_empty() && own.finding("growth-sah").is_none(), "level 8 is not there");
+    assert!(own.verdicts.is_empty() && own.finding("growth-sah").is_none(), "level 8 is missing");
     let mut fine = spheres(0.25, 1.0, 0.01);
     fine.extend(finest_of(LEVEL_8, 2e6 as u64));
     let fine = report(fine);
@@ -91,7 +91,7 @@ fn a_claim_about_coarser_meshes_is_judged_by_these_alone_in_all_of_their_epochs(
 }
 
 #[test]
-fn a_single_leaf_takes_no_part() {
+fn a_single_leaf_is_not_fitted() {
     let mut measured = spheres(0.25, 1.0, 0.0);
     for own in measured.iter_mut().filter(|own| own.epoch.triangles == 100) {
         own.epoch.structures[0].shape.leaves = 1;

@@ -18,7 +18,7 @@ impl Accel for Broken {
     const OBSERVED: Observed = Observed::NONE;
 
     fn build(_: &Arc<Mesh>, _: &()) -> Result<Self, BuildError> {
-        unreachable!("the tests make it of a correct one")
+        unreachable!("the tests construct it from a correct structure")
     }
 
     fn closest_hit<O: Observer>(&self, ray: &Ray, _: &mut O) -> Option<Hit> {
@@ -104,7 +104,7 @@ fn depths_are_judged_by_a_bound_of_rounding() {
 }
 
 #[test]
-fn contradictions_and_moods_are_found() {
+fn contradictory_and_unrepeatable_hits_are_found() {
     let v = damaged(|_, hit| hit, |_| true, true);
     assert!(v.any_hit_errors == v.rays - v.hits && v.structure_errors == 0);
     assert_eq!(v.worst_error().unwrap().kind, Kind::AnyHitDisagrees);
@@ -129,7 +129,7 @@ fn a_farther_hit_is_a_lost_nearer_one() {
     let answers = validate(&half, &Reference::structure(reference.accel, "own"), &mesh, &rays);
     assert!(answers.answer_errors > 500 && answers.structure_errors == 0);
     let kinds = |v: &Validation| v.worst.iter().all(|w| w.kind == Kind::Lost);
-    assert!(kinds(&v) && kinds(&answers), "lost outright comes before lost behind another");
+    assert!(kinds(&v) && kinds(&answers), "misses rank before farther hits");
     // Keep rays that hit the second half: an error on such a ray is a lost nearer hit on the first half.
     let only = |v: &Validation| v.structure_errors + v.answer_errors;
     let both: Vec<Ray> = rays.into_iter().filter(|ray| half.closest_hit(ray, &mut ()).is_some()).collect();

@@ -61,7 +61,7 @@ impl Scene {
     /// Builds a scene of the triangles `ids` of `mesh`; `device` is the configuration for `rtcNewDevice`.
     pub fn new(mesh: &Mesh, ids: &[u32], flags: c_int, quality: c_int, device: &str) -> Result<Self, BuildError> {
         let api = api().map_err(BuildError::Unavailable)?;
-        let options = CString::new(device).expect("no zero inside");
+        let options = CString::new(device).expect("the configuration contains no zero byte");
         // SAFETY: the calls and their order follow Embree's manual. The monitor registered here is stored in `scene`,
         // which releases the device before it drops the monitor, even after a failure.
         unsafe {

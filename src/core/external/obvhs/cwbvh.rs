@@ -85,16 +85,16 @@ impl Tree for CwBvh {
 
     /// A child with triangles counts as a leaf. Boxes of children are rounded outward to a grid of 256 cells per axis.
     fn shape(&self) -> TreeShape {
-        let root = (!self.nodes.is_empty()).then(|| (Place::Node(0), aabb(self.total_aabb)));
+        let root = (!self.nodes.is_empty()).then(|| (NodeOrLeaf::Node(0), aabb(self.total_aabb)));
         TreeShape::of(root, |place, _| match place {
-            Place::Leaf(count) => Part::Leaf(count as usize),
-            Place::Node(at) => {
+            NodeOrLeaf::Leaf(count) => Part::Leaf(count as usize),
+            NodeOrLeaf::Node(at) => {
                 let node = &self.nodes[at];
                 let place = |child| {
                     if node.is_leaf(child) {
-                        Place::Leaf(node.child_primitives(child).1)
+                        NodeOrLeaf::Leaf(node.child_primitives(child).1)
                     } else {
-                        Place::Node(node.child_node_index(child) as usize)
+                        NodeOrLeaf::Node(node.child_node_index(child) as usize)
                     }
                 };
                 let used = (0..8).filter(|&child| !node.is_child_empty(child));
@@ -105,7 +105,7 @@ impl Tree for CwBvh {
 }
 
 /// A node by its index, or a leaf by its number of triangles.
-enum Place {
+enum NodeOrLeaf {
     Node(usize),
     Leaf(u32),
 }

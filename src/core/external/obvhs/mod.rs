@@ -133,7 +133,7 @@ impl<B: Tree, T: LeafTest> Accel for Obvhs<B, T> {
         *nodes = pages::moved(mem::take(nodes));
         let (node_bytes, order) = (size_of_val(&nodes[..]), mem::take(order));
         let leaves = Leaves::new(mesh, &solid, &order);
-        assert!(tree.leads_inside(leaves.len()), "obvhs has built a tree with links to nowhere");
+        assert!(tree.leads_inside(leaves.len()), "obvhs has built a tree with invalid links");
         Ok(Self { tree, node_bytes, leaves })
     }
 

@@ -7,7 +7,7 @@ use super::enclosure::{Bounds, pass_plane, place_closely};
 use crate::exact;
 use crate::geometry::Ray;
 use crate::simd::{EightLanes, LaneVec3, indexed};
-use crate::triangle::corners::Place;
+use crate::triangle::corners::LaneCorners;
 use crate::triangle::{BETWEEN_BOUNDS, DIRECTION, Depth, INPUTS, ORIGIN};
 
 /// The exact position of a hit along its ray: bounds of `t` in `f32`, and the triangle in case the bounds overlap.
@@ -17,19 +17,19 @@ pub struct ExactDepth<'a> {
     high: f32,
     /// The distance between the bounds if they come from the first stage, otherwise infinity.
     width: f32,
-    triangle: Place<'a>,
+    triangle: LaneCorners<'a>,
 }
 
 impl<'a> ExactDepth<'a> {
     /// A hit at an exact `t` in [`low`, `high`], bounds of the first stage.
     #[inline(always)]
-    pub(super) fn new(triangle: Place<'a>, low: f32, high: f32) -> Self {
+    pub(super) fn new(triangle: LaneCorners<'a>, low: f32, high: f32) -> Self {
         Self { low, high, width: high - low, triangle }
     }
 
     /// Marks bounds that are not from the first stage: [`pass_plane`] cannot bound its error by their width.
     #[inline(always)]
-    pub(super) fn looked_up(self) -> Self {
+    pub(super) fn without_filter_bounds(self) -> Self {
         Self { width: f32::INFINITY, ..self }
     }
 

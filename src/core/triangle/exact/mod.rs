@@ -9,7 +9,7 @@ use glam::Vec3;
 
 pub use exact_depth::ExactDepth;
 
-use super::corners::Place;
+use super::corners::LaneCorners;
 use super::filter::{CandidateBounds, Candidates, FilterBlock, FilterRay, filter_block, filter_eight};
 use super::{EightHits, EightRays, TriangleTest};
 use crate::exact;
@@ -91,11 +91,11 @@ impl TriangleTest for Exact {
         bounds: &CandidateBounds<N>,
     ) -> Option<ExactDepth<'a>> {
         if let Some(decided) = Self::decide_at_once(ray, block, lane, bounds) {
-            // The bounds may come from `look_closer` instead of the filter: mark them with `looked_up`.
-            return decided.map(ExactDepth::looked_up);
+            // The bounds may come from `look_closer` instead of the filter: mark them with `without_filter_bounds`.
+            return decided.map(ExactDepth::without_filter_bounds);
         }
         let (low, high) = in_f64(&ray.ray, block.corners.place(lane), bounds.sure >> lane & 1 == 1)?;
-        Some(ExactDepth::new(block.corners.place(lane), low, high).looked_up())
+        Some(ExactDepth::new(block.corners.place(lane), low, high).without_filter_bounds())
     }
 
     #[inline(always)]
@@ -118,7 +118,7 @@ impl TriangleTest for Exact {
         // This is a frequent case for rays that start in an axis-aligned floor or wall.
         let bounds = place_in_axis_plane(&ray.ray, &block.corners.place(lane).corners())?;
         let inside = within(&ray.ray, bounds)?;
-        Some(inside.map(|(low, high)| ExactDepth::new(block.corners.place(lane), low, high).looked_up()))
+        Some(inside.map(|(low, high)| ExactDepth::new(block.corners.place(lane), low, high).without_filter_bounds()))
     }
 
     #[inline(always)]
@@ -169,7 +169,7 @@ impl TriangleTest for Exact {
 /// Decides a triangle that `f32` leaves undecided, in `f64` or exactly. Returns bounds of the exact `t`, or `None` for
 /// a miss. `met`: whether the line is known to meet the triangle. Not inlined, because it is rarely called.
 #[inline(never)]
-fn in_f64(ray: &Ray, triangle: Place, met: bool) -> Option<(f32, f32)> {
+fn in_f64(ray: &Ray, triangle: LaneCorners, met: bool) -> Option<(f32, f32)> {
     let corners = triangle.corners();
     if !met && runs_along(ray, &corners) {
         return None;

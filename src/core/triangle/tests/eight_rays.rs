@@ -63,7 +63,7 @@ fn eight<L: EightLanes>(rays: &[Ray; 8]) -> EightRays<L> {
 }
 
 /// The sums of the counts of [`Eight`], for random, aimed and nearly parallel rays, some with short intervals.
-fn tell<T: TriangleTest>() -> [usize; 2] {
+fn count_hits<T: TriangleTest>() -> [usize; 2] {
     let mut rng = Pcg32::seed_from_u64(12);
     let mut sums = [0; 2];
     for round in 0..3_000 {
@@ -95,8 +95,8 @@ fn tell<T: TriangleTest>() -> [usize; 2] {
 
 #[test]
 fn eight_rays_are_told_the_truth_and_without_a_second_stage_all_of_it() {
-    let [hits, told] = tell::<MollerTrumbore>();
-    assert!(hits > 5_000 && hits == told, "{told} of {hits} hits");
-    let [hits, told] = tell::<Exact>();
-    assert!(hits > 5_000 && told > hits / 2, "{told} of {hits} hits");
+    let [hits, decided] = count_hits::<MollerTrumbore>();
+    assert!(hits > 5_000 && hits == decided, "{decided} of {hits} hits");
+    let [hits, decided] = count_hits::<Exact>();
+    assert!(hits > 5_000 && decided > hits / 2, "{decided} of {hits} hits");
 }

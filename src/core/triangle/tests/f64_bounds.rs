@@ -64,7 +64,7 @@ fn ulp(t: f64) -> f64 {
 
 /// The numbers of hits and of errors within the documented bounds.
 #[derive(Debug, Default)]
-struct Freedom {
+struct ErrorCounts {
     hits: u32,
     lost: u32,
     invented: u32,
@@ -72,7 +72,7 @@ struct Freedom {
     off: u32,
 }
 
-fn check<T: TriangleTest>(ray: &Ray, corners: [Vec3; 3], bounds: fn(&Sizes, f64) -> Bounds, freedom: &mut Freedom) {
+fn check<T: TriangleTest>(ray: &Ray, corners: [Vec3; 3], bounds: fn(&Sizes, f64) -> Bounds, counts: &mut ErrorCounts) {
     let found = scalar_hit::<T>(ray, corners);
     let Some(rational::Solution { determinant, u, v, t }) = rational::solve(ray, corners) else {
         assert_eq!(found, None, "{}: a parallel ray hits: {ray:?} {corners:?}", T::NAME);
@@ -91,15 +91,15 @@ fn check<T: TriangleTest>(ray: &Ray, corners: [Vec3; 3], bounds: fn(&Sizes, f64)
             }
             let error = (f64::from(found) - t).abs();
             assert!(error <= off, "{}: t = {t:e} is off by {error:e} > {off:e}: {ray:?} {corners:?}", T::NAME);
-            freedom.hits += 1;
-            freedom.invented += u32::from(!is_hit);
-            freedom.off += u32::from(error > ulp(t));
+            counts.hits += 1;
+            counts.invented += u32::from(!is_hit);
+            counts.off += u32::from(error > ulp(t));
         }
         None if is_hit => {
             // Near an end of the interval, the rounded `t` decides whether the hit is inside.
             let at_an_end = t <= off || t + off >= f64::from(f32::MAX);
             assert!(determinant < sure || at_an_end, "{}: a sure hit is lost: {ray:?} {corners:?}", T::NAME);
-            freedom.lost += 1;
+            counts.lost += 1;
         }
         None => {}
     }
@@ -116,22 +116,22 @@ fn needle(rng: &mut Pcg32) -> (Ray, [Vec3; 3]) {
     (Ray::new(origin, (target - origin) * libm::exp2f((rng.next_u32() % 8) as f32 - 8.0)), corners)
 }
 
-fn hold<T: TriangleTest>(bounds: fn(&Sizes, f64) -> Bounds) {
+fn check_bounds<T: TriangleTest>(bounds: fn(&Sizes, f64) -> Bounds) {
     let mut rng = Pcg32::seed_from_u64(14);
-    let mut freedom = Freedom::default();
+    let mut counts = ErrorCounts::default();
     for round in 0..12_000 {
         let (ray, corners) = if round % 2 == 0 { needle(&mut rng) } else { hard(&mut rng, round / 2) };
         if ray.is_valid() && corners.iter().all(|p| p.is_finite()) {
-            check::<T>(&ray, corners, bounds, &mut freedom);
+            check::<T>(&ray, corners, bounds, &mut counts);
         }
     }
-    let Freedom { hits, lost, invented, off } = freedom;
+    let ErrorCounts { hits, lost, invented, off } = counts;
     // The rays must be hard enough to cause such errors, or the bounds remain untested.
-    assert!(hits > 2_000 && lost > 0 && invented > 0 && off > 20, "{}: {freedom:?}", T::NAME);
+    assert!(hits > 2_000 && lost > 0 && invented > 0 && off > 20, "{}: {counts:?}", T::NAME);
 }
 
 #[test]
 fn tests_in_f64_keep_their_bounds() {
-    hold::<MollerTrumboreF64>(of_moller_trumbore);
-    hold::<EdgeF64>(of_edges);
+    check_bounds::<MollerTrumboreF64>(of_moller_trumbore);
+    check_bounds::<EdgeF64>(of_edges);
 }
