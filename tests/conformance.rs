@@ -77,7 +77,7 @@ pub fn passes(outcome: Result<(), String>) {
 fn are_right(specs: &[&str], meshes: &[Named], count: usize) {
     let registry = Registry::builtin();
     let check = |spec: &&str| passes(answers(&subject(&registry.choose(spec).unwrap(), true), meshes, count));
-    // These threads are not rayon's, because builds wait for its threads.
+    // Checks run outside rayon's pool: they wait for builds, which need the threads of the pool.
     thread::scope(|scope| {
         specs.chunks(specs.len().div_ceil(2)).for_each(|half| drop(scope.spawn(|| half.iter().for_each(check))));
     });

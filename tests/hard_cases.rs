@@ -23,7 +23,7 @@ const FEW_TESTS: [&str; 2] = ["moller-trumbore", "exact"];
 /// Triangle tests of peers.
 const OF_PEERS: [&str; 2] = ["bvh-triangle", "parry-triangle"];
 
-/// The structures of this crate over all their triangle tests, except `OF_PEERS`; `SAME_TRAVERSAL` only over `FEW_TESTS`.
+/// The structures of this crate over their triangle tests, except `OF_PEERS`; `SAME_TRAVERSAL` only over `FEW_TESTS`.
 fn ours() -> Vec<Choice> {
     let mut choices = Registry::builtin().all();
     choices.retain(|choice| {
@@ -34,7 +34,7 @@ fn ours() -> Vec<Choice> {
     choices
 }
 
-/// Describes the failure of a structure on a case. `None` if its hits are right according to `truth`.
+/// Describes the failure of a structure on a case. `None` if the requirements at the top of this file are met.
 fn fault(case: &HardCase, rays: usize, truth: &mut CaseTruth, choice: &Choice) -> Option<String> {
     let test = choice.triangle_test();
     let ranked = matches!(case.rank, Rank::Moderate | Rank::Extreme);

@@ -84,7 +84,7 @@ fn bundles(mesh: &Mesh) -> Vec<Ray> {
     let mut sorted = mixed.clone();
     sorted.sort_by_key(|ray| ray.direction.to_array().map(f32::is_sign_negative));
     // Sixteen similar rays, some with intervals that end within the scene. If `is_equal` is false, the lengths of their
-    // directions differ a lot: rounding bounds may then decide the hits of long directions, but not of short ones.
+    // directions differ a lot: error bounds may then decide the hits of long directions, but not of short ones.
     let neighbours = |is_equal: bool| {
         let step = move |i: u32, ray: &Ray| {
             let longer = if is_equal { 1.0 } else { (3.0 * i as f32).exp2() };

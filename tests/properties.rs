@@ -94,8 +94,8 @@ fn all_are_exact(mesh: &Arc<Mesh>, rays: &[Ray]) -> Result<(), TestCaseError> {
 proptest! {
     #![proptest_config(config())]
 
-    /// Intervals end at hits and at multiples of 1/2. All structures must return the hits of the oracle. On this grid,
-    /// `t` is a fraction with a small denominator, so it rounds to a multiple of 1/2 only if it is this multiple.
+    /// Intervals begin or end at hits and multiples of 1/2. All structures must return the hits of the oracle. On this
+    /// grid, `t` is a fraction with a small denominator: it rounds to a multiple of 1/2 only if it is this multiple.
     #[test]
     fn on_an_integer_grid_every_structure_is_exact_and_intervals_are_half_open(
         mesh in meshes(integers(), 60),

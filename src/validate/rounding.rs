@@ -131,7 +131,7 @@ mod tests {
     use crate::triangle::{BaldwinWeber, Exact, MollerTrumbore, TriangleTest, Watertight};
     use crate::validate::{Reference, Stratum, degenerate_meshes, validate};
 
-    /// Checks that the bound explains all hits of a test in single precision, if the reference does not know the test.
+    /// Checks that the bound explains all hits of a test in single precision. The reference does not know the test.
     fn is_excused<T: TriangleTest>(count: usize) {
         for (name, mesh) in degenerate_meshes() {
             let subject = BruteForce::<T>::build(&mesh, &Default::default()).unwrap();

@@ -48,7 +48,7 @@ pub struct Validation {
     pub worst: Vec<WorstRay>,
 }
 
-/// A ray on which structure and reference differ.
+/// A ray on which structure and reference differ, the structure contradicts itself, or a query panics or hangs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WorstRay {
     /// Index among the compared rays.

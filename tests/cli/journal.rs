@@ -13,7 +13,7 @@ pub fn cases(runs: &Path, study: &str) -> Vec<PathBuf> {
     files(&runs.join(study)).unwrap_or_default()
 }
 
-/// The fields of every case that do not depend on a clock, by scene and epoch. Panics on a repeated case.
+/// The fields of every case, by scene and epoch, without times, peak memory and environment. Panics on a repeated case.
 pub fn answers(runs: &Path, study: &str) -> BTreeMap<String, Value> {
     let mut answers = BTreeMap::new();
     for path in cases(runs, study) {

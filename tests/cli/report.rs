@@ -33,7 +33,7 @@ fn a_report_is_written_whole_with_pictures_and_again_in_its_place() {
     folder.prints("report runs -o other");
     assert_eq!(folder.read("other/index.html"), page);
 
-    // The page and `render --view heat` scale to their costliest tree, which is the same tree here.
+    // The heat scales of the page and of `render` end at the cost of the costliest tree, which is the same tree here.
     let scale: u64 = page.split("--hottest ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
     let bar = format!("colour bar runs from 0 to {scale} ");
     folder.shows("render torus --view heat -o heat.png", &["512 x 527 pixels", &bar]);

@@ -112,7 +112,7 @@ pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(),
 /// Checks that the shape is possible. For example, it has at least one reference per triangle with an area.
 ///
 /// # Errors
-/// One line per violation, or one line if a build or a query fails or hangs.
+/// One line per violation, or one line if a build, `shape` or `footprint` fails or hangs.
 pub fn shapes(subject: &Subject, meshes: &[Named]) -> Result<(), String> {
     let mut lines = vec![];
     for (name, mesh) in meshes {

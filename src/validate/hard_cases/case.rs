@@ -20,7 +20,7 @@ pub struct HardCase {
 }
 
 /// Whether a case belongs to the two totals that `validate --hard` prints: 59 valid cases, and 49 moderate ones.
-/// A survey of ray tracers measured the cases up to number 71 and ranked 59 of them. It left out the empty scene,
+/// A survey of ray tracers measured the cases up to number 71 and ranked 59 of them. It did not rank the empty scene,
 /// vertices that are not finite, ends of intervals, origins on a surface, and invalid rays. Ten of the 59 are extreme:
 /// scales up to 1e-20 or from 1e15, directions of these lengths, and origins 1e8 away.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -57,7 +57,7 @@ pub enum Content {
         /// Makes mesh and rays, with the same bits on every machine. A smaller number gives the first of these rays.
         make: fn(usize) -> Set,
     },
-    /// Checks a property of hits with about this number of rays. Fails if the structure cannot be built.
+    /// The check of a property. The `usize` is the approximate number of rays. Fails if the structure cannot be built.
     Property(fn(&Subject, usize) -> Result<Property, BuildError>),
 }
 

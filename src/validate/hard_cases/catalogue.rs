@@ -31,7 +31,7 @@ cases! {
     Moderate 3 "closed_edge", Hit => |n| Set::new(star(), n, 1, |mesh, s| ray_to(inside(s), on_edge(mesh, s))),
         "At an edge both triangles may reject the ray when their edge functions round differently.", "Woop, Benthin, Wald 2013";
 
-    // A cube with grid lines at multiples of an eighth: rays along its axes, diagonals and faces.
+    // A cube with grid lines at multiples of an eighth: random rays, and rays along its axes, diagonals and faces.
     Moderate 4 "cube_random", Hit => |n| Set::new(cube(), n, 3, |_, s| Ray::new(s.cube() * 0.99, s.direction())),
         "Random rays inside a cube: faces in the planes of the root box.", "survey";
     Moderate 5 "cube_axis_aligned", Hit => |n| {
@@ -227,7 +227,7 @@ cases! {
     Moderate 64 "soup_random", Oracle => |n| Set::new(soup(2000, 22), n, 22, to_surface),
         "Random triangles and rays, for comparison with the other cases.", "survey";
 
-    // Invalid rays: a structure must return a miss for each of them, in a short time.
+    // Invalid rays: a structure must return a miss for each of them, in a short time. Case 72 has valid rays.
     Unranked 65 "rays_nan_origin", Miss x 1000 => |n| spoilt(n, |s, ray| ray.origin[s.below(3)] = f32::NAN),
         "NaN in the origin: comparisons with it are false, and code that drops NaN walks the whole tree.", TIME;
     Unranked 66 "rays_nan_dir", Miss x 1000 => |n| spoilt(n, |s, ray| ray.direction[s.below(3)] = f32::NAN),
@@ -250,7 +250,7 @@ cases! {
         "Rays that leave a surface at a rounded point: half of the points lie below it, so the ray hits it again.",
         "Wächter, Binder 2019; pbrt-v4, Triangle.Reintersect";
 
-    // Cases that the survey did not measure: properties that all hits must have, and further meshes.
+    // Further cases that the survey did not measure: properties that all hits must have, and meshes.
     Added 73 "continuation", Property => continuation,
         "Continuing behind each hit must visit every crossing of a ray once.",
         "Embree, verify.cpp, sphere_filter_multi_hit";

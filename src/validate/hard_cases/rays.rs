@@ -263,7 +263,7 @@ pub(super) fn from_the_largest(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     Ray::new(Vec3::new(side, target.y, target.z), Vec3::new(-0.3 * side, drift.y, drift.z))
 }
 
-/// One triangle. The first ray is `first`, which revealed the failure. `towards` makes all other rays from edge points.
+/// One triangle. The first ray is `first`, which revealed the failure. `towards` makes all other rays, to edge points.
 pub(super) fn along_edges(
     count: usize,
     seed: u64,
