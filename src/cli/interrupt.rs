@@ -15,7 +15,7 @@ static ASKED: AtomicBool = AtomicBool::new(false);
 /// Whether a signal is ending this process.
 static ENDING: AtomicBool = AtomicBool::new(false);
 
-/// Starts a thread that waits for SIGINT and SIGTERM. Call it before other threads start: they might receive them.
+/// Starts a thread that waits for SIGINT and SIGTERM. Call it first, because earlier threads might receive the signals.
 pub fn watch() {
     #[cfg(target_os = "linux")]
     {
@@ -50,7 +50,7 @@ fn end_by(signal: Signal, caught: SigSet) -> ! {
 }
 
 /// The signals that this process ignores since its start, one bit per signal. For example, shells start background jobs
-/// that ignore SIGINT. `watch` must not wait for these signals, because it would receive them anyway.
+/// that ignore SIGINT. `watch` must not wait for ignored signals, because its thread would receive them.
 #[cfg(target_os = "linux")]
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

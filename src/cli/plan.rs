@@ -47,7 +47,7 @@ pub struct Args {
 }
 
 impl Args {
-    /// Returns the arguments of this command with its options from `rest`, the names of studies, and the options of the
+    /// Returns the arguments of this command, including its options in `rest`; the names of studies; the options of the
     /// studies. clap does not parse `rest`: this function rejects a repeated `--quick` or `--dir` with clap's message.
     fn split(&self) -> anyhow::Result<(Self, Vec<OsString>, Vec<OsString>)> {
         let (mut own, mut options) = (self.clone(), vec![]);

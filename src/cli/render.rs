@@ -111,7 +111,7 @@ fn is_png(path: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The common heat scale: the maximum cost over all trees. Excludes brute force, which would darken all other pictures.
+/// The common heat scale: the largest [`hottest`] of all trees. Excludes brute force, which would darken all pictures.
 fn common_scale(registry: &Registry, scene: &Scene, waiting: &ProgressBar) -> anyhow::Result<u64> {
     let size = coarse_size(scene);
     let mut scale = 1;

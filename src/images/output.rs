@@ -112,7 +112,7 @@ impl OutputFile {
             Err(cause) if cause.kind() == io::ErrorKind::AlreadyExists => return Ok(false),
             written => drop(written.map_err(|cause| OutputError::write(&self.path, cause))?),
         }
-        // Also flush the file's name, an entry of its folder, to the disk. Some systems cannot: ignore errors.
+        // The folder stores the name of the file, so also flush the folder. Ignore errors: some systems cannot do this.
         let _ = fs::File::open(folder_of(regular)).and_then(|folder| folder.sync_all());
         Ok(true)
     }

@@ -62,7 +62,7 @@ impl Run<'_> {
         Ok(outcomes)
     }
 
-    /// The recorded rays or the rays of `--ray`. Otherwise generated rays, equally many per workload or stratum.
+    /// The recorded rays or the rays of `--ray`. Otherwise generated rays, divided among the workloads or strata.
     fn rays(&self, scene: &Scene, recorded: Option<&[Ray]>, notes: &mut Vec<String>) -> anyhow::Result<Vec<Ray>> {
         let Self { registry, args, reference, terminal, .. } = self;
         if let Some(recorded) = recorded {

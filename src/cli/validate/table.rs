@@ -63,7 +63,7 @@ fn errors(own: &Outcome, of: fn(&Validation) -> u64) -> Cell {
     number(own, of).with(if is_wrong { Tone::Wrong } else { Tone::Plain })
 }
 
-/// A note if exact arithmetic proves hits of the reference wrong. Its triangle test then differs from the structure's.
+/// A note if exact arithmetic proves hits of the reference wrong.
 pub fn note_on_reference(name: &str, found: &Validation) -> Option<String> {
     let rays = plural(found.reference_errors as usize, "ray");
     (found.reference_errors > 0).then(|| format!("On {rays} the reference is wrong, not {name}."))

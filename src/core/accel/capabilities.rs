@@ -2,8 +2,8 @@
 
 use crate::geometry::{Hit, Ray};
 
-/// The features that a structure supports. The structure receives no rays that need another feature. Tables list such
-/// rays as declined; they are neither right nor wrong.
+/// The features that a structure supports. The structure receives no rays that need an unsupported feature. Tables
+/// list such rays as declined; they are neither right nor wrong.
 ///
 /// A structure declares the counts that it reports in [`Accel::OBSERVED`](super::Accel::OBSERVED), and the name of its
 /// triangle test in [`Accel::TRIANGLE_TEST`](super::Accel::TRIANGLE_TEST).

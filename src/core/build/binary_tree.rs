@@ -13,8 +13,8 @@ pub(crate) struct BinaryTree {
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BinaryNode {
-    /// The bounds of the node's references, rounded outward. A cut triangle is clipped to the node. Not empty in a
-    /// finished tree.
+    /// The bounds of the node's references, rounded outward; a cut triangle contributes only its part in the node. Not
+    /// empty in a finished tree.
     pub bounds: Aabb,
     pub content: Content,
 }

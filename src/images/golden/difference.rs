@@ -15,7 +15,7 @@ pub struct Difference {
     pub first: [u32; 2],
     /// Column and row of the first pixel with the largest difference.
     pub worst: [u32; 2],
-    /// The largest difference of a channel, including alpha; infinite if only one value is NaN.
+    /// The largest difference of a channel, including alpha; infinite if a channel is NaN in exactly one picture.
     pub largest: f64,
     /// The value of white, in the unit of `largest`: 255, 65535, or 1 for floats. Floats can be larger than white.
     pub full_scale: f64,

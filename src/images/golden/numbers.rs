@@ -22,7 +22,7 @@ pub const MISS: u32 = u32::MAX;
 /// A picture for a PNG file, with one number per pixel.
 ///
 /// # Panics
-/// If there are not as many numbers as pixels.
+/// If there are fewer numbers than pixels.
 pub fn packed([width, height]: [u32; 2], numbers: &[u32]) -> DynamicImage {
     let halves = numbers.iter().flat_map(|number| [(number >> 16) as u16, *number as u16]).collect();
     let picture = ImageBuffer::<LumaA<u16>, Vec<u16>>::from_raw(width, height, halves);

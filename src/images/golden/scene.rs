@@ -68,7 +68,7 @@ impl SceneGolden {
         self.bytes.is_some()
     }
 
-    /// The path of the file. For a built-in scene, only [`update`](Self::update) uses it.
+    /// The path of the file. For a built-in scene, only [`update`](Self::update) reads and writes this file.
     pub fn path(&self) -> &Path {
         &self.path
     }

@@ -38,7 +38,7 @@ pub struct ErrorMap {
 }
 
 /// The outcomes that are painted as errors, with colours that colour-blind people can distinguish (Okabe, Ito: Color
-/// universal design, 2008). All other outcomes are grey.
+/// universal design, 2008). Correct hits are grey, correct misses are black.
 const PAINTED: [(Outcome, &str, &str, [u8; 3]); 4] = [
     (Outcome::Missed, "missed", "vermilion", [213, 94, 0]),
     (Outcome::FalseHit, "false hit", "yellow", [240, 228, 66]),

@@ -21,8 +21,8 @@ pub struct RayCounts {
 /// The number of pixels whose rays form a batch.
 const CHUNK: usize = 4096;
 
-/// The linear RGB colours of primary rays. `accel` must be built over the scene's mesh. A batch has the rays of 4,096
-/// pixels with the same purpose and number of reflections. The colours do not depend on batches or threads.
+/// The linear RGB colours of primary rays. `accel` must be built over the scene's mesh. It traces rays in batches of up
+/// to 4,096 pixels; a batch has one query and one number of reflections. Batches and threads do not change the colours.
 pub fn shade(scene: &Scene, accel: &dyn DynAccel, rays: &[Ray]) -> Vec<Vec3> {
     rays.par_chunks(CHUNK).flat_map_iter(|chunk| trace(scene, accel, chunk.to_vec()).0).collect()
 }

@@ -131,7 +131,7 @@ pub struct RealMesh {
     pub unpack: Option<String>,
     pub licence: String,
     pub origin: String,
-    /// SHA-256 of the file, in hexadecimal; `None` if the file is in an archive.
+    /// SHA-256 of the file, in hexadecimal. Without it, `sahara fetch` does not download the file.
     pub sha256: Option<String>,
     pub bytes: Option<u64>,
     /// The number of triangles of the mesh in the source report, for scenes of the report.

@@ -10,7 +10,7 @@ use super::{Offset, Scene};
 impl Scene {
     /// SHA-256, in hexadecimal, of everything that rays, hits or pictures depend on: vertices, triangles, corner
     /// normals, materials, lights, camera, background, recursion limit, shadow terminator fix, ray offset, image size.
-    /// The hash ignores names, notes, warnings and the list of stand-ins.
+    /// The hash ignores names, notes, warnings, the list of stand-ins and `is_framed`.
     pub fn hash(&self) -> String {
         // These patterns name every field of the scene. The compiler does not check this: add new fields by hand.
         let Self { mesh, normals, materials, material_of, lights, camera, background, .. } = self;

@@ -24,7 +24,7 @@ pub const LEGEND: [&str; 4] = [
      Plus: added after the survey; not in the totals.",
 ];
 
-/// The tables of a run: hits, errors of t, times of invalid rays, properties, totals.
+/// The tables of a run: outcomes, errors of t, times of invalid rays, properties, totals.
 pub fn tables(cases: &[&HardCase], columns: &[Column]) -> Vec<Table> {
     let is_property = |case: &HardCase| matches!(case.content, Content::Property(_));
     let ulps = |_: &HardCase, score: &Score| {

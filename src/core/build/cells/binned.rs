@@ -1,5 +1,5 @@
 //! Evaluates the SAH in large nodes at a few planes per axis, for a sample of the references, and in small nodes at all
-//! planes. The trees cost nearly as little as with all planes in all nodes, in a fraction of the time and memory.
+//! planes. The SAH cost is nearly as low as with all planes in all nodes, at a fraction of the build time and memory.
 
 use super::config::CellConfig;
 use super::grow::{Content, Context, NodeState};

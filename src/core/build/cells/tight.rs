@@ -46,7 +46,7 @@ impl BinaryTree {
     }
 }
 
-/// A leaf is the tight box of the clipped triangles of a nonempty cell; an inner node has two nonempty children.
+/// A nonempty cell becomes a leaf with the tight box of its clipped triangles. An inner node has two nonempty children.
 impl Tree<Binned> for BinaryTree {
     const SKIPS_EMPTY: bool = true;
 

@@ -140,7 +140,7 @@ fn masked_pixels_are_in_no_measure() {
     let masked = mask.applied(&base, hole.clone());
     assert_eq!(masked, base, "nothing else differs");
 
-    // A mask over half of the hole leaves fewer pixels to compare, with smaller sums of differences.
+    // A mask over the lower half of the picture hides the lower part of the hole: the sums of differences are smaller.
     let mask = Mask::new(&GrayImage::from_fn(SIZE[0], SIZE[1], |_, y| Luma([u8::from(y < 40)])).into());
     let masked = mask.applied(&base, hole.clone());
     let measures = |actual: &DynamicImage, mask: Option<&Mask>| {

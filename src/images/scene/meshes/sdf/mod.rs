@@ -37,7 +37,7 @@ pub struct Blend {
     pub smoothing: f32,
     /// Subtracts the group instead of adding it.
     pub subtract: bool,
-    /// Factor of the displacement for the group: 0 for none, 1 for all.
+    /// The displacement on the surface of the group is multiplied by this factor, 0 to 1.
     pub displacement: f32,
 }
 

@@ -70,7 +70,7 @@ impl RoundCone {
         let along = q.dot(self.axis);
         let off = (q.length_squared() - along * along).max(0.0).sqrt();
 
-        // Position of the perpendicular from `p` along the cone's side: 0 at `a`, `length * cosine` at `b`.
+        // The foot of the perpendicular from `p`, measured along the cone's side: 0 at `a`, `length * cosine` at `b`.
         let foot = along * self.cosine - off * self.sine;
         if foot <= 0.0 {
             q.length() - self.radius_a
@@ -140,7 +140,7 @@ pub fn cosine(angle: f32) -> f32 {
     libm::cos(f64::from(angle)) as f32
 }
 
-/// Distance to the intersection of two solids, with a rounded edge. `u`, `v`: distance of each solid plus `radius`.
+/// Distance to the intersection of two solids, with a rounded edge. `u` and `v` are their distances plus `radius`.
 pub fn rounded_intersection(u: f32, v: f32, radius: f32) -> f32 {
     let (out_u, out_v) = (u.max(0.0), v.max(0.0));
     (out_u * out_u + out_v * out_v).sqrt() + u.max(v).min(0.0) - radius
