@@ -89,7 +89,7 @@ impl Estimate {
         self.interval.is_some_and(|interval| (interval.low..=interval.high).contains(&value))
     }
 
-    /// The estimate of an increasing function `of` the number.
+    /// Applies the increasing function `of` to the estimate and to the ends of its interval.
     pub fn map(self, of: impl Fn(f64) -> f64) -> Self {
         let ends = |Interval { low, high, freedom }: Interval| Interval { low: of(low), high: of(high), freedom };
         Self { estimate: of(self.estimate), interval: self.interval.map(ends) }

@@ -89,10 +89,10 @@ pub fn end_with_parent() {
     let _ = nix::sys::prctl::set_pdeathsig(Signal::SIGKILL);
 }
 
-/// Kills a program that was [set apart](lead_process_group) and all programs that it has started. Does nothing if the program
-/// has already been waited for.
+/// Kills a program that [`lead_process_group`] prepared, and all programs that it has started. Does nothing if the
+/// program has already been waited for.
 pub fn end(child: &mut Child) {
-    // The system does not reuse the number of a process before this process has waited for it.
+    // The system does not reuse the number of a child process before its parent has waited for it.
     #[cfg(target_os = "linux")]
     if state(child) != Err(Errno::ECHILD) {
         end_group(child.id());

@@ -46,7 +46,7 @@ impl RayBatch<'_> {
 }
 
 impl<'a> RemotePass<'a> {
-    /// A pass over all rays, and the cell in which it stores its failure.
+    /// A pass over all rays, and the [`Failure`] in which it stores the reason if it fails.
     ///
     /// # Panics
     /// If there are no rays.

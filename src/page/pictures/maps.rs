@@ -5,7 +5,7 @@ use super::inspect::inspector;
 use crate::report::words::slug;
 use crate::report::{Art, Block, Colours, Figure, Overlay, Picture, Table};
 
-/// One picture per structure of the camera rays of one scene, in the same colours.
+/// Pictures of the camera rays of one scene, one per structure, in the same colours.
 pub struct Maps {
     /// The value of `--view`, and further options, with which `sahara render` draws one of the pictures.
     pub view: String,

@@ -70,7 +70,7 @@ fn caption(loaded: &[LoadedScene]) -> String {
     )
 }
 
-/// A figure of `pictures`, a note for each scene in `lost`, which has no picture, and a command that draws a picture.
+/// A figure of `pictures`, a note for each scene without a picture (`lost`), and a command that draws a picture.
 pub fn blocks(pictures: Vec<Picture>, loaded: &[LoadedScene], lost: &[String]) -> (Vec<Block>, String) {
     let (mut blocks, mut command) = (vec![], String::new());
     if !pictures.is_empty() {

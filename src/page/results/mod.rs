@@ -50,7 +50,7 @@ pub struct ResultsData {
     pub schema: u32,
     pub made_by: String,
     pub run: RunFacts,
-    /// By key, such as `run.machine`: a study, `answer`, `claims` or `run`; a full stop; the key of the finding.
+    /// The keys are `GROUP.FINDING`, such as `run.machine`. A group is a study, `answer`, `claims` or `run`.
     pub statements: BTreeMap<String, Statement>,
     /// Digests (SHA-256) of all other files, by their paths relative to the data file.
     pub files: BTreeMap<String, String>,

@@ -87,7 +87,7 @@ fn headline(label: &str, ratio: Estimate) -> Headline {
 }
 
 fn verdict(hard: &[Hard], mean: Option<Estimate>) -> String {
-    // The scenes are judged together, so their intervals are corrected for their number. The mean is a single number.
+    // Several scenes are judged together, so their intervals are widened. The mean is one value and is not widened.
     let all = |is: &dyn Fn(Estimate) -> bool| hard.iter().all(|own| is(own.ratio.ratio_among(hard.len())));
     let either = |is: &dyn Fn(Estimate) -> bool| all(is) || mean.is_some_and(is);
     let verdict = match () {

@@ -11,8 +11,8 @@ use crate::study::{Dataset, Studies};
 
 pub use answer::tally;
 
-/// The whole report. The sections `pictures` come first. The last section has the provenance, and the studies without a
-/// measurement with their commands.
+/// The whole report. The sections `pictures` come first. The last section has the provenance, and the question and the
+/// command of each study without a measurement.
 pub fn document(runs: &Runs, studies: &Studies, pictures: Vec<Section>) -> Document {
     let (title, answer) = answer::answer(runs);
     let sections = pictures.into_iter().chain(runs.studies.iter().map(section)).collect();

@@ -42,7 +42,7 @@ impl SurfacePoint {
     }
 
     /// The point, moved to the side of the triangle to which `direction` points. It moves along the normal by the
-    /// extent of the error box. This sum is rounded, so it then moves by one float on each axis with a nonzero normal.
+    /// extent of the error box. The result is rounded, so it moves one float more on each axis with a nonzero normal.
     pub(super) fn moved_out(&self, direction: Vec3) -> Vec3 {
         let is_behind = self.normal.as_dvec3().dot(direction.as_dvec3()) < 0.0;
         let normal = if is_behind { -self.normal } else { self.normal };
