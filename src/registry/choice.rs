@@ -58,8 +58,8 @@ pub fn is_named(label: &str, name: &str) -> bool {
 }
 
 impl Choice {
-    /// `entry` with its default configuration, in which `overrides` (key, value) replaces some values. The label
-    /// includes the triangle test if `name_test`, which is true if the name without a test selects another entry.
+    /// `entry` with its default configuration, in which `overrides` (key, value) replaces some values. If `name_test`,
+    /// the label includes the triangle test. Callers set it if the name without a test selects another entry.
     pub(super) fn of(entry: &Entry, overrides: &[(&str, &str)], name_test: bool) -> Result<Self, ChoiceError> {
         let mut config = entry.config.clone();
         let keys = config.as_object_mut().expect("checked when it was registered");

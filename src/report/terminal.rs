@@ -47,8 +47,8 @@ pub fn table(table: &Table, screen: Screen) -> String {
 /// Replaces the name of a structure if the row above shows the same name.
 const ABOVE: char = '…';
 
-/// Shortens the labels in the first column, to leave space for numbers: if a label is the label in the row above plus
-/// keys, `…` replaces the label of the row above.
+/// Shortens the labels in the first column, to leave space for numbers. If a label begins with the whole label of the
+/// row above, followed by keys, `…` replaces this beginning.
 pub fn with_short_names(mut table: Table) -> Table {
     let names: Vec<String> = table.rows.iter().map(|row| row.first().map_or(String::new(), Cell::text)).collect();
     let mut has_short = false;
@@ -64,7 +64,7 @@ pub fn with_short_names(mut table: Table) -> Table {
     table
 }
 
-/// The text of a cell, escaped because it may contain file names.
+/// The text of a cell, escaped because file names in it may contain control characters.
 fn printed(cell: &Cell) -> String {
     cell.text().escaped().to_string()
 }

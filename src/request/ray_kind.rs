@@ -40,8 +40,8 @@ impl RayKind {
             Self::Axis => (Stratum::AxisParallel, "axis-parallel rays through vertex coordinates"),
             Self::Grazing => (Stratum::Grazing, "rays almost in the plane of a triangle"),
             Self::Scale => (Stratum::Lengths, "rays with directions 1e-30 to 1e30 long"),
-            // From farther away, the distance between two `f32` values is as large as the mesh. A traversal that loses
-            // no hit then visits nearly all nodes.
+            // For origins farther away, neighbouring `f32` values are as far apart as the mesh is large. A traversal
+            // that loses no hit then visits nearly all nodes.
             Self::Offset => (Stratum::FarOrigins, "rays from 1e3 to 1e6 scene sizes away"),
             Self::Surface => (Stratum::FromSurface, "rays from points on triangles"),
         }

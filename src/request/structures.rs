@@ -163,8 +163,8 @@ impl Structures {
     }
 }
 
-/// Adds a second build of a structure, for the A/A check: the SAH tree, or without it the first structure except brute
-/// force and the source report's tree, which are slow. If all structures are slow, it is the first one.
+/// Adds a twin for the A/A check: a second build of the SAH tree. Without a SAH tree, the twin is a second build of the
+/// first structure except brute force and the source report's tree, which are slow; if all are slow, of the first one.
 pub fn with_twin(mut structures: Vec<StructureRequest>) -> Vec<StructureRequest> {
     let slow = |structure: &&StructureRequest| [BRUTE_FORCE, REPORT_TREE].contains(&structure.name());
     let sah = structures.iter().find(|structure| structure.name() == SAH_TREE);

@@ -34,7 +34,7 @@ impl Program {
         &self.command
     }
 
-    /// The given name; by default the file name of the program and its arguments.
+    /// The given name; by default the file name of the program, followed by its arguments.
     pub fn name(&self) -> String {
         self.name.clone().unwrap_or_else(|| {
             let file = Path::new(&self.words[0]).file_name().unwrap_or_default().to_string_lossy().into_owned();

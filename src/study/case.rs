@@ -37,9 +37,9 @@ pub struct Case {
 pub struct Settings {
     /// Samples per structure and workload, at least 1; fewer if the budget runs out.
     pub runs: usize,
-    /// Time for all samples of an epoch, ns; to stay within it, fewer rays are timed. `None`: no limit.
+    /// Time for all samples of an epoch, ns. If it is too short: fewer samples, then fewer rays. `None`: no limit.
     pub budget_ns: Option<u64>,
-    /// A structure that takes more than this multiple of the median time is timed on fewer rays. `None`: no limit.
+    /// Above this multiple of the median time of all structures, a structure is timed on fewer rays. `None`: no limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slowest: Option<f64>,
     pub check: Check,
@@ -124,7 +124,7 @@ impl Settings {
     }
 }
 
-/// Builds over this many triangles take about a quarter of the time of an epoch that does not depend on the mesh.
+/// Builds over this many triangles take about a quarter of an epoch's fixed time, which does not depend on the mesh.
 const TRIANGLES: u64 = 12_000;
 
 impl Case {

@@ -66,7 +66,7 @@ impl Dataset {
         scenes
     }
 
-    /// The structures without times, without duplicates.
+    /// One failure for each refused structure, and for each structure and workload without a time; no duplicates.
     pub fn failures(&self) -> Vec<Failure> {
         each_once(self.measured.iter().flat_map(|measured| measured.epoch.failures()))
     }

@@ -99,7 +99,7 @@ pub struct Point {
     pub is_front: bool,
     /// The text beside the point.
     pub label: String,
-    /// The name of the colour: all points of a group have the same colour.
+    /// The name of the point's group. It determines the colour.
     pub group: String,
 }
 

@@ -75,7 +75,7 @@ const SMALL: usize = 5000;
 /// If the report has more findings than this, the terminal prints them only with `--verbose`.
 const HEADLINES: usize = 3;
 
-/// A structure that takes more than this multiple of the median time is timed on fewer rays.
+/// A structure that takes more than this multiple of the median time of all structures is timed on fewer rays.
 const SLOWEST: f64 = 30.0;
 
 fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {

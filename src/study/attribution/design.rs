@@ -40,7 +40,7 @@ const STOPS: [Level; 3] = [
 const TRAVERSALS: [Level; 2] =
     [("child boxes", "traversal=child-boxes"), ("plane intervals", "traversal=plane-intervals")];
 
-/// The keys that all cells share. The report's rules do not use the costs. `duplication` is the default of `sah-kd`.
+/// The keys that all cells share, with the defaults of `sah-kd`. The report's rules ignore all except `duplication`.
 const COMMON: &str = "traversal_cost=1.0,intersection_cost=0.7,empty_bonus=0.2,duplication=8.0";
 
 /// Trees that are built twice, for the A/A check.

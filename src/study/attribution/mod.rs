@@ -3,7 +3,7 @@
 //! The trees are all combinations of six split planes, three stop rules and two traversals, over one triangle test and
 //! on the same rays: a factorial design. Every epoch rebuilds all trees and times them in rounds; a round times every
 //! tree once, in random order. The report's tree and the SAH tree are built twice, for the A/A check. The role of a
-//! structure is its cell of the design.
+//! structure is its cell of the design, or `twin` for a second build.
 
 mod design;
 mod findings;

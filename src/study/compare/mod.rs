@@ -59,8 +59,8 @@ fn report(dataset: &Dataset, matches: &ArgMatches) -> Report {
     }
 }
 
-/// The failures of the dataset. Most have no sentence, because the tables show them. The remaining sentences are each
-/// reason of a refusal, once, and one wrong hit per structure without a known defect.
+/// The failures of the dataset. Most have no sentence, because the tables show them. The remaining sentences give each
+/// reason of a refusal once, and one failure by wrong hits per structure without a known defect.
 fn failures(dataset: &Dataset) -> Vec<Failure> {
     let (mut failures, mut told) = (dataset.failures(), vec![]);
     let scenes = dataset.scenes();

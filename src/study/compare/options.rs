@@ -265,7 +265,7 @@ mod tests {
         let plan = (STUDY.plan)(&matches, &registry).unwrap();
         let labels: Vec<&str> = plan.cases[0].structures.iter().map(|own| own.spec.as_str()).collect();
         assert!(registry.names().iter().all(|name| labels.contains(name)), "{labels:?}");
-        // The count of `-s ` includes `-s all`, which accounts for the twin.
+        // Each `-s` except `-s all` adds one structure to the names. `-s all` is counted for the twin.
         assert_eq!(labels.len(), registry.names().len() + super::super::FULL.matches("-s ").count());
     }
 

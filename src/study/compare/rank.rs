@@ -19,7 +19,7 @@ const PRECISE: [&str; 3] = [Exact::NAME, MollerTrumboreF64::NAME, EdgeF64::NAME]
 type Cell<'a> = (&'a str, &'a str);
 
 /// The structures, fastest first, by their mean speed over the cells in which all of them have a time. A structure that
-/// has a time in at most half of the cells is left out first.
+/// has a time in at most half of the cells is not ranked, so it does not reduce the common cells.
 pub struct Ranking<'a> {
     all: &'a [Measurement],
     noise: AaNoise,

@@ -54,7 +54,7 @@ fn log_axis([low, high]: [f64; 2], length: i32, space: impl Fn(f64) -> i32) -> L
     (low..high).log_scale().with_key_points(ticks)
 }
 
-/// The range of positive `values`, widened to at least a factor of two, plus margins in fractions of its log width.
+/// The range of positive `values`, at least a factor of two, then widened by `below` and `above` times its log width.
 pub fn padded(values: impl Iterator<Item = f64>, [below, above]: [f64; 2]) -> [f64; 2] {
     let (low, high) = values.fold((f64::INFINITY, 0.0), |(low, high), v| (v.min(low), v.max(high)));
     if low > high {

@@ -1,4 +1,4 @@
-//! Colours: one per structure, the same in every figure, in light and in dark mode.
+//! Colours, each with a value for light mode and one for dark mode. A structure has the same colour in every figure.
 
 use std::collections::{BTreeMap, BTreeSet};
 
