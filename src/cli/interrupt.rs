@@ -50,7 +50,8 @@ fn end_by(signal: Signal, caught: SigSet) -> ! {
 }
 
 /// The signals that this process ignores since its start, one bit per signal. For example, shells start background jobs
-/// that ignore SIGINT. `watch` must not wait for ignored signals, because its thread would receive them.
+/// that ignore SIGINT. `watch` must not wait for these signals: its thread would receive them although they are
+/// ignored.
 #[cfg(target_os = "linux")]
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

@@ -240,7 +240,7 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, starts_proc
         (Some(case), Some(out)) => measure_case(&session, &process, case, out, args.clone()),
         _ => dispatch(&session, &matches, &global).inspect(|_| terminal.print_note_count()),
     };
-    // A structure of another crate may panic in a command that cannot continue without it.
+    // Some commands cannot continue after a panic of a structure: catch it here, and report it as an error.
     let found = if may_panic { Ok(run()) } else { catch_unwind(AssertUnwindSafe(run)) };
     interrupt::wait_for_end();
     exit_status::of(found.unwrap_or_else(|_| {

@@ -2,9 +2,10 @@
 //!
 //! A *structure error* is a hit that the traversal lost or invented: the result differs from brute force with the same
 //! triangle test. A correct structure has no structure errors. A *triangle-test error* is a hit or miss that differs
-//! from the exact one because the triangle test rounds. A traversal may return or cull a false hit of the triangle
-//! test: neither is a structure error. If structure and reference have different triangle tests, rounding in single
-//! precision decides: differences that it explains are triangle-test errors, all other wrong hits are *answer errors*.
+//! from the exact one because the triangle test rounds. One exception: if the test reports a hit where the exact ray
+//! has none, a traversal may return or cull it. If structure and reference have different triangle tests, rounding in
+//! single precision decides: differences that it explains are triangle-test errors, all other wrong hits are *answer
+//! errors*.
 
 pub mod adversarial;
 mod blame;

@@ -250,8 +250,8 @@ mod tests {
             refusal(other);
         }
 
-        // Files with too many pixels are refused before they are decoded: RGB with 16 bits per channel and 16,384 x
-        // 16,384, (2^31 - 1) x 1 and (2^31 - 1) x (2^31 - 1) pixels.
+        // Files with too many pixels are refused before they are decoded. These have 16-bit RGB pixels and the sizes
+        // 16,384 x 16,384, (2^31 - 1) x 1, and (2^31 - 1) x (2^31 - 1).
         for text in [
             "iVBORw0KGgoAAAANSUhEUgAAQAAAAEAAEAIAAAB2OluQAAAADElEQVR4nGNgoD0AAABkAAGGZDw1",
             "iVBORw0KGgoAAAANSUhEUn////8AAAABEAIAAAB/xHjJAAAADElEQVR4nGNgoD0AAABkAAGGZDw1",
