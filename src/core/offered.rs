@@ -3,7 +3,7 @@
 //!
 //! To add a structure of this crate, add its type to `offered_over!`, or to `offered!` if it has one triangle test.
 //! Tests then require that it works with every triangle test of `offered_over!`, returns the lowest primitive number at
-//! equal `t`, misses no hit in ranked cases of `validate/hard_cases`, and returns the same bits at every SIMD level.
+//! equal `t`, loses no hit in the cases of `validate/hard_cases`, and returns the same bits at every SIMD level.
 
 use std::sync::Arc;
 

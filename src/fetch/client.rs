@@ -44,7 +44,7 @@ impl Client {
     /// Downloads `file`, verifies it and moves it to its path in one step. `progress` receives the bytes so far.
     ///
     /// # Errors
-    /// If the file exists with other contents. If the download fails or has other contents: it is discarded.
+    /// If the file exists with other contents, or if the download fails or has other contents: it is then discarded.
     pub fn fetch(&self, file: &DataFile, progress: &mut dyn FnMut(u64)) -> Result<FetchOutcome, FetchError> {
         if file.is_there()? {
             return Ok(FetchOutcome::AlreadyThere);

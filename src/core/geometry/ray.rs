@@ -38,7 +38,7 @@ impl Ray {
         Self { t_max, ..self }
     }
 
-    /// The interval that queries search: the larger of `t_min` and 0, and `t_max`.
+    /// The interval that queries search: from `t_min`, or from 0 if `t_min` is negative, to `t_max`.
     #[inline(always)]
     pub fn interval(&self) -> (f32, f32) {
         (if self.t_min > 0.0 { self.t_min } else { 0.0 }, self.t_max)

@@ -21,7 +21,7 @@ pub struct KdConfig {
     pub leaf: u32,
     /// Whether a node of exactly `leaf` triangles may be split, which the report does not specify.
     pub limit: Limit,
-    /// For [`Stop::Report`]: a split with at least this fraction of triangles on both sides is discarded. In (0, 1].
+    /// For [`Stop::Report`]: a split is discarded if its children share at least this fraction of triangles. In (0, 1].
     pub threshold: f32,
     /// The triangles to which the fraction `threshold` refers.
     pub count: CountOf,
@@ -70,11 +70,11 @@ pub enum AxisRule {
 }
 
 /// The rule that makes a node a leaf. Every node is also a leaf at depth 8 + 1.3 log2 n, or if its split would exceed
-/// `duplication`. With a median, a node is a leaf instead of the third split in a row without progress.
+/// `duplication`. With a median, a node is also a leaf if its split would be the third in a row without progress.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stop {
-    /// Fewer than `leaf` triangles, or at least the fraction `threshold` of them on both sides of the split.
+    /// Fewer than `leaf` triangles, or a split whose children share at least the fraction `threshold` of triangles.
     Report,
     /// Fewer than `leaf` triangles.
     Leaf,

@@ -8,7 +8,7 @@
 //! intervals begin at a finite parameter before it, and child boxes are clipped to an interval without end. So both
 //! variants visit the leaf of p, or they have found another hit with a computed t before t*. In this case, the other
 //! hit is nearer, except for the error of its triangle test. The exact test has no such error: the t of the nearest hit
-//! so far is never below its exact t. So its result is the nearest exact hit and, among equally near hits, the one with
+//! so far is never below its exact t. So the result is the nearest exact hit and, among equally near hits, the one with
 //! the lowest number. Only [`Exit::FirstLeaf`] may lose nearer hits, because it ends at the first leaf with a hit.
 
 use std::mem::MaybeUninit;
@@ -25,7 +25,7 @@ use crate::traversal::line::{Line, after, before, finite_entry, open_end};
 use crate::traversal::walk::Walk;
 use crate::triangle::TriangleTest;
 
-/// The stack contains at most one node per level, but two of the lowest level, which is at most [`DEEPEST`].
+/// The stack contains at most one node per level, and two of the lowest level. No level exceeds [`DEEPEST`].
 const STACK: usize = 64;
 const _: () = assert!(STACK > DEEPEST as usize);
 

@@ -105,7 +105,7 @@ fn quotient(numerator: TripleProduct, denominator: TripleProduct) -> Span {
     let sign = denominator.value.signum();
     let (value, denominator) =
         (numerator.value * sign, TripleProduct { value: denominator.value * sign, ..denominator });
-    // The four bounds and the quotients have one rounding each. Nothing underflows: bounds are multiples of 2^-700.
+    // The bounds and quotients have one rounding each. Nothing underflows: bounds are multiples of 2^-600 below 2^391.
     let (top_low, top_high) = (value - numerator.error, value + numerator.error);
     let (small, large) = (denominator.value - denominator.error, denominator.value + denominator.error);
     let low = top_low / if top_low < 0.0 { small } else { large };

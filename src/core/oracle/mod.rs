@@ -45,8 +45,8 @@ impl Truth {
 ///
 /// It has three stages: a tree of boxes that loses no hit, `f64` arithmetic with a proven error bound, and exact sums
 /// of floats ([`exact`]) if this bound does not decide. The triangle test [`Exact`](crate::triangle::Exact) uses the
-/// same sums. The structures that the oracle checks share only the types of meshes, rays and boxes with it. Unit tests
-/// compare the oracle and `Exact` with `exact::rational`.
+/// same sums. Apart from these sums, the structures that the oracle checks share only the types of meshes, rays and
+/// boxes with it. Unit tests compare the oracle and `Exact` with `exact::rational`.
 pub struct Oracle {
     mesh: Arc<Mesh>,
     tree: tree::Tree,

@@ -157,7 +157,7 @@ mod tests {
         }
     }
 
-    /// Compresses the lanes where `a <= b`, in `order` and in lane order. Returns two sets, the keys and both values.
+    /// Compresses the lanes where `a <= b`, in `order` and in lane order. Returns sets, keys and two lists of values.
     fn taken<L: EightLanes>(a: &[f32; 8], b: &[f32; 8], order: u32) -> ([u32; 2], [Vec<u32>; 3]) {
         let (a, b, values) = (L::load(a), L::load(b), std::array::from_fn(|i| 100 + i as u32));
         let (mut keys, [mut ordered, mut plain]) = ([0.0_f32; 8], [[0_u32; 8]; 2]);

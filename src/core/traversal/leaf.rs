@@ -102,8 +102,8 @@ impl Mailbox {
     }
 }
 
-/// Searches the blocks of a leaf. Observers receive its number of triangles, `count`. With `ANY`, stops at the first
-/// hit.
+/// Searches the blocks of a leaf with `count` triangles; `count` may be larger if no observer is active. With `ANY`,
+/// stops at the first block with a hit.
 #[inline(always)]
 pub(crate) fn search<'a, const ANY: bool, L: EightLanes, T: TriangleTest, O: Observer>(
     blocks: &'a [LeafBlock<T>],
@@ -134,8 +134,8 @@ pub(crate) fn search<'a, const ANY: bool, L: EightLanes, T: TriangleTest, O: Obs
 }
 
 /// Decides the candidates of a block. It is not inlined: candidates are rare, and inlined code would take registers
-/// from the traversal. If the fast filter cannot decide a candidate, [`settle_closely`] decides it and all later ones.
-/// This tail call is the only call, so no register is saved to the stack.
+/// from the traversal. If `T::decide_at_once` or [`Depth::order`] returns `None` for a candidate, [`settle_closely`]
+/// decides it and all later ones. This tail call is the only call, so no register is saved to the stack.
 #[inline(never)]
 pub(crate) fn settle<'a, T: TriangleTest>(
     block: &'a LeafBlock<T>,

@@ -9,7 +9,7 @@ use crate::simd::{LaneVec3, Lanes, indexed};
 /// relative to the world's origin, so errors grow with the distance from it: at 1e3 scene sizes, half of the hits are
 /// lost. Closed meshes may leak at edges. 48 bytes per triangle.
 ///
-/// A block stores all twelve numbers of each matrix, rounded from `f64`. Which column is trivial differs per lane.
+/// One column of a matrix is trivial. It differs per lane, so a block stores all twelve numbers, rounded from `f64`.
 ///
 /// # References
 /// Baldwin, Weber: Fast ray-triangle intersections by coordinate transformation. Journal of Computer Graphics

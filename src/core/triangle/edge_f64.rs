@@ -8,8 +8,8 @@ use crate::simd::{Arithmetic, LaneVec3};
 /// vector's components, D = |d|, det = d . (e1 x e2).
 ///
 /// - The test finds a triangle that the ray hits if |det| >= 2^-48 D |e1| |e2|.
-/// - If it reports a hit, the barycentric of each corner is at least -2^-47 D |p - o| |e| / |det|, where e is the
-///   opposite edge, from p. The error of `t` is at most 2^-49 |e1| |e2| (|a - o| + |t| D) / |det|, plus half an ulp.
+/// - If it reports a hit, the barycentric of each corner is at least -2^-47 D |p - o| |e| / |det|, where the opposite
+///   edge e starts at p. The error of `t` is at most 2^-49 |e1| |e2| (|a - o| + |t| D) / |det|, plus half an ulp.
 ///
 /// Only needles and slivers have large errors. The test is slower than [`MollerTrumboreF64`](super::MollerTrumboreF64).
 ///

@@ -21,8 +21,8 @@ pub struct EightRays<L> {
 pub struct EightHits<L: EightLanes> {
     /// The rays that hit the triangle within their intervals.
     pub met: L::Mask,
-    /// The rays that miss the triangle, or hit it outside their interval or beyond `to`. Rays in neither mask must be
-    /// tested individually. [One-stage tests](super::TriangleTest::ONE_STAGE) leave it empty: rays outside `met` miss.
+    /// The rays without a hit in their interval up to the `to` of `meet_eight`. Test rays in neither mask individually.
+    /// [One-stage tests](super::TriangleTest::ONE_STAGE) leave `missed` empty: all rays outside `met` miss.
     pub missed: L::Mask,
     /// Lower bounds of `t` of the rays that hit.
     pub low: L,

@@ -147,7 +147,7 @@ pub trait TriangleTest: Send + Sync + 'static {
         unreachable!("a test whose depths may be unordered implements `order_closely`")
     }
 
-    /// Whether the first stage decides all hits: `decide` accepts every candidate, and [`Depth::of`] returns a depth.
+    /// If true, the first stage decides all hits: `decide` accepts every candidate, and [`Depth::of`] returns a depth.
     const ONE_STAGE: bool = false;
 
     /// Whether structures compile batch strategies for this test, which trace several rays of a slice at once. Batch

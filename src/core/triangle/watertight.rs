@@ -13,7 +13,7 @@ use crate::simd::{Lanes, each, indexed};
 /// miss a single triangle at its rim), and `t` of slivers may be off by thousands of ulps.
 ///
 /// Range: any scene size in which coordinate differences do not overflow. Scenes below 1e-15 or above 1e6 units are
-/// slower. The test may lose rays whose largest direction component is below 3e-39 or above 8e37, and `t` above 3e26.
+/// slower. The test may lose hits at `t` above 3e26 or if the largest direction component is below 3e-39 or above 8e37.
 ///
 /// # References
 /// Woop, Benthin, Wald: Watertight ray/triangle intersection. Journal of Computer Graphics Techniques 2(1), 2013.
@@ -71,7 +71,7 @@ impl TriangleTest for Watertight {
         let xs = sheared(ray.axes[0], x, shear[0]);
         let ys = sheared(ray.axes[1], y, shear[1]);
 
-        // Compute the edge values. If one is zero, use `f64`, where products of two floats, and so signs, are exact.
+        // Compute the edge values. If one is zero or `det` is too small or too large, use `f64`, where signs are exact.
         let edges = |[ax, bx, cx]: [L; 3], [ay, by, cy]: [L; 3]| {
             [cx.mul(by).sub(cy.mul(bx)), ax.mul(cy).sub(ay.mul(cx)), bx.mul(ay).sub(by.mul(ax))]
         };

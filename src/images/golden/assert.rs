@@ -16,7 +16,7 @@ const OUT: &str = "out/golden";
 
 /// Compares all channels of `actual`, including alpha, with the golden image `path`, without a conversion. For tests.
 ///
-/// If `SAHARA_GOLDEN=update` is set in the environment, writes `actual` to `path` as PNG instead. Creates its folders.
+/// If the environment has `SAHARA_GOLDEN=update`, writes `actual` to `path` as PNG instead. Creates missing folders.
 ///
 /// ```
 /// use sahara_images::golden::{Allowed, Match, assert_image};

@@ -10,7 +10,7 @@ use crate::simd::{EightLanes, LaneVec3, indexed};
 use crate::triangle::corners::LaneCorners;
 use crate::triangle::{BETWEEN_BOUNDS, DIRECTION, Depth, INPUTS, ORIGIN};
 
-/// The exact position of a hit along its ray: bounds of `t` in `f32`, and the triangle in case the bounds overlap.
+/// The exact position of a hit along its ray: bounds of `t` in `f32`, and the triangle, for finer decisions.
 #[derive(Clone, Copy, Debug)]
 pub struct ExactDepth<'a> {
     low: f32,

@@ -35,7 +35,7 @@ fn edge_tests_watertight_and_exact_are_closed_at_edges_and_all_but_plucker_at_ve
         closed_at::<EdgeF64>(1.0, 20_000, vertices);
         closed_at::<Exact>(1.0, 20_000, vertices);
         closed_at::<Watertight>(1.0, 20_000, vertices);
-        // At these scales, products of two coordinates leave the range of `f32`, but differences do not.
+        // At some of these scales, products of two coordinates leave the range of `f32`, but differences do not.
         for exponent in [-140, -120, -90, -76, -60, -45, 30, 45, 63, 64, 90, 120] {
             closed_at::<Watertight>(libm::exp2(f64::from(exponent)) as f32, 2_000, vertices);
         }

@@ -62,7 +62,7 @@ fn eight<L: EightLanes>(rays: &[Ray; 8]) -> EightRays<L> {
     }
 }
 
-/// The sums of the counts of [`Eight`], for random, aimed and nearly parallel rays, some with short intervals.
+/// The sums of the counts of [`Eight`], for random rays and rays at or near a triangle, some with short intervals.
 fn count_hits<T: TriangleTest>() -> [usize; 2] {
     let mut rng = Pcg32::seed_from_u64(12);
     let mut sums = [0; 2];

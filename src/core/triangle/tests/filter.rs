@@ -35,7 +35,7 @@ fn near(rng: &mut Pcg32) -> (Ray, [Vec3; 3]) {
 fn the_first_stage_loses_no_hit_is_right_when_sure_and_leaves_little() {
     let mut rng = Pcg32::seed_from_u64(6);
     let (mut hits, mut sure, mut narrow, mut cut) = (0, 0, 0, 0);
-    // Count the ordinary rays from `near` that are not bounded.
+    // These four count only rays from `near`, and only if the search has no end (`to` is infinite).
     let (mut misses, mut kept, mut met, mut unsure) = (0, 0, 0, 0);
     for round in 0..400_000 {
         let (ray, corners) = match round % 3 {
