@@ -37,7 +37,7 @@ pub struct RunOutcome {
     pub tables: Vec<Table>,
     /// Notes that explain the tables.
     pub notes: Vec<String>,
-    /// Lines below the tables: failures, findings, provenance and verdicts.
+    /// Lines below the tables: failures, scenes without epoch 0, findings, provenance, verdicts and an interruption.
     pub foot: Vec<String>,
     pub status: Status,
     /// The errors of scenes that failed. All other scenes are measured.

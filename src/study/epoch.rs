@@ -275,8 +275,8 @@ impl Epoch {
     }
 
     /// Checks that every structure has a time on every workload, and that all structures return the same bits of `t`.
-    /// All structures must have the same triangle test. The error names the first structure without a time, or the
-    /// first two structures that differ.
+    /// All structures must have the same triangle test. The error names the first structure without a time, the scene
+    /// if it has no rays, or the first two structures that differ.
     pub fn check_complete(&self) -> Result<(), StudyError> {
         if let Some(failure) = self.failures().into_iter().next() {
             return Err(StudyError::Missing { failure: failure.sentence, wrong: failure.wrong });

@@ -1,6 +1,6 @@
 //! Joins the separately measured epochs of a scene into one measurement.
 //!
-//! Only epoch 0 checks hits and counts work. Its results hold for all epochs, so a scene without epoch 0 is left out.
+//! Only epoch 0 checks hits and counts work, for all epochs. So a scene without epoch 0 is left out.
 //! Epochs belong to one measurement if they agree in structures, rays, hits, numbers of timed rays and of samples.
 
 use super::epoch::Rays;
@@ -68,7 +68,7 @@ fn lacks(title: &str, missing: &[usize]) -> String {
     format!("{title}: {epochs} {} {are} not measured", listed(&numbers))
 }
 
-/// Makes the epochs of a scene, from epoch 0 on, consistent. An error if they do not belong to one measurement.
+/// Makes the epochs of a scene consistent; epoch 0 is the first. An error if they do not belong to one measurement.
 fn one(epochs: &mut [&mut Epoch]) -> Result<(), StudyError> {
     let title = epochs[0].title();
     for place in 0..epochs[0].structures.len() {

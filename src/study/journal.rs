@@ -20,7 +20,7 @@ pub use case_file::CaseFile;
 pub use error::JournalError;
 pub use newest::{datasets, newest, of_all};
 
-/// The case files of a folder. It returns only cases that this build has measured on this machine.
+/// The case files of a folder. [`get`](Self::get) returns only cases that this build has measured on this machine.
 #[derive(Debug)]
 pub struct Journal {
     folder: PathBuf,

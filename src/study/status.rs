@@ -14,7 +14,7 @@ pub enum Status {
     Wrong,
     /// A measurement failed; the reason has been printed.
     Failed,
-    /// A structure could not be built or panicked; all other structures are right.
+    /// A structure could not be built or panicked; all other structures are right. In a gate: results are missing.
     Refused,
     /// A structure became slower.
     Regression,

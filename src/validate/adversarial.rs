@@ -307,7 +307,7 @@ impl<'a> Generator<'a> {
         ray
     }
 
-    /// Half of the directions are so short that the hit is near the largest `t`. Far origins then avoid denormals.
+    /// Half of the hits are near the largest `t`: the direction is tiny. From a far origin it is longer, not denormal.
     fn rounded_end(&mut self) -> Ray {
         let corners = self.corners();
         let (target, away) = (self.sampler.point_of(corners), self.sampler.pick(&[1.0, 30.0, 1e3]));

@@ -115,7 +115,7 @@ impl Dispute<'_> {
         }
     }
 
-    /// The verdict on two primitives at equal computed `t`. The lower number must win if its exact `t` is not larger.
+    /// The verdict on primitives at equal computed `t`: the lower number must win if its exact `t` is at most this `t`.
     fn tie(&self, expected: Hit, found: Hit) -> Blame {
         let lower = self.true_hit(expected).filter(|t| t.compare(found.t).is_some_and(Ordering::is_le));
         if lower.is_some() && expected.prim.index() < found.prim.index() {

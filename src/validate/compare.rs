@@ -68,7 +68,7 @@ impl ExpectedHits<'_> {
         Dispute { reference, mesh, ray: &rays[index], expected: hits[index], found }
     }
 
-    /// Adds a hit of the structure to the sums.
+    /// Adds the difference between the hit of the structure and the expected hit, if any, to the sums.
     fn tally(&self, sums: &mut Validation, index: usize, found: Option<Hit>) {
         let Some((kind, verdict)) = self.dispute(index, found).blame() else { return };
         sums.note(self.worst(index, found, kind, verdict), self.reference.knows_structure_errors());

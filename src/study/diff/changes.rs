@@ -94,9 +94,9 @@ pub(super) fn references(pairs: &[(&Measurement, &Measurement)]) -> Vec<String> 
     distinct(timed.filter(|old| has_reference_role(old)).map(|old| &old.label))
 }
 
-/// ln(time of `own` / geometric mean of the times of the references), by epoch and round. The mean includes only
-/// references that both runs time in this cell; `None` if there are none. If `references` is empty, the result is
-/// ln(time per ray). `None` also if `own` or `other`, the same cell of the other run, has no time.
+/// ln(time of `own` / geometric mean of the times of the references), by epoch and round. `other` is the same cell of
+/// the other run. The mean includes only references that both runs time in this cell; `None` if there are none, or if
+/// `own` or `other` has no time. If `references` is empty, the result is ln(time per ray).
 fn relative(
     own: &Measurement,
     all: &[Measurement],

@@ -81,7 +81,7 @@ pub struct Comparison {
     pub structures: Vec<Change>,
     /// One change per cell of each structure that is not a reference.
     pub cells: Vec<Change>,
-    /// Cells in which the hits of the new run are wrong, or differ from the hits of the old run.
+    /// Cells in which the rate of wrong hits has more than doubled, or in which hits differ between the runs.
     pub wrong: Vec<Wrong>,
     /// Keys and triangle tests that differ between the runs, such as `leaf of mybvh 4, now 8`.
     pub differences: Vec<String>,

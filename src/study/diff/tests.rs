@@ -226,8 +226,8 @@ fn the_aa_noise_of_both_runs_widens_the_interval() {
     for (i, by) in [(0, 0.03), (1, -0.03), (4, 0.03), (5, -0.03)] {
         old[i].twin_samples_ns = Some(old[i].samples_ns.iter().map(|ns| twin(ns, by)).collect());
     }
-    // The noise of an A/A ratio is 0.03. A structure relative to the mean of two references has 3/4 of this variance,
-    // and two cells halve the variance. For two structures judged together, t is 3.495 with four degrees of freedom.
+    // The standard deviation of an A/A ratio is 0.03. A structure relative to the mean of two references has 3/4 of the
+    // variance, and two cells halve it. For two structures judged together, t is 3.495 with four degrees of freedom.
     let alone = 2.0 * 3.495 * 0.03 * libm::sqrt(0.75 / 2.0);
     assert!(before < 1e-9 && (width(&old) / alone - 1.0).abs() < 1e-3, "{before} {} {alone}", width(&old));
 }

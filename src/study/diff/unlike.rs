@@ -93,8 +93,8 @@ fn other_machine(old: &Provenance, new: &Provenance, advice: &'static str) -> Re
     differ("the set of target features", &old.target_features, &new.target_features, SAME_BUILD)
 }
 
-/// Rejects planned cases that a gate could not compare with the run `old`. `here` is the provenance of this process.
-/// The error names the first difference in machine, compiler flags, version of obvhs, scene, rays, seed or budget.
+/// Rejects planned cases that a gate could not compare with the run `old`. `here` describes this process. The error
+/// names the first difference in machine, compiler flags, version of obvhs, scene, rays, seed, ray source or budget.
 pub fn unlike_plan(old: &Dataset, cases: &[Case], here: &Provenance) -> Result<(), Unlike> {
     other_machine(&old.provenance, here, SAME_MACHINE)?;
     differ("the version of obvhs, the reference,", &old.provenance.obvhs, &here.obvhs, SAME_BUILD)?;

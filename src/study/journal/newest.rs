@@ -8,7 +8,7 @@ use crate::report::words::{each_once, listed};
 use crate::study::{Dataset, JoinedEpochs, Measured, join};
 
 /// One dataset per study, settings, build and machine, sorted by number of cases, then by date, both descending. Only
-/// the newest file of a case counts. Notes report replaced files, missing epochs and scenes whose epochs do not join.
+/// the newest file of a case counts. Notes report replaced files, missing epochs, scenes left out and several hosts.
 pub fn datasets(files: Vec<CaseFile>) -> Vec<Dataset> {
     let mut datasets: Vec<Dataset> = groups(files).iter().map(|group| dataset(group)).collect();
     datasets.retain(|dataset| !dataset.measured.is_empty());

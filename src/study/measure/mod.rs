@@ -39,8 +39,8 @@ pub use prepared::Prepared;
 
 /// Builds all structures and takes their samples; in epoch 0, also checks hits and counts work. [`join`](super::join)
 /// checks that the epochs agree. A structure is refused if it cannot be built, panics or changes its hits; a structure
-/// with wrong hits gets no time; all other structures are measured. An error if the structures do not fit into memory,
-/// or if the ray source, at whose hits secondary rays start, cannot be built.
+/// with wrong hits gets no time, except with [`Check::Oracle`]; all other structures are measured. An error if the
+/// structures do not fit into memory, or if the ray source, at whose hits secondary rays start, cannot be built.
 pub fn measure(
     case: &Case,
     prepared: &Prepared,

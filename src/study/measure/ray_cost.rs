@@ -14,8 +14,8 @@ use crate::scene::Workload;
 
 /// Nanoseconds per ray, per inner node or leaf entered, and per block of triangles tested: rounded from a regression
 /// over all families of structures (papers/TUNING.md). A prediction is wrong by a factor of about 1.5, but the possible
-/// numbers of rays differ by factors of four. If a clock chose the numbers instead, the default run of `compare` would
-/// take as long, and nine in ten cells would have the same number of rays.
+/// numbers of rays differ by factors of four. In the default run of `compare`, a clock would choose the same number of
+/// rays in nine of ten cells, and the run would take as long.
 const RAY_NS: f64 = 20.0;
 const STEP_NS: f64 = 15.0;
 const BLOCK_NS: f64 = 8.0;

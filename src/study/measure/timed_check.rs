@@ -51,8 +51,8 @@ impl<'a> TimedCheck<'a> {
     }
 
     /// Checks the hits on all timed rays, `rays` per epoch. `None` if the structure panics. An error if no tree can be
-    /// built over the mesh. If structure and tree have the same triangle test, their hits must have the same bits. It
-    /// then suffices that `checksum`, over the hits in epoch 0, is right: later epochs must repeat the hits.
+    /// built over the mesh. If structure and tree have the same triangle test, their hits must have the same bits. Then
+    /// only the rays of epoch 0 are checked if `checksum`, over their hits, is right: `join` compares later epochs.
     pub fn check(
         &mut self,
         built: &Built,

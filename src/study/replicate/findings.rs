@@ -44,7 +44,7 @@ fn faster(hard: &[Replicated]) -> Option<Finding> {
     Some(Finding::new("hard", sentence).with_value(mean))
 }
 
-/// The largest difference in ray counts that different hits at triangle edges explain.
+/// Ray counts match if they differ by at most this number: a few hits at triangle edges may differ.
 const CLOSE: u64 = 2;
 
 fn rays(main: &[Replicated]) -> Option<Finding> {
