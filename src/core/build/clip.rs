@@ -15,7 +15,7 @@ const CORNERS: usize = 9;
 /// up to the error of the corners, even if an edge with computed ends is almost parallel to a plane.
 const ERROR: f64 = 128.0 / (1u64 << 53) as f64;
 
-/// A box in `cell` and `known` around the part of a triangle in `cell`. `known` contains the part in a larger cell.
+/// A box around the part of a triangle in `cell`. It lies in `cell` and in `known`, a box of the part in a larger cell.
 ///
 /// Clips in f64 (Sutherland, Hodgman 1974) and rounds the box outward. If rounding errors leave an empty box, the
 /// result is the intersection of `known` and `cell`, so a triangle that reaches into the cell is never dropped.
@@ -23,8 +23,8 @@ pub(crate) fn clipped_bounds(corners: [Vec3; 3], cell: &Aabb, known: &Aabb) -> A
     Polygon::clipped(corners, cell).corner_box().in_cut(known.intersection(*cell))
 }
 
-/// Boxes of the triangle's parts below and above a plane, by [`clipped_bounds`] of both halves of `bounds`. `bounds` is
-/// a box around the triangle's part in some cell. The plane must cut the interior of `bounds`.
+/// Like [`clipped_bounds`], for the halves of `bounds` below and above a plane. `bounds` is a box around the triangle's
+/// part in some cell. The plane must cut the interior of `bounds`.
 pub(crate) fn cut_bounds(corners: [Vec3; 3], bounds: &Aabb, axis: usize, plane: f32) -> (Aabb, Aabb) {
     let polygon = Polygon::clipped(corners, bounds);
     let (below, above) = bounds.cut(axis, plane);
@@ -203,7 +203,7 @@ mod tests {
         assert!(touched.contains(&Aabb::of_points([Vec3::ZERO])), "{touched:?}");
     }
 
-    /// Planes close to 0 cut triangles with large coordinates. The error of a corner exceeds the distance of planes.
+    /// Planes close to 0 cut triangles with large coordinates. A corner's error exceeds the distance of a plane from 0.
     #[test]
     fn clipping_keeps_every_point_of_edges_near_planes() {
         use std::cmp::Ordering::{Equal, Greater, Less};

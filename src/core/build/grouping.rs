@@ -63,7 +63,7 @@ pub(crate) fn order(references: &[Reference], axis: usize) -> Vec<u32> {
 /// Maps floats to integers in the same order. Both zeros give the same integer.
 #[inline(always)]
 pub(crate) fn ordered_bits(x: f32) -> u32 {
-    // Adding 0.0 turns -0.0 into 0.0. The bits of negative floats descend, so all are flipped. Others set the top bit.
+    // Adding 0.0 turns -0.0 into 0.0. The bits of negative floats descend: flip all. In other floats, set the top bit.
     let bits = (x + 0.0).to_bits();
     if bits >> 31 == 1 { !bits } else { bits | 1 << 31 }
 }

@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Quality {
-    /// Few candidate planes, and a small sample of the references in larger nodes. `Cells` and `Tight` also make fewer
-    /// references and larger leaves. A build takes 0.4 (`Cells`, `Tight`), 0.6 (`Hybrid`) or 0.8 x (`Objects`) as long
-    /// as with `Balanced`, and 1.0 to 2.4 x as long as obvhs `medium`. Rays are traced 0.79 to 1.05 x as fast.
+    /// Few candidate planes, small samples of larger nodes, and at most 1.75 references per triangle. `Cells` and
+    /// `Tight` also make larger leaves. A build takes 0.4 (`Cells`, `Tight`), 0.6 (`Hybrid`) or 0.8 x (`Objects`) as
+    /// long as with `Balanced`, and 1.0 to 2.4 x as long as obvhs `medium`. Rays are traced 0.79 to 1.05 x as fast.
     Fast,
     /// A finer search, and reinsertion with every strategy. A build takes 0.15 to 0.92 x as long as obvhs `very-slow`.
     #[default]

@@ -1,4 +1,4 @@
-//! Traces slices of rays: one after the other, in packets, or interleaved.
+//! Traces the rays of a slice one after the other, in packets, or interleaved.
 
 use std::ops::Range;
 
@@ -13,8 +13,8 @@ use crate::traversal::leaf::Nearest;
 use crate::traversal::walk::{silent, single};
 use crate::triangle::{Depth, INPUTS, TriangleTest, last_bits};
 
-/// Rays per window: slices are traced window by window. Windows are large because at their ends few interleaved rays
-/// are active.
+/// Rays per window: slices are traced window by window. Few interleaved rays are active at the end of a window, so
+/// windows are large.
 const WINDOW: usize = 4096;
 
 /// A subset of the groups of a window, in ascending order. A group has sixteen rays; the last one may have fewer.
@@ -73,7 +73,7 @@ impl HitBatch {
 
     /// Adds a hit of ray number `i`. Returns true if the batch is full: the caller must then call `finish`.
     ///
-    /// Stores the inputs of the depth: a copy of the depth would load fields that were just written, which stalls.
+    /// Stores inputs, not a copy of the depth: a copy would load fields that were just written, and these loads stall.
     #[must_use]
     #[inline(always)]
     fn push<D: Depth>(&mut self, i: usize, ray: &Ray, depth: &D, id: u32) -> bool {
@@ -117,7 +117,7 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
     fn run<L: EightLanes>(self) {
         let Self { tree, rays, answers, form, level } = self;
         if ANY || !T::Depth::LATE || !L::FAST {
-            // Either the search already gives `t`, or computing eight `t` at once is no faster.
+            // `t` is not needed (`ANY`), or known from the search, or eight `t` at once take as long as one by one.
             for (answer, ray) in answers.iter_mut().zip(rays) {
                 *answer = form(silent::<ANY, L, _>(tree, ray));
             }
@@ -172,7 +172,7 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
     }
 }
 
-/// Finds the closest hits of some groups of a window by interleaving. This is faster in a separate kernel.
+/// Finds the closest hits of some groups of a window by interleaving. A separate kernel for this is faster.
 pub(super) struct Interleaved<'a, T: TriangleTest, A, F> {
     pub tree: &'a Bvh8<T>,
     pub rays: &'a [Ray],

@@ -5,7 +5,7 @@ use super::collapse::Collapse;
 
 impl Collapse<'_> {
     /// For each octant, the lanes of the parts of `at` (at most `parts`) in visiting order: three bits per lane, the
-    /// last lane lowest. Also the number of bits. `lanes` yields one lane per part, in the order of `gather`.
+    /// last lane lowest. The second result is the bit count. `lanes` yields a lane per part, in the order of `gather`.
     pub(super) fn orders<'b>(
         &self,
         at: u32,

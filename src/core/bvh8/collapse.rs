@@ -122,7 +122,7 @@ impl Chooser<'_> {
         best
     }
 
-    /// The cost of one leaf with all triangles below. Infinite for too many triangles; may be infinite above `limit`.
+    /// The cost of one leaf with all triangles below. Infinite for too many triangles; may be infinite if over `limit`.
     fn merged(&self, area: f64, limit: f32, best: &mut Best, ids: &mut Vec<u32>) -> f32 {
         let most = (LARGEST * WIDTH) as u32;
         let [first, end] = best.references;

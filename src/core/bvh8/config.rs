@@ -9,7 +9,7 @@ use crate::build::sbvh::{self, SbvhConfig, Splits};
 use crate::geometry::Mesh;
 use crate::triangle::TriangleTest;
 
-/// The build options of a [`Bvh8`](super::Bvh8). By default, the built-in ones differ only in `partition`.
+/// The build options of a [`Bvh8`](super::Bvh8). By default, the built-in trees differ only in `partition`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bvh8Config {

@@ -1,9 +1,9 @@
 //! A packet of sixteen rays.
 //!
-//! **The same hits as one ray at a time.** A packet visits the children of a node in the order of the octant that its
-//! rays share. A ray participates in a visit if and only if it meets the box before its nearest hit so far, or before
-//! the end of its interval. The test of the whole packet rejects only boxes that each ray rejects (see [`Frustum`]). So
-//! every ray visits all leaves that a single ray visits, in the same order, and perhaps some leaves behind its hit.
+//! **The same hits as one ray at a time.** The rays of a packet share an octant, so a packet visits children in the
+//! order of one ray. A ray participates in a visit if and only if it meets the box before its nearest hit so far, or
+//! before the end of its interval. The test of the packet rejects only boxes that each ray rejects (see [`Frustum`]).
+//! So every ray visits all leaves that a single ray visits, in the same order, and perhaps some leaves behind its hit.
 //!
 //! A leaf that many rays visit is searched triangle by triangle, with eight rays at once. Other leaves are searched ray
 //! by ray. If the test of eight rays cannot decide whether a ray meets a triangle, or which of two hits is nearer, the

@@ -90,7 +90,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         (unsafe { self.prepared(i) }, self.nearest.get(i))
     }
 
-    /// Stores the nearest hit that a search of ray `i` only has found.
+    /// Stores the nearest hit of ray `i`, found by a search of this ray only.
     #[inline(always)]
     pub fn put_back<const ANY: bool, L: EightLanes>(
         &mut self,

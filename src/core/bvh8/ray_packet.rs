@@ -26,7 +26,7 @@ pub(super) struct RayPacket<L> {
     pub octant: usize,
 }
 
-/// Transposes eight rays of eight numbers: row `i` has number `i` of all rays. A closure might not be inlined.
+/// Transposes eight rays of eight numbers: row `i` has number `i` of all rays. Unlike a closure, it is always inlined.
 #[inline(always)]
 fn numbers<L: EightLanes>(rays: &[Ray]) -> [L; 8] {
     let mut rows = [L::zero(); WIDTH];

@@ -71,7 +71,7 @@ fn side_of_any_size(ray: &Ray, edge: [Vec3; 2]) -> Ordering {
 #[inline(always)]
 pub fn passes_through(ray: &Ray, point: Vec3) -> bool {
     let (direction, offset) = (ray.direction.as_dvec3(), point.as_dvec3() - ray.origin.as_dvec3());
-    // Each product has a relative error below 3 * 2^-53. If the rounded products differ by more, the exact ones differ.
+    // Products have relative errors below 3 * 2^-53. If they differ by more than 8 * 2^-53, the exact products differ.
     let may_be_equal = |x: f64, y: f64| (x - y).abs() <= 4.0 * f64::EPSILON * x.abs();
     may_be_equal(direction.x * offset.y, direction.y * offset.x)
         && may_be_equal(direction.y * offset.z, direction.z * offset.y)

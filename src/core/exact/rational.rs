@@ -1,6 +1,6 @@
 //! A second implementation of [`hit`](super::hit()), for tests: another formula, in rational numbers.
 //!
-//! It shares no code and no library with the first implementation, and takes a hundred times as long. Its functions
+//! It shares only `Ray` and `Vec3` with the first implementation, and takes a hundred times as long. Its functions
 //! panic if an origin, a direction or a corner is not finite; only [`nearest`] accepts such rays, and returns `None`.
 
 use dashu_ratio::RBig;
@@ -11,7 +11,7 @@ use crate::geometry::Ray;
 /// The intersection of the line of a ray and the plane of a triangle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
-    /// The denominator of the other three numbers; not zero.
+    /// The divisor of Cramer's rule for the other three numbers; not zero.
     pub determinant: RBig,
     /// Barycentric coordinate of the second corner.
     pub u: RBig,

@@ -1,7 +1,7 @@
 //! [bvh](https://github.com/svenstaro/bvh) 0.13 (crate `bvh`): a binary BVH by binned SAH, one triangle per leaf.
 //!
 //! The crate has no closest-hit query: it returns candidates, and the caller tests their triangles. The adapter uses
-//! the crate's plain iterator. It passes the crate's ray with another box test, which also rejects boxes behind the
+//! the crate's plain iterator. It wraps the crate's ray: the box test of the wrapper also rejects boxes behind the
 //! nearest hit so far. The iterator visits the left child first, and panics on trees deeper than 32 levels. The crate's
 //! ray (with unit direction and inverse, from its constructor) is prepared before the clock starts. The builder runs on
 //! the caller's threads.

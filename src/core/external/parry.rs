@@ -3,8 +3,8 @@
 //! The tree is built by the builder of parry's own mesh shape: top down, binned. The query takes the leaf test as a
 //! closure, and traverses from near to far with early termination. The closure respects `t_min`, which parry's mesh
 //! shape does not support, and culls no back faces. A ray is two vectors. The crate computes the inverse direction in
-//! the timed region, because it accepts no precomputed inverse. parry has no query that stops at the first hit. For any
-//! hit, the adapter's leaf test reports its first hit at t = -infinity, so every remaining box lies behind the hit.
+//! the timed region, because it accepts no precomputed inverse. parry has no query that stops at the first hit. In
+//! any-hit queries, the adapter's leaf test reports its first hit at t = -infinity: all remaining boxes lie behind it.
 
 use std::cell::Cell;
 use std::sync::Arc;

@@ -9,8 +9,8 @@ use crate::build::extent::Extent;
 
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Maximum length of a path that a move creates. Without a limit, moves turn nested boxes into a chain, which is
-/// cheapest.
+/// Maximum length of a path that a move creates. Without a limit, moves turn nested boxes into a chain, because a chain
+/// is the cheapest tree of nested boxes.
 pub(super) const DEEPEST: u32 = 80;
 
 /// A node with links to its children and its parent. One cache line has all data that a search reads.
@@ -125,7 +125,7 @@ impl Links {
         growth
     }
 
-    /// Makes `at` the sibling of `target`. Changes nothing if this is impossible after earlier moves or saves no area.
+    /// Makes `at` the sibling of `target`. Does nothing if earlier moves or `DEEPEST` forbid it, or it saves no area.
     pub fn relocate(&mut self, at: u32, target: u32) {
         let (parent, sibling) = (self[at].parent, self.sibling(at));
         let grand = self[parent].parent;

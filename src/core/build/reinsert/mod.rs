@@ -3,9 +3,9 @@
 //! # References
 //! Bittner, Hapala, Havran: Fast Insertion-Based Optimization of Bounding Volume Hierarchies, Computer Graphics Forum
 //! 2013. Meister, Bittner: Parallel Reinsertion for Bounding Volume Hierarchy Optimization, Computer Graphics Forum
-//! 2018. Differences from the paper: the moves of a batch are made one after the other, and a move that no longer saves
-//! area is skipped, so the result does not depend on the number of threads. The number of nodes per pass differs. All
-//! passes use the order of the box areas before the first pass.
+//! 2018. Differences from the second paper: the moves of a batch are made one after the other, and a move that no
+//! longer saves area is skipped, so the result does not depend on the number of threads. The number of nodes per pass
+//! differs. All passes use the order of the box areas before the first pass.
 
 mod links;
 mod search;

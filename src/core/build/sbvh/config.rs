@@ -51,7 +51,7 @@ impl SbvhConfig {
             Quality::Balanced => (20, 16, 0, 16, 16384),
             Quality::High => (20, 16, 4096, 16, 16384),
         };
-        // With only spatial splits, cutting references takes most of the time. A higher cost leads to larger leaves.
+        // With only spatial splits, cutting takes most of the time. A higher cost gives larger leaves and fewer cuts.
         let node_cost = match quality {
             Quality::Fast if spatial => 1.5,
             Quality::Fast => 0.4,

@@ -31,8 +31,8 @@ impl<'a> Context<'a> {
         area > LARGE * self.root_area
     }
 
-    /// The cost of a leaf, to compare with the cost of a split. A block in a large box, such as a floor and a wall,
-    /// also costs a step. This cancels the step of its split, which adds a child to the wide node above but no node.
+    /// The cost of a leaf, to compare with the cost of a split. A leaf of one block in a large box (a floor and a wall)
+    /// also costs a step, to cancel the step of its split. The split adds a child to the wide node above, but no node.
     pub fn unsplit_cost(&self, area: f64, count: usize) -> f64 {
         let leaf = self.costs.box_leaf(area, count);
         if count <= BLOCK && self.is_large(area) { self.costs.box_node(area, leaf) } else { leaf }

@@ -47,7 +47,7 @@ impl Slots {
     fn add<const AXIS: usize, const SLICED: bool>(&mut self, mesh: &Mesh, sample: &Sample, planes: &Planes) {
         for r in sample.iter() {
             let (first, last) = (planes.first_bin(r.min(AXIS)), planes.last_bin(r.max(AXIS)));
-            // If `first > last`, the reference lies in the plane between these bins: `begin` and `end` are its slot.
+            // If `first > last`, the reference lies in the plane between the bins: `begin == end` is the plane's slot.
             let (begin, end) = (first + first.min(last), last + last.max(first));
             self.begin[begin] += 1;
             self.end[end] += 1;

@@ -98,7 +98,7 @@ fn a_floor_and_a_wall_are_separate_leaves_and_tiles_of_a_floor_are_not() {
     });
     for config in configs() {
         let tree = build(&scene, &config);
-        // Not checked: spatial splits only, where blocks mix all triangles; and fast builds, where a step costs more.
+        // Skip `Splits::Spatial`, because its blocks mix all triangles, and fast builds, because a step costs more.
         let groups = config.splits != Splits::Spatial && config.exact > 0;
         for (_, ids) in leaves(&tree, 64).iter().filter(|_| groups) {
             let has = |part: [u32; 2]| part.iter().any(|id| ids.contains(id));

@@ -155,7 +155,7 @@ impl Accel for TinyBvh {
         }
         let corners: Vec<[f32; 4]> =
             ids.iter().flat_map(|&id| mesh.corners(id)).map(|v| v.extend(0.0).to_array()).collect();
-        // tinybvh converts its layout `BVH8_CPU` from two other layouts.
+        // tinybvh converts a binary tree to a wide tree, and the wide tree to the layout `BVH8_CPU`.
         let refusal = |error: tinybvh_rs::Error| BuildError::Mesh(format!("tinybvh reports an error: {error}"));
         let corners: Positions = corners.as_slice().into();
         let mut binary = bvh::BVH::new_hq(corners).map_err(refusal)?;
