@@ -36,7 +36,7 @@ impl Rules {
     }
 }
 
-/// The triangles of a node, in the data structure of a plane rule, which chooses how to cut the node.
+/// The triangles of a node, stored as a plane rule needs them. It chooses how to cut the node.
 pub(crate) trait Content: Sized + Send {
     /// The configuration of the plane rule.
     type Config: Sync;
@@ -191,7 +191,7 @@ impl NodeState {
         (below + above) as f64 <= self.budget
     }
 
-    /// Whether the rules accept a cut of `count` clipped references into sides of these sizes.
+    /// Whether rules and budget accept a cut of a node with `count` references into sides of these sizes.
     pub fn accepts<C>(&self, context: &Context<C>, count: usize, [below, above]: [usize; 2]) -> bool {
         !context.rules.discards(below + above - count, count) && self.affords(below, above)
     }
@@ -210,7 +210,7 @@ impl Rules {
         most < count
     }
 
-    /// Whether a cut is discarded because `both` of its `count` triangles lie on both sides.
+    /// Whether a cut of a node with `count` triangles is discarded: `both`, the number on both sides, is too large.
     pub fn discards(&self, both: usize, count: usize) -> bool {
         self.threshold.is_some_and(|share| both as f64 >= f64::from(share) * count as f64)
     }
