@@ -12,7 +12,7 @@ pub struct Report {
     pub findings: Vec<Finding>,
     /// Tables, figures and texts in order. The terminal prints only the tables and notes that are not folded.
     pub blocks: Vec<Block>,
-    /// The verdicts on claims. A claim is a prediction that was written before the measurement.
+    /// The verdicts on claims, the measurable parts of predictions that were written before the measurement.
     pub verdicts: Vec<ClaimVerdict>,
     /// Structures without times or with wrong hits. They decide the exit status.
     pub failures: Vec<Failure>,

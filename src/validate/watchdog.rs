@@ -76,8 +76,8 @@ impl Comparison {
 }
 
 /// Like [`validate`](super::validate), but the comparison ends when the structure takes longer than `limit` for one ray
-/// or for a batch of 256 rays. The result then contains the finished batches, and that ray or the first ray of that
-/// batch. `expected` are the hits of `reference` for `rays`.
+/// or for a batch of 256 rays. The result then contains the finished batches and the hang, with its ray or with the
+/// first ray of its batch. `expected` are the hits of `reference` for `rays`.
 ///
 /// Runs on as many separate threads as the machine has processors. A hanging thread is left behind.
 pub fn validate_watched(

@@ -35,7 +35,8 @@ pub(super) struct HitLanes<L: EightLanes> {
 }
 
 impl<L: EightLanes> HitLanes<L> {
-    /// Stores the hits of triangle `id` at `place` in the `active` lanes if they are nearer. Returns undecided lanes.
+    /// Keeps the hits of triangle `id`, stored at `place`, in `active` lanes where they are nearer. Returns undecided
+    /// lanes as bits.
     #[inline(always)]
     pub fn offer<T: TriangleTest>(&mut self, active: L::Mask, found: &EightHits<L>, id: u32, place: u32) -> u32 {
         let id = L::splat_number(id);

@@ -4,12 +4,13 @@
 //! clips references outward or not at all, so some leaf whose closed cell contains p references the triangle. Both
 //! variants visit every leaf whose closed cell contains a point of the ray between t_min and the t of the nearest hit
 //! so far. They skip a child only if its interval is empty or begins after this t. Before this test, they move the
-//! interval outward by more than the rounding error of plane crossings (see [`Line`]). If a crossing overflows, plane
-//! intervals begin at a finite parameter before it, and child boxes are clipped to an interval without end. So both
-//! variants visit the leaf of p, or they have found another hit with a computed t before t*. In this case, the other
-//! hit is nearer, except for the error of its triangle test. The exact test has no such error: the t of the nearest hit
-//! so far is never below its exact t. So the result is the nearest exact hit and, among equally near hits, the one with
-//! the lowest number. Only [`Exit::FirstLeaf`] may lose nearer hits, because it ends at the first leaf with a hit.
+//! interval outward by more than the rounding error of plane crossings (see [`Line`]). If the crossing at which an
+//! interval begins overflows, plane intervals replace it by a finite one. Child boxes replace an end by infinity if a
+//! crossing before it may overflow. So both variants visit the leaf of p, or they have found another hit with a
+//! computed t before t*. In this case, the other hit is nearer, except for the error of its triangle test. With the
+//! exact test, the computed t of a hit is never below its exact t. So with this test the result is the nearest hit and,
+//! among equally near hits, the one with the lowest number. Only [`Exit::FirstLeaf`] may lose nearer hits, because it
+//! ends at the first leaf with a hit.
 
 use std::mem::MaybeUninit;
 
